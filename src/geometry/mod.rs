@@ -1,0 +1,10 @@
+//! The only geometric predicates of the program, rectangles, and the map between the world and
+//! the integer lattice on which every node of a mesh lies.
+
+mod lattice;
+mod predicates;
+mod rect;
+
+pub use lattice::{GridError, LATTICE_BITS, Lattice, LatticePoint};
+pub use predicates::{Side, exact_sum_sign, side_of_edge};
+pub use rect::Rect;

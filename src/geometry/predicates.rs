@@ -1,0 +1,108 @@
+use std::cmp::Ordering;
+
+use glam::DVec2;
+
+use super::LatticePoint;
+
+/// Where a point lies, seen along a directed edge.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    /// Strictly to the left: inside, for an edge that runs anticlockwise round a triangle.
+    Left,
+    /// On the line through the edge.
+    On,
+    /// Strictly to the right: outside.
+    Right,
+}
+
+/// The orientation test of the report (Figure 6), without its rounding errors.
+///
+/// The edge runs from `from` to `to`; both are lattice nodes, `point` is in lattice coordinates.
+/// Edges of a mesh run in one of eight directions only (along an axis or a diagonal), so that the
+/// sign of the determinant is the sign of a sum of three numbers, which is found exactly.
+///
+/// ```
+/// # use meshbrush::geometry::{LatticePoint, Side, side_of_edge};
+/// let (a, b) = (LatticePoint::new(0, 0), LatticePoint::new(4, 4));
+/// assert_eq!(side_of_edge(a, b, glam::dvec2(1.0, 1.0)), Side::On);
+/// assert_eq!(side_of_edge(a, b, glam::dvec2(1.0, 1.0_f64.next_up())), Side::Left);
+/// ```
+#[inline]
+pub fn side_of_edge(from: LatticePoint, to: LatticePoint, point: DVec2) -> Side {
+    let step_x = direction(from.x, to.x);
+    let step_y = direction(from.y, to.y);
+    debug_assert!(
+        step_x == 0.0 || step_y == 0.0 || from.x.abs_diff(to.x) == from.y.abs_diff(to.y),
+        "an edge of a mesh runs along an axis or a diagonal"
+    );
+    let (from_x, from_y) = (f64::from(from.x), f64::from(from.y));
+    let estimate = step_x * (point.y - from_y) - step_y * (point.x - from_x);
+    // Lattice coordinates stay below 2^31, so the estimate is off by less than 2^-20.
+    if estimate > 1e-6 {
+        return Side::Left;
+    }
+    if estimate < -1e-6 {
+        return Side::Right;
+    }
+    match exact_sum_sign(step_x * point.y, -step_y * point.x, step_x * from_y - step_y * from_x) {
+        Ordering::Greater => Side::Left,
+        Ordering::Equal => Side::On,
+        Ordering::Less => Side::Right,
+    }
+}
+
+#[inline]
+fn direction(from: u32, to: u32) -> f64 {
+    f64::from(i32::from(to > from) - i32::from(to < from))
+}
+
+/// Compares the exact sum `a + b` with `c`.
+///
+/// Rounding is monotone: where the rounded sum differs from `c`, it differs in the true direction;
+/// where it does not, the rounding error (found by Knuth's two-sum) decides. NaN compares equal.
+///
+/// ```
+/// # use meshbrush::geometry::exact_sum_sign;
+/// assert_eq!(1.0 + 1e-300, 1.0);
+/// assert!(exact_sum_sign(1.0, 1e-300, 1.0).is_gt());
+/// ```
+pub fn exact_sum_sign(a: f64, b: f64, c: f64) -> Ordering {
+    let sum = a + b;
+    if sum > c {
+        return Ordering::Greater;
+    }
+    if sum < c {
+        return Ordering::Less;
+    }
+    let b_rounded = sum - a;
+    let a_rounded = sum - b_rounded;
+    let error = (a - a_rounded) + (b - b_rounded);
+    error.partial_cmp(&0.0).unwrap_or(Ordering::Equal)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_ulp_off_each_of_the_eight_directions_is_seen() {
+        let centre = LatticePoint::new(1 << 29, 1 << 29);
+        let middle = f64::from(1u32 << 29);
+        for (dx, dy) in [(1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1), (1, -1)] {
+            let to = LatticePoint::new(
+                (i64::from(centre.x) + 64 * dx) as u32,
+                (i64::from(centre.y) + 64 * dy) as u32,
+            );
+            assert_eq!(side_of_edge(centre, to, DVec2::splat(middle)), Side::On);
+            // Left of (dx, dy) is (-dy, dx): move one ulp that way along one axis.
+            let mut left = DVec2::splat(middle);
+            if dx != 0 {
+                left.y = if dx > 0 { left.y.next_up() } else { left.y.next_down() };
+            } else {
+                left.x = if dy > 0 { left.x.next_down() } else { left.x.next_up() };
+            }
+            assert_eq!(side_of_edge(centre, to, left), Side::Left, "direction {dx}, {dy}");
+            assert_eq!(side_of_edge(to, centre, left), Side::Right, "direction {dx}, {dy}");
+        }
+    }
+}

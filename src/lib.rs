@@ -1,0 +1,7 @@
+//! Paint where detail matters; the mesh follows the brush.
+//!
+//! Mesh generation by local bisection refinement of triangulated grids (Maubach's method). Rooms, lowest first; a room
+//! imports only from rooms above it in this list. ARCHITECTURE.md draws the house.
+
+pub mod geometry;
+pub mod mesh;

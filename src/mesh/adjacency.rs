@@ -1,0 +1,73 @@
+use super::{Mesh, NodeId};
+
+/// Which nodes are joined by an edge to which (Algorithm 13), as compressed rows.
+///
+/// The report reserves 16 places for each node and deletes duplicates afterwards. Here each edge is met once, by the
+/// triangle with the lower index, so that no duplicate arises.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Adjacency {
+    row_starts: Vec<u32>,
+    neighbours: Vec<NodeId>,
+}
+
+impl Adjacency {
+    /// The nodes adjacent to `node`, at most eight, in no particular order.
+    ///
+    /// # Panics
+    /// When the id is not of the mesh that the rows were made from.
+    pub fn of(&self, node: NodeId) -> &[NodeId] {
+        let (start, end) = (self.row_starts[node.index()], self.row_starts[node.index() + 1]);
+        &self.neighbours[start as usize..end as usize]
+    }
+
+    /// Number of rows, one for each node.
+    pub fn len(&self) -> usize {
+        self.row_starts.len() - 1
+    }
+
+    /// Whether there is no row. Never true for the rows of a mesh.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Number of edges of the mesh.
+    pub fn edge_count(&self) -> usize {
+        self.neighbours.len() / 2
+    }
+}
+
+impl Mesh {
+    /// Every edge of the mesh once, as a pair of nodes.
+    pub fn edges(&self) -> impl Iterator<Item = (NodeId, NodeId)> + '_ {
+        self.triangles.iter().enumerate().flat_map(|(index, triangle)| {
+            let mine = move |j: &usize| {
+                triangle.neighbours[*j].triangle().is_none_or(|across| index < across.index())
+            };
+            let nodes = triangle.edge_nodes();
+            (0..3).filter(mine).map(move |j| nodes[j])
+        })
+    }
+
+    /// The adjacency rows of all nodes (Algorithm 13), in time proportional to the mesh.
+    pub fn adjacency(&self) -> Adjacency {
+        let mut row_starts = vec![0u32; self.nodes.len() + 1];
+        for (a, b) in self.edges() {
+            row_starts[a.index() + 1] += 1;
+            row_starts[b.index() + 1] += 1;
+        }
+        for n in 1..row_starts.len() {
+            row_starts[n] += row_starts[n - 1];
+        }
+        let mut next = row_starts.clone();
+        let mut neighbours = vec![NodeId(0); row_starts[self.nodes.len()] as usize];
+        let mut put = |row: NodeId, neighbour| {
+            neighbours[next[row.index()] as usize] = neighbour;
+            next[row.index()] += 1;
+        };
+        for (a, b) in self.edges() {
+            put(a, b);
+            put(b, a);
+        }
+        Adjacency { row_starts, neighbours }
+    }
+}

@@ -1,0 +1,112 @@
+//! Bisection of a triangle together with its bisection neighbour: Algorithms 1, 8, 9 and 19 to 25 as one rule.
+//!
+//! The report spells out eight routines, one for each way in which the level and the orientations of the two parents
+//! can fall. All eight are this rule, applied to each parent by itself. With neighbours N = (across the bisection edge,
+//! n₂, n₃), and *facing* for what lies across the half of the cut edge that a child keeps:
+//!
+//! | parent        | kept child             | new child             | back-reference to move |
+//! |---------------|------------------------|-----------------------|------------------------|
+//! | matched       | (n₂, new, facing)      | (n₃, facing, kept)    | n₃, from kept to new   |
+//! | not matched   | (n₃, facing, new)      | (n₂, kept, facing)    | n₂, from kept to new   |
+//!
+//! A parent is matched when k = 1 and O = 0, or k = 2 and O = 1 ([`Triangle::matched`]).
+
+use super::{Mesh, Neighbour, NodeId, Triangle, TriangleId};
+
+/// What the two children of one parent see across the two halves of the cut edge.
+#[derive(Clone, Copy)]
+struct Facing {
+    kept: Neighbour,
+    new: Neighbour,
+}
+
+impl Facing {
+    const BOUNDARY: Self = Self { kept: Neighbour::BOUNDARY, new: Neighbour::BOUNDARY };
+}
+
+impl Mesh {
+    /// Bisects two triangles of the same level that share their bisection edge (Algorithm 8).
+    ///
+    /// ```text
+    ///          o                       o
+    ///        /   \                   / | \          the midpoint m is a new node; first the child of `a`,
+    ///      /   a   \               / a | a'\        then that of `b`, are appended to the array
+    ///     o---------o     =>      o----m----o
+    ///      \   b   /               \ b | b'/        (which half is kept depends on the parent's first vertex)
+    ///        \   /                   \ | /
+    ///          o                       o
+    /// ```
+    #[inline]
+    pub(super) fn bisect_pair(&mut self, a: TriangleId, b: TriangleId) {
+        let midpoint = self.push_midpoint(a);
+        let new_a = TriangleId::from_index(self.triangles.len());
+        let new_b = TriangleId::from_index(self.triangles.len() + 1);
+        // Parents that begin with the same vertex keep their children on the same half.
+        let same_half = self.triangle(a).matched() != self.triangle(b).matched();
+        let (facing_a, facing_b) = if same_half {
+            (Facing { kept: b.into(), new: new_b.into() }, Facing { kept: a.into(), new: new_a.into() })
+        } else {
+            (Facing { kept: new_b.into(), new: b.into() }, Facing { kept: new_a.into(), new: a.into() })
+        };
+        self.bisect_side(a, midpoint, facing_a);
+        self.bisect_side(b, midpoint, facing_b);
+    }
+
+    /// Bisects a triangle whose bisection edge is on the boundary (Algorithm 19).
+    #[inline]
+    pub(super) fn bisect_at_boundary(&mut self, id: TriangleId) {
+        let midpoint = self.push_midpoint(id);
+        self.bisect_side(id, midpoint, Facing::BOUNDARY);
+    }
+
+    #[inline]
+    fn push_midpoint(&mut self, id: TriangleId) -> NodeId {
+        let [from, to] = self.triangle(id).bisection_edge();
+        let midpoint = self.node(from).midpoint(self.node(to));
+        let node = NodeId::from_index(self.nodes.len());
+        self.nodes.push(midpoint);
+        node
+    }
+
+    /// Replaces `parent` by one of its children and appends the other, by the rule at the head of this file.
+    #[inline]
+    fn bisect_side(&mut self, parent: TriangleId, midpoint: NodeId, facing: Facing) {
+        let t = *self.triangle(parent);
+        let kept = Neighbour::from(parent);
+        let new_id = TriangleId::from_index(self.triangles.len());
+        let new = Neighbour::from(new_id);
+        let [_, n2, n3] = t.neighbours;
+        let (kept_sees, new_sees, moved) = if t.matched() {
+            ([n2, new, facing.kept], [n3, facing.new, kept], n3)
+        } else {
+            ([n3, facing.kept, new], [n2, kept, facing.new], n2)
+        };
+
+        // Algorithm 1: at odd levels the second child is the mirror image of its parent.
+        let [a, b, c] = t.vertices;
+        let (kept_vertices, new_vertices, new_orientation) = if t.bisection_end() == 1 {
+            ([a, midpoint, c], [b, midpoint, c], t.orientation().reversed())
+        } else {
+            ([a, b, midpoint], [b, c, midpoint], t.orientation())
+        };
+        let level = t.level() + 1;
+        self.triangles[parent.index()] = Triangle::new(kept_vertices, kept_sees, t.orientation(), level);
+        self.triangles.push(Triangle::new(new_vertices, new_sees, new_orientation, level));
+        if let Some(moved) = moved.triangle() {
+            self.replace_neighbour(moved, kept, new);
+        }
+    }
+
+    /// Algorithm 20: `id` no longer borders on `old` but on `new`.
+    #[inline]
+    fn replace_neighbour(&mut self, id: TriangleId, old: Neighbour, new: Neighbour) {
+        let neighbours = &mut self.triangles[id.index()].neighbours;
+        for n in neighbours.iter_mut() {
+            if *n == old {
+                *n = new;
+                return;
+            }
+        }
+        debug_assert!(false, "neighbours are symmetric");
+    }
+}

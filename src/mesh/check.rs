@@ -1,0 +1,229 @@
+//! The invariants of a mesh, executable. Not fast: meant for tests and for doubt.
+
+use std::collections::HashMap;
+
+use super::{Element, InvalidTarget, Mesh, NodeId, Orientation, TriangleId};
+use crate::geometry::LatticePoint;
+
+/// A broken invariant of [`Mesh`], in the order of the list there.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum Violation {
+    /// A reference points beyond its array; nothing else of the triangle is checked.
+    #[error("triangle {0:?} refers to a node or triangle that does not exist")]
+    DanglingReference(TriangleId),
+    /// Invariant 1.
+    #[error("triangle {0:?} does not have the right-angled isosceles shape and size of its level (Eq. 1)")]
+    WrongShape(TriangleId),
+    /// Invariant 2.
+    #[error("the vertices of triangle {0:?} do not run the way that it says")]
+    WrongOrientation(TriangleId),
+    /// Invariant 3: the triangle across the edge does not answer with the same edge.
+    #[error("edge {edge} of triangle {triangle:?} is not shared with the neighbour it names")]
+    AsymmetricNeighbour {
+        /// The triangle.
+        triangle: TriangleId,
+        /// Place of the edge, the bisection edge first.
+        edge: usize,
+    },
+    /// Invariant 4: two triangles have the edge, and one says that it is on the boundary; or more than two have it.
+    #[error("the edge from node {0:?} to {1:?} is shared, but not by neighbours")]
+    UnmatchedEdge(NodeId, NodeId),
+    /// Invariant 4: a node in the middle of a boundary edge.
+    #[error("node {node:?} hangs in the middle of an edge of triangle {triangle:?}")]
+    HangingNode {
+        /// The triangle with the edge.
+        triangle: TriangleId,
+        /// The node in its middle.
+        node: NodeId,
+    },
+    /// Invariant 5.
+    #[error("neighbours {0:?} and {1:?} differ by more than one level")]
+    LevelJump(TriangleId, TriangleId),
+    /// Invariant 6.
+    #[error("the triangles cover {covered} half lattice squares, and the kept coarse triangles {expected}")]
+    AreaNotConserved {
+        /// Twice the area covered, in lattice squares.
+        covered: u128,
+        /// Twice the area of the kept coarse triangles, in lattice squares.
+        expected: u128,
+    },
+    /// Invariant 7: no triangle uses the node.
+    #[error("no triangle uses node {0:?}")]
+    OrphanNode(NodeId),
+    /// Invariant 7: two nodes at the same place.
+    #[error("nodes {0:?} and {1:?} are at the same place")]
+    CoincidentNodes(NodeId, NodeId),
+    /// Invariant 8.
+    #[error("entry {0:?} does not lie in the coarse triangle of the same index")]
+    LostBucket(TriangleId),
+}
+
+impl Mesh {
+    /// Every broken invariant; empty for every mesh that this library makes.
+    pub fn violations(&self) -> Vec<Violation> {
+        let mut found = Vec::new();
+        let ids = || (0..self.triangles.len()).map(TriangleId::from_index);
+        found.extend(ids().filter(|&id| self.dangles(id)).map(Violation::DanglingReference));
+        if !found.is_empty() {
+            return found;
+        }
+        for id in ids() {
+            self.check_shape(id, &mut found);
+            self.check_neighbours(id, &mut found);
+        }
+        self.check_edges(&mut found);
+        self.check_area(&mut found);
+        self.check_nodes(&mut found);
+        self.check_buckets(&mut found);
+        found
+    }
+
+    /// The triangles whose diameter exceeds their target (the negation of Eq. 14).
+    ///
+    /// # Errors
+    /// When the rule meets a bad target.
+    pub fn unsatisfied(
+        &self,
+        mut exceeds: impl FnMut(&Element) -> Result<bool, InvalidTarget>,
+    ) -> Result<Vec<TriangleId>, InvalidTarget> {
+        let mut found = Vec::new();
+        for id in (0..self.triangles.len()).map(TriangleId::from_index) {
+            if exceeds(&self.element(id, self.lattice.spacing()))? {
+                found.push(id);
+            }
+        }
+        Ok(found)
+    }
+
+    fn dangles(&self, id: TriangleId) -> bool {
+        let triangle = self.triangle(id);
+        triangle.vertices.iter().any(|v| v.index() >= self.nodes.len())
+            || triangle
+                .neighbours
+                .iter()
+                .filter_map(|n| n.triangle())
+                .any(|n| n.index() >= self.triangles.len())
+    }
+
+    fn check_shape(&self, id: TriangleId, found: &mut Vec<Violation>) {
+        let triangle = self.triangle(id);
+        let [from, to] = triangle.bisection_edge().map(|v| self.node(v));
+        let apex = self.node(triangle.apex());
+        let cell = u128::from(self.lattice.cell_steps());
+        // The square of the bisection edge is 2 δ² at level 0 and halves with each level; each leg's is half of it.
+        let long = (2 * cell * cell) >> triangle.level();
+        let legs_fit = [from, to].iter().all(|&end| 2 * squared_distance(apex, end) == long);
+        if squared_distance(from, to) != long || !legs_fit {
+            found.push(Violation::WrongShape(id));
+        }
+        let turn = twice_signed_area(self.corners(id));
+        if (turn > 0) != (triangle.orientation() == Orientation::Anticlockwise) || turn == 0 {
+            found.push(Violation::WrongOrientation(id));
+        }
+    }
+
+    fn check_neighbours(&self, id: TriangleId, found: &mut Vec<Violation>) {
+        let triangle = self.triangle(id);
+        for (edge, (from, to)) in triangle.edge_nodes().into_iter().enumerate() {
+            let Some(across) = triangle.neighbours[edge].triangle() else { continue };
+            let other = self.triangle(across);
+            let answers = (0..3).any(|j| {
+                // Both run anticlockwise, so they run along a shared edge in opposite directions.
+                other.neighbours[j].triangle() == Some(id) && other.edge_nodes()[j] == (to, from)
+            });
+            if !answers || across == id {
+                found.push(Violation::AsymmetricNeighbour { triangle: id, edge });
+            }
+            if id < across && triangle.level().abs_diff(other.level()) > 1 {
+                found.push(Violation::LevelJump(id, across));
+            }
+        }
+    }
+
+    fn check_edges(&self, found: &mut Vec<Violation>) {
+        let mut owners: HashMap<(NodeId, NodeId), (u32, bool)> = HashMap::new();
+        for triangle in &self.triangles {
+            for (j, (from, to)) in triangle.edge_nodes().into_iter().enumerate() {
+                let entry = owners.entry((from.min(to), from.max(to))).or_default();
+                entry.0 += 1;
+                entry.1 |= triangle.neighbours[j].triangle().is_none();
+            }
+        }
+        for (&(a, b), &(count, on_boundary)) in &owners {
+            if count != if on_boundary { 1 } else { 2 } {
+                found.push(Violation::UnmatchedEdge(a, b));
+            }
+        }
+        let node_at: HashMap<LatticePoint, NodeId> =
+            self.nodes.iter().enumerate().map(|(n, &p)| (p, NodeId::from_index(n))).collect();
+        for (index, triangle) in self.triangles.iter().enumerate() {
+            for (from, to) in triangle.edge_nodes() {
+                let (a, b) = (self.node(from), self.node(to));
+                let halves = (a.x ^ b.x) & 1 == 0 && (a.y ^ b.y) & 1 == 0;
+                if halves && let Some(&node) = node_at.get(&a.midpoint(b)) {
+                    found.push(Violation::HangingNode { triangle: TriangleId::from_index(index), node });
+                }
+            }
+        }
+    }
+
+    fn check_area(&self, found: &mut Vec<Violation>) {
+        let ids = (0..self.triangles.len()).map(TriangleId::from_index);
+        let covered = ids.map(|id| twice_signed_area(self.corners(id)).unsigned_abs()).sum();
+        let cell = u128::from(self.lattice.cell_steps());
+        let expected = self.coarse.kept() as u128 * cell * cell;
+        if covered != expected {
+            found.push(Violation::AreaNotConserved { covered, expected });
+        }
+    }
+
+    fn check_nodes(&self, found: &mut Vec<Violation>) {
+        let mut used = vec![false; self.nodes.len()];
+        for node in self.triangles.iter().flat_map(|t| t.vertices) {
+            used[node.index()] = true;
+        }
+        let orphans = (0..self.nodes.len()).filter(|&n| !used[n]);
+        found.extend(orphans.map(|n| Violation::OrphanNode(NodeId::from_index(n))));
+        let mut first_at: HashMap<LatticePoint, NodeId> = HashMap::new();
+        for (n, &place) in self.nodes.iter().enumerate() {
+            let id = NodeId::from_index(n);
+            let first = *first_at.entry(place).or_insert(id);
+            if first != id {
+                found.push(Violation::CoincidentNodes(first, id));
+            }
+        }
+    }
+
+    fn check_buckets(&self, found: &mut Vec<Violation>) {
+        let [columns, rows] = self.lattice.cells().map(|n| n as usize);
+        let cell = u64::from(self.lattice.cell_steps());
+        for number in 0..2 * columns * rows {
+            let Some(id) = self.coarse.get(number) else { continue };
+            let left = (number / 2 % columns) as u64 * cell;
+            let bottom = (number / 2 / columns) as u64 * cell;
+            let inside = self.corners(id).iter().all(|c| {
+                let (x, y) = (u64::from(c.x), u64::from(c.y));
+                let in_cell = (left..=left + cell).contains(&x) && (bottom..=bottom + cell).contains(&y);
+                let diagonal = left + bottom + cell;
+                in_cell && if number.is_multiple_of(2) { x + y <= diagonal } else { x + y >= diagonal }
+            });
+            if !inside {
+                found.push(Violation::LostBucket(id));
+            }
+        }
+    }
+}
+
+fn squared_distance(a: LatticePoint, b: LatticePoint) -> u128 {
+    let (dx, dy) = (u128::from(a.x.abs_diff(b.x)), u128::from(a.y.abs_diff(b.y)));
+    dx * dx + dy * dy
+}
+
+/// Positive when the corners run anticlockwise; in lattice squares.
+fn twice_signed_area([a, b, c]: [LatticePoint; 3]) -> i128 {
+    let difference = |p: LatticePoint, q: LatticePoint| {
+        (i128::from(p.x) - i128::from(q.x), i128::from(p.y) - i128::from(q.y))
+    };
+    let (ab, ac) = (difference(b, a), difference(c, a));
+    ab.0 * ac.1 - ab.1 * ac.0
+}

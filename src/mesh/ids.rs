@@ -1,0 +1,72 @@
+use bytemuck::{Pod, Zeroable};
+
+/// A node by its place in [`Mesh::nodes`](super::Mesh::nodes), from zero.
+#[repr(transparent)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Pod, Zeroable)]
+pub struct NodeId(pub(super) u32);
+
+impl NodeId {
+    /// The id of the node at `index` of the node array.
+    pub const fn from_index(index: usize) -> Self {
+        Self(index as u32)
+    }
+
+    /// Place in the node array.
+    #[inline]
+    pub const fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
+/// A triangle by its place in [`Mesh::triangles`](super::Mesh::triangles), from zero.
+///
+/// Refinement keeps the index of a bisected triangle for one of its children, so the entry with a coarse
+/// triangle's index is always one of that triangle's descendants.
+#[repr(transparent)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Pod, Zeroable)]
+pub struct TriangleId(pub(super) u32);
+
+impl TriangleId {
+    /// The id of the triangle at `index` of the triangle array.
+    pub const fn from_index(index: usize) -> Self {
+        Self(index as u32)
+    }
+
+    /// Place in the triangle array.
+    #[inline]
+    pub const fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
+/// What lies across an edge: a triangle, or the boundary of the domain (β of the report).
+#[repr(transparent)]
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Pod, Zeroable)]
+pub struct Neighbour(u32);
+
+impl Neighbour {
+    /// Nothing lies across the edge.
+    pub const BOUNDARY: Self = Self(u32::MAX);
+
+    /// The triangle across the edge, or `None` at the boundary.
+    #[inline]
+    pub const fn triangle(self) -> Option<TriangleId> {
+        if self.0 == u32::MAX { None } else { Some(TriangleId(self.0)) }
+    }
+}
+
+impl From<TriangleId> for Neighbour {
+    #[inline]
+    fn from(id: TriangleId) -> Self {
+        Self(id.0)
+    }
+}
+
+impl std::fmt::Debug for Neighbour {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self.triangle() {
+            Some(id) => write!(f, "{}", id.0),
+            None => f.write_str("boundary"),
+        }
+    }
+}

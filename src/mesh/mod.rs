@@ -1,0 +1,160 @@
+//! The method of the report: a mesh of right-angled isosceles triangles, refined by local bisection.
+//!
+//! Nothing here knows a field, a file or a window. What to refine and where the domain lies come in as closures.
+//!
+//! ```
+//! use meshbrush::geometry::Rect;
+//! use meshbrush::mesh::{Limits, Mesh};
+//!
+//! // Refine to a diameter of 0.1 near the origin, 0.5 elsewhere.
+//! let mut mesh = Mesh::coarse_grid(Rect::UNIT, 0.25, |_| true, &Limits::default())?;
+//! mesh.refine(&Limits::default(), |element| {
+//!     let near = element.world_corners().iter().any(|x| x.length() < 0.3);
+//!     Ok(element.diameter() > if near { 0.1 } else { 0.5 })
+//! })?;
+//! assert!(mesh.violations().is_empty());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod adjacency;
+mod bisect;
+mod check;
+mod coarse;
+mod fingerprint;
+mod ids;
+mod interpolate;
+mod locate;
+mod locator;
+mod refine;
+mod triangle;
+
+use std::f64::consts::SQRT_2;
+
+use glam::DVec2;
+
+use crate::geometry::{Lattice, LatticePoint};
+
+pub use adjacency::Adjacency;
+pub use check::Violation;
+pub use coarse::CoarseError;
+pub use fingerprint::{Fingerprint, fingerprint_of};
+pub use ids::{Neighbour, NodeId, TriangleId};
+pub use interpolate::{barycentric, interpolate};
+pub use locate::Location;
+pub use locator::Locator;
+pub use refine::{Element, InvalidTarget, Limits, Progress, RefineError, Refiner};
+pub use triangle::{Orientation, Triangle};
+
+/// A conforming triangulation of a domain, refined from a coarse grid (T of the report).
+///
+/// Invariants, each with a [`Violation`] that names it; [`Mesh::violations`] lists all that are broken:
+///
+/// 1. *Right size*: a triangle is right-angled and isosceles on the lattice, with the bisection edge of its level (Eq. 1).
+/// 2. *Orientation*: vertices run the way that the triangle says.
+/// 3. *Neighbours*: edge j is shared with neighbour j and with nobody else; the other triangle says the same.
+/// 4. *Compatible*: an edge without a neighbour belongs to one triangle only and has no node in its middle.
+/// 5. *Graded*: neighbours differ by at most one level.
+/// 6. *Area*: the triangles cover exactly the coarse triangles that were kept.
+/// 7. *Nodes*: every node is a vertex of some triangle, and no two nodes coincide.
+/// 8. *Buckets*: the entry with a coarse triangle's index lies in that coarse triangle.
+///
+/// The ninth, that no triangle exceeds its target (Eq. 14), needs the rule: [`Mesh::unsatisfied`].
+#[derive(Clone, Debug)]
+pub struct Mesh {
+    lattice: Lattice,
+    nodes: Vec<LatticePoint>,
+    triangles: Vec<Triangle>,
+    coarse: coarse::CoarseIndex,
+}
+
+impl Mesh {
+    /// The grid and lattice that the mesh was refined from.
+    pub fn lattice(&self) -> &Lattice {
+        &self.lattice
+    }
+
+    /// All nodes in lattice coordinates (𝒩), in order of creation.
+    pub fn nodes(&self) -> &[LatticePoint] {
+        &self.nodes
+    }
+
+    /// All triangles (𝒯).
+    pub fn triangles(&self) -> &[Triangle] {
+        &self.triangles
+    }
+
+    /// The triangle with the given id.
+    ///
+    /// # Panics
+    /// When the id is not of this mesh.
+    #[inline]
+    pub fn triangle(&self, id: TriangleId) -> &Triangle {
+        &self.triangles[id.index()]
+    }
+
+    /// Lattice coordinates of a node.
+    ///
+    /// # Panics
+    /// When the id is not of this mesh.
+    #[inline]
+    pub fn node(&self, id: NodeId) -> LatticePoint {
+        self.nodes[id.index()]
+    }
+
+    /// World coordinates of a node.
+    #[inline]
+    pub fn world(&self, id: NodeId) -> DVec2 {
+        self.lattice.world_from_lattice(self.node(id))
+    }
+
+    /// The vertices of a triangle in lattice coordinates, in the triangle's order.
+    #[inline]
+    pub fn corners(&self, id: TriangleId) -> [LatticePoint; 3] {
+        self.triangle(id).vertices.map(|v| self.node(v))
+    }
+
+    /// The vertices of a triangle in world coordinates, in the triangle's order.
+    pub fn world_corners(&self, id: TriangleId) -> [DVec2; 3] {
+        self.triangle(id).vertices.map(|v| self.world(v))
+    }
+
+    /// How many triangles there are at each level, from level 0 to the deepest.
+    pub fn level_counts(&self) -> Vec<usize> {
+        let mut counts = vec![0; 2 * crate::geometry::LATTICE_BITS as usize + 1];
+        for triangle in &self.triangles {
+            counts[triangle.level() as usize] += 1;
+        }
+        let used = counts.iter().rposition(|&n| n > 0).map_or(0, |deepest| deepest + 1);
+        counts.truncate(used);
+        counts
+    }
+
+    /// Length of the bisection edge of a triangle at `level`, in world units (Eq. 1).
+    pub fn diameter(&self, level: u32) -> f64 {
+        bisection_edge_length(self.lattice.spacing(), level)
+    }
+}
+
+/// Length ℓ_b of the bisection edge of a triangle at `level` (Eq. 1).
+///
+/// `spacing` is the side δ of a coarse cell; both lengths are in world units. Each level divides by √2; at odd
+/// levels the result is `spacing` times a power of two, and exactly that.
+///
+/// ```
+/// # use meshbrush::mesh::bisection_edge_length;
+/// assert_eq!(bisection_edge_length(1.0, 1), 1.0);
+/// assert_eq!(bisection_edge_length(1.0, 3), 0.5);
+/// ```
+#[inline]
+pub fn bisection_edge_length(spacing: f64, level: u32) -> f64 {
+    let halved = spacing / (1u64 << (level / 2).min(63)) as f64;
+    if level % 2 == 0 { SQRT_2 * halved } else { halved }
+}
+
+/// The smallest level whose bisection edge is no longer than `target` (ℓ_b⁻¹ of the report).
+///
+/// Both lengths are in world units. Zero for targets above √2 · `spacing`, where the report's formula turns
+/// negative; `None` where no level up to 63 is fine enough, or `target` is NaN.
+pub fn level_for_diameter(spacing: f64, target: f64) -> Option<u32> {
+    (0..64).find(|&level| bisection_edge_length(spacing, level) <= target)
+}

@@ -1,0 +1,138 @@
+use bytemuck::{Pod, Zeroable};
+
+use super::{Neighbour, NodeId};
+
+/// One entry 𝒯\[i\] ∈ ℤ⁸ of the report: 32 plain bytes, uploaded to the GPU as they are.
+///
+/// Order of the arrays:
+/// - `vertices` as Maubach's method leaves them. The bisection edge joins the first vertex to the third at an
+///   even level, and to the second at an odd level.
+/// - `neighbours` anticlockwise, the one across the bisection edge first.
+///
+/// Which triangle is the *sibling*, the other child of the same parent, cannot always be told from the order of
+/// the vertices: the four triangles round a node can fit both ways. The lattice decides.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Pod, Zeroable)]
+pub struct Triangle {
+    /// References to the three vertices, V(t).
+    pub vertices: [NodeId; 3],
+    /// References to the three neighbours, N(t).
+    pub neighbours: [Neighbour; 3],
+    orientation: u32,
+    level: u32,
+}
+
+/// Which way the vertices of a triangle run round it, O(t).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Orientation {
+    /// O(t) = 0.
+    Clockwise,
+    /// O(t) = 1.
+    Anticlockwise,
+}
+
+impl Orientation {
+    /// The other way round.
+    #[inline]
+    pub const fn reversed(self) -> Self {
+        match self {
+            Self::Clockwise => Self::Anticlockwise,
+            Self::Anticlockwise => Self::Clockwise,
+        }
+    }
+}
+
+impl Triangle {
+    #[inline]
+    pub(super) fn new(
+        vertices: [NodeId; 3],
+        neighbours: [Neighbour; 3],
+        orientation: Orientation,
+        level: u32,
+    ) -> Self {
+        Self { vertices, neighbours, orientation: orientation as u32, level }
+    }
+
+    /// How many bisections made this triangle from a coarse one, L(t).
+    #[doc(alias = "generation")]
+    #[doc(alias = "depth")]
+    #[inline]
+    pub const fn level(&self) -> u32 {
+        self.level
+    }
+
+    /// Which way [`Self::vertices`] run, O(t).
+    #[inline]
+    pub const fn orientation(&self) -> Orientation {
+        if self.orientation == 0 { Orientation::Clockwise } else { Orientation::Anticlockwise }
+    }
+
+    /// Place of the second end of the bisection edge among the vertices; the first end is at 0.
+    ///
+    /// This is k of the report, counted from zero: 2 at even levels, 1 at odd levels.
+    #[inline]
+    pub const fn bisection_end(&self) -> usize {
+        2 - (self.level & 1) as usize
+    }
+
+    /// The ends of the bisection edge, the longest one.
+    #[doc(alias = "refinement edge")]
+    #[doc(alias = "hypotenuse")]
+    #[inline]
+    pub const fn bisection_edge(&self) -> [NodeId; 2] {
+        [self.vertices[0], self.vertices[self.bisection_end()]]
+    }
+
+    /// The vertex opposite the bisection edge, where the right angle is.
+    #[inline]
+    pub const fn apex(&self) -> NodeId {
+        self.vertices[3 - self.bisection_end()]
+    }
+
+    /// The vertex that came into being with this triangle; `None` for a coarse triangle.
+    ///
+    /// It is the apex: bisection puts the midpoint opposite the children's bisection edges.
+    #[doc(alias = "peak")]
+    #[inline]
+    pub const fn newest_vertex(&self) -> Option<NodeId> {
+        if self.level == 0 { None } else { Some(self.apex()) }
+    }
+
+    /// The edges as pairs of places among the vertices, each (from, to), anticlockwise round the triangle and
+    /// beginning with the bisection edge: edge j is shared with neighbour j (ℰ of the report, from right to left).
+    #[inline]
+    pub const fn edges(&self) -> [(usize, usize); 3] {
+        match (self.bisection_end(), self.orientation()) {
+            (1, Orientation::Clockwise) => [(1, 0), (0, 2), (2, 1)],
+            (1, Orientation::Anticlockwise) => [(0, 1), (1, 2), (2, 0)],
+            (_, Orientation::Clockwise) => [(0, 2), (2, 1), (1, 0)],
+            (_, Orientation::Anticlockwise) => [(2, 0), (0, 1), (1, 2)],
+        }
+    }
+
+    /// [`Self::edges`] as pairs of nodes.
+    #[inline]
+    pub const fn edge_nodes(&self) -> [(NodeId, NodeId); 3] {
+        let [a, b, c] = self.edges();
+        let v = &self.vertices;
+        [(v[a.0], v[a.1]), (v[b.0], v[b.1]), (v[c.0], v[c.1])]
+    }
+
+    /// Whether k and O *match*: k = 1 with O = 0, or k = 2 with O = 1. The one bit that every case of
+    /// Algorithms 8, 9, 19 and 21 to 25 depends on.
+    #[inline]
+    pub(super) const fn matched(&self) -> bool {
+        self.bisection_end() as u32 == 1 + self.orientation
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_triangle_is_thirty_two_bytes_and_a_node_eight() {
+        assert_eq!(size_of::<Triangle>(), 32);
+        assert_eq!(size_of::<crate::geometry::LatticePoint>(), 8);
+    }
+}
