@@ -5,3 +5,6 @@
 
 pub mod geometry;
 pub mod mesh;
+pub mod raster;
+pub mod field;
+pub mod colormap;

@@ -1,0 +1,409 @@
+//! Colours of levels and neighbours, and the measures of colour they are checked by.
+//!
+//! Colours are sRGB bytes: `[red, green, blue]`, or with an alpha of 255 after them.
+
+mod tables;
+
+use std::str::FromStr;
+use std::sync::LazyLock;
+
+/// Outline of the bisection neighbour, neighbour 1.
+pub const NEIGHBOUR_1: [u8; 3] = [0xf4, 0xb9, 0x42];
+/// Outline of neighbour 2.
+pub const NEIGHBOUR_2: [u8; 3] = [0x5a, 0xd1, 0xc0];
+/// Outline of neighbour 3.
+pub const NEIGHBOUR_3: [u8; 3] = [0xe2, 0x6f, 0xb0];
+/// Outlines of the three neighbours in the report's order, the bisection neighbour first.
+pub const NEIGHBOURS: [[u8; 3]; 3] = [NEIGHBOUR_1, NEIGHBOUR_2, NEIGHBOUR_3];
+
+/// A table of colours from 0 to 1.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Colormap {
+    /// Violet over green to yellow; even in lightness, safe for colour-blind people.
+    #[default]
+    Viridis,
+    /// Black over purple and orange to pale yellow; even in lightness.
+    Magma,
+    /// Navy to yellow; looks nearly the same with and without red-green blindness.
+    Cividis,
+    /// Blue over green to red; many steps to tell apart, but not even in lightness.
+    Turbo,
+    /// Dark to light grey, for print.
+    Greys,
+}
+
+/// No colormap has this name.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("There is no colormap `{0}`; choose Viridis, Magma, Cividis, Turbo or Greys.")]
+pub struct UnknownColormap(String);
+
+impl Colormap {
+    /// Every map, in the order a menu shows them.
+    pub const ALL: [Self; 5] = [Self::Viridis, Self::Magma, Self::Cividis, Self::Turbo, Self::Greys];
+
+    /// The name a person knows it by; [`Colormap::from_str`] reads it in any case.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Viridis => "Viridis",
+            Self::Magma => "Magma",
+            Self::Cividis => "Cividis",
+            Self::Turbo => "Turbo",
+            Self::Greys => "Greys",
+        }
+    }
+
+    /// The colour at `t`, between the two nearest of 256 entries.
+    ///
+    /// Below 0 and for NaN it is the first entry, above 1 the last.
+    ///
+    /// ```
+    /// use meshbrush::colormap::Colormap;
+    ///
+    /// assert_eq!(Colormap::Viridis.sample(0.0), [0x44, 0x01, 0x54]);
+    /// assert_eq!(Colormap::Viridis.sample(7.0), [0xfd, 0xe7, 0x25]);
+    /// ```
+    pub fn sample(self, t: f64) -> [u8; 3] {
+        let table = self.table();
+        let t = if t.is_nan() { 0.0 } else { t.clamp(0.0, 1.0) };
+        let place = t * 255.0;
+        let below = place as usize;
+        let (a, b) = (rgb(table[below]), rgb(table[(below + 1).min(255)]));
+        let between = place - below as f64;
+        std::array::from_fn(|i| {
+            let (a, b) = (f64::from(a[i]), f64::from(b[i]));
+            (a + (b - a) * between).round() as u8
+        })
+    }
+
+    fn table(self) -> &'static [u32; 256] {
+        match self {
+            Self::Viridis => &tables::VIRIDIS,
+            Self::Magma => &tables::MAGMA,
+            Self::Cividis => &tables::CIVIDIS,
+            Self::Turbo => &tables::TURBO,
+            Self::Greys => &tables::GREYS,
+        }
+    }
+
+    /// Where on the map level 1 and the deepest level lie.
+    ///
+    /// Refinement stands out from the ground: towards light on the dark ground, towards dark on the
+    /// light one. Every map stops short of the end that would be lost in the ground. Turbo is read by
+    /// hue and runs from blue to red on both, short of its dark ends.
+    fn span(self, ground: Ground) -> (f64, f64) {
+        match (self, ground) {
+            (Self::Turbo, _) => (0.12, 0.9),
+            (Self::Magma, Ground::Dark) => (0.22, 1.0),
+            (Self::Magma, Ground::Light) => (0.88, 0.1),
+            (_, Ground::Dark) => (0.12, 1.0),
+            (_, Ground::Light) => (0.88, 0.0),
+        }
+    }
+}
+
+impl FromStr for Colormap {
+    type Err = UnknownColormap;
+
+    /// Reads a name in any case; `grays`, `grey` and `gray` are Greys.
+    fn from_str(name: &str) -> Result<Self, UnknownColormap> {
+        let wanted = name.trim();
+        let known = Self::ALL.into_iter().find(|map| map.name().eq_ignore_ascii_case(wanted));
+        let grey = ["grays", "grey", "gray"].iter().any(|other| other.eq_ignore_ascii_case(wanted));
+        known
+            .or(grey.then_some(Self::Greys))
+            .ok_or_else(|| UnknownColormap(wanted.chars().take(40).collect()))
+    }
+}
+
+/// What the mesh is drawn on.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Ground {
+    /// The dark theme's canvas.
+    #[default]
+    Dark,
+    /// The light theme's canvas, and paper.
+    Light,
+}
+
+impl Ground {
+    /// The canvas itself.
+    pub fn canvas(self) -> [u8; 3] {
+        match self {
+            Self::Dark => [0x0b, 0x0d, 0x10],
+            Self::Light => [0xfa, 0xfb, 0xfc],
+        }
+    }
+
+    /// Triangles of level 0: close to the canvas, so that refinement stands out.
+    pub fn level_0(self) -> [u8; 3] {
+        match self {
+            Self::Dark => [0x1d, 0x21, 0x2b],
+            Self::Light => [0xe9, 0xec, 0xf1],
+        }
+    }
+}
+
+/// The colour of every level, 0 to 63.
+///
+/// A level's colour follows from the map, the ground and the deepest level on the legend, never
+/// from a mesh: it stays while a person paints.
+///
+/// ```
+/// use meshbrush::colormap::{Colormap, Ground, LevelColors};
+///
+/// let colors = LevelColors::new(Colormap::Viridis, Ground::Dark, 12);
+/// assert_eq!(colors.of(0), [0x1d, 0x21, 0x2b, 255]);
+/// assert_eq!(colors.of(12), [0xfd, 0xe7, 0x25, 255]);
+/// assert_eq!(colors.of(40), colors.of(12));
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct LevelColors {
+    rgba: [[u8; 4]; 64],
+}
+
+impl LevelColors {
+    /// Spreads levels 1 to `deepest` evenly over the map; deeper ones keep the last colour.
+    ///
+    /// With a `deepest` of 0 or 1 every level from 1 on has that last colour; above 63 it counts as 63.
+    pub fn new(map: Colormap, ground: Ground, deepest: u8) -> Self {
+        let (first, last) = map.span(ground);
+        let steps = deepest.clamp(1, 63) - 1;
+        let color = |level: usize| {
+            let step = (level - 1).min(steps.into());
+            let t = if step == usize::from(steps) {
+                last
+            } else {
+                first + (last - first) * step as f64 / f64::from(steps)
+            };
+            opaque(map.sample(t))
+        };
+        let mut rgba = [opaque(ground.level_0()); 64];
+        for (level, entry) in rgba.iter_mut().enumerate().skip(1) {
+            *entry = color(level);
+        }
+        Self { rgba }
+    }
+
+    /// The colour of a level; from 63 on the last one.
+    pub fn of(&self, level: u8) -> [u8; 4] {
+        self.rgba[usize::from(level.min(63))]
+    }
+
+    /// All 64 colours, level by level, as the shader takes them.
+    pub fn as_table(&self) -> &[[u8; 4]; 64] {
+        &self.rgba
+    }
+}
+
+/// Relative luminance from 0 (black) to 1 (white), as WCAG 2 defines it.
+pub fn luminance(color: [u8; 3]) -> f64 {
+    let [r, g, b] = linear_rgb(color);
+    0.2126 * r + 0.7152 * g + 0.0722 * b
+}
+
+/// Contrast of two colours in either order, from 1 to 21, as WCAG 2 defines it.
+///
+/// Text wants 4.5 and more on its ground, large text and shapes 3.
+///
+/// ```
+/// use meshbrush::colormap::contrast_ratio;
+///
+/// assert_eq!(contrast_ratio([0; 3], [255; 3]), 21.0);
+/// assert_eq!(contrast_ratio([90; 3], [90; 3]), 1.0);
+/// ```
+pub fn contrast_ratio(a: [u8; 3], b: [u8; 3]) -> f64 {
+    let (a, b) = (luminance(a) + 0.05, luminance(b) + 0.05);
+    a.max(b) / a.min(b)
+}
+
+/// Light of each channel from 0 to 1, without the sRGB transfer curve (IEC 61966-2-1).
+fn linear_rgb(color: [u8; 3]) -> [f64; 3] {
+    static LINEAR: LazyLock<[f64; 256]> = LazyLock::new(|| {
+        std::array::from_fn(|byte| {
+            let v = byte as f64 / 255.0;
+            if v <= 0.04045 { v / 12.92 } else { libm::pow((v + 0.055) / 1.055, 2.4) }
+        })
+    });
+    color.map(|byte| LINEAR[usize::from(byte)])
+}
+
+fn rgb(hex: u32) -> [u8; 3] {
+    let [_, r, g, b] = hex.to_be_bytes();
+    [r, g, b]
+}
+
+fn opaque([r, g, b]: [u8; 3]) -> [u8; 4] {
+    [r, g, b, 255]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const GROUNDS: [Ground; 2] = [Ground::Dark, Ground::Light];
+
+    /// CIE L*, a*, b* (white D65) of linear light.
+    fn lab([r, g, b]: [f64; 3]) -> [f64; 3] {
+        let f = |t: f64| {
+            if t > 216.0 / 24389.0 { t.cbrt() } else { (24389.0 / 27.0 * t + 16.0) / 116.0 }
+        };
+        let x = f((0.4124564 * r + 0.3575761 * g + 0.1804375 * b) / 0.95047);
+        let y = f(0.2126729 * r + 0.7151522 * g + 0.0721750 * b);
+        let z = f((0.0193339 * r + 0.1191920 * g + 0.9503041 * b) / 1.08883);
+        [116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)]
+    }
+
+    fn lightness(color: [u8; 3]) -> f64 {
+        lab(linear_rgb(color))[0]
+    }
+
+    /// Colour difference by CIE 1976: about 2.3 is just noticed.
+    fn difference(a: [f64; 3], b: [f64; 3]) -> f64 {
+        let (a, b) = (lab(a), lab(b));
+        (0..3).map(|i| (a[i] - b[i]).powi(2)).sum::<f64>().sqrt()
+    }
+
+    /// What a person without medium-wave cones sees (Machado, Oliveira and Fernandes 2009).
+    fn deuteranopia([r, g, b]: [f64; 3]) -> [f64; 3] {
+        [
+            0.367322 * r + 0.860646 * g - 0.227968 * b,
+            0.280085 * r + 0.672501 * g + 0.047413 * b,
+            -0.011820 * r + 0.042940 * g + 0.968881 * b,
+        ]
+        .map(|v| v.clamp(0.0, 1.0))
+    }
+
+    fn level(colors: &LevelColors, level: u8) -> [u8; 3] {
+        let [r, g, b, a] = colors.of(level);
+        assert_eq!(a, 255);
+        [r, g, b]
+    }
+
+    fn every_scale() -> impl Iterator<Item = (Colormap, Ground, u8, LevelColors)> {
+        let grounds = |map| GROUNDS.map(|ground| (map, ground));
+        let scales = Colormap::ALL.into_iter().flat_map(grounds);
+        scales.flat_map(|(map, ground)| {
+            (1..=16).map(move |deepest| {
+                let colors = LevelColors::new(map, ground, deepest);
+                (map, ground, deepest, colors)
+            })
+        })
+    }
+
+    #[test]
+    fn tables_have_the_published_ends_and_middles() {
+        let hex = |map: Colormap, i: usize| map.table()[i];
+        assert_eq!(hex(Colormap::Viridis, 0), 0x440154);
+        assert_eq!(hex(Colormap::Viridis, 128), 0x21918c);
+        assert_eq!(hex(Colormap::Viridis, 255), 0xfde725);
+        assert_eq!(hex(Colormap::Magma, 0), 0x000004);
+        assert_eq!(hex(Colormap::Magma, 255), 0xfcfdbf);
+        assert_eq!(hex(Colormap::Cividis, 0), 0x00224e);
+        assert_eq!(hex(Colormap::Cividis, 255), 0xfee838);
+        assert_eq!(hex(Colormap::Turbo, 0), 0x30123b);
+        assert_eq!(hex(Colormap::Turbo, 255), 0x7a0403);
+    }
+
+    #[test]
+    fn samples_are_entries_and_lie_between_them() {
+        for map in Colormap::ALL {
+            for i in 0..=255_u8 {
+                let entry = rgb(map.table()[usize::from(i)]);
+                assert_eq!(map.sample(f64::from(i) / 255.0), entry, "{map:?} {i}");
+            }
+            assert_eq!(map.sample(f64::NAN), map.sample(0.0));
+            assert_eq!(map.sample(f64::NEG_INFINITY), map.sample(0.0));
+            assert_eq!(map.sample(f64::INFINITY), map.sample(1.0));
+        }
+        let [a, b] = [0, 1].map(|i| rgb(tables::TURBO[i])[2]);
+        let between = Colormap::Turbo.sample(0.5 / 255.0)[2];
+        assert!(a < between && between < b, "{a} {between} {b}");
+    }
+
+    #[test]
+    fn even_maps_grow_lighter_all_the_way() {
+        for map in [Colormap::Viridis, Colormap::Magma, Colormap::Cividis, Colormap::Greys] {
+            let lightness: Vec<f64> = map.table().iter().map(|&c| lightness(rgb(c))).collect();
+            let steps = lightness.windows(2).map(|w| w[1] - w[0]);
+            // Bytes are coarse: a single step may stand still, or fall by less than an eye sees.
+            assert!(steps.clone().all(|step| step > -0.25), "{map:?}");
+            let strides = lightness.windows(9).map(|w| w[8] - w[0]);
+            assert!(strides.clone().all(|s| s > 0.5), "{map:?}");
+        }
+    }
+
+    #[test]
+    fn neighbouring_levels_can_be_told_apart() {
+        for (map, ground, deepest, colors) in every_scale() {
+            for l in 1..=deepest {
+                let pair = [l - 1, l].map(|l| linear_rgb(level(&colors, l)));
+                let seen = difference(pair[0], pair[1]);
+                assert!(seen > 4.0, "{map:?} {ground:?} {l} of {deepest}: {seen:.2}");
+                let pair = pair.map(deuteranopia);
+                let seen = difference(pair[0], pair[1]);
+                assert!(
+                    seen > 2.5 || map == Colormap::Turbo,
+                    "{map:?} {ground:?} {l} of {deepest}, colour-blind: {seen:.2}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn deeper_levels_stand_out_more_from_the_canvas() {
+        for (map, ground, deepest, colors) in every_scale() {
+            let contrast = |l| contrast_ratio(level(&colors, l), ground.canvas());
+            assert!(contrast(0) < 1.3, "{ground:?}");
+            assert!(contrast(deepest) > 3.0, "{map:?} {ground:?}");
+            if map != Colormap::Turbo {
+                assert!(contrast(deepest) > 7.0, "{map:?} {ground:?}");
+                let grows = (1..=deepest).all(|l| contrast(l) > contrast(l - 1));
+                assert!(grows, "{map:?} {ground:?} {deepest}");
+            }
+        }
+    }
+
+    #[test]
+    fn levels_past_the_deepest_keep_its_color() {
+        for (_, _, deepest, colors) in every_scale() {
+            assert!((deepest..=255).all(|l| colors.of(l) == colors.of(deepest)));
+        }
+        let [none, one] = [0, 1].map(|d| LevelColors::new(Colormap::Magma, Ground::Dark, d));
+        assert_eq!(none, one);
+        let [all, more] = [63, 255].map(|d| LevelColors::new(Colormap::Magma, Ground::Dark, d));
+        assert_eq!(all, more);
+        assert_eq!(all.of(63)[..3], Colormap::Magma.sample(1.0));
+        assert_eq!(all.as_table()[1][..3], Colormap::Magma.sample(0.22));
+    }
+
+    #[test]
+    fn neighbours_differ_from_each_other_for_every_eye() {
+        for (i, a) in NEIGHBOURS.iter().enumerate() {
+            for b in &NEIGHBOURS[..i] {
+                let (a, b) = (linear_rgb(*a), linear_rgb(*b));
+                assert!(difference(a, b) > 40.0);
+                let seen = difference(deuteranopia(a), deuteranopia(b));
+                // 2 and 3 come closest, at 10.6; the chips and pins carry the number too.
+                assert!(seen > 10.0, "{i}: {seen:.1}");
+            }
+        }
+    }
+
+    #[test]
+    fn names_are_read_in_any_case() {
+        for map in Colormap::ALL {
+            assert_eq!(map.name().parse(), Ok(map));
+            assert_eq!(map.name().to_uppercase().parse(), Ok(map));
+        }
+        assert_eq!("gray".parse(), Ok(Colormap::Greys));
+        let e = "jet".parse::<Colormap>().unwrap_err();
+        assert!(e.to_string().starts_with("There is no colormap `jet`"));
+    }
+
+    #[test]
+    fn contrast_is_that_of_wcag() {
+        let grey = contrast_ratio([0x76; 3], [0xff; 3]);
+        assert!((grey - 4.54).abs() < 0.01, "{grey}");
+        assert!((luminance([255, 0, 0]) - 0.2126).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,135 @@
+//! A mistake in a formula: its place, a sentence, and a picture of both.
+
+use std::ops::Range;
+
+/// A mistake in a formula.
+///
+/// It prints as a sentence for a person: what was found, what was expected, what would help.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{message}")]
+pub struct ParseError {
+    message: String,
+    span: Range<usize>,
+    pointer: String,
+}
+
+impl ParseError {
+    /// `span` must lie on character boundaries of `source`.
+    pub(super) fn new(source: &str, span: Range<usize>, message: impl Into<String>) -> Self {
+        let pointer = draw_pointer(source, &span);
+        Self { message: message.into(), span, pointer }
+    }
+
+    /// The place of the mistake, in bytes of the formula's text; empty at its end.
+    pub fn span(&self) -> Range<usize> {
+        self.span.clone()
+    }
+
+    /// Two lines to show in a fixed-width font: the formula, or some 70 columns of it round the
+    /// mistake, and carets under the mistake.
+    ///
+    /// ```
+    /// # use meshbrush::field::formula::Formula;
+    /// let mistake = Formula::parse("θ + größe").unwrap_err();
+    /// assert_eq!(mistake.pointer(), "θ + größe\n    ^^^^^");
+    /// ```
+    pub fn pointer(&self) -> &str {
+        &self.pointer
+    }
+}
+
+/// At most 24 characters of a text found in a formula, between backquotes.
+pub(super) fn quote(text: &str) -> String {
+    let mut shown: String = text.chars().take(24).map(printable).collect();
+    if text.chars().nth(24).is_some() {
+        shown.push('…');
+    }
+    format!("`{shown}`")
+}
+
+/// Columns of the formula that a pointer shows, not counting an ellipsis at either end.
+const POINTER_COLUMNS: usize = 68;
+/// Columns of the mistake that a pointer shows before it gives room to what stands round it.
+const CARET_COLUMNS: usize = 30;
+
+fn draw_pointer(source: &str, span: &Range<usize>) -> String {
+    let shown = window(source, span);
+    let text = |range: Range<usize>| source[range].chars().map(printable).collect::<String>();
+    let ellipsis = |cut: bool| if cut { "…" } else { "" };
+
+    let before = format!("{}{}", ellipsis(shown.start > 0), text(shown.start..span.start));
+    let marked = text(span.start..span.end.min(shown.end));
+    let after = format!("{}{}", text(span.end.min(shown.end)..shown.end), ellipsis(shown.end < source.len()));
+    let indent = " ".repeat(columns(&before));
+    let carets = "^".repeat(columns(&marked).max(1));
+    format!("{before}{marked}{after}\n{indent}{carets}")
+}
+
+/// The bytes to show: the mistake, then what stands round it, a character on each side in turn.
+///
+/// Ends: every turn takes at least one of the columns left or stops at both ends of the text.
+fn window(source: &str, span: &Range<usize>) -> Range<usize> {
+    let cost = |c: char| char_columns(printable(c)).max(1);
+    let mut shown = span.start..span.start;
+    let mut used = 0;
+    for c in source[span.clone()].chars() {
+        if used + cost(c) > CARET_COLUMNS {
+            break;
+        }
+        used += cost(c);
+        shown.end += c.len_utf8();
+    }
+    loop {
+        let left = source[..shown.start].chars().next_back();
+        let right = source[shown.end..].chars().next();
+        let mut grown = false;
+        if let Some(c) = left.filter(|&c| used + cost(c) <= POINTER_COLUMNS) {
+            used += cost(c);
+            shown.start -= c.len_utf8();
+            grown = true;
+        }
+        if let Some(c) = right.filter(|&c| used + cost(c) <= POINTER_COLUMNS) {
+            used += cost(c);
+            shown.end += c.len_utf8();
+            grown = true;
+        }
+        if !grown {
+            return shown;
+        }
+    }
+}
+
+/// What to show for a character: line breaks and tabs as a space, invisible controls as `�`.
+fn printable(c: char) -> char {
+    match c {
+        '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{206f}' => '\u{fffd}',
+        '\u{feff}' => '\u{fffd}',
+        _ if c.is_whitespace() => ' ',
+        _ if c.is_control() => '\u{fffd}',
+        _ => c,
+    }
+}
+
+fn columns(text: &str) -> usize {
+    text.chars().map(char_columns).sum()
+}
+
+/// Columns of a character in a fixed-width font: 0 for accents that join the letter before, 2 for
+/// East Asian letters and pictographs, else 1.
+fn char_columns(c: char) -> usize {
+    match c {
+        '\u{300}'..='\u{36f}' | '\u{20d0}'..='\u{20ff}' | '\u{fe00}'..='\u{fe0f}' => 0,
+        '\u{1100}'..='\u{115f}'
+        | '\u{2e80}'..='\u{303e}'
+        | '\u{3041}'..='\u{a4cf}'
+        | '\u{ac00}'..='\u{d7a3}'
+        | '\u{f900}'..='\u{faff}'
+        | '\u{fe30}'..='\u{fe6f}'
+        | '\u{ff00}'..='\u{ff60}'
+        | '\u{ffe0}'..='\u{ffe6}'
+        | '\u{1f300}'..='\u{1f64f}'
+        | '\u{1f900}'..='\u{1f9ff}'
+        | '\u{20000}'..='\u{3fffd}' => 2,
+        _ => 1,
+    }
+}

@@ -1,0 +1,131 @@
+//! Formulas in x and y, as a person types them: `if(abs(x)+abs(y)<0.4, 0.0125, 1)`.
+//!
+//! # The language
+//!
+//! From the loosest binding to the tightest:
+//!
+//! | written | meaning |
+//! |---|---|
+//! | `a or b`, `a \|\| b` | 1 where either is true, else 0; `b` is left out where `a` decides |
+//! | `a and b`, `a && b` | 1 where both are true, else 0; `b` is left out where `a` decides |
+//! | `not a` | 1 where `a` is 0, else 0; loose, so `not x < 1` is `not (x < 1)` |
+//! | `<` `<=` `>` `>=` `==` `!=` | 1 or 0; a chain such as `0 < x <= 1` means what it says |
+//! | `+` `-` | from left to right |
+//! | `*` `/` `%` | from left to right; `%` takes the sign of its right side, as in Python |
+//! | `-a` `+a` `!a` | `-2^2` is −4; `!` is `not`, binding like a sign |
+//! | `a^b`, `a**b` | from right to left: `2^3^2` is 512 |
+//!
+//! A *value* is a number (`1`, `.5`, `1e-3`), a coordinate (`x`, `y`, and the polar `r` and `theta`),
+//! a constant (`pi`, `tau`, `e`, `inf`), a function call ([`functions`] lists them), or a formula in
+//! parentheses. Everything but 0 counts as true, NaN too. The signs `×` `·` `÷` `−` `≤` `≥` `≠`
+//! `π` `τ` `θ`, as pasted from a document, are understood.
+//!
+//! # Exactness
+//!
+//! Every operation is one operation of f64, done in the order written: nothing is re-associated,
+//! fused or approximated. Roots and rounding are exact by IEEE 754; every other function comes from
+//! `libm`, so a formula has the same bits on every machine.
+
+mod error;
+mod functions;
+mod lexer;
+mod parser;
+mod program;
+#[cfg(test)]
+mod tests;
+
+use std::fmt;
+use std::str::FromStr;
+use std::sync::Arc;
+
+pub use error::ParseError;
+pub use functions::functions;
+pub use parser::{MAX_LENGTH, MAX_NESTING};
+use program::Program;
+
+/// A formula in x and y, compiled once and evaluated many times.
+///
+/// Cloning shares the compiled program. Two formulas are equal when their texts are.
+///
+/// ```
+/// use meshbrush::field::formula::Formula;
+///
+/// let target = Formula::parse("if(abs(x)+abs(y)<0.4, 0.0125, 1)")?;
+/// assert_eq!(target.eval(0.1, -0.2), 0.0125);
+/// assert_eq!(target.eval(0.4, 0.0), 1.0); // the line itself is outside: `<` is strict
+/// # Ok::<(), meshbrush::field::formula::ParseError>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Formula {
+    source: Arc<str>,
+    program: Arc<Program>,
+}
+
+impl Formula {
+    /// Reads and compiles a formula.
+    ///
+    /// # Errors
+    ///
+    /// The first mistake in reading order, with its place and what would help. Texts longer than
+    /// [`MAX_LENGTH`] bytes or nested deeper than [`MAX_NESTING`] are mistakes too.
+    ///
+    /// ```
+    /// use meshbrush::field::formula::Formula;
+    ///
+    /// let mistake = Formula::parse("1 + 2*sqr(x)").unwrap_err();
+    /// assert_eq!(mistake.to_string(), "There is no `sqr`; write `v^2`.");
+    /// assert_eq!(mistake.pointer(), "1 + 2*sqr(x)\n      ^^^");
+    /// ```
+    pub fn parse(source: &str) -> Result<Self, ParseError> {
+        let program = parser::compile(source)?;
+        Ok(Self { source: source.into(), program: Arc::new(program) })
+    }
+
+    /// The value at the point (x, y), in world units.
+    ///
+    /// Whether the value makes sense is the caller's to check: `sqrt(-1)` is NaN, `1/0` is infinite,
+    /// and both are returned as they are. NaN passes through `min`, `max` and `clamp`, so it is not
+    /// lost there; a comparison with it is 0 (`!=` is 1).
+    pub fn eval(&self, x: f64, y: f64) -> f64 {
+        self.program.run(x, y)
+    }
+
+    /// The text as it was typed.
+    pub fn source(&self) -> &str {
+        &self.source
+    }
+
+    /// The value, if the formula uses no coordinate.
+    ///
+    /// ```
+    /// # use meshbrush::field::formula::Formula;
+    /// assert_eq!(Formula::parse("0.05/2^3")?.constant(), Some(0.00625));
+    /// assert_eq!(Formula::parse("0*x")?.constant(), None);
+    /// # Ok::<(), meshbrush::field::formula::ParseError>(())
+    /// ```
+    pub fn constant(&self) -> Option<f64> {
+        self.program.constant()
+    }
+}
+
+impl PartialEq for Formula {
+    fn eq(&self, other: &Self) -> bool {
+        self.source == other.source
+    }
+}
+
+impl Eq for Formula {}
+
+impl fmt::Display for Formula {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.source)
+    }
+}
+
+impl FromStr for Formula {
+    type Err = ParseError;
+
+    fn from_str(source: &str) -> Result<Self, ParseError> {
+        Self::parse(source)
+    }
+}

@@ -1,0 +1,237 @@
+//! A compiled formula: instructions in postfix order for a machine with one accumulator and a stack.
+
+/// One instruction.
+///
+/// The accumulator holds the newest value, the stack the older ones. A *load* first pushes the
+/// accumulator; an operation with n operands takes n − 1 of them from the stack, the last operand
+/// being the accumulator. Skips only go forward, by a count of instructions after their own, so
+/// every program ends and a piece of a program can be run or moved by itself.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Op {
+    /// Loads a number.
+    Number(f64),
+    /// Loads the x coordinate.
+    X,
+    /// Loads the y coordinate.
+    Y,
+    Negate,
+    Not,
+    /// 1 if the value is not 0, else 0.
+    Truth,
+    Abs,
+    Sqrt,
+    Add,
+    Subtract,
+    Multiply,
+    Divide,
+    Min,
+    Max,
+    Less,
+    LessEqual,
+    Greater,
+    GreaterEqual,
+    Equal,
+    NotEqual,
+    /// First link of a chain `a < b < c`: a becomes `a < b`, and b stays for the next link.
+    FirstLink(Compare),
+    /// Later link: with r, b on the stack and c in the accumulator, r becomes `r and b < c`; c stays.
+    NextLink(Compare),
+    /// Drops the accumulator and takes the value below: the end of a chain.
+    Drop,
+    /// Any other function of one value.
+    One(fn(f64) -> f64),
+    /// Any other function of two values.
+    Two(fn(f64, f64) -> f64),
+    /// Any other function of three values.
+    Three(fn(f64, f64, f64) -> f64),
+    /// Takes a condition and skips if it is 0.
+    SkipIfZero(u32),
+    /// Skips always.
+    Skip(u32),
+    /// `and`: a false left side is the answer, 0; a true one is taken off.
+    SkipIfFalse(u32),
+    /// `or`: a true left side is the answer, 1; a false one is taken off.
+    SkipIfTrue(u32),
+}
+
+/// A comparison sign.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Compare {
+    Less,
+    LessEqual,
+    Greater,
+    GreaterEqual,
+    Equal,
+    NotEqual,
+}
+
+impl Compare {
+    /// The instruction for a comparison that stands alone.
+    pub(super) fn op(self) -> Op {
+        match self {
+            Self::Less => Op::Less,
+            Self::LessEqual => Op::LessEqual,
+            Self::Greater => Op::Greater,
+            Self::GreaterEqual => Op::GreaterEqual,
+            Self::Equal => Op::Equal,
+            Self::NotEqual => Op::NotEqual,
+        }
+    }
+
+    fn holds(self, a: f64, b: f64) -> bool {
+        match self {
+            Self::Less => a < b,
+            Self::LessEqual => a <= b,
+            Self::Greater => a > b,
+            Self::GreaterEqual => a >= b,
+            Self::Equal => a == b,
+            Self::NotEqual => a != b,
+        }
+    }
+}
+
+/// Stack of nearly every formula; clearing a small one costs nothing.
+const SMALL_STACK: usize = 16;
+/// Stack of any formula the parser lets through: at most two slots a nesting level, and one.
+pub(super) const LARGE_STACK: usize = 512;
+const _: () = assert!(2 * super::MAX_NESTING < LARGE_STACK);
+
+/// Instructions, and the number of stack slots they need.
+#[derive(Clone, Debug)]
+pub(super) struct Program {
+    code: Box<[Op]>,
+    slots: usize,
+}
+
+impl Program {
+    /// `slots` is the largest number of loads in flight; at most [`LARGE_STACK`].
+    pub(super) fn new(code: Vec<Op>, slots: usize) -> Self {
+        debug_assert!(slots <= LARGE_STACK);
+        Self { code: code.into(), slots }
+    }
+
+    pub(super) fn run(&self, x: f64, y: f64) -> f64 {
+        run(&self.code, self.slots, x, y)
+    }
+
+    pub(super) fn constant(&self) -> Option<f64> {
+        match *self.code {
+            [Op::Number(value)] => Some(value),
+            _ => None,
+        }
+    }
+
+    #[cfg(test)]
+    pub(super) fn len(&self) -> usize {
+        self.code.len()
+    }
+}
+
+/// Runs a piece of code that needs `slots` stack slots and leaves one value.
+pub(super) fn run(code: &[Op], slots: usize, x: f64, y: f64) -> f64 {
+    if slots <= SMALL_STACK { run_on::<SMALL_STACK>(code, x, y) } else { run_on::<LARGE_STACK>(code, x, y) }
+}
+
+fn run_on<const SLOTS: usize>(code: &[Op], x: f64, y: f64) -> f64 {
+    let mut stack = [0.0; SLOTS];
+    let mut top = 0; // number of values on the stack
+    let mut acc = 0.0;
+    let mut at = 0;
+
+    macro_rules! load {
+        ($value:expr) => {{
+            stack[top] = acc;
+            top += 1;
+            acc = $value;
+        }};
+    }
+    macro_rules! pop {
+        () => {{
+            top -= 1;
+            stack[top]
+        }};
+    }
+    macro_rules! compare {
+        ($sign:tt) => {
+            acc = truth(pop!() $sign acc)
+        };
+    }
+
+    // Ends: `at` grows by at least one each time.
+    while let Some(&op) = code.get(at) {
+        at += 1;
+        match op {
+            Op::Number(value) => load!(value),
+            Op::X => load!(x),
+            Op::Y => load!(y),
+            Op::Negate => acc = -acc,
+            Op::Not => acc = truth(acc == 0.0),
+            Op::Truth => acc = truth(acc != 0.0),
+            Op::Abs => acc = acc.abs(),
+            Op::Sqrt => acc = acc.sqrt(),
+            Op::Add => acc += pop!(),
+            Op::Subtract => acc = pop!() - acc,
+            Op::Multiply => acc *= pop!(),
+            Op::Divide => acc = pop!() / acc,
+            Op::Min => acc = min(pop!(), acc),
+            Op::Max => acc = max(pop!(), acc),
+            Op::Less => compare!(<),
+            Op::LessEqual => compare!(<=),
+            Op::Greater => compare!(>),
+            Op::GreaterEqual => compare!(>=),
+            Op::Equal => compare!(==),
+            Op::NotEqual => compare!(!=),
+            Op::FirstLink(sign) => stack[top - 1] = truth(sign.holds(stack[top - 1], acc)),
+            Op::NextLink(sign) => {
+                let middle = pop!();
+                stack[top - 1] *= truth(sign.holds(middle, acc));
+            }
+            Op::Drop => acc = pop!(),
+            Op::One(function) => acc = function(acc),
+            Op::Two(function) => acc = function(pop!(), acc),
+            Op::Three(function) => {
+                let second = pop!();
+                let first = pop!();
+                acc = function(first, second, acc);
+            }
+            Op::SkipIfZero(count) => {
+                at += if acc == 0.0 { count as usize } else { 0 };
+                acc = pop!();
+            }
+            Op::Skip(count) => at += count as usize,
+            Op::SkipIfFalse(count) => {
+                if acc == 0.0 {
+                    acc = 0.0; // not −0
+                    at += count as usize;
+                } else {
+                    acc = pop!();
+                }
+            }
+            Op::SkipIfTrue(count) => {
+                if acc == 0.0 {
+                    acc = pop!();
+                } else {
+                    acc = 1.0;
+                    at += count as usize;
+                }
+            }
+        }
+    }
+    acc
+}
+
+fn truth(condition: bool) -> f64 {
+    f64::from(u8::from(condition))
+}
+
+/// The smaller value, the later of two equal ones (0 and −0); NaN if either is.
+///
+/// `f64::min` would hide a NaN and leave the sign of 0 to the machine.
+pub(super) fn min(a: f64, b: f64) -> f64 {
+    if a < b || a.is_nan() { a } else { b }
+}
+
+/// The larger value, the later of two equal ones; NaN if either is.
+pub(super) fn max(a: f64, b: f64) -> f64 {
+    if a > b || a.is_nan() { a } else { b }
+}

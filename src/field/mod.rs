@@ -1,0 +1,13 @@
+//! h̄, the target diameter: formulas, rasters and paint, and the rules that compare a triangle with it.
+
+pub mod formula;
+mod source;
+mod target_field;
+mod transfer;
+mod vertex_rule;
+
+pub use formula::Formula;
+pub use source::{Source, checked_target};
+pub use target_field::{Paint, Rule, TargetField, TargetFieldSpec, f32_not_below};
+pub use transfer::{Transfer, TransferError, TransferTable};
+pub use vertex_rule::VertexRule;

@@ -1,0 +1,176 @@
+use glam::DVec2;
+
+use super::{Source, Transfer, TransferTable, checked_target};
+use crate::geometry::Lattice;
+use crate::mesh::{Element, InvalidTarget, Progress, bisection_edge_length, level_for_diameter};
+use crate::raster::{PixelRect, Pyramid, Raster, RasterOnLattice};
+
+/// Which points of a triangle its target diameter is the minimum over.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Rule {
+    /// The three vertices: the report's Eq. (12). A stroke that passes between the nodes leaves no trace.
+    Vertex,
+    /// The whole closed triangle. Implies Eq. (12), misses nothing, and can be undone locally.
+    Area,
+}
+
+/// What a [`TargetField`] is made from, besides paint.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TargetFieldSpec {
+    /// All ask; the smallest diameter wins.
+    pub sources: Vec<Source>,
+    /// From risk to diameter; its ends bound h̄ everywhere.
+    pub transfer: Transfer,
+    /// Columns and rows.
+    pub size: [u32; 2],
+}
+
+/// The painted layers, each a raster over the same rectangle.
+#[derive(Clone, Copy)]
+pub struct Paint<'a> {
+    /// Risk, 0 to 1.
+    pub risk: &'a Raster,
+    /// Target diameter in world units, infinite where nothing is painted.
+    pub diameter: &'a Raster,
+}
+
+/// h̄ over a domain, by pixel: the minimum of all sources and of what is painted, within \[h_min, h_max\].
+///
+/// Beside each diameter stands the level that it needs, in a pyramid of maxima: the area rule asks that pyramid and no
+/// formula. Filled in slices ([`Self::fill`]) and kept up to date by rectangles ([`Self::update`]).
+#[derive(Clone, Debug)]
+pub struct TargetField {
+    spec: TargetFieldSpec,
+    table: TransferTable,
+    lattice: Lattice,
+    /// The smallest diameter that the sources ask for.
+    base: Raster,
+    target: Raster,
+    levels: Pyramid<u8>,
+    on_lattice: RasterOnLattice,
+    diameter_of_level: [f64; 64],
+    filled_rows: u32,
+}
+
+/// The level written where no level up to 63 is fine enough. The refinement then ends at the lattice, with an error.
+const BEYOND: u8 = u8::MAX;
+
+impl TargetField {
+    /// A field over the bounds of `lattice`, yet to be filled. Until then it asks for nothing.
+    pub fn new(spec: TargetFieldSpec, lattice: &Lattice) -> Self {
+        let (bounds, size) = (lattice.bounds(), spec.size);
+        let h_max = spec.transfer.h_max as f32;
+        Self {
+            table: TransferTable::new(&spec.transfer),
+            lattice: *lattice,
+            base: Raster::filled(bounds, size, f32::INFINITY),
+            target: Raster::filled(bounds, size, h_max),
+            levels: Pyramid::filled(size, 0),
+            on_lattice: RasterOnLattice::new(lattice, size),
+            diameter_of_level: std::array::from_fn(|l| bisection_edge_length(lattice.spacing(), l as u32)),
+            filled_rows: 0,
+            spec,
+        }
+    }
+
+    /// What the field is made from.
+    pub fn spec(&self) -> &TargetFieldSpec {
+        &self.spec
+    }
+
+    /// h̄ by pixel, in world units, rounded to f32.
+    pub fn target(&self) -> &Raster {
+        &self.target
+    }
+
+    /// The level that each pixel asks for.
+    pub fn levels(&self) -> &Pyramid<u8> {
+        &self.levels
+    }
+
+    /// Evaluates the sources and the paint row by row, about `pixels` of them.
+    ///
+    /// # Errors
+    /// When a source gives NaN, infinity, zero or less at some pixel. The field is then of no use.
+    pub fn fill(&mut self, paint: Paint, pixels: usize) -> Result<Progress, InvalidTarget> {
+        let [columns, rows] = self.spec.size;
+        let first = self.filled_rows;
+        let last = (first + (pixels as u32 / columns).max(1)).min(rows);
+        let slice = PixelRect { min: [0, first], max: [columns, last] };
+        for (x, y) in slice.pixels() {
+            let value = self.smallest_asked(self.base.pixel_center(x, y))?;
+            self.base.set(x, y, f32_not_below(value));
+        }
+        self.filled_rows = last;
+        self.update(paint, slice);
+        Ok(if last == rows { Progress::Done } else { Progress::More })
+    }
+
+    /// Takes over what changed in the painted layers within `area`. Rows not yet filled are left to [`Self::fill`].
+    pub fn update(&mut self, paint: Paint, area: PixelRect) {
+        let area = PixelRect { min: area.min, max: [area.max[0], area.max[1].min(self.filled_rows)] };
+        if area.is_empty() {
+            return;
+        }
+        let mut levels = std::mem::replace(&mut self.levels, Pyramid::filled([1, 1], 0));
+        levels.update(area, |x, y| {
+            let diameter = self.diameter_at_pixel(paint, x, y);
+            self.target.set(x, y, diameter as f32);
+            self.level_for(diameter)
+        });
+        self.levels = levels;
+    }
+
+    fn smallest_asked(&self, point: DVec2) -> Result<f64, InvalidTarget> {
+        let mut smallest = f64::INFINITY;
+        for source in &self.spec.sources {
+            let value = source.target(point, &self.spec.transfer);
+            // Beyond its edge a raster asks for nothing; anything else infinite is a mistake.
+            if !(source.is_raster() && value == f64::INFINITY) {
+                smallest = smallest.min(checked_target(value, point)?);
+            }
+        }
+        Ok(smallest)
+    }
+
+    fn diameter_at_pixel(&self, paint: Paint, x: u32, y: u32) -> f64 {
+        let asked = f64::from(self.base.get(x, y)).min(f64::from(paint.diameter.get(x, y)));
+        let risk = paint.risk.get(x, y);
+        let asked = if risk > 0.0 { asked.min(self.table.diameter(risk)) } else { asked };
+        asked.clamp(self.spec.transfer.h_min, self.spec.transfer.h_max)
+    }
+
+    fn level_for(&self, diameter: f64) -> u8 {
+        let fine_enough = self.diameter_of_level.partition_point(|&length| length > diameter);
+        if fine_enough < 64 { fine_enough as u8 } else { BEYOND }
+    }
+
+    /// Whether an element's diameter exceeds its target (Eq. 13), by either rule.
+    #[inline]
+    pub fn exceeds(&self, element: &Element, rule: Rule) -> bool {
+        match rule {
+            Rule::Area => {
+                self.on_lattice.any_above(&self.levels, element.corners, element.triangle.level() as u8)
+            }
+            Rule::Vertex => element.corners.iter().any(|&corner| {
+                self.on_lattice.any_above(&self.levels, [corner; 3], element.triangle.level() as u8)
+            }),
+        }
+    }
+
+    /// h̄ at a point in world units, `None` outside the field.
+    pub fn at(&self, point: DVec2) -> Option<f64> {
+        self.target.sample(point).map(f64::from)
+    }
+
+    /// The level that a triangle of the given diameter in world units has.
+    pub fn level_of_diameter(&self, diameter: f64) -> Option<u32> {
+        level_for_diameter(self.lattice.spacing(), diameter)
+    }
+}
+
+/// The nearest f32 that is not below `value`: rounding must not ask for one level more.
+pub fn f32_not_below(value: f64) -> f32 {
+    let rounded = value as f32;
+    if f64::from(rounded) < value { rounded.next_up() } else { rounded }
+}

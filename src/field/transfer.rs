@@ -1,0 +1,138 @@
+/// How risk becomes a target diameter: from `h_max` at risk 0 down to `h_min` at risk 1, on a logarithmic scale.
+///
+/// `shape` bends the curve: at 1 equal steps of risk divide the diameter by equal factors; above 1 only high risk
+/// refines; below 1 low risk refines already.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Transfer {
+    /// Target diameter at risk 1, in world units.
+    pub h_min: f64,
+    /// Target diameter at risk 0, in world units.
+    pub h_max: f64,
+    /// Exponent of the risk, dimensionless.
+    pub shape: f64,
+}
+
+/// Why no transfer curve could be made.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum TransferError {
+    /// A diameter is not a positive, finite length.
+    #[error("The {name} diameter {value} is not a length: it must be positive and finite.")]
+    Diameter {
+        /// "smallest" or "largest".
+        name: &'static str,
+        /// The value as given.
+        value: f64,
+    },
+    /// The diameters are the wrong way round.
+    #[error("The smallest diameter {h_min} is above the largest, {h_max}: exchange them.")]
+    Reversed {
+        /// As given.
+        h_min: f64,
+        /// As given.
+        h_max: f64,
+    },
+    /// The exponent is not usable.
+    #[error("The shape {0} of the transfer curve must lie between 0.05 and 20; 1 is even.")]
+    Shape(f64),
+}
+
+impl Transfer {
+    /// Checks that the curve falls from a finite `h_max` to a positive `h_min`.
+    ///
+    /// # Errors
+    /// Naming the number that is out of its range.
+    pub fn checked(self) -> Result<Self, TransferError> {
+        for (name, value) in [("smallest", self.h_min), ("largest", self.h_max)] {
+            if !(value > 0.0 && value.is_finite()) {
+                return Err(TransferError::Diameter { name, value });
+            }
+        }
+        if self.h_min > self.h_max {
+            return Err(TransferError::Reversed { h_min: self.h_min, h_max: self.h_max });
+        }
+        if !(0.05..=20.0).contains(&self.shape) {
+            return Err(TransferError::Shape(self.shape));
+        }
+        Ok(self)
+    }
+
+    /// The target diameter for a risk between 0 and 1; risks beyond are cut off. NaN gives NaN.
+    pub fn diameter(&self, risk: f64) -> f64 {
+        if risk <= 0.0 {
+            self.h_max
+        } else if risk >= 1.0 {
+            self.h_min
+        } else {
+            let fraction = libm::pow(risk, self.shape);
+            self.h_max * libm::pow(self.h_min / self.h_max, fraction)
+        }
+    }
+}
+
+/// A [`Transfer`] as a table, for rasters of a million pixels.
+#[derive(Clone, Debug)]
+pub struct TransferTable {
+    knots: Vec<f64>,
+}
+
+const STEPS: usize = 2048;
+
+impl TransferTable {
+    /// Tabulates the curve at equal steps of risk.
+    pub fn new(transfer: &Transfer) -> Self {
+        let knots = (0..=STEPS).map(|i| transfer.diameter(i as f64 / STEPS as f64)).collect();
+        Self { knots }
+    }
+
+    /// The target diameter for a risk, linear between the knots; exact at risk 0 and 1.
+    #[inline]
+    pub fn diameter(&self, risk: f32) -> f64 {
+        let place = f64::from(risk).clamp(0.0, 1.0) * STEPS as f64;
+        let knot = (place as usize).min(STEPS - 1);
+        let (left, right) = (self.knots[knot], self.knots[knot + 1]);
+        left + (right - left) * (place - knot as f64)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const EVEN: Transfer = Transfer { h_min: 0.01, h_max: 1.0, shape: 1.0 };
+
+    #[test]
+    fn the_curve_meets_both_ends_and_falls_evenly_between() {
+        assert_eq!(EVEN.diameter(0.0), 1.0);
+        assert_eq!(EVEN.diameter(1.0), 0.01);
+        assert!((EVEN.diameter(0.5) - 0.1).abs() < 1e-15);
+        assert_eq!(EVEN.diameter(-3.0), 1.0);
+        assert_eq!(EVEN.diameter(7.0), 0.01);
+    }
+
+    #[test]
+    fn the_table_stays_close_to_the_curve_and_within_its_ends() {
+        for shape in [0.3, 1.0, 4.0] {
+            let curve = Transfer { shape, ..EVEN };
+            let table = TransferTable::new(&curve);
+            for i in 0..=10_000 {
+                let risk = i as f32 / 10_000.0;
+                let (exact, quick) = (curve.diameter(f64::from(risk)), table.diameter(risk));
+                assert!((quick / exact - 1.0).abs() < 0.1 && (0.01..=1.0).contains(&quick), "{shape} {risk}");
+            }
+            assert_eq!((table.diameter(0.0), table.diameter(1.0)), (1.0, 0.01));
+        }
+    }
+
+    #[test]
+    fn curves_that_make_no_sense_are_refused() {
+        for bad in [
+            Transfer { h_min: 0.0, ..EVEN },
+            Transfer { h_min: f64::NAN, ..EVEN },
+            Transfer { h_max: f64::INFINITY, ..EVEN },
+            Transfer { h_min: 2.0, ..EVEN },
+            Transfer { shape: 0.0, ..EVEN },
+        ] {
+            assert!(bad.checked().is_err(), "{bad:?}");
+        }
+    }
+}

@@ -1,0 +1,153 @@
+//! A row-major grid of values over a rectangle, and the hierarchy of maxima that answers questions about triangles.
+
+mod pyramid;
+
+use glam::DVec2;
+
+use crate::geometry::Rect;
+
+pub use pyramid::{Pyramid, RasterOnLattice};
+
+/// Most pixels along a side of a raster, so that pixel and lattice coordinates multiply exactly in 64 bits.
+pub const MAX_SIDE: u32 = 8192;
+
+/// A half-open rectangle of pixels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PixelRect {
+    /// First column and row.
+    pub min: [u32; 2],
+    /// One past the last column and row.
+    pub max: [u32; 2],
+}
+
+impl PixelRect {
+    /// Whether it holds no pixel.
+    pub fn is_empty(&self) -> bool {
+        self.min[0] >= self.max[0] || self.min[1] >= self.max[1]
+    }
+
+    /// The smallest rectangle that holds both.
+    pub fn union(&self, other: &Self) -> Self {
+        if self.is_empty() {
+            return *other;
+        }
+        if other.is_empty() {
+            return *self;
+        }
+        let [x0, y0] = [self.min[0].min(other.min[0]), self.min[1].min(other.min[1])];
+        let [x1, y1] = [self.max[0].max(other.max[0]), self.max[1].max(other.max[1])];
+        Self { min: [x0, y0], max: [x1, y1] }
+    }
+
+    /// Column and row of every pixel, row by row.
+    pub fn pixels(self) -> impl Iterator<Item = (u32, u32)> {
+        (self.min[1]..self.max[1]).flat_map(move |y| (self.min[0]..self.max[0]).map(move |x| (x, y)))
+    }
+}
+
+/// A grid of values over a world rectangle, constant within each pixel. The first row is the lowest.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Raster<T = f32> {
+    bounds: Rect,
+    size: [u32; 2],
+    values: Vec<T>,
+}
+
+impl<T: Copy> Raster<T> {
+    /// A raster of one value; `size` is columns and rows.
+    ///
+    /// # Panics
+    /// When a side is zero or above [`MAX_SIDE`].
+    pub fn filled(bounds: Rect, size: [u32; 2], value: T) -> Self {
+        Self::from_values(bounds, size, vec![value; size[0] as usize * size[1] as usize])
+    }
+
+    /// A raster with the given values, row by row from the lowest.
+    ///
+    /// # Panics
+    /// When a side is zero or above [`MAX_SIDE`], or the count of values is not columns times rows.
+    pub fn from_values(bounds: Rect, size: [u32; 2], values: Vec<T>) -> Self {
+        assert!(
+            size.iter().all(|side| (1..=MAX_SIDE).contains(side)),
+            "sides are checked where a raster is read"
+        );
+        assert_eq!(values.len(), size[0] as usize * size[1] as usize);
+        Self { bounds, size, values }
+    }
+
+    /// The rectangle covered, in world units.
+    pub fn bounds(&self) -> Rect {
+        self.bounds
+    }
+
+    /// Columns and rows.
+    pub fn size(&self) -> [u32; 2] {
+        self.size
+    }
+
+    /// All values, row by row from the lowest.
+    pub fn values(&self) -> &[T] {
+        &self.values
+    }
+
+    /// Every pixel.
+    pub fn all(&self) -> PixelRect {
+        PixelRect { min: [0, 0], max: self.size }
+    }
+
+    /// The value of a pixel by column and row.
+    #[inline]
+    pub fn get(&self, x: u32, y: u32) -> T {
+        self.values[y as usize * self.size[0] as usize + x as usize]
+    }
+
+    /// Changes a pixel by column and row.
+    #[inline]
+    pub fn set(&mut self, x: u32, y: u32, value: T) {
+        self.values[y as usize * self.size[0] as usize + x as usize] = value;
+    }
+
+    /// Width and height of a pixel in world units.
+    pub fn pixel_size(&self) -> DVec2 {
+        self.bounds.size() / DVec2::new(f64::from(self.size[0]), f64::from(self.size[1]))
+    }
+
+    /// The middle of a pixel in world units.
+    #[inline]
+    pub fn pixel_center(&self, x: u32, y: u32) -> DVec2 {
+        self.bounds.min + DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5) * self.pixel_size()
+    }
+
+    /// Columns and rows, as real numbers, of a point in world units.
+    pub fn pixel_from_world(&self, point: DVec2) -> DVec2 {
+        (point - self.bounds.min) / self.pixel_size()
+    }
+
+    /// The value under a point, `None` outside. On a line between pixels, the pixel right of or above it.
+    pub fn sample(&self, point: DVec2) -> Option<T> {
+        let p = self.pixel_from_world(point);
+        let inside = self.bounds.contains(point);
+        inside.then(|| self.get((p.x as u32).min(self.size[0] - 1), (p.y as u32).min(self.size[1] - 1)))
+    }
+
+    /// The pixels whose middle may lie in a world rectangle: those that it touches, within the raster.
+    pub fn pixels_touching(&self, area: &Rect) -> PixelRect {
+        let low = self.pixel_from_world(area.min).floor();
+        let high = self.pixel_from_world(area.max).floor() + 1.0;
+        let clamp = |v: DVec2| {
+            [v.x.clamp(0.0, f64::from(self.size[0])) as u32, v.y.clamp(0.0, f64::from(self.size[1])) as u32]
+        };
+        PixelRect { min: clamp(low), max: clamp(high) }
+    }
+
+    /// This raster over another size, each new pixel taking the value under its middle.
+    pub fn resampled(&self, bounds: Rect, size: [u32; 2], outside: T) -> Self {
+        let mut new = Self::filled(bounds, size, outside);
+        for (x, y) in new.all().pixels() {
+            if let Some(value) = self.sample(new.pixel_center(x, y)) {
+                new.set(x, y, value);
+            }
+        }
+        new
+    }
+}
