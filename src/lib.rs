@@ -7,4 +7,7 @@ pub mod geometry;
 pub mod mesh;
 pub mod raster;
 pub mod field;
+pub mod domain;
+pub mod paint;
+pub mod document;
 pub mod colormap;

@@ -145,17 +145,20 @@ impl TargetField {
         if fine_enough < 64 { fine_enough as u8 } else { BEYOND }
     }
 
-    /// Whether an element's diameter exceeds its target (Eq. 13), by either rule.
+    /// Whether an element's diameter exceeds its target (Eq. 13) by the area rule.
     #[inline]
-    pub fn exceeds(&self, element: &Element, rule: Rule) -> bool {
-        match rule {
-            Rule::Area => {
-                self.on_lattice.any_above(&self.levels, element.corners, element.triangle.level() as u8)
-            }
-            Rule::Vertex => element.corners.iter().any(|&corner| {
-                self.on_lattice.any_above(&self.levels, [corner; 3], element.triangle.level() as u8)
-            }),
-        }
+    pub fn exceeds(&self, element: &Element) -> bool {
+        self.on_lattice.any_above(&self.levels, element.corners, element.triangle.level() as u8)
+    }
+
+    /// h̄ at a node, for the vertex rule: sources are asked at the very point and not by pixel. Unchecked, as
+    /// [`Source::target`].
+    pub fn target_at_node(&self, paint: Paint, point: DVec2) -> f64 {
+        let asked = self.spec.sources.iter().map(|source| source.target(point, &self.spec.transfer));
+        let painted = paint.diameter.sample(point).map_or(f64::INFINITY, f64::from);
+        let risk = paint.risk.sample(point).map_or(f64::INFINITY, |risk| self.table.diameter(risk));
+        let smallest = asked.fold(painted.min(risk), |a, b| if b.is_nan() { b } else { a.min(b) });
+        smallest.clamp(self.spec.transfer.h_min, self.spec.transfer.h_max)
     }
 
     /// h̄ at a point in world units, `None` outside the field.

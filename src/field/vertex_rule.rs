@@ -14,7 +14,12 @@ pub struct VertexRule<F> {
 impl<F: FnMut(DVec2) -> f64> VertexRule<F> {
     /// The rule for a target diameter given by point; both in world units.
     pub fn new(target: F) -> Self {
-        Self { target, known: Vec::new() }
+        Self::resumed(target, Vec::new())
+    }
+
+    /// The rule with what an earlier slice of the same work came to know ([`Self::into_known`]).
+    pub fn resumed(target: F, known: Vec<f64>) -> Self {
+        Self { target, known }
     }
 
     /// Whether the element's diameter exceeds its target.

@@ -1,0 +1,131 @@
+use std::sync::Arc;
+
+use glam::{DVec2, dvec2};
+
+use super::{Base, Document, Settings};
+use crate::domain::Domain;
+use crate::field::{Formula, Rule, Transfer};
+use crate::geometry::Rect;
+use crate::paint::{Brush, Medium};
+use crate::raster::Raster;
+
+/// A document that comes with the program.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Example {
+    /// A few radar-like threats as painted risk.
+    Threats,
+    /// The mesh of Figure 1 of the report, by its own rule: 9,560 triangles.
+    Diamond,
+    /// The slope of a real terrain as risk.
+    Terrain,
+}
+
+impl Example {
+    /// All of them, the first to be shown first.
+    pub const ALL: [Self; 3] = [Self::Threats, Self::Diamond, Self::Terrain];
+
+    /// Name for menus.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Threats => "Radar threats",
+            Self::Diamond => "The report's diamond",
+            Self::Terrain => "Terrain slope",
+        }
+    }
+
+    /// A sentence on what it shows.
+    pub fn about(self) -> &'static str {
+        match self {
+            Self::Threats => {
+                "Painted risk: four radar sites and a valley between them. Paint more, or erase."
+            }
+            Self::Diamond => "Figure 1 of the report: a formula, by the report's vertex rule.",
+            Self::Terrain => "Slope of the terrain at Jacksboro, from the SRTM elevation model, as risk.",
+        }
+    }
+
+    /// The document. `slope` decodes the picture of the terrain, risk by pixel over the given rectangle; the other examples
+    /// do without.
+    pub fn document(self, slope: impl FnOnce() -> Raster) -> Document {
+        match self {
+            Self::Threats => threats(),
+            Self::Diamond => document(diamond()),
+            Self::Terrain => document(terrain(slope())),
+        }
+    }
+}
+
+fn document(settings: Settings) -> Document {
+    Document::new(settings, None).expect("the examples are sound: a test opens each")
+}
+
+/// Figure 1 and Section 5.4, twenty times as large so that every coordinate is exact.
+fn diamond() -> Settings {
+    let formula = Formula::parse("if(abs(x) + abs(y) < 8, 0.25, 20)").expect("a sound formula");
+    Settings {
+        domain: Domain::rectangle(Rect::around(DVec2::ZERO, 10.0)),
+        spacing: 1.0,
+        transfer: Transfer { h_min: 0.02, h_max: 20.0, shape: 1.0 },
+        base: Base::Formula(formula),
+        rule: Rule::Vertex,
+        resolution: 1024,
+        max_triangles: Settings::MAX_TRIANGLES,
+    }
+}
+
+fn terrain(slope: Raster) -> Settings {
+    Settings {
+        domain: Domain::rectangle(slope.bounds()),
+        spacing: slope.bounds().size().max_element() / 24.0,
+        transfer: Transfer { h_min: 0.05, h_max: 2.0, shape: 0.8 },
+        base: Base::RiskImage { name: "jacksboro_slope.png".into(), raster: Arc::new(slope) },
+        rule: Rule::Area,
+        resolution: 1024,
+        max_triangles: Settings::MAX_TRIANGLES,
+    }
+}
+
+/// Radar sites (where, radius, hardness, strength), and a patrol route between them.
+const SITES: [(DVec2, f64, f64, f64); 4] = [
+    (dvec2(0.245, 0.765), 0.15, 0.05, 0.72),
+    (dvec2(0.715, 0.735), 0.21, 0.12, 0.80),
+    (dvec2(0.745, 0.745), 0.06, 0.20, 0.60),
+    (dvec2(0.855, 0.225), 0.15, 0.10, 0.70),
+];
+
+fn threats() -> Document {
+    let mut document = document(Settings::default());
+    for (place, radius, hardness, strength) in SITES {
+        document.begin_stroke(Brush { medium: Medium::Risk, radius, hardness, strength });
+        document.draw_to(place);
+    }
+    document.begin_stroke(Brush { medium: Medium::Risk, radius: 0.06, hardness: 0.15, strength: 0.97 });
+    for i in 0..=60 {
+        let t = f64::from(i) / 60.0;
+        let sway = libm::sin(t * 1.55 * std::f64::consts::PI);
+        document.draw_to(dvec2(0.08 + 0.62 * t, 0.30 + 0.21 * sway));
+    }
+    document.end_stroke();
+    document.forget_history();
+    document
+}
+
+impl Settings {
+    /// Most triangles unless the user says otherwise: 720 MB.
+    pub const MAX_TRIANGLES: usize = 20_000_000;
+}
+
+impl Default for Settings {
+    /// The unit square, 24 coarse cells a side, nothing asked for but what is painted.
+    fn default() -> Self {
+        Self {
+            domain: Domain::rectangle(Rect::UNIT),
+            spacing: 1.0 / 24.0,
+            transfer: Transfer { h_min: 0.0024, h_max: 0.2, shape: 1.0 },
+            base: Base::Constant(0.2),
+            rule: Rule::Area,
+            resolution: 1024,
+            max_triangles: Self::MAX_TRIANGLES,
+        }
+    }
+}

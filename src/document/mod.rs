@@ -1,0 +1,272 @@
+//! What the user edits: settings and paint, with every edit's inverse. Field and mesh are derived from it by a
+//! [`Follower`] and never saved.
+
+mod examples;
+mod follower;
+mod history;
+mod settings;
+
+use glam::DVec2;
+
+pub use examples::Example;
+pub use follower::{FollowError, Follower, Stage};
+pub use history::History;
+pub use settings::{Base, MAX_COARSE_TRIANGLES, RESOLUTIONS, Settings, SettingsError};
+
+use crate::paint::{Brush, Layers, Stroke};
+use crate::raster::PixelRect;
+use history::{Change, Entry};
+
+/// The ground state: the only thing that is edited, undone and saved.
+#[derive(Clone, Debug)]
+pub struct Document {
+    settings: Settings,
+    layers: Layers,
+    history: History,
+    stroke: Option<Stroke>,
+    /// A settings gesture still going on: its title. Further changes with that title join it.
+    open_gesture: Option<&'static str>,
+    repainted: Repainted,
+    revision: u64,
+}
+
+/// Pixels that changed since the follower last asked.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Repainted {
+    /// Those in the rectangle; it may be empty.
+    Within(PixelRect),
+    /// The layers as such were replaced.
+    Everything,
+}
+
+const NO_PIXELS: PixelRect = PixelRect { min: [0, 0], max: [0, 0] };
+
+impl Document {
+    /// A document with the given settings and paint, and no history.
+    ///
+    /// # Errors
+    /// When the settings cannot be met.
+    pub fn new(settings: Settings, layers: Option<Layers>) -> Result<Self, SettingsError> {
+        let settings = settings.checked()?;
+        let (bounds, size) = (settings.domain.bounds, settings.raster_size());
+        let layers = match layers {
+            Some(layers) if layers.risk.size() == size && layers.risk.bounds() == bounds => layers,
+            Some(layers) => layers.resampled(bounds, size),
+            None => Layers::blank(bounds, size),
+        };
+        Ok(Self {
+            settings,
+            layers,
+            history: History::default(),
+            stroke: None,
+            open_gesture: None,
+            repainted: Repainted::Everything,
+            revision: 0,
+        })
+    }
+
+    /// The settings in force.
+    pub fn settings(&self) -> &Settings {
+        &self.settings
+    }
+
+    /// The paint.
+    pub fn layers(&self) -> &Layers {
+        &self.layers
+    }
+
+    /// What can be undone and redone.
+    pub fn history(&self) -> &History {
+        &self.history
+    }
+
+    /// Grows with every change.
+    pub fn revision(&self) -> u64 {
+        self.revision
+    }
+
+    /// The stroke under way.
+    pub fn stroke(&self) -> Option<&Stroke> {
+        self.stroke.as_ref()
+    }
+
+    /// Puts the brush down. A stroke already under way ends first.
+    pub fn begin_stroke(&mut self, brush: Brush) {
+        self.end_stroke();
+        self.end_gesture();
+        self.stroke = Some(Stroke::new(brush, self.settings.transfer.h_max));
+    }
+
+    /// Draws the stroke under way on to a point in world units.
+    pub fn draw_to(&mut self, point: DVec2) {
+        if let Some(stroke) = &mut self.stroke {
+            let area = stroke.draw_to(&mut self.layers, point);
+            self.note_repainted(area);
+        }
+    }
+
+    /// Lifts the brush: the stroke becomes one entry of the history.
+    pub fn end_stroke(&mut self) {
+        if let Some(stroke) = self.stroke.take() {
+            let title = match stroke.brush().medium {
+                crate::paint::Medium::Eraser => "erase",
+                _ => "paint",
+            };
+            let patch = stroke.finish();
+            if !patch.is_empty() {
+                self.history.push(Entry { title, change: Change::Paint(patch) });
+            }
+        }
+    }
+
+    /// Gives up the stroke under way, as if it had never begun.
+    pub fn cancel_stroke(&mut self) {
+        if let Some(stroke) = self.stroke.take() {
+            let area = stroke.finish().exchange(&mut self.layers);
+            self.note_repainted(area);
+        }
+    }
+
+    /// Takes all paint away.
+    pub fn clear_paint(&mut self) {
+        self.end_stroke();
+        self.end_gesture();
+        if !self.layers.is_blank() {
+            let blank = Layers::blank(self.settings.domain.bounds, self.settings.raster_size());
+            self.replace("clear paint", self.settings.clone(), blank);
+        }
+    }
+
+    /// Changes settings. Changes with the same title are one gesture until [`Self::end_gesture`].
+    ///
+    /// # Errors
+    /// When the new settings cannot be met. The document is then as before.
+    pub fn change_settings(
+        &mut self,
+        title: &'static str,
+        change: impl FnOnce(&mut Settings),
+    ) -> Result<(), SettingsError> {
+        let mut settings = self.settings.clone();
+        change(&mut settings);
+        if settings == self.settings {
+            return Ok(());
+        }
+        let settings = settings.checked()?;
+        self.end_stroke();
+        let (bounds, size) = (settings.domain.bounds, settings.raster_size());
+        let joins = self.open_gesture == Some(title);
+        if bounds != self.settings.domain.bounds || size != self.layers.risk.size() {
+            let layers = self.layers_before_gesture(joins).resampled(bounds, size);
+            if joins && matches!(self.last_change(), Some(Change::Everything(_))) {
+                self.settings = settings;
+                self.layers = layers;
+                self.note_replaced();
+            } else {
+                self.replace(title, settings, layers);
+            }
+        } else {
+            let old = std::mem::replace(&mut self.settings, settings);
+            if !joins {
+                self.history.push(Entry { title, change: Change::Settings(Box::new(old)) });
+            }
+            self.revision += 1;
+        }
+        self.open_gesture = Some(title);
+        Ok(())
+    }
+
+    /// Ends a settings gesture, such as the drag of a slider: the next change is an entry of its own.
+    pub fn end_gesture(&mut self) {
+        self.open_gesture = None;
+    }
+
+    /// Takes back the last gesture, or the stroke under way.
+    pub fn undo(&mut self) -> bool {
+        if self.stroke.is_some() {
+            self.cancel_stroke();
+            return true;
+        }
+        self.end_gesture();
+        let mut history = std::mem::take(&mut self.history);
+        let did = history.undo(|entry| self.exchange(entry));
+        self.history = history;
+        did
+    }
+
+    /// Does the last undone gesture again.
+    pub fn redo(&mut self) -> bool {
+        self.end_stroke();
+        self.end_gesture();
+        let mut history = std::mem::take(&mut self.history);
+        let did = history.redo(|entry| self.exchange(entry));
+        self.history = history;
+        did
+    }
+
+    /// Takes back the last gesture for good: it turned out that it cannot be met.
+    pub fn reject_last(&mut self) {
+        if self.undo() {
+            self.history.forget_undone();
+        }
+    }
+
+    /// Forgets what could be undone: the document as it is becomes a starting point.
+    pub fn forget_history(&mut self) {
+        self.end_stroke();
+        self.history = History::default();
+    }
+
+    /// What was repainted since this was last asked.
+    pub fn take_repainted(&mut self) -> Repainted {
+        std::mem::replace(&mut self.repainted, Repainted::Within(NO_PIXELS))
+    }
+
+    fn exchange(&mut self, entry: &mut Entry) {
+        match &mut entry.change {
+            Change::Paint(patch) => {
+                let area = patch.exchange(&mut self.layers);
+                self.note_repainted(area);
+            }
+            Change::Settings(settings) => {
+                std::mem::swap(&mut **settings, &mut self.settings);
+                self.revision += 1;
+            }
+            Change::Everything(both) => {
+                std::mem::swap(&mut both.0, &mut self.settings);
+                std::mem::swap(&mut both.1, &mut self.layers);
+                self.note_replaced();
+            }
+        }
+    }
+
+    fn replace(&mut self, title: &'static str, settings: Settings, layers: Layers) {
+        let settings = std::mem::replace(&mut self.settings, settings);
+        let layers = std::mem::replace(&mut self.layers, layers);
+        self.history.push(Entry { title, change: Change::Everything(Box::new((settings, layers))) });
+        self.note_replaced();
+    }
+
+    fn last_change(&self) -> Option<&Change> {
+        self.history.last_done().map(|entry| &entry.change)
+    }
+
+    /// The layers to resample from: in the middle of a gesture those before it, or each step would blur the paint.
+    fn layers_before_gesture(&self, joins: bool) -> &Layers {
+        match self.last_change() {
+            Some(Change::Everything(before)) if joins => &before.1,
+            _ => &self.layers,
+        }
+    }
+
+    fn note_repainted(&mut self, area: PixelRect) {
+        if let Repainted::Within(earlier) = self.repainted {
+            self.repainted = Repainted::Within(earlier.union(&area));
+        }
+        self.revision += 1;
+    }
+
+    fn note_replaced(&mut self) {
+        self.repainted = Repainted::Everything;
+        self.revision += 1;
+    }
+}

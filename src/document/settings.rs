@@ -1,0 +1,125 @@
+use std::sync::Arc;
+
+use crate::domain::Domain;
+use crate::field::{Formula, Rule, Source, TargetFieldSpec, Transfer, TransferError, checked_target};
+use crate::geometry::{GridError, Lattice};
+use crate::mesh::Limits;
+use crate::raster::{MAX_SIDE, Raster};
+
+/// Everything about a document that is not paint.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Settings {
+    /// Ω.
+    pub domain: Domain,
+    /// Largest side δ̄ of a coarse cell, in world units.
+    pub spacing: f64,
+    /// From risk to diameter; its ends bound h̄ everywhere.
+    pub transfer: Transfer,
+    /// What is there before anything is painted.
+    pub base: Base,
+    /// Which points of a triangle count.
+    pub rule: Rule,
+    /// Pixels of the field along the longer side of the domain.
+    pub resolution: u32,
+    /// Most triangles.
+    pub max_triangles: usize,
+}
+
+/// The base field under the paint.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Base {
+    /// The same target diameter everywhere, in world units.
+    Constant(f64),
+    /// A formula in x and y for the target diameter, in world units.
+    Formula(Formula),
+    /// A greyscale picture as risk: black 0, white 1.
+    RiskImage {
+        /// Name of the file, for a person.
+        name: String,
+        /// Risks over the domain's rectangle, or with a placement of its own.
+        raster: Arc<Raster>,
+    },
+}
+
+/// Why settings cannot be met.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum SettingsError {
+    /// The coarse grid is impossible.
+    #[error(transparent)]
+    Grid(#[from] GridError),
+    /// The transfer curve is.
+    #[error(transparent)]
+    Transfer(#[from] TransferError),
+    /// The constant is no length.
+    #[error("A target diameter of {0} cannot be met: it must be positive and finite.")]
+    Constant(f64),
+    /// The raster would be empty or too large.
+    #[error(
+        "A field of {resolution} pixels cannot be made: choose between {least} and {most} along the longer side."
+    )]
+    Resolution {
+        /// As given.
+        resolution: u32,
+        /// Fewest allowed.
+        least: u32,
+        /// Most allowed.
+        most: u32,
+    },
+}
+
+/// Fewest and most pixels along the longer side of a document's field.
+pub const RESOLUTIONS: std::ops::RangeInclusive<u32> = 16..=MAX_SIDE / 2;
+
+/// Most coarse triangles in the window: the coarse grid is made in one go, and must not hold a frame up.
+pub const MAX_COARSE_TRIANGLES: usize = 200_000;
+
+impl Settings {
+    /// Checks every number, and passes the settings on when all can be met.
+    ///
+    /// # Errors
+    /// Naming the first that cannot. A formula is not evaluated here: where it gives no positive length is found, and
+    /// said, when the field is filled.
+    pub fn checked(self) -> Result<Self, SettingsError> {
+        self.lattice()?;
+        self.transfer.checked()?;
+        if let Base::Constant(value) = self.base {
+            checked_target(value, self.domain.bounds.center())
+                .map_err(|e| SettingsError::Constant(e.value))?;
+        }
+        if !RESOLUTIONS.contains(&self.resolution) {
+            let (least, most) = RESOLUTIONS.into_inner();
+            return Err(SettingsError::Resolution { resolution: self.resolution, least, most });
+        }
+        Ok(self)
+    }
+
+    /// The coarse grid and its lattice.
+    ///
+    /// # Errors
+    /// When the grid is impossible or too fine.
+    pub fn lattice(&self) -> Result<Lattice, GridError> {
+        Lattice::covering(self.domain.bounds, self.spacing, MAX_COARSE_TRIANGLES)
+    }
+
+    /// Columns and rows of the field: the resolution along the longer side, square pixels as nearly as may be.
+    pub fn raster_size(&self) -> [u32; 2] {
+        let size = self.domain.bounds.size();
+        let per_unit = f64::from(self.resolution) / size.max_element();
+        [size.x, size.y].map(|side| ((side * per_unit).round() as u32).clamp(1, self.resolution))
+    }
+
+    /// What the field is made from.
+    pub fn field_spec(&self) -> TargetFieldSpec {
+        let source = match &self.base {
+            Base::Constant(value) => Source::Constant(*value),
+            Base::Formula(formula) => Source::TargetFormula(formula.clone()),
+            Base::RiskImage { raster, .. } => Source::RiskRaster(raster.clone()),
+        };
+        TargetFieldSpec { sources: vec![source], transfer: self.transfer, size: self.raster_size() }
+    }
+
+    /// What the mesh may cost.
+    pub fn limits(&self) -> Limits {
+        Limits { max_triangles: self.max_triangles, max_level: None }
+    }
+}

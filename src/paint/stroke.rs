@@ -1,0 +1,204 @@
+use std::collections::BTreeMap;
+
+use glam::DVec2;
+
+use super::tiles::{TilePixels, TilePlace, tile_area, tiles_touching};
+use super::{Brush, Layers, Medium, Patch, distance_to_segment};
+use crate::field::f32_not_below;
+use crate::geometry::Rect;
+use crate::raster::PixelRect;
+
+/// One gesture with a brush, from press to release.
+///
+/// Within a stroke, going twice over the same place does no more than going once: each pixel keeps the fullest coverage
+/// that it got, and its new value follows from that and from its value before the stroke.
+#[derive(Clone, Debug)]
+pub struct Stroke {
+    brush: Brush,
+    /// Where a painted diameter grades to at the rim, in world units.
+    h_max: f64,
+    last: Option<DVec2>,
+    touched: BTreeMap<TilePlace, Touched>,
+}
+
+#[derive(Clone, Debug)]
+struct Touched {
+    before: TilePixels,
+    coverage: Box<[f32]>,
+}
+
+impl Stroke {
+    /// A stroke that has touched nothing yet. `h_max` is the largest target diameter, in world units.
+    pub fn new(brush: Brush, h_max: f64) -> Self {
+        Self { brush, h_max, last: None, touched: BTreeMap::new() }
+    }
+
+    /// The brush in use.
+    pub fn brush(&self) -> &Brush {
+        &self.brush
+    }
+
+    /// Where the stroke has got to, in world units.
+    pub fn last(&self) -> Option<DVec2> {
+        self.last
+    }
+
+    /// Draws the brush on to `point` in world units, and returns the pixels that may have changed. A point that is not
+    /// finite is passed over.
+    pub fn draw_to(&mut self, layers: &mut Layers, point: DVec2) -> PixelRect {
+        if !point.is_finite() {
+            return PixelRect { min: [0, 0], max: [0, 0] };
+        }
+        let from = self.last.replace(point).unwrap_or(point);
+        let brush = self.brush_on(layers);
+        let area = layers.risk.pixels_touching(&Rect::spanning(from, point).expanded(brush.radius));
+        for place in tiles_touching(area) {
+            self.stamp_tile(layers, place, area, |pixel| {
+                brush.coverage(distance_to_segment(pixel, from, point))
+            });
+        }
+        area
+    }
+
+    /// The old pixels of all that the stroke touched.
+    pub fn finish(self) -> Patch {
+        Patch::from_tiles(self.touched.into_iter().map(|(place, touched)| (place, touched.before)).collect())
+    }
+
+    /// The brush, widened where it is smaller than a pixel so that it always reaches the middle of one.
+    fn brush_on(&self, layers: &Layers) -> Brush {
+        let radius = self.brush.radius.max(0.71 * layers.risk.pixel_size().max_element());
+        Brush { radius, ..self.brush }
+    }
+
+    fn stamp_tile(
+        &mut self,
+        layers: &mut Layers,
+        place: TilePlace,
+        area: PixelRect,
+        coverage_at: impl Fn(DVec2) -> f64,
+    ) {
+        let tile = tile_area(place, layers.risk.size());
+        let touched = self.touched.entry(place).or_insert_with(|| {
+            let before = TilePixels::copied(layers, place);
+            let coverage = vec![0.0; before.risk.len()].into();
+            Touched { before, coverage }
+        });
+        let columns = (tile.max[0] - tile.min[0]) as usize;
+        let common = PixelRect {
+            min: [tile.min[0].max(area.min[0]), tile.min[1].max(area.min[1])],
+            max: [tile.max[0].min(area.max[0]), tile.max[1].min(area.max[1])],
+        };
+        for (x, y) in common.pixels() {
+            let coverage = coverage_at(layers.risk.pixel_center(x, y)) as f32;
+            let i = (y - tile.min[1]) as usize * columns + (x - tile.min[0]) as usize;
+            if coverage > touched.coverage[i] {
+                touched.coverage[i] = coverage;
+                let amount = f64::from(coverage) * self.brush.strength;
+                let old = [touched.before.risk[i], touched.before.diameter[i]];
+                let [risk, diameter] = laid_down(self.brush.medium, amount, old, self.h_max);
+                layers.risk.set(x, y, risk);
+                layers.diameter.set(x, y, diameter);
+            }
+        }
+    }
+}
+
+/// New risk and diameter of a pixel from the old ones, where the brush works by `amount`, 0 to 1.
+fn laid_down(medium: Medium, amount: f64, [risk, diameter]: [f32; 2], h_max: f64) -> [f32; 2] {
+    match medium {
+        Medium::Risk => [(f64::from(risk) + amount * (1.0 - f64::from(risk))) as f32, diameter],
+        Medium::Diameter(target) => {
+            let graded = if amount >= 1.0 { target } else { h_max * libm::pow(target / h_max, amount) };
+            [risk, diameter.min(f32_not_below(graded))]
+        }
+        Medium::Eraser => {
+            // The last trace goes too: a hundredth of risk that stays behind would keep the mesh refined.
+            let risk = f64::from(risk) * (1.0 - amount);
+            let risk = if risk < 0.01 { 0.0 } else { risk as f32 };
+            let diameter = f64::from(diameter);
+            let raised = diameter * libm::pow((h_max / diameter).max(1.0), amount);
+            [risk, if raised >= 0.99 * h_max { f32::INFINITY } else { raised as f32 }]
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::dvec2;
+
+    const SIZE: [u32; 2] = [200, 150];
+    const RISK: Brush = Brush { medium: Medium::Risk, radius: 0.1, hardness: 0.5, strength: 0.8 };
+
+    fn painted(layers: &mut Layers, brush: Brush, points: &[DVec2]) -> Patch {
+        let mut stroke = Stroke::new(brush, 0.5);
+        points.iter().for_each(|&p| {
+            stroke.draw_to(layers, p);
+        });
+        stroke.finish()
+    }
+
+    #[test]
+    fn a_stroke_taken_back_and_done_again_is_the_same() {
+        let mut random = fastrand::Rng::with_seed(3);
+        let blank = Layers::blank(Rect::UNIT, SIZE);
+        let mut layers = blank.clone();
+        let mut done = vec![];
+        for medium in [Medium::Risk, Medium::Diameter(0.01), Medium::Eraser, Medium::Risk] {
+            let points: Vec<_> = (0..5).map(|_| dvec2(random.f64(), random.f64()) * 1.2).collect();
+            let before = layers.clone();
+            let patch = painted(&mut layers, Brush { medium, ..RISK }, &points);
+            done.push((before, patch, layers.clone()));
+        }
+        for (before, patch, after) in done.iter_mut().rev() {
+            patch.exchange(&mut layers);
+            assert_eq!(layers, *before);
+            patch.exchange(&mut layers);
+            assert_eq!(layers, *after);
+            patch.exchange(&mut layers);
+        }
+        assert_eq!(layers, blank);
+    }
+
+    #[test]
+    fn going_over_the_same_place_twice_in_a_stroke_does_no_more_than_once() {
+        let (a, b) = (dvec2(0.2, 0.5), dvec2(0.8, 0.5));
+        let (mut once, mut twice) = (Layers::blank(Rect::UNIT, SIZE), Layers::blank(Rect::UNIT, SIZE));
+        painted(&mut once, RISK, &[a, b]);
+        painted(&mut twice, RISK, &[a, b, a, b]);
+        assert_eq!(once, twice);
+        painted(&mut twice, RISK, &[a, b]);
+        assert!((once.risk.sample(a).unwrap() - 0.8).abs() < 1e-6);
+        assert!((twice.risk.sample(a).unwrap() - 0.96).abs() < 1e-6);
+    }
+
+    #[test]
+    fn a_brush_smaller_than_a_pixel_leaves_a_trace() {
+        for medium in [Medium::Risk, Medium::Diameter(0.01)] {
+            let mut layers = Layers::blank(Rect::UNIT, SIZE);
+            let brush = Brush { medium, radius: 1e-9, hardness: 1.0, strength: 1.0 };
+            painted(&mut layers, brush, &[dvec2(0.33333, 0.77777)]);
+            assert!(!layers.is_blank());
+        }
+    }
+
+    #[test]
+    fn a_full_eraser_leaves_nothing() {
+        let mut layers = Layers::blank(Rect::UNIT, SIZE);
+        let points = [dvec2(0.3, 0.3), dvec2(0.6, 0.7)];
+        painted(&mut layers, RISK, &points);
+        painted(&mut layers, Brush { medium: Medium::Diameter(0.01), ..RISK }, &points);
+        assert!(!layers.is_blank());
+        let eraser = Brush { medium: Medium::Eraser, radius: 0.3, hardness: 1.0, strength: 1.0 };
+        painted(&mut layers, eraser, &points);
+        assert!(layers.is_blank());
+    }
+
+    #[test]
+    fn points_that_are_no_numbers_change_nothing() {
+        let mut layers = Layers::blank(Rect::UNIT, SIZE);
+        painted(&mut layers, RISK, &[dvec2(f64::NAN, 0.5), dvec2(f64::INFINITY, 0.0)]);
+        assert!(layers.is_blank());
+    }
+}
