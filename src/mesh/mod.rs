@@ -148,7 +148,7 @@ impl Mesh {
 #[inline]
 pub fn bisection_edge_length(spacing: f64, level: u32) -> f64 {
     let halved = spacing / (1u64 << (level / 2).min(63)) as f64;
-    if level % 2 == 0 { SQRT_2 * halved } else { halved }
+    if level.is_multiple_of(2) { SQRT_2 * halved } else { halved }
 }
 
 /// The smallest level whose bisection edge is no longer than `target` (ℓ_b⁻¹ of the report).
