@@ -104,21 +104,52 @@ pub enum Progress {
 ///
 /// The mesh is conforming after every slice. The result does not depend on the slices or on the order of visits: the
 /// report goes through the array from end to end; this goes depth first, so that what it touches is still in the cache.
+///
+/// The report asks about each entry of the array until it is satisfied, and never again. But compatibility may bisect it
+/// later, and with the vertex rule a child can exceed its target where its parent did not: the new node may lie where
+/// the target is smaller. So that Eq. (14) holds, an entry that was satisfied is asked about again when it is bisected.
 #[derive(Clone, Debug)]
 pub struct Refiner {
     limits: Limits,
     next: usize,
     end: usize,
     pending: Vec<TriangleId>,
+    satisfied: TriangleSet,
     chain: Vec<TriangleId>,
     capped: usize,
+}
+
+/// One bit for each triangle.
+#[derive(Clone, Debug, Default)]
+struct TriangleSet(Vec<u64>);
+
+impl TriangleSet {
+    #[inline]
+    fn insert(&mut self, id: TriangleId) {
+        let word = id.index() / 64;
+        if word >= self.0.len() {
+            self.0.resize(word + 1, 0);
+        }
+        self.0[word] |= 1 << (id.index() % 64);
+    }
+
+    /// Takes `id` out, and says whether it was in.
+    #[inline]
+    fn remove(&mut self, id: TriangleId) -> bool {
+        let Some(word) = self.0.get_mut(id.index() / 64) else { return false };
+        let bit = 1 << (id.index() % 64);
+        let was_in = *word & bit != 0;
+        *word &= !bit;
+        was_in
+    }
 }
 
 impl Refiner {
     /// Work that visits every triangle of `mesh` and whatever comes of it.
     pub fn new(mesh: &Mesh, limits: Limits) -> Self {
         let end = mesh.triangles.len();
-        Self { limits, next: 0, end, pending: Vec::new(), chain: Vec::new(), capped: 0 }
+        let (pending, satisfied, chain) = (Vec::new(), TriangleSet::default(), Vec::new());
+        Self { limits, next: 0, end, pending, satisfied, chain, capped: 0 }
     }
 
     /// Refines until done or until `visits` triangles were asked about.
@@ -147,6 +178,7 @@ impl Refiner {
                 }
                 visits_left -= 1;
                 if !exceeds(&mesh.element(id, spacing))? {
+                    self.satisfied.insert(id);
                     break;
                 }
                 let level = mesh.triangle(id).level();
@@ -162,8 +194,13 @@ impl Refiner {
                     return Err(RefineError::TooManyTriangles { limit: self.limits.max_triangles });
                 }
                 let first_new = mesh.triangles.len();
-                mesh.refine_triangle_with(id, &mut self.chain);
-                self.pending.extend((first_new..mesh.triangles.len()).map(TriangleId::from_index));
+                let (satisfied, pending) = (&mut self.satisfied, &mut self.pending);
+                mesh.refine_triangle_with(id, &mut self.chain, |bisected| {
+                    if satisfied.remove(bisected) {
+                        pending.push(bisected);
+                    }
+                });
+                pending.extend((first_new..mesh.triangles.len()).map(TriangleId::from_index));
             }
         }
         Ok(Progress::Done)
@@ -214,13 +251,18 @@ impl Mesh {
     #[doc(alias = "completion")]
     pub fn refine_triangle(&mut self, id: TriangleId) {
         assert!(self.triangle(id).level() < self.lattice.deepest_level(), "nodes would leave the lattice");
-        self.refine_triangle_with(id, &mut Vec::new());
+        self.refine_triangle_with(id, &mut Vec::new(), |_| {});
     }
 
-    /// As [`Self::refine_triangle`], with a stack to reuse. Each entry of the chain is one level above the one before,
-    /// so it ends at a coarse triangle at the latest.
+    /// As [`Self::refine_triangle`], with a stack to reuse; tells of every entry that it bisects. Each entry of the chain
+    /// is one level above the one before, so it ends at a coarse triangle at the latest.
     #[inline]
-    fn refine_triangle_with(&mut self, id: TriangleId, chain: &mut Vec<TriangleId>) {
+    fn refine_triangle_with(
+        &mut self,
+        id: TriangleId,
+        chain: &mut Vec<TriangleId>,
+        mut bisected: impl FnMut(TriangleId),
+    ) {
         debug_assert!(chain.is_empty());
         let mut current = id;
         loop {
@@ -229,6 +271,7 @@ impl Mesh {
                 None => self.bisect_at_boundary(current),
                 Some(across) if self.triangle(across).level() == level => {
                     self.bisect_pair(current, across);
+                    bisected(across);
                 }
                 Some(across) => {
                     chain.push(current);
@@ -236,6 +279,7 @@ impl Mesh {
                     continue;
                 }
             }
+            bisected(current);
             match chain.pop() {
                 Some(waiting) => current = waiting,
                 None => return,
