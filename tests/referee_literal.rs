@@ -118,36 +118,54 @@ fn corners_of(mesh: &Mesh) -> BTreeSet<Corners> {
     set_of(mesh.triangles().iter().map(|t| t.vertices.map(node)))
 }
 
+/// Eq. (13) with the vertex rule: levels near two nodes of a fine grid, at the right rim, and on a thin strip.
+fn vertex_rule(extent: i64, random: &mut fastrand::Rng) -> impl Fn(i64, Corners) -> bool {
+    let place = |random: &mut fastrand::Rng| random.i64(0..=64) * (extent / 64);
+    let centres = [(); 2].map(|()| [place(random), place(random)]);
+    let (strip, half_width) = (2 * place(random), random.i64(0..extent / 16));
+    let wanted = move |[x, y]: Node| {
+        let near = |c: Node| ((x - c[0]).abs() + (y - c[1]).abs()) < extent / 20;
+        if centres.iter().any(|&c| near(c)) {
+            13
+        } else if x == extent {
+            8
+        } else if (x + y - strip).abs() < half_width {
+            10
+        } else {
+            2
+        }
+    };
+    move |level, corners| corners.iter().any(|&c| level < wanted(c))
+}
+
 #[test]
 fn refine_mesh_in_index_order_gives_the_same_set_of_triangles() {
-    for (seed, (n_e, removed)) in domains().into_iter().enumerate() {
+    let mut left_unsatisfied = 0;
+    for seed in 0..60 {
+        let (n_e, removed) = &domains()[seed % domains().len()];
         let mut random = fastrand::Rng::with_seed(100 + seed as u64);
-        let (mut mesh, mut report) = coarse_pair(n_e, &removed);
-        let extent = n_e * report.delta;
-        // Levels near two nodes of a fine grid, and at the right rim.
-        let centres =
-            [(); 2].map(|()| [random.i64(0..=64) * (extent / 64), random.i64(0..=64) * (extent / 64)]);
-        let wanted = |[x, y]: Node| {
-            let near = |c: Node| ((x - c[0]).abs() + (y - c[1]).abs()) < extent / 20;
-            if centres.iter().any(|&c| near(c)) {
-                13
-            } else if x == extent {
-                8
-            } else {
-                2
-            }
-        };
-        let exceeds = |level: i64, corners: Corners| corners.iter().any(|&c| level < wanted(c));
+        let (mut mesh, mut report) = coarse_pair(*n_e, removed);
+        let exceeds = vertex_rule(n_e * report.delta, &mut random);
         mesh.refine(&Limits::default(), |element| {
             let corners = element.corners.map(|c| [i64::from(c.x), i64::from(c.y)]);
             Ok(exceeds(i64::from(element.triangle.level()), corners))
         })
         .unwrap();
-        report.refine_mesh(exceeds);
+        // One run of Algorithm 12 can leave triangles that break Eq. (14): it never comes back to an entry that
+        // compatibility bisects later. Each further run starts over, until one has nothing to do.
+        report.refine_mesh(&exceeds);
+        let after_one_run = report.t.len();
+        let mut before = 0;
+        while before < report.t.len() {
+            before = report.t.len();
+            report.refine_mesh(&exceeds);
+        }
+        left_unsatisfied += usize::from(report.t.len() > after_one_run);
         let theirs = set_of((1..report.t.len()).map(|i| report.corners(i)));
         assert!(theirs.len() > 4 * report.n_e as usize);
-        assert!(corners_of(&mesh) == theirs, "domain {seed}");
+        assert!(corners_of(&mesh) == theirs, "seed {seed}");
     }
+    assert!(left_unsatisfied > 0, "a rule was met that Algorithm 12 does not satisfy in one run");
 }
 
 #[test]
