@@ -1,0 +1,434 @@
+//! The real program in a real window: painted in and queried with the mouse, and judged by its picture.
+//!
+//! `sh tests/run` installs what this needs (Xvfb, xdotool, a software Vulkan driver) and runs it. By hand:
+//!
+//! ```sh
+//! cargo test --test window -- --ignored
+//! ```
+//!
+//! The pictures are left in `target/tmp/window`, for a look.
+#![cfg(all(feature = "gui", target_os = "linux"))]
+
+use std::fs;
+use std::io::{BufRead, BufReader};
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, ExitStatus, Stdio};
+use std::thread::sleep;
+use std::time::{Duration, Instant};
+
+/// The window's default size, which is also the display's: the window fills it.
+const SIZE: (usize, usize) = (1440, 900);
+/// Where the canvas and the panel beside it surely are, whatever the bars' exact sizes.
+const CANVAS: Area = Area { x: 60..1140, y: 50..860 };
+const PANEL: Area = Area { x: 1170..1430, y: 50..860 };
+/// The pointer rests here, off the canvas, while a picture is taken.
+const RESTING_PLACE: (usize, usize) = (720, 890);
+/// The fill of level 0 where edges are far, and how much a driver may be off.
+const LEVEL_0: ([u8; 3], u8) = ([0x1d, 0x21, 0x2b], 3);
+const BRUSH_KEY: &str = "b";
+const QUERY_KEY: &str = "q";
+const UNDO_KEYS: &str = "ctrl+z";
+const QUIT_KEYS: &str = "ctrl+q";
+/// Places in the domain, as fractions from its upper left corner.
+const STROKE: [(f64, f64); 2] = [(0.15, 0.18), (0.40, 0.30)];
+const STROKE_MOVES: i64 = 10;
+const FAR_FROM_STROKE: [(f64, f64); 2] = [(0.70, 0.70), (0.97, 0.97)];
+const CLICK: (f64, f64) = (0.83, 0.41);
+/// For the slowest thing a window does: starting on a busy machine without a GPU.
+const PATIENCE: Duration = Duration::from_secs(60);
+
+#[test]
+#[ignore = "needs a virtual display: sh tests/run starts one"]
+fn a_stroke_refines_the_mesh_under_it_and_a_click_reads_a_triangle() {
+    let scratch = Scratch::new("window");
+    let display = Display::start(&scratch);
+    let mut program = Program::start(&scratch, &[("DISPLAY", &display.name)]);
+    program.wait_for_window(&display);
+
+    display.point_at(RESTING_PLACE);
+    let empty = display.settled_picture(&scratch, "1-empty");
+    let domain = empty.domain();
+    assert!(
+        domain.x.len() > 400 && domain.y.len() > 400,
+        "the domain is fitted into the canvas, but level 0 covers {domain:?} only"
+    );
+
+    display.xdotool(&["key", BRUSH_KEY]);
+    display.drag(domain.at(STROKE[0]), domain.at(STROKE[1]));
+    display.point_at(RESTING_PLACE);
+    let painted = display.settled_picture(&scratch, "2-painted");
+    let stroke = Area::between(domain.at(STROKE[0]), domain.at(STROKE[1]));
+    let [refined, deep] =
+        [Rgb::is_refined, Rgb::is_deep].map(|is| (empty.count(&stroke, is), painted.count(&stroke, is)));
+    assert!(
+        refined.1 > refined.0 + stroke.size() / 4,
+        "pixels of refined triangles round the stroke: {} before, {} after, of {}",
+        refined.0,
+        refined.1,
+        stroke.size()
+    );
+    assert!(
+        deep.1 > deep.0 + stroke.size() / 20,
+        "pixels of deep levels round the stroke: {} before, {} after, of {}",
+        deep.0,
+        deep.1,
+        stroke.size()
+    );
+    let far = Area::between(domain.at(FAR_FROM_STROKE[0]), domain.at(FAR_FROM_STROKE[1]));
+    assert_eq!(empty.differences(&painted, &far), 0, "pixels changed far from the stroke, in {far:?}");
+
+    let click = domain.at(CLICK);
+    display.xdotool(&["key", QUERY_KEY]);
+    display.point_at(click);
+    display.xdotool(&["click", "1"]);
+    display.point_at(RESTING_PLACE);
+    let queried = display.settled_picture(&scratch, "3-queried");
+    let round_click = Area { x: click.0 - 50..click.0 + 50, y: click.1 - 50..click.1 + 50 };
+    let white = [&painted, &queried].map(|picture| picture.count(&round_click, Rgb::is_white));
+    assert!(
+        white[1] > white[0] + 40,
+        "a white outline round the triangle at {click:?}: {} white pixels before, {} after",
+        white[0],
+        white[1]
+    );
+    let changed = painted.differences(&queried, &PANEL);
+    assert!(
+        changed > 400,
+        "the inspector shows the triangle, but only {changed} pixels of the panel changed"
+    );
+
+    display.xdotool(&["key", UNDO_KEYS]);
+    let undone = display.settled_picture(&scratch, "4-undone");
+    assert_eq!(
+        undone.count(&stroke, Rgb::is_refined),
+        refined.0,
+        "undo takes the stroke and its refinement away"
+    );
+
+    display.xdotool(&["key", QUIT_KEYS]);
+    let status = program.wait_for_exit();
+    assert!(status.success(), "{QUIT_KEYS} ended the program with {status}: {}", program.said());
+    assert!(!program.said().contains("panicked"), "{}", program.said());
+}
+
+#[test]
+fn without_a_display_it_says_so_in_one_sentence() {
+    let scratch = Scratch::new("no-display");
+    let mut program = Program::start(&scratch, &[]);
+    assert_eq!(program.wait_for_exit().code(), Some(1), "{}", program.said());
+    let said = program.said();
+    assert!(said.contains("display"), "{said}");
+    assert_eq!(said.trim().lines().count(), 1, "{said}");
+    assert!(!said.contains("panicked"), "{said}");
+}
+
+#[test]
+#[ignore = "needs a virtual display: sh tests/run starts one"]
+fn without_a_graphics_driver_it_says_so_in_one_sentence() {
+    let scratch = Scratch::new("no-driver");
+    let display = Display::start(&scratch);
+    // Vulkan only, and no Vulkan driver: as on a machine that has neither, without taking OpenGL away from this one.
+    let no_driver = scratch.path("no-such-driver.json");
+    let mut program = Program::start(
+        &scratch,
+        &[
+            ("DISPLAY", &display.name),
+            ("WGPU_BACKEND", "vulkan"),
+            ("VK_DRIVER_FILES", &no_driver.to_string_lossy()),
+            ("VK_ICD_FILENAMES", &no_driver.to_string_lossy()),
+            ("VK_LOADER_DEBUG", "none"),
+        ],
+    );
+    assert_eq!(program.wait_for_exit().code(), Some(1), "{}", program.said());
+    let said = program.said();
+    assert!(said.contains("driver"), "{said}");
+    assert_eq!(said.trim().lines().count(), 1, "{said}");
+    assert!(!said.contains("panicked"), "{said}");
+}
+
+/// A folder of its own under `target/tmp`, emptied at the start and kept for a look at the end.
+struct Scratch(PathBuf);
+
+impl Scratch {
+    fn new(name: &str) -> Self {
+        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+        let _ = fs::remove_dir_all(&folder); // absent at the first run
+        fs::create_dir_all(&folder).expect("target/tmp is ours to write");
+        Self(folder)
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.0.join(name)
+    }
+}
+
+/// The program under test, ended when dropped.
+struct Program {
+    child: Child,
+    stderr: PathBuf,
+}
+
+impl Program {
+    /// Starts it knowing no display, no saved state and no settings but `variables`.
+    fn start(scratch: &Scratch, variables: &[(&str, &str)]) -> Self {
+        let stderr = scratch.path("stderr.txt");
+        let mut command = Command::new(env!("CARGO_BIN_EXE_meshbrush"));
+        for variable in ["DISPLAY", "WAYLAND_DISPLAY", "WAYLAND_SOCKET", "WGPU_BACKEND", "RUST_LOG"] {
+            command.env_remove(variable);
+        }
+        for variable in ["XDG_DATA_HOME", "XDG_CONFIG_HOME", "XDG_CACHE_HOME", "XDG_RUNTIME_DIR"] {
+            command.env(variable, &scratch.0);
+        }
+        let child = command
+            .env("WINIT_X11_SCALE_FACTOR", "1")
+            .envs(variables.iter().copied())
+            .stdin(Stdio::null())
+            .stdout(Stdio::null())
+            .stderr(fs::File::create(&stderr).expect("the scratch folder is ours to write"))
+            .spawn()
+            .expect("cargo has built the program");
+        Self { child, stderr }
+    }
+
+    /// Waits until the window is there and the keyboard goes to it: without a window manager nobody else sees to that.
+    fn wait_for_window(&mut self, display: &Display) {
+        let window = wait_for("a window named Meshbrush…", || {
+            if let Some(status) = self.child.try_wait().expect("the program is our child") {
+                panic!("the program ended with {status} before it had a window: {}", self.said());
+            }
+            let found = display.try_xdotool(&["search", "--onlyvisible", "--name", "^Meshbrush"])?;
+            found.lines().next().map(str::to_owned)
+        });
+        wait_for("the keyboard to go to the window", || {
+            display.try_xdotool(&["windowfocus", &window])?;
+            (display.try_xdotool(&["getwindowfocus"])?.trim() == window).then_some(())
+        });
+    }
+
+    fn wait_for_exit(&mut self) -> ExitStatus {
+        wait_for("the program to end", || self.child.try_wait().expect("the program is our child"))
+    }
+
+    fn said(&self) -> String {
+        String::from_utf8_lossy(&fs::read(&self.stderr).unwrap_or_default()).into_owned()
+    }
+}
+
+impl Drop for Program {
+    fn drop(&mut self) {
+        let _ = self.child.kill(); // it may have ended by itself
+        let _ = self.child.wait();
+    }
+}
+
+/// A virtual display of [`SIZE`] without a window manager, ended when dropped.
+struct Display {
+    server: Child,
+    name: String,
+    frame_buffer: PathBuf,
+}
+
+impl Display {
+    fn start(scratch: &Scratch) -> Self {
+        let mut server = Command::new("Xvfb")
+            .args(["-displayfd", "1", "-nolisten", "tcp", "-noreset"])
+            .args(["-screen", "0", &format!("{}x{}x24", SIZE.0, SIZE.1)])
+            // The server keeps the screen in a file that anyone may read: no tool is needed for a picture of it.
+            .arg("-fbdir")
+            .arg(&scratch.0)
+            .stdout(Stdio::piped())
+            .stderr(
+                fs::File::create(scratch.path("server.txt")).expect("the scratch folder is ours to write"),
+            )
+            .spawn()
+            .unwrap_or_else(|e| panic!("Xvfb does not start ({e}): sh tests/run installs it"));
+        let mut number = String::new();
+        let answers = server.stdout.take().expect("it is piped");
+        BufReader::new(answers).read_line(&mut number).expect("a pipe can be read");
+        assert!(!number.trim().is_empty(), "Xvfb found no free display: see {}", scratch.0.display());
+        Self { server, name: format!(":{}", number.trim()), frame_buffer: scratch.path("Xvfb_screen0") }
+    }
+
+    /// What xdotool answers, or `None` when it fails, as `search` does when nothing is found.
+    fn try_xdotool(&self, arguments: &[&str]) -> Option<String> {
+        let output = Command::new("xdotool")
+            .args(arguments)
+            .env("DISPLAY", &self.name)
+            .output()
+            .unwrap_or_else(|e| panic!("xdotool does not start ({e}): sh tests/run installs it"));
+        output.status.success().then(|| String::from_utf8_lossy(&output.stdout).into_owned())
+    }
+
+    fn xdotool(&self, arguments: &[&str]) {
+        assert!(self.try_xdotool(arguments).is_some(), "xdotool {} failed", arguments.join(" "));
+        sleep(Duration::from_millis(50)); // a person is no faster, and every event gets its frame
+    }
+
+    fn point_at(&self, (x, y): (usize, usize)) {
+        self.xdotool(&["mousemove", &x.to_string(), &y.to_string()]);
+    }
+
+    fn drag(&self, from: (usize, usize), to: (usize, usize)) {
+        self.point_at(from);
+        self.xdotool(&["mousedown", "1"]);
+        let part = |from: usize, to: usize, i: i64| (to as i64 - from as i64) * i / STROKE_MOVES;
+        for i in 1..=STROKE_MOVES {
+            let step = |from, to| (part(from, to, i) - part(from, to, i - 1)).to_string();
+            self.xdotool(&["mousemove_relative", "--", &step(from.0, to.0), &step(from.1, to.1)]);
+        }
+        self.xdotool(&["mouseup", "1"]);
+    }
+
+    /// The screen once it has not changed for a while, kept as `name`.png.
+    fn settled_picture(&self, scratch: &Scratch, name: &str) -> Picture {
+        sleep(Duration::from_millis(300));
+        let mut last = Picture::default();
+        let mut alike = 0;
+        let picture = wait_for("the picture to settle", || {
+            let picture = Picture::read_xwd(&self.frame_buffer);
+            alike = if picture.rgb == last.rgb { alike + 1 } else { 0 };
+            last = picture;
+            (alike == 3).then(|| std::mem::take(&mut last))
+        });
+        picture.write_png(&scratch.path(&format!("{name}.png")));
+        picture
+    }
+}
+
+impl Drop for Display {
+    fn drop(&mut self) {
+        let _ = self.server.kill(); // it may have died by itself
+        let _ = self.server.wait();
+    }
+}
+
+/// Asks until there is an answer, but not for ever.
+fn wait_for<T>(what: &str, mut answer: impl FnMut() -> Option<T>) -> T {
+    let start = Instant::now();
+    loop {
+        if let Some(answer) = answer() {
+            return answer;
+        }
+        assert!(start.elapsed() < PATIENCE, "waited {} s for {what}", PATIENCE.as_secs());
+        sleep(Duration::from_millis(100));
+    }
+}
+
+/// A rectangle of pixels.
+#[derive(Debug)]
+struct Area {
+    x: Range<usize>,
+    y: Range<usize>,
+}
+
+impl Area {
+    fn between(a: (usize, usize), b: (usize, usize)) -> Self {
+        Self { x: a.0.min(b.0)..a.0.max(b.0), y: a.1.min(b.1)..a.1.max(b.1) }
+    }
+
+    fn at(&self, (x, y): (f64, f64)) -> (usize, usize) {
+        let part = |range: &Range<usize>, at: f64| range.start + (range.len() as f64 * at) as usize;
+        (part(&self.x, x), part(&self.y, y))
+    }
+
+    fn size(&self) -> usize {
+        self.x.len() * self.y.len()
+    }
+
+    fn pixels(&self) -> impl Iterator<Item = (usize, usize)> {
+        self.y.clone().flat_map(|y| self.x.clone().map(move |x| (x, y)))
+    }
+}
+
+#[derive(Clone, Copy, PartialEq)]
+struct Rgb([u8; 3]);
+
+impl Rgb {
+    fn is_level_0(self) -> bool {
+        let (colour, tolerance) = LEVEL_0;
+        self.0.iter().zip(colour).all(|(&a, b)| a.abs_diff(b) <= tolerance)
+    }
+
+    /// Any level's colour from 1 on, darkened by an edge or not: all are colourful, while level 0 and the ground are grey.
+    fn is_refined(self) -> bool {
+        let [r, g, b] = self.0;
+        r.max(g).max(b) - r.min(g).min(b) > 40
+    }
+
+    /// A colour of the upper half of viridis, green to yellow.
+    fn is_deep(self) -> bool {
+        let [_, g, b] = self.0;
+        g > b.saturating_add(20)
+    }
+
+    fn is_white(self) -> bool {
+        self.0.iter().all(|&c| c > 220)
+    }
+}
+
+/// The screen: rows from the top, three bytes a pixel.
+#[derive(Default)]
+struct Picture {
+    width: usize,
+    rgb: Vec<u8>,
+}
+
+impl Picture {
+    /// Reads an X window dump, as the server keeps it: a header of 32-bit words, most significant byte first, a colour
+    /// map that true colour does not need, and rows of four bytes a pixel.
+    fn read_xwd(file: &Path) -> Self {
+        let bytes = fs::read(file).expect("Xvfb keeps its screen there");
+        let word =
+            |i: usize| u32::from_be_bytes(bytes[4 * i..][..4].try_into().expect("four bytes")) as usize;
+        let [header, version, width, height] = [word(0), word(1), word(4), word(5)];
+        let [order, bits, row, colours] = [word(7), word(11), word(12), word(19)];
+        let masks = [word(14), word(15), word(16)];
+        assert_eq!(
+            (version, bits, masks),
+            (7, 32, [0xff0000, 0xff00, 0xff]),
+            "Xvfb was asked for true colour"
+        );
+        let rows = bytes[header + 12 * colours..].chunks(row).take(height);
+        let pixels = rows.flat_map(|row| row[..4 * width].as_chunks().0);
+        let rgb = pixels.flat_map(|&[a, b, c, d]| if order == 0 { [c, b, a] } else { [b, c, d] }).collect();
+        Self { width, rgb }
+    }
+
+    fn write_png(&self, file: &Path) {
+        let file = fs::File::create(file).expect("the scratch folder is ours to write");
+        let mut encoder =
+            png::Encoder::new(file, self.width as u32, (self.rgb.len() / 3 / self.width) as u32);
+        encoder.set_color(png::ColorType::Rgb);
+        let mut writer = encoder.write_header().expect("the size is not zero");
+        writer.write_image_data(&self.rgb).expect("the disk has room");
+    }
+
+    fn pixel(&self, (x, y): (usize, usize)) -> Rgb {
+        Rgb(self.rgb[3 * (y * self.width + x)..][..3].try_into().expect("three bytes"))
+    }
+
+    fn count(&self, area: &Area, is: fn(Rgb) -> bool) -> usize {
+        area.pixels().filter(|&at| is(self.pixel(at))).count()
+    }
+
+    fn differences(&self, other: &Self, area: &Area) -> usize {
+        area.pixels().filter(|&at| self.pixel(at) != other.pixel(at)).count()
+    }
+
+    /// The part of the canvas that the coarse grid covers, by its colour: rows and columns that mostly show level 0.
+    fn domain(&self) -> Area {
+        let mostly = |line: Area| 3 * self.count(&line, Rgb::is_level_0) > line.size();
+        let columns = CANVAS.x.filter(|&x| mostly(Area { x: x..x + 1, y: CANVAS.y }));
+        let rows = CANVAS.y.filter(|&y| mostly(Area { x: CANVAS.x, y: y..y + 1 }));
+        Area { x: ends(columns), y: ends(rows) }
+    }
+}
+
+/// From the first to behind the last; empty when there is none.
+fn ends(mut numbers: impl Iterator<Item = usize>) -> Range<usize> {
+    let Some(first) = numbers.next() else {
+        return 0..0;
+    };
+    first..numbers.last().unwrap_or(first) + 1
+}
