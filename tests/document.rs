@@ -1,8 +1,8 @@
 //! A document, its history, and the mesh that follows it.
 
 use glam::{DVec2, dvec2};
-use meshbrush::document::{Base, Document, Example, Follower, Settings, Stage};
-use meshbrush::field::{Formula, Rule, Transfer};
+use meshbrush::document::{Base, Document, Example, Follower, Setting, Settings, Stage};
+use meshbrush::field::{Formula, Rule};
 use meshbrush::geometry::Rect;
 use meshbrush::paint::{Brush, Medium};
 use meshbrush::raster::Raster;
@@ -66,12 +66,12 @@ fn after_any_edits_the_mesh_is_the_one_made_from_scratch() {
             5 => drop(document.redo()),
             6 => {
                 let h_min = 0.005 * (1.0 + 9.0 * random.f64());
-                document.change_settings("smallest", |s| s.transfer.h_min = h_min).unwrap();
+                document.set(Setting::SmallestDiameter(h_min)).unwrap();
                 document.end_gesture();
             }
             _ => {
                 let spacing = [0.3, 0.2, 0.15][random.usize(..3)];
-                document.change_settings("spacing", |s| s.spacing = spacing).unwrap();
+                document.set(Setting::Spacing(spacing)).unwrap();
                 document.end_gesture();
             }
         }
@@ -97,8 +97,8 @@ fn undo_to_the_start_and_redo_to_the_end_are_exact() {
     for i in 0..30 {
         states.push((document.settings().clone(), document.layers().clone()));
         match i % 5 {
-            3 => document.change_settings("resolution", |s| s.resolution = 150 + i).unwrap(),
-            4 => document.change_settings("largest", |s| s.transfer.h_max *= 0.9).unwrap(),
+            3 => document.set(Setting::Resolution(150 + i)).unwrap(),
+            4 => document.set(Setting::LargestDiameter(0.19 - 0.005 * f64::from(i))).unwrap(),
             _ => random_stroke(&mut random, &mut document),
         }
         document.end_gesture();
@@ -120,11 +120,12 @@ fn a_slider_drag_is_one_entry_and_idle_frames_add_none() {
     let mut follower = Follower::new(&mut document).unwrap();
     let start = document.settings().clone();
     for i in 1..50 {
-        document.change_settings("spacing", |s| s.spacing = 0.04 + f64::from(i) * 0.001).unwrap();
+        document.set(Setting::Spacing(0.04 + f64::from(i) * 0.001)).unwrap();
     }
     document.end_gesture();
     for _ in 0..100 {
-        document.change_settings("spacing", |_| {}).unwrap();
+        let spacing = document.settings().spacing;
+        document.set(Setting::Spacing(spacing)).unwrap();
         follower.advance(&mut document, 10_000).unwrap();
         document.end_gesture();
     }
@@ -138,30 +139,33 @@ fn what_cannot_be_met_leaves_document_and_mesh_as_they_were() {
     let mut document = Example::Threats.document(slope);
     let mut follower = Follower::new(&mut document).unwrap();
     let (settings, fingerprint) = (document.settings().clone(), follower.mesh().fingerprint());
-    let bad: [fn(&mut Settings); 7] = [
-        |s| s.spacing = 0.0,
-        |s| s.spacing = f64::NAN,
-        |s| s.spacing = 1e-9,
-        |s| s.transfer.h_min = -1.0,
-        |s| s.transfer = Transfer { h_min: 1.0, h_max: 0.1, shape: 1.0 },
-        |s| s.base = Base::Constant(0.0),
-        |s| s.resolution = 0,
+    let bad = [
+        Setting::Spacing(0.0),
+        Setting::Spacing(f64::NAN),
+        Setting::Spacing(1e-9),
+        Setting::SmallestDiameter(-1.0),
+        Setting::LargestDiameter(f64::INFINITY),
+        Setting::TransferShape(0.0),
+        Setting::Base(Base::Constant(0.0)),
+        Setting::Resolution(0),
+        Setting::Bounds(Rect::new(DVec2::ONE, DVec2::ZERO)),
     ];
-    for change in bad {
-        let message = document.change_settings("bad", change).unwrap_err().to_string();
+    for setting in bad {
+        let message = document.set(setting).unwrap_err().to_string();
         assert!(message.ends_with('.') && message.len() > 30, "{message}");
         assert_eq!(document.settings(), &settings);
     }
     // These are found only while sampling or refining: the document takes them back.
-    let late: [fn(&mut Settings); 5] = [
-        |s| s.base = Base::Formula(Formula::parse("sqrt(0.5 - x)").unwrap()),
-        |s| s.base = Base::Formula(Formula::parse("x - 0.7").unwrap()),
-        |s| s.base = Base::Formula(Formula::parse("1 / 0").unwrap()),
-        |s| s.max_triangles = 1300,
-        |s| s.domain.inside = Some(Formula::parse("x > 2").unwrap()),
+    let formula = |text| Formula::parse(text).unwrap();
+    let late = [
+        Setting::Base(Base::Formula(formula("sqrt(0.5 - x)"))),
+        Setting::Base(Base::Formula(formula("x - 0.7"))),
+        Setting::Base(Base::Formula(formula("1 / 0"))),
+        Setting::MaxTriangles(1300),
+        Setting::Inside(Some(formula("x > 2"))),
     ];
-    for change in late {
-        document.change_settings("bad", change).unwrap();
+    for setting in late {
+        document.set(setting).unwrap();
         document.end_gesture();
         let error = loop {
             if let Err(error) = follower.advance(&mut document, 5000) {
@@ -182,7 +186,7 @@ fn the_area_rule_implies_the_vertex_rule() {
     let mut document = Example::Threats.document(slope);
     let follower = Follower::new(&mut document).unwrap();
     let mut by_vertex = document.clone();
-    by_vertex.change_settings("rule", |s| s.rule = Rule::Vertex).unwrap();
+    by_vertex.set(Setting::Rule(Rule::Vertex)).unwrap();
     let coarser = Follower::new(&mut by_vertex).unwrap();
     assert!(coarser.mesh().triangles().len() < follower.mesh().triangles().len());
 }

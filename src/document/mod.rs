@@ -4,6 +4,7 @@
 mod examples;
 mod follower;
 mod history;
+mod setting;
 mod settings;
 
 use glam::DVec2;
@@ -11,6 +12,7 @@ use glam::DVec2;
 pub use examples::Example;
 pub use follower::{FollowError, Follower, Stage};
 pub use history::History;
+pub use setting::Setting;
 pub use settings::{Base, MAX_COARSE_TRIANGLES, RESOLUTIONS, Settings, SettingsError};
 
 use crate::paint::{Brush, Layers, Stroke};
@@ -137,17 +139,14 @@ impl Document {
         }
     }
 
-    /// Changes settings. Changes with the same title are one gesture until [`Self::end_gesture`].
+    /// Changes one setting. Changes of the same setting are one gesture until [`Self::end_gesture`].
     ///
     /// # Errors
     /// When the new settings cannot be met. The document is then as before.
-    pub fn change_settings(
-        &mut self,
-        title: &'static str,
-        change: impl FnOnce(&mut Settings),
-    ) -> Result<(), SettingsError> {
+    pub fn set(&mut self, setting: Setting) -> Result<(), SettingsError> {
+        let title = setting.title();
         let mut settings = self.settings.clone();
-        change(&mut settings);
+        setting.apply(&mut settings);
         if settings == self.settings {
             return Ok(());
         }

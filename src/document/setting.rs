@@ -1,0 +1,69 @@
+use super::{Base, Settings};
+use crate::domain::Domain;
+use crate::field::{Formula, Rule};
+use crate::geometry::Rect;
+
+/// One change of one setting, as a menu, a slider, a test or a script sends it.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Setting {
+    /// Largest side δ̄ of a coarse cell, in world units.
+    Spacing(f64),
+    /// Target diameter at risk 1, in world units. Pushes the largest up where it would pass it.
+    SmallestDiameter(f64),
+    /// Target diameter at risk 0, in world units. Pushes the smallest down where it would pass it.
+    LargestDiameter(f64),
+    /// Exponent of the transfer curve.
+    TransferShape(f64),
+    /// The field under the paint.
+    Base(Base),
+    /// Which points of a triangle count.
+    Rule(Rule),
+    /// Pixels of the field along the longer side.
+    Resolution(u32),
+    /// Most triangles.
+    MaxTriangles(usize),
+    /// The rectangle that the coarse grid covers, in world units.
+    Bounds(Rect),
+    /// The part of the rectangle that is the domain; `None` for all of it.
+    Inside(Option<Formula>),
+}
+
+impl Setting {
+    /// What the history calls it.
+    pub fn title(&self) -> &'static str {
+        match self {
+            Self::Spacing(_) => "coarse spacing",
+            Self::SmallestDiameter(_) => "smallest diameter",
+            Self::LargestDiameter(_) => "largest diameter",
+            Self::TransferShape(_) => "transfer curve",
+            Self::Base(_) => "base field",
+            Self::Rule(_) => "refinement rule",
+            Self::Resolution(_) => "field resolution",
+            Self::MaxTriangles(_) => "triangle budget",
+            Self::Bounds(_) => "domain",
+            Self::Inside(_) => "domain formula",
+        }
+    }
+
+    pub(super) fn apply(self, settings: &mut Settings) {
+        let transfer = &mut settings.transfer;
+        match self {
+            Self::Spacing(spacing) => settings.spacing = spacing,
+            Self::SmallestDiameter(h_min) => {
+                transfer.h_min = h_min;
+                transfer.h_max = transfer.h_max.max(h_min);
+            }
+            Self::LargestDiameter(h_max) => {
+                transfer.h_max = h_max;
+                transfer.h_min = transfer.h_min.min(h_max);
+            }
+            Self::TransferShape(shape) => transfer.shape = shape,
+            Self::Base(base) => settings.base = base,
+            Self::Rule(rule) => settings.rule = rule,
+            Self::Resolution(resolution) => settings.resolution = resolution,
+            Self::MaxTriangles(max_triangles) => settings.max_triangles = max_triangles,
+            Self::Bounds(bounds) => settings.domain = Domain { bounds, ..settings.domain.clone() },
+            Self::Inside(inside) => settings.domain.inside = inside,
+        }
+    }
+}
