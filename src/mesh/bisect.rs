@@ -11,6 +11,8 @@
 //!
 //! A parent is matched when k = 1 and O = 0, or k = 2 and O = 1 ([`Triangle::matched`]).
 
+use std::hint::select_unpredictable;
+
 use super::{Mesh, Neighbour, NodeId, Triangle, TriangleId};
 
 /// What the two children of one parent see across the two halves of the cut edge.
@@ -69,26 +71,27 @@ impl Mesh {
     }
 
     /// Replaces `parent` by one of its children and appends the other, by the rule at the head of this file.
+    ///
+    /// Which case applies is as good as random from one call to the next. So both outcomes are computed and one is
+    /// selected: a wrong guess of the processor at a branch costs more than all of it.
     #[inline]
     fn bisect_side(&mut self, parent: TriangleId, midpoint: NodeId, facing: Facing) {
         let t = *self.triangle(parent);
         let kept = Neighbour::from(parent);
-        let new_id = TriangleId::from_index(self.triangles.len());
-        let new = Neighbour::from(new_id);
+        let new = Neighbour::from(TriangleId::from_index(self.triangles.len()));
         let [_, n2, n3] = t.neighbours;
-        let (kept_sees, new_sees, moved) = if t.matched() {
-            ([n2, new, facing.kept], [n3, facing.new, kept], n3)
-        } else {
-            ([n3, facing.kept, new], [n2, kept, facing.new], n2)
-        };
+        let by_match = |yes, no| select_unpredictable(t.matched(), yes, no);
+        let kept_sees = [by_match(n2, n3), by_match(new, facing.kept), by_match(facing.kept, new)];
+        let new_sees = [by_match(n3, n2), by_match(facing.new, kept), by_match(kept, facing.new)];
+        let moved = by_match(n3, n2);
 
         // Algorithm 1: at odd levels the second child is the mirror image of its parent.
         let [a, b, c] = t.vertices;
-        let (kept_vertices, new_vertices, new_orientation) = if t.bisection_end() == 1 {
-            ([a, midpoint, c], [b, midpoint, c], t.orientation().reversed())
-        } else {
-            ([a, b, midpoint], [b, c, midpoint], t.orientation())
-        };
+        let odd = t.bisection_end() == 1;
+        let by_level = |odd_level, even_level| select_unpredictable(odd, odd_level, even_level);
+        let kept_vertices = [a, by_level(midpoint, b), by_level(c, midpoint)];
+        let new_vertices = [b, by_level(midpoint, c), by_level(c, midpoint)];
+        let new_orientation = if odd { t.orientation().reversed() } else { t.orientation() };
         let level = t.level() + 1;
         self.triangles[parent.index()] = Triangle::new(kept_vertices, kept_sees, t.orientation(), level);
         self.triangles.push(Triangle::new(new_vertices, new_sees, new_orientation, level));
@@ -101,12 +104,7 @@ impl Mesh {
     #[inline]
     fn replace_neighbour(&mut self, id: TriangleId, old: Neighbour, new: Neighbour) {
         let neighbours = &mut self.triangles[id.index()].neighbours;
-        for n in neighbours.iter_mut() {
-            if *n == old {
-                *n = new;
-                return;
-            }
-        }
-        debug_assert!(false, "neighbours are symmetric");
+        debug_assert!(neighbours.contains(&old), "neighbours are symmetric");
+        *neighbours = neighbours.map(|n| select_unpredictable(n == old, new, n));
     }
 }

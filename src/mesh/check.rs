@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 
+use super::refine::Diameters;
 use super::{Element, InvalidTarget, Mesh, NodeId, Orientation, TriangleId};
 use crate::geometry::LatticePoint;
 
@@ -87,8 +88,9 @@ impl Mesh {
         mut exceeds: impl FnMut(&Element) -> Result<bool, InvalidTarget>,
     ) -> Result<Vec<TriangleId>, InvalidTarget> {
         let mut found = Vec::new();
+        let diameters = Diameters::of(self);
         for id in (0..self.triangles.len()).map(TriangleId::from_index) {
-            if exceeds(&self.element(id, self.lattice.spacing()))? {
+            if exceeds(&self.element(id, &diameters))? {
                 found.push(id);
             }
         }

@@ -25,6 +25,7 @@ mod ids;
 mod interpolate;
 mod locate;
 mod locator;
+mod memory;
 mod refine;
 mod triangle;
 
@@ -59,7 +60,7 @@ pub use triangle::{Orientation, Triangle};
 /// 8. *Buckets*: the entry with a coarse triangle's index lies in that coarse triangle.
 ///
 /// The ninth, that no triangle exceeds its target (Eq. 14), needs the rule: [`Mesh::unsatisfied`].
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct Mesh {
     lattice: Lattice,
     nodes: Vec<LatticePoint>,
@@ -132,6 +133,25 @@ impl Mesh {
     /// Length of the bisection edge of a triangle at `level`, in world units (Eq. 1).
     pub fn diameter(&self, level: u32) -> f64 {
         bisection_edge_length(self.lattice.spacing(), level)
+    }
+}
+
+impl Clone for Mesh {
+    fn clone(&self) -> Self {
+        Self {
+            lattice: self.lattice,
+            nodes: self.nodes.clone(),
+            triangles: self.triangles.clone(),
+            coarse: self.coarse.clone(),
+        }
+    }
+
+    /// Keeps the memory of the arrays: to build again, copy the coarse mesh into the old one.
+    fn clone_from(&mut self, source: &Self) {
+        self.lattice = source.lattice;
+        self.nodes.clone_from(&source.nodes);
+        self.triangles.clone_from(&source.triangles);
+        self.coarse.clone_from(&source.coarse);
     }
 }
 

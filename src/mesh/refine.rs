@@ -2,8 +2,11 @@
 
 use glam::DVec2;
 
-use super::{Mesh, Triangle, TriangleId, bisection_edge_length};
-use crate::geometry::{Lattice, LatticePoint};
+use super::{Mesh, Triangle, TriangleId, bisection_edge_length, memory};
+use crate::geometry::{LATTICE_BITS, Lattice, LatticePoint};
+
+/// The deepest level of any lattice.
+const DEEPEST_LEVEL: usize = 2 * LATTICE_BITS as usize;
 
 /// What a mesh may cost.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,14 +33,24 @@ pub struct Element<'a> {
     pub corners: [LatticePoint; 3],
     /// The grid and lattice of the mesh.
     pub lattice: &'a Lattice,
-    spacing: f64,
+    diameter: f64,
+}
+
+/// [`Mesh::diameter`] of every level of the lattice.
+pub(super) struct Diameters([f64; DEEPEST_LEVEL + 1]);
+
+impl Diameters {
+    pub(super) fn of(mesh: &Mesh) -> Self {
+        let spacing = mesh.lattice.spacing();
+        Self(std::array::from_fn(|level| bisection_edge_length(spacing, level as u32)))
+    }
 }
 
 impl Element<'_> {
     /// Length of the bisection edge in world units (Eq. 1): what a rule compares with the target diameter.
     #[inline]
     pub fn diameter(&self) -> f64 {
-        bisection_edge_length(self.spacing, self.triangle.level())
+        self.diameter
     }
 
     /// The vertices in world coordinates, in the triangle's order.
@@ -103,53 +116,35 @@ pub enum Progress {
 /// Refinement of a mesh in slices (Algorithm 12).
 ///
 /// The mesh is conforming after every slice. The result does not depend on the slices or on the order of visits: the
-/// report goes through the array from end to end; this goes depth first, so that what it touches is still in the cache.
+/// report goes through the array from end to end; this goes from leaf to leaf of the bisection tree, so that what it
+/// touches is near in space and still in the cache.
 ///
 /// The report asks about each entry of the array until it is satisfied, and never again. But compatibility may bisect it
 /// later, and with the vertex rule a child can exceed its target where its parent did not: the new node may lie where
-/// the target is smaller. So that Eq. (14) holds, an entry that was satisfied is asked about again when it is bisected.
+/// the target is smaller. So that Eq. (14) holds, the children of a triangle that was satisfied are asked about too.
 #[derive(Clone, Debug)]
 pub struct Refiner {
     limits: Limits,
-    next: usize,
-    end: usize,
-    pending: Vec<TriangleId>,
-    satisfied: TriangleSet,
+    agenda: Agenda,
     chain: Vec<TriangleId>,
     capped: usize,
-}
-
-/// One bit for each triangle.
-#[derive(Clone, Debug, Default)]
-struct TriangleSet(Vec<u64>);
-
-impl TriangleSet {
-    #[inline]
-    fn insert(&mut self, id: TriangleId) {
-        let word = id.index() / 64;
-        if word >= self.0.len() {
-            self.0.resize(word + 1, 0);
-        }
-        self.0[word] |= 1 << (id.index() % 64);
-    }
-
-    /// Takes `id` out, and says whether it was in.
-    #[inline]
-    fn remove(&mut self, id: TriangleId) -> bool {
-        let Some(word) = self.0.get_mut(id.index() / 64) else { return false };
-        let bit = 1 << (id.index() % 64);
-        let was_in = *word & bit != 0;
-        *word &= !bit;
-        was_in
-    }
 }
 
 impl Refiner {
     /// Work that visits every triangle of `mesh` and whatever comes of it.
     pub fn new(mesh: &Mesh, limits: Limits) -> Self {
-        let end = mesh.triangles.len();
-        let (pending, satisfied, chain) = (Vec::new(), TriangleSet::default(), Vec::new());
-        Self { limits, next: 0, end, pending, satisfied, chain, capped: 0 }
+        let mut refiner = Self { limits, agenda: Agenda::default(), chain: Vec::new(), capped: 0 };
+        refiner.restart(mesh);
+        refiner
+    }
+
+    /// Begins anew, for any mesh, in the memory that the work before has taken.
+    ///
+    /// Together with `clone_from` of the coarse mesh this builds a mesh again at the speed of the cache; new memory costs
+    /// about as much time as the work.
+    pub fn restart(&mut self, mesh: &Mesh) {
+        self.agenda.restart(mesh.triangles.len());
+        self.capped = 0;
     }
 
     /// Refines until done or until `visits` triangles were asked about.
@@ -167,57 +162,118 @@ impl Refiner {
     ) -> Result<Progress, RefineError> {
         let deepest = mesh.lattice.deepest_level();
         let cap = self.limits.max_level.unwrap_or(u32::MAX);
-        let spacing = mesh.lattice.spacing();
-        let mut visits_left = visits;
-        while let Some(id) = self.next_triangle() {
-            // Each turn takes `id` one level down, and levels are bounded: this ends.
-            loop {
-                if visits_left == 0 {
-                    self.pending.push(id);
-                    return Ok(Progress::More);
-                }
-                visits_left -= 1;
-                if !exceeds(&mesh.element(id, spacing))? {
-                    self.satisfied.insert(id);
-                    break;
-                }
-                let level = mesh.triangle(id).level();
-                if level >= cap {
-                    self.capped += 1;
-                    break;
-                }
-                if level >= deepest {
-                    return Err(too_fine(mesh, id));
-                }
-                // The closure bisects at most one pair for each level above this one.
-                if mesh.triangles.len() + 2 * (level as usize + 1) > self.limits.max_triangles {
-                    return Err(RefineError::TooManyTriangles { limit: self.limits.max_triangles });
-                }
-                let first_new = mesh.triangles.len();
-                let (satisfied, pending) = (&mut self.satisfied, &mut self.pending);
-                mesh.refine_triangle_with(id, &mut self.chain, |bisected| {
-                    if satisfied.remove(bisected) {
-                        pending.push(bisected);
-                    }
-                });
-                pending.extend((first_new..mesh.triangles.len()).map(TriangleId::from_index));
+        let diameters = Diameters::of(mesh);
+        // So many triangles there can be before memory or the budget must be looked at.
+        let mut room = 0;
+        // Ends: each turn is done with a triangle or takes it one level down, and levels are bounded.
+        for _ in 0..visits {
+            let Some(id) = self.agenda.current() else { return Ok(Progress::Done) };
+            if !exceeds(&mesh.element(id, &diameters))? {
+                self.agenda.advance();
+                continue;
             }
+            let level = mesh.triangle(id).level();
+            if level >= cap {
+                self.capped += 1;
+                self.agenda.advance();
+                continue;
+            }
+            if level >= deepest {
+                return Err(too_fine(mesh, id));
+            }
+            // The closure bisects at most one pair at each level down to this one.
+            let most_new = 2 * (level as usize + 1);
+            if mesh.triangles.len() + most_new > room {
+                room = self.room_for(mesh, id, most_new)?;
+            }
+            mesh.refine_triangle_with(id, &mut self.chain, |parent| self.agenda.bisected(parent));
         }
-        Ok(Progress::Done)
+        Ok(if self.agenda.current().is_none() { Progress::Done } else { Progress::More })
+    }
+
+    /// Makes room for the next call of RefineTriangle, which appends at most `most_new` triangles; returns how many
+    /// triangles the mesh can have before this must be asked again.
+    #[cold]
+    fn room_for(&mut self, mesh: &mut Mesh, id: TriangleId, most_new: usize) -> Result<usize, RefineError> {
+        let limit = self.limits.max_triangles;
+        // Close to the limit the call is counted exactly.
+        if mesh.triangles.len() + most_new > limit && mesh.triangles.len() + mesh.closure_size(id) > limit {
+            return Err(RefineError::TooManyTriangles { limit });
+        }
+        let room = mesh.make_room(most_new, limit);
+        memory::make_room(&mut self.agenda.after, room - mesh.triangles.len(), limit);
+        Ok(room.min(limit))
     }
 
     /// How many triangles asked for more than [`Limits::max_level`] allows.
     pub fn capped(&self) -> usize {
         self.capped
     }
+}
 
+/// The triangles still to be asked about.
+///
+/// They are a linked list in the order of the leaves of the bisection tree: a new triangle goes in behind its sibling,
+/// which keeps their parent's place. Children of triangles that the list has passed wait on a stack.
+#[derive(Clone, Debug, Default)]
+struct Agenda {
+    /// For each triangle the next one in the list, or `END`, or `PASSED`.
+    after: Vec<u32>,
+    /// The first triangle of the list.
+    head: u32,
+    /// The stack.
+    reopened: Vec<u32>,
+    /// The head, or an entry taken from the stack, which is on neither.
+    current: u32,
+}
+
+impl Agenda {
+    const END: u32 = u32::MAX;
+    const PASSED: u32 = u32::MAX - 1;
+
+    fn restart(&mut self, count: usize) {
+        self.after.clear();
+        self.after.extend(1..=count as u32);
+        if let Some(last) = self.after.last_mut() {
+            *last = Self::END;
+        }
+        self.head = if count == 0 { Self::END } else { 0 };
+        self.reopened.clear();
+        self.current = self.head;
+    }
+
+    /// The triangle to ask about.
     #[inline]
-    fn next_triangle(&mut self) -> Option<TriangleId> {
-        self.pending.pop().or_else(|| {
-            let id = TriangleId::from_index(self.next);
-            self.next += 1;
-            (id.index() < self.end).then_some(id)
-        })
+    fn current(&self) -> Option<TriangleId> {
+        (self.current != Self::END).then_some(TriangleId(self.current))
+    }
+
+    /// The current triangle is done with; go on to the next.
+    #[inline]
+    fn advance(&mut self) {
+        let next = std::mem::replace(&mut self.after[self.current as usize], Self::PASSED);
+        if next != Self::PASSED {
+            self.head = next;
+        }
+        self.current = self.reopened.pop().unwrap_or(self.head);
+    }
+
+    /// `parent` was bisected, and its new child is the next entry of the triangle array.
+    #[inline]
+    fn bisected(&mut self, parent: TriangleId) {
+        let new = self.after.len() as u32;
+        let place = &mut self.after[parent.index()];
+        let next = *place;
+        if next != Self::PASSED {
+            *place = new;
+        } else {
+            self.reopened.push(new);
+            // The current triangle is asked about again in any case.
+            if parent.0 != self.current {
+                self.reopened.push(parent.0);
+            }
+        }
+        self.after.push(next);
     }
 }
 
@@ -254,8 +310,8 @@ impl Mesh {
         self.refine_triangle_with(id, &mut Vec::new(), |_| {});
     }
 
-    /// As [`Self::refine_triangle`], with a stack to reuse; tells of every entry that it bisects. Each entry of the chain
-    /// is one level above the one before, so it ends at a coarse triangle at the latest.
+    /// As [`Self::refine_triangle`], with a stack to reuse; tells of every entry that it bisects, in the order of the new
+    /// entries. Each entry of the chain is one level above the one before, so it ends at a coarse triangle at the latest.
     #[inline]
     fn refine_triangle_with(
         &mut self,
@@ -268,9 +324,13 @@ impl Mesh {
         loop {
             let level = self.triangle(current).level();
             match self.triangle(current).neighbours[0].triangle() {
-                None => self.bisect_at_boundary(current),
+                None => {
+                    self.bisect_at_boundary(current);
+                    bisected(current);
+                }
                 Some(across) if self.triangle(across).level() == level => {
                     self.bisect_pair(current, across);
+                    bisected(current);
                     bisected(across);
                 }
                 Some(across) => {
@@ -279,7 +339,6 @@ impl Mesh {
                     continue;
                 }
             }
-            bisected(current);
             match chain.pop() {
                 Some(waiting) => current = waiting,
                 None => return,
@@ -287,8 +346,34 @@ impl Mesh {
         }
     }
 
+    /// How many triangles [`Self::refine_triangle`] would append.
+    fn closure_size(&self, id: TriangleId) -> usize {
+        let (mut current, mut size) = (id, 0);
+        // Ends: as in `refine_triangle_with`.
+        loop {
+            let triangle = self.triangle(current);
+            match triangle.neighbours[0].triangle() {
+                None => return size + 1,
+                Some(across) => {
+                    size += 2;
+                    if self.triangle(across).level() == triangle.level() {
+                        return size;
+                    }
+                    current = across;
+                }
+            }
+        }
+    }
+
     #[inline]
-    pub(super) fn element(&self, id: TriangleId, spacing: f64) -> Element<'_> {
-        Element { triangle: self.triangle(id), corners: self.corners(id), lattice: &self.lattice, spacing }
+    pub(super) fn element(&self, id: TriangleId, diameters: &Diameters) -> Element<'_> {
+        let triangle = self.triangle(id);
+        let corners = triangle.vertices.map(|v| self.node(v));
+        Element {
+            triangle,
+            corners,
+            lattice: &self.lattice,
+            diameter: diameters.0[triangle.level() as usize],
+        }
     }
 }

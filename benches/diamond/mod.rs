@@ -1,0 +1,34 @@
+//! The mesh of Figure 1 of the report (Section 5.4) on [−10, 10]², the subject of every bench of the core.
+
+use glam::DVec2;
+use meshbrush::geometry::{LatticePoint, Rect};
+use meshbrush::mesh::{Element, InvalidTarget, Limits, Mesh, bisection_edge_length};
+
+/// The coarse grid of 20 × 20 cells.
+pub fn coarse() -> Mesh {
+    let bounds = Rect::around(DVec2::ZERO, 10.0);
+    Mesh::coarse_grid(bounds, 1.0, |_| true, &Limits::default()).expect("a square has a grid")
+}
+
+/// The report's rule (Eqs. 12 and 13): `level` everywhere in the diamond ‖x‖₁ < 8, seen at the vertices.
+///
+/// The diamond is found in lattice coordinates, where it is exact and costs a few integer operations: what is measured is
+/// the mesh, not the formula.
+pub fn rule(mesh: &Mesh, level: u32) -> impl Fn(&Element) -> Result<bool, InvalidTarget> + use<> {
+    let target = bisection_edge_length(1.0, level) * (1.0 + 1e-12);
+    let steps = mesh.lattice().cell_steps();
+    let inside = move |p: LatticePoint| p.x.abs_diff(10 * steps) + p.y.abs_diff(10 * steps) < 8 * steps;
+    move |element| {
+        let target = if element.corners.into_iter().any(inside) { target } else { 20.0 };
+        Ok(element.diameter() > target)
+    }
+}
+
+/// The diamond refined to `level`.
+#[allow(dead_code)] // not every bench wants a finished mesh
+pub fn mesh(level: u32) -> Mesh {
+    let mut mesh = coarse();
+    let rule = rule(&mesh, level);
+    mesh.refine(&Limits::default(), rule).expect("within the default limits");
+    mesh
+}

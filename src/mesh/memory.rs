@@ -1,0 +1,60 @@
+//! Room for large arrays: reserved once, taken as it is touched, in large pages.
+
+use super::Mesh;
+
+/// A large page, in bytes. Arrays that fit one grow by doubling, in memory that the allocator has at hand.
+const PAGE: usize = 2 << 20;
+
+impl Mesh {
+    /// Makes room for at least `more` further triangles and as many nodes, and never for more than `most` triangles
+    /// unless `more` asks for it. Returns how many triangles there can be before this must be called again.
+    ///
+    /// A large mesh reserves all it may ever need in one step: untouched memory costs nothing, and the arrays never move
+    /// again. Moving them cost up to a third of the time to build two million triangles.
+    #[cold]
+    pub(super) fn make_room(&mut self, more: usize, most: usize) -> usize {
+        make_room(&mut self.triangles, more, most);
+        // A bisection makes one node, and one or two triangles.
+        make_room(&mut self.nodes, self.triangles.capacity() - self.triangles.len(), most);
+        self.triangles.capacity()
+    }
+}
+
+/// Makes room for `more` further entries, and where the array is large at once for `most` in all.
+pub(super) fn make_room<T>(array: &mut Vec<T>, more: usize, most: usize) {
+    if array.capacity() - array.len() >= more {
+        return;
+    }
+    let (size, most) = (size_of::<T>(), most.max(array.len() + more));
+    if size * 2 * (array.len() + more) <= PAGE {
+        array.reserve(more);
+        return;
+    }
+    // The system may refuse to promise so much: ask for less, down to doubling.
+    let mut wanted = most;
+    while wanted > 2 * array.len() + more {
+        if array.try_reserve_exact(wanted - array.len()).is_ok() {
+            advise_large_pages(array);
+            return;
+        }
+        wanted /= 4;
+    }
+    array.reserve(more);
+}
+
+/// Asks the system to back the array with pages of 2 MiB: five hundred times fewer page faults and misses of the address
+/// cache. Advice only: nothing depends on whether it is taken.
+#[cfg(all(unix, any(target_os = "linux", target_os = "android")))]
+fn advise_large_pages<T>(array: &mut Vec<T>) {
+    let start = array.as_mut_ptr() as usize;
+    let end = start + array.capacity() * size_of::<T>();
+    let (first, last) = (start.next_multiple_of(PAGE), end / PAGE * PAGE);
+    if first < last {
+        // SAFETY: the range lies within the one allocation of `array`, which is borrowed exclusively, and MADV_HUGEPAGE
+        // leaves the contents of memory as they are.
+        unsafe { libc::madvise(first as *mut libc::c_void, last - first, libc::MADV_HUGEPAGE) };
+    }
+}
+
+#[cfg(not(all(unix, any(target_os = "linux", target_os = "android"))))]
+fn advise_large_pages<T>(_array: &mut Vec<T>) {}
