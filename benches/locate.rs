@@ -48,6 +48,7 @@ fn main() {
         let locator = Locator::new(&mesh);
         let hierarchy = spade_of::<HierarchyHintGenerator<f64>>(&mesh);
         let last_used = spade_of::<LastUsedVertexHintGenerator>(&mesh);
+        group.throughput(Throughput::Elements(POINTS as u64));
         group.bench_function(BenchmarkId::new("Mesh::locate", triangles), |b| {
             b.iter(|| points.iter().for_each(|&p| consume(mesh.locate(p))));
         });
@@ -57,11 +58,13 @@ fn main() {
         group.bench_function(BenchmarkId::new("spade, hierarchy", triangles), |b| {
             b.iter(|| points.iter().for_each(|&p| consume(hierarchy.locate(Point2::new(p.x, p.y)))));
         });
+        // Walks across the whole mesh: a hundredth of the points will do.
+        let few = &points[..POINTS / 100];
+        group.throughput(Throughput::Elements(few.len() as u64));
         group.bench_function(BenchmarkId::new("spade, last used vertex", triangles), |b| {
-            b.iter(|| {
-                points.iter().take(1000).for_each(|&p| consume(last_used.locate(Point2::new(p.x, p.y))))
-            });
+            b.iter(|| few.iter().for_each(|&p| consume(last_used.locate(Point2::new(p.x, p.y)))));
         });
+        group.throughput(Throughput::Elements(triangles as u64));
         group.bench_function(BenchmarkId::new("Locator::new", triangles), |b| {
             b.iter(|| Locator::new(&mesh));
         });
