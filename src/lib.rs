@@ -11,3 +11,4 @@ pub mod domain;
 pub mod paint;
 pub mod document;
 pub mod colormap;
+pub mod scene;

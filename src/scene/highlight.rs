@@ -1,0 +1,158 @@
+use glam::{DVec2, dvec2};
+
+use super::Camera;
+use crate::mesh::{Mesh, TriangleId};
+
+/// Colours of the three neighbours, the bisection neighbour first: the same on the canvas, in chips and in pins.
+pub const NEIGHBOUR_COLORS: [[u8; 4]; 3] =
+    [[0xf4, 0xb9, 0x42, 0xff], [0x5a, 0xd1, 0xc0, 0xff], [0xe2, 0x6f, 0xb0, 0xff]];
+
+const WHITE: [u8; 4] = [0xff; 4];
+/// Outlines are cut off this far outside the canvas, where no line width reaches.
+const CUT_OFF_PX: f64 = 32.0;
+
+/// Triangles that stand out.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Highlights {
+    /// The triangle that was asked about.
+    pub selected: Option<TriangleId>,
+    /// Its neighbours, the bisection neighbour first; `None` at the boundary.
+    pub neighbours: [Option<TriangleId>; 3],
+    /// The triangle under the pointer.
+    pub hovered: Option<TriangleId>,
+}
+
+impl Highlights {
+    /// A triangle and its three neighbours.
+    pub fn around(mesh: &Mesh, selected: TriangleId) -> Self {
+        let neighbours = mesh.triangle(selected).neighbours.map(|n| n.triangle());
+        Self { selected: Some(selected), neighbours, hovered: None }
+    }
+}
+
+/// A closed shape on the screen, filled and outlined. Colours are sRGB bytes, alpha not premultiplied.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Outline {
+    /// Corners in pixels, at least three; a triangle, cut off where it reaches far beyond the canvas.
+    pub polygon: Vec<[f32; 2]>,
+    /// Colour inside.
+    pub fill: [u8; 4],
+    /// Colour of the line.
+    pub line: [u8; 4],
+    /// Width of the line in pixels; half of it is outside.
+    pub line_width_px: f32,
+}
+
+/// The shapes of the highlights, to be drawn in this order. `px_per_point` widens lines on dense screens.
+///
+/// Ids that the mesh no longer has, and triangles off the canvas, give none.
+pub fn highlight_outlines(
+    mesh: &Mesh,
+    camera: &Camera,
+    highlights: &Highlights,
+    px_per_point: f32,
+) -> Vec<Outline> {
+    let mut outlines = Vec::new();
+    let mut draw = |id: Option<TriangleId>, fill: [u8; 4], line: [u8; 4], width: f32| {
+        if let Some(polygon) = id.and_then(|id| polygon_on_screen(mesh, camera, id)) {
+            outlines.push(Outline { polygon, fill, line, line_width_px: width * px_per_point });
+        }
+    };
+    for (id, color) in highlights.neighbours.into_iter().zip(NEIGHBOUR_COLORS) {
+        draw(id, translucent(color, 0x60), color, 1.5);
+    }
+    if highlights.hovered != highlights.selected {
+        draw(highlights.hovered, translucent(WHITE, 0x14), translucent(WHITE, 0xb0), 1.0);
+    }
+    // White alone would be lost on yellow: a dark halo carries it.
+    draw(highlights.selected, translucent(WHITE, 0x30), [0, 0, 0, 0x70], 4.0);
+    draw(highlights.selected, [0; 4], WHITE, 2.0);
+    outlines
+}
+
+fn translucent([r, g, b, _]: [u8; 4], alpha: u8) -> [u8; 4] {
+    [r, g, b, alpha]
+}
+
+fn polygon_on_screen(mesh: &Mesh, camera: &Camera, id: TriangleId) -> Option<Vec<[f32; 2]>> {
+    let triangle = mesh.triangles().get(id.index())?;
+    let corners = triangle.vertices.map(|v| camera.screen_from_lattice(mesh.node(v)));
+    let polygon = cut_to_canvas(corners.to_vec(), camera);
+    (polygon.len() >= 3).then(|| polygon.into_iter().map(|p| p.as_vec2().to_array()).collect())
+}
+
+/// Cuts a convex polygon off a little outside the canvas, one side after the other (Sutherland and Hodgman).
+///
+/// A triangle that is large on the lattice can be 10¹¹ px wide at a deep zoom, where f32 would tear its edges away.
+fn cut_to_canvas(mut polygon: Vec<DVec2>, camera: &Camera) -> Vec<DVec2> {
+    let far = 2.0 * camera.half_size_px() + DVec2::splat(CUT_OFF_PX);
+    let sides = [
+        (dvec2(1.0, 0.0), CUT_OFF_PX),
+        (dvec2(-1.0, 0.0), far.x),
+        (dvec2(0.0, 1.0), CUT_OFF_PX),
+        (dvec2(0.0, -1.0), far.y),
+    ];
+    for (inwards, offset) in sides {
+        let inside = |p: DVec2| inwards.dot(p) + offset;
+        let mut kept = Vec::with_capacity(polygon.len() + 1);
+        for (i, &b) in polygon.iter().enumerate() {
+            let a = polygon[(i + polygon.len() - 1) % polygon.len()];
+            let (da, db) = (inside(a), inside(b));
+            if (da < 0.0) != (db < 0.0) {
+                kept.push(a + (b - a) * (da / (da - db)));
+            }
+            if db >= 0.0 {
+                kept.push(b);
+            }
+        }
+        polygon = kept;
+    }
+    polygon
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Rect;
+    use crate::mesh::Limits;
+
+    fn mesh() -> Mesh {
+        Mesh::coarse_grid(Rect::UNIT, 0.5, |_| true, &Limits::default()).unwrap()
+    }
+
+    #[test]
+    fn a_triangle_and_its_neighbours_become_their_corners_on_the_screen() {
+        let mesh = mesh();
+        let camera = Camera::fit(mesh.lattice(), Rect::UNIT, [100, 100], 0.0);
+        let highlights = Highlights::around(&mesh, TriangleId::from_index(0));
+        let outlines = highlight_outlines(&mesh, &camera, &highlights, 1.0);
+        // Two sides of the first triangle are on the boundary; the selected one has a halo.
+        assert_eq!(outlines.len(), 3);
+        assert_eq!(outlines[0].line, NEIGHBOUR_COLORS[0]);
+        let white = outlines.last().unwrap();
+        assert_eq!((white.line, white.line_width_px), (WHITE, 2.0));
+        for corner in [[0.0, 50.0], [0.0, 100.0], [50.0, 100.0]] {
+            assert!(white.polygon.contains(&corner), "{:?}", white.polygon);
+        }
+    }
+
+    #[test]
+    fn a_triangle_much_larger_than_the_canvas_is_cut_off_outside_it() {
+        let mesh = mesh();
+        let camera =
+            Camera::fit(mesh.lattice(), Rect::UNIT, [100, 100], 0.0).zoomed(1e300, dvec2(10.0, 80.0));
+        let all = (0..mesh.triangles().len()).map(TriangleId::from_index);
+        let shown: Vec<_> = all.filter_map(|id| polygon_on_screen(&mesh, &camera, id)).collect();
+        assert_eq!(shown.len(), 1);
+        assert!(shown[0].iter().flatten().all(|&c| (-33.0..=133.0).contains(&c)), "{shown:?}");
+    }
+
+    #[test]
+    fn ids_of_a_former_mesh_are_no_longer_drawn() {
+        let mesh = mesh();
+        let camera = Camera::fit(mesh.lattice(), Rect::UNIT, [100, 100], 0.0);
+        let highlights =
+            Highlights { hovered: Some(TriangleId::from_index(1_000_000)), ..Highlights::default() };
+        assert_eq!(highlight_outlines(&mesh, &camera, &highlights, 1.0), []);
+    }
+}

@@ -1,0 +1,182 @@
+use super::Camera;
+
+/// Levels that a mesh can have: the lattice ends before.
+pub const LEVELS: usize = 64;
+
+/// The colour of each level, from 0: red, green, blue as sRGB bytes. The fourth byte is not used, fills are opaque.
+pub type LevelColors = [[u8; 4]; LEVELS];
+
+/// How a mesh looks. Colours are sRGB bytes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Style {
+    /// Fill by level.
+    pub level_colors: LevelColors,
+    /// What shows where there is no mesh: the colour of the canvas.
+    pub ground: [u8; 4],
+    /// Whether edges are drawn.
+    pub edges: bool,
+    /// Width of an edge in pixels.
+    pub edge_width_px: f32,
+    /// Legs of triangles, in pixels, at which edges are gone and at which they are drawn in full.
+    pub edge_fade_px: [f32; 2],
+    /// How dark an edge is beside its fill: 0 black, 1 like the fill.
+    pub edge_shade: f32,
+    /// Levels shown in full, as bits from level 0. The others recede towards the ground.
+    pub shown_levels: u64,
+}
+
+/// How much of its own colour a receding level keeps.
+const RECEDED: f32 = 0.12;
+
+impl Style {
+    /// The look on a dark ground.
+    pub fn dark(level_colors: LevelColors) -> Self {
+        Self {
+            level_colors,
+            ground: [0x0b, 0x0d, 0x10, 0xff],
+            edges: true,
+            edge_width_px: 1.0,
+            edge_fade_px: [3.0, 8.0],
+            edge_shade: 0.5,
+            shown_levels: u64::MAX,
+        }
+    }
+
+    /// The look on a light ground.
+    pub fn light(level_colors: LevelColors) -> Self {
+        Self { ground: [0xf4, 0xf5, 0xf7, 0xff], edge_shade: 0.72, ..Self::dark(level_colors) }
+    }
+
+    /// The same look on a screen with `px_per_point` pixels for a point: edges keep their width to the eye.
+    pub fn at_density(mut self, px_per_point: f32) -> Self {
+        self.edge_width_px *= px_per_point;
+        self.edge_fade_px = self.edge_fade_px.map(|px| px * px_per_point);
+        self
+    }
+
+    /// How far from the middle of an edge its colour reaches, in pixels. The coverage of a pixel whose centre is `d` px
+    /// away is this less `d`, from 0 to 1: each of the two triangles draws its half of the line.
+    pub fn edge_reach_px(&self) -> f32 {
+        self.edge_width_px / 2.0 + 0.5
+    }
+
+    /// The ground, from 0 to 1.
+    pub fn ground_color(&self) -> [f32; 3] {
+        unit_color(self.ground)
+    }
+}
+
+/// How the triangles of one level are drawn at one zoom. Colours from 0 to 1, lengths in pixels.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LevelPaint {
+    /// Colour inside.
+    pub fill: [f32; 3],
+    /// Colour of the edges.
+    pub edge: [f32; 3],
+    /// How much of the edges shows: 0 where triangles are too small for them.
+    pub edge_alpha: f32,
+    /// Length of a leg.
+    pub leg_px: f32,
+    /// Distance of the apex from the bisection edge.
+    pub apex_height_px: f32,
+    /// Distance of the two other vertices from the legs opposite to them.
+    pub base_height_px: f32,
+}
+
+impl LevelPaint {
+    /// How every level is drawn, from 0.
+    ///
+    /// Lengths along x and y differ by up to 5 % where cells are not square; these are their means.
+    pub fn all(camera: &Camera, style: &Style) -> [Self; LEVELS] {
+        std::array::from_fn(|level| Self::at(level as u32, camera, style))
+    }
+
+    fn at(level: u32, camera: &Camera, style: &Style) -> Self {
+        let px_per_step = camera.px_per_step();
+        // At even levels the legs run along the axes; at odd levels the bisection edge does.
+        let axis_steps = f64::from(camera.lattice().cell_steps()) / (1u64 << (level / 2)) as f64;
+        let axis_px = axis_steps * (px_per_step.x + px_per_step.y) / 2.0;
+        let between_diagonals_px = axis_steps * px_per_step.element_product() / px_per_step.length();
+        let (leg_px, apex_height_px, base_height_px) = if level.is_multiple_of(2) {
+            (axis_px, between_diagonals_px, axis_px)
+        } else {
+            (axis_px / std::f64::consts::SQRT_2, axis_px / 2.0, between_diagonals_px)
+        };
+        let fill = fill_color(level, style);
+        Self {
+            fill,
+            edge: fill.map(|c| c * style.edge_shade),
+            edge_alpha: edge_alpha(leg_px as f32, style),
+            leg_px: leg_px as f32,
+            apex_height_px: apex_height_px as f32,
+            base_height_px: base_height_px as f32,
+        }
+    }
+}
+
+fn fill_color(level: u32, style: &Style) -> [f32; 3] {
+    let own = unit_color(style.level_colors[level as usize]);
+    if style.shown_levels >> level & 1 == 1 { own } else { mixed(style.ground_color(), own, RECEDED) }
+}
+
+fn edge_alpha(leg_px: f32, style: &Style) -> f32 {
+    let [gone, full] = style.edge_fade_px;
+    if !style.edges || leg_px <= gone {
+        return 0.0;
+    }
+    let t = ((leg_px - gone) / (full - gone)).min(1.0);
+    // Smooth at both ends, so that no zoom shows where the fade begins.
+    t * t * (3.0 - 2.0 * t)
+}
+
+fn unit_color([r, g, b, _]: [u8; 4]) -> [f32; 3] {
+    [r, g, b].map(|c| f32::from(c) / 255.0)
+}
+
+fn mixed(from: [f32; 3], to: [f32; 3], share: f32) -> [f32; 3] {
+    std::array::from_fn(|i| from[i] + share * (to[i] - from[i]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::{Lattice, Rect};
+    use glam::DVec2;
+
+    fn paints(style: &Style, zoom: f64) -> [LevelPaint; LEVELS] {
+        let lattice = Lattice::covering(Rect::UNIT, 0.1, 1000).unwrap();
+        let camera = Camera::fit(&lattice, Rect::UNIT, [1000, 1000], 0.0).zoomed(zoom, DVec2::ZERO);
+        LevelPaint::all(&camera, style)
+    }
+
+    #[test]
+    fn heights_and_legs_are_those_of_right_angled_isosceles_triangles() {
+        for (level, paint) in paints(&Style::dark([[200; 4]; LEVELS]), 1.0).iter().enumerate() {
+            let leg = 100.0 * 0.5f32.powf(level as f32 / 2.0);
+            assert!((paint.leg_px / leg - 1.0).abs() < 1e-5, "level {level}");
+            assert!((paint.base_height_px / leg - 1.0).abs() < 1e-5, "level {level}");
+            assert!((paint.apex_height_px / leg - 0.5f32.sqrt()).abs() < 1e-5, "level {level}");
+        }
+    }
+
+    #[test]
+    fn edges_fade_with_the_size_of_triangles_and_never_reach_black() {
+        let style = Style::dark([[200; 4]; LEVELS]);
+        let paints = paints(&style, 1.0);
+        assert_eq!(paints[0].edge_alpha, 1.0);
+        for pair in paints.windows(2) {
+            assert!(pair[1].edge_alpha <= pair[0].edge_alpha);
+        }
+        let below_three_px = paints.iter().find(|p| p.leg_px < 3.0).unwrap();
+        assert_eq!(below_three_px.edge_alpha, 0.0);
+        assert!(paints.iter().all(|p| p.edge.iter().all(|&c| c > 0.3)));
+    }
+
+    #[test]
+    fn levels_out_of_the_filter_recede_towards_the_ground() {
+        let style = Style { shown_levels: 1 << 3, ..Style::dark([[200; 4]; LEVELS]) };
+        let paints = paints(&style, 1.0);
+        assert_eq!(paints[3].fill, unit_color([200; 4]));
+        assert!(paints[4].fill[0] < 0.2);
+    }
+}
