@@ -12,3 +12,4 @@ pub mod paint;
 pub mod document;
 pub mod colormap;
 pub mod scene;
+pub mod render;

@@ -1,0 +1,201 @@
+//! The renderer that needs no driver: pictures from the command line, and the referee of the GPU.
+
+mod raster;
+
+use glam::DVec2;
+
+use self::raster::{Brush, Canvas};
+use super::{HUGE_LEG_PX, Image};
+use crate::geometry::LatticePoint;
+use crate::mesh::Mesh;
+use crate::scene::{Camera, LevelPaint, Outline, Overlay, Style};
+
+/// Draws a mesh as `camera` sees it, the overlay above it, and outlines on top.
+///
+/// Outlines come from [`highlight_outlines`](crate::scene::highlight_outlines). The time is proportional to the mesh and
+/// to the pixels: about 50 ns a triangle.
+pub fn draw(
+    mesh: &Mesh,
+    camera: &Camera,
+    style: &Style,
+    overlay: Option<&Overlay>,
+    outlines: &[Outline],
+) -> Image {
+    let [r, g, b, _] = style.ground;
+    let mut image = Image::filled(camera.size_px(), [r, g, b, 0xff]);
+    draw_triangles(&mut image, mesh, camera, style);
+    if let Some(overlay) = overlay {
+        blend_overlay(&mut image, camera, overlay);
+    }
+    draw_outlines(&mut image, outlines);
+    image
+}
+
+fn draw_triangles(image: &mut Image, mesh: &Mesh, camera: &Camera, style: &Style) {
+    let paints = LevelPaint::all(camera, style);
+    let brushes = paints.map(|paint| Brush::new(&paint, style));
+    let snapped: Vec<[i32; 2]> =
+        mesh.nodes().iter().map(|&p| raster::snapped(camera.screen_from_lattice(p))).collect();
+    let mut canvas = Canvas::of(image);
+    for triangle in mesh.triangles() {
+        let level = triangle.level() as usize;
+        if paints[level].leg_px < HUGE_LEG_PX {
+            canvas.fill_snapped(triangle.vertices.map(|v| snapped[v.index()]), &brushes[level]);
+        } else {
+            let corners = triangle.vertices.map(|v| mesh.node(v));
+            canvas.fill_by_lines(&inward_lines(corners, camera), &brushes[level]);
+        }
+    }
+}
+
+/// The distance from a line as a function of pixel coordinates, in pixels: `normal · p + offset`, with |normal| = 1.
+pub(super) struct Line {
+    normal: DVec2,
+    offset: f64,
+}
+
+/// The lines through the edges of a triangle, positive inside.
+///
+/// An edge runs along an axis or a diagonal of the lattice: its normal has components −1, 0 and 1, and everything up to
+/// the scale is exact.
+fn inward_lines(corners: [LatticePoint; 3], camera: &Camera) -> [Line; 3] {
+    std::array::from_fn(|i| {
+        let [from, to, opposite] = [1, 2, 3].map(|k| corners[(i + k) % 3].as_dvec2());
+        let steps = (to - from).perp();
+        let normal = steps / steps.abs().max_element();
+        let normal = if normal.dot(opposite - from) < 0.0 { -normal } else { normal };
+        let per_px = normal / camera.px_per_step();
+        let middle = camera.lattice_from_screen(camera.half_size_px());
+        let steps_at_middle = normal.dot(middle - from);
+        // From lattice to screen y turns round.
+        let normal = DVec2::new(per_px.x, -per_px.y) / per_px.length();
+        Line { normal, offset: steps_at_middle / per_px.length() - normal.dot(camera.half_size_px()) }
+    })
+}
+
+fn blend_overlay(image: &mut Image, camera: &Camera, overlay: &Overlay) {
+    let map = overlay.texels(camera);
+    let half = camera.half_size_px();
+    let [width, height] = camera.size_px();
+    let columns: Vec<Option<usize>> = (0..width)
+        .map(|x| map.at_center.x + (f64::from(x) + 0.5 - half.x) * map.per_px.x)
+        .map(|texel| index_below(texel, overlay.columns))
+        .collect();
+    let pixels = image.pixels_mut();
+    for y in 0..height {
+        let texel = map.at_center.y + (half.y - f64::from(y) - 0.5) * map.per_px.y;
+        let Some(row) = index_below(texel, overlay.rows) else { continue };
+        let colors = &overlay.rgba[row * overlay.columns as usize..];
+        let line = &mut pixels[(y * width) as usize..][..width as usize];
+        for (pixel, column) in line.iter_mut().zip(&columns) {
+            if let &Some(column) = column {
+                *pixel = blended(*pixel, colors[column], overlay.opacity);
+            }
+        }
+    }
+}
+
+fn index_below(texel: f64, count: u32) -> Option<usize> {
+    (texel >= 0.0 && texel < f64::from(count)).then_some(texel as usize)
+}
+
+fn blended(below: [u8; 4], [r, g, b, a]: [u8; 4], opacity: f32) -> [u8; 4] {
+    let share = f32::from(a) / 255.0 * opacity;
+    let mix = |from: u8, to: u8| (f32::from(from) + share * (f32::from(to) - f32::from(from))).round() as u8;
+    [mix(below[0], r), mix(below[1], g), mix(below[2], b), 0xff]
+}
+
+fn draw_outlines(image: &mut Image, outlines: &[Outline]) {
+    let [width, height] = image.size;
+    // An opaque picture is the same premultiplied and not.
+    let Some(mut pixmap) = tiny_skia::PixmapMut::from_bytes(&mut image.rgba, width, height) else { return };
+    for outline in outlines {
+        let Some(path) = closed_path(&outline.polygon) else { continue };
+        let identity = tiny_skia::Transform::identity();
+        pixmap.fill_path(&path, &paint(outline.fill), tiny_skia::FillRule::Winding, identity, None);
+        let line = tiny_skia::Stroke {
+            width: outline.line_width_px,
+            line_join: tiny_skia::LineJoin::Round,
+            ..tiny_skia::Stroke::default()
+        };
+        pixmap.stroke_path(&path, &paint(outline.line), &line, identity, None);
+    }
+}
+
+fn closed_path(polygon: &[[f32; 2]]) -> Option<tiny_skia::Path> {
+    let (&[x, y], rest) = polygon.split_first()?;
+    let mut builder = tiny_skia::PathBuilder::new();
+    builder.move_to(x, y);
+    for &[x, y] in rest {
+        builder.line_to(x, y);
+    }
+    builder.close();
+    builder.finish()
+}
+
+fn paint([r, g, b, a]: [u8; 4]) -> tiny_skia::Paint<'static> {
+    let mut paint = tiny_skia::Paint::default();
+    paint.set_color_rgba8(r, g, b, a);
+    paint
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Rect;
+    use crate::mesh::Limits;
+    use crate::scene::{LEVELS, LevelColors};
+    use glam::dvec2;
+
+    fn colors() -> LevelColors {
+        std::array::from_fn(|level| [40 + 3 * level as u8, 90, 120, 255])
+    }
+
+    fn mesh() -> Mesh {
+        Mesh::coarse_grid(Rect::UNIT, 0.25, |_| true, &Limits::default()).unwrap()
+    }
+
+    #[test]
+    fn every_pixel_of_the_domain_is_filled_and_none_outside() {
+        let mesh = mesh();
+        let style = Style { edges: false, ..Style::dark(colors()) };
+        for zoom in [1.0, 0.77, 3.1] {
+            let camera =
+                Camera::fit(mesh.lattice(), Rect::UNIT, [103, 77], 5.0).zoomed(zoom, dvec2(50.0, 33.0));
+            let image = draw(&mesh, &camera, &style, None, &[]);
+            for (i, &pixel) in image.pixels().iter().enumerate() {
+                let px = dvec2((i % 103) as f64 + 0.5, (i / 103) as f64 + 0.5);
+                let inside = Rect::UNIT.contains(camera.world_from_screen(px));
+                assert_eq!(pixel, if inside { [40, 90, 120, 255] } else { style.ground }, "{px}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_huge_triangle_is_drawn_as_its_lines_say() {
+        let mesh = mesh();
+        let style = Style::dark(colors());
+        let camera = Camera::fit(mesh.lattice(), Rect::UNIT, [64, 64], 0.0).zoomed(1e300, dvec2(10.0, 45.0));
+        // The corner of a cell and the diagonal that starts there go through the middle.
+        let camera = camera.centered_on(dvec2(0.5, 0.25));
+        let image = draw(&mesh, &camera, &style, None, &[]);
+        assert!(image.pixel(32, 5)[0] < 40, "the vertical edge");
+        assert!(image.pixel(5, 32)[0] < 40, "the horizontal edge");
+        assert!(image.pixel(52, 52)[0] < 40, "the diagonal");
+        assert_eq!(image.pixel(20, 44), [40, 90, 120, 255]);
+    }
+
+    #[test]
+    fn an_overlay_lies_where_its_rectangle_is() {
+        let mesh = mesh();
+        let camera = Camera::fit(mesh.lattice(), Rect::UNIT, [100, 100], 0.0);
+        let rgba = [[255, 0, 0, 255], [0, 255, 0, 255], [0, 0, 255, 255], [9, 9, 9, 0]];
+        let overlay =
+            Overlay { bounds: Rect::UNIT, columns: 2, rows: 2, rgba: &rgba, opacity: 1.0, revision: 1 };
+        let image = draw(&mesh, &camera, &Style::dark([[50; 4]; LEVELS]), Some(&overlay), &[]);
+        assert_eq!(image.pixel(10, 90), [255, 0, 0, 255], "the first row is the lowest");
+        assert_eq!(image.pixel(90, 90), [0, 255, 0, 255]);
+        assert_eq!(image.pixel(10, 10), [0, 0, 255, 255]);
+        assert_eq!(image.pixel(97, 8)[0], 50, "nothing where it is transparent");
+    }
+}
