@@ -46,6 +46,9 @@ impl Camera {
 
     /// The same view of another grid: the world stays where it was, as far as the other grid reaches.
     pub fn on_lattice(self, lattice: &Lattice) -> Self {
+        if self.lattice == *lattice {
+            return self;
+        }
         let world = self.world_from_lattice(self.center);
         Self { lattice: *lattice, center: lattice.lattice_from_world(world), ..self }.within_limits()
     }

@@ -23,7 +23,7 @@ pub fn draw(
 ) -> Image {
     let [r, g, b, _] = style.ground;
     let mut image = Image::filled(camera.size_px(), [r, g, b, 0xff]);
-    draw_triangles(&mut image, mesh, camera, style);
+    draw_triangles(&mut image, mesh, &camera.on_lattice(mesh.lattice()), style);
     if let Some(overlay) = overlay {
         blend_overlay(&mut image, camera, overlay);
     }

@@ -1,0 +1,93 @@
+//! Plain data as the shaders read it.
+
+use bytemuck::{Pod, Zeroable};
+use glam::{IVec2, Vec2};
+
+use crate::render::{HUGE_LEG_PX, SEAM_SLACK_PX};
+use crate::scene::{Camera, LEVELS, LevelPaint, Overlay, Style};
+
+/// `Level` of mesh.wgsl.
+#[repr(C)]
+#[derive(Clone, Copy, Pod, Zeroable)]
+struct Level {
+    fill: [f32; 3],
+    apex_height_px: f32,
+    edge: [f32; 3],
+    edge_alpha: f32,
+    base_height_px: f32,
+    huge: u32,
+    unused: [u32; 2],
+}
+
+impl From<LevelPaint> for Level {
+    fn from(paint: LevelPaint) -> Self {
+        Self {
+            fill: paint.fill,
+            apex_height_px: paint.apex_height_px,
+            edge: paint.edge,
+            edge_alpha: paint.edge_alpha,
+            base_height_px: paint.base_height_px,
+            huge: u32::from(paint.leg_px >= HUGE_LEG_PX),
+            unused: [0; 2],
+        }
+    }
+}
+
+/// `View` of mesh.wgsl.
+#[repr(C)]
+#[derive(Clone, Copy, Pod, Zeroable)]
+pub(super) struct MeshView {
+    anchor: IVec2,
+    fraction: Vec2,
+    px_per_step: Vec2,
+    half_size_px: Vec2,
+    edge_reach_px: f32,
+    seam_slack_px: f32,
+    node_chunk_bits: u32,
+    unused: u32,
+    levels: [Level; LEVELS],
+}
+
+impl MeshView {
+    pub(super) fn new(camera: &Camera, style: &Style, node_chunk_bits: u32) -> Self {
+        let (anchor, fraction) = camera.anchor();
+        Self {
+            anchor,
+            fraction: fraction.as_vec2(),
+            px_per_step: camera.px_per_step().as_vec2(),
+            half_size_px: camera.half_size_px().as_vec2(),
+            edge_reach_px: style.edge_reach_px(),
+            seam_slack_px: SEAM_SLACK_PX,
+            node_chunk_bits,
+            unused: 0,
+            levels: LevelPaint::all(camera, style).map(Level::from),
+        }
+    }
+}
+
+/// `View` of overlay.wgsl.
+#[repr(C)]
+#[derive(Clone, Copy, Pod, Zeroable)]
+pub(super) struct OverlayView {
+    texel: IVec2,
+    fraction: Vec2,
+    texels_per_px: Vec2,
+    half_size_px: Vec2,
+    opacity: f32,
+    unused: [u32; 3],
+}
+
+impl OverlayView {
+    pub(super) fn new(camera: &Camera, overlay: &Overlay) -> Self {
+        let map = overlay.texels(camera);
+        let whole = map.at_center.floor();
+        Self {
+            texel: whole.as_ivec2(),
+            fraction: (map.at_center - whole).as_vec2(),
+            texels_per_px: map.per_px.as_vec2(),
+            half_size_px: camera.half_size_px().as_vec2(),
+            opacity: overlay.opacity,
+            unused: [0; 3],
+        }
+    }
+}

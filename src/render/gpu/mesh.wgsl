@@ -1,0 +1,148 @@
+// Draws triangles straight from the arrays of the mesh: three vertices for each entry, fetched by index.
+//
+// Positions are pixels from the middle of the canvas, y upwards. The camera is subtracted from lattice coordinates as
+// integers; only the difference becomes f32.
+
+struct Level {
+    fill: vec3<f32>,
+    apex_height_px: f32,
+    edge: vec3<f32>,
+    edge_alpha: f32,
+    base_height_px: f32,
+    huge: u32,
+    unused: vec2<u32>,
+}
+
+struct View {
+    anchor: vec2<i32>,
+    fraction: vec2<f32>,
+    px_per_step: vec2<f32>,
+    half_size_px: vec2<f32>,
+    edge_reach_px: f32,
+    seam_slack_px: f32,
+    node_chunk_bits: u32,
+    unused: u32,
+    levels: array<Level, 64>,
+}
+
+struct Triangle {
+    vertices: array<u32, 3>,
+    neighbours: array<u32, 3>,
+    orientation: u32,
+    level: u32,
+}
+
+@group(0) @binding(0) var<uniform> view: View;
+@group(1) @binding(0) var<storage, read> triangles: array<Triangle>;
+@group(1) @binding(1) var<storage, read> nodes_0: array<vec2<u32>>;
+@group(1) @binding(2) var<storage, read> nodes_1: array<vec2<u32>>;
+@group(1) @binding(3) var<storage, read> nodes_2: array<vec2<u32>>;
+@group(1) @binding(4) var<storage, read> nodes_3: array<vec2<u32>>;
+
+struct Corner {
+    @builtin(position) position: vec4<f32>,
+    // Distances from the three edges in pixels.
+    @location(0) inside_px: vec3<f32>,
+    @location(1) @interpolate(flat) fill: vec3<f32>,
+    @location(2) @interpolate(flat) edge: vec4<f32>,
+}
+
+@vertex
+fn vs_main(@builtin(vertex_index) index: u32) -> Corner {
+    let entry = index / 3u;
+    let corner = index % 3u;
+    let level_number = triangles[entry].level;
+    let level = view.levels[level_number];
+    var placed: Placed;
+    if level.huge != 0u {
+        placed = huge_corner(entry, corner);
+    } else {
+        let steps = steps_from_anchor(triangles[entry].vertices[corner]);
+        placed.px = (vec2<f32>(steps) - view.fraction) * view.px_per_step;
+        placed.inside_px = inside_at_corner(corner, level_number, level.apex_height_px, level.base_height_px);
+    }
+    var out: Corner;
+    out.position = vec4(placed.px / view.half_size_px, 0.0, 1.0);
+    out.inside_px = placed.inside_px;
+    out.fill = level.fill;
+    out.edge = vec4(level.edge, level.edge_alpha);
+    return out;
+}
+
+struct Placed {
+    px: vec2<f32>,
+    inside_px: vec3<f32>,
+}
+
+// Lattice steps to a node from the camera's anchor. Lattice coordinates end at 2³⁰, so the difference fits.
+fn steps_from_anchor(node: u32) -> vec2<i32> {
+    let place = node & ((1u << view.node_chunk_bits) - 1u);
+    var p: vec2<u32>;
+    switch node >> view.node_chunk_bits {
+        case 0u: { p = nodes_0[place]; }
+        case 1u: { p = nodes_1[place]; }
+        case 2u: { p = nodes_2[place]; }
+        default: { p = nodes_3[place]; }
+    }
+    return bitcast<vec2<i32>>(p) - view.anchor;
+}
+
+// A corner is its height away from the opposite edge, and on the two others.
+fn inside_at_corner(corner: u32, level: u32, apex_height_px: f32, base_height_px: f32) -> vec3<f32> {
+    // The apex is the second vertex at even levels, the third at odd levels.
+    let is_apex = corner == 1u + (level & 1u);
+    let height = select(base_height_px, apex_height_px, is_apex);
+    return vec3(
+        select(0.0, height, corner == 0u),
+        select(0.0, height, corner == 1u),
+        select(0.0, height, corner == 2u),
+    );
+}
+
+// A corner of one triangle over the whole canvas, from which the fragment shader cuts the huge triangle; nowhere, where
+// the canvas lies beyond one of its edges.
+fn huge_corner(entry: u32, corner: u32) -> Placed {
+    let a = steps_from_anchor(triangles[entry].vertices[0]);
+    let b = steps_from_anchor(triangles[entry].vertices[1]);
+    let c = steps_from_anchor(triangles[entry].vertices[2]);
+    let lines = array(inward_line(b, c, a), inward_line(c, a, b), inward_line(a, b, c));
+    let unit = vec2(select(-1.0, 3.0, corner == 1u), select(-1.0, 3.0, corner == 2u));
+    let px = unit * view.half_size_px;
+    var out: Placed;
+    out.px = px;
+    out.inside_px =
+        vec3(dot(lines[0], vec3(px, 1.0)), dot(lines[1], vec3(px, 1.0)), dot(lines[2], vec3(px, 1.0)));
+    for (var i = 0; i < 3; i++) {
+        let at_nearest_corner = dot(abs(lines[i].xy), view.half_size_px) + lines[i].z;
+        if at_nearest_corner < -view.seam_slack_px {
+            out.px = vec2(-2.0, -2.0) * view.half_size_px;
+        }
+    }
+    return out;
+}
+
+// The line through an edge, positive on the side of the opposite corner: xy · px + z is the distance in pixels.
+//
+// Edges run along an axis or a diagonal, so the normal consists of −1, 0 and 1, and the product with it fits an i32: of
+// two coordinates only one can be near 2³⁰ with that sign on a line that meets the grid in more than a point.
+fn inward_line(start: vec2<i32>, end: vec2<i32>, opposite: vec2<i32>) -> vec3<f32> {
+    let along = sign(end - start);
+    var normal = vec2(-along.y, along.x);
+    let across = opposite - start;
+    if normal.x * across.x + normal.y * across.y < 0 {
+        normal = -normal;
+    }
+    let steps_to_line = f32(normal.x * start.x + normal.y * start.y) - dot(vec2<f32>(normal), view.fraction);
+    let per_px = vec2<f32>(normal) / view.px_per_step;
+    return vec3(per_px, -steps_to_line) / length(per_px);
+}
+
+@fragment
+fn fs_main(in: Corner) -> @location(0) vec4<f32> {
+    let inside_px = min(in.inside_px.x, min(in.inside_px.y, in.inside_px.z));
+    if inside_px < -view.seam_slack_px {
+        discard;
+    }
+    let share = clamp(view.edge_reach_px - inside_px, 0.0, 1.0) * in.edge.a;
+    return vec4(mix(in.fill, in.edge.rgb, share), 1.0);
+}

@@ -1,0 +1,142 @@
+//! The pipeline that draws the triangles of a mirror.
+
+use super::layout::MeshView;
+use super::mirror::MeshMirror;
+use crate::scene::{Camera, Style};
+
+pub(super) struct MeshPass {
+    pipeline: wgpu::RenderPipeline,
+    view: wgpu::Buffer,
+    view_group: wgpu::BindGroup,
+}
+
+impl MeshPass {
+    pub(super) fn new(device: &wgpu::Device, format: wgpu::TextureFormat, mirror: &MeshMirror) -> Self {
+        let view = uniform_buffer(device, "mesh view", size_of::<MeshView>());
+        let view_layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some("mesh view"),
+            entries: &[uniform_entry(0)],
+        });
+        let view_group = device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("mesh view"),
+            layout: &view_layout,
+            entries: &[wgpu::BindGroupEntry { binding: 0, resource: view.as_entire_binding() }],
+        });
+        let shader = device.create_shader_module(wgpu::include_wgsl!("mesh.wgsl"));
+        let pipeline = full_pipeline(device, &shader, &[&view_layout, mirror.layout()], format, None);
+        Self { pipeline, view, view_group }
+    }
+
+    pub(super) fn draw(
+        &self,
+        queue: &wgpu::Queue,
+        pass: &mut wgpu::RenderPass<'_>,
+        mirror: &MeshMirror,
+        camera: &Camera,
+        style: &Style,
+    ) {
+        // While the mesh of another grid is taken in, the former one stays in its place in the world.
+        let camera = mirror.lattice().map_or(*camera, |lattice| camera.on_lattice(lattice));
+        let view = MeshView::new(&camera, style, mirror.limits().node_bits);
+        queue.write_buffer(&self.view, 0, bytemuck::bytes_of(&view));
+        pass.set_pipeline(&self.pipeline);
+        pass.set_bind_group(0, &self.view_group, &[]);
+        for (mesh_group, triangles) in mirror.draws() {
+            pass.set_bind_group(1, mesh_group, &[]);
+            pass.draw(0..3 * triangles as u32, 0..1);
+        }
+    }
+}
+
+/// A pipeline without vertex buffers, from `vs_main` and `fs_main`, for a target without depth and multisampling.
+pub(super) fn full_pipeline(
+    device: &wgpu::Device,
+    shader: &wgpu::ShaderModule,
+    groups: &[&wgpu::BindGroupLayout],
+    format: wgpu::TextureFormat,
+    blend: Option<wgpu::BlendState>,
+) -> wgpu::RenderPipeline {
+    let groups: Vec<_> = groups.iter().map(|&group| Some(group)).collect();
+    let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        label: None,
+        bind_group_layouts: &groups,
+        immediate_size: 0,
+    });
+    device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: None,
+        layout: Some(&layout),
+        vertex: wgpu::VertexState {
+            module: shader,
+            entry_point: Some("vs_main"),
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            buffers: &[],
+        },
+        primitive: wgpu::PrimitiveState::default(),
+        depth_stencil: None,
+        multisample: wgpu::MultisampleState::default(),
+        fragment: Some(wgpu::FragmentState {
+            module: shader,
+            entry_point: Some("fs_main"),
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            targets: &[Some(wgpu::ColorTargetState { format, blend, write_mask: wgpu::ColorWrites::ALL })],
+        }),
+        multiview_mask: None,
+        cache: None,
+    })
+}
+
+pub(super) fn uniform_buffer(device: &wgpu::Device, label: &str, bytes: usize) -> wgpu::Buffer {
+    device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some(label),
+        size: bytes as u64,
+        usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+        mapped_at_creation: false,
+    })
+}
+
+pub(super) fn uniform_entry(binding: u32) -> wgpu::BindGroupLayoutEntry {
+    wgpu::BindGroupLayoutEntry {
+        binding,
+        visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
+        ty: wgpu::BindingType::Buffer {
+            ty: wgpu::BufferBindingType::Uniform,
+            has_dynamic_offset: false,
+            min_binding_size: None,
+        },
+        count: None,
+    }
+}
+
+/// A texture that a fragment shader reads texel by texel.
+pub(super) fn texel_entry(binding: u32) -> wgpu::BindGroupLayoutEntry {
+    wgpu::BindGroupLayoutEntry {
+        binding,
+        visibility: wgpu::ShaderStages::FRAGMENT,
+        ty: wgpu::BindingType::Texture {
+            sample_type: wgpu::TextureSampleType::Float { filterable: false },
+            view_dimension: wgpu::TextureViewDimension::D2,
+            multisampled: false,
+        },
+        count: None,
+    }
+}
+
+/// A texture of one layer.
+pub(super) fn new_texture(
+    device: &wgpu::Device,
+    label: &str,
+    [width, height]: [u32; 2],
+    format: wgpu::TextureFormat,
+    usage: wgpu::TextureUsages,
+) -> wgpu::Texture {
+    device.create_texture(&wgpu::TextureDescriptor {
+        label: Some(label),
+        size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format,
+        usage,
+        view_formats: &[],
+    })
+}

@@ -1,0 +1,174 @@
+//! The GPU renderer without a window.
+
+use super::mesh_pass::new_texture;
+use super::picture::begin_pass;
+use super::{ChunkLimits, GpuError, GpuRenderer, device_descriptor};
+use crate::mesh::Mesh;
+use crate::render::Image;
+use crate::scene::{Camera, Overlay, Style};
+
+const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
+
+/// A device of its own with a renderer, to draw pictures that no window shows.
+pub struct Offscreen {
+    device: wgpu::Device,
+    queue: wgpu::Queue,
+    adapter: String,
+    renderer: GpuRenderer,
+}
+
+/// Draws one picture on the GPU, as [`software::draw`](crate::render::software::draw) does without outlines.
+///
+/// # Errors
+/// When there is no usable driver, or it cannot hold the mesh or the picture.
+pub fn offscreen(
+    mesh: &Mesh,
+    camera: &Camera,
+    style: &Style,
+    overlay: Option<&Overlay>,
+) -> Result<Image, GpuError> {
+    let mut offscreen = Offscreen::new()?;
+    offscreen.show(mesh, 0)?;
+    offscreen.show_overlay(overlay)?;
+    offscreen.picture(camera, style)
+}
+
+impl Offscreen {
+    /// Opens the first driver that will do.
+    ///
+    /// # Errors
+    /// When there is none.
+    pub fn new() -> Result<Self, GpuError> {
+        let (device, queue, adapter) = pollster::block_on(open())?;
+        let renderer = GpuRenderer::new(&device, FORMAT)?;
+        Ok(Self { device, queue, adapter, renderer })
+    }
+
+    /// Starts anew with buffers of another size than the device allows.
+    ///
+    /// # Errors
+    /// When the device cannot draw a mesh at all.
+    pub fn with_chunks(mut self, chunks: ChunkLimits) -> Result<Self, GpuError> {
+        self.renderer = GpuRenderer::with_chunks(&self.device, FORMAT, chunks)?;
+        Ok(self)
+    }
+
+    /// Name of the driver.
+    pub fn adapter(&self) -> &str {
+        &self.adapter
+    }
+
+    /// The device.
+    pub fn device(&self) -> &wgpu::Device {
+        &self.device
+    }
+
+    /// The queue of the device.
+    pub fn queue(&self) -> &wgpu::Queue {
+        &self.queue
+    }
+
+    /// The renderer.
+    pub fn renderer(&mut self) -> &mut GpuRenderer {
+        &mut self.renderer
+    }
+
+    /// Takes in a whole mesh; `revision` is the caller's name for it.
+    ///
+    /// # Errors
+    /// When the device cannot hold it.
+    pub fn show(&mut self, mesh: &Mesh, revision: u64) -> Result<(), GpuError> {
+        self.renderer.mirror_mut().upload(&self.device, &self.queue, mesh, revision)
+    }
+
+    /// Shows an overlay, or none.
+    ///
+    /// # Errors
+    /// When the raster is larger than a texture can be.
+    pub fn show_overlay(&mut self, overlay: Option<&Overlay>) -> Result<(), GpuError> {
+        self.renderer.set_overlay(&self.device, &self.queue, overlay)
+    }
+
+    /// Draws a frame as a window does, and waits until it is done.
+    ///
+    /// # Errors
+    /// When the canvas is larger than a texture can be, or the device is lost.
+    pub fn frame(&mut self, camera: &Camera, style: &Style) -> Result<(), GpuError> {
+        let canvas = self.canvas(camera)?;
+        let encoder = self.encode(&canvas, camera, style)?;
+        self.queue.submit([encoder.finish()]);
+        self.wait()
+    }
+
+    /// Draws a frame and reads it back.
+    ///
+    /// # Errors
+    /// As [`Self::frame`].
+    pub fn picture(&mut self, camera: &Camera, style: &Style) -> Result<Image, GpuError> {
+        let size = camera.size_px();
+        let canvas = self.canvas(camera)?;
+        let mut encoder = self.encode(&canvas, camera, style)?;
+        let row_bytes = (4 * size[0]).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
+        let buffer = self.device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("read back"),
+            size: u64::from(row_bytes) * u64::from(size[1]),
+            usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
+            mapped_at_creation: false,
+        });
+        let layout =
+            wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(row_bytes), rows_per_image: None };
+        encoder.copy_texture_to_buffer(
+            canvas.as_image_copy(),
+            wgpu::TexelCopyBufferInfo { buffer: &buffer, layout },
+            canvas.size(),
+        );
+        self.queue.submit([encoder.finish()]);
+        buffer.map_async(wgpu::MapMode::Read, .., |_| {});
+        self.wait()?;
+        let bytes = buffer.get_mapped_range(..).map_err(|e| GpuError::ReadBack { reason: e.to_string() })?;
+        let rows = bytes.chunks(row_bytes as usize);
+        Ok(Image { size, rgba: rows.flat_map(|row| &row[..4 * size[0] as usize]).copied().collect() })
+    }
+
+    fn canvas(&self, camera: &Camera) -> Result<wgpu::Texture, GpuError> {
+        let size = camera.size_px();
+        let limit = self.device.limits().max_texture_dimension_2d;
+        if size[0] > limit || size[1] > limit {
+            return Err(GpuError::TooLarge { what: "A picture", size, limit });
+        }
+        let usage = wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC;
+        Ok(new_texture(&self.device, "canvas", size, FORMAT, usage))
+    }
+
+    fn encode(
+        &mut self,
+        canvas: &wgpu::Texture,
+        camera: &Camera,
+        style: &Style,
+    ) -> Result<wgpu::CommandEncoder, GpuError> {
+        let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        self.renderer.prepare(&self.device, &self.queue, &mut encoder, camera, style)?;
+        let view = canvas.create_view(&wgpu::TextureViewDescriptor::default());
+        self.renderer.paint(&mut begin_pass(&mut encoder, &view, style.ground_color()));
+        Ok(encoder)
+    }
+
+    fn wait(&self) -> Result<(), GpuError> {
+        let done = self.device.poll(wgpu::PollType::wait_indefinitely());
+        done.map(|_| ()).map_err(|e| GpuError::ReadBack { reason: e.to_string() })
+    }
+}
+
+async fn open() -> Result<(wgpu::Device, wgpu::Queue, String), GpuError> {
+    let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle_from_env());
+    let adapter = instance
+        .request_adapter(&wgpu::RequestAdapterOptions::default())
+        .await
+        .map_err(|e| GpuError::NoAdapter { reason: e.to_string() })?;
+    let name = adapter.get_info().name;
+    let (device, queue) = adapter
+        .request_device(&device_descriptor(&adapter))
+        .await
+        .map_err(|e| GpuError::NoDevice { adapter: name.clone(), reason: e.to_string() })?;
+    Ok((device, queue, name))
+}

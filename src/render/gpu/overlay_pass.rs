@@ -1,0 +1,157 @@
+//! The raster above the mesh.
+
+use std::ops::Range;
+
+use super::GpuError;
+use super::layout::OverlayView;
+use super::mesh_pass::{full_pipeline, new_texture, texel_entry, uniform_buffer, uniform_entry};
+use crate::geometry::Rect;
+use crate::scene::{Camera, Overlay};
+
+const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
+
+pub(super) struct OverlayPass {
+    pipeline: wgpu::RenderPipeline,
+    layout: wgpu::BindGroupLayout,
+    view: wgpu::Buffer,
+    raster: Option<Raster>,
+}
+
+/// An overlay whose colours are on the GPU.
+struct Raster {
+    texture: wgpu::Texture,
+    group: wgpu::BindGroup,
+    bounds: Rect,
+    opacity: f32,
+    revision: u64,
+}
+
+impl Raster {
+    fn size(&self) -> [u32; 2] {
+        [self.texture.width(), self.texture.height()]
+    }
+}
+
+impl OverlayPass {
+    pub(super) fn new(device: &wgpu::Device, format: wgpu::TextureFormat) -> Self {
+        let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some("overlay"),
+            entries: &[uniform_entry(0), texel_entry(1)],
+        });
+        let shader = device.create_shader_module(wgpu::include_wgsl!("overlay.wgsl"));
+        let blend = wgpu::BlendState::ALPHA_BLENDING;
+        Self {
+            pipeline: full_pipeline(device, &shader, &[&layout], format, Some(blend)),
+            layout,
+            view: uniform_buffer(device, "overlay view", size_of::<OverlayView>()),
+            raster: None,
+        }
+    }
+
+    pub(super) fn set(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        overlay: Option<&Overlay>,
+    ) -> Result<(), GpuError> {
+        let Some(overlay) = overlay else {
+            self.raster = None;
+            return Ok(());
+        };
+        let stale = self.fitting(overlay).is_none_or(|raster| raster.revision != overlay.revision);
+        let rows = if stale { 0..overlay.rows } else { 0..0 };
+        self.set_rows(device, queue, overlay, rows)
+    }
+
+    pub(super) fn set_rows(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        overlay: &Overlay,
+        rows: Range<u32>,
+    ) -> Result<(), GpuError> {
+        if overlay.columns == 0 || overlay.rows == 0 {
+            self.raster = None;
+            return Ok(());
+        }
+        let (mut raster, rows) = match self.fitting(overlay) {
+            Some(_) => (self.raster.take().expect("it was found to fit"), rows),
+            None => (self.new_raster(device, overlay)?, 0..overlay.rows),
+        };
+        write_rows(queue, &raster.texture, overlay, rows);
+        (raster.bounds, raster.opacity, raster.revision) =
+            (overlay.bounds, overlay.opacity, overlay.revision);
+        self.raster = Some(raster);
+        Ok(())
+    }
+
+    pub(super) fn prepare(&self, queue: &wgpu::Queue, camera: &Camera) {
+        let Some(raster) = &self.raster else { return };
+        let [columns, rows] = raster.size();
+        let place = Overlay {
+            bounds: raster.bounds,
+            columns,
+            rows,
+            rgba: &[],
+            opacity: raster.opacity,
+            revision: raster.revision,
+        };
+        queue.write_buffer(&self.view, 0, bytemuck::bytes_of(&OverlayView::new(camera, &place)));
+    }
+
+    pub(super) fn paint(&self, pass: &mut wgpu::RenderPass<'_>) {
+        let Some(raster) = &self.raster else { return };
+        pass.set_pipeline(&self.pipeline);
+        pass.set_bind_group(0, &raster.group, &[]);
+        pass.draw(0..3, 0..1);
+    }
+
+    fn fitting(&self, overlay: &Overlay) -> Option<&Raster> {
+        self.raster.as_ref().filter(|raster| raster.size() == [overlay.columns, overlay.rows])
+    }
+
+    fn new_raster(&self, device: &wgpu::Device, overlay: &Overlay) -> Result<Raster, GpuError> {
+        let size = [overlay.columns, overlay.rows];
+        let limit = device.limits().max_texture_dimension_2d;
+        if size[0] > limit || size[1] > limit {
+            return Err(GpuError::TooLarge { what: "A field raster", size, limit });
+        }
+        let usage = wgpu::TextureUsages::COPY_DST | wgpu::TextureUsages::TEXTURE_BINDING;
+        let texture = new_texture(device, "overlay", size, FORMAT, usage);
+        let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
+        let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("overlay"),
+            layout: &self.layout,
+            entries: &[
+                wgpu::BindGroupEntry { binding: 0, resource: self.view.as_entire_binding() },
+                wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::TextureView(&view) },
+            ],
+        });
+        let Overlay { bounds, opacity, revision, .. } = *overlay;
+        Ok(Raster { texture, group, bounds, opacity, revision })
+    }
+}
+
+fn write_rows(queue: &wgpu::Queue, texture: &wgpu::Texture, overlay: &Overlay, rows: Range<u32>) {
+    let rows = rows.start.min(overlay.rows)..rows.end.min(overlay.rows);
+    if rows.is_empty() {
+        return;
+    }
+    let columns = overlay.columns as usize;
+    let colors = &overlay.rgba[rows.start as usize * columns..rows.end as usize * columns];
+    queue.write_texture(
+        wgpu::TexelCopyTextureInfo {
+            texture,
+            mip_level: 0,
+            origin: wgpu::Origin3d { x: 0, y: rows.start, z: 0 },
+            aspect: wgpu::TextureAspect::All,
+        },
+        bytemuck::cast_slice(colors),
+        wgpu::TexelCopyBufferLayout {
+            offset: 0,
+            bytes_per_row: Some(4 * overlay.columns),
+            rows_per_image: None,
+        },
+        wgpu::Extent3d { width: overlay.columns, height: rows.end - rows.start, depth_or_array_layers: 1 },
+    );
+}

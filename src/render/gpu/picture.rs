@@ -1,0 +1,130 @@
+//! The picture of the mesh, kept as a texture.
+
+use super::GpuError;
+use super::mesh_pass::{MeshPass, full_pipeline, new_texture, texel_entry};
+use super::mirror::MeshMirror;
+use crate::scene::{Camera, Style};
+
+/// Draws the mesh into a texture when something changed, and copies the texture to the canvas otherwise.
+///
+/// A window repaints for every hover in a panel; a large mesh must not be drawn for that.
+pub(super) struct MeshPicture {
+    format: wgpu::TextureFormat,
+    mesh_pass: MeshPass,
+    blit: wgpu::RenderPipeline,
+    blit_layout: wgpu::BindGroupLayout,
+    target: Option<Target>,
+    drawn: Option<Drawn>,
+    redraws: u64,
+}
+
+struct Target {
+    size: [u32; 2],
+    view: wgpu::TextureView,
+    group: wgpu::BindGroup,
+}
+
+/// What the picture shows. It is drawn anew when any of it changes.
+#[derive(PartialEq)]
+struct Drawn {
+    generation: u64,
+    camera: Camera,
+    style: Style,
+}
+
+impl MeshPicture {
+    pub(super) fn new(device: &wgpu::Device, format: wgpu::TextureFormat, mirror: &MeshMirror) -> Self {
+        let blit_layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some("picture"),
+            entries: &[texel_entry(0)],
+        });
+        let shader = device.create_shader_module(wgpu::include_wgsl!("blit.wgsl"));
+        Self {
+            format,
+            mesh_pass: MeshPass::new(device, format, mirror),
+            blit: full_pipeline(device, &shader, &[&blit_layout], format, None),
+            blit_layout,
+            target: None,
+            drawn: None,
+            redraws: 0,
+        }
+    }
+
+    pub(super) fn prepare(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        encoder: &mut wgpu::CommandEncoder,
+        mirror: &MeshMirror,
+        camera: &Camera,
+        style: &Style,
+    ) -> Result<(), GpuError> {
+        let wanted = Drawn { generation: mirror.generation(), camera: *camera, style: style.clone() };
+        if self.drawn.as_ref() == Some(&wanted) {
+            return Ok(());
+        }
+        let target = self.target_of(device, camera.size_px())?;
+        let mut pass = begin_pass(encoder, &target.view, style.ground_color());
+        self.mesh_pass.draw(queue, &mut pass, mirror, camera, style);
+        drop(pass);
+        self.target = Some(target);
+        self.drawn = Some(wanted);
+        self.redraws += 1;
+        Ok(())
+    }
+
+    pub(super) fn paint(&self, pass: &mut wgpu::RenderPass<'_>) {
+        let Some(target) = &self.target else { return };
+        pass.set_pipeline(&self.blit);
+        pass.set_bind_group(0, &target.group, &[]);
+        pass.draw(0..3, 0..1);
+    }
+
+    pub(super) fn redraws(&self) -> u64 {
+        self.redraws
+    }
+
+    /// The present texture if it has the right size, else a new one.
+    fn target_of(&mut self, device: &wgpu::Device, size: [u32; 2]) -> Result<Target, GpuError> {
+        if let Some(target) = self.target.take_if(|target| target.size == size) {
+            return Ok(target);
+        }
+        let limit = device.limits().max_texture_dimension_2d;
+        if size[0] > limit || size[1] > limit {
+            return Err(GpuError::TooLarge { what: "A canvas", size, limit });
+        }
+        let usage = wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING;
+        let texture = new_texture(device, "mesh picture", size, self.format, usage);
+        let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
+        let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("picture"),
+            layout: &self.blit_layout,
+            entries: &[wgpu::BindGroupEntry {
+                binding: 0,
+                resource: wgpu::BindingResource::TextureView(&view),
+            }],
+        });
+        Ok(Target { size, view, group })
+    }
+}
+
+/// A pass onto one texture, cleared to `ground` first.
+pub(super) fn begin_pass<'e>(
+    encoder: &'e mut wgpu::CommandEncoder,
+    view: &wgpu::TextureView,
+    ground: [f32; 3],
+) -> wgpu::RenderPass<'e> {
+    let [r, g, b] = ground.map(f64::from);
+    encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+        color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+            view,
+            depth_slice: None,
+            resolve_target: None,
+            ops: wgpu::Operations {
+                load: wgpu::LoadOp::Clear(wgpu::Color { r, g, b, a: 1.0 }),
+                store: wgpu::StoreOp::Store,
+            },
+        })],
+        ..wgpu::RenderPassDescriptor::default()
+    })
+}

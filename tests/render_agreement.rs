@@ -1,0 +1,307 @@
+//! The GPU and the software renderer draw the same picture.
+//!
+//! Without a graphics driver these tests say so and pass, unless MESHBRUSH_REQUIRE_GPU is set.
+//! With MESHBRUSH_PICTURES set to a folder they leave what they drew there.
+#![cfg(feature = "gui")]
+
+use glam::{DVec2, dvec2};
+use meshbrush::geometry::{LatticePoint, Rect};
+use meshbrush::mesh::{Limits, Mesh, Progress};
+use meshbrush::render::gpu::{ChunkLimits, GpuError, Offscreen};
+use meshbrush::render::{Image, software};
+use meshbrush::scene::{Camera, LEVELS, LevelColors, Overlay, Style};
+
+const SIZE: [u32; 2] = [400, 300];
+
+/// A device, or `None` where there is none and that is allowed.
+fn gpu() -> Option<Offscreen> {
+    match Offscreen::new() {
+        Ok(offscreen) => Some(offscreen),
+        Err(e) if std::env::var_os("MESHBRUSH_REQUIRE_GPU").is_none() => {
+            eprintln!("SKIPPED, nothing was compared: {e}");
+            None
+        }
+        Err(e) => panic!("MESHBRUSH_REQUIRE_GPU is set: {e}"),
+    }
+}
+
+/// Level 0 dark, then from violet to yellow: near enough to the program's own colours to judge pictures by.
+fn colors() -> LevelColors {
+    const STOPS: [[f32; 3]; 5] =
+        [[70., 40., 120.], [59., 82., 139.], [33., 145., 140.], [94., 201., 98.], [253., 231., 37.]];
+    std::array::from_fn(|level| {
+        if level == 0 {
+            return [0x1d, 0x21, 0x2b, 0xff];
+        }
+        let t = ((level - 1) as f32 / 3.0).min(3.99);
+        let (i, f) = (t as usize, t.fract());
+        let [r, g, b] = std::array::from_fn(|c| (STOPS[i][c] * (1.0 - f) + STOPS[i + 1][c] * f) as u8);
+        [r, g, b, 255]
+    })
+}
+
+/// Graded towards a curve, with a round hole.
+fn graded() -> Mesh {
+    let contains = |p: DVec2| p.distance(dvec2(0.7, 0.3)) > 0.15;
+    let mut mesh = Mesh::coarse_grid(Rect::UNIT, 0.05, contains, &Limits::default()).unwrap();
+    mesh.refine(&Limits::default(), |element| {
+        let near = |x: DVec2| (x.y - 0.5 - 0.3 * (6.0 * x.x).sin()).abs();
+        let target = element.world_corners().map(near).into_iter().fold(f64::MAX, f64::min);
+        Ok(element.diameter() > (0.08 * target).max(0.0012))
+    })
+    .unwrap();
+    mesh
+}
+
+/// Refined to the last level of the lattice round one node.
+fn deep() -> (Mesh, LatticePoint) {
+    let mut mesh = Mesh::coarse_grid(Rect::UNIT, 0.3, |_| true, &Limits::default()).unwrap();
+    let deepest = mesh.lattice().deepest_level();
+    let point = LatticePoint::new(0x2491_d3a7, 0x1b4c_8e35);
+    mesh.refine(&Limits::default(), |element| {
+        let xs = element.corners.map(|c| c.x);
+        let ys = element.corners.map(|c| c.y);
+        let in_box = (xs.iter().min() <= Some(&point.x) && Some(&point.x) <= xs.iter().max())
+            && (ys.iter().min() <= Some(&point.y) && Some(&point.y) <= ys.iter().max());
+        Ok(in_box && element.triangle.level() < deepest)
+    })
+    .unwrap();
+    assert_eq!(mesh.level_counts().len() as u32, deepest + 1);
+    (mesh, point)
+}
+
+fn whole(mesh: &Mesh) -> Camera {
+    Camera::fit(mesh.lattice(), mesh.lattice().bounds(), SIZE, 10.0)
+}
+
+/// A node on the curve of [`graded`], a little off the middle.
+fn close_up(mesh: &Mesh, zoom: f64) -> Camera {
+    whole(mesh).zoomed(zoom, DVec2::ZERO).centered_on(dvec2(0.5, 0.55)).panned(dvec2(10.3, 5.8))
+}
+
+fn keep(image: &Image, name: &str) {
+    let Some(folder) = std::env::var_os("MESHBRUSH_PICTURES") else { return };
+    let file = std::fs::File::create(std::path::Path::new(&folder).join(format!("{name}.png"))).unwrap();
+    let mut encoder = png::Encoder::new(file, image.size[0], image.size[1]);
+    encoder.set_color(png::ColorType::Rgba);
+    encoder.set_depth(png::BitDepth::Eight);
+    encoder.write_header().unwrap().write_image_data(&image.rgba).unwrap();
+}
+
+/// Mean difference of a colour component, and the share of pixels that differ by more than 8 in one.
+fn difference(a: &Image, b: &Image) -> (f64, f64) {
+    assert_eq!(a.size, b.size);
+    let largest = |(p, q): (&[u8; 4], &[u8; 4])| (0..3).map(|c| p[c].abs_diff(q[c])).max().unwrap();
+    let differing = a.pixels().iter().zip(b.pixels()).filter(|&pair| largest(pair) > 8).count();
+    let total: u64 = a.rgba.iter().zip(&b.rgba).map(|(p, q)| u64::from(p.abs_diff(*q))).sum();
+    let pixels = a.pixels().len() as f64;
+    (total as f64 / (3.0 * pixels), differing as f64 / pixels)
+}
+
+fn assert_agree(name: &str, gpu: &Image, software: &Image) {
+    keep(gpu, &format!("{name}-gpu"));
+    keep(software, &format!("{name}-software"));
+    let (mean, differing) = difference(gpu, software);
+    eprintln!("{name}: mean difference {mean:.4} of 255, {:.3} % of pixels differ", 100.0 * differing);
+    assert!(mean < 0.5, "{name}: mean difference {mean}");
+    assert!(differing < 0.02, "{name}: {differing} of the pixels differ");
+    let first = software.pixels()[0];
+    assert!(software.pixels().iter().any(|&p| p != first), "{name}: the picture is empty");
+}
+
+#[test]
+fn pictures_agree_at_every_zoom() {
+    let Some(mut gpu) = gpu() else { return };
+    let mesh = graded();
+    gpu.show(&mesh, 1).unwrap();
+    for (style_name, style) in [("dark", Style::dark(colors())), ("light", Style::light(colors()))] {
+        for zoom in [0.3, 1.0, 2.7, 9.0, 40.0, 3000.0] {
+            let camera = close_up(&mesh, zoom);
+            let picture = gpu.picture(&camera, &style).unwrap();
+            assert_agree(
+                &format!("graded-{style_name}-{zoom}"),
+                &picture,
+                &software::draw(&mesh, &camera, &style, None, &[]),
+            );
+        }
+    }
+}
+
+#[test]
+fn pictures_agree_down_to_the_last_level() {
+    let Some(mut gpu) = gpu() else { return };
+    let (mesh, point) = deep();
+    gpu.show(&mesh, 1).unwrap();
+    let style = Style::dark(colors());
+    let world = mesh.lattice().world_from_lattice(point);
+    for zoom in [1.0, 1e2, 1e4, 1e6, 1e7, 1e300] {
+        let camera = whole(&mesh).zoomed(zoom, dvec2(0.0, 0.0)).centered_on(world).panned(dvec2(13.3, 5.7));
+        let picture = gpu.picture(&camera, &style).unwrap();
+        assert_agree(&format!("deep-{zoom:e}"), &picture, &software::draw(&mesh, &camera, &style, None, &[]));
+    }
+}
+
+#[test]
+fn edges_of_huge_triangles_stay_in_place() {
+    let Some(mut gpu) = gpu() else { return };
+    let (mesh, _) = deep();
+    gpu.show(&mesh, 1).unwrap();
+    let style = Style::dark(colors());
+    // The middle of a coarse diagonal, and a coarse node, both far from the refined point.
+    let cell = mesh.lattice().cell_steps();
+    for (name, node) in
+        [("diagonal", LatticePoint::new(cell / 2, cell / 2)), ("node", LatticePoint::new(cell, 3 * cell))]
+    {
+        let at = whole(&mesh).zoomed(1e300, DVec2::ZERO).centered_on(mesh.lattice().world_from_lattice(node));
+        for (i, pan) in [dvec2(0.0, 0.0), dvec2(60.25, -31.5)].into_iter().enumerate() {
+            let camera = at.panned(pan);
+            let picture = gpu.picture(&camera, &style).unwrap();
+            assert_agree(
+                &format!("huge-{name}-{i}"),
+                &picture,
+                &software::draw(&mesh, &camera, &style, None, &[]),
+            );
+        }
+    }
+}
+
+#[test]
+fn an_overlay_and_a_level_filter_agree() {
+    let Some(mut gpu) = gpu() else { return };
+    let mesh = graded();
+    let style = Style { shown_levels: 0b1111_0000, ..Style::dark(colors()) };
+    let rgba: Vec<[u8; 4]> = (0..20 * 30u32).map(|i| [(i % 20 * 12) as u8, (i / 3) as u8, 90, 180]).collect();
+    let bounds = Rect::new(dvec2(0.1, 0.25), dvec2(0.9, 0.85));
+    let overlay = Overlay { bounds, columns: 20, rows: 30, rgba: &rgba, opacity: 0.6, revision: 1 };
+    gpu.show(&mesh, 1).unwrap();
+    gpu.show_overlay(Some(&overlay)).unwrap();
+    for zoom in [1.0, 20.0, 1e5] {
+        let camera = close_up(&mesh, zoom);
+        let picture = gpu.picture(&camera, &style).unwrap();
+        let expected = software::draw(&mesh, &camera, &style, Some(&overlay), &[]);
+        assert_agree(&format!("overlay-{zoom}"), &picture, &expected);
+    }
+}
+
+#[test]
+fn only_changed_rows_of_an_overlay_travel() {
+    let Some(mut gpu) = gpu() else { return };
+    let mesh = graded();
+    let camera = whole(&mesh);
+    let style = Style::dark(colors());
+    gpu.show(&mesh, 1).unwrap();
+    let before = vec![[0, 0, 0, 0]; 16 * 16];
+    let mut after = before.clone();
+    after[5 * 16..7 * 16].fill([255, 0, 0, 255]);
+    let clear =
+        Overlay { bounds: Rect::UNIT, columns: 16, rows: 16, rgba: &before, opacity: 1.0, revision: 1 };
+    gpu.show_overlay(Some(&clear)).unwrap();
+    let changed = Overlay { rgba: &after, revision: 2, ..clear };
+    let (device, queue) = (gpu.device().clone(), gpu.queue().clone());
+    gpu.renderer().set_overlay_rows(&device, &queue, &changed, 5..7).unwrap();
+    let picture = gpu.picture(&camera, &style).unwrap();
+    assert_agree("rows", &picture, &software::draw(&mesh, &camera, &style, Some(&changed), &[]));
+}
+
+#[test]
+fn a_mesh_in_many_chunks_looks_the_same() {
+    let Some(gpu) = gpu() else { return };
+    let mesh = graded();
+    let (camera, style) = (whole(&mesh), Style::dark(colors()));
+    // The fewest bits with which four buffers hold all nodes.
+    let node_bits = (mesh.nodes().len() as u32).div_ceil(4).next_power_of_two().ilog2();
+    let mut gpu = gpu.with_chunks(ChunkLimits { triangles: 1000, node_bits }).unwrap();
+    gpu.show(&mesh, 1).unwrap();
+    let picture = gpu.picture(&camera, &style).unwrap();
+    assert_agree("chunks", &picture, &software::draw(&mesh, &camera, &style, None, &[]));
+
+    let mut small = gpu.with_chunks(ChunkLimits { triangles: 1000, node_bits: node_bits - 2 }).unwrap();
+    let refused = small.show(&mesh, 2).unwrap_err();
+    assert!(matches!(refused, GpuError::TooManyNodes { .. }), "{refused}");
+    assert!(small.picture(&camera, &style).is_ok(), "the canvas is still there");
+}
+
+#[test]
+fn the_former_mesh_stays_until_the_next_is_whole() {
+    let Some(gpu) = gpu() else { return };
+    let mut gpu = gpu.with_chunks(ChunkLimits { triangles: 700, node_bits: 15 }).unwrap();
+    let (before, after) = (deep().0, graded());
+    let (camera, style) = (whole(&before), Style::dark(colors()));
+    gpu.show(&before, 1).unwrap();
+    let first = gpu.picture(&camera, &style).unwrap();
+    let (device, queue) = (gpu.device().clone(), gpu.queue().clone());
+    gpu.renderer().mirror_mut().begin(&device, &queue, &after, 2).unwrap();
+    let mut slices = 0;
+    while gpu.renderer().mirror_mut().upload_some(&queue, &after, 100_000) == Progress::More {
+        slices += 1;
+        assert_eq!(gpu.renderer().mirror().shown(), Some(1));
+        assert_eq!(gpu.renderer().mirror().uploading(), Some(2));
+        assert_eq!(gpu.picture(&camera, &style).unwrap(), first);
+    }
+    assert!(slices > 5, "{slices}");
+    assert_eq!(gpu.renderer().mirror().shown(), Some(2));
+    let picture = gpu.picture(&camera, &style).unwrap();
+    assert_agree("swapped", &picture, &software::draw(&after, &camera, &style, None, &[]));
+}
+
+#[test]
+fn changed_ranges_bring_the_mesh_up_to_date() {
+    let Some(gpu) = gpu() else { return };
+    let mut gpu = gpu.with_chunks(ChunkLimits { triangles: 900, node_bits: 14 }).unwrap();
+    let (device, queue) = (gpu.device().clone(), gpu.queue().clone());
+    let mut mesh = Mesh::coarse_grid(Rect::UNIT, 0.05, |_| true, &Limits::default()).unwrap();
+    let (camera, style) = (whole(&mesh), Style::dark(colors()));
+    for step in 0..12u64 {
+        let before = mesh.clone();
+        let center = dvec2(0.1 + 0.07 * step as f64, 0.5);
+        mesh.refine(&Limits::default(), |element| {
+            let near = element.world_corners().iter().any(|x| x.distance(center) < 0.1);
+            Ok(near && element.diameter() > 0.008)
+        })
+        .unwrap();
+        // The last step takes all back, as coarsening would.
+        if step == 11 {
+            mesh = Mesh::coarse_grid(Rect::UNIT, 0.05, |_| true, &Limits::default()).unwrap();
+        }
+        let nodes = changed(before.nodes(), mesh.nodes());
+        let triangles = changed(before.triangles(), mesh.triangles());
+        let mirror = gpu.renderer().mirror_mut();
+        mirror.write_ranges(&device, &queue, &mesh, step, &nodes, &triangles).unwrap();
+        assert_eq!(mirror.shown(), Some(step));
+        let picture = gpu.picture(&camera, &style).unwrap();
+        assert_agree(&format!("ranges-{step}"), &picture, &software::draw(&mesh, &camera, &style, None, &[]));
+    }
+}
+
+fn changed<T: PartialEq>(before: &[T], after: &[T]) -> Vec<std::ops::Range<usize>> {
+    (0..after.len()).filter(|&i| before.get(i) != Some(&after[i])).map(|i| i..i + 1).collect()
+}
+
+#[test]
+fn the_picture_is_drawn_again_only_for_a_change() {
+    let Some(mut gpu) = gpu() else { return };
+    let mesh = graded();
+    let (camera, style) = (whole(&mesh), Style::dark(colors()));
+    gpu.show(&mesh, 1).unwrap();
+    let first = gpu.picture(&camera, &style).unwrap();
+    assert_eq!(gpu.picture(&camera, &style).unwrap(), first);
+    assert_eq!(gpu.renderer().redraws(), 1, "nothing changed");
+    gpu.frame(&camera.panned(dvec2(1.0, 0.0)), &style).unwrap();
+    assert_eq!(gpu.renderer().redraws(), 2, "the camera moved");
+    gpu.frame(&camera, &Style { edges: false, ..style.clone() }).unwrap();
+    assert_eq!(gpu.renderer().redraws(), 3, "the style changed");
+    gpu.frame(&camera.resized([300, 300]), &style).unwrap();
+    assert_eq!(gpu.renderer().redraws(), 4, "the size changed");
+    gpu.show(&mesh, 2).unwrap();
+    gpu.frame(&camera.resized([300, 300]), &style).unwrap();
+    assert_eq!(gpu.renderer().redraws(), 5, "the mesh changed");
+}
+
+#[test]
+fn a_canvas_without_a_mesh_is_its_ground() {
+    let Some(mut gpu) = gpu() else { return };
+    let camera = whole(&graded());
+    let style = Style { level_colors: [[9; 4]; LEVELS], ..Style::light(colors()) };
+    let picture = gpu.picture(&camera, &style).unwrap();
+    assert_eq!(picture, Image::filled(SIZE, style.ground));
+}
