@@ -13,3 +13,5 @@ pub mod document;
 pub mod colormap;
 pub mod scene;
 pub mod render;
+#[cfg(feature = "gui")]
+pub mod app;
