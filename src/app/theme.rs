@@ -26,13 +26,15 @@ pub struct Tokens {
     pub popup: Color32,
     /// Hair lines between areas and round controls.
     pub line: Color32,
+    /// Outlines of keys, tags, dialogs and the selected segment.
+    pub edge: Color32,
     /// Ground of inputs, slider tracks, keys and quiet buttons.
     pub field: Color32,
     /// A field or row under the pointer.
     pub hover: Color32,
     /// Ground of wells: segmented controls, curves, charts.
     pub well: Color32,
-    /// The selected segment in a well.
+    /// The selected segment in a well, and caps of keys.
     pub raised: Color32,
     /// Numbers and whatever the user set: the brightest text.
     pub value: Color32,
@@ -76,10 +78,11 @@ pub const DARK: Tokens = Tokens {
     panel: Color32::from_rgb(0x15, 0x18, 0x1e),
     popup: Color32::from_rgb(0x1a, 0x1e, 0x25),
     line: Color32::from_rgb(0x22, 0x26, 0x2e),
+    edge: Color32::from_rgb(0x36, 0x3d, 0x4a),
     field: Color32::from_rgb(0x27, 0x2c, 0x36),
     hover: Color32::from_rgb(0x2e, 0x34, 0x40),
     well: Color32::from_rgb(0x0f, 0x11, 0x15),
-    raised: Color32::from_rgb(0x29, 0x2e, 0x39),
+    raised: Color32::from_rgb(0x2c, 0x32, 0x3e),
     value: Color32::from_rgb(0xe8, 0xeb, 0xf0),
     text: Color32::from_rgb(0xd7, 0xdb, 0xe2),
     label: Color32::from_rgb(0x9a, 0xa3, 0xb2),
@@ -110,6 +113,7 @@ pub const LIGHT: Tokens = Tokens {
     panel: Color32::from_rgb(0xfa, 0xfb, 0xfc),
     popup: Color32::from_rgb(0xff, 0xff, 0xff),
     line: Color32::from_rgb(0xd8, 0xdc, 0xe3),
+    edge: Color32::from_rgb(0xc6, 0xcc, 0xd6),
     field: Color32::from_rgb(0xe4, 0xe8, 0xee),
     hover: Color32::from_rgb(0xd8, 0xde, 0xe7),
     well: Color32::from_rgb(0xec, 0xef, 0xf3),
@@ -150,6 +154,11 @@ impl Tokens {
         Stroke::new(1.0, self.line)
     }
 
+    /// The small shadow under tags over the canvas.
+    pub fn tag_shadow(&self) -> Shadow {
+        Shadow { offset: [0, 2], blur: 8, spread: 0, color: self.shadow }
+    }
+
     /// The shadow under dialogs and popups.
     pub fn popup_shadow(&self) -> Shadow {
         Shadow { offset: [0, 8], blur: 24, spread: 0, color: self.shadow }
@@ -168,13 +177,13 @@ pub mod metrics {
     /// Margin between a panel's edge and its contents.
     pub const PANEL_MARGIN: f32 = 16.0;
     /// Width of the side panel these widgets are drawn for.
-    pub const PANEL_WIDTH: f32 = 304.0;
+    pub const PANEL_WIDTH: f32 = 320.0;
     /// Height of a row in a panel.
     pub const ROW: f32 = 24.0;
     /// Space between rows.
     pub const ROW_GAP: f32 = 4.0;
     /// Width of the column of names before sliders and fields.
-    pub const LABEL_WIDTH: f32 = 88.0;
+    pub const LABEL_WIDTH: f32 = 104.0;
     /// Width of the column of numbers after sliders.
     pub const VALUE_WIDTH: f32 = 72.0;
     /// Side of a tool button.
@@ -223,6 +232,10 @@ pub mod font {
     /// Numbers beside bars and in keys.
     pub fn small_value() -> FontId {
         FontId::new(11.0, FontFamily::Monospace)
+    }
+    /// Numbers along an axis.
+    pub fn axis() -> FontId {
+        FontId::new(10.0, FontFamily::Monospace)
     }
     /// Icons of `size` points.
     pub fn icon(size: f32) -> FontId {
@@ -281,7 +294,7 @@ fn apply(style: &mut egui::Style, tokens: &Tokens) {
 
 fn apply_spacing(spacing: &mut egui::Spacing) {
     spacing.item_spacing = vec2(metrics::GRID, metrics::ROW_GAP);
-    spacing.button_padding = vec2(10.0, 4.0);
+    spacing.button_padding = vec2(8.0, 4.0);
     spacing.interact_size = vec2(40.0, metrics::ROW);
     spacing.menu_margin = Margin::same(6);
     spacing.window_margin = Margin::same(16);
@@ -311,7 +324,7 @@ fn apply_visuals(visuals: &mut egui::Visuals, tokens: &Tokens) {
     visuals.window_corner_radius = radius;
     visuals.menu_corner_radius = radius;
     visuals.window_fill = tokens.popup;
-    visuals.window_stroke = Stroke::new(1.0, tokens.hover);
+    visuals.window_stroke = Stroke::new(1.0, tokens.edge);
     visuals.panel_fill = tokens.panel;
     visuals.window_shadow = tokens.popup_shadow();
     visuals.popup_shadow = tokens.popup_shadow();

@@ -1,0 +1,67 @@
+//! A coloured dot with a number: a neighbour to go to, a pin.
+
+use eframe::egui::{
+    self, Color32, CursorIcon, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui, WidgetInfo, pos2, vec2,
+};
+
+use super::paint;
+use crate::app::theme::{font, metrics, tokens};
+
+/// A chip: a coloured dot and a text, on which one may click.
+#[must_use = "call `show`"]
+pub struct Chip<'a> {
+    colour: Color32,
+    text: &'a str,
+    name: &'a str,
+    enabled: bool,
+}
+
+impl<'a> Chip<'a> {
+    /// A chip with a dot in `colour`; `name` tells the tooltip, tests and screen readers what a click does.
+    pub fn new(colour: Color32, text: &'a str, name: &'a str) -> Self {
+        Self { colour, text, name, enabled: true }
+    }
+
+    /// Whether it can be clicked; a neighbour that is the boundary cannot.
+    pub fn enabled(mut self, enabled: bool) -> Self {
+        self.enabled = enabled;
+        self
+    }
+
+    /// Shows the chip. The response has `hovered`, and `clicked` by pointer, Enter or Space.
+    pub fn show(self, ui: &mut Ui) -> Response {
+        let t = tokens(ui);
+        let ink = if self.enabled { t.value } else { t.faint };
+        let label = paint::line(ui, self.text, font::value(), ink);
+        let size = vec2(label.size().x.ceil() + 30.0, metrics::ROW);
+        let sense = if self.enabled { Sense::click() } else { Sense::hover() };
+        let (rect, response) = ui.allocate_exact_size(size, sense);
+        let enabled = self.enabled && ui.is_enabled();
+        response.widget_info(|| WidgetInfo::labeled(Role::Button, enabled, self.name));
+        self.paint(ui, rect, &response);
+        paint::at_left(ui, rect.with_min_x(rect.left() + 22.0), label);
+        if self.enabled {
+            return response.on_hover_cursor(CursorIcon::PointingHand).on_hover_text(self.name);
+        }
+        response.on_hover_text(self.name)
+    }
+
+    fn paint(&self, ui: &Ui, rect: Rect, response: &Response) {
+        let t = tokens(ui);
+        let lit = self.enabled && response.hovered();
+        let (fill, edge) = if lit { (t.hover, self.colour) } else { (t.well, t.line) };
+        ui.painter().rect(rect, metrics::RADIUS_CONTROL, fill, Stroke::new(1.0, edge), StrokeKind::Inside);
+        let dot = Rect::from_center_size(pos2(rect.left() + 13.0, rect.center().y), vec2(8.0, 8.0));
+        let opacity = if self.enabled { 1.0 } else { 0.4 };
+        ui.painter().rect_filled(dot, 2.0, self.colour.gamma_multiply(opacity));
+        paint::focus_ring(ui, response, rect, metrics::RADIUS_CONTROL);
+    }
+}
+
+/// Lays out chips in a row that wraps.
+pub fn chips<R>(ui: &mut Ui, contents: impl FnOnce(&mut Ui) -> R) -> egui::InnerResponse<R> {
+    ui.scope(|ui| {
+        ui.spacing_mut().item_spacing = vec2(6.0, 6.0);
+        ui.horizontal_wrapped(contents).inner
+    })
+}

@@ -1,0 +1,98 @@
+//! A question that must be answered first.
+
+use eframe::egui::{self, Align, Context, Frame, Id, Layout, Margin, RichText, Theme, Ui};
+
+use super::tool_button::{ActionButton, ButtonKind};
+use crate::app::theme::{Tokens, font, tokens};
+
+/// How a [`ConfirmDialog`] was answered.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Answer {
+    /// Do it.
+    Confirmed,
+    /// Do the other thing.
+    Alternative,
+    /// Leave everything as it is: the Cancel button, Escape, or a click outside.
+    Cancelled,
+}
+
+/// A question over the window. Show it in every frame until it is answered.
+///
+/// Enter takes the button that has the focus: at first the main one, or Cancel where something would be destroyed.
+#[must_use = "call `show`"]
+pub struct ConfirmDialog<'a> {
+    title: &'a str,
+    body: &'a str,
+    confirm: &'a str,
+    alternative: Option<&'a str>,
+    cancel: &'a str,
+    danger: bool,
+}
+
+impl<'a> ConfirmDialog<'a> {
+    /// A question, what it is about, and the word on the button that confirms (a verb: `Discard`).
+    pub fn new(title: &'a str, body: &'a str, confirm: &'a str) -> Self {
+        Self { title, body, confirm, alternative: None, cancel: "Cancel", danger: false }
+    }
+
+    /// A third way, set apart at the left (`Do not save`).
+    pub fn alternative(mut self, text: &'a str) -> Self {
+        self.alternative = Some(text);
+        self
+    }
+
+    /// The word on the button that changes nothing; `Cancel` unless told.
+    pub fn cancel(mut self, text: &'a str) -> Self {
+        self.cancel = text;
+        self
+    }
+
+    /// Confirming destroys something.
+    pub fn danger(mut self) -> Self {
+        self.danger = true;
+        self
+    }
+
+    /// Shows the dialog and answers how it was answered in this frame.
+    pub fn show(self, ctx: &Context) -> Option<Answer> {
+        let style = ctx.global_style();
+        let t = Tokens::of(if style.visuals.dark_mode { Theme::Dark } else { Theme::Light });
+        let frame = Frame::popup(&style).inner_margin(Margin::same(20));
+        let modal = egui::Modal::new(Id::unique("confirm dialog")).frame(frame).backdrop_color(t.scrim);
+        let shown = modal.show(ctx, |ui| self.contents(ui));
+        let closed = shown.should_close().then_some(Answer::Cancelled);
+        shown.inner.or(closed)
+    }
+
+    fn contents(&self, ui: &mut Ui) -> Option<Answer> {
+        let t = tokens(ui);
+        ui.set_width(380.0);
+        ui.label(
+            RichText::new(self.title).font(egui::FontId { size: 15.0, ..font::strong() }).color(t.value),
+        );
+        ui.add_space(4.0);
+        ui.label(RichText::new(self.body).color(t.label));
+        ui.add_space(16.0);
+        ui.horizontal(|ui| {
+            let left = self.alternative.filter(|text| ui.add(ActionButton::new(text)).clicked());
+            let right =
+                ui.with_layout(Layout::right_to_left(Align::Center), |ui| self.right_buttons(ui)).inner;
+            right.or(left.map(|_| Answer::Alternative))
+        })
+        .inner
+    }
+
+    fn right_buttons(&self, ui: &mut Ui) -> Option<Answer> {
+        let kind = if self.danger { ButtonKind::Danger } else { ButtonKind::Main };
+        let confirm = ui.add(ActionButton::new(self.confirm).kind(kind));
+        let cancel = ui.add(ActionButton::new(self.cancel));
+        if ui.memory(|memory| memory.focused().is_none()) {
+            if self.danger { cancel.request_focus() } else { confirm.request_focus() }
+        }
+        match (confirm.clicked(), cancel.clicked()) {
+            (true, _) => Some(Answer::Confirmed),
+            (_, true) => Some(Answer::Cancelled),
+            _ => None,
+        }
+    }
+}

@@ -1,0 +1,121 @@
+//! What floats over the canvas: tags with a price, the pill with a hint.
+
+use eframe::egui::emath::GuiRounding as _;
+use eframe::egui::{
+    Align2, Pos2, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui, Vec2, WidgetInfo, pos2, vec2,
+};
+
+use super::paint;
+use crate::app::theme::{font, metrics, tokens};
+
+/// A short text on its own ground over the canvas: `paint +2,418 triangles`. Takes no clicks.
+///
+/// `align` says which point of the tag is at `anchor`; it is moved to stay within `bounds`. Returns its rectangle.
+pub fn floating_tag(ui: &Ui, anchor: Pos2, align: Align2, bounds: Rect, text: &str) -> Rect {
+    let galley = paint::line(ui, text, font::value(), tokens(ui).value);
+    let size = (galley.size() + vec2(20.0, 12.0)).ceil();
+    let rect = within(align.anchor_size(anchor, size), bounds).round_to_pixels(ui.pixels_per_point());
+    paint_ground(ui, rect);
+    paint::at_centre(ui, rect, galley);
+    rect
+}
+
+/// A piece of a hint.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Hint<'a> {
+    /// Words.
+    Text(&'a str),
+    /// A key or a shortcut, drawn as keys.
+    Key(&'a str),
+}
+
+/// The next useful thing for the current tool, over the canvas: `Drag to paint risk · [ ] size · …`. Takes no clicks.
+///
+/// `align` says which point of the pill is at `anchor`; it is moved to stay within `bounds`. Pieces that do not fit into
+/// `bounds` are left out from the end.
+pub fn hint_pill(ui: &Ui, anchor: Pos2, align: Align2, bounds: Rect, hints: &[Hint<'_>]) -> Response {
+    let shown = fitting(ui, hints, bounds.width() - 24.0);
+    let size = vec2(width(ui, shown) + 24.0, 32.0).ceil();
+    let rect = within(align.anchor_size(anchor, size), bounds).round_to_pixels(ui.pixels_per_point());
+    let response = ui.interact(rect, ui.scope_id().with("hint pill"), Sense::hover());
+    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, spoken(shown)));
+    paint_ground(ui, rect);
+    let mut at = pos2(rect.left() + 12.0, rect.center().y);
+    for hint in shown {
+        at.x += paint_piece(ui, at, hint) + GAP;
+    }
+    response
+}
+
+const GAP: f32 = 5.0;
+
+fn paint_ground(ui: &Ui, rect: Rect) {
+    let t = tokens(ui);
+    let edge = Stroke::new(1.0, t.edge);
+    ui.painter().add(t.tag_shadow().as_shape(rect, metrics::RADIUS_TAG));
+    ui.painter().rect(rect, metrics::RADIUS_TAG, t.popup, edge, StrokeKind::Inside);
+}
+
+/// `rect` moved as little as needed to lie within `bounds`; its start wins where it is too large.
+fn within(rect: Rect, bounds: Rect) -> Rect {
+    let room = (bounds.size() - rect.size()).max(Vec2::ZERO);
+    let corner = rect.min - bounds.min;
+    Rect::from_min_size(bounds.min + corner.clamp(Vec2::ZERO, room), rect.size())
+}
+
+fn piece_width(ui: &Ui, hint: &Hint<'_>) -> f32 {
+    match hint {
+        Hint::Text(text) => paint::line(ui, text, font::body(), tokens(ui).label).size().x,
+        Hint::Key(key) => paint::shortcut_width(ui, key),
+    }
+}
+
+fn width(ui: &Ui, hints: &[Hint<'_>]) -> f32 {
+    let pieces: f32 = hints.iter().map(|hint| piece_width(ui, hint)).sum();
+    pieces + GAP * hints.len().saturating_sub(1) as f32
+}
+
+/// The first hints, as many as fit into `room` points; never ends with keys that nothing explains.
+fn fitting<'a, 'b>(ui: &Ui, hints: &'a [Hint<'b>], room: f32) -> &'a [Hint<'b>] {
+    let mut end = hints.len();
+    while end > 1 && (width(ui, &hints[..end]) > room || matches!(hints[end - 1], Hint::Key(_))) {
+        end -= 1;
+    }
+    &hints[..end]
+}
+
+fn paint_piece(ui: &Ui, at: Pos2, hint: &Hint<'_>) -> f32 {
+    let width = piece_width(ui, hint);
+    let rect = Rect::from_min_size(at - vec2(0.0, 10.0), vec2(width, 20.0));
+    match hint {
+        Hint::Text(text) => paint::at_left(ui, rect, paint::line(ui, text, font::body(), tokens(ui).label)),
+        Hint::Key(key) => paint::shortcut_at_right(ui, rect, key),
+    }
+    width
+}
+
+fn spoken(hints: &[Hint<'_>]) -> String {
+    let words: Vec<_> = hints
+        .iter()
+        .map(|hint| match hint {
+            Hint::Text(text) | Hint::Key(text) => *text,
+        })
+        .collect();
+    words.join(" ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_tag_stays_within_its_bounds() {
+        let bounds = Rect::from_min_size(pos2(10.0, 10.0), vec2(100.0, 100.0));
+        let tag = |x, y| Rect::from_min_size(pos2(x, y), vec2(40.0, 20.0));
+        assert_eq!(within(tag(-50.0, 5.0), bounds).min, pos2(10.0, 10.0));
+        assert_eq!(within(tag(90.0, 200.0), bounds).max, pos2(110.0, 110.0));
+        assert_eq!(within(tag(30.0, 30.0), bounds), tag(30.0, 30.0));
+        let wide = Rect::from_min_size(pos2(0.0, 0.0), vec2(400.0, 20.0));
+        assert_eq!(within(wide, bounds).min, bounds.min);
+    }
+}

@@ -1,0 +1,266 @@
+//! Numbers as the window writes them, and as a person types them.
+//!
+//! Digits are grouped by thousands with commas, the minus sign is `−`, and there are just enough digits. Numbers that
+//! change while one looks at them keep their number of decimals ([`fixed`], [`significant`]), so nothing jumps.
+
+/// A count, grouped by thousands: `37,987`.
+pub fn count(value: u64) -> String {
+    group(&value.to_string())
+}
+
+/// A change of a count, with its sign: `+2,418`, `−12`, `0`.
+pub fn change(value: i64) -> String {
+    let sign = match value {
+        0 => "",
+        1.. => "+",
+        _ => "−",
+    };
+    format!("{sign}{}", count(value.unsigned_abs()))
+}
+
+/// `value` with exactly `decimals` digits after the point, grouped before it: `1,234.50`.
+pub fn fixed(value: f64, decimals: usize) -> String {
+    if !value.is_finite() {
+        return not_finite(value);
+    }
+    let digits = format!("{:.decimals$}", value.abs());
+    let negative = value < 0.0 && digits.bytes().any(|byte| (b'1'..=b'9').contains(&byte));
+    let (whole, rest) = digits.split_at(digits.find('.').unwrap_or(digits.len()));
+    format!("{}{}{rest}", if negative { "−" } else { "" }, group(whole))
+}
+
+/// `value` with exactly `digits` significant digits, trailing zeros kept: `0.0640`, `1,230`, `1.20e-7`.
+///
+/// For values that are being dragged. Below 1e-4 and from 1e15 up the answer is in scientific notation.
+pub fn significant(value: f64, digits: usize) -> String {
+    if value == 0.0 || !value.is_finite() {
+        return fixed(value, 0);
+    }
+    let digits = digits.max(1);
+    let scientific = format!("{:.*e}", digits - 1, value.abs());
+    let exponent = exponent_of(&scientific);
+    if (-4..15).contains(&exponent) {
+        let decimals = (digits as i32 - 1 - exponent).max(0) as usize;
+        return fixed(rounded(value, digits), decimals);
+    }
+    format!("{}{scientific}", if value < 0.0 { "−" } else { "" })
+}
+
+/// `value` with at most `digits` significant digits and no trailing zeros: `0.064`, `2`, `1.2e-7`.
+pub fn digits(value: f64, digits: usize) -> String {
+    let text = significant(value, digits);
+    let (mantissa, exponent) = text.split_at(text.find('e').unwrap_or(text.len()));
+    if !mantissa.contains('.') {
+        return text;
+    }
+    format!("{}{exponent}", mantissa.trim_end_matches('0').trim_end_matches('.'))
+}
+
+/// A length in world units, with three significant digits: `0.0061`, `0.2`, `1,250`.
+pub fn length(value: f64) -> String {
+    digits(value, 3)
+}
+
+/// A coordinate, with as many decimals as `step` (the size of a pixel, say) can tell apart: `0.5813`.
+pub fn coordinate(value: f64, step: f64) -> String {
+    fixed(value, decimals_for(step))
+}
+
+/// The number of decimals that tells apart values `step` from each other, at most 15.
+pub fn decimals_for(step: f64) -> usize {
+    if !(step.is_finite() && step > 0.0) {
+        return 0;
+    }
+    (-step.log10() - 1e-9).ceil().clamp(0.0, 15.0) as usize
+}
+
+/// A time in seconds, in the unit that suits it: `0.4 ms`, `37 ms`, `1.24 s`, `2 min 05 s`.
+pub fn time(seconds: f64) -> String {
+    let ms = seconds * 1e3;
+    match seconds {
+        s if !s.is_finite() || s < 0.0 => "–".to_owned(),
+        _ if ms < 0.05 => "<0.1 ms".to_owned(),
+        _ if ms < 9.95 => format!("{ms:.1} ms"),
+        _ if ms < 999.5 => format!("{ms:.0} ms"),
+        s if s < 9.995 => format!("{s:.2} s"),
+        s if s < 59.95 => format!("{s:.1} s"),
+        s if s < 3599.5 => format!("{:.0} min {:02.0} s", (s.round() / 60.0).floor(), s.round() % 60.0),
+        s => format!("{:.0} h {:02.0} min", (s / 3600.0).floor(), ((s % 3600.0) / 60.0).floor()),
+    }
+}
+
+/// A share from 0 to 1 as a percentage: `14.7 %`, `<0.1 %`.
+pub fn percent(share: f64) -> String {
+    match share * 100.0 {
+        p if !p.is_finite() => "–".to_owned(),
+        p if p > 0.0 && p < 0.1 => "<0.1 %".to_owned(),
+        p if p > 0.0 && p < 99.95 => format!("{p:.1} %"),
+        p => format!("{p:.0} %"),
+    }
+}
+
+/// `text` with spaces before it, so that it takes at least `width` characters.
+pub fn padded(text: &str, width: usize) -> String {
+    format!("{text:>width$}")
+}
+
+/// What a person typed as a number, or `None` if it is not one.
+///
+/// Takes `−` and `-`, spaces and commas that group thousands, one comma as decimal sign, `1e-3`, and `unit` at the end.
+pub fn parse(text: &str, unit: &str) -> Option<f64> {
+    let text = text.trim();
+    let text = text.strip_suffix(unit.trim()).unwrap_or(text);
+    let plain: String =
+        text.chars().filter(|c| !c.is_whitespace()).map(|c| if c == '−' { '-' } else { c }).collect();
+    let plain = if groups_thousands(&plain) { plain.replace(',', "") } else { plain.replacen(',', ".", 1) };
+    plain.parse().ok().filter(|value: &f64| value.is_finite())
+}
+
+/// `value` rounded to `digits` significant digits: exactly what [`significant`] shows.
+pub fn rounded(value: f64, digits: usize) -> f64 {
+    let text = format!("{:.*e}", digits.max(1) - 1, value);
+    text.parse().unwrap_or(value)
+}
+
+/// Whether the commas of `text` stand where thousands are grouped: `1,234,567.8`, but not `0,123`.
+fn groups_thousands(text: &str) -> bool {
+    let whole = text.trim_start_matches(['-', '+']).split('.').next().unwrap_or_default();
+    let mut groups = whole.split(',');
+    let first = groups.next().unwrap_or_default();
+    (1..=3).contains(&first.len()) && !first.starts_with('0') && groups.all(|group| group.len() == 3)
+}
+
+fn group(digits: &str) -> String {
+    let mut grouped = String::with_capacity(digits.len() + digits.len() / 3);
+    for (i, digit) in digits.char_indices() {
+        if i > 0 && (digits.len() - i).is_multiple_of(3) {
+            grouped.push(',');
+        }
+        grouped.push(digit);
+    }
+    grouped
+}
+
+fn not_finite(value: f64) -> String {
+    match value {
+        v if v.is_nan() => "–",
+        v if v > 0.0 => "∞",
+        _ => "−∞",
+    }
+    .to_owned()
+}
+
+fn exponent_of(scientific: &str) -> i32 {
+    scientific.split('e').nth(1).and_then(|e| e.parse().ok()).unwrap_or(0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn counts_are_grouped_by_thousands() {
+        for (value, text) in [(0, "0"), (632, "632"), (1_000, "1,000"), (37_987, "37,987")] {
+            assert_eq!(count(value), text);
+        }
+        assert_eq!(count(u64::MAX), "18,446,744,073,709,551,615");
+    }
+
+    #[test]
+    fn changes_carry_their_sign() {
+        assert_eq!(change(2_418), "+2,418");
+        assert_eq!(change(-12), "−12");
+        assert_eq!(change(0), "0");
+        assert_eq!(change(i64::MIN), "−9,223,372,036,854,775,808");
+    }
+
+    #[test]
+    fn fixed_decimals_keep_their_width() {
+        assert_eq!(fixed(1234.5, 2), "1,234.50");
+        assert_eq!(fixed(-0.25, 1), "−0.2");
+        assert_eq!(fixed(-0.0001, 2), "0.00");
+        assert_eq!(fixed(f64::NAN, 2), "–");
+        assert_eq!(fixed(f64::NEG_INFINITY, 2), "−∞");
+    }
+
+    #[test]
+    fn significant_digits_are_just_enough() {
+        assert_eq!(significant(0.064, 3), "0.0640");
+        assert_eq!(significant(1234.0, 3), "1,230");
+        assert_eq!(significant(9.999, 3), "10.0");
+        assert_eq!(significant(1.2e-7, 3), "1.20e-7");
+        assert_eq!(significant(-1.2e-7, 2), "−1.2e-7");
+        assert_eq!(digits(0.064, 3), "0.064");
+        assert_eq!(digits(2.0, 3), "2");
+        assert_eq!(digits(100.0, 3), "100");
+        assert_eq!(digits(1.2e-7, 5), "1.2e-7");
+        assert_eq!(digits(0.0, 3), "0");
+        assert_eq!(length(0.00610351), "0.0061");
+    }
+
+    #[test]
+    fn what_is_shown_is_what_is_held() {
+        for value in [0.0637219, 12345.678, 9.9999, 1e-9, -3.14159] {
+            assert_eq!(parse(&significant(value, 3), ""), Some(rounded(value, 3)));
+        }
+    }
+
+    #[test]
+    fn decimals_follow_the_step() {
+        for (step, decimals) in [(1.0, 0), (0.5, 1), (0.01, 2), (0.001, 3), (25.0, 0), (0.0, 0), (1e-30, 15)]
+        {
+            assert_eq!(decimals_for(step), decimals, "{step}");
+        }
+        assert_eq!(coordinate(0.58134, 0.0004), "0.5813");
+    }
+
+    #[test]
+    fn times_take_the_unit_that_suits_them() {
+        for (seconds, text) in [
+            (4e-4, "0.4 ms"),
+            (1e-6, "<0.1 ms"),
+            (0.037, "37 ms"),
+            (1.24, "1.24 s"),
+            (12.0, "12.0 s"),
+            (125.0, "2 min 05 s"),
+            (119.7, "2 min 00 s"),
+            (7260.0, "2 h 01 min"),
+            (-1.0, "–"),
+        ] {
+            assert_eq!(time(seconds), text);
+        }
+    }
+
+    #[test]
+    fn shares_are_percentages() {
+        assert_eq!(percent(0.1473), "14.7 %");
+        assert_eq!(percent(0.0001), "<0.1 %");
+        assert_eq!(percent(0.0), "0 %");
+        assert_eq!(percent(1.0), "100 %");
+    }
+
+    #[test]
+    fn typed_numbers_are_understood() {
+        for (text, value) in [
+            ("37,987", 37987.0),
+            ("0,064", 0.064),
+            ("1,234.5", 1234.5),
+            ("−0.5", -0.5),
+            (" 1e-3 ", 1e-3),
+            ("12 m", 12.0),
+            ("1 000", 1000.0),
+            (".5", 0.5),
+        ] {
+            assert_eq!(parse(text, " m"), Some(value), "{text}");
+        }
+        for text in ["", "x", "1,2,3", "inf", "nan", "--1"] {
+            assert_eq!(parse(text, ""), None, "{text}");
+        }
+    }
+
+    #[test]
+    fn padding_keeps_columns() {
+        assert_eq!(padded("42", 6), "    42");
+        assert_eq!(padded("−4", 3), " −4");
+    }
+}

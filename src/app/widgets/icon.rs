@@ -1,0 +1,53 @@
+//! Icons by what they mean here.
+
+use egui_material_icons::icons as material;
+
+/// A sign of the icon font.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Icon(&'static str);
+
+impl Icon {
+    /// Paint.
+    pub const BRUSH: Self = Self(material::ICON_BRUSH.codepoint);
+    /// Take paint away.
+    pub const ERASER: Self = Self(material::ICON_INK_ERASER.codepoint);
+    /// Ask about a point.
+    pub const QUERY: Self = Self(material::ICON_MY_LOCATION.codepoint);
+    /// Edit the domain.
+    pub const DOMAIN: Self = Self(material::ICON_HEXAGON.codepoint);
+    /// Move the view.
+    pub const PAN: Self = Self(material::ICON_DRAG_PAN.codepoint);
+    /// Show all of the domain.
+    pub const FIT: Self = Self(material::ICON_FIT_SCREEN.codepoint);
+    /// Undo.
+    pub const UNDO: Self = Self(material::ICON_UNDO.codepoint);
+    /// Redo.
+    pub const REDO: Self = Self(material::ICON_REDO.codepoint);
+    /// A section that is open.
+    pub const OPENED: Self = Self(material::ICON_KEYBOARD_ARROW_DOWN.codepoint);
+    /// A section that is closed.
+    pub const CLOSED: Self = Self(material::ICON_KEYBOARD_ARROW_RIGHT.codepoint);
+    /// Dismiss.
+    pub const CLOSE: Self = Self(material::ICON_CLOSE.codepoint);
+    /// Done, or switched on.
+    pub const CHECK: Self = Self(material::ICON_CHECK.codepoint);
+    /// Something failed.
+    pub const ERROR: Self = Self(material::ICON_ERROR.codepoint);
+    /// Something to know.
+    pub const INFO: Self = Self(material::ICON_INFO.codepoint);
+    /// Search.
+    pub const SEARCH: Self = Self(material::ICON_SEARCH.codepoint);
+    /// Add one.
+    pub const ADD: Self = Self(material::ICON_ADD.codepoint);
+    /// Remove one.
+    pub const DELETE: Self = Self(material::ICON_DELETE.codepoint);
+    /// A file or folder.
+    pub const FOLDER: Self = Self(material::ICON_FOLDER_OPEN.codepoint);
+    /// Copy to the clipboard.
+    pub const COPY: Self = Self(material::ICON_CONTENT_COPY.codepoint);
+
+    /// The text that draws it, in the family [`crate::app::theme::font::ICONS`].
+    pub const fn glyph(self) -> &'static str {
+        self.0
+    }
+}

@@ -1,0 +1,174 @@
+//! The legend of the levels, which is the histogram as well.
+
+use eframe::egui::{
+    self, Color32, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui, WidgetInfo, pos2, vec2,
+};
+
+use super::{format, paint};
+use crate::app::theme::{font, tokens};
+
+/// Height of a row where there is room.
+const ROW: f32 = 18.0;
+/// Height of a row where there is not; beyond that the rows scroll.
+const SMALLEST_ROW: f32 = 14.0;
+/// Width of the column of levels.
+const LEVEL: f32 = 16.0;
+
+/// A level of the mesh.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LevelRow {
+    /// The level, from 0.
+    pub level: u32,
+    /// The level's colour on the canvas.
+    pub colour: Color32,
+    /// How many triangles have it.
+    pub count: u64,
+    /// The diameter of its triangles in world units.
+    pub diameter: f64,
+}
+
+/// What [`LevelLegend::show`] answers.
+pub struct LevelsResponse {
+    /// All rows.
+    pub response: Response,
+    /// The level under the pointer.
+    pub hovered: Option<u32>,
+    /// The level that was clicked.
+    pub clicked: Option<u32>,
+}
+
+/// Bars in the canvas's colours, the counts beside them.
+///
+/// Bars are linear in the count. A row keeps its place whatever the counts are; the legend never gets shorter than
+/// [`LevelLegend::at_least`] rows, and beyond [`LevelLegend::max_height`] rows first move closer and then scroll.
+#[must_use = "call `show`"]
+pub struct LevelLegend<'a> {
+    rows: &'a [LevelRow],
+    lit: Option<u32>,
+    at_least: usize,
+    max_height: f32,
+}
+
+impl<'a> LevelLegend<'a> {
+    /// A legend of `rows`, from the top down.
+    pub fn new(rows: &'a [LevelRow]) -> Self {
+        Self { rows, lit: None, at_least: 0, max_height: 360.0 }
+    }
+
+    /// A level to light up, such as that of the triangle under the pointer.
+    pub fn lit(mut self, level: Option<u32>) -> Self {
+        self.lit = level;
+        self
+    }
+
+    /// Room for so many rows even if there are fewer, so that what follows does not jump.
+    pub fn at_least(mut self, rows: usize) -> Self {
+        self.at_least = rows;
+        self
+    }
+
+    /// The height in points from which on the rows scroll; 360 unless told.
+    pub fn max_height(mut self, height: f32) -> Self {
+        self.max_height = height;
+        self
+    }
+
+    /// Shows the legend.
+    pub fn show(self, ui: &mut Ui) -> LevelsResponse {
+        let rows = self.rows.len().max(self.at_least).max(1) as f32;
+        let row_height = (self.max_height / rows).floor().clamp(SMALLEST_ROW, ROW);
+        let height = (rows * row_height).min(self.max_height);
+        let (_, rect) = ui.allocate_space(vec2(ui.available_width(), height));
+        let mut child = ui.new_child(egui::UiBuilder::new().max_rect(rect).id_salt("levels"));
+        child.spacing_mut().item_spacing.y = 0.0;
+        egui::ScrollArea::vertical()
+            .max_height(height)
+            .auto_shrink(false)
+            .show(&mut child, |ui| self.rows_ui(ui, row_height))
+            .inner
+    }
+
+    fn rows_ui(&self, ui: &mut Ui, height: f32) -> LevelsResponse {
+        let layout = Layout::of(ui, self.rows);
+        let size = vec2(ui.available_width(), height * self.rows.len() as f32);
+        let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
+        let place = |i: usize| {
+            Rect::from_min_size(pos2(rect.left(), rect.top() + height * i as f32), vec2(rect.width(), height))
+        };
+        let responses: Vec<_> =
+            self.rows.iter().enumerate().map(|(i, row)| sense(ui, place(i), row)).collect();
+        let level_where = |pick: fn(&Response) -> bool| {
+            responses.iter().zip(self.rows).find(|(response, _)| pick(response)).map(|(_, row)| row.level)
+        };
+        let hovered = level_where(Response::hovered);
+        for (i, row) in self.rows.iter().enumerate() {
+            let lit = hovered.or(self.lit) == Some(row.level);
+            layout.paint(ui, place(i), row, lit, hovered.is_some() && !lit);
+        }
+        LevelsResponse { response, hovered, clicked: level_where(Response::clicked) }
+    }
+}
+
+/// Makes a row known to pointer, tests and screen readers. Rows take no focus: there may be more than fifty.
+fn sense(ui: &Ui, rect: Rect, row: &LevelRow) -> Response {
+    let response = ui.interact(rect, ui.scope_id().with(("level", row.level)), Sense::CLICK);
+    let triangles = if row.count == 1 { "triangle" } else { "triangles" };
+    let name = format!("Level {}: {} {triangles}", row.level, format::count(row.count));
+    response.widget_info(|| WidgetInfo::labeled(Role::ListItem, true, &name));
+    response.on_hover_text_at_pointer(format!("{name}\nDiameter {}", format::digits(row.diameter, 4)))
+}
+
+/// How the legend is divided: the widths depend on all rows.
+struct Layout {
+    total: f32,
+    count: f32,
+}
+
+impl Layout {
+    fn of(ui: &Ui, rows: &[LevelRow]) -> Self {
+        let most = rows.iter().map(|row| row.count).max().unwrap_or(0);
+        let widest = paint::line(ui, &format::count(most), font::small_value(), Color32::PLACEHOLDER);
+        Self { total: most.max(1) as f32, count: widest.size().x.ceil() }
+    }
+
+    fn paint(&self, ui: &Ui, rect: Rect, row: &LevelRow, lit: bool, dimmed: bool) {
+        let t = tokens(ui);
+        if lit {
+            ui.painter().rect_filled(rect.expand2(vec2(6.0, 0.0)), 4.0, t.field);
+        }
+        let ink = if lit || row.count > 0 { t.label } else { t.faint };
+        let level =
+            paint::line(ui, &row.level.to_string(), font::small_value(), if lit { t.value } else { ink });
+        paint::at_right(ui, rect.with_max_x(rect.left() + LEVEL), level);
+        let end = self.bar(ui, rect, row, if dimmed { 0.4 } else { 1.0 });
+        let count = format::count(row.count);
+        let count = paint::line(ui, &count, font::small_value(), if lit { t.value } else { ink });
+        paint::at_left(ui, rect.with_min_x(end + 8.0), count);
+    }
+
+    /// Paints the bar and returns its right edge.
+    fn bar(&self, ui: &Ui, rect: Rect, row: &LevelRow, opacity: f32) -> f32 {
+        let left = rect.left() + LEVEL + 10.0;
+        if row.count == 0 {
+            return left - 8.0;
+        }
+        let longest = (rect.right() - self.count - 8.0 - left).max(8.0);
+        let width = (longest * row.count as f32 / self.total).max(3.0);
+        let thickness = (rect.height() - 6.0).clamp(8.0, 11.0);
+        let middle = pos2(left + width / 2.0, rect.center().y);
+        let bar = Rect::from_center_size(middle, vec2(width, thickness));
+        let edge = edge_of(ui, row.colour).gamma_multiply(opacity);
+        let fill = row.colour.gamma_multiply(opacity);
+        ui.painter().rect(bar, 2.0, fill, Stroke::new(1.0, edge), StrokeKind::Inside);
+        bar.right()
+    }
+}
+
+/// An outline for bars that are hard to tell from the panel: level 0 is close to it on purpose.
+fn edge_of(ui: &Ui, colour: Color32) -> Color32 {
+    let t = tokens(ui);
+    let far = |a: u8, b: u8| a.abs_diff(b) > 40;
+    let p = t.panel;
+    let distinct = far(colour.r(), p.r()) || far(colour.g(), p.g()) || far(colour.b(), p.b());
+    if distinct { Color32::TRANSPARENT } else { t.panel.lerp_to_gamma(t.faint, 0.45) }
+}

@@ -1,0 +1,221 @@
+//! The command palette: every command by a few of its letters.
+
+use eframe::egui::{
+    self, Align2, Context, Frame, Id, Key, Margin, Modifiers, Rect, Response, Role, Sense, TextEdit, Ui,
+    WidgetInfo, vec2,
+};
+use egui::text::{LayoutJob, TextFormat};
+
+use super::fuzzy::{Match, fuzzy_match};
+use super::{Icon, paint};
+use crate::app::theme::{font, metrics, tokens};
+
+const WIDTH: f32 = 520.0;
+const ROW: f32 = 32.0;
+/// Rows shown at once; more scroll.
+const ROWS: usize = 10;
+
+/// A command as the palette shows it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PaletteItem<'a> {
+    /// What it does.
+    pub title: &'a str,
+    /// Its shortcut, or nothing.
+    pub keys: &'a str,
+    /// Whether it can be chosen now.
+    pub enabled: bool,
+}
+
+/// A list of commands over the window that narrows while one types.
+///
+/// Up and Down move, Enter or a click chooses, Escape or a click outside closes.
+#[derive(Clone, Debug, Default)]
+pub struct CommandPalette {
+    open: bool,
+    query: String,
+    selected: usize,
+    /// The selected row must be scrolled into view: the keyboard moved it.
+    moved: bool,
+}
+
+impl CommandPalette {
+    /// Opens the palette with an empty query.
+    pub fn open(&mut self) {
+        *self = Self { open: true, moved: true, ..Self::default() };
+    }
+
+    /// Closes it without a choice.
+    pub fn close(&mut self) {
+        self.open = false;
+    }
+
+    /// Whether it is open; other shortcuts should rest then.
+    pub fn is_open(&self) -> bool {
+        self.open
+    }
+
+    /// Shows the palette, if it is open, and answers the index of the item that was chosen in this frame.
+    pub fn show(&mut self, ctx: &Context, items: &[PaletteItem<'_>]) -> Option<usize> {
+        if !self.open {
+            return None;
+        }
+        let area = egui::Modal::default_area(Id::unique("command palette"))
+            .anchor(Align2::CENTER_TOP, vec2(0.0, 72.0));
+        let dark = ctx.global_style().visuals.dark_mode;
+        let t = crate::app::theme::Tokens::of(if dark { egui::Theme::Dark } else { egui::Theme::Light });
+        let frame = Frame::popup(&ctx.global_style()).inner_margin(Margin::same(8));
+        let modal =
+            egui::Modal::new(Id::unique("command palette")).area(area).frame(frame).backdrop_color(t.scrim);
+        let shown = modal.show(ctx, |ui| self.contents(ui, items));
+        if shown.inner.is_some() || shown.should_close() {
+            self.open = false;
+        }
+        shown.inner
+    }
+
+    fn contents(&mut self, ui: &mut Ui, items: &[PaletteItem<'_>]) -> Option<usize> {
+        ui.set_width(WIDTH.min(ui.ctx().content_rect().width() - 64.0));
+        ui.spacing_mut().item_spacing.y = 0.0;
+        let keys = Keys::take(ui);
+        self.query_ui(ui);
+        let found = ranked(&self.query, items);
+        self.step(keys, found.len());
+        ui.add_space(8.0);
+        let clicked = self.list(ui, items, &found);
+        let entered = found.get(self.selected).filter(|_| keys.enter).map(|(index, _)| *index);
+        clicked.or(entered).filter(|index| items[*index].enabled)
+    }
+
+    fn query_ui(&mut self, ui: &mut Ui) {
+        let t = tokens(ui);
+        let (_, rect) = ui.allocate_space(vec2(ui.available_width(), 36.0));
+        ui.painter().rect_filled(rect, metrics::RADIUS_CONTROL, t.field);
+        let glass = paint::line(ui, Icon::SEARCH.glyph(), font::icon(18.0), t.label);
+        paint::at_left(ui, rect.with_min_x(rect.left() + 10.0), glass);
+        let inner = rect.with_min_x(rect.left() + 36.0).shrink2(vec2(4.0, 0.0));
+        let mut child = ui.new_child(egui::UiBuilder::new().max_rect(inner));
+        let edit = TextEdit::singleline(&mut self.query)
+            .id(Id::unique("command palette query"))
+            .font(egui::FontId::proportional(14.0))
+            .text_color(t.value)
+            .hint_text(egui::RichText::new("Type a command").color(t.label))
+            .align(Align2::LEFT_CENTER)
+            .frame(Frame::NONE)
+            .desired_width(inner.width())
+            .min_size(inner.size());
+        let response = child.add(edit);
+        ui.ctx().accesskit_node_builder(response.id, |node| node.set_label("Command"));
+        if response.changed() {
+            (self.selected, self.moved) = (0, true);
+        }
+        response.request_focus();
+    }
+
+    /// Moves the selection, round the ends.
+    fn step(&mut self, keys: Keys, count: usize) {
+        if count == 0 {
+            self.selected = 0;
+            return;
+        }
+        let steps = keys.down as i64 - keys.up as i64;
+        self.moved |= steps != 0;
+        self.selected = (self.selected as i64 + steps).rem_euclid(count as i64) as usize;
+    }
+
+    /// The rows; answers the index of the item that was clicked.
+    fn list(&mut self, ui: &mut Ui, items: &[PaletteItem<'_>], found: &[(usize, Match)]) -> Option<usize> {
+        if found.is_empty() {
+            let rect = ui.allocate_space(vec2(ui.available_width(), ROW)).1;
+            let text = paint::line(ui, "No such command", font::body(), tokens(ui).label);
+            paint::at_left(ui, rect.shrink2(vec2(10.0, 0.0)), text);
+            return None;
+        }
+        let height = ROW * found.len().min(ROWS) as f32;
+        let area = egui::ScrollArea::vertical().max_height(height).auto_shrink([false, true]);
+        let clicked = area.show(ui, |ui| self.rows(ui, items, found)).inner;
+        self.moved = false;
+        clicked
+    }
+
+    fn rows(&mut self, ui: &mut Ui, items: &[PaletteItem<'_>], found: &[(usize, Match)]) -> Option<usize> {
+        let pointer_moved = ui.input(|input| input.pointer.is_moving());
+        let mut clicked = None;
+        for (place, (index, matched)) in found.iter().enumerate() {
+            let response = row(ui, &items[*index], matched, place == self.selected);
+            if response.hovered() && pointer_moved {
+                self.selected = place;
+            }
+            if place == self.selected && self.moved {
+                response.scroll_to_me(None);
+            }
+            if response.clicked() {
+                clicked = Some(*index);
+            }
+        }
+        clicked
+    }
+}
+
+/// The keys that steer the list, taken from the text field.
+#[derive(Clone, Copy)]
+struct Keys {
+    up: usize,
+    down: usize,
+    enter: bool,
+}
+
+impl Keys {
+    fn take(ui: &Ui) -> Self {
+        ui.input_mut(|input| Self {
+            up: input.count_and_consume_key(Modifiers::NONE, Key::ArrowUp),
+            down: input.count_and_consume_key(Modifiers::NONE, Key::ArrowDown),
+            enter: input.consume_key(Modifiers::NONE, Key::Enter),
+        })
+    }
+}
+
+/// The items that match, best first; in their own order where equally good.
+fn ranked(query: &str, items: &[PaletteItem<'_>]) -> Vec<(usize, Match)> {
+    let matches = items.iter().enumerate().filter_map(|(i, item)| Some((i, fuzzy_match(query, item.title)?)));
+    let mut found: Vec<_> = matches.collect();
+    found.sort_by_key(|(_, matched)| std::cmp::Reverse(matched.score));
+    found
+}
+
+fn row(ui: &mut Ui, item: &PaletteItem<'_>, matched: &Match, selected: bool) -> Response {
+    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::CLICK);
+    response.widget_info(|| WidgetInfo::selected(Role::MenuItem, item.enabled, selected, item.title));
+    if !ui.is_rect_visible(rect) {
+        return response;
+    }
+    let mut painter = ui.new_child(egui::UiBuilder::new().max_rect(rect));
+    if !item.enabled {
+        painter.multiply_opacity(0.45);
+    }
+    paint_row(&painter, rect, item, matched, selected);
+    response
+}
+
+fn paint_row(ui: &Ui, rect: Rect, item: &PaletteItem<'_>, matched: &Match, selected: bool) {
+    if selected {
+        ui.painter().rect_filled(rect, metrics::RADIUS_CONTROL, tokens(ui).field);
+    }
+    let inner = rect.shrink2(vec2(10.0, 0.0));
+    let room = inner.width() - paint::shortcut_width(ui, item.keys) - 16.0;
+    paint::at_left(ui, inner, title(ui, item.title, &matched.places, room));
+    paint::shortcut_at_right(ui, inner, item.keys);
+}
+
+/// The title with the matched characters set off.
+fn title(ui: &Ui, text: &str, places: &[usize], width: f32) -> std::sync::Arc<egui::Galley> {
+    let t = tokens(ui);
+    let plain = TextFormat::simple(font::body(), t.text);
+    let lit = TextFormat::simple(font::strong(), t.accent);
+    let mut job = LayoutJob::default();
+    for (i, c) in text.chars().enumerate() {
+        let format = if places.binary_search(&i).is_ok() { &lit } else { &plain };
+        job.append(c.encode_utf8(&mut [0; 4]), 0.0, format.clone());
+    }
+    job.wrap = egui::text::TextWrapping::truncate_at_width(width);
+    ui.painter().layout_job(job)
+}

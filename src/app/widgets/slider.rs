@@ -1,0 +1,336 @@
+//! A value on a track: name, slim track with a round thumb, number that can be typed.
+
+use std::ops::RangeInclusive;
+
+use eframe::egui::{self, Align, Event, EventFilter, Id, Key, Rect, Response, Sense, Ui, WidgetInfo, pos2};
+use egui::accesskit::{Action, ActionData};
+
+use super::number::{NumberCell, with_unit};
+use super::{format, paint};
+use crate::app::theme::tokens;
+
+/// Radius of the thumb.
+const THUMB: f32 = 6.0;
+/// Share of the track that an arrow key moves.
+const KEY_STEP: f64 = 0.01;
+
+/// How a value runs along a track.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Scale {
+    low: f64,
+    high: f64,
+    logarithmic: bool,
+}
+
+impl Scale {
+    /// A scale over `range`; logarithmic only where all of it is positive.
+    fn new(range: &RangeInclusive<f64>, logarithmic: bool) -> Self {
+        let (low, high) = (*range.start(), *range.end());
+        Self { low, high, logarithmic: logarithmic && low > 0.0 }
+    }
+
+    /// Where `value` stands, from 0 to 1.
+    fn share(self, value: f64) -> f64 {
+        let share = if self.logarithmic {
+            (value / self.low).ln() / (self.high / self.low).ln()
+        } else {
+            (value - self.low) / (self.high - self.low)
+        };
+        if share.is_finite() { share.clamp(0.0, 1.0) } else { 0.0 }
+    }
+
+    /// The value at `share` of the track.
+    fn value(self, share: f64) -> f64 {
+        let share = share.clamp(0.0, 1.0);
+        let value = if self.logarithmic {
+            self.low * (self.high / self.low).powf(share)
+        } else {
+            self.low + share * (self.high - self.low)
+        };
+        value.clamp(self.low, self.high)
+    }
+}
+
+/// A row with a name, a slider and its number.
+///
+/// Values are in the caller's unit. What a drag sets is rounded to what is shown; typed numbers are kept exactly and may
+/// not leave the range. Arrow keys move by a hundredth of the track (with Shift by a tenth, Home and End to its ends),
+/// dragging with Shift is ten times finer, a double click restores the default.
+/// The response has `changed` whenever the value did; [`super::edit_done`] tells when a gesture is complete.
+#[must_use = "call `show`"]
+pub struct SliderRow<'a> {
+    label: &'a str,
+    value: &'a mut f64,
+    range: RangeInclusive<f64>,
+    logarithmic: bool,
+    step: Option<f64>,
+    unit: &'a str,
+    text: Option<&'a dyn Fn(f64) -> String>,
+    default: Option<f64>,
+    help: &'a str,
+}
+
+impl<'a> SliderRow<'a> {
+    /// A linear slider named `label` over `range`. The name must be unique in its section.
+    pub fn new(label: &'a str, value: &'a mut f64, range: RangeInclusive<f64>) -> Self {
+        let (logarithmic, step, unit, text) = (false, None, "", None);
+        Self { label, value, range, logarithmic, step, unit, text, default: None, help: "" }
+    }
+
+    /// Gives each factor of ten the same length. The range must be positive.
+    pub fn logarithmic(mut self) -> Self {
+        self.logarithmic = true;
+        self
+    }
+
+    /// The value is a multiple of `step` above the range's start.
+    pub fn step(mut self, step: f64) -> Self {
+        self.step = Some(step);
+        self
+    }
+
+    /// Shown after the number; may be typed or left out.
+    pub fn unit(mut self, unit: &'a str) -> Self {
+        self.unit = unit;
+        self
+    }
+
+    /// Writes the value, instead of three significant digits (logarithmic) or hundredths of the range (linear).
+    pub fn text(mut self, text: &'a dyn Fn(f64) -> String) -> Self {
+        self.text = Some(text);
+        self
+    }
+
+    /// What a double click on the track restores.
+    pub fn default(mut self, value: f64) -> Self {
+        self.default = Some(value);
+        self
+    }
+
+    /// Shown when the pointer rests on the name.
+    pub fn help(mut self, help: &'a str) -> Self {
+        self.help = help;
+        self
+    }
+
+    /// Shows the row.
+    pub fn show(mut self, ui: &mut Ui) -> Response {
+        let row = paint::row(ui);
+        let columns = paint::Columns::of(row);
+        paint::label(ui, columns.label, self.label, self.help);
+        let id = ui.make_persistent_id(("slider", self.label));
+        let before = *self.value;
+        let mut response = self.track(ui, id, columns.middle);
+        let (cell, typed) = self.number(ui, id, columns.value);
+        if let Some(typed) = typed {
+            *self.value = typed.clamp(*self.range.start(), *self.range.end());
+        }
+        self.declare(ui, &response);
+        response |= cell;
+        if *self.value != before {
+            response.mark_changed();
+        }
+        response
+    }
+
+    fn scale(&self) -> Scale {
+        Scale::new(&self.range, self.logarithmic)
+    }
+
+    /// `value` as a drag may set it: a multiple of the step, or just the digits that are shown.
+    fn snapped(&self, value: f64) -> f64 {
+        let (low, high) = (*self.range.start(), *self.range.end());
+        let value = match self.step {
+            Some(step) => low + ((value - low) / step).round() * step,
+            None if self.logarithmic => format::rounded(value, 3),
+            None => {
+                let unit = 10_f64.powi(self.decimals() as i32);
+                (value * unit).round() / unit
+            }
+        };
+        value.clamp(low, high)
+    }
+
+    /// Decimals of a linear slider: enough to tell hundredths of the range, or steps, apart.
+    fn decimals(&self) -> usize {
+        format::decimals_for(self.step.unwrap_or((self.range.end() - self.range.start()) / 100.0))
+    }
+
+    fn shown(&self) -> String {
+        let text = match self.text {
+            Some(text) => text(*self.value),
+            None if self.logarithmic => format::significant(*self.value, 3),
+            None => format::fixed(*self.value, self.decimals()),
+        };
+        with_unit(&text, self.unit)
+    }
+
+    /// The track: pointer and keys change the value, then it is painted.
+    fn track(&mut self, ui: &Ui, id: Id, rect: Rect) -> Response {
+        let response = ui.interact(rect, id, Sense::click_and_drag());
+        let range = rect.left() + THUMB..=rect.right() - THUMB;
+        if let Some(share) = self.pointed_share(ui, &response, &range) {
+            *self.value = self.snapped(self.scale().value(share));
+        }
+        if response.double_clicked() {
+            *self.value = self.default.unwrap_or(*self.value);
+        }
+        self.keys(ui, &response);
+        self.paint_track(ui, &response, rect);
+        response
+    }
+
+    /// Where the pointer asks the thumb to be. Without Shift that is the pointer's place, else a tenth of its way.
+    fn pointed_share(&self, ui: &Ui, response: &Response, range: &RangeInclusive<f32>) -> Option<f64> {
+        if !response.is_pointer_button_down_on() {
+            return None;
+        }
+        let width = f64::from((range.end() - range.start()).max(1.0));
+        let moved = f64::from(response.drag_delta().x);
+        if ui.input(|input| input.modifiers.shift) {
+            return (moved != 0.0).then(|| self.scale().share(*self.value) + 0.1 * moved / width);
+        }
+        let pointer = response.interact_pointer_pos()?;
+        Some(f64::from(pointer.x - range.start()) / width)
+    }
+
+    /// Arrow keys, Home, End, and what assistive technology asks for.
+    fn keys(&mut self, ui: &Ui, response: &Response) {
+        let asked = requested_value(ui, response.id);
+        if let Some(value) = asked {
+            *self.value = value.clamp(*self.range.start(), *self.range.end());
+        }
+        let steps = key_steps(ui, response);
+        if steps != 0.0 {
+            let moved = self.scale().value(self.scale().share(*self.value) + steps * KEY_STEP);
+            *self.value = self.moved_at_least_a_step(moved, steps);
+        }
+    }
+
+    /// `moved`, or the next step in the direction of `steps` where rounding would swallow the move.
+    fn moved_at_least_a_step(&self, moved: f64, steps: f64) -> f64 {
+        let snapped = self.snapped(moved);
+        match self.step {
+            Some(step) if snapped == *self.value => self.snapped(*self.value + step * steps.signum()),
+            _ => snapped,
+        }
+    }
+
+    fn paint_track(&self, ui: &Ui, response: &Response, rect: Rect) {
+        let t = tokens(ui);
+        let share = self.scale().share(*self.value) as f32;
+        let x = egui::lerp(rect.left() + THUMB..=rect.right() - THUMB, share);
+        let y = rect.center().y;
+        let rail = Rect::from_min_max(pos2(rect.left(), y - 2.0), pos2(rect.right(), y + 2.0));
+        let fill = Rect::from_min_max(rail.min, pos2(x, rail.bottom()));
+        ui.painter().rect_filled(rail, 2.0, t.field);
+        ui.painter().rect_filled(fill, 2.0, t.accent);
+        let active = response.hovered() || response.dragged();
+        let radius = if active { THUMB + 1.0 } else { THUMB };
+        ui.painter().circle(pos2(x, y), radius, t.thumb, egui::Stroke::new(1.0, t.thumb_edge));
+        if response.has_focus() {
+            ui.painter().circle_stroke(pos2(x, y), radius + 3.0, egui::Stroke::new(1.5, t.accent));
+        }
+    }
+
+    fn number(&self, ui: &mut Ui, id: Id, rect: Rect) -> (Response, Option<f64>) {
+        let cell = NumberCell {
+            id: id.with("number"),
+            rect,
+            name: &format!("{} value", self.label),
+            shown: &self.shown(),
+            exact: &self.value.to_string(),
+            unit: self.unit,
+            align: Align::Max,
+            boxed: false,
+        };
+        cell.show(ui)
+    }
+
+    /// Tells tests and screen readers what the slider is worth and how far it goes.
+    fn declare(&self, ui: &Ui, response: &Response) {
+        response.widget_info(|| WidgetInfo::slider(ui.is_enabled(), *self.value, self.label));
+        ui.ctx().accesskit_node_builder(response.id, |node| {
+            node.set_min_numeric_value(*self.range.start());
+            node.set_max_numeric_value(*self.range.end());
+            node.set_value(self.shown());
+            node.add_action(Action::SetValue);
+            node.add_action(Action::Increment);
+            node.add_action(Action::Decrement);
+        });
+    }
+}
+
+/// The number that assistive technology asks for.
+pub(super) fn requested_value(ui: &Ui, id: Id) -> Option<f64> {
+    ui.input(|input| {
+        let numbers =
+            input.accesskit_action_requests(id, Action::SetValue).filter_map(|request| match request.data {
+                Some(ActionData::NumericValue(value)) => Some(value),
+                _ => None,
+            });
+        numbers.last()
+    })
+}
+
+/// How many steps the keyboard asks for. Holds the arrow keys, which would else move the focus, while focused.
+pub(super) fn key_steps(ui: &Ui, response: &Response) -> f64 {
+    let requests = ui.input(|input| {
+        input.num_accesskit_action_requests(response.id, Action::Increment) as f64
+            - input.num_accesskit_action_requests(response.id, Action::Decrement) as f64
+    });
+    if !response.has_focus() {
+        return requests;
+    }
+    let filter = EventFilter { horizontal_arrows: true, vertical_arrows: true, ..Default::default() };
+    ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, filter));
+    requests + ui.input(|input| input.events.iter().map(steps_of).sum::<f64>())
+}
+
+fn steps_of(event: &Event) -> f64 {
+    let Event::Key { key, pressed: true, modifiers, .. } = event else {
+        return 0.0;
+    };
+    let size = if modifiers.shift { 10.0 } else { 1.0 };
+    match key {
+        Key::ArrowRight | Key::ArrowUp => size,
+        Key::ArrowLeft | Key::ArrowDown => -size,
+        Key::PageUp => 10.0,
+        Key::PageDown => -10.0,
+        Key::Home => -1e6,
+        Key::End => 1e6,
+        _ => 0.0,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_scale_and_back_is_the_identity() {
+        for (range, logarithmic) in [(0.0..=1.0, false), (-5.0..=20.0, false), (1e-4..=10.0, true)] {
+            let scale = Scale::new(&range, logarithmic);
+            for i in 0..=20 {
+                let share = f64::from(i) / 20.0;
+                assert!((scale.share(scale.value(share)) - share).abs() < 1e-12);
+            }
+        }
+    }
+
+    #[test]
+    fn a_scale_bears_odd_values() {
+        let scale = Scale::new(&(0.0..=0.0), false);
+        assert_eq!(scale.share(f64::NAN), 0.0);
+        assert_eq!(scale.value(0.5), 0.0);
+        assert_eq!(Scale::new(&(1e-3..=1.0), true).share(-1.0), 0.0);
+    }
+
+    #[test]
+    fn a_drag_sets_what_is_shown() {
+        let mut value = 0.0;
+        assert_eq!(SliderRow::new("a", &mut value, 0.0..=1.0).snapped(0.12345), 0.12);
+        assert_eq!(SliderRow::new("a", &mut value, 1e-3..=1.0).logarithmic().snapped(0.012345), 0.0123);
+        assert_eq!(SliderRow::new("a", &mut value, 0.0..=54.0).step(1.0).snapped(7.4), 7.0);
+    }
+}

@@ -1,0 +1,151 @@
+//! A text field that says what is wrong, and where.
+
+use eframe::egui::{
+    self, Align2, FontId, Pos2, Rect, Response, Shape, Stroke, StrokeKind, TextEdit, Ui, pos2, vec2,
+};
+use egui::text::CCursor;
+
+use super::paint;
+use crate::app::theme::{font, metrics, tokens};
+
+/// What is wrong with a text.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TextError<'a> {
+    /// A sentence.
+    pub message: &'a str,
+    /// The byte at which it is wrong, if the message is about a place.
+    pub at: Option<usize>,
+}
+
+/// A name and a text field; below it the error, with a caret at its place.
+///
+/// `changed` on every edit, `lost_focus` when it is complete (Enter, Tab, a click elsewhere).
+#[must_use = "call `show`"]
+pub struct TextRow<'a> {
+    label: &'a str,
+    text: &'a mut String,
+    hint: &'a str,
+    error: Option<TextError<'a>>,
+    formula: bool,
+}
+
+impl<'a> TextRow<'a> {
+    /// A field beside its name.
+    pub fn new(label: &'a str, text: &'a mut String) -> Self {
+        Self { label, text, hint: "", error: None, formula: false }
+    }
+
+    /// A field for a formula: monospaced, full width, below its name.
+    pub fn formula(label: &'a str, text: &'a mut String) -> Self {
+        Self { formula: true, ..Self::new(label, text) }
+    }
+
+    /// Shown while the field is empty.
+    pub fn hint(mut self, hint: &'a str) -> Self {
+        self.hint = hint;
+        self
+    }
+
+    /// What is wrong with the present text.
+    pub fn error(mut self, error: Option<TextError<'a>>) -> Self {
+        self.error = error;
+        self
+    }
+
+    /// Shows the row, and the error below it.
+    pub fn show(mut self, ui: &mut Ui) -> Response {
+        let row = paint::row(ui);
+        let place = if self.formula {
+            paint::label(ui, row, self.label, "");
+            ui.allocate_space(vec2(ui.available_width(), metrics::ROW + 4.0)).1
+        } else {
+            let columns = paint::Columns::of(row);
+            paint::label(ui, columns.label, self.label, "");
+            columns.rest
+        };
+        let (response, error_at) = self.field(ui, place);
+        if let Some(error) = self.error {
+            let x = error_at.unwrap_or(place.left() + 8.0);
+            paint_caret(ui, pos2(x, place.bottom()), error_at.is_some());
+            message(ui, place, error.message);
+        }
+        response
+    }
+
+    /// The field in `rect`, and the x at which the error stands.
+    fn field(&mut self, ui: &mut Ui, rect: Rect) -> (Response, Option<f32>) {
+        let id = ui.make_persistent_id(("text", self.label));
+        self.paint_ground(ui, rect, ui.memory(|memory| memory.has_focus(id)));
+        let inner = rect.shrink2(vec2(8.0, 0.0));
+        let mut child = ui.new_child(egui::UiBuilder::new().max_rect(inner));
+        let label = self.label;
+        let edit = TextEdit::singleline(self.text)
+            .id(id)
+            .font(if self.formula { font::value() } else { font::body() })
+            .text_color(tokens(ui).value)
+            .align(Align2::LEFT_CENTER)
+            .frame(egui::Frame::NONE)
+            .desired_width(inner.width())
+            .min_size(inner.size());
+        let output = child.name_inputs(label, |ui| edit.show(ui));
+        child.ctx().accesskit_node_builder(id, |node| node.set_label(label));
+        self.paint_hint(ui, inner);
+        let index = self.error.and_then(|error| error.at).map(|byte| char_index(self.text, byte));
+        let x = index.map(|index| {
+            let x = output.galley_pos.x + output.galley.pos_from_cursor(CCursor::new(index)).center().x;
+            x.clamp(inner.left(), inner.right())
+        });
+        (output.response.response, x)
+    }
+
+    fn paint_ground(&self, ui: &Ui, rect: Rect, focused: bool) {
+        let t = tokens(ui);
+        let edge = match (self.error.is_some(), focused) {
+            (true, _) => Stroke::new(1.0, t.danger),
+            (false, true) => Stroke::new(1.0, t.accent),
+            (false, false) => Stroke::NONE,
+        };
+        ui.painter().rect(rect, metrics::RADIUS_CONTROL, t.field, edge, StrokeKind::Inside);
+    }
+
+    fn paint_hint(&self, ui: &Ui, rect: Rect) {
+        if self.text.is_empty() {
+            let font: FontId = if self.formula { font::value() } else { font::body() };
+            paint::at_left(ui, rect, paint::elided(ui, self.hint, font, tokens(ui).label, rect.width()));
+        }
+    }
+}
+
+/// The number of characters before `byte`; the whole text's where `byte` is beyond it.
+fn char_index(text: &str, byte: usize) -> usize {
+    text.char_indices().take_while(|(start, _)| *start < byte).count()
+}
+
+/// A small mark below the field that points up to the error.
+fn paint_caret(ui: &Ui, tip: Pos2, pointed: bool) {
+    if pointed {
+        let corners = vec![tip, tip + vec2(4.0, 6.0), tip + vec2(-4.0, 6.0)];
+        ui.painter().add(Shape::convex_polygon(corners, tokens(ui).danger, Stroke::NONE));
+    }
+}
+
+fn message(ui: &mut Ui, field: Rect, text: &str) {
+    let colour = tokens(ui).danger;
+    let galley = ui.painter().layout(text.to_owned(), font::caption(), colour, field.width() - 8.0);
+    let height = (galley.size().y + 6.0).max(metrics::ROW - 4.0);
+    let (_, rect) = ui.allocate_space(vec2(ui.available_width(), height));
+    ui.painter().galley(pos2(field.left() + 8.0, rect.top() + 4.0), galley, colour);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bytes_become_characters() {
+        assert_eq!(char_index("abc", 1), 1);
+        assert_eq!(char_index("θ + x", 2), 1);
+        assert_eq!(char_index("θ", 99), 1);
+        assert_eq!(char_index("", 0), 0);
+    }
+}

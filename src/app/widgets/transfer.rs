@@ -1,0 +1,443 @@
+//! The curve from risk to diameter, with handles.
+
+use std::ops::RangeInclusive;
+
+use eframe::egui::{
+    self, Align, Color32, CursorIcon, Id, Mesh, Pos2, Rect, Response, Sense, Shape, Stroke, StrokeKind, Ui,
+    WidgetInfo, pos2, vec2,
+};
+use egui::accesskit::Action;
+
+use super::number::NumberCell;
+use super::slider::{key_steps, requested_value};
+use super::{format, paint};
+use crate::app::theme::{font, metrics, tokens};
+
+/// Height of the plot; the numbers stand in a row below it.
+const HEIGHT: f32 = 104.0;
+/// Room for the numbers of the axis.
+const AXIS: f32 = 40.0;
+/// Radius of a handle.
+const HANDLE: f32 = 5.0;
+/// Pieces of which the curve is drawn.
+const PIECES: usize = 64;
+
+/// What the curve editor edits.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Transfer {
+    /// Diameter at risk 0, in world units.
+    pub h_max: f64,
+    /// Diameter at risk 1, in world units; at most `h_max`.
+    pub h_min: f64,
+    /// The curve's form, positive; what it means is the caller's formula.
+    pub shape: f64,
+}
+
+/// What [`TransferCurve::show`] answers.
+pub struct TransferResponse {
+    /// `changed` whenever a value did; [`super::edit_done`] tells when a gesture is complete.
+    pub response: Response,
+    /// The risk under the pointer.
+    pub hovered_risk: Option<f64>,
+}
+
+/// Diameter over risk: risk 0 to 1 from left to right, the diameter on a logarithmic axis of whole decades.
+///
+/// The end points change `h_max` and `h_min`, the middle the shape; their numbers can be typed; a focused handle follows
+/// the arrow keys. `curve` gives the diameter of a [`Transfer`] at a risk; it must be monotone in the shape.
+/// The axis stays as it is while a handle is dragged.
+#[must_use = "call `show`"]
+pub struct TransferCurve<'a> {
+    value: &'a mut Transfer,
+    curve: &'a dyn Fn(&Transfer, f64) -> f64,
+    limits: RangeInclusive<f64>,
+    shapes: RangeInclusive<f64>,
+    mark: Option<f64>,
+}
+
+#[derive(Clone, Copy, PartialEq)]
+enum Handle {
+    Max,
+    Shape,
+    Min,
+}
+
+impl<'a> TransferCurve<'a> {
+    /// An editor whose diameters stay within `limits` and whose shape within `shapes`, both positive.
+    pub fn new(
+        value: &'a mut Transfer,
+        curve: &'a dyn Fn(&Transfer, f64) -> f64,
+        limits: RangeInclusive<f64>,
+        shapes: RangeInclusive<f64>,
+    ) -> Self {
+        Self { value, curve, limits, shapes, mark: None }
+    }
+
+    /// Marks a risk on the curve, such as that under the pointer on the canvas.
+    pub fn mark(mut self, risk: Option<f64>) -> Self {
+        self.mark = risk;
+        self
+    }
+
+    /// Shows the editor over the full width.
+    pub fn show(mut self, ui: &mut Ui) -> TransferResponse {
+        let before = *self.value;
+        let (_, rect) = ui.allocate_space(vec2(ui.available_width(), HEIGHT));
+        let id = ui.make_persistent_id("transfer curve");
+        let mut response = ui.interact(rect, id, Sense::hover());
+        let inner = rect.shrink2(vec2(12.0, 14.0));
+        let plot = Plot { rect: inner.with_min_x(rect.left() + AXIS), axis: self.axis(ui, id) };
+        let hovered_risk = response.hover_pos().map(|pointer| plot.risk_at(pointer.x));
+        self.paint_ground(ui, rect, &plot);
+        let handles =
+            [Handle::Max, Handle::Shape, Handle::Min].map(|handle| self.handle(ui, id, &plot, handle));
+        self.paint_curve(ui, &plot);
+        self.paint_mark(ui, &plot, self.mark.or(hovered_risk));
+        for (handle, felt) in [Handle::Max, Handle::Shape, Handle::Min].into_iter().zip(&handles) {
+            self.paint_handle(ui, &plot, handle, felt);
+        }
+        response |= self.numbers(ui, id, hovered_risk);
+        self.keep_axis(ui, id, &plot, handles.iter().any(Response::dragged));
+        let mut response = handles.into_iter().fold(response, |all, one| all | one);
+        if *self.value != before {
+            response.mark_changed();
+        }
+        TransferResponse { response, hovered_risk }
+    }
+
+    /// The axis of the last frame while a handle is dragged, else the whole decades round the values.
+    fn axis(&self, ui: &Ui, id: Id) -> Axis {
+        let kept = ui.data(|data| data.get_temp::<Axis>(id));
+        kept.unwrap_or_else(|| Axis::around(self.value.h_min, self.value.h_max))
+    }
+
+    fn keep_axis(&self, ui: &Ui, id: Id, plot: &Plot, dragged: bool) {
+        if dragged {
+            ui.data_mut(|data| data.insert_temp(id, plot.axis));
+        } else {
+            ui.data_mut(|data| data.remove::<Axis>(id));
+        }
+    }
+
+    /// Feels for pointer and keys at a handle and changes the value.
+    fn handle(&mut self, ui: &Ui, id: Id, plot: &Plot, handle: Handle) -> Response {
+        let id = id.with(handle.name());
+        let place = Rect::from_center_size(self.position(plot, handle), vec2(20.0, 20.0));
+        let response =
+            ui.interact(place, id, Sense::click_and_drag()).on_hover_cursor(CursorIcon::ResizeVertical);
+        if let Some(pointer) = response.interact_pointer_pos().filter(|_| response.dragged()) {
+            self.set(handle, plot.diameter_at(pointer.y));
+        }
+        let steps = key_steps(ui, &response);
+        if steps != 0.0 {
+            self.nudge(handle, steps.clamp(-100.0, 100.0));
+        }
+        if let Some(value) = requested_value(ui, response.id) {
+            self.assign(handle, value);
+        }
+        self.declare(ui, handle, &response);
+        response
+    }
+
+    fn declare(&self, ui: &Ui, handle: Handle, response: &Response) {
+        response.widget_info(|| WidgetInfo::slider(ui.is_enabled(), self.number_of(handle), handle.name()));
+        ui.ctx().accesskit_node_builder(response.id, |node| {
+            let range = if handle == Handle::Shape { &self.shapes } else { &self.limits };
+            node.set_min_numeric_value(*range.start());
+            node.set_max_numeric_value(*range.end());
+            node.add_action(Action::SetValue);
+        });
+    }
+
+    /// The value that a handle changes.
+    fn number_of(&self, handle: Handle) -> f64 {
+        match handle {
+            Handle::Max => self.value.h_max,
+            Handle::Shape => self.value.shape,
+            Handle::Min => self.value.h_min,
+        }
+    }
+
+    /// Puts a handle at a diameter.
+    fn set(&mut self, handle: Handle, diameter: f64) {
+        match handle {
+            Handle::Shape => self.value.shape = format::rounded(self.shape_through(diameter), 3),
+            _ => self.assign(handle, format::rounded(diameter, 3)),
+        }
+    }
+
+    /// Sets what a handle changes, within its limits; `h_min` never exceeds `h_max`.
+    fn assign(&mut self, handle: Handle, value: f64) {
+        let (low, high) = (*self.limits.start(), *self.limits.end());
+        match handle {
+            Handle::Max => self.value.h_max = value.clamp(low, high).max(self.value.h_min),
+            Handle::Min => self.value.h_min = value.clamp(low, high).min(self.value.h_max),
+            Handle::Shape => self.value.shape = value.clamp(*self.shapes.start(), *self.shapes.end()),
+        }
+    }
+
+    /// Moves a handle by the keyboard, about five per cent a step.
+    fn nudge(&mut self, handle: Handle, steps: f64) {
+        let factor = 1.05_f64.powf(if handle == Handle::Shape { steps * self.rising() } else { steps });
+        self.assign(handle, format::rounded(self.number_of(handle) * factor, 3));
+    }
+
+    /// 1 if a larger shape lifts the curve's middle, else −1.
+    fn rising(&self) -> f64 {
+        let (low, high) = (self.middle(*self.shapes.start()), self.middle(*self.shapes.end()));
+        if high >= low { 1.0 } else { -1.0 }
+    }
+
+    /// The diameter at risk ½ with another shape.
+    fn middle(&self, shape: f64) -> f64 {
+        (self.curve)(&Transfer { shape, ..*self.value }, 0.5)
+    }
+
+    /// The shape whose curve passes nearest to `diameter` at risk ½, by 40 halvings of the range's logarithm.
+    fn shape_through(&self, diameter: f64) -> f64 {
+        let (mut low, mut high) = (self.shapes.start().ln(), self.shapes.end().ln());
+        let rising = self.rising();
+        for _ in 0..40 {
+            let half = (low + high) / 2.0;
+            if (self.middle(half.exp()) - diameter) * rising < 0.0 { low = half } else { high = half }
+        }
+        ((low + high) / 2.0).exp()
+    }
+
+    fn position(&self, plot: &Plot, handle: Handle) -> Pos2 {
+        let risk = handle.risk();
+        plot.point(risk, (self.curve)(self.value, risk))
+    }
+
+    /// The well, with a line and a number for each decade; not all have a number where they are close together.
+    fn paint_ground(&self, ui: &Ui, rect: Rect, plot: &Plot) {
+        let t = tokens(ui);
+        ui.painter().rect(rect, metrics::RADIUS_CONTROL, t.well, t.hairline(), StrokeKind::Inside);
+        let every = plot.axis.label_every();
+        for decade in plot.axis.decades() {
+            let diameter = 10_f64.powi(decade);
+            let y = plot.point(0.0, diameter).y;
+            ui.painter().hline(plot.rect.x_range(), y, Stroke::new(1.0, t.line));
+            if (decade - plot.axis.high) % every == 0 {
+                let place = Rect::from_x_y_ranges(rect.left()..=plot.rect.left() - 8.0, y - 8.0..=y + 8.0);
+                let text = paint::line(ui, &format::digits(diameter, 1), font::axis(), t.faint);
+                paint::at_right(ui, place, text);
+            }
+        }
+    }
+
+    fn paint_curve(&self, ui: &Ui, plot: &Plot) {
+        let accent = tokens(ui).accent;
+        let points: Vec<Pos2> = (0..=PIECES)
+            .map(|i| i as f64 / PIECES as f64)
+            .map(|risk| plot.point(risk, (self.curve)(self.value, risk)))
+            .collect();
+        ui.painter().add(area_under(&points, plot.rect.bottom(), accent.gamma_multiply(0.16)));
+        ui.painter().line(points, Stroke::new(2.0, accent));
+    }
+
+    /// A hair line at a risk, with the diameter there.
+    fn paint_mark(&self, ui: &Ui, plot: &Plot, risk: Option<f64>) {
+        let Some(risk) = risk.filter(|risk| (0.0..=1.0).contains(risk)) else {
+            return;
+        };
+        let t = tokens(ui);
+        let diameter = (self.curve)(self.value, risk);
+        let point = plot.point(risk, diameter);
+        ui.painter().vline(point.x, plot.rect.y_range(), Stroke::new(1.0, t.faint.gamma_multiply(0.6)));
+        ui.painter().circle_filled(point, 3.0, t.accent);
+    }
+
+    fn paint_handle(&self, ui: &Ui, plot: &Plot, handle: Handle, response: &Response) {
+        let t = tokens(ui);
+        let place = self.position(plot, handle);
+        let active = response.hovered() || response.dragged();
+        let radius =
+            HANDLE + if active { 1.0 } else { 0.0 } - if handle == Handle::Shape { 1.0 } else { 0.0 };
+        let (fill, edge) = if handle == Handle::Shape && !active {
+            (t.well, Stroke::new(2.0, t.accent))
+        } else {
+            (t.thumb, Stroke::new(1.0, t.thumb_edge))
+        };
+        ui.painter().circle(place, radius, fill, edge);
+        if response.has_focus() {
+            ui.painter().circle_stroke(place, radius + 3.0, Stroke::new(1.5, t.accent));
+        }
+    }
+
+    /// The row below: both end points' numbers, which can be typed, and between them the curve under the pointer.
+    fn numbers(&mut self, ui: &mut Ui, id: Id, risk: Option<f64>) -> Response {
+        let row = paint::row(ui);
+        let third = row.width() / 3.0;
+        let left = row.with_max_x(row.left() + third);
+        let right = row.with_min_x(row.right() - third);
+        let middle = Rect::from_x_y_ranges(left.right()..=right.left(), row.y_range());
+        let caption = match risk {
+            Some(risk) => {
+                format!("{} → {}", format::fixed(risk, 2), format::length((self.curve)(self.value, risk)))
+            }
+            None => "risk 0 → 1".to_owned(),
+        };
+        paint::at_centre(ui, middle, paint::line(ui, &caption, font::small_value(), tokens(ui).faint));
+        self.number(ui, id, left, Handle::Max) | self.number(ui, id, right, Handle::Min)
+    }
+
+    /// The name and number of an end point, at the left (`h_max`) or right (`h_min`) of `rect`.
+    fn number(&mut self, ui: &mut Ui, id: Id, rect: Rect, handle: Handle) -> Response {
+        let t = tokens(ui);
+        let shown = format::length(self.number_of(handle));
+        let name = paint::line(ui, handle.name(), font::small_value(), t.label);
+        let number = paint::line(ui, &shown, font::value(), t.value).size().x;
+        let gap = name.size().x + 8.0;
+        let (name_at, cell_at, align) = match handle {
+            Handle::Min => {
+                (rect.with_max_x(rect.right() - number - 8.0), rect.with_min_x(rect.left() + gap), Align::Max)
+            }
+            _ => (rect.with_max_x(rect.left() + gap), rect.with_min_x(rect.left() + gap), Align::Min),
+        };
+        let cell = NumberCell {
+            id: id.with((handle.name(), "number")),
+            rect: cell_at,
+            name: &format!("{} value", handle.name()),
+            shown: &shown,
+            exact: &self.number_of(handle).to_string(),
+            unit: "",
+            align,
+            boxed: false,
+        };
+        let name_at = if align == Align::Min { name_at.with_max_x(name_at.right() - 8.0) } else { name_at };
+        if align == Align::Min || !cell.is_edited(ui) {
+            paint::at_right(ui, name_at, name);
+        }
+        let (response, typed) = cell.show(ui);
+        if let Some(typed) = typed {
+            self.assign(handle, typed);
+        }
+        response
+    }
+}
+
+impl Handle {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Max => "h_max",
+            Self::Shape => "Curve shape",
+            Self::Min => "h_min",
+        }
+    }
+
+    fn risk(self) -> f64 {
+        match self {
+            Self::Max => 0.0,
+            Self::Shape => 0.5,
+            Self::Min => 1.0,
+        }
+    }
+}
+
+/// A logarithmic axis from 10^low to 10^high.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Axis {
+    low: i32,
+    high: i32,
+}
+
+impl Axis {
+    /// The fewest whole decades that hold both diameters.
+    fn around(h_min: f64, h_max: f64) -> Self {
+        let low = (h_min.max(1e-300).log10() + 1e-9).floor() as i32;
+        let high = (h_max.max(1e-300).log10() - 1e-9).ceil() as i32;
+        Self { low, high: high.max(low + 1) }
+    }
+
+    /// Every how many decades there is room for a number.
+    fn label_every(self) -> i32 {
+        ((self.high - self.low) / 5 + 1).max(1)
+    }
+
+    fn decades(self) -> RangeInclusive<i32> {
+        self.low..=self.high
+    }
+
+    /// Where a diameter stands, 0 at the bottom, 1 at the top.
+    fn share(self, diameter: f64) -> f64 {
+        let share = (diameter.log10() - f64::from(self.low)) / f64::from(self.high - self.low);
+        if share.is_finite() { share.clamp(0.0, 1.0) } else { 0.0 }
+    }
+
+    fn diameter(self, share: f64) -> f64 {
+        10_f64.powf(f64::from(self.low) + share * f64::from(self.high - self.low))
+    }
+}
+
+struct Plot {
+    rect: Rect,
+    axis: Axis,
+}
+
+impl Plot {
+    fn point(&self, risk: f64, diameter: f64) -> Pos2 {
+        let x = egui::lerp(self.rect.x_range(), risk as f32);
+        pos2(x, egui::lerp(self.rect.bottom()..=self.rect.top(), self.axis.share(diameter) as f32))
+    }
+
+    fn risk_at(&self, x: f32) -> f64 {
+        f64::from(egui::remap_clamp(x, self.rect.x_range(), 0.0..=1.0))
+    }
+
+    fn diameter_at(&self, y: f32) -> f64 {
+        self.axis.diameter(f64::from(egui::remap(y, self.rect.bottom()..=self.rect.top(), 0.0..=1.0)))
+    }
+}
+
+/// The area between a curve and the line `bottom`, fading downwards.
+fn area_under(points: &[Pos2], bottom: f32, colour: Color32) -> Shape {
+    let mut mesh = Mesh::default();
+    for (i, point) in points.iter().enumerate() {
+        mesh.colored_vertex(*point, colour);
+        mesh.colored_vertex(pos2(point.x, bottom), Color32::TRANSPARENT);
+        if i > 0 {
+            let last = 2 * i as u32;
+            mesh.add_triangle(last - 2, last - 1, last);
+            mesh.add_triangle(last - 1, last, last + 1);
+        }
+    }
+    Shape::mesh(mesh)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn power(value: &Transfer, risk: f64) -> f64 {
+        value.h_max * (value.h_min / value.h_max).powf(risk.powf(value.shape))
+    }
+
+    #[test]
+    fn the_shape_is_found_for_a_point_of_the_curve() {
+        let mut value = Transfer { h_max: 0.2, h_min: 0.002, shape: 1.0 };
+        let curve = TransferCurve::new(&mut value, &power, 1e-4..=1.0, 0.1..=10.0);
+        for shape in [0.2, 1.0, 3.7] {
+            let through = curve.middle(shape);
+            assert!((curve.shape_through(through) - shape).abs() < 1e-6);
+        }
+        assert!(curve.shape_through(10.0) > 9.99, "beyond the range its end is nearest");
+    }
+
+    #[test]
+    fn diameters_keep_their_order_and_limits() {
+        let mut value = Transfer { h_max: 0.2, h_min: 0.002, shape: 1.0 };
+        let mut curve = TransferCurve::new(&mut value, &power, 1e-4..=1.0, 0.1..=10.0);
+        curve.assign(Handle::Min, 0.5);
+        curve.assign(Handle::Max, 1e-9);
+        assert_eq!(value, Transfer { h_max: 0.2, h_min: 0.2, shape: 1.0 });
+    }
+
+    #[test]
+    fn the_axis_has_whole_decades() {
+        assert_eq!(Axis::around(0.0024, 0.2), Axis { low: -3, high: 0 });
+        assert_eq!(Axis::around(0.1, 0.1), Axis { low: -1, high: 0 });
+        assert_eq!(Axis::around(0.01, 1.0), Axis { low: -2, high: 0 });
+        assert!((Axis { low: -3, high: 0 }.diameter(0.5) - 10_f64.powf(-1.5)).abs() < 1e-12);
+    }
+}
