@@ -235,7 +235,7 @@ fn overlays(ui: &mut Ui) {
 }
 
 fn gallery(ui: &mut Ui, state: &mut State, levels: u32) {
-    let (panel, line) = (theme::tokens(ui).panel, theme::tokens(ui).line);
+    let panel = theme::tokens(ui).panel;
     ui.painter().rect_filled(ui.max_rect().expand(40.0), 0.0, panel);
     ui.horizontal_top(|ui| {
         for column in 0..3 {
@@ -254,7 +254,6 @@ fn gallery(ui: &mut Ui, state: &mut State, levels: u32) {
             });
             ui.add_space(24.0);
         }
-        let _ = line;
     });
     state.chosen = state.palette.show(ui.ctx(), &COMMANDS).or(state.chosen);
     if state.asking {
@@ -285,6 +284,42 @@ fn harness_for(state: State, shown: Theme, levels: u32, scale: f32, draw: bool) 
     harness
 }
 
+/// One column of the gallery as a small picture: what a panel looks like.
+fn panel_picture(name: &str, shown: Theme, contents: fn(&mut Ui, &mut State)) {
+    let mut harness = Harness::builder()
+        .with_size(vec2(theme::metrics::PANEL_WIDTH, 400.0))
+        .with_theme(shown)
+        .with_max_steps(16)
+        .with_render_cursor(false)
+        .with_context_setup(theme::install)
+        .wgpu()
+        .build_ui_state(
+            move |ui, state: &mut State| {
+                ui.painter().rect_filled(ui.ctx().content_rect(), 0.0, theme::tokens(ui).panel);
+                egui::Frame::new()
+                    .inner_margin(egui::Margin::symmetric(8, 0))
+                    .show(ui, |ui| contents(ui, state));
+            },
+            State::default(),
+        );
+    harness.run();
+    harness.snapshot(name);
+}
+
+#[test]
+fn a_panel_looks_as_it_did_in_the_dark() {
+    panel_picture("panel_dark", Theme::Dark, |ui, state| {
+        brush(ui, state);
+        Section::new("Risk to diameter")
+            .show(ui, |ui| TransferCurve::new(&mut state.transfer, &power, 1e-4..=1.0, 0.1..=10.0).show(ui));
+    });
+}
+
+#[test]
+fn a_panel_looks_as_it_did_in_the_light() {
+    panel_picture("panel_light", Theme::Light, |ui, state| inspector(ui, state, 11));
+}
+
 /// Saves pictures of what pointer and keyboard do to the controls.
 fn states(path: &str, shown: Theme) {
     let mut harness = harness_for(State::default(), shown, 11, 1.0, true);
@@ -310,6 +345,7 @@ fn states(path: &str, shown: Theme) {
     harness.render().unwrap().save(format!("{path}3.png")).unwrap();
 }
 
+/// Saves the gallery into the folder named by the environment variable `GALLERY`, for people who work on its looks.
 #[test]
 fn pictures() {
     let Ok(folder) = std::env::var("GALLERY") else {

@@ -170,6 +170,11 @@ pub fn tokens(ui: &egui::Ui) -> &'static Tokens {
     if ui.visuals().dark_mode { &DARK } else { &LIGHT }
 }
 
+/// The colours shown in `ctx`, for dialogs, which have no `Ui` of their own yet.
+pub fn tokens_of(ctx: &egui::Context) -> &'static Tokens {
+    Tokens::of(ctx.theme())
+}
+
 /// Sizes in points.
 pub mod metrics {
     /// The grid that everything sits on.

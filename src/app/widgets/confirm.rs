@@ -1,9 +1,9 @@
 //! A question that must be answered first.
 
-use eframe::egui::{self, Align, Context, Frame, Id, Layout, Margin, RichText, Theme, Ui};
+use eframe::egui::{self, Align, Context, Frame, Id, Layout, Margin, RichText, Ui};
 
 use super::tool_button::{ActionButton, ButtonKind};
-use crate::app::theme::{Tokens, font, tokens};
+use crate::app::theme::{font, tokens, tokens_of};
 
 /// How a [`ConfirmDialog`] was answered.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -56,9 +56,9 @@ impl<'a> ConfirmDialog<'a> {
     /// Shows the dialog and answers how it was answered in this frame.
     pub fn show(self, ctx: &Context) -> Option<Answer> {
         let style = ctx.global_style();
-        let t = Tokens::of(if style.visuals.dark_mode { Theme::Dark } else { Theme::Light });
         let frame = Frame::popup(&style).inner_margin(Margin::same(20));
-        let modal = egui::Modal::new(Id::unique("confirm dialog")).frame(frame).backdrop_color(t.scrim);
+        let modal =
+            egui::Modal::new(Id::unique("confirm dialog")).frame(frame).backdrop_color(tokens_of(ctx).scrim);
         let shown = modal.show(ctx, |ui| self.contents(ui));
         let closed = shown.should_close().then_some(Answer::Cancelled);
         shown.inner.or(closed)

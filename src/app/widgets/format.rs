@@ -200,7 +200,7 @@ mod tests {
 
     #[test]
     fn what_is_shown_is_what_is_held() {
-        for value in [0.0637219, 12345.678, 9.9999, 1e-9, -3.14159] {
+        for value in [0.0637219, 12345.678, 9.9999, 1e-9, -3.24159] {
             assert_eq!(parse(&significant(value, 3), ""), Some(rounded(value, 3)));
         }
     }

@@ -8,7 +8,7 @@ use egui::text::{LayoutJob, TextFormat};
 
 use super::fuzzy::{Match, fuzzy_match};
 use super::{Icon, paint};
-use crate::app::theme::{font, metrics, tokens};
+use crate::app::theme::{font, metrics, tokens, tokens_of};
 
 const WIDTH: f32 = 520.0;
 const ROW: f32 = 32.0;
@@ -61,11 +61,11 @@ impl CommandPalette {
         }
         let area = egui::Modal::default_area(Id::unique("command palette"))
             .anchor(Align2::CENTER_TOP, vec2(0.0, 72.0));
-        let dark = ctx.global_style().visuals.dark_mode;
-        let t = crate::app::theme::Tokens::of(if dark { egui::Theme::Dark } else { egui::Theme::Light });
         let frame = Frame::popup(&ctx.global_style()).inner_margin(Margin::same(8));
-        let modal =
-            egui::Modal::new(Id::unique("command palette")).area(area).frame(frame).backdrop_color(t.scrim);
+        let modal = egui::Modal::new(Id::unique("command palette"))
+            .area(area)
+            .frame(frame)
+            .backdrop_color(tokens_of(ctx).scrim);
         let shown = modal.show(ctx, |ui| self.contents(ui, items));
         if shown.inner.is_some() || shown.should_close() {
             self.open = false;

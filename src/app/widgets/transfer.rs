@@ -16,7 +16,7 @@ use crate::app::theme::{font, metrics, tokens};
 /// Height of the plot; the numbers stand in a row below it.
 const HEIGHT: f32 = 104.0;
 /// Room for the numbers of the axis.
-const AXIS: f32 = 40.0;
+const AXIS: f32 = 44.0;
 /// Radius of a handle.
 const HANDLE: f32 = 5.0;
 /// Pieces of which the curve is drawn.
