@@ -298,6 +298,28 @@ fn the_picture_is_drawn_again_only_for_a_change() {
 }
 
 #[test]
+fn windows_with_blue_first_show_the_same_colors() {
+    let Some(gpu) = gpu() else { return };
+    let mesh = graded();
+    let (camera, style) = (whole(&mesh), Style::dark(colors()));
+    let mut gpu = gpu.with_format(wgpu::TextureFormat::Bgra8Unorm).unwrap();
+    gpu.show(&mesh, 1).unwrap();
+    let picture = gpu.picture(&camera, &style).unwrap();
+    assert_agree("bgra", &picture, &software::draw(&mesh, &camera, &style, None, &[]));
+}
+
+#[test]
+fn a_picture_drawn_in_software_reaches_the_canvas_unchanged() {
+    let Some(mut gpu) = gpu() else { return };
+    let mesh = graded();
+    let (camera, style) = (whole(&mesh), Style::dark(colors()));
+    let expected = software::draw(&mesh, &camera, &style, None, &[]);
+    assert_eq!(gpu.picture_in_software(&mesh, 1, &camera, &style).unwrap(), expected);
+    assert_eq!(gpu.picture_in_software(&mesh, 1, &camera, &style).unwrap(), expected);
+    assert_eq!(gpu.renderer().redraws(), 1, "nothing changed");
+}
+
+#[test]
 fn a_canvas_without_a_mesh_is_its_ground() {
     let Some(mut gpu) = gpu() else { return };
     let camera = whole(&graded());

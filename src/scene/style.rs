@@ -26,7 +26,9 @@ pub struct Style {
 }
 
 /// How much of its own colour a receding level keeps.
-const RECEDED: f32 = 0.12;
+const RECEDED_FILL: f32 = 0.12;
+/// How much of its edges a receding level keeps.
+const RECEDED_EDGE: f32 = 0.5;
 
 impl Style {
     /// The look on a dark ground.
@@ -58,6 +60,11 @@ impl Style {
     /// away is this less `d`, from 0 to 1: each of the two triangles draws its half of the line.
     pub fn edge_reach_px(&self) -> f32 {
         self.edge_width_px / 2.0 + 0.5
+    }
+
+    /// Whether a level is shown in full.
+    pub fn shows(&self, level: u32) -> bool {
+        self.shown_levels >> level & 1 == 1
     }
 
     /// The ground, from 0 to 1.
@@ -106,7 +113,8 @@ impl LevelPaint {
         Self {
             fill,
             edge: fill.map(|c| c * style.edge_shade),
-            edge_alpha: edge_alpha(leg_px as f32, style),
+            edge_alpha: edge_alpha(leg_px as f32, style)
+                * if style.shows(level) { 1.0 } else { RECEDED_EDGE },
             leg_px: leg_px as f32,
             apex_height_px: apex_height_px as f32,
             base_height_px: base_height_px as f32,
@@ -116,7 +124,7 @@ impl LevelPaint {
 
 fn fill_color(level: u32, style: &Style) -> [f32; 3] {
     let own = unit_color(style.level_colors[level as usize]);
-    if style.shown_levels >> level & 1 == 1 { own } else { mixed(style.ground_color(), own, RECEDED) }
+    if style.shows(level) { own } else { mixed(style.ground_color(), own, RECEDED_FILL) }
 }
 
 fn edge_alpha(leg_px: f32, style: &Style) -> f32 {

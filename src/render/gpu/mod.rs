@@ -17,6 +17,7 @@ pub use offscreen::{Offscreen, offscreen};
 
 use self::overlay_pass::OverlayPass;
 use self::picture::MeshPicture;
+use crate::mesh::Mesh;
 use crate::scene::{Camera, Overlay, Style};
 
 /// What cannot be drawn with the graphics driver at hand.
@@ -98,6 +99,11 @@ pub fn device_descriptor(adapter: &wgpu::Adapter) -> wgpu::DeviceDescriptor<'sta
         required_limits: adapter.limits(),
         ..wgpu::DeviceDescriptor::default()
     }
+}
+
+/// Whether [`GpuRenderer::prepare_in_software`] is the better choice: the driver has no GPU behind it.
+pub fn emulates_gpu(adapter: &wgpu::Adapter) -> bool {
+    adapter.get_info().device_type == wgpu::DeviceType::Cpu
 }
 
 /// Everything on the GPU that a canvas needs.
@@ -185,6 +191,25 @@ impl GpuRenderer {
         style: &Style,
     ) -> Result<(), GpuError> {
         self.picture.prepare(device, queue, encoder, &self.mirror, camera, style)?;
+        self.overlay.prepare(queue, camera);
+        Ok(())
+    }
+
+    /// As [`Self::prepare`] with a picture drawn by [`software`](crate::render::software), for drivers without a GPU
+    /// behind them: several times as fast there. Needs no mirror; `revision` is the caller's name for the mesh.
+    ///
+    /// # Errors
+    /// As [`Self::prepare`].
+    pub fn prepare_in_software(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        mesh: &Mesh,
+        revision: u64,
+        camera: &Camera,
+        style: &Style,
+    ) -> Result<(), GpuError> {
+        self.picture.prepare_in_software(device, queue, mesh, revision, camera, style)?;
         self.overlay.prepare(queue, camera);
         Ok(())
     }

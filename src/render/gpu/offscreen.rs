@@ -7,13 +7,12 @@ use crate::mesh::Mesh;
 use crate::render::Image;
 use crate::scene::{Camera, Overlay, Style};
 
-const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
-
 /// A device of its own with a renderer, to draw pictures that no window shows.
 pub struct Offscreen {
     device: wgpu::Device,
     queue: wgpu::Queue,
     adapter: String,
+    format: wgpu::TextureFormat,
     renderer: GpuRenderer,
 }
 
@@ -40,17 +39,27 @@ impl Offscreen {
     /// When there is none.
     pub fn new() -> Result<Self, GpuError> {
         let (device, queue, adapter) = pollster::block_on(open())?;
-        let renderer = GpuRenderer::new(&device, FORMAT)?;
-        Ok(Self { device, queue, adapter, renderer })
+        let format = wgpu::TextureFormat::Rgba8Unorm;
+        let renderer = GpuRenderer::new(&device, format)?;
+        Ok(Self { device, queue, adapter, format, renderer })
     }
 
     /// Starts anew with buffers of another size than the device allows.
     ///
     /// # Errors
     /// When the device cannot draw a mesh at all.
-    pub fn with_chunks(mut self, chunks: ChunkLimits) -> Result<Self, GpuError> {
-        self.renderer = GpuRenderer::with_chunks(&self.device, FORMAT, chunks)?;
-        Ok(self)
+    pub fn with_chunks(self, chunks: ChunkLimits) -> Result<Self, GpuError> {
+        let renderer = GpuRenderer::with_chunks(&self.device, self.format, chunks)?;
+        Ok(Self { renderer, ..self })
+    }
+
+    /// Starts anew on a canvas of another format: the `Bgra8Unorm` of windows.
+    ///
+    /// # Errors
+    /// As [`Self::with_chunks`].
+    pub fn with_format(self, format: wgpu::TextureFormat) -> Result<Self, GpuError> {
+        let renderer = GpuRenderer::new(&self.device, format)?;
+        Ok(Self { renderer, format, ..self })
     }
 
     /// Name of the driver.
@@ -95,7 +104,9 @@ impl Offscreen {
     /// When the canvas is larger than a texture can be, or the device is lost.
     pub fn frame(&mut self, camera: &Camera, style: &Style) -> Result<(), GpuError> {
         let canvas = self.canvas(camera)?;
-        let encoder = self.encode(&canvas, camera, style)?;
+        let mut encoder = self.encoder();
+        self.renderer.prepare(&self.device, &self.queue, &mut encoder, camera, style)?;
+        self.paint(&mut encoder, &canvas, style);
         self.queue.submit([encoder.finish()]);
         self.wait()
     }
@@ -105,9 +116,46 @@ impl Offscreen {
     /// # Errors
     /// As [`Self::frame`].
     pub fn picture(&mut self, camera: &Camera, style: &Style) -> Result<Image, GpuError> {
-        let size = camera.size_px();
         let canvas = self.canvas(camera)?;
-        let mut encoder = self.encode(&canvas, camera, style)?;
+        let mut encoder = self.encoder();
+        self.renderer.prepare(&self.device, &self.queue, &mut encoder, camera, style)?;
+        self.paint(&mut encoder, &canvas, style);
+        self.read_back(encoder, &canvas)
+    }
+
+    /// Draws a frame by [`GpuRenderer::prepare_in_software`] and reads it back.
+    ///
+    /// # Errors
+    /// As [`Self::frame`].
+    pub fn picture_in_software(
+        &mut self,
+        mesh: &Mesh,
+        revision: u64,
+        camera: &Camera,
+        style: &Style,
+    ) -> Result<Image, GpuError> {
+        let canvas = self.canvas(camera)?;
+        let mut encoder = self.encoder();
+        self.renderer.prepare_in_software(&self.device, &self.queue, mesh, revision, camera, style)?;
+        self.paint(&mut encoder, &canvas, style);
+        self.read_back(encoder, &canvas)
+    }
+
+    fn encoder(&self) -> wgpu::CommandEncoder {
+        self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default())
+    }
+
+    fn paint(&self, encoder: &mut wgpu::CommandEncoder, canvas: &wgpu::Texture, style: &Style) {
+        let view = canvas.create_view(&wgpu::TextureViewDescriptor::default());
+        self.renderer.paint(&mut begin_pass(encoder, &view, style.ground_color()));
+    }
+
+    fn read_back(
+        &self,
+        mut encoder: wgpu::CommandEncoder,
+        canvas: &wgpu::Texture,
+    ) -> Result<Image, GpuError> {
+        let size = [canvas.width(), canvas.height()];
         let row_bytes = (4 * size[0]).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
         let buffer = self.device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("read back"),
@@ -117,17 +165,18 @@ impl Offscreen {
         });
         let layout =
             wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(row_bytes), rows_per_image: None };
-        encoder.copy_texture_to_buffer(
-            canvas.as_image_copy(),
-            wgpu::TexelCopyBufferInfo { buffer: &buffer, layout },
-            canvas.size(),
-        );
+        let destination = wgpu::TexelCopyBufferInfo { buffer: &buffer, layout };
+        encoder.copy_texture_to_buffer(canvas.as_image_copy(), destination, canvas.size());
         self.queue.submit([encoder.finish()]);
         buffer.map_async(wgpu::MapMode::Read, .., |_| {});
         self.wait()?;
         let bytes = buffer.get_mapped_range(..).map_err(|e| GpuError::ReadBack { reason: e.to_string() })?;
         let rows = bytes.chunks(row_bytes as usize);
-        Ok(Image { size, rgba: rows.flat_map(|row| &row[..4 * size[0] as usize]).copied().collect() })
+        let mut rgba: Vec<u8> = rows.flat_map(|row| &row[..4 * size[0] as usize]).copied().collect();
+        if self.format == wgpu::TextureFormat::Bgra8Unorm {
+            rgba.chunks_exact_mut(4).for_each(|pixel| pixel.swap(0, 2));
+        }
+        Ok(Image { size, rgba })
     }
 
     fn canvas(&self, camera: &Camera) -> Result<wgpu::Texture, GpuError> {
@@ -137,20 +186,7 @@ impl Offscreen {
             return Err(GpuError::TooLarge { what: "A picture", size, limit });
         }
         let usage = wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC;
-        Ok(new_texture(&self.device, "canvas", size, FORMAT, usage))
-    }
-
-    fn encode(
-        &mut self,
-        canvas: &wgpu::Texture,
-        camera: &Camera,
-        style: &Style,
-    ) -> Result<wgpu::CommandEncoder, GpuError> {
-        let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        self.renderer.prepare(&self.device, &self.queue, &mut encoder, camera, style)?;
-        let view = canvas.create_view(&wgpu::TextureViewDescriptor::default());
-        self.renderer.paint(&mut begin_pass(&mut encoder, &view, style.ground_color()));
-        Ok(encoder)
+        Ok(new_texture(&self.device, "canvas", size, self.format, usage))
     }
 
     fn wait(&self) -> Result<(), GpuError> {

@@ -3,13 +3,17 @@
 use super::GpuError;
 use super::mesh_pass::{MeshPass, full_pipeline, new_texture, texel_entry};
 use super::mirror::MeshMirror;
+use crate::mesh::Mesh;
+use crate::render::{Image, software};
 use crate::scene::{Camera, Style};
+
+/// The same for every canvas, so that a picture drawn in software needs no conversion.
+const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 
 /// Draws the mesh into a texture when something changed, and copies the texture to the canvas otherwise.
 ///
 /// A window repaints for every hover in a panel; a large mesh must not be drawn for that.
 pub(super) struct MeshPicture {
-    format: wgpu::TextureFormat,
     mesh_pass: MeshPass,
     blit: wgpu::RenderPipeline,
     blit_layout: wgpu::BindGroupLayout,
@@ -19,7 +23,7 @@ pub(super) struct MeshPicture {
 }
 
 struct Target {
-    size: [u32; 2],
+    texture: wgpu::Texture,
     view: wgpu::TextureView,
     group: wgpu::BindGroup,
 }
@@ -27,9 +31,17 @@ struct Target {
 /// What the picture shows. It is drawn anew when any of it changes.
 #[derive(PartialEq)]
 struct Drawn {
-    generation: u64,
+    source: Source,
     camera: Camera,
     style: Style,
+}
+
+#[derive(PartialEq)]
+enum Source {
+    /// The mirror at this generation.
+    Mirror(u64),
+    /// The mesh of this revision, drawn in software.
+    Software(u64),
 }
 
 impl MeshPicture {
@@ -40,8 +52,7 @@ impl MeshPicture {
         });
         let shader = device.create_shader_module(wgpu::include_wgsl!("blit.wgsl"));
         Self {
-            format,
-            mesh_pass: MeshPass::new(device, format, mirror),
+            mesh_pass: MeshPass::new(device, FORMAT, mirror),
             blit: full_pipeline(device, &shader, &[&blit_layout], format, None),
             blit_layout,
             target: None,
@@ -50,6 +61,7 @@ impl MeshPicture {
         }
     }
 
+    /// [`GpuRenderer::prepare`](super::GpuRenderer::prepare), without the overlay.
     pub(super) fn prepare(
         &mut self,
         device: &wgpu::Device,
@@ -59,18 +71,44 @@ impl MeshPicture {
         camera: &Camera,
         style: &Style,
     ) -> Result<(), GpuError> {
-        let wanted = Drawn { generation: mirror.generation(), camera: *camera, style: style.clone() };
-        if self.drawn.as_ref() == Some(&wanted) {
-            return Ok(());
-        }
+        let source = Source::Mirror(mirror.generation());
+        let Some(wanted) = self.if_not_drawn(source, camera, style) else { return Ok(()) };
         let target = self.target_of(device, camera.size_px())?;
         let mut pass = begin_pass(encoder, &target.view, style.ground_color());
         self.mesh_pass.draw(queue, &mut pass, mirror, camera, style);
         drop(pass);
-        self.target = Some(target);
-        self.drawn = Some(wanted);
-        self.redraws += 1;
+        self.keep(target, wanted);
         Ok(())
+    }
+
+    /// [`GpuRenderer::prepare_in_software`](super::GpuRenderer::prepare_in_software), without the overlay.
+    pub(super) fn prepare_in_software(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        mesh: &Mesh,
+        revision: u64,
+        camera: &Camera,
+        style: &Style,
+    ) -> Result<(), GpuError> {
+        let source = Source::Software(revision);
+        let Some(wanted) = self.if_not_drawn(source, camera, style) else { return Ok(()) };
+        let target = self.target_of(device, camera.size_px())?;
+        write_image(queue, &target.texture, &software::draw(mesh, camera, style, None, &[]));
+        self.keep(target, wanted);
+        Ok(())
+    }
+
+    /// What is to be drawn, if the picture does not show it already.
+    fn if_not_drawn(&self, source: Source, camera: &Camera, style: &Style) -> Option<Drawn> {
+        let wanted = Drawn { source, camera: *camera, style: style.clone() };
+        (self.drawn.as_ref() != Some(&wanted)).then_some(wanted)
+    }
+
+    fn keep(&mut self, target: Target, drawn: Drawn) {
+        self.target = Some(target);
+        self.drawn = Some(drawn);
+        self.redraws += 1;
     }
 
     pub(super) fn paint(&self, pass: &mut wgpu::RenderPass<'_>) {
@@ -86,15 +124,19 @@ impl MeshPicture {
 
     /// The present texture if it has the right size, else a new one.
     fn target_of(&mut self, device: &wgpu::Device, size: [u32; 2]) -> Result<Target, GpuError> {
-        if let Some(target) = self.target.take_if(|target| target.size == size) {
+        if let Some(target) =
+            self.target.take_if(|target| [target.texture.width(), target.texture.height()] == size)
+        {
             return Ok(target);
         }
         let limit = device.limits().max_texture_dimension_2d;
         if size[0] > limit || size[1] > limit {
             return Err(GpuError::TooLarge { what: "A canvas", size, limit });
         }
-        let usage = wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING;
-        let texture = new_texture(device, "mesh picture", size, self.format, usage);
+        let usage = wgpu::TextureUsages::RENDER_ATTACHMENT
+            | wgpu::TextureUsages::TEXTURE_BINDING
+            | wgpu::TextureUsages::COPY_DST;
+        let texture = new_texture(device, "mesh picture", size, FORMAT, usage);
         let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
         let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("picture"),
@@ -104,8 +146,17 @@ impl MeshPicture {
                 resource: wgpu::BindingResource::TextureView(&view),
             }],
         });
-        Ok(Target { size, view, group })
+        Ok(Target { texture, view, group })
     }
+}
+
+fn write_image(queue: &wgpu::Queue, texture: &wgpu::Texture, image: &Image) {
+    let layout = wgpu::TexelCopyBufferLayout {
+        offset: 0,
+        bytes_per_row: Some(4 * image.size[0]),
+        rows_per_image: None,
+    };
+    queue.write_texture(texture.as_image_copy(), &image.rgba, layout, texture.size());
 }
 
 /// A pass onto one texture, cleared to `ground` first.
