@@ -142,6 +142,27 @@ fn pictures_agree_down_to_the_last_level() {
 }
 
 #[test]
+fn pictures_agree_where_cells_are_not_square() {
+    let Some(mut gpu) = gpu() else { return };
+    let bounds = Rect::new(dvec2(-7.0, 3.0), dvec2(-5.96, 4.0));
+    let mut mesh = Mesh::coarse_grid(bounds, 0.6, |_| true, &Limits::default()).unwrap();
+    let step = mesh.lattice().step();
+    assert!((step.x / step.y - 1.04).abs() < 1e-9, "{step}");
+    mesh.refine(&Limits::default(), |element| {
+        let near = element.world_corners().iter().any(|x| x.distance(dvec2(-6.5, 3.4)) < 0.3);
+        Ok(element.diameter() > if near { 0.02 } else { 0.2 })
+    })
+    .unwrap();
+    gpu.show(&mesh, 1).unwrap();
+    let style = Style::dark(colors()).at_density(2.0);
+    for zoom in [1.0, 5.5, 1e4] {
+        let camera = whole(&mesh).zoomed(zoom, dvec2(200.25, 150.0));
+        let picture = gpu.picture(&camera, &style).unwrap();
+        assert_agree(&format!("oblong-{zoom}"), &picture, &software::draw(&mesh, &camera, &style, None, &[]));
+    }
+}
+
+#[test]
 fn edges_of_huge_triangles_stay_in_place() {
     let Some(mut gpu) = gpu() else { return };
     let (mesh, _) = deep();
@@ -219,6 +240,19 @@ fn a_mesh_in_many_chunks_looks_the_same() {
     let refused = small.show(&mesh, 2).unwrap_err();
     assert!(matches!(refused, GpuError::TooManyNodes { .. }), "{refused}");
     assert!(small.picture(&camera, &style).is_ok(), "the canvas is still there");
+
+    let coarse = Mesh::coarse_grid(Rect::UNIT, 0.05, |_| true, &Limits::default()).unwrap();
+    small.show(&coarse, 3).unwrap();
+    let former = small.picture(&camera, &style).unwrap();
+    let (device, queue) = (small.device().clone(), small.queue().clone());
+    let mirror = small.renderer().mirror_mut();
+    let everything = [0..mesh.triangles().len()];
+    assert!(mirror.write_ranges(&device, &queue, &mesh, 4, &everything, &everything).is_err());
+    assert_eq!(mirror.shown(), None);
+    assert_eq!(small.picture(&camera, &style).unwrap(), former);
+    small.renderer().mirror_mut().write_ranges(&device, &queue, &coarse, 5, &[], &[]).unwrap();
+    assert_eq!(small.renderer().mirror().shown(), Some(5));
+    assert_eq!(small.picture(&camera, &style).unwrap(), former);
 }
 
 #[test]

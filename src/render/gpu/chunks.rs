@@ -60,6 +60,8 @@ impl ChunkedArray {
     }
 
     /// Makes room for `items`, keeping the first `kept` of the present contents. True when buffers were exchanged.
+    ///
+    /// Chunks that are not needed stay for later, but where nothing is to be kept, no more than are needed once more.
     pub(super) fn reserve(
         &mut self,
         device: &wgpu::Device,
@@ -68,7 +70,11 @@ impl ChunkedArray {
         kept: usize,
     ) -> Result<bool, GpuError> {
         let mut changed = false;
-        for chunk in 0..items.div_ceil(self.chunk_items) {
+        let needed_chunks = items.div_ceil(self.chunk_items);
+        if kept == 0 {
+            self.chunks.truncate(2 * needed_chunks);
+        }
+        for chunk in 0..needed_chunks {
             let first = chunk * self.chunk_items;
             let needed = self.bytes((items - first).min(self.chunk_items));
             let present = self.chunks.get(chunk);

@@ -125,8 +125,8 @@ impl MeshMirror {
     /// become shorter. A mesh that was half taken in is dropped. Where no mesh is shown yet, all of it travels.
     ///
     /// # Errors
-    /// When the device cannot hold the mesh. The mesh on the screen is then no longer the one named by
-    /// [`Self::shown`]; call [`Self::begin`] for the next.
+    /// When the device cannot hold the mesh. The former one stays on the screen, but [`Self::shown`] forgets it: the
+    /// next mesh travels as a whole.
     pub fn write_ranges(
         &mut self,
         device: &wgpu::Device,
@@ -140,6 +140,7 @@ impl MeshMirror {
             return self.upload(device, queue, mesh, revision);
         }
         self.upload = None;
+        self.shown = None;
         self.check(mesh)?;
         if self.front.reserve(device, queue, mesh, Kept::EVERYTHING)? {
             self.front.bind(device, &self.layout, &self.unused_nodes);
@@ -152,7 +153,7 @@ impl MeshMirror {
         Ok(())
     }
 
-    /// Revision of the mesh that is drawn.
+    /// Revision of the mesh that is drawn, or `None` before the first and after a failure.
     pub fn shown(&self) -> Option<u64> {
         self.shown
     }
@@ -317,7 +318,7 @@ mod tests {
     #[test]
     fn near_ranges_travel_together() {
         assert_eq!(joined(&[0..3, 4..6, 6..9, 500..501]), [0..9, 500..501]);
-        assert_eq!(joined(&[0..30, 5..7]), [0..30]);
+        assert_eq!(joined(&[0..30, 5..7, 100..101]), [0..30, 100..101]);
         assert_eq!(joined(&[]), []);
     }
 }
