@@ -10,6 +10,7 @@ pub mod field;
 pub mod domain;
 pub mod paint;
 pub mod document;
+pub mod io;
 pub mod colormap;
 pub mod scene;
 pub mod render;

@@ -1,0 +1,233 @@
+//! `.asc`: the ESRI ASCII grid, a raster that knows where it lies.
+//!
+//! A header of names and numbers (`ncols`, `nrows`, `xllcorner` or `xllcenter`, `yllcorner` or `yllcenter`, `cellsize` or `dx` and
+//! `dy`, and perhaps `NODATA_value`), then the values, the top row first. Case, line breaks and the order of the header are
+//! free.
+
+use std::collections::HashMap;
+use std::fs::File;
+use std::io::{BufRead, BufReader};
+use std::path::Path;
+
+use glam::DVec2;
+
+use super::error::PlacedFlaw;
+use super::{Flaw, ReadError};
+use crate::geometry::Rect;
+use crate::raster::{MAX_SIDE, Raster};
+
+/// Reads a grid with its own placement. Pixels without a value (`NODATA_value`) are NaN.
+///
+/// # Errors
+/// When the file cannot be read, breaks a rule of the format (with the line), or has more than [`MAX_SIDE`] pixels along a
+/// side.
+pub fn read(path: &Path) -> Result<Raster, ReadError> {
+    let read = File::open(path).map_err(PlacedFlaw::from).and_then(|file| parse(BufReader::new(file)));
+    read.map_err(|flaw| flaw.in_file(path))
+}
+
+fn parse(source: impl BufRead) -> Result<Raster, PlacedFlaw> {
+    let mut words = Words { source, line: 1 };
+    let (header, first_value) = Header::parse(&mut words)?;
+    let [columns, rows] = header.size()?;
+    let bounds = header.bounds([columns, rows])?;
+    let no_data = header.number("nodata_value");
+    let count = columns as usize * rows as usize;
+    // Grows with the values that really come: a header alone takes no memory.
+    let mut values = Vec::new();
+    let mut next = Some(first_value);
+    while let Some(word) = next {
+        if values.len() == count {
+            let problem = format!("there are more values than {columns} columns × {rows} rows");
+            return Err(Flaw::Syntax(problem + "; check ncols and nrows.").at(words.line));
+        }
+        let value = number(&word, words.line)?;
+        values.push(if Some(value) == no_data { f32::NAN } else { value as f32 });
+        next = words.next()?;
+    }
+    if values.len() < count {
+        return Err(Flaw::CutOff.at(words.line));
+    }
+    let bottom_row_first = values.chunks_exact(columns as usize).rev().flatten().copied().collect();
+    Ok(Raster::from_values(bounds, [columns, rows], bottom_row_first))
+}
+
+/// Names in lower case, with their numbers.
+struct Header(HashMap<String, f64>);
+
+const NAMES: [&str; 10] = [
+    "ncols",
+    "nrows",
+    "xllcorner",
+    "yllcorner",
+    "xllcenter",
+    "yllcenter",
+    "cellsize",
+    "dx",
+    "dy",
+    "nodata_value",
+];
+
+impl Header {
+    /// Reads names and numbers up to the first word that is a number where a name might stand; returns that word too.
+    fn parse(words: &mut Words<impl BufRead>) -> Result<(Self, String), PlacedFlaw> {
+        let mut known = HashMap::new();
+        loop {
+            let name = words.required()?;
+            if name.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c)) {
+                return Ok((Self(known), name));
+            }
+            let lower = name.to_ascii_lowercase();
+            if !NAMES.contains(&lower.as_str()) {
+                let problem =
+                    format!("`{name}` is not part of the header of an ESRI ASCII grid, which begins with");
+                return Err(Flaw::Syntax(problem + " ncols, nrows, xllcorner, yllcorner and cellsize.")
+                    .at(words.line));
+            }
+            let value = words.required()?;
+            // A name can come only once, so that the loop is bounded by the list of names.
+            if known.insert(lower, number(&value, words.line)?).is_some() {
+                return Err(Flaw::Syntax(format!("`{name}` comes twice in the header.")).at(words.line));
+            }
+        }
+    }
+
+    fn number(&self, name: &str) -> Option<f64> {
+        self.0.get(name).copied()
+    }
+
+    fn required(&self, name: &str) -> Result<f64, Flaw> {
+        self.number(name).ok_or_else(|| Flaw::Syntax(format!("the header has no `{name}`.")))
+    }
+
+    fn size(&self) -> Result<[u32; 2], Flaw> {
+        let size = [self.required("ncols")?, self.required("nrows")?];
+        if let Some(&side) = size.iter().find(|side| side.fract() != 0.0 || **side < 0.0) {
+            return Err(Flaw::Syntax(format!("ncols and nrows are whole numbers, and {side} is not.")));
+        }
+        if size.iter().any(|&side| !(1.0..=f64::from(MAX_SIDE)).contains(&side)) {
+            return Err(Flaw::Size { columns: size[0] as u64, rows: size[1] as u64 });
+        }
+        Ok(size.map(|side| side as u32))
+    }
+
+    fn bounds(&self, size: [u32; 2]) -> Result<Rect, Flaw> {
+        let cell = match (self.number("dx"), self.number("dy")) {
+            (Some(dx), Some(dy)) => DVec2::new(dx, dy),
+            _ => DVec2::splat(self.required("cellsize")?),
+        };
+        let corner = |corner: &str, center: &str, cell: f64| match self.number(center) {
+            Some(center) => Ok(center - 0.5 * cell),
+            None => self.required(corner),
+        };
+        let min =
+            DVec2::new(corner("xllcorner", "xllcenter", cell.x)?, corner("yllcorner", "yllcenter", cell.y)?);
+        let bounds = Rect::new(min, min + cell * DVec2::new(f64::from(size[0]), f64::from(size[1])));
+        if bounds.is_proper() {
+            Ok(bounds)
+        } else {
+            Err(Flaw::Syntax(format!("with cells of {} × {} the grid covers no rectangle.", cell.x, cell.y)))
+        }
+    }
+}
+
+fn number(word: &str, line: usize) -> Result<f64, PlacedFlaw> {
+    // Some programs write a decimal comma, as their computer's language has it.
+    let parsed = word.parse().or_else(|_| word.replace(',', ".").parse());
+    parsed
+        .ok()
+        .filter(|value: &f64| value.is_finite())
+        .ok_or_else(|| Flaw::Syntax(format!("`{word}` stands where a number is expected.")).at(line))
+}
+
+/// Words between white space, with the line that the last one stands in.
+struct Words<R> {
+    source: R,
+    line: usize,
+}
+
+/// Longer than any number that a program writes. Keeps a file without white space from filling the memory.
+const LONGEST_WORD: usize = 400;
+
+impl<R: BufRead> Words<R> {
+    fn required(&mut self) -> Result<String, PlacedFlaw> {
+        self.next()?.ok_or_else(|| Flaw::CutOff.at(self.line))
+    }
+
+    /// The next word, `None` at the end of the file.
+    fn next(&mut self) -> Result<Option<String>, PlacedFlaw> {
+        let mut word = Vec::new();
+        // Every turn takes a byte or stops; so does the end of the file.
+        while let Some(&byte) = self.source.fill_buf()?.first() {
+            if byte.is_ascii_whitespace() {
+                if !word.is_empty() {
+                    break; // a line break after the word is counted with the next word
+                }
+                self.line += usize::from(byte == b'\n');
+            } else {
+                word.push(byte);
+            }
+            self.source.consume(1);
+            if word.len() > LONGEST_WORD {
+                break;
+            }
+        }
+        let text = String::from_utf8_lossy(&word);
+        if word.len() > LONGEST_WORD || word.contains(&0) {
+            let start: String = text.chars().take(20).collect();
+            let problem = format!("`{}…` is not text of an ESRI ASCII grid.", start.escape_debug());
+            return Err(Flaw::Syntax(problem).at(self.line));
+        }
+        Ok((!word.is_empty()).then(|| text.into_owned()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn parsed(text: &str) -> Result<Raster, String> {
+        parse(text.as_bytes()).map_err(|e| format!("{}: {}", e.place, e.flaw))
+    }
+
+    #[test]
+    fn a_grid_lies_where_its_header_says_with_its_top_row_on_top() {
+        let raster =
+            parsed("NCOLS 3\nnrows 2\nxllcorner 10\nyllcorner -4\ncellsize 2\nnodata_value -9999\n1 2 3\n4 -9999 6\n")
+                .unwrap();
+        assert_eq!(raster.bounds(), Rect::new(glam::dvec2(10.0, -4.0), glam::dvec2(16.0, 0.0)));
+        assert_eq!(raster.size(), [3, 2]);
+        assert_eq!((raster.get(0, 0), raster.get(2, 0), raster.get(0, 1)), (4.0, 6.0, 1.0));
+        assert!(raster.get(1, 0).is_nan());
+    }
+
+    #[test]
+    fn centres_and_separate_cell_sides_are_understood() {
+        let raster = parsed("ncols 1 nrows 2 xllcenter 1 yllcenter 1.5 dx 2 dy 1\r\n7\r\n8").unwrap();
+        assert_eq!(raster.bounds(), Rect::new(glam::dvec2(0.0, 1.0), glam::dvec2(2.0, 3.0)));
+        assert_eq!(raster.values(), [8.0, 7.0]);
+    }
+
+    #[test]
+    fn mistakes_are_named_with_their_line() {
+        let header = "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\n";
+        for (text, expected) in [
+            (String::new(), ", line 1: the file ends too early"),
+            ("P5 3 3".into(), ", line 1: `P5` is not part of the header"),
+            ("ncols 2\nncols 2\n".into(), ", line 2: `ncols` comes twice"),
+            ("ncols 2\nnrows two\n".into(), ", line 2: `two` stands where a number"),
+            ("ncols 2\nnrows 2\n1 2 3 4".into(), ": the header has no `cellsize`."),
+            ("ncols 2.5\nnrows 2\n1".into(), ": ncols and nrows are whole numbers, and 2.5 is not."),
+            ("ncols 9e9 nrows 9e9 1".into(), ": 9000000000 × 9000000000 pixels cannot be taken"),
+            (header.replace("size 1", "size 0") + "1 2\n3 4", ": with cells of 0 × 0"),
+            (format!("{header}1 2\n3"), ", line 7: the file ends too early"),
+            (format!("{header}1 2\n3 x"), ", line 7: `x` stands where a number"),
+            (format!("{header}1 2\n3 NaN"), ", line 7: `NaN` stands where a number"),
+            (format!("{header}1 2\n3 4\n5"), ", line 8: there are more values"),
+            ("1".repeat(10_000), ", line 1: `11111111111111111111…` is not text"),
+        ] {
+            let message = parsed(&text).unwrap_err();
+            assert!(message.starts_with(expected), "{text:.60} gave {message}");
+        }
+    }
+}

@@ -1,0 +1,46 @@
+//! `.csv`: a table with one row for each triangle, complete in itself.
+//!
+//! Columns: `triangle` and its `level`; the nodes `v1,v2,v3`, anticlockwise, the first two the ends of the bisection edge; the
+//! triangles `n1,n2,n3` across the edges, the first across the bisection edge and then anticlockwise, empty at the boundary;
+//! the corners `x1,y1,x2,y2,x3,y3`; and h̄ there, `target1,target2,target3`. Ids count from zero.
+
+use std::io::{self, Write};
+
+use super::{MeshData, Number, Quantity, cells};
+use crate::mesh::{Mesh, NodeId};
+
+const HEADER: &str = "triangle,level,v1,v2,v3,n1,n2,n3,x1,y1,x2,y2,x3,y3,target1,target2,target3";
+
+/// Writes one row for each triangle. Quantities other than h̄ follow as `name1,name2,name3`.
+///
+/// # Errors
+/// Those of `out`.
+pub fn write(out: &mut impl Write, mesh: &Mesh, data: &MeshData) -> io::Result<()> {
+    write!(out, "{HEADER}")?;
+    for Quantity { name, .. } in data.quantities {
+        write!(out, ",{name}1,{name}2,{name}3")?;
+    }
+    writeln!(out)?;
+    for (id, cell) in cells(mesh).enumerate() {
+        let [a, b, c] = cell.corners;
+        write!(out, "{id},{},{a},{b},{c}", cell.level)?;
+        let [second, third, bisection] = cell.opposite;
+        for neighbour in [bisection, second, third] {
+            match neighbour {
+                Some(across) => write!(out, ",{across}")?,
+                None => write!(out, ",")?,
+            }
+        }
+        for node in cell.corners {
+            let p = mesh.world(NodeId::from_index(node));
+            write!(out, ",{},{}", Number(p.x), Number(p.y))?;
+        }
+        for (_, values) in data.node_values() {
+            for node in cell.corners {
+                write!(out, ",{}", Number(values[node]))?;
+            }
+        }
+        writeln!(out)?;
+    }
+    Ok(())
+}

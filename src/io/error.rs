@@ -1,0 +1,90 @@
+use std::fmt;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use crate::raster::MAX_SIDE;
+
+/// Why a file could not be used: which file, where in it, and what is wrong there.
+#[derive(Debug, thiserror::Error)]
+#[error("{}{place}: {flaw}", file.display())]
+pub struct ReadError {
+    /// The file as it was named.
+    pub file: PathBuf,
+    /// Where in the file.
+    pub place: Place,
+    /// What is wrong there.
+    #[source]
+    pub flaw: Flaw,
+}
+
+/// A place in a file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// The file as a whole.
+    Whole,
+    /// A line, counted from one.
+    Line(usize),
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Whole => Ok(()),
+            Self::Line(line) => write!(f, ", line {line}"),
+        }
+    }
+}
+
+/// What is wrong with a file.
+#[derive(Debug, thiserror::Error)]
+pub enum Flaw {
+    /// The operating system says no.
+    #[error("cannot be read ({0})")]
+    Io(#[from] io::Error),
+    /// The file ends before everything it promises has come.
+    #[error("the file ends too early; it seems to be cut off. Copy or export it again.")]
+    CutOff,
+    /// The decoder of images refuses it.
+    #[error("this is not a PNG image that can be read ({0}). Export it again as PNG.")]
+    Png(String),
+    /// A raster that would take too much memory.
+    #[error(
+        "{columns} × {rows} pixels cannot be taken: a raster has 1 to {MAX_SIDE} pixels along each side. \
+         Scale it first."
+    )]
+    Size {
+        /// Columns that the file announces.
+        columns: u64,
+        /// Rows that the file announces.
+        rows: u64,
+    },
+    /// The text breaks a rule of its format; the sentence says which.
+    #[error("{0}")]
+    Syntax(String),
+}
+
+impl Flaw {
+    /// The flaw, at a line counted from one.
+    pub(super) fn at(self, line: usize) -> PlacedFlaw {
+        PlacedFlaw { place: Place::Line(line), flaw: self }
+    }
+}
+
+/// A flaw before it is known which file has it.
+#[derive(Debug)]
+pub(super) struct PlacedFlaw {
+    pub(super) place: Place,
+    pub(super) flaw: Flaw,
+}
+
+impl PlacedFlaw {
+    pub(super) fn in_file(self, file: &Path) -> ReadError {
+        ReadError { file: file.to_owned(), place: self.place, flaw: self.flaw }
+    }
+}
+
+impl<F: Into<Flaw>> From<F> for PlacedFlaw {
+    fn from(flaw: F) -> Self {
+        Self { place: Place::Whole, flaw: flaw.into() }
+    }
+}

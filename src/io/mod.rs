@@ -1,0 +1,87 @@
+//! Files, one module per format.
+//!
+//! A mesh writer is a function `write(out, mesh, data)`. What every format keeps to:
+//!
+//! - nodes and triangles stand in the order of [`Mesh::nodes`] and [`Mesh::triangles`], unless the format says otherwise;
+//! - a triangle's vertices run anticlockwise, the first two being the ends of its bisection edge;
+//! - coordinates and h̄ are in world units; numbers are the shortest that read back as the same f64;
+//! - counting starts at zero, except in `.msh` and `.obj`, where the format starts at one.
+
+pub mod asc;
+mod atomic;
+pub mod csv;
+mod error;
+pub mod msh;
+pub mod node;
+mod number;
+pub mod obj;
+pub mod png;
+pub mod points;
+pub mod svg;
+pub mod vtu;
+
+pub use atomic::write_file;
+pub use error::{Flaw, Place, ReadError};
+pub use number::Number;
+
+use crate::mesh::{Mesh, TriangleId};
+
+/// What is written beside the mesh itself. The level of each triangle comes from the mesh.
+#[derive(Clone, Copy, Debug)]
+pub struct MeshData<'a> {
+    /// h̄ at each node, in world units.
+    pub target_diameter: &'a [f64],
+    /// Further values at the nodes.
+    pub quantities: &'a [Quantity],
+}
+
+/// A value at each node, with the name that it has in files.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Quantity {
+    /// Letters, digits and underscores.
+    pub name: String,
+    /// One value for each node.
+    pub values: Vec<f64>,
+}
+
+impl MeshData<'_> {
+    /// h̄ and then the quantities, each with its name.
+    fn node_values(&self) -> impl Iterator<Item = (&str, &[f64])> + Clone {
+        let further = self.quantities.iter().map(|q| (q.name.as_str(), q.values.as_slice()));
+        std::iter::once(("target_diameter", self.target_diameter)).chain(further)
+    }
+}
+
+/// A triangle as files want it.
+struct Cell {
+    /// Nodes, anticlockwise, the first two the ends of the bisection edge.
+    corners: [usize; 3],
+    /// Triangles across the edges, the i-th opposite the i-th corner.
+    opposite: [Option<usize>; 3],
+    level: u32,
+}
+
+fn cells(mesh: &Mesh) -> impl Iterator<Item = Cell> + '_ {
+    mesh.triangles().iter().map(|triangle| {
+        let [bisection, second, third] = triangle.neighbours.map(|n| n.triangle().map(TriangleId::index));
+        Cell {
+            corners: triangle.edge_nodes().map(|(from, _)| from.index()),
+            // The bisection edge joins the first two corners, so its neighbour is opposite the last.
+            opposite: [second, third, bisection],
+            level: triangle.level(),
+        }
+    })
+}
+
+/// The edges at which the domain ends, as pairs of nodes with the domain to their left.
+fn boundary_edges(mesh: &Mesh) -> impl Iterator<Item = [usize; 2]> + '_ {
+    mesh.triangles().iter().flat_map(|triangle| {
+        let edges = triangle.edge_nodes().map(|(from, to)| [from.index(), to.index()]);
+        (0..3).filter(|&j| triangle.neighbours[j].triangle().is_none()).map(move |j| edges[j])
+    })
+}
+
+/// Coordinates of all nodes in world units.
+fn world_nodes(mesh: &Mesh) -> impl Iterator<Item = glam::DVec2> + '_ {
+    mesh.nodes().iter().map(|&node| mesh.lattice().world_from_lattice(node))
+}

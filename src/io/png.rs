@@ -1,0 +1,187 @@
+//! `.png`: greyscale images in, pictures out.
+
+use std::fs::File;
+use std::io::{self, BufRead, BufReader, Seek, Write};
+use std::path::Path;
+
+use png::{BitDepth, ColorType, Decoder, DecodingError, Encoder, EncodingError, Transformations};
+
+use super::error::PlacedFlaw;
+use super::{Flaw, ReadError};
+use crate::geometry::Rect;
+use crate::raster::{MAX_SIDE, Raster};
+
+/// What a transparent pixel shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Behind {
+    /// As on black: where nothing is painted, the value is 0.
+    Black,
+    /// As on white: where nothing is painted, the value is 1.
+    White,
+}
+
+/// Reads an image as values from 0 (black) to 1 (white), over the given rectangle.
+///
+/// Grey and coloured images with 1 to 16 bits, palettes and transparency are understood. A colour counts as its luma
+/// (Rec. 709 weights on the stored values); grey values are taken as they are, without gamma. The top row of the image
+/// is the last row of the raster.
+///
+/// # Errors
+/// When the file cannot be read, is not a PNG image, is cut off, or has more than [`MAX_SIDE`] pixels along a side. The
+/// size is checked before memory is taken.
+pub fn read(path: &Path, bounds: Rect, behind: Behind) -> Result<Raster, ReadError> {
+    let decoded = File::open(path)
+        .map_err(PlacedFlaw::from)
+        .and_then(|file| Ok(decode(BufReader::new(file), bounds, behind)?));
+    decoded.map_err(|flaw| flaw.in_file(path))
+}
+
+fn decode(source: impl BufRead + Seek, bounds: Rect, behind: Behind) -> Result<Raster, Flaw> {
+    let mut decoder = Decoder::new(source);
+    // Palettes and low depths become 8 bits, a transparent colour becomes an alpha channel.
+    decoder.set_transformations(Transformations::EXPAND);
+    let header = decoder.read_header_info()?;
+    let size = [header.width, header.height];
+    if size.iter().any(|side| !(1..=MAX_SIDE).contains(side)) {
+        return Err(Flaw::Size { columns: size[0].into(), rows: size[1].into() });
+    }
+    let mut reader = decoder.read_info()?;
+    let mut bytes = vec![0; reader.output_buffer_size().ok_or(DecodingError::LimitsExceeded)?];
+    let frame = reader.next_frame(&mut bytes)?;
+    if [frame.width, frame.height] != size {
+        return Err(Flaw::Png("its first frame does not fill the image".into()));
+    }
+    let samples = frame.color_type.samples();
+    let bytes_per_sample = if frame.bit_depth == BitDepth::Sixteen { 2 } else { 1 };
+    let pixel_bytes = samples * bytes_per_sample;
+    let mut values = Vec::with_capacity(size[0] as usize * size[1] as usize);
+    for row in bytes.chunks_exact(frame.line_size).rev() {
+        values.extend(row.chunks_exact(pixel_bytes).take(size[0] as usize).map(|pixel| {
+            let sample = |i: usize| match bytes_per_sample {
+                1 => f64::from(pixel[i]) / 255.0,
+                _ => f64::from(u16::from_be_bytes([pixel[2 * i], pixel[2 * i + 1]])) / 65535.0,
+            };
+            value(frame.color_type, sample, behind) as f32
+        }));
+    }
+    Ok(Raster::from_values(bounds, size, values))
+}
+
+/// The value of a pixel from its samples, each 0 to 1.
+fn value(color: ColorType, sample: impl Fn(usize) -> f64, behind: Behind) -> f64 {
+    let luma = || 0.2126 * sample(0) + 0.7152 * sample(1) + 0.0722 * sample(2);
+    let ground = if behind == Behind::White { 1.0 } else { 0.0 };
+    let over = |value: f64, opacity: f64| ground + (value - ground) * opacity;
+    match color {
+        ColorType::Grayscale | ColorType::Indexed => sample(0),
+        ColorType::GrayscaleAlpha => over(sample(0), sample(1)),
+        ColorType::Rgb => luma(),
+        ColorType::Rgba => over(luma(), sample(3)),
+    }
+}
+
+impl From<DecodingError> for Flaw {
+    fn from(error: DecodingError) -> Self {
+        match error {
+            DecodingError::IoError(e) if e.kind() == io::ErrorKind::UnexpectedEof => Self::CutOff,
+            DecodingError::IoError(e) => Self::Io(e),
+            other => Self::Png(other.to_string().trim_end_matches('.').to_owned()),
+        }
+    }
+}
+
+/// Writes a picture of `size` pixels, four bytes each (red, green, blue, opacity), the top row first.
+///
+/// # Errors
+/// Those of `out`, and when the count of bytes does not fit `size`.
+pub fn write(out: &mut impl Write, size: [u32; 2], rgba: &[u8]) -> io::Result<()> {
+    let mut encoder = Encoder::new(out, size[0], size[1]);
+    encoder.set_color(ColorType::Rgba);
+    encoder.set_depth(BitDepth::Eight);
+    let write = || {
+        let mut writer = encoder.write_header()?;
+        writer.write_image_data(rgba)?;
+        writer.finish()
+    };
+    write().map_err(|error| match error {
+        EncodingError::IoError(e) => e,
+        other => io::Error::other(other.to_string()),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use std::io::Cursor;
+
+    use super::*;
+
+    fn encoded(color: ColorType, depth: BitDepth, size: [u32; 2], data: &[u8]) -> Vec<u8> {
+        let mut file = Vec::new();
+        let mut encoder = Encoder::new(&mut file, size[0], size[1]);
+        encoder.set_color(color);
+        encoder.set_depth(depth);
+        if color == ColorType::Indexed {
+            encoder.set_palette(vec![255, 255, 255, 0, 0, 0, 51, 51, 51]);
+            encoder.set_trns(vec![255, 255, 0]);
+        }
+        encoder.write_header().unwrap().write_image_data(data).unwrap();
+        file
+    }
+
+    fn values(file: &[u8], behind: Behind) -> Vec<f32> {
+        decode(Cursor::new(file), Rect::UNIT, behind).unwrap().values().to_vec()
+    }
+
+    #[test]
+    fn every_kind_of_pixel_becomes_a_value_from_0_to_1() {
+        use BitDepth::{Eight, One, Sixteen, Two};
+        use ColorType::{Grayscale, GrayscaleAlpha, Indexed, Rgb, Rgba};
+        let black =
+            |color, depth, size, data: &[u8]| values(&encoded(color, depth, size, data), Behind::Black);
+        assert_eq!(black(Grayscale, Eight, [3, 1], &[0, 51, 255]), [0.0, 0.2, 1.0]);
+        assert_eq!(black(Grayscale, Sixteen, [2, 1], &[0x33, 0x33, 0xff, 0xff]), [0.2, 1.0]);
+        assert_eq!(black(Grayscale, One, [3, 1], &[0b1010_0000]), [1.0, 0.0, 1.0]);
+        assert_eq!(black(Rgb, Eight, [2, 1], &[51, 51, 51, 0, 255, 0]), [0.2, 0.7152]);
+        assert_eq!(black(Indexed, Two, [3, 1], &[0b0001_1000]), [1.0, 0.0, 0.0]);
+        assert_eq!(black(Rgba, Eight, [2, 1], &[255, 255, 255, 51, 255, 255, 255, 0]), [0.2, 0.0]);
+        let clear = encoded(GrayscaleAlpha, Eight, [3, 1], &[0, 0, 0, 255, 255, 255]);
+        assert_eq!(values(&clear, Behind::White), [1.0, 0.0, 1.0]);
+    }
+
+    #[test]
+    fn the_top_row_of_the_image_is_the_last_of_the_raster() {
+        let file = encoded(ColorType::Grayscale, BitDepth::Eight, [1, 3], &[255, 51, 0]);
+        assert_eq!(values(&file, Behind::Black), [0.0, 0.2, 1.0]);
+    }
+
+    #[test]
+    fn every_cut_is_an_error() {
+        let file = encoded(ColorType::Rgb, BitDepth::Eight, [8, 8], &[77; 192]);
+        // Without its last 12 bytes, the end mark, the picture is complete all the same.
+        for length in 0..file.len() - 12 {
+            let cut = decode(Cursor::new(&file[..length]), Rect::UNIT, Behind::Black);
+            assert!(cut.is_err(), "cut at {length}");
+        }
+    }
+
+    #[test]
+    fn an_immense_image_is_refused_by_its_header() {
+        let mut file = encoded(ColorType::Rgba, BitDepth::Sixteen, [1, 1], &[0; 8]);
+        file[16..24].copy_from_slice(&[0, 1, 0x86, 0xa0, 0, 1, 0x86, 0xa0]);
+        let crc = crc32(&file[12..29]);
+        file[29..33].copy_from_slice(&crc.to_be_bytes());
+        let refused = decode(Cursor::new(&file), Rect::UNIT, Behind::Black).unwrap_err();
+        assert!(matches!(refused, Flaw::Size { columns: 100_000, rows: 100_000 }), "{refused}");
+    }
+
+    fn crc32(bytes: &[u8]) -> u32 {
+        !bytes.iter().fold(!0u32, |crc, &byte| {
+            (0..8).fold(
+                crc ^ u32::from(byte),
+                |crc, _| {
+                    if crc & 1 == 1 { (crc >> 1) ^ 0xedb8_8320 } else { crc >> 1 }
+                },
+            )
+        })
+    }
+}
