@@ -52,6 +52,22 @@ impl Source {
     }
 }
 
+/// The smallest target diameter that any of the sources asks for at a point; infinite where none does.
+///
+/// # Errors
+/// When a source gives NaN, infinity, zero or less. Only a raster may ask for nothing, beyond its edge or where it has no
+/// value.
+pub fn smallest_target(sources: &[Source], point: DVec2, transfer: &Transfer) -> Result<f64, InvalidTarget> {
+    let mut smallest = f64::INFINITY;
+    for source in sources {
+        let value = source.target(point, transfer);
+        if !(source.is_raster() && value == f64::INFINITY) {
+            smallest = smallest.min(checked_target(value, point)?);
+        }
+    }
+    Ok(smallest)
+}
+
 /// Passes a target diameter on when a mesh can meet it: a positive, finite length.
 ///
 /// # Errors

@@ -1,6 +1,6 @@
 use glam::DVec2;
 
-use super::{Source, Transfer, TransferTable, checked_target};
+use super::{Source, Transfer, TransferTable, smallest_target};
 use crate::geometry::Lattice;
 use crate::mesh::{Element, InvalidTarget, Progress, bisection_edge_length, level_for_diameter};
 use crate::raster::{PixelRect, Pyramid, Raster, RasterOnLattice};
@@ -93,21 +93,38 @@ impl TargetField {
     /// # Errors
     /// When a source gives NaN, infinity, zero or less at some pixel. The field is then of no use.
     pub fn fill(&mut self, paint: Paint, pixels: usize) -> Result<Progress, InvalidTarget> {
+        self.fill_rows(Some(paint), pixels)
+    }
+
+    /// As [`Self::fill`] where nothing is painted.
+    ///
+    /// # Errors
+    /// As [`Self::fill`].
+    pub fn fill_unpainted(&mut self, pixels: usize) -> Result<Progress, InvalidTarget> {
+        self.fill_rows(None, pixels)
+    }
+
+    fn fill_rows(&mut self, paint: Option<Paint>, pixels: usize) -> Result<Progress, InvalidTarget> {
         let [columns, rows] = self.spec.size;
         let first = self.filled_rows;
         let last = (first + (pixels as u32 / columns).max(1)).min(rows);
         let slice = PixelRect { min: [0, first], max: [columns, last] };
         for (x, y) in slice.pixels() {
-            let value = self.smallest_asked(self.base.pixel_center(x, y))?;
+            let point = self.base.pixel_center(x, y);
+            let value = smallest_target(&self.spec.sources, point, &self.spec.transfer)?;
             self.base.set(x, y, f32_not_below(value));
         }
         self.filled_rows = last;
-        self.update(paint, slice);
+        self.refresh(paint, slice);
         Ok(if last == rows { Progress::Done } else { Progress::More })
     }
 
     /// Takes over what changed in the painted layers within `area`. Rows not yet filled are left to [`Self::fill`].
     pub fn update(&mut self, paint: Paint, area: PixelRect) {
+        self.refresh(Some(paint), area);
+    }
+
+    fn refresh(&mut self, paint: Option<Paint>, area: PixelRect) {
         let area = PixelRect { min: area.min, max: [area.max[0], area.max[1].min(self.filled_rows)] };
         if area.is_empty() {
             return;
@@ -121,22 +138,15 @@ impl TargetField {
         self.levels = levels;
     }
 
-    fn smallest_asked(&self, point: DVec2) -> Result<f64, InvalidTarget> {
-        let mut smallest = f64::INFINITY;
-        for source in &self.spec.sources {
-            let value = source.target(point, &self.spec.transfer);
-            // Beyond its edge a raster asks for nothing; anything else infinite is a mistake.
-            if !(source.is_raster() && value == f64::INFINITY) {
-                smallest = smallest.min(checked_target(value, point)?);
+    fn diameter_at_pixel(&self, paint: Option<Paint>, x: u32, y: u32) -> f64 {
+        let mut asked = f64::from(self.base.get(x, y));
+        if let Some(paint) = paint {
+            asked = asked.min(f64::from(paint.diameter.get(x, y)));
+            let risk = paint.risk.get(x, y);
+            if risk > 0.0 {
+                asked = asked.min(self.table.diameter(risk));
             }
         }
-        Ok(smallest)
-    }
-
-    fn diameter_at_pixel(&self, paint: Paint, x: u32, y: u32) -> f64 {
-        let asked = f64::from(self.base.get(x, y)).min(f64::from(paint.diameter.get(x, y)));
-        let risk = paint.risk.get(x, y);
-        let asked = if risk > 0.0 { asked.min(self.table.diameter(risk)) } else { asked };
         asked.clamp(self.spec.transfer.h_min, self.spec.transfer.h_max)
     }
 
