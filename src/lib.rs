@@ -14,5 +14,6 @@ pub mod io;
 pub mod colormap;
 pub mod scene;
 pub mod render;
+pub mod cli;
 #[cfg(feature = "gui")]
 pub mod app;

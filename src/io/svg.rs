@@ -1,7 +1,8 @@
 //! `.svg`: the mesh as a vector drawing, small and exact.
 //!
-//! One path for each level and one for the edges, in whole numbers: lattice coordinates, divided by the power of two that all
-//! nodes share. The drawing is exact at any magnification.
+//! A path for the triangles of each level and one for their edges, in steps of whole numbers: lattice coordinates, divided by
+//! the power of two that all nodes share. The drawing is exact at any magnification. Edges get thinner with their
+//! triangles, so that a dense region reads as its level and not as black.
 
 use std::io::{self, Write};
 
@@ -17,8 +18,8 @@ pub struct Style<'a> {
     pub level_colors: &'a [[u8; 4]; 64],
     /// Behind the mesh.
     pub background: [u8; 3],
-    /// Colour of the edges; `None` leaves them out.
-    pub edges: Option<[u8; 3]>,
+    /// Whether edges are drawn, in black that lets half of the fill through.
+    pub edges: bool,
 }
 
 /// Writes the drawing. Colours come from outside, so that files know no colour table.
@@ -36,11 +37,15 @@ pub fn write(out: &mut impl Write, mesh: &Mesh, style: &Style) -> io::Result<()>
     )?;
     let triangles = mesh.triangles().len();
     writeln!(out, "<title>{triangles} triangles, {} nodes</title>", mesh.nodes().len())?;
-    let background = hex(style.background);
-    writeln!(out, "<rect width=\"{}\" height=\"{}\" fill=\"{background}\"/>", page.width, page.height)?;
+    let [r, g, b] = style.background;
+    writeln!(
+        out,
+        "<rect width=\"{}\" height=\"{}\" fill=\"#{r:02x}{g:02x}{b:02x}\"/>",
+        page.width, page.height
+    )?;
     write_levels(out, mesh, &page, style)?;
-    if let Some(color) = style.edges {
-        write_edges(out, mesh, &page, color)?;
+    if style.edges {
+        write_edges(out, mesh, &page, style)?;
     }
     writeln!(out, "</svg>")
 }
@@ -48,42 +53,60 @@ pub fn write(out: &mut impl Write, mesh: &Mesh, style: &Style) -> io::Result<()>
 fn write_levels(out: &mut impl Write, mesh: &Mesh, page: &Page, style: &Style) -> io::Result<()> {
     let mut by_level = vec![Vec::new(); mesh.level_counts().len()];
     for triangle in mesh.triangles() {
-        by_level[triangle.level() as usize].push(triangle.edge_nodes().map(|(from, _)| from));
+        let [a, b] = triangle.bisection_edge();
+        by_level[triangle.level() as usize].push([a, triangle.apex(), b]);
     }
     for (level, triangles) in by_level.iter().enumerate().filter(|(_, triangles)| !triangles.is_empty()) {
         let [r, g, b, _] = style.level_colors[level.min(63)];
-        write!(out, "<path id=\"level-{level}\" fill=\"{}\" d=\"", hex([r, g, b]))?;
+        write!(out, "<path id=\"level-{level}\" fill=\"#{r:02x}{g:02x}{b:02x}\" d=\"")?;
+        let mut pen = Pen::default();
         for corners in triangles {
-            let [a, b, c] = corners.map(|node| page.place(mesh, node));
-            write!(
-                out,
-                "M{} {}l{} {} {} {}z",
-                a[0],
-                a[1],
-                b[0] - a[0],
-                b[1] - a[1],
-                c[0] - b[0],
-                c[1] - b[1]
-            )?;
+            // Along the two legs, and the closing line is the bisection edge: legs are often level or upright, and short.
+            let [a, apex, b] = corners.map(|node| page.place(mesh, node));
+            pen.move_to(out, a)?;
+            pen.line_to(out, apex)?;
+            pen.line_to(out, b)?;
+            pen.close(out, a)?;
         }
         writeln!(out, "\"/>")?;
     }
     Ok(())
 }
 
-/// All edges once. Their width is in pixels, whatever the magnification.
-fn write_edges(out: &mut impl Write, mesh: &Mesh, page: &Page, color: [u8; 3]) -> io::Result<()> {
-    write!(
+/// All edges once, by the finer of the two triangles that share them. Widths are in pixels, whatever the magnification.
+fn write_edges(out: &mut impl Write, mesh: &Mesh, page: &Page, style: &Style) -> io::Result<()> {
+    writeln!(
         out,
-        "<path id=\"edges\" fill=\"none\" stroke=\"{}\" stroke-width=\"0.5\" stroke-linecap=\"round\" \
-         vector-effect=\"non-scaling-stroke\" d=\"",
-        hex(color)
+        "<g id=\"edges\" fill=\"none\" stroke=\"#000\" stroke-opacity=\"0.5\" stroke-linecap=\"round\">"
     )?;
-    for (from, to) in mesh.edges() {
-        let (a, b) = (page.place(mesh, from), page.place(mesh, to));
-        write!(out, "M{} {}l{} {}", a[0], a[1], b[0] - a[0], b[1] - a[1])?;
+    let px_per_world = f64::from(style.size[0]) / mesh.lattice().bounds().size().x;
+    for (level, edges) in edges_by_level(mesh).iter().enumerate().filter(|(_, edges)| !edges.is_empty()) {
+        let width = (0.04 * mesh.diameter(level as u32) * px_per_world).clamp(0.01, 0.7);
+        write!(out, "<path stroke-width=\"{width:.2}\" vector-effect=\"non-scaling-stroke\" d=\"")?;
+        let mut pen = Pen::default();
+        for &(from, to) in edges {
+            pen.move_to(out, page.place(mesh, from))?;
+            pen.line_to(out, page.place(mesh, to))?;
+        }
+        writeln!(out, "\"/>")?;
     }
-    writeln!(out, "\"/>")
+    writeln!(out, "</g>")
+}
+
+fn edges_by_level(mesh: &Mesh) -> Vec<Vec<(NodeId, NodeId)>> {
+    let mut by_level = vec![Vec::new(); mesh.level_counts().len()];
+    for (index, triangle) in mesh.triangles().iter().enumerate() {
+        for (edge, across) in triangle.edge_nodes().into_iter().zip(triangle.neighbours) {
+            match across.triangle() {
+                Some(other) if other.index() < index => {} // the other triangle has drawn it
+                Some(other) => {
+                    by_level[triangle.level().max(mesh.triangle(other).level()) as usize].push(edge)
+                }
+                None => by_level[triangle.level() as usize].push(edge),
+            }
+        }
+    }
+    by_level
 }
 
 /// The lattice as a page: y grows downwards, and the unit is the coarsest that all nodes are multiples of.
@@ -107,6 +130,45 @@ impl Page {
     }
 }
 
-fn hex([r, g, b]: [u8; 3]) -> String {
-    format!("#{r:02x}{g:02x}{b:02x}")
+/// Writes a path in steps from where it stands: short numbers.
+#[derive(Default)]
+struct Pen {
+    at: [i64; 2],
+    moved: bool,
+}
+
+impl Pen {
+    fn move_to(&mut self, out: &mut impl Write, to: [i64; 2]) -> io::Result<()> {
+        let [dx, dy] = [to[0] - self.at[0], to[1] - self.at[1]];
+        self.at = to;
+        match std::mem::replace(&mut self.moved, true) {
+            false => write!(out, "M{dx} {dy}"),
+            true => write!(out, "m{dx}{}", Next(dy)),
+        }
+    }
+
+    fn line_to(&mut self, out: &mut impl Write, to: [i64; 2]) -> io::Result<()> {
+        let [dx, dy] = [to[0] - self.at[0], to[1] - self.at[1]];
+        self.at = to;
+        match (dx, dy) {
+            (dx, 0) => write!(out, "h{dx}"),
+            (0, dy) => write!(out, "v{dy}"),
+            (dx, dy) => write!(out, "l{dx}{}", Next(dy)),
+        }
+    }
+
+    /// Draws back to `start`, where the triangle began.
+    fn close(&mut self, out: &mut impl Write, start: [i64; 2]) -> io::Result<()> {
+        self.at = start;
+        write!(out, "z")
+    }
+}
+
+/// A number after another: a minus sign parts them as well as a space.
+struct Next(i64);
+
+impl std::fmt::Display for Next {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        if self.0 < 0 { write!(f, "{}", self.0) } else { write!(f, " {}", self.0) }
+    }
 }

@@ -1,0 +1,189 @@
+//! Arguments as typed. What they mean, and whether they make sense, is for [`Job`](super::job::Job) to say.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+
+/// Paint where detail matters; the mesh follows the brush.
+///
+/// Without a command the window opens.
+#[derive(Debug, Parser)]
+#[command(name = "meshbrush", version, args_conflicts_with_subcommands = true, max_term_width = 100)]
+pub struct Arguments {
+    /// Project to open in the window
+    pub project: Option<PathBuf>,
+    #[command(subcommand)]
+    pub command: Option<Command>,
+}
+
+/// What to do without a window.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Build a mesh, write it to files, print a summary
+    #[command(after_help = MESH_EXAMPLES)]
+    Mesh(MeshArguments),
+    /// Build a mesh and find the triangle round each of a list of points
+    #[command(after_help = LOCATE_EXAMPLES)]
+    Locate(LocateArguments),
+}
+
+const MESH_EXAMPLES: &str = "\
+Examples:
+  meshbrush mesh --domain -10,-10,10,10 --spacing 1 --target 'if(abs(x)+abs(y)<8, 0.25, 20)' -o mesh.vtu
+  meshbrush mesh --domain 0,0,4,3 --risk-raster risk.png --h-min 0.01 --h-max 0.5 -o mesh.msh -o mesh.png
+  meshbrush mesh --inside 'r < 1' --domain -1,-1,1,1 --target '0.02 + 0.1*r' --json";
+
+const LOCATE_EXAMPLES: &str = "\
+Example:
+  meshbrush locate --spacing 0.1 --target '0.01 + 0.2*hypot(x - 0.5, y - 0.5)' --points points.csv -o found.csv";
+
+/// What the mesh is made from.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Domain and target diameter")]
+pub struct InputArguments {
+    /// Lower left and upper right corner of the domain [default: 0,0,1,1, or where the .asc rasters lie]
+    #[arg(long, value_name = "X0,Y0,X1,Y1", allow_hyphen_values = true)]
+    pub domain: Option<String>,
+
+    /// Keep the part of the domain where this formula in x and y is not 0
+    ///
+    /// A coarse triangle stays when all its corners lie there: choose --spacing to suit the shape. NaN counts as outside.
+    #[arg(long, value_name = "EXPR", allow_hyphen_values = true)]
+    pub inside: Option<String>,
+
+    /// Longest side of a coarse cell [default: a twentieth of the domain's longer side]
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
+    pub spacing: Option<f64>,
+
+    /// Target diameter as a formula in x and y; may be repeated, the smallest wins
+    ///
+    /// Written as in `if(abs(x)+abs(y)<0.4, 0.0125, 1)`; there are comparisons, and, or, not, the usual functions, and the
+    /// polar r and theta.
+    #[arg(long, value_name = "EXPR", allow_hyphen_values = true)]
+    pub target: Vec<String>,
+
+    /// Risk from 0 to 1 as a formula in x and y; may be repeated
+    ///
+    /// Risk becomes a target diameter that falls from --h-max at 0 to --h-min at 1, by equal factors for equal steps.
+    #[arg(long, value_name = "EXPR", allow_hyphen_values = true)]
+    pub risk: Vec<String>,
+
+    /// Target diameters by pixel: .asc (lengths), or .png (black is --h-min, white --h-max, even between)
+    ///
+    /// A .png covers the domain's bounding box, an .asc lies where its header says. A pixel without a value (NODATA, or
+    /// transparent) asks for nothing.
+    #[arg(long, value_name = "FILE")]
+    pub target_raster: Vec<PathBuf>,
+
+    /// Risk by pixel: .png (black 0, white 1; transparent 0) or .asc (values from 0 to 1)
+    #[arg(long, value_name = "FILE")]
+    pub risk_raster: Vec<PathBuf>,
+
+    /// Smallest target diameter, where the risk is 1; larger where less is asked for
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
+    pub h_min: Option<f64>,
+
+    /// Largest target diameter, where the risk is 0 [default with risk: that of a coarse triangle]
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
+    pub h_max: Option<f64>,
+
+    /// Bend of the curve from risk to diameter: above 1 only high risk refines, below 1 low risk does
+    #[arg(long, value_name = "EXPONENT", default_value_t = 1.0, allow_hyphen_values = true)]
+    pub transfer_shape: f64,
+
+    /// Where in a triangle its target is looked for [default: area with rasters, else vertex]
+    #[arg(long)]
+    pub rule: Option<RuleArgument>,
+
+    /// Pixels along the domain's longer side that the area rule sees
+    ///
+    /// Each takes the formula's value, or the nearest pixel's, at its middle. Without this, rasters that cover exactly the
+    /// domain are taken as they are; otherwise it is 1024, or as many as the finest raster has there.
+    #[arg(long, value_name = "N")]
+    pub resolution: Option<u32>,
+
+    /// Most triangles allowed
+    #[arg(long, value_name = "N", default_value_t = 50_000_000)]
+    pub max_triangles: usize,
+
+    /// Deepest level allowed; triangles there count as satisfied
+    #[arg(long, value_name = "LEVEL")]
+    pub max_level: Option<u32>,
+}
+
+/// The two rules, as typed.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum RuleArgument {
+    /// At the three vertices (Eq. 12 of the report); what lies between nodes is missed
+    Vertex,
+    /// In the whole triangle; nothing is missed
+    Area,
+}
+
+/// `meshbrush mesh`.
+#[derive(Debug, Args)]
+pub struct MeshArguments {
+    #[command(flatten)]
+    pub input: InputArguments,
+
+    /// File to write, may be repeated: .vtu .msh .obj .node (with .ele and .neigh) .csv .svg .png
+    ///
+    /// Files carry the level of each triangle and the target diameter at each node; pictures do not.
+    #[arg(short, long = "output", value_name = "FILE", help_heading = "Output")]
+    pub output: Vec<PathBuf>,
+
+    /// A further value at the nodes, as a formula in x and y; `quantity` in .vtu, .msh, .csv and .node
+    #[arg(long, value_name = "EXPR", allow_hyphen_values = true, help_heading = "Output")]
+    pub quantity: Option<String>,
+
+    /// Print the summary as one JSON object on standard output
+    #[arg(long, help_heading = "Output")]
+    pub json: bool,
+
+    /// Check every invariant of the finished mesh, and print what is broken
+    #[arg(long, help_heading = "Output")]
+    pub checks: bool,
+
+    #[command(flatten)]
+    pub picture: PictureArguments,
+}
+
+/// How pictures look.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Pictures (.svg and .png)")]
+pub struct PictureArguments {
+    /// Width, or width and height, in pixels
+    #[arg(long, value_name = "W[xH]", default_value = "1600")]
+    pub size: String,
+
+    /// Leave the edges out
+    #[arg(long)]
+    pub no_edges: bool,
+
+    /// Colours of the levels: viridis, magma, cividis, turbo or greys
+    #[arg(long, value_name = "NAME", default_value = "viridis")]
+    pub colormap: String,
+
+    /// Draw on a light ground
+    #[arg(long)]
+    pub light: bool,
+}
+
+/// `meshbrush locate`.
+#[derive(Debug, Args)]
+pub struct LocateArguments {
+    #[command(flatten)]
+    pub input: InputArguments,
+
+    /// Table of points with the columns x and y
+    #[arg(long, value_name = "FILE.csv", help_heading = "Points")]
+    pub points: PathBuf,
+
+    /// Table to write, instead of standard output
+    #[arg(short, long = "output", value_name = "OUT.csv", help_heading = "Points")]
+    pub output: Option<PathBuf>,
+
+    /// Interpolate this formula in x and y from the vertices, instead of the target diameter
+    #[arg(long, value_name = "EXPR", allow_hyphen_values = true, help_heading = "Points")]
+    pub quantity: Option<String>,
+}

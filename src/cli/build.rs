@@ -1,0 +1,154 @@
+//! Refines a coarse mesh until the job's rule holds everywhere.
+
+use std::time::{Duration, Instant};
+
+use glam::DVec2;
+
+use super::failure::Failure;
+use super::job::Job;
+use super::sources::Start;
+use super::terminal::{Terminal, grouped};
+use crate::field::{Rule, Source, TargetField, TargetFieldSpec, Transfer, VertexRule, smallest_target};
+use crate::mesh::{Element, InvalidTarget, Limits, Mesh, NodeId, Progress, Refiner, TriangleId};
+
+/// Triangles asked about, or pixels evaluated, between two looks at the clock.
+const SLICE: usize = 1 << 18;
+
+/// A finished mesh, and the h̄ that it obeys.
+pub struct Built {
+    /// The mesh.
+    pub mesh: Mesh,
+    /// Its target diameter.
+    pub target: Target,
+    /// Time spent on refinement alone.
+    pub refinement: Duration,
+    /// Triangles that the level cap left coarser than their target.
+    pub capped: usize,
+}
+
+/// h̄ as the rule sees it.
+pub enum Target {
+    /// Exactly what the sources ask for, at nodes.
+    ByVertex(PointTarget),
+    /// The sources by pixel.
+    ByArea {
+        /// The pixels.
+        field: Box<TargetField>,
+        /// h̄ where no source asks for anything, in world units.
+        unasked: f64,
+    },
+}
+
+/// h̄ point by point.
+pub struct PointTarget {
+    sources: Vec<Source>,
+    transfer: Transfer,
+    unasked: f64,
+}
+
+impl PointTarget {
+    /// h̄ at a point, all in world units. Where it is impossible, the impossible value.
+    pub fn at(&self, point: DVec2) -> f64 {
+        match smallest_target(&self.sources, point, &self.transfer) {
+            Ok(f64::INFINITY) => self.unasked,
+            Ok(asked) => asked.clamp(self.transfer.h_min, self.transfer.h_max),
+            Err(InvalidTarget { value, .. }) => value,
+        }
+    }
+}
+
+impl Target {
+    /// h̄ at a point of the domain, in world units.
+    pub fn at(&self, point: DVec2) -> f64 {
+        match self {
+            Self::ByVertex(target) => target.at(point),
+            Self::ByArea { field, unasked } => {
+                field.at(point).filter(|asked| asked.is_finite()).unwrap_or(*unasked)
+            }
+        }
+    }
+
+    /// h̄ at every node.
+    pub fn at_nodes(&self, mesh: &Mesh) -> Vec<f64> {
+        (0..mesh.nodes().len()).map(|n| self.at(mesh.world(NodeId::from_index(n)))).collect()
+    }
+
+    /// Columns and rows of the pixels, if the rule goes by pixels.
+    pub fn resolution(&self) -> Option<[u32; 2]> {
+        match self {
+            Self::ByVertex(_) => None,
+            Self::ByArea { field, .. } => Some(field.spec().size),
+        }
+    }
+
+    /// The triangles whose diameter exceeds their target.
+    ///
+    /// # Errors
+    /// When a target is impossible.
+    pub fn unsatisfied(&self, mesh: &Mesh) -> Result<Vec<TriangleId>, InvalidTarget> {
+        match self {
+            Self::ByVertex(target) => {
+                let mut rule = VertexRule::new(|p| target.at(p));
+                mesh.unsatisfied(|element| rule.exceeds(element))
+            }
+            Self::ByArea { field, .. } => mesh.unsatisfied(|element| Ok(field.exceeds(element, Rule::Area))),
+        }
+    }
+}
+
+/// Reads, lays the coarse grid and refines.
+///
+/// # Errors
+/// When a file is of no use, the target is impossible somewhere, or a limit is reached.
+pub fn build(job: &Job, terminal: &mut Terminal) -> Result<Built, Failure> {
+    let start = Start::new(job)?;
+    for warning in &start.warnings {
+        terminal.say(&format!("meshbrush: note: {warning}"));
+    }
+    let Start { mut mesh, sources, transfer, unasked, size, .. } = start;
+    let (target, refined) = match job.rule {
+        Rule::Vertex => {
+            let target = PointTarget { sources, transfer, unasked };
+            let mut rule = VertexRule::new(|p| target.at(p));
+            let refined = refine(&mut mesh, &job.limits, |element| rule.exceeds(element), terminal);
+            (Target::ByVertex(target), refined)
+        }
+        Rule::Area => {
+            let field = fill(TargetFieldSpec { sources, transfer, size }, &mesh, terminal)?;
+            let exceeds = |element: &Element| Ok(field.exceeds(element, Rule::Area));
+            let refined = refine(&mut mesh, &job.limits, exceeds, terminal);
+            (Target::ByArea { field: Box::new(field), unasked }, refined)
+        }
+    };
+    terminal.clear();
+    let (refinement, capped) = refined?;
+    Ok(Built { mesh, target, refinement, capped })
+}
+
+fn fill(spec: TargetFieldSpec, mesh: &Mesh, terminal: &mut Terminal) -> Result<TargetField, Failure> {
+    let start = Instant::now();
+    let pixels = spec.size[0] as usize * spec.size[1] as usize;
+    let mut field = TargetField::new(spec, mesh.lattice());
+    let mut done = 0;
+    // Every slice fills at least one row: this ends.
+    while field.fill_unpainted(SLICE)? == Progress::More {
+        done += SLICE;
+        terminal.progress(start, || format!("{} of {} pixels", grouped(done.min(pixels)), grouped(pixels)));
+    }
+    Ok(field)
+}
+
+/// Refines in slices. Returns the time it took and the count of triangles left to the level cap.
+fn refine(
+    mesh: &mut Mesh,
+    limits: &Limits,
+    mut exceeds: impl FnMut(&Element) -> Result<bool, InvalidTarget>,
+    terminal: &mut Terminal,
+) -> Result<(Duration, usize), Failure> {
+    let start = Instant::now();
+    let mut refiner = Refiner::new(mesh, *limits);
+    while refiner.run(mesh, &mut exceeds, SLICE)? == Progress::More {
+        terminal.progress(start, || format!("{} triangles", grouped(mesh.triangles().len())));
+    }
+    Ok((start.elapsed(), refiner.capped()))
+}

@@ -1,0 +1,223 @@
+//! Arguments as meant: every value checked on its own, every formula compiled, nothing read yet.
+
+use std::path::{Path, PathBuf};
+
+use glam::DVec2;
+
+use super::args::{InputArguments, RuleArgument};
+use super::failure::Failure;
+use crate::field::{Formula, Rule, Transfer};
+use crate::geometry::Rect;
+use crate::mesh::Limits;
+use crate::raster::MAX_SIDE;
+
+/// A mesh to be made.
+#[derive(Debug)]
+pub struct Job {
+    /// `None` for wherever the rasters lie, or the unit square.
+    pub domain: Option<Rect>,
+    /// The domain is where this is not 0.
+    pub inside: Option<Formula>,
+    /// Longest side of a coarse cell, in world units.
+    pub spacing: Option<f64>,
+    /// All that asks for small triangles.
+    pub sources: Vec<SourceSpec>,
+    /// Bounds of the target diameter, in world units.
+    pub h_min: Option<f64>,
+    /// As [`Self::h_min`].
+    pub h_max: Option<f64>,
+    /// Exponent of the risk.
+    pub transfer_shape: f64,
+    /// Which points of a triangle count.
+    pub rule: Rule,
+    /// Pixels along the longer side, for the area rule.
+    pub resolution: Option<u32>,
+    /// What the mesh may cost.
+    pub limits: Limits,
+}
+
+/// A source of target diameters, before its file is read.
+#[derive(Debug)]
+pub enum SourceSpec {
+    /// A formula for the diameter.
+    Target(Formula),
+    /// A formula for the risk.
+    Risk(Formula),
+    /// Pixels.
+    Raster(RasterSpec),
+}
+
+/// A raster that is not read yet.
+#[derive(Debug)]
+pub struct RasterSpec {
+    /// Where it is.
+    pub path: PathBuf,
+    /// How to read it.
+    pub format: RasterFormat,
+    /// What its values mean.
+    pub meaning: Meaning,
+}
+
+/// The kinds of raster files.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RasterFormat {
+    /// An image over the domain's bounding box.
+    Png,
+    /// A grid with its own placement.
+    Asc,
+}
+
+/// What the values of a raster mean.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Meaning {
+    /// Target diameters.
+    Target,
+    /// Risk.
+    Risk,
+}
+
+/// More triangles than this have no ids.
+const MOST_TRIANGLES: usize = 2_000_000_000;
+
+impl Job {
+    /// Checks the arguments one by one and against each other.
+    ///
+    /// # Errors
+    /// With a sentence that names the option, the value and the rule.
+    pub fn new(typed: &InputArguments) -> Result<Self, Failure> {
+        let sources = sources(typed)?;
+        let by_pixels = sources.iter().any(|source| matches!(source, SourceSpec::Raster(_)));
+        let job = Self {
+            domain: typed.domain.as_deref().map(parse_domain).transpose()?,
+            inside: typed.inside.as_deref().map(|text| parse_formula("--inside", text)).transpose()?,
+            spacing: typed.spacing.map(|value| length("--spacing", value)).transpose()?,
+            sources,
+            h_min: typed.h_min.map(|value| length("--h-min", value)).transpose()?,
+            h_max: typed.h_max.map(|value| length("--h-max", value)).transpose()?,
+            transfer_shape: typed.transfer_shape,
+            rule: match typed.rule {
+                Some(RuleArgument::Vertex) => Rule::Vertex,
+                Some(RuleArgument::Area) => Rule::Area,
+                None if by_pixels => Rule::Area,
+                None => Rule::Vertex,
+            },
+            resolution: typed.resolution.map(resolution).transpose()?,
+            limits: limits(typed)?,
+        };
+        job.check_bounds()?;
+        Ok(job)
+    }
+
+    /// Whether some source needs both ends of the scale from --h-min to --h-max.
+    pub fn uses_scale(&self) -> bool {
+        self.sources.iter().any(SourceSpec::uses_scale)
+    }
+
+    fn check_bounds(&self) -> Result<(), Failure> {
+        if self.uses_scale() && self.h_min.is_none() {
+            let problem =
+                "Risk and images need --h-min, the target diameter where the risk is 1 or the image black";
+            return Err(Failure::Usage(format!("{problem}. The size of the finest detail is a good start.")));
+        }
+        // Where an end is left open, the other stands in for it: only the rest is checked then.
+        let h_min = self.h_min.or(self.h_max).unwrap_or(1.0);
+        let h_max = self.h_max.unwrap_or(h_min);
+        Transfer { h_min, h_max, shape: self.transfer_shape }.checked()?;
+        Ok(())
+    }
+}
+
+impl SourceSpec {
+    fn uses_scale(&self) -> bool {
+        match self {
+            Self::Target(_) => false,
+            Self::Risk(_) => true,
+            Self::Raster(raster) => raster.meaning == Meaning::Risk || raster.format == RasterFormat::Png,
+        }
+    }
+}
+
+fn sources(typed: &InputArguments) -> Result<Vec<SourceSpec>, Failure> {
+    let mut sources = Vec::new();
+    for text in &typed.target {
+        sources.push(SourceSpec::Target(parse_formula("--target", text)?));
+    }
+    for text in &typed.risk {
+        sources.push(SourceSpec::Risk(parse_formula("--risk", text)?));
+    }
+    for path in &typed.target_raster {
+        sources.push(SourceSpec::Raster(raster("--target-raster", path, Meaning::Target)?));
+    }
+    for path in &typed.risk_raster {
+        sources.push(SourceSpec::Raster(raster("--risk-raster", path, Meaning::Risk)?));
+    }
+    Ok(sources)
+}
+
+fn raster(option: &str, path: &Path, meaning: Meaning) -> Result<RasterSpec, Failure> {
+    let format = match ending(path).as_str() {
+        "png" => RasterFormat::Png,
+        "asc" => RasterFormat::Asc,
+        _ => {
+            let file = path.display();
+            return Err(Failure::Usage(format!("{option} {file}: a raster is a .png or an .asc file.")));
+        }
+    };
+    Ok(RasterSpec { path: path.to_owned(), format, meaning })
+}
+
+/// The ending of a file name in lower case, without the dot; empty if there is none.
+pub fn ending(path: &Path) -> String {
+    path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase()).unwrap_or_default()
+}
+
+/// Compiles a formula.
+///
+/// # Errors
+/// With the mistake and, on lines of their own, the formula and carets under the mistake.
+pub fn parse_formula(option: &str, text: &str) -> Result<Formula, Failure> {
+    Formula::parse(text).map_err(|mistake| {
+        let pointer = mistake.pointer().replace('\n', "\n    ");
+        Failure::Usage(format!("{option}: {mistake}\n    {pointer}"))
+    })
+}
+
+fn parse_domain(text: &str) -> Result<Rect, Failure> {
+    let numbers: Result<Vec<f64>, _> = text.split(',').map(|part| part.trim().parse()).collect();
+    let Ok([x0, y0, x1, y1]) = numbers.as_deref() else {
+        let problem = format!("--domain {text}: write four numbers with commas between, X0,Y0,X1,Y1");
+        return Err(Failure::Usage(format!("{problem}, as in 0,0,1,1.")));
+    };
+    let domain = Rect::new(DVec2::new(*x0, *y0), DVec2::new(*x1, *y1));
+    if !domain.is_proper() {
+        let problem =
+            format!("--domain {text}: all four numbers must be finite, X0 less than X1 and Y0 less than Y1");
+        return Err(Failure::Usage(format!("{problem}.")));
+    }
+    Ok(domain)
+}
+
+fn length(option: &str, value: f64) -> Result<f64, Failure> {
+    if value > 0.0 && value.is_finite() {
+        Ok(value)
+    } else {
+        Err(Failure::Usage(format!("{option} {value}: a length must be positive and finite.")))
+    }
+}
+
+fn resolution(pixels: u32) -> Result<u32, Failure> {
+    if (1..=MAX_SIDE).contains(&pixels) {
+        Ok(pixels)
+    } else {
+        Err(Failure::Usage(format!("--resolution {pixels}: choose from 1 to {MAX_SIDE} pixels.")))
+    }
+}
+
+fn limits(typed: &InputArguments) -> Result<Limits, Failure> {
+    let max_triangles = typed.max_triangles;
+    if !(2..=MOST_TRIANGLES).contains(&max_triangles) {
+        let problem = format!("--max-triangles {max_triangles}: choose from 2 to {MOST_TRIANGLES}");
+        return Err(Failure::Usage(format!("{problem}. A triangle takes 36 bytes of memory.")));
+    }
+    Ok(Limits { max_triangles, max_level: typed.max_level })
+}

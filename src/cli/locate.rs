@@ -1,0 +1,109 @@
+//! `meshbrush locate`: build, then answer where each point lies.
+
+use std::io::{self, BufWriter, Write};
+
+use glam::DVec2;
+
+use super::args::LocateArguments;
+use super::build::{Target, build};
+use super::failure::Failure;
+use super::job::{Job, parse_formula};
+use super::mesh::{input_files, note_capped};
+use super::output::check_place;
+use super::terminal::Terminal;
+use crate::field::Formula;
+use crate::io::{Number, points, write_file};
+use crate::mesh::{Location, Locator, Mesh, TriangleId, barycentric, interpolate};
+
+const HEADER: &str = "x,y,where,triangle,level,v1,v2,v3,zeta1,zeta2,zeta3,value";
+
+/// One point for this many triangles pays for a search tree.
+const TRIANGLES_PER_POINT: usize = 16;
+
+/// Runs the command. `out` is standard output.
+///
+/// # Errors
+/// With the reason, when the arguments make no sense or the work failed.
+pub fn run(typed: &LocateArguments, out: &mut dyn Write, terminal: &mut Terminal) -> Result<(), Failure> {
+    let job = Job::new(&typed.input)?;
+    let quantity = typed.quantity.as_deref().map(|text| parse_formula("--quantity", text)).transpose()?;
+    if let Some(path) = &typed.output {
+        let inputs = [input_files(&job), vec![typed.points.clone()]].concat();
+        check_place(path, &inputs)?;
+    }
+    let points = points::read(&typed.points)?;
+    let built = build(&job, terminal)?;
+    note_capped(&built, terminal);
+    let answers = Answers { mesh: &built.mesh, target: &built.target, quantity: quantity.as_ref() };
+    match &typed.output {
+        Some(path) => write_file(path, |out| answers.write(&points, out))
+            .map_err(|error| Failure::Write { file: path.clone(), problem: error.to_string() }),
+        None => {
+            let mut out = BufWriter::new(out);
+            answers.write(&points, &mut out).and_then(|()| out.flush()).map_err(Failure::Print)
+        }
+    }
+}
+
+/// What answers are made from.
+struct Answers<'a> {
+    mesh: &'a Mesh,
+    target: &'a Target,
+    quantity: Option<&'a Formula>,
+}
+
+impl Answers<'_> {
+    /// One row for each point, in their order.
+    fn write(&self, points: &[DVec2], out: &mut dyn Write) -> io::Result<()> {
+        let many = points.len() > self.mesh.triangles().len() / TRIANGLES_PER_POINT;
+        let locator = many.then(|| Locator::new(self.mesh));
+        writeln!(out, "{HEADER}")?;
+        for &point in points {
+            let location = match &locator {
+                Some(locator) => locator.locate(point),
+                None => self.mesh.locate(point),
+            };
+            write!(out, "{},{},{}", Number(point.x), Number(point.y), name(&location))?;
+            match location.triangle() {
+                Some(triangle) => self.write_triangle(point, triangle, out)?,
+                None => writeln!(out, ",,,,,,,,,")?,
+            }
+        }
+        Ok(())
+    }
+
+    /// The columns from `triangle` on. Vertices stand in the triangle's order, ζ likewise.
+    fn write_triangle(&self, point: DVec2, id: TriangleId, out: &mut dyn Write) -> io::Result<()> {
+        let triangle = self.mesh.triangle(id);
+        let [a, b, c] = triangle.vertices.map(|v| v.index());
+        let at = self.mesh.lattice().lattice_from_world(point);
+        let zeta = barycentric(self.mesh.corners(id), at);
+        let value = interpolate(zeta, self.mesh.world_corners(id).map(|corner| self.value_at(corner)));
+        let [zeta1, zeta2, zeta3] = zeta.map(Number);
+        writeln!(
+            out,
+            ",{},{},{a},{b},{c},{zeta1},{zeta2},{zeta3},{}",
+            id.index(),
+            triangle.level(),
+            Number(value)
+        )
+    }
+
+    fn value_at(&self, node: DVec2) -> f64 {
+        match self.quantity {
+            Some(formula) => formula.eval(node.x, node.y),
+            None => self.target.at(node),
+        }
+    }
+}
+
+fn name(location: &Location) -> &'static str {
+    match location {
+        Location::Inside { .. } => "inside",
+        Location::OnEdge { .. } => "edge",
+        Location::OnVertex { .. } => "vertex",
+        Location::OutsideBounds => "outside",
+        Location::InHole => "hole",
+        Location::Invalid => "invalid",
+    }
+}

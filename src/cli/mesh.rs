@@ -1,0 +1,127 @@
+//! `meshbrush mesh`: build, check, write, summarise.
+
+use std::io::Write;
+use std::path::PathBuf;
+
+use super::args::MeshArguments;
+use super::build::{Built, build};
+use super::failure::Failure;
+use super::job::{Job, SourceSpec, parse_formula};
+use super::output::{Look, Output, check_place};
+use super::summary::Summary;
+use super::terminal::{Terminal, grouped};
+use crate::field::Formula;
+use crate::io::{MeshData, Quantity};
+use crate::mesh::{Mesh, NodeId};
+
+/// Broken invariants that are printed one by one; the others are counted.
+const SHOWN_VIOLATIONS: usize = 20;
+
+/// Runs the command. `out` is standard output.
+///
+/// # Errors
+/// With the reason, when the arguments make no sense or the work failed.
+pub fn run(typed: &MeshArguments, out: &mut dyn Write, terminal: &mut Terminal) -> Result<(), Failure> {
+    let job = Job::new(&typed.input)?;
+    let look = Look::new(&typed.picture)?;
+    let quantity = typed.quantity.as_deref().map(|text| parse_formula("--quantity", text)).transpose()?;
+    let outputs = typed.output.iter().map(|path| Output::new(path)).collect::<Result<Vec<_>, _>>()?;
+    for path in &typed.output {
+        check_place(path, &input_files(&job))?;
+    }
+    let built = build(&job, terminal)?;
+    let violations = if typed.checks { Some(report_violations(&built, terminal)?) } else { None };
+    let summary = Summary::of(&built, job.rule, violations);
+    if !typed.json {
+        terminal.say(&summary.for_people());
+    }
+    note_capped(&built, terminal);
+    write_files(&outputs, &built, look, quantity.as_ref(), terminal)?;
+    if typed.json {
+        let json = serde_json::to_string(&summary).map_err(|e| Failure::Print(e.into()))?;
+        writeln!(out, "{json}").and_then(|()| out.flush()).map_err(Failure::Print)?;
+    }
+    match violations {
+        Some(broken) if broken > 0 => Err(Failure::Work(format!(
+            "The mesh breaks {broken} rules. Please report this, with the command."
+        ))),
+        _ => Ok(()),
+    }
+}
+
+/// The files that the job reads.
+pub fn input_files(job: &Job) -> Vec<PathBuf> {
+    let path = |source: &SourceSpec| match source {
+        SourceSpec::Raster(raster) => Some(raster.path.clone()),
+        _ => None,
+    };
+    job.sources.iter().filter_map(path).collect()
+}
+
+/// Says when triangles are coarser than asked for, because of the level cap.
+pub fn note_capped(built: &Built, terminal: &mut Terminal) {
+    if built.capped > 0 {
+        let count = grouped(built.capped);
+        terminal
+            .say(&format!("meshbrush: note: --max-level left {count} triangles coarser than their target."));
+    }
+}
+
+/// Checks every invariant, prints what is broken, and returns how much is.
+fn report_violations(built: &Built, terminal: &mut Terminal) -> Result<usize, Failure> {
+    let broken = built.mesh.violations();
+    for violation in broken.iter().take(SHOWN_VIOLATIONS) {
+        terminal.say(&format!("check: {violation}"));
+    }
+    let coarse = built.target.unsatisfied(&built.mesh)?.len();
+    // What the level cap left is as it was asked for.
+    let too_coarse = if built.capped > 0 { 0 } else { coarse };
+    if too_coarse > 0 {
+        terminal.say(&format!("check: {} triangles exceed their target diameter (Eq. 14)", grouped(coarse)));
+    }
+    let count = broken.len() + too_coarse;
+    if count == 0 {
+        terminal.say("check: every invariant of the mesh holds");
+    }
+    Ok(count)
+}
+
+fn write_files(
+    outputs: &[Output],
+    built: &Built,
+    look: Look,
+    quantity: Option<&Formula>,
+    terminal: &mut Terminal,
+) -> Result<(), Failure> {
+    let Built { mesh, target, .. } = built;
+    let look = look.for_mesh(mesh);
+    let (mut target_diameter, mut quantities) = (Vec::new(), Vec::new());
+    if outputs.iter().any(Output::wants_node_data) {
+        target_diameter = target.at_nodes(mesh);
+        quantities.extend(quantity.map(|formula| evaluated(formula, mesh)).transpose()?);
+    }
+    let data = MeshData { target_diameter: &target_diameter, quantities: &quantities };
+    for output in outputs {
+        for path in output.write(mesh, &data, &look)? {
+            terminal.say(&format!("wrote {}", path.display()));
+        }
+    }
+    Ok(())
+}
+
+fn evaluated(formula: &Formula, mesh: &Mesh) -> Result<Quantity, Failure> {
+    let value = |n| {
+        let p = mesh.world(NodeId::from_index(n));
+        let value = formula.eval(p.x, p.y);
+        if value.is_finite() {
+            Ok(value)
+        } else {
+            let place = format!("x = {}, y = {}", p.x, p.y);
+            Err(Failure::Work(format!(
+                "--quantity is {value} at {place}: files need a finite number at every node."
+            )))
+        }
+    };
+    let values = (0..mesh.nodes().len()).map(value).collect::<Result<_, _>>()?;
+    Ok(Quantity { name: "quantity".to_owned(), values })
+}

@@ -1,0 +1,73 @@
+//! The command line: arguments as typed ([`args`]), the job they mean ([`job`]), running it.
+//!
+//! Results go to standard output, everything else to standard error. Exit status 0: done; 1: the work failed, with a
+//! sentence; 2: wrong usage.
+
+mod args;
+mod build;
+mod failure;
+mod job;
+mod locate;
+mod mesh;
+mod output;
+mod sources;
+mod summary;
+mod terminal;
+
+use std::ffi::OsString;
+use std::io;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::Parser;
+
+use args::{Arguments, Command};
+use failure::Failure;
+use terminal::Terminal;
+
+pub use terminal::grouped;
+
+/// Opens the window, with a project or without, and returns when it is closed; the error is a sentence.
+pub type OpenWindow = fn(Option<PathBuf>) -> Result<(), String>;
+
+/// Runs the program. `arguments` begin with its name; `window` is `None` in a build without one.
+pub fn run(arguments: impl IntoIterator<Item = OsString>, window: Option<OpenWindow>) -> ExitCode {
+    let arguments = match Arguments::try_parse_from(arguments) {
+        Ok(arguments) => arguments,
+        Err(answer) => {
+            // Help and version too come as an "error", with status 0. A closed pipe is nobody's business.
+            let _ = answer.print();
+            return ExitCode::from(answer.exit_code() as u8);
+        }
+    };
+    let mut terminal = Terminal::new();
+    match run_command(arguments, window, &mut terminal) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) if failure.is_closed_pipe() => ExitCode::SUCCESS,
+        Err(failure) => {
+            terminal.say(&format!("meshbrush: {failure}"));
+            ExitCode::from(failure.exit_status())
+        }
+    }
+}
+
+fn run_command(
+    arguments: Arguments,
+    window: Option<OpenWindow>,
+    terminal: &mut Terminal,
+) -> Result<(), Failure> {
+    let mut out = io::stdout().lock();
+    match (arguments.command, window) {
+        (Some(Command::Mesh(typed)), _) => mesh::run(&typed, &mut out, terminal),
+        (Some(Command::Locate(typed)), _) => locate::run(&typed, &mut out, terminal),
+        (None, Some(open)) => {
+            drop(out);
+            open(arguments.project).map_err(Failure::Work)
+        }
+        (None, None) => {
+            let problem =
+                "This meshbrush was built without its window (feature `gui`). Its commands are `mesh` and";
+            Err(Failure::Usage(format!("{problem} `locate`; `meshbrush --help` lists them.")))
+        }
+    }
+}
