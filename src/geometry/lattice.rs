@@ -219,11 +219,12 @@ fn world_coordinate(min: f64, max: f64, step: f64, extent: u32, lattice: u32) ->
 #[inline]
 fn lattice_coordinate(min: f64, max: f64, step: f64, extent: u32, world: f64) -> f64 {
     let estimate = (world - min) / step;
-    let nearest = estimate.round();
-    if !(nearest >= 0.0 && nearest <= f64::from(extent)) {
+    if !(estimate > -0.5 && estimate < f64::from(extent) + 0.5) {
         return estimate;
     }
-    let line = world_coordinate(min, max, step, extent, nearest as u32);
+    let nearest = (estimate + 0.5) as u32; // `round` is a call of a function on most machines
+    let line = world_coordinate(min, max, step, extent, nearest);
+    let nearest = f64::from(nearest);
     if world == line {
         nearest
     } else if world > line {

@@ -134,7 +134,7 @@ impl Mesh {
     }
 
     /// Where a point lies that was found in triangle `id` on the given sides of its edges; ties go to the lowest index.
-    fn lowest_round(&self, id: TriangleId, sides: [Side; 3]) -> Location {
+    pub(super) fn lowest_round(&self, id: TriangleId, sides: [Side; 3]) -> Location {
         let triangle = self.triangle(id);
         let on = sides.map(|side| side == Side::On);
         match on.iter().filter(|&&on| on).count() {

@@ -1,130 +1,253 @@
 use glam::DVec2;
 
 use super::locate::WalkEnd;
-use super::{Location, Mesh, TriangleId};
-use crate::geometry::Side;
+use super::{Location, Mesh, TriangleId, memory};
+use crate::geometry::LatticePoint;
 
-/// A search tree over a mesh, for many queries: the report's virtual buckets (Section 7.1), carried on below the coarse
-/// grid.
+/// A search tree over a mesh, for many queries: the report's virtual buckets (Section 7.1), carried on until no walk is
+/// left.
 ///
-/// In a deeply refined coarse triangle the walk of Algorithm 15 is long, and each step is a miss of the cache. The tree
-/// divides each coarse cell into 4 × 4 and so on, as deep as the triangles there are small, and keeps one triangle for
-/// each bucket: queries start within a step or two of their answer. It takes about 4 bytes a triangle.
+/// Every triangle of a mesh is half a square of the lattice (at even levels) or half of each of two squares (at odd
+/// levels). The tree divides the coarse cells into quarters until each square is cut by at most one diagonal, and keeps
+/// the triangle on either side. A query goes down to its square and compares with the diagonal, exactly, and never
+/// touches the mesh. The uppermost divisions are made everywhere at once, as a table. Together they take about 5 bytes a
+/// triangle at even levels and 10 at odd ones.
 ///
-/// A bucket is a hint and nothing rests on it: where a walk from it is stopped by a hole, or the point lies on an edge, the
-/// plain walk answers.
+/// Points on the rim of a square or on its diagonal are found by a walk from there, and those outside by the plain walk.
 pub struct Locator<'m> {
     mesh: &'m Mesh,
-    slots: Vec<Slot>,
+    /// Squares along a row of the table.
+    columns: usize,
+    /// Binary logarithm of the side of a table's square, in lattice steps.
+    side_bits: u32,
+    table: Vec<Square>,
+    quarters: Vec<[Square; 4]>,
 }
 
-/// A bucket's triangle, or the place of the 16 buckets that it is divided into.
+/// A square of the lattice, with a triangle on either side of a diagonal; or the place of its quarters.
+///
+/// ```text
+///     o-------o      o-------o
+///     | \above|      |above/ |      falling and rising diagonal
+///     |below\ |      | /below|
+///     o-------o      o-------o
+/// ```
 #[derive(Clone, Copy)]
-struct Slot(u32);
+struct Square {
+    /// The triangle below the diagonal, or `NOTHING`; or with the `FLAG` the place of the quarters.
+    below: u32,
+    /// The triangle above it, or `NOTHING`; with the `FLAG` where the diagonal rises.
+    above: u32,
+}
 
-const DIVIDED: u32 = 1 << 31;
-/// Buckets along a side of a divided bucket, as a power of two.
-const FAN_BITS: u32 = 2;
-const FAN: usize = 1 << FAN_BITS;
+/// Triangles take 32 bytes: their numbers leave the highest bit free.
+const FLAG: u32 = 1 << 31;
+const NOTHING: u32 = FLAG - 1;
 
-impl Slot {
-    const NOTHING: Self = Self(DIVIDED - 1);
+/// Half of a square that a triangle covers.
+struct Half {
+    /// Lower left corner of the square.
+    origin: LatticePoint,
+    rising: bool,
+    above: bool,
+}
 
-    fn hint(id: TriangleId) -> Self {
-        Self(id.0)
-    }
+impl Square {
+    const EMPTY: Self = Self { below: NOTHING, above: NOTHING };
 
-    fn divided(first: usize) -> Self {
-        Self(first as u32 | DIVIDED)
+    fn divided(place: usize) -> Self {
+        Self { below: place as u32 | FLAG, above: NOTHING }
     }
 
     #[inline]
-    fn children(self) -> Option<usize> {
-        (self.0 & DIVIDED != 0).then_some((self.0 & !DIVIDED) as usize)
+    fn place_of_quarters(self) -> Option<usize> {
+        (self.below & FLAG != 0).then_some((self.below & !FLAG) as usize)
+    }
+
+    /// Lower left, lower right, upper left, upper right.
+    fn quarters(self) -> [Self; 4] {
+        let all_below = Self { below: self.below, above: self.below };
+        let all_above = Self { below: self.above & !FLAG, above: self.above & !FLAG };
+        if self.above & FLAG == 0 {
+            [all_below, self, self, all_above]
+        } else {
+            [self, all_below, all_above, self]
+        }
+    }
+
+    fn cover(&mut self, half: &Half, id: TriangleId) {
+        if half.above {
+            self.above = id.0;
+        } else {
+            self.below = id.0;
+        }
+        self.above = (self.above & !FLAG) | if half.rising { FLAG } else { 0 };
+    }
+
+    /// The triangle at offset (u, v) from the lower left corner, both strictly between 0 and `side`; `None` for a hole, and
+    /// on the diagonal.
+    #[inline]
+    fn at(self, u: f64, v: f64, side: f64) -> Option<TriangleId> {
+        // A rounded sum lies on the true side of `side`, or on it.
+        let (a, b) = if self.above & FLAG == 0 { (u + v, side) } else { (v, u) };
+        let id = if a < b { self.below } else { self.above & !FLAG };
+        (a != b && id != NOTHING).then_some(TriangleId(id))
     }
 }
 
 impl<'m> Locator<'m> {
     /// Builds the tree in time proportional to the mesh.
     pub fn new(mesh: &'m Mesh) -> Self {
-        let [columns, rows] = mesh.lattice.cells();
-        let slots = vec![Slot::NOTHING; columns as usize * rows as usize];
-        let mut locator = Self { mesh, slots };
-        for index in 0..mesh.triangles.len() {
-            locator.insert(TriangleId::from_index(index));
+        let [columns, rows] = mesh.lattice.cells().map(|n| n as usize);
+        let (table, mut quarters) = (vec![Square::EMPTY; columns * rows], Vec::new());
+        memory::make_room(&mut quarters, mesh.triangles.len() / 4, mesh.triangles.len());
+        let mut locator = Self { mesh, columns, side_bits: mesh.lattice.halvings(), table, quarters };
+        let by_level = ids_by_level(mesh);
+        // The larger triangles first: a square is divided only for a smaller one, and hands on what it has.
+        for (depth, levels) in by_level.chunks(2).enumerate() {
+            if depth > 0 && locator.quarters.is_empty() && 8 * locator.table.len() <= mesh.triangles.len() {
+                locator.divide_table();
+            }
+            let bits = mesh.lattice.halvings() - depth as u32;
+            for &id in levels.iter().flatten() {
+                for half in halves(mesh, id) {
+                    locator.square_mut(half.origin, bits).cover(&half, id);
+                }
+            }
         }
         locator
     }
 
-    fn insert(&mut self, id: TriangleId) {
-        let [a, b, c] = self.mesh.corners(id).map(|c| c.as_dvec2());
-        let middle = (a + b + c) / 3.0;
-        // A triangle at level l is about a cell halved l / 2 times; four levels divide a bucket once.
-        let depth = (self.mesh.triangle(id).level() + 2) / 4;
-        let (x, y) = (middle.x as u32, middle.y as u32);
-        let mut slot = self.root(x, y);
-        let mut shift = self.mesh.lattice.halvings();
-        for _ in 0..depth {
-            let Some(finer) = shift.checked_sub(FAN_BITS) else { break };
-            shift = finer;
-            let first = match self.slots[slot].children() {
-                Some(first) => first,
-                None => self.divide(slot),
-            };
-            slot = first + child(x, y, shift);
+    fn divide_table(&mut self) {
+        let mut finer = vec![Square::EMPTY; 4 * self.table.len()];
+        for (n, square) in self.table.iter().enumerate() {
+            let lower_left = 4 * self.columns * (n / self.columns) + 2 * (n % self.columns);
+            let upper_left = lower_left + 2 * self.columns;
+            let quarters = square.quarters();
+            finer[lower_left..lower_left + 2].copy_from_slice(&quarters[..2]);
+            finer[upper_left..upper_left + 2].copy_from_slice(&quarters[2..]);
         }
-        if self.slots[slot].children().is_none() {
-            self.slots[slot] = Slot::hint(id);
-        }
+        self.columns *= 2;
+        self.side_bits -= 1;
+        self.table = finer;
     }
 
-    fn divide(&mut self, slot: usize) -> usize {
-        let first = self.slots.len();
-        let hint = self.slots[slot];
-        self.slots.resize(first + FAN * FAN, hint);
-        self.slots[slot] = Slot::divided(first);
-        first
+    /// The square of side 2^`bits` with the given corner, after whatever divisions it takes.
+    fn square_mut(&mut self, origin: LatticePoint, bits: u32) -> &mut Square {
+        let n = self.number(origin.x, origin.y);
+        if bits >= self.side_bits {
+            return &mut self.table[n];
+        }
+        let (mut place, mut side_bits) = (divide(&mut self.table[n], &mut self.quarters), self.side_bits - 1);
+        while side_bits > bits {
+            let q = quarter(origin.x, origin.y, side_bits);
+            let mut square = self.quarters[place][q];
+            let finer = divide(&mut square, &mut self.quarters);
+            self.quarters[place][q] = square;
+            (place, side_bits) = (finer, side_bits - 1);
+        }
+        &mut self.quarters[place][quarter(origin.x, origin.y, bits)]
     }
 
     #[inline]
-    fn root(&self, x: u32, y: u32) -> usize {
-        let [columns, rows] = self.mesh.lattice.cells();
-        let halvings = self.mesh.lattice.halvings();
-        let (column, row) = ((x >> halvings).min(columns - 1), (y >> halvings).min(rows - 1));
-        row as usize * columns as usize + column as usize
+    fn number(&self, x: u32, y: u32) -> usize {
+        (y >> self.side_bits) as usize * self.columns + (x >> self.side_bits) as usize
     }
 
     /// Finds the triangle that contains a point in world coordinates. Same answers as [`Mesh::locate`].
     #[inline]
     pub fn locate(&self, point: DVec2) -> Location {
         let p = self.mesh.lattice.lattice_from_world(point);
-        let extent = self.mesh.lattice.extent().as_dvec2();
-        if p.cmpge(DVec2::ZERO).all()
-            && p.cmple(extent).all()
-            && let Some(hint) = self.hint(p)
-            && let WalkEnd::Found(triangle, [Side::Left, Side::Left, Side::Left]) = self.mesh.walk(hint, p)
+        let Some((square, bits)) = self.square_around(p) else { return self.mesh.locate(point) };
+        let corner = |x: f64| f64::from(x as u32 >> bits << bits);
+        // Both differences are exact: whole numbers are taken from numbers that are larger.
+        let (u, v) = (p.x - corner(p.x), p.y - corner(p.y));
+        if u > 0.0
+            && v > 0.0
+            && let Some(triangle) = square.at(u, v, f64::from(1u32 << bits))
         {
             return Location::Inside { triangle };
         }
-        self.mesh.locate(point)
+        self.on_a_line(square, p).unwrap_or_else(|| self.mesh.locate(point))
     }
 
+    /// The smallest square around a point in lattice coordinates, and the binary logarithm of its side.
     #[inline]
-    fn hint(&self, p: DVec2) -> Option<TriangleId> {
-        let (x, y) = (p.x as u32, p.y as u32);
-        let mut slot = self.slots[self.root(x, y)];
-        let mut shift = self.mesh.lattice.halvings();
-        // Ends: each turn goes down the tree, and `insert` stops before the shift would run out.
-        while let Some(first) = slot.children() {
-            shift -= FAN_BITS;
-            slot = self.slots[first + child(x, y, shift)];
+    fn square_around(&self, p: DVec2) -> Option<(Square, u32)> {
+        let extent = self.mesh.lattice.extent();
+        if !(p.x >= 0.0 && p.y >= 0.0 && p.x < f64::from(extent.x) && p.y < f64::from(extent.y)) {
+            return None;
         }
-        (slot.0 != Slot::NOTHING.0).then_some(TriangleId(slot.0))
+        let (x, y) = (p.x as u32, p.y as u32);
+        let (mut square, mut bits) = (self.table[self.number(x, y)], self.side_bits);
+        // Ends: each turn goes down the tree, which is no deeper than the lattice.
+        while let Some(place) = square.place_of_quarters() {
+            bits -= 1;
+            square = self.quarters[place][quarter(x, y, bits)];
+        }
+        Some((square, bits))
+    }
+
+    /// The answer for a point on the rim or the diagonal of its square, by a short walk. `None` in and beside a hole, and
+    /// at the coarse nodes, where parts of the domain may touch that no walk joins.
+    fn on_a_line(&self, square: Square, p: DVec2) -> Option<Location> {
+        let at_coarse_node = p % f64::from(self.mesh.lattice.cell_steps()) == DVec2::ZERO;
+        let hint = [square.below, square.above & !FLAG].into_iter().find(|&id| id != NOTHING)?;
+        match self.mesh.walk(TriangleId(hint), p) {
+            WalkEnd::Found(id, sides) if !at_coarse_node => Some(self.mesh.lowest_round(id, sides)),
+            _ => None,
+        }
     }
 }
 
+/// Which quarter of the square around it a square of side 2^`bits` is.
 #[inline]
-fn child(x: u32, y: u32, shift: u32) -> usize {
-    let mask = FAN as u32 - 1;
-    (((y >> shift) & mask) << FAN_BITS | ((x >> shift) & mask)) as usize
+fn quarter(x: u32, y: u32, bits: u32) -> usize {
+    (((y >> bits) & 1) << 1 | ((x >> bits) & 1)) as usize
+}
+
+fn divide(square: &mut Square, quarters: &mut Vec<[Square; 4]>) -> usize {
+    square.place_of_quarters().unwrap_or_else(|| {
+        quarters.push(square.quarters());
+        *square = Square::divided(quarters.len() - 1);
+        quarters.len() - 1
+    })
+}
+
+/// The triangles with bisection edges too long for a square of depth 1, 2, and so on: levels 0; 1 and 2; 3 and 4, …
+/// padded to pairs, so that pair d lives in squares halved d times.
+fn ids_by_level(mesh: &Mesh) -> Vec<Vec<TriangleId>> {
+    let counts = mesh.level_counts();
+    let mut by_level = vec![Vec::new()];
+    by_level.extend(counts.into_iter().map(Vec::with_capacity));
+    for (index, triangle) in mesh.triangles.iter().enumerate() {
+        by_level[triangle.level() as usize + 1].push(TriangleId::from_index(index));
+    }
+    by_level
+}
+
+/// The half squares that a triangle is made of: one at even levels, two at odd levels.
+///
+/// ```text
+///     o                    apex
+///     | \                  / | \       the right angle of each half is at the apex, or in the middle of the
+///     |   \              /   |   \     bisection edge
+///   apex---o            o----m----o
+/// ```
+fn halves(mesh: &Mesh, id: TriangleId) -> impl Iterator<Item = Half> {
+    let triangle = mesh.triangle(id);
+    let [a, b] = triangle.bisection_edge().map(|v| mesh.node(v));
+    let apex = mesh.node(triangle.apex());
+    let even = triangle.level().is_multiple_of(2);
+    let halves = if even {
+        [Some([apex, a, b]), None]
+    } else {
+        let middle = a.midpoint(b);
+        [Some([middle, a, apex]), Some([middle, b, apex])]
+    };
+    halves.into_iter().flatten().map(|[corner, p, q]| {
+        let origin = LatticePoint::new(corner.x.min(p.x).min(q.x), corner.y.min(p.y).min(q.y));
+        let (right, above) = (corner.x > origin.x, corner.y > origin.y);
+        Half { origin, rising: right != above, above }
+    })
 }
