@@ -229,3 +229,136 @@ fn twice_signed_area([a, b, c]: [LatticePoint; 3]) -> i128 {
     let (ab, ac) = (difference(b, a), difference(c, a));
     ab.0 * ac.1 - ab.1 * ac.0
 }
+
+/// A check that never fails proves nothing: each test breaks a mesh by hand, and one violation must name the break.
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Rect;
+    use crate::mesh::{Limits, Neighbour, Triangle};
+
+    /// The unit square in 2 × 2 cells, refined round the first triangle.
+    fn sound_mesh() -> Mesh {
+        let mut mesh = Mesh::coarse_grid(Rect::UNIT, 0.5, |_| true, &Limits::default()).unwrap();
+        for _ in 0..3 {
+            mesh.refine_triangle(TriangleId(0));
+        }
+        assert_eq!(mesh.violations(), []);
+        mesh
+    }
+
+    #[track_caller]
+    fn assert_reported(mesh: &Mesh, expected: impl Fn(&Violation) -> bool) {
+        let violations = mesh.violations();
+        assert!(violations.iter().any(expected), "{violations:#?}");
+    }
+
+    /// A triangle that has a neighbour across its bisection edge, and that neighbour.
+    fn pair(mesh: &Mesh) -> (TriangleId, TriangleId) {
+        let ids = (0..mesh.triangles.len()).map(TriangleId::from_index);
+        let across = |id| mesh.triangle(id).neighbours[0].triangle();
+        let level = |id| mesh.triangle(id).level();
+        ids.filter_map(|id| Some((id, across(id)?))).find(|&(a, b)| level(a) == level(b)).unwrap()
+    }
+
+    fn with_level(t: Triangle, level: u32) -> Triangle {
+        Triangle::new(t.vertices, t.neighbours, t.orientation(), level)
+    }
+
+    #[test]
+    fn a_dangling_reference_is_reported() {
+        let mut mesh = sound_mesh();
+        mesh.triangles[2].vertices[1] = NodeId(999);
+        assert_eq!(mesh.violations(), [Violation::DanglingReference(TriangleId(2))]);
+        let mut mesh = sound_mesh();
+        mesh.triangles[3].neighbours[2] = TriangleId(999).into();
+        assert_eq!(mesh.violations(), [Violation::DanglingReference(TriangleId(3))]);
+    }
+
+    #[test]
+    fn a_wrong_shape_is_reported() {
+        let mut mesh = sound_mesh();
+        mesh.triangles[1] = with_level(mesh.triangles[1], mesh.triangles[1].level() + 2);
+        assert_reported(&mesh, |v| *v == Violation::WrongShape(TriangleId(1)));
+    }
+
+    #[test]
+    fn a_wrong_orientation_is_reported() {
+        let mut mesh = sound_mesh();
+        let t = mesh.triangles[1];
+        mesh.triangles[1] = Triangle::new(t.vertices, t.neighbours, t.orientation().reversed(), t.level());
+        assert_reported(&mesh, |v| *v == Violation::WrongOrientation(TriangleId(1)));
+    }
+
+    #[test]
+    fn an_asymmetric_neighbour_is_reported() {
+        let mut mesh = sound_mesh();
+        let (a, b) = pair(&mesh);
+        mesh.triangles[b.index()].neighbours[0] = Neighbour::BOUNDARY;
+        assert_reported(&mesh, |v| *v == Violation::AsymmetricNeighbour { triangle: a, edge: 0 });
+        let mut mesh = sound_mesh();
+        mesh.triangles[a.index()].neighbours.rotate_left(1);
+        assert_reported(
+            &mesh,
+            |v| matches!(v, Violation::AsymmetricNeighbour { triangle, .. } if *triangle == a),
+        );
+    }
+
+    #[test]
+    fn a_shared_edge_called_boundary_on_both_sides_is_reported() {
+        let mut mesh = sound_mesh();
+        let (a, b) = pair(&mesh);
+        mesh.triangles[a.index()].neighbours[0] = Neighbour::BOUNDARY;
+        mesh.triangles[b.index()].neighbours[0] = Neighbour::BOUNDARY;
+        let [p, q] = mesh.triangle(a).bisection_edge();
+        assert_eq!(mesh.violations(), [Violation::UnmatchedEdge(p.min(q), p.max(q))]);
+    }
+
+    #[test]
+    fn a_hanging_node_is_reported() {
+        let mut mesh = sound_mesh();
+        let (a, b) = pair(&mesh);
+        mesh.triangles[a.index()].neighbours[0] = Neighbour::BOUNDARY;
+        mesh.triangles[b.index()].neighbours[0] = Neighbour::BOUNDARY;
+        let node = NodeId::from_index(mesh.nodes.len());
+        mesh.bisect_at_boundary(a);
+        assert_eq!(mesh.violations(), [Violation::HangingNode { triangle: b, node }]);
+    }
+
+    #[test]
+    fn a_jump_of_two_levels_is_reported() {
+        let mut mesh = sound_mesh();
+        let (a, b) = pair(&mesh);
+        mesh.triangles[a.index()] = with_level(mesh.triangles[a.index()], mesh.triangle(b).level() + 2);
+        assert_reported(&mesh, |v| *v == Violation::LevelJump(a.min(b), a.max(b)));
+    }
+
+    #[test]
+    fn a_lost_area_is_reported() {
+        let mut mesh = sound_mesh();
+        let extent = mesh.lattice.extent();
+        let corner = mesh.nodes.iter().position(|&n| n == extent).unwrap();
+        mesh.nodes[corner].x -= 2;
+        assert_reported(
+            &mesh,
+            |v| matches!(v, Violation::AreaNotConserved { covered, expected } if covered < expected),
+        );
+    }
+
+    #[test]
+    fn an_unused_node_and_one_on_top_of_another_are_reported() {
+        let mut mesh = sound_mesh();
+        let extra = NodeId::from_index(mesh.nodes.len());
+        mesh.nodes.push(mesh.nodes[4]);
+        assert_reported(&mesh, |v| *v == Violation::OrphanNode(extra));
+        assert_reported(&mesh, |v| *v == Violation::CoincidentNodes(NodeId(4), extra));
+    }
+
+    #[test]
+    fn a_lost_bucket_is_reported() {
+        let mut mesh = sound_mesh();
+        mesh.triangles.swap(2, 5);
+        assert_reported(&mesh, |v| *v == Violation::LostBucket(TriangleId(2)));
+        assert_reported(&mesh, |v| *v == Violation::LostBucket(TriangleId(5)));
+    }
+}

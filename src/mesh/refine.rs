@@ -8,11 +8,14 @@ use crate::geometry::{LATTICE_BITS, Lattice, LatticePoint};
 /// The deepest level of any lattice.
 const DEEPEST_LEVEL: usize = 2 * LATTICE_BITS as usize;
 
+/// Most triangles of any mesh, whatever its budget: ids above are taken for marks.
+const MOST_TRIANGLES: usize = (1 << 31) - 1;
+
 /// What a mesh may cost.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
     /// Most triangles; refinement that would pass it stops with an error. A triangle and its share of the nodes take
-    /// 36 bytes.
+    /// 36 bytes, and 4 more while the mesh is refined.
     pub max_triangles: usize,
     /// Deepest level, or `None` for as deep as the lattice goes. Triangles at this level count as satisfied.
     pub max_level: Option<u32>,
@@ -195,7 +198,7 @@ impl Refiner {
     /// triangles the mesh can have before this must be asked again.
     #[cold]
     fn room_for(&mut self, mesh: &mut Mesh, id: TriangleId, most_new: usize) -> Result<usize, RefineError> {
-        let limit = self.limits.max_triangles;
+        let limit = self.limits.max_triangles.min(MOST_TRIANGLES);
         // Close to the limit the call is counted exactly.
         if mesh.triangles.len() + most_new > limit && mesh.triangles.len() + mesh.closure_size(id) > limit {
             return Err(RefineError::TooManyTriangles { limit });
