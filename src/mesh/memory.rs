@@ -10,7 +10,7 @@ impl Mesh {
     /// unless `more` asks for it. Returns how many triangles there can be before this must be called again.
     ///
     /// A large mesh reserves all it may ever need in one step: untouched memory costs nothing, and the arrays never move
-    /// again. Moving them cost up to a third of the time to build two million triangles.
+    /// again. With large pages this takes a third off the time to build two million triangles.
     #[cold]
     pub(super) fn make_room(&mut self, more: usize, most: usize) -> usize {
         make_room(&mut self.triangles, more, most);
@@ -26,7 +26,8 @@ pub(super) fn make_room<T>(array: &mut Vec<T>, more: usize, most: usize) {
         return;
     }
     let (size, most) = (size_of::<T>(), most.max(array.len() + more));
-    if size * 2 * (array.len() + more) <= PAGE {
+    // Windows charges for a reservation as if it were used.
+    if cfg!(windows) || size * 2 * (array.len() + more) <= PAGE {
         array.reserve(more);
         return;
     }
@@ -44,7 +45,7 @@ pub(super) fn make_room<T>(array: &mut Vec<T>, more: usize, most: usize) {
 
 /// Asks the system to back the array with pages of 2 MiB: five hundred times fewer page faults and misses of the address
 /// cache. Advice only: nothing depends on whether it is taken.
-#[cfg(all(unix, any(target_os = "linux", target_os = "android")))]
+#[cfg(any(target_os = "linux", target_os = "android"))]
 fn advise_large_pages<T>(array: &mut Vec<T>) {
     let start = array.as_mut_ptr() as usize;
     let end = start + array.capacity() * size_of::<T>();
@@ -56,5 +57,5 @@ fn advise_large_pages<T>(array: &mut Vec<T>) {
     }
 }
 
-#[cfg(not(all(unix, any(target_os = "linux", target_os = "android"))))]
+#[cfg(not(any(target_os = "linux", target_os = "android")))]
 fn advise_large_pages<T>(_array: &mut Vec<T>) {}
