@@ -15,8 +15,9 @@ impl Mesh {
     pub(super) fn make_room(&mut self, more: usize, most: usize) -> usize {
         make_room(&mut self.triangles, more, most);
         // A bisection makes one node, and one or two triangles.
-        make_room(&mut self.nodes, self.triangles.capacity() - self.triangles.len(), most);
-        self.triangles.capacity()
+        make_room(&mut self.nodes, more, most);
+        let room_for_nodes = self.nodes.capacity() - self.nodes.len();
+        self.triangles.capacity().min(self.triangles.len() + room_for_nodes)
     }
 }
 

@@ -204,8 +204,8 @@ impl Refiner {
             return Err(RefineError::TooManyTriangles { limit });
         }
         let room = mesh.make_room(most_new, limit);
-        memory::make_room(&mut self.agenda.after, room - mesh.triangles.len(), limit);
-        Ok(room.min(limit))
+        memory::make_room(&mut self.agenda.after, most_new, limit);
+        Ok(room.min(self.agenda.after.capacity()).min(limit))
     }
 
     /// How many triangles asked for more than [`Limits::max_level`] allows.
