@@ -3,6 +3,9 @@
 use std::process::ExitCode;
 
 /// What opens the window, in a build that has one.
+#[cfg(feature = "gui")]
+const WINDOW: Option<meshbrush::cli::OpenWindow> = Some(meshbrush::app::run);
+#[cfg(not(feature = "gui"))]
 const WINDOW: Option<meshbrush::cli::OpenWindow> = None;
 
 fn main() -> ExitCode {

@@ -1,3 +1,237 @@
-//! The window.
+//! The window: panels, canvas, painting and commands.
+//!
+//! The app holds a few small structs: the [`Session`] (document and mesh), the [`Tools`], the [`View`], and what lasts no
+//! longer than a gesture. Panels read them and send [`Command`]s; `logic` carries these out.
+
+mod busy;
+mod canvas;
+mod catalog;
+pub mod command;
+mod files;
+mod hints;
+mod keys;
+mod logic;
+mod panels;
+pub mod readout;
+pub mod session;
 pub mod theme;
+pub mod tools;
+pub mod view;
 pub mod widgets;
+
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::Duration;
+
+use eframe::egui::{self, Context, Frame, Theme, ThemePreference, Ui, vec2};
+use eframe::egui_wgpu;
+use glam::DVec2;
+
+pub use canvas::CANVAS_NAME;
+use canvas::{CanvasGpu, Gesture, OverlayColors};
+use catalog::catalog;
+use command::Command;
+use session::Session;
+use tools::Tools;
+use view::View;
+use widgets::{CommandPalette, PaletteItem};
+
+use crate::colormap::Ground;
+use crate::document::Example;
+use crate::mesh::TriangleId;
+use crate::render::gpu::device_descriptor;
+
+/// Most of a frame's time that goes into bringing the mesh up to date.
+const FRAME_BUDGET: Duration = Duration::from_millis(7);
+/// Size of the window at first, in points.
+const WINDOW_SIZE: [f32; 2] = [1440.0, 900.0];
+/// Size below which the panels no longer fit, in points.
+const SMALLEST_SIZE: [f32; 2] = [900.0, 600.0];
+
+/// The program in its window.
+pub struct App {
+    session: Session,
+    document_name: String,
+    tools: Tools,
+    view: View,
+    theme: ThemePreference,
+    commands: Vec<Command>,
+    gpu: Option<CanvasGpu>,
+    overlay_colors: OverlayColors,
+    files: files::Files,
+    palette: CommandPalette,
+    hints: hints::Hints,
+    busy: busy::Busy,
+    field_texts: panels::FieldTexts,
+    about: bool,
+
+    gesture: Gesture,
+    pointer_world: Option<DVec2>,
+    last_painted: Option<DVec2>,
+    hovered_neighbour: Option<TriangleId>,
+}
+
+impl App {
+    /// The app on its first example. Without a `render_state` (in tests) the canvas stays empty.
+    ///
+    /// # Errors
+    /// When the graphics driver cannot draw a mesh.
+    pub fn new(ctx: &Context, render_state: Option<&egui_wgpu::RenderState>) -> Result<Self, String> {
+        theme::install(ctx);
+        let theme = ThemePreference::Dark;
+        ctx.set_theme(theme);
+        let document = Example::ALL[0].document(files::terrain_slope);
+        let session = Session::new(document).map_err(|error| error.to_string())?;
+        let settings = session.document().settings();
+        let extent = settings.domain.bounds.size().max_element();
+        let tools = Tools::for_domain(extent, settings.transfer.h_min);
+        let gpu = render_state.map(CanvasGpu::new).transpose().map_err(|error| error.to_string())?;
+        Ok(Self {
+            session,
+            document_name: Example::ALL[0].name().to_owned(),
+            tools,
+            view: View::default(),
+            theme,
+            commands: Vec::new(),
+            gpu,
+            overlay_colors: OverlayColors::default(),
+            files: files::Files::default(),
+            palette: CommandPalette::default(),
+            hints: hints::Hints::default(),
+            busy: busy::Busy::default(),
+            field_texts: panels::FieldTexts::default(),
+            about: false,
+            gesture: Gesture::None,
+            pointer_world: None,
+            last_painted: None,
+            hovered_neighbour: None,
+        })
+    }
+
+    /// Document and mesh, for tests.
+    pub fn session(&self) -> &Session {
+        &self.session
+    }
+
+    /// The tool in hand and the brush, for tests.
+    pub fn tools(&self) -> &Tools {
+        &self.tools
+    }
+
+    /// What is shown and how, for tests.
+    pub fn view(&self) -> &View {
+        &self.view
+    }
+
+    /// Sends a command, to be carried out in the next frame.
+    pub fn send(&mut self, command: Command) {
+        self.commands.push(command);
+    }
+
+    fn title(&self) -> String {
+        let edited = if self.session.document().history().is_empty() { "" } else { " — edited" };
+        format!("{}{edited}", self.document_name)
+    }
+
+    fn palette_ui(&mut self, ctx: &Context) {
+        if !self.palette.is_open() {
+            return;
+        }
+        let entries = catalog(self);
+        let keys: Vec<String> = entries
+            .iter()
+            .map(|e| e.shortcut.as_ref().map(keys::shortcut_text).unwrap_or_default())
+            .collect();
+        let items: Vec<_> = (entries.iter().zip(&keys))
+            .map(|(entry, keys)| PaletteItem { title: &entry.title, keys, enabled: entry.enabled })
+            .collect();
+        if let Some(chosen) = self.palette.show(ctx, &items) {
+            self.commands.push(entries[chosen].command.clone());
+        }
+    }
+
+    fn about_ui(&mut self, ctx: &Context) {
+        if !self.about {
+            return;
+        }
+        let shown = egui::Modal::new(egui::Id::unique("about")).show(ctx, |ui| {
+            ui.set_width(380.0);
+            ui.heading("Meshbrush");
+            ui.label(concat!("Version ", env!("CARGO_PKG_VERSION")));
+            ui.add_space(8.0);
+            ui.label(
+                "Paint where detail matters; the mesh follows the brush. Local bisection refinement of triangulated \
+                 grids by Maubach's method: always conforming, always right-angled.",
+            );
+            ui.add_space(8.0);
+            ui.add(widgets::ActionButton::new("Close")).clicked()
+        });
+        if shown.inner || shown.should_close() {
+            self.about = false;
+        }
+    }
+}
+
+impl eframe::App for App {
+    fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
+        let ctx = ui.ctx().clone();
+        self.view.ground = if ctx.theme() == Theme::Dark { Ground::Dark } else { Ground::Light };
+        self.follow_keys(&ctx);
+        self.files.update(&ctx, &mut self.session, &mut self.commands);
+        self.palette_ui(&ctx);
+        self.about_ui(&ctx);
+        self.panels_ui(ui);
+        egui::CentralPanel::default().frame(Frame::NONE).show(ui, |ui| self.canvas_ui(ui));
+    }
+
+    fn raw_input_hook(&mut self, ctx: &Context, raw_input: &mut egui::RawInput) {
+        self.catch_tab(ctx, raw_input);
+    }
+}
+
+/// Opens the window, on a greyscale picture as risk or on the first example, and stays in it until it is closed.
+///
+/// # Errors
+/// A sentence, when there is no display or no usable graphics driver.
+pub fn run(picture: Option<PathBuf>) -> Result<(), String> {
+    let mut options = eframe::NativeOptions {
+        viewport: egui::ViewportBuilder::default()
+            .with_title("Meshbrush")
+            .with_app_id("meshbrush")
+            .with_icon(window_icon())
+            .with_inner_size(WINDOW_SIZE)
+            .with_min_inner_size(vec2(SMALLEST_SIZE[0], SMALLEST_SIZE[1])),
+        ..eframe::NativeOptions::default()
+    };
+    if let egui_wgpu::WgpuSetup::CreateNew(setup) = &mut options.wgpu_options.wgpu_setup {
+        setup.device_descriptor = Arc::new(device_descriptor);
+    }
+    let create = |cc: &eframe::CreationContext<'_>| -> Result<Box<dyn eframe::App>, _> {
+        let mut app = App::new(&cc.egui_ctx, cc.wgpu_render_state.as_ref())?;
+        app.commands.extend(picture.map(Command::OpenImage));
+        Ok(Box::new(app))
+    };
+    eframe::run_native("meshbrush", options, Box::new(create)).map_err(failure_to_open)
+}
+
+fn window_icon() -> egui::IconData {
+    let icon = include_bytes!("../../assets/icon.png");
+    eframe::icon_data::from_png_bytes(icon).unwrap_or_default()
+}
+
+/// What to tell somebody whose window did not open.
+fn failure_to_open(error: eframe::Error) -> String {
+    match error {
+        eframe::Error::WinitEventLoop(_) | eframe::Error::Winit(_) => {
+            "There is no display to open a window on. Set DISPLAY or WAYLAND_DISPLAY, or use the command line: \
+             meshbrush mesh --help."
+                .into()
+        }
+        eframe::Error::Wgpu(_) => {
+            "There is no usable graphics driver. Install a Vulkan or OpenGL driver, for example the package \
+             mesa-vulkan-drivers, or use the command line: meshbrush mesh --help."
+                .into()
+        }
+        other => format!("The window could not be opened: {other}."),
+    }
+}

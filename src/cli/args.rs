@@ -10,8 +10,8 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 #[derive(Debug, Parser)]
 #[command(name = "meshbrush", version, args_conflicts_with_subcommands = true, max_term_width = 100)]
 pub struct Arguments {
-    /// Project to open in the window
-    pub project: Option<PathBuf>,
+    /// Greyscale picture (.png) to open in the window as risk
+    pub picture: Option<PathBuf>,
     #[command(subcommand)]
     pub command: Option<Command>,
 }

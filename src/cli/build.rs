@@ -91,7 +91,7 @@ impl Target {
                 let mut rule = VertexRule::new(|p| target.at(p));
                 mesh.unsatisfied(|element| rule.exceeds(element))
             }
-            Self::ByArea { field, .. } => mesh.unsatisfied(|element| Ok(field.exceeds(element, Rule::Area))),
+            Self::ByArea { field, .. } => mesh.unsatisfied(|element| Ok(field.exceeds(element))),
         }
     }
 }
@@ -115,7 +115,7 @@ pub fn build(job: &Job, terminal: &mut Terminal) -> Result<Built, Failure> {
         }
         Rule::Area => {
             let field = fill(TargetFieldSpec { sources, transfer, size }, &mesh, terminal)?;
-            let exceeds = |element: &Element| Ok(field.exceeds(element, Rule::Area));
+            let exceeds = |element: &Element| Ok(field.exceeds(element));
             let refined = refine(&mut mesh, &job.limits, exceeds, terminal);
             (Target::ByArea { field: Box::new(field), unasked }, refined)
         }

@@ -27,7 +27,7 @@ use terminal::Terminal;
 
 pub use terminal::grouped;
 
-/// Opens the window, with a project or without, and returns when it is closed; the error is a sentence.
+/// Opens the window, on a picture or the first example, and returns when it is closed; the error is a sentence.
 pub type OpenWindow = fn(Option<PathBuf>) -> Result<(), String>;
 
 /// Runs the program. `arguments` begin with its name; `window` is `None` in a build without one.
@@ -62,7 +62,7 @@ fn run_command(
         (Some(Command::Locate(typed)), _) => locate::run(&typed, &mut out, terminal),
         (None, Some(open)) => {
             drop(out);
-            open(arguments.project).map_err(Failure::Work)
+            open(arguments.picture).map_err(Failure::Work)
         }
         (None, None) => {
             let problem =

@@ -1,3 +1,5 @@
+use std::sync::Arc;
+
 use super::{Document, Repainted, Settings};
 use crate::field::{Rule, TargetField, VertexRule};
 use crate::mesh::{CoarseError, InvalidTarget, Mesh, Progress, RefineError, Refiner};
@@ -11,7 +13,7 @@ use crate::mesh::{CoarseError, InvalidTarget, Mesh, Progress, RefineError, Refin
 pub struct Follower {
     settings: Settings,
     field: TargetField,
-    mesh: Mesh,
+    mesh: Arc<Mesh>,
     generation: u64,
     repainted: bool,
     /// All of the paint changed: the field is to be filled anew.
@@ -81,7 +83,7 @@ impl Follower {
         Ok(Self {
             settings,
             field,
-            mesh,
+            mesh: Arc::new(mesh),
             generation: 0,
             repainted: false,
             refill: false,
@@ -93,6 +95,11 @@ impl Follower {
     /// The last whole mesh.
     pub fn mesh(&self) -> &Mesh {
         &self.mesh
+    }
+
+    /// The last whole mesh, to be kept by work that takes longer than a frame.
+    pub fn shared_mesh(&self) -> Arc<Mesh> {
+        self.mesh.clone()
     }
 
     /// h̄ as the document has it, once in step.
@@ -170,7 +177,7 @@ impl Follower {
             if let Some(field) = field {
                 self.field = field;
             }
-            self.mesh = mesh;
+            self.mesh = Arc::new(mesh);
             self.generation += 1;
         }
     }

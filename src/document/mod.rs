@@ -129,6 +129,13 @@ impl Document {
         }
     }
 
+    /// Puts another document's settings and paint in the place of this one's, as one gesture.
+    pub fn replace_with(&mut self, title: &'static str, other: Self) {
+        self.end_stroke();
+        self.end_gesture();
+        self.replace(title, other.settings, other.layers);
+    }
+
     /// Takes all paint away.
     pub fn clear_paint(&mut self) {
         self.end_stroke();

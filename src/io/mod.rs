@@ -11,6 +11,7 @@ pub mod asc;
 mod atomic;
 pub mod csv;
 mod error;
+mod mesh_file;
 pub mod msh;
 pub mod node;
 mod number;
@@ -22,6 +23,7 @@ pub mod vtu;
 
 pub use atomic::write_file;
 pub use error::{Flaw, Place, ReadError};
+pub use mesh_file::MeshFormat;
 pub use number::Number;
 
 use crate::mesh::{Mesh, TriangleId};

@@ -36,7 +36,11 @@ pub fn read(path: &Path, bounds: Rect, behind: Behind) -> Result<Raster, ReadErr
     decoded.map_err(|flaw| flaw.in_file(path))
 }
 
-fn decode(source: impl BufRead + Seek, bounds: Rect, behind: Behind) -> Result<Raster, Flaw> {
+/// As [`read`], from bytes that need not be a file.
+///
+/// # Errors
+/// As [`read`].
+pub fn decode(source: impl BufRead + Seek, bounds: Rect, behind: Behind) -> Result<Raster, Flaw> {
     let mut decoder = Decoder::new(source);
     // Palettes and low depths become 8 bits, a transparent colour becomes an alpha channel.
     decoder.set_transformations(Transformations::EXPAND);

@@ -1,0 +1,139 @@
+//! Joins egui and the renderer: the one file of the window that speaks wgpu.
+
+use std::sync::Arc;
+
+use eframe::egui;
+use eframe::egui_wgpu::{self, CallbackResources, CallbackTrait, RenderState, ScreenDescriptor};
+use eframe::wgpu;
+
+use crate::document::Follower;
+use crate::mesh::Progress;
+use crate::render::gpu::{GpuError, GpuRenderer, emulates_gpu};
+use crate::scene::{Camera, Overlay, Style};
+
+/// Bytes of a mesh that travel to the GPU in one frame: about 2 ms.
+const BYTES_PER_FRAME: usize = 16 << 20;
+
+/// The canvas's share of egui's GPU resources.
+struct CanvasResources {
+    renderer: GpuRenderer,
+    /// What went wrong while a frame was prepared, to be reported in the next.
+    failed: Option<GpuError>,
+}
+
+/// Says who draws the mesh, `gpu` or `software`; unset, the GPU does where there is one.
+const DRAW_VARIABLE: &str = "MESHBRUSH_DRAW";
+
+/// Draws meshes on the canvas.
+pub struct CanvasGpu {
+    state: RenderState,
+    /// The driver only emulates a GPU: drawing in software and showing the picture is several times as fast.
+    in_software: bool,
+    /// The mesh that could not be taken in: not tried again.
+    refused: Option<u64>,
+}
+
+impl CanvasGpu {
+    /// Readies the GPU behind a window.
+    ///
+    /// # Errors
+    /// When it cannot draw a mesh at all.
+    pub fn new(state: &RenderState) -> Result<Self, GpuError> {
+        let renderer = GpuRenderer::new(&state.device, state.target_format)?;
+        state.renderer.write().callback_resources.insert(CanvasResources { renderer, failed: None });
+        let in_software = match std::env::var(DRAW_VARIABLE).as_deref() {
+            Ok("software") => true,
+            Ok("gpu") => false,
+            _ => emulates_gpu(&state.adapter),
+        };
+        Ok(Self { state: state.clone(), in_software, refused: None })
+    }
+
+    /// Brings what the GPU knows of mesh and overlay up to date, and tells whether some of it is left to send. The former
+    /// mesh stays on the screen until all of the new one is there.
+    ///
+    /// # Errors
+    /// When the GPU cannot hold the mesh, or could not draw the last frame.
+    pub fn sync(
+        &mut self,
+        follower: &Follower,
+        overlay: Option<&Overlay>,
+        camera: &Camera,
+        style: &Style,
+    ) -> Result<Progress, GpuError> {
+        let mut renderer = self.state.renderer.write();
+        let Some(CanvasResources { renderer, failed }) = renderer.callback_resources.get_mut() else {
+            return Ok(Progress::Done);
+        };
+        if let Some(failure) = failed.take() {
+            return Err(failure);
+        }
+        let (device, queue) = (&self.state.device, &self.state.queue);
+        renderer.set_overlay(device, queue, overlay)?;
+        if self.in_software {
+            let (mesh, revision) = (follower.mesh(), follower.generation());
+            renderer.prepare_in_software(device, queue, mesh, revision, camera, style)?;
+            return Ok(Progress::Done);
+        }
+        upload(renderer, &self.state, follower, &mut self.refused)
+    }
+
+    /// The shape that draws the mesh on the canvas.
+    pub fn shape(&self, rect: egui::Rect, camera: Camera, style: Style) -> egui::Shape {
+        let callback = CanvasCallback { camera, style: Arc::new(style), in_software: self.in_software };
+        egui_wgpu::Callback::new_paint_callback(rect, callback).into()
+    }
+}
+
+/// Sends the next part of a mesh that the GPU does not have yet.
+fn upload(
+    renderer: &mut GpuRenderer,
+    state: &RenderState,
+    follower: &Follower,
+    refused: &mut Option<u64>,
+) -> Result<Progress, GpuError> {
+    let (mirror, generation) = (renderer.mirror_mut(), follower.generation());
+    if mirror.shown() == Some(generation) || *refused == Some(generation) {
+        return Ok(Progress::Done);
+    }
+    if mirror.uploading() != Some(generation) {
+        let begun = mirror.begin(&state.device, &state.queue, follower.mesh(), generation);
+        *refused = begun.is_err().then_some(generation);
+        begun?;
+    }
+    Ok(mirror.upload_some(&state.queue, follower.mesh(), BYTES_PER_FRAME))
+}
+
+struct CanvasCallback {
+    camera: Camera,
+    style: Arc<Style>,
+    in_software: bool,
+}
+
+impl CallbackTrait for CanvasCallback {
+    fn prepare(
+        &self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        _screen: &ScreenDescriptor,
+        encoder: &mut wgpu::CommandEncoder,
+        resources: &mut CallbackResources,
+    ) -> Vec<wgpu::CommandBuffer> {
+        if let Some(canvas) = resources.get_mut::<CanvasResources>().filter(|_| !self.in_software) {
+            let prepared = canvas.renderer.prepare(device, queue, encoder, &self.camera, &self.style);
+            canvas.failed = prepared.err();
+        }
+        Vec::new()
+    }
+
+    fn paint(
+        &self,
+        _info: egui::PaintCallbackInfo,
+        pass: &mut wgpu::RenderPass<'static>,
+        resources: &CallbackResources,
+    ) {
+        if let Some(canvas) = resources.get::<CanvasResources>() {
+            canvas.renderer.paint(pass);
+        }
+    }
+}

@@ -1,0 +1,182 @@
+//! From what the pointer does on the canvas to commands.
+
+use eframe::egui::{self, Event, Key, Modifiers, PointerButton, Pos2, Response, Ui};
+use glam::{DVec2, dvec2};
+
+use super::super::command::Command;
+use super::super::tools::{Tool, Tools};
+use crate::scene::Camera;
+
+/// Points that the pointer must move, with Shift held, before a click becomes a drag of the brush's size.
+const CLICK_SLACK: f32 = 4.0;
+/// Share by which one point of scrolling zooms; a notch of a wheel scrolls by about 50 points.
+const ZOOM_PER_POINT: f64 = 0.004;
+
+/// What the pointer is in the middle of.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Gesture {
+    /// Nothing.
+    #[default]
+    None,
+    /// A stroke.
+    Painting,
+    /// Moving the view.
+    Panning {
+        /// Where the pointer was last.
+        last: Pos2,
+        /// The button that holds on.
+        button: PointerButton,
+    },
+    /// Shift held with a brush: a line if let go here, the brush's size if dragged.
+    Sizing {
+        /// Where the pointer went down.
+        from: Pos2,
+        /// The radius then, in world units.
+        radius: f64,
+        /// Whether it moved far enough to be a drag.
+        dragged: bool,
+    },
+}
+
+/// The canvas as the pointer sees it.
+pub struct Pointer<'a> {
+    /// Where the canvas is, in points.
+    pub rect: egui::Rect,
+    /// What is on it.
+    pub camera: &'a mut Camera,
+    /// The tool in hand.
+    pub tools: &'a Tools,
+    /// Physical pixels for a point.
+    pub px_per_point: f64,
+}
+
+impl Pointer<'_> {
+    /// Canvas pixels of a position in points.
+    pub fn px(&self, at: Pos2) -> DVec2 {
+        let offset = at - self.rect.min;
+        dvec2(f64::from(offset.x), f64::from(offset.y)) * self.px_per_point
+    }
+
+    /// World coordinates of a position in points.
+    pub fn world(&self, at: Pos2) -> DVec2 {
+        self.camera.world_from_screen(self.px(at))
+    }
+
+    /// Follows the events of this frame in their order, so that a quick stroke keeps every point the mouse reported.
+    pub fn follow_events(
+        &mut self,
+        ui: &Ui,
+        response: &Response,
+        gesture: &mut Gesture,
+        commands: &mut Vec<Command>,
+    ) {
+        let events = ui.input(|input| input.events.clone());
+        let space = ui.input(|input| input.key_down(Key::Space)) && !ui.ctx().egui_wants_keyboard_input();
+        for event in &events {
+            match *event {
+                Event::PointerButton { pos, button, pressed: true, modifiers }
+                    if response.contains_pointer()
+                        && *gesture == Gesture::None
+                        && self.rect.contains(pos) =>
+                {
+                    *gesture = self.press(pos, button, modifiers, space, commands);
+                }
+                Event::PointerMoved(pos) => self.moved(pos, gesture, commands),
+                Event::PointerButton { pos, button, pressed: false, .. } => {
+                    self.released(pos, button, gesture, commands);
+                }
+                _ => {}
+            }
+        }
+        if response.contains_pointer() {
+            self.scroll(ui);
+        }
+    }
+
+    fn press(
+        &mut self,
+        pos: Pos2,
+        button: PointerButton,
+        modifiers: Modifiers,
+        space: bool,
+        commands: &mut Vec<Command>,
+    ) -> Gesture {
+        let pans = space || self.tools.tool == Tool::Pan || button == PointerButton::Middle;
+        match button {
+            PointerButton::Primary | PointerButton::Middle if pans => Gesture::Panning { last: pos, button },
+            PointerButton::Primary => self.press_primary(pos, modifiers, commands),
+            _ => Gesture::None,
+        }
+    }
+
+    fn press_primary(&mut self, pos: Pos2, modifiers: Modifiers, commands: &mut Vec<Command>) -> Gesture {
+        let point = self.world(pos);
+        match self.tools.tool {
+            Tool::Brush | Tool::Eraser if modifiers.alt || modifiers.command => {
+                commands.push(Command::PickValue(point));
+                Gesture::None
+            }
+            Tool::Brush | Tool::Eraser if modifiers.shift => {
+                Gesture::Sizing { from: pos, radius: self.tools.radius, dragged: false }
+            }
+            Tool::Brush | Tool::Eraser => {
+                commands.push(Command::BeginStroke(point));
+                Gesture::Painting
+            }
+            Tool::Query => {
+                commands.push(Command::Query(point));
+                Gesture::None
+            }
+            Tool::Pan => Gesture::None,
+        }
+    }
+
+    fn moved(&mut self, pos: Pos2, gesture: &mut Gesture, commands: &mut Vec<Command>) {
+        match gesture {
+            Gesture::None => {}
+            Gesture::Painting => commands.push(Command::DrawTo(self.world(pos))),
+            Gesture::Panning { last, .. } => {
+                *self.camera = self.camera.panned(self.px(pos) - self.px(*last));
+                *last = pos;
+            }
+            Gesture::Sizing { from, radius, dragged } => {
+                *dragged |= from.distance(pos) > CLICK_SLACK;
+                if *dragged {
+                    let px = f64::from(pos.x - from.x) * self.px_per_point;
+                    commands.push(Command::BrushRadius(*radius + px / self.camera.px_per_world()));
+                }
+            }
+        }
+    }
+
+    fn released(
+        &mut self,
+        pos: Pos2,
+        released: PointerButton,
+        gesture: &mut Gesture,
+        commands: &mut Vec<Command>,
+    ) {
+        match *gesture {
+            Gesture::Painting if released == PointerButton::Primary => commands.push(Command::EndStroke),
+            Gesture::Sizing { dragged: false, .. } if released == PointerButton::Primary => {
+                commands.push(Command::LineTo(self.world(pos)));
+            }
+            Gesture::Sizing { .. } if released == PointerButton::Primary => {}
+            Gesture::Panning { button, .. } if released == button => {}
+            _ => return,
+        }
+        *gesture = Gesture::None;
+    }
+
+    fn scroll(&mut self, ui: &Ui) {
+        let (scrolled, pinched, at) = ui.input(|i| {
+            (f64::from(i.smooth_scroll_delta().y), f64::from(i.zoom_delta()), i.pointer.hover_pos())
+        });
+        let factor = pinched * (scrolled * ZOOM_PER_POINT).exp();
+        if let Some(at) = at
+            && factor != 1.0
+        {
+            *self.camera = self.camera.zoomed(factor, self.px(at));
+        }
+    }
+}

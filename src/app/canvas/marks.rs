@@ -1,0 +1,93 @@
+//! What is drawn over the mesh: the brush ring, highlighted triangles and their numbers.
+
+use eframe::egui::{Align2, Color32, Painter, Pos2, Rect, Shape, Stroke, pos2, vec2};
+
+use super::super::theme::font;
+use super::super::tools::Tools;
+use crate::mesh::{Mesh, TriangleId};
+use crate::scene::{Camera, Highlights, NEIGHBOUR_COLORS, Outline, highlight_outlines};
+
+/// Side of a triangle in points below which its number would not fit.
+const SMALLEST_NUMBERED: f64 = 26.0;
+
+/// Draws the selected triangle, its neighbours and the one under the pointer.
+pub fn paint_highlights(
+    painter: &Painter,
+    rect: Rect,
+    mesh: &Mesh,
+    camera: &Camera,
+    highlights: &Highlights,
+) {
+    let px_per_point = painter.pixels_per_point();
+    for outline in highlight_outlines(mesh, camera, highlights, px_per_point) {
+        painter.add(outline_shape(&outline, rect, px_per_point));
+    }
+    for (i, neighbour) in highlights.neighbours.iter().enumerate() {
+        if let Some(id) = neighbour {
+            paint_number(painter, rect, mesh, camera, *id, i);
+        }
+    }
+}
+
+fn outline_shape(outline: &Outline, rect: Rect, px_per_point: f32) -> Shape {
+    let points = outline.polygon.iter().map(|&[x, y]| rect.min + vec2(x, y) / px_per_point).collect();
+    let stroke = Stroke::new(outline.line_width_px / px_per_point, color(outline.line));
+    Shape::convex_polygon(points, color(outline.fill), stroke)
+}
+
+fn color([r, g, b, a]: [u8; 4]) -> Color32 {
+    Color32::from_rgba_unmultiplied(r, g, b, a)
+}
+
+/// The neighbour's number in its middle, 1 for the bisection neighbour, where there is room.
+fn paint_number(painter: &Painter, rect: Rect, mesh: &Mesh, camera: &Camera, id: TriangleId, which: usize) {
+    let px_per_point = f64::from(painter.pixels_per_point());
+    let leg = mesh.diameter(mesh.triangle(id).level()) / std::f64::consts::SQRT_2;
+    if leg * camera.px_per_world() / px_per_point < SMALLEST_NUMBERED {
+        return;
+    }
+    let [a, b, c] = mesh.corners(id).map(|corner| camera.screen_from_lattice(corner));
+    let middle = (a + b + c) / (3.0 * px_per_point);
+    let at = rect.min + vec2(middle.x as f32, middle.y as f32);
+    painter.circle_filled(at, 9.0, Color32::from_black_alpha(150));
+    let ink = color(NEIGHBOUR_COLORS[which]);
+    painter.text(at, Align2::CENTER_CENTER, format!("{}", which + 1), font::strong(), ink);
+}
+
+/// A small dot with a dark rim where the queried point is.
+pub fn paint_point(painter: &Painter, at: Pos2) {
+    painter.circle(at, 3.5, Color32::WHITE, Stroke::new(1.5, Color32::from_black_alpha(200)));
+}
+
+/// The ring of the brush: white on a dark halo, so that it is seen on any colour, and a thinner one for the hardness.
+pub fn paint_brush_ring(painter: &Painter, at: Pos2, tools: &Tools, points_per_world: f32) {
+    let radius = (tools.radius as f32 * points_per_world).max(2.0);
+    let halo = Color32::from_black_alpha(130);
+    painter.circle_stroke(at, radius, Stroke::new(3.5, halo));
+    painter.circle_stroke(at, radius, Stroke::new(1.5, Color32::WHITE));
+    let core = radius * tools.hardness as f32;
+    if core > 3.0 && radius - core > 3.0 {
+        painter.circle_stroke(at, core, Stroke::new(2.0, Color32::from_black_alpha(70)));
+        painter.circle_stroke(at, core, Stroke::new(1.0, Color32::from_white_alpha(120)));
+    }
+    if radius < 6.0 {
+        let arm = 7.0;
+        for d in [vec2(1.0, 0.0), vec2(-1.0, 0.0), vec2(0.0, 1.0), vec2(0.0, -1.0)] {
+            let ends = [at + d * (radius + 2.0), at + d * (radius + arm)];
+            painter.line_segment(ends, Stroke::new(3.0, halo));
+            painter.line_segment(ends, Stroke::new(1.0, Color32::WHITE));
+        }
+    }
+}
+
+/// The straight line that Shift and a click would paint.
+pub fn paint_line_preview(painter: &Painter, from: Pos2, to: Pos2) {
+    let ends = [from, to];
+    painter.line_segment(ends, Stroke::new(3.0, Color32::from_black_alpha(110)));
+    painter.extend(Shape::dashed_line(&ends, Stroke::new(1.5, Color32::WHITE), 6.0, 4.0));
+}
+
+/// Where a canvas pixel is, in points.
+pub fn point_from_px(rect: Rect, px: glam::DVec2, px_per_point: f32) -> Pos2 {
+    pos2(rect.min.x + px.x as f32 / px_per_point, rect.min.y + px.y as f32 / px_per_point)
+}

@@ -1,0 +1,194 @@
+//! The canvas: the mesh, what is drawn over it, and what the pointer does there.
+
+mod gpu;
+mod input;
+mod marks;
+mod overlay;
+
+use std::time::Instant;
+
+use eframe::egui::{self, Align2, CursorIcon, Rect, Response, Sense, Ui, vec2};
+
+pub use gpu::CanvasGpu;
+pub use input::Gesture;
+pub use overlay::OverlayColors;
+
+use super::command::Command;
+use super::theme::tokens;
+use super::tools::Tool;
+use super::widgets::{Banner, BannerAnswer, hint_pill, progress_row};
+use super::{App, FRAME_BUDGET};
+use crate::document::Stage;
+use crate::geometry::Rect as WorldRect;
+use crate::mesh::Progress;
+use crate::scene::{Camera, Highlights};
+use input::Pointer;
+
+/// Free room round the domain when it is fitted, in points.
+const FIT_MARGIN: f64 = 24.0;
+/// Name by which tests and screen readers find the canvas.
+pub const CANVAS_NAME: &str = "Mesh canvas";
+
+impl App {
+    /// The canvas with everything on it. Edits made here reach the mesh before it is drawn: it follows within the frame.
+    pub(super) fn canvas_ui(&mut self, ui: &mut Ui) {
+        let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
+        response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, CANVAS_NAME));
+        ui.painter().rect_filled(rect, 0.0, tokens(ui).canvas);
+        if rect.width() < 1.0 || rect.height() < 1.0 {
+            return;
+        }
+        let mut camera = self.camera_for(rect, ui.pixels_per_point());
+        let mut commands = std::mem::take(&mut self.commands);
+        self.follow_pointer(ui, &response, &mut camera, &mut commands);
+        self.view.camera = Some(camera);
+        for command in commands {
+            self.execute(command, ui.ctx());
+        }
+        if self.session.follow(Instant::now() + FRAME_BUDGET) {
+            ui.ctx().request_repaint();
+        }
+        // Commands may have moved the view or changed the grid.
+        let camera = self.camera_for(rect, ui.pixels_per_point());
+        self.view.camera = Some(camera);
+        self.paint_mesh(ui, rect, camera);
+        self.paint_marks(ui, &response, &camera);
+        self.float_over(ui, rect);
+    }
+
+    /// The camera, fitted where there is none yet or the domain is another one.
+    fn camera_for(&self, rect: Rect, px_per_point: f32) -> Camera {
+        let size = (rect.size() * px_per_point).round();
+        let size_px = [size.x as u32, size.y as u32];
+        let lattice = self.session.mesh().lattice();
+        let bounds = lattice.bounds();
+        match self.view.camera {
+            Some(camera) if camera.lattice().bounds() == bounds => {
+                camera.resized(size_px).on_lattice(lattice)
+            }
+            _ => Camera::fit(lattice, bounds, size_px, FIT_MARGIN * f64::from(px_per_point)),
+        }
+    }
+
+    fn follow_pointer(
+        &mut self,
+        ui: &Ui,
+        response: &Response,
+        camera: &mut Camera,
+        commands: &mut Vec<Command>,
+    ) {
+        let px_per_point = f64::from(ui.pixels_per_point());
+        let mut pointer = Pointer { rect: response.rect, camera, tools: &self.tools, px_per_point };
+        pointer.follow_events(ui, response, &mut self.gesture, commands);
+        let over = response.hover_pos().or(response.interact_pointer_pos());
+        self.pointer_world = over.map(|at| pointer.world(at));
+        if response.contains_pointer() || self.gesture != Gesture::None {
+            ui.ctx().set_cursor_icon(self.cursor(ui));
+        }
+    }
+
+    fn cursor(&self, ui: &Ui) -> CursorIcon {
+        let pans = self.tools.tool == Tool::Pan || ui.input(|input| input.key_down(egui::Key::Space));
+        match self.gesture {
+            Gesture::Panning { .. } => CursorIcon::Grabbing,
+            _ if pans => CursorIcon::Grab,
+            _ if self.tools.has_ring() => CursorIcon::None,
+            _ => CursorIcon::Crosshair,
+        }
+    }
+
+    fn paint_mesh(&mut self, ui: &Ui, rect: Rect, camera: Camera) {
+        let Some(gpu) = &mut self.gpu else { return };
+        let settings = self.session.follower().settings();
+        let colors = self.view.level_colors(settings);
+        let (document, follower) = (self.session.document(), self.session.follower());
+        let overlay = self.overlay_colors.overlay(self.view.overlay, document, follower, colors);
+        let style = self.view.style(settings, ui.pixels_per_point());
+        match gpu.sync(follower, overlay.as_ref(), &camera, &style) {
+            Ok(Progress::Done) => {}
+            Ok(Progress::More) => ui.ctx().request_repaint(),
+            Err(error) => self.session.report(error),
+        }
+        ui.painter().add(gpu.shape(rect, camera, style));
+    }
+
+    fn paint_marks(&self, ui: &Ui, response: &Response, camera: &Camera) {
+        let (rect, px_per_point) = (response.rect, ui.pixels_per_point());
+        let painter = ui.painter_at(rect);
+        let mesh = self.session.mesh();
+        let readout = self.session.readout(self.view.quantity);
+        let selected = readout.as_ref().and_then(|readout| readout.location.triangle());
+        let hovering = self.tools.tool == Tool::Query && self.gesture == Gesture::None;
+        let hovered = self.pointer_world.filter(|_| hovering).and_then(|p| mesh.locate(p).triangle());
+        let mut highlights = selected.map_or(Highlights::default(), |id| Highlights::around(mesh, id));
+        highlights.hovered = hovered.or(self.hovered_neighbour);
+        marks::paint_highlights(&painter, rect, mesh, camera, &highlights);
+        let at = |world| marks::point_from_px(rect, camera.screen_from_world(world), px_per_point);
+        if let Some(readout) = readout {
+            marks::paint_point(&painter, at(readout.point));
+        }
+        if let Some(pointer) = response.hover_pos().filter(|_| self.tools.has_ring()) {
+            let points_per_world = camera.px_per_world() as f32 / px_per_point;
+            let sizing = matches!(self.gesture, Gesture::Sizing { dragged: true, .. });
+            if let Some(last) = self.last_painted
+                && ui.input(|input| input.modifiers.shift)
+                && !sizing
+            {
+                marks::paint_line_preview(&painter, at(last), pointer);
+            }
+            let middle = match self.gesture {
+                Gesture::Sizing { from, dragged: true, .. } => from,
+                _ => pointer,
+            };
+            marks::paint_brush_ring(&painter, middle, &self.tools, points_per_world);
+        }
+    }
+
+    /// Message, progress and hint, over the canvas.
+    fn float_over(&mut self, ui: &mut Ui, rect: Rect) {
+        let inner = rect.shrink(12.0);
+        self.show_notice(ui, inner);
+        self.show_progress(ui, inner);
+        let hints = self.hints.for_tool(self.tools.tool, self.tools.kind);
+        if !hints.is_empty() && self.session.notice().is_none() {
+            hint_pill(ui, inner.left_bottom(), Align2::LEFT_BOTTOM, inner, hints);
+        }
+    }
+
+    fn show_notice(&mut self, ui: &mut Ui, inner: Rect) {
+        let Some(notice) = self.session.notice().cloned() else { return };
+        let width = inner.width().min(640.0);
+        let place =
+            Rect::from_center_size(egui::pos2(inner.center().x, inner.top() + 40.0), vec2(width, 80.0));
+        let mut child = ui.new_child(egui::UiBuilder::new().max_rect(place));
+        let banner = if notice.failed { Banner::error(&notice.text) } else { Banner::info(&notice.text) };
+        if banner.show(&mut child) != BannerAnswer::Open {
+            self.session.set_notice(None);
+        }
+    }
+
+    /// A thin bar, once work has taken longer than a moment.
+    fn show_progress(&mut self, ui: &mut Ui, inner: Rect) {
+        let stage = self.session.stage();
+        if !self.busy.is_long(stage != Stage::InStep) {
+            return;
+        }
+        let (what, done) = match stage {
+            Stage::Refining { triangles } => ("Refining", triangles),
+            Stage::Filling => ("Sampling the field", 0),
+            Stage::InStep => return,
+        };
+        let size = vec2(inner.width().min(360.0), 36.0);
+        let place = Rect::from_min_size(inner.right_bottom() - size, size);
+        ui.painter().rect_filled(place, 8.0, tokens(ui).popup);
+        let mut child = ui.new_child(egui::UiBuilder::new().max_rect(place.shrink2(vec2(12.0, 2.0))));
+        if progress_row(&mut child, what, done as u64, None) {
+            self.session.cancel_update();
+        }
+    }
+
+    /// The part of the world on the canvas.
+    pub fn visible_world(&self) -> Option<WorldRect> {
+        self.view.camera.map(|camera| camera.visible_world())
+    }
+}

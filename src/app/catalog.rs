@@ -1,0 +1,133 @@
+//! The list of commands that have a name: what menus, shortcuts and the palette offer.
+
+use eframe::egui::{Key, Modifiers, ThemePreference};
+
+use super::App;
+use super::command::{Command, Entry, Menu};
+use super::tools::{PaintKind, Tool};
+use super::view::FieldOverlay;
+use crate::colormap::Colormap;
+use crate::document::Example;
+
+/// Every named command, in menu order, as it stands now.
+pub fn catalog(app: &App) -> Vec<Entry> {
+    [file(), edit(app), tool(app), view(app), examples(), help()].concat()
+}
+
+fn file() -> Vec<Entry> {
+    use Menu::File;
+    vec![
+        Entry::new(File, "New", Command::New).ctrl(Key::N),
+        Entry::new(File, "Open picture as risk…", Command::AskForImage).ctrl(Key::O),
+        Entry::new(File, "Export mesh…", Command::AskForExport).ctrl(Key::E),
+        Entry::new(File, "Quit", Command::Quit).ctrl(Key::Q).group(),
+    ]
+}
+
+fn edit(app: &App) -> Vec<Entry> {
+    use Menu::Edit;
+    let history = app.session.document().history();
+    let named = |verb: &str, title: Option<&str>| match title {
+        Some(title) => format!("{verb} {title}"),
+        None => verb.to_owned(),
+    };
+    let undo = named("Undo", history.undo_title());
+    let redo = named("Redo", history.redo_title());
+    let can_undo = history.undo_title().is_some() || app.session.document().stroke().is_some();
+    let can_redo = history.redo_title().is_some();
+    vec![
+        Entry::new(Edit, undo, Command::Undo).ctrl(Key::Z).enabled(can_undo),
+        Entry::new(Edit, redo, Command::Redo)
+            .keys(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z)
+            .enabled(can_redo),
+        Entry::new(Edit, "Clear paint", Command::ClearPaint).keys(Modifiers::COMMAND, Key::Backspace).group(),
+        Entry::new(Edit, "Let go", Command::Escape).key(Key::Escape),
+    ]
+}
+
+fn tool(app: &App) -> Vec<Entry> {
+    use Menu::Tool as InTool;
+    let tools = &app.tools;
+    let tool = |title: &str, tool, key| {
+        Entry::new(InTool, title, Command::Use(tool)).key(key).checked(tools.tool == tool)
+    };
+    let kind =
+        |title: &str, kind| Entry::new(InTool, title, Command::Paint(kind)).checked(tools.kind == kind);
+    let harder = |title: &str, step: f64, key| {
+        let hardness = (tools.hardness + step).clamp(0.0, 1.0);
+        Entry::new(InTool, title, Command::BrushHardness(hardness)).keys(Modifiers::SHIFT, key)
+    };
+    let mut entries = vec![
+        tool("Brush", Tool::Brush, Key::B),
+        tool("Eraser", Tool::Eraser, Key::E),
+        tool("Query", Tool::Query, Key::Q),
+        tool("Pan", Tool::Pan, Key::H),
+        kind("Paint risk", PaintKind::Risk).key(Key::R).group(),
+        kind("Paint target diameter", PaintKind::Diameter).key(Key::T),
+        Entry::new(InTool, "Larger brush", Command::ScaleBrush(1.15)).key(Key::CloseBracket).group(),
+        Entry::new(InTool, "Smaller brush", Command::ScaleBrush(1.0 / 1.15)).key(Key::OpenBracket),
+        harder("Harder brush", 0.1, Key::CloseCurlyBracket),
+        harder("Softer brush", -0.1, Key::OpenCurlyBracket),
+    ];
+    for (i, key) in DIGITS.into_iter().enumerate() {
+        let percent = 10 * (i + 1);
+        let command = Command::BrushStrength(percent as f64 / 100.0);
+        let entry = Entry::new(InTool, format!("Strength {percent} %"), command).key(key);
+        entries.push(if i == 0 { entry.group() } else { entry });
+    }
+    entries
+}
+
+const DIGITS: [Key; 10] = [
+    Key::Num1,
+    Key::Num2,
+    Key::Num3,
+    Key::Num4,
+    Key::Num5,
+    Key::Num6,
+    Key::Num7,
+    Key::Num8,
+    Key::Num9,
+    Key::Num0,
+];
+
+fn view(app: &App) -> Vec<Entry> {
+    use Menu::View;
+    let view = &app.view;
+    let overlay = |title: &str, overlay| {
+        Entry::new(View, title, Command::Overlay(overlay)).checked(view.overlay == overlay)
+    };
+    let theme =
+        |title: &str, theme| Entry::new(View, title, Command::Theme(theme)).checked(app.theme == theme);
+    let mut entries = vec![
+        Entry::new(View, "Fit domain", Command::Fit).key(Key::Home),
+        Entry::new(View, "Zoom in", Command::Zoom(1.5)).key(Key::Plus),
+        Entry::new(View, "Zoom out", Command::Zoom(1.0 / 1.5)).key(Key::Minus),
+        Entry::new(View, "Edges", Command::ToggleEdges).key(Key::G).checked(view.edges).group(),
+        overlay("No overlay", FieldOverlay::None).group(),
+        overlay("Overlay risk", FieldOverlay::Risk).key(Key::O),
+        overlay("Overlay target", FieldOverlay::Target).keys(Modifiers::SHIFT, Key::O),
+    ];
+    for (i, map) in Colormap::ALL.into_iter().enumerate() {
+        let title = format!("{} colours", map.name());
+        let entry = Entry::new(View, title, Command::Colormap(map)).checked(view.colormap == map);
+        entries.push(if i == 0 { entry.group() } else { entry });
+    }
+    entries.extend([
+        theme("Dark theme", ThemePreference::Dark).group(),
+        theme("Light theme", ThemePreference::Light),
+        theme("Theme of the desktop", ThemePreference::System),
+        Entry::new(View, "Panels", Command::TogglePanels).key(Key::Tab).checked(view.panels).group(),
+        Entry::new(View, "Find a command…", Command::Palette).ctrl(Key::P),
+    ]);
+    entries
+}
+
+fn examples() -> Vec<Entry> {
+    let entry = |example: Example| Entry::new(Menu::Examples, example.name(), Command::OpenExample(example));
+    Example::ALL.map(entry).into()
+}
+
+fn help() -> Vec<Entry> {
+    vec![Entry::new(Menu::Help, "About Meshbrush", Command::About)]
+}

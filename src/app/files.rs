@@ -1,0 +1,247 @@
+//! Files: asked for by a dialog, read and written off the window's thread.
+
+use std::io::Cursor;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, Sender, channel};
+use std::thread;
+
+use eframe::egui::{self, Context, Id, Key, Modal};
+use glam::DVec2;
+
+use super::command::Command;
+use super::session::{Notice, Session};
+use super::theme::{font, tokens};
+use super::widgets::{ActionButton, ButtonKind, TextRow, format};
+use crate::document::{Base, Setting, Settings};
+use crate::geometry::Rect;
+use crate::io::png::{Behind, decode};
+use crate::io::{self, MeshData, MeshFormat};
+use crate::raster::Raster;
+
+/// Width and height in kilometres of the terrain that comes with the program: 403 × 344 pixels of 3″ at 36.6° N.
+const TERRAIN_KM: DVec2 = DVec2::new(30.0, 31.8);
+
+/// The slope of a real terrain as risk.
+pub fn terrain_slope() -> Raster {
+    let picture = include_bytes!("../../assets/jacksboro_slope.png");
+    let bounds = Rect::new(DVec2::ZERO, TERRAIN_KM);
+    decode(Cursor::new(picture), bounds, Behind::Black)
+        .expect("the picture is part of the program: a test opens it")
+}
+
+/// What a file is asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FileRequest {
+    /// A picture to take as risk.
+    OpenImage,
+    /// Where to write the mesh.
+    Export,
+}
+
+impl FileRequest {
+    fn title(self) -> &'static str {
+        match self {
+            Self::OpenImage => "Open picture as risk",
+            Self::Export => "Export mesh",
+        }
+    }
+
+    fn verb(self) -> &'static str {
+        match self {
+            Self::OpenImage => "Open",
+            Self::Export => "Export",
+        }
+    }
+
+    fn hint(self) -> &'static str {
+        match self {
+            Self::OpenImage => "path of a greyscale .png",
+            Self::Export => "path ending in .vtu .msh .obj .node .csv",
+        }
+    }
+
+    fn command(self, path: PathBuf) -> Command {
+        match self {
+            Self::OpenImage => Command::OpenImage(path),
+            Self::Export => Command::Export(path),
+        }
+    }
+}
+
+/// What came of work off the thread.
+enum Outcome {
+    /// Somebody chose a path.
+    Chosen(FileRequest, PathBuf),
+    /// A picture was read.
+    Image(Base),
+    /// Something to tell.
+    Told(Notice),
+}
+
+/// Files being asked for, read and written.
+pub struct Files {
+    sender: Sender<Outcome>,
+    receiver: Receiver<Outcome>,
+    /// The question on the screen, and the path typed so far.
+    asking: Option<(FileRequest, String)>,
+}
+
+impl Default for Files {
+    fn default() -> Self {
+        let (sender, receiver) = channel();
+        Self { sender, receiver, asking: None }
+    }
+}
+
+impl Files {
+    /// Asks for a path: in a dialog of the desktop, where it has one, and in a field here, which always works.
+    pub fn ask(&mut self, request: FileRequest, _ctx: &Context) {
+        self.asking = Some((request, String::new()));
+    }
+
+    /// Reads a picture and makes it the base field's risk.
+    pub fn load_image(&mut self, path: PathBuf, settings: &Settings, ctx: &Context) {
+        let bounds = settings.domain.bounds;
+        self.run(ctx, move || match io::png::read(&path, bounds, Behind::Black) {
+            Ok(raster) => {
+                Outcome::Image(Base::RiskImage { name: file_name(&path), raster: Arc::new(raster) })
+            }
+            Err(error) => failure(error),
+        });
+    }
+
+    /// Writes the mesh on the screen, with h̄ at its nodes.
+    pub fn export(&mut self, path: PathBuf, session: &Session, ctx: &Context) {
+        let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
+        let Some(format) = MeshFormat::from_ending(&ending) else {
+            let endings = MeshFormat::ALL.map(|(ending, _)| format!(".{ending}")).join(" ");
+            let problem = format!("{} has no ending that says what to write; choose one of", path.display());
+            let _ = self.sender.send(failure(format!("{problem} {endings}.")));
+            return;
+        };
+        let (mesh, field) = (session.shared_mesh(), session.follower().field().clone());
+        self.run(ctx, move || {
+            let at = |&node| field.at(mesh.lattice().world_from_lattice(node)).unwrap_or(f64::NAN);
+            let target_diameter: Vec<f64> = mesh.nodes().iter().map(at).collect();
+            let data = MeshData { target_diameter: &target_diameter, quantities: &[] };
+            let triangles = format::count(mesh.triangles().len() as u64);
+            match format.write(&path, &mesh, &data) {
+                Ok(files) => told(format!("{triangles} triangles written to {}.", listed(&files))),
+                Err(error) => failure(format!("{} could not be written: {error}.", path.display())),
+            }
+        });
+    }
+
+    /// Takes in what came of earlier work, and shows the question for a path.
+    pub fn update(&mut self, ctx: &Context, session: &mut Session, commands: &mut Vec<Command>) {
+        while let Ok(outcome) = self.receiver.try_recv() {
+            match outcome {
+                Outcome::Chosen(request, path) => {
+                    self.asking = None;
+                    commands.push(request.command(path));
+                }
+                Outcome::Image(base) => {
+                    commands.extend([Command::Set(Setting::Base(base)), Command::EndGesture])
+                }
+                Outcome::Told(notice) => session.set_notice(Some(notice)),
+            }
+        }
+        if let Some((request, mut path)) = self.asking.take() {
+            match self.question_ui(ctx, request, &mut path) {
+                Answer::Open => self.asking = Some((request, path)),
+                Answer::Given => commands.push(request.command(PathBuf::from(path.trim()))),
+                Answer::Dropped => {}
+            }
+        }
+    }
+
+    fn question_ui(&mut self, ctx: &Context, request: FileRequest, path: &mut String) -> Answer {
+        let shown = Modal::new(Id::unique("path")).show(ctx, |ui| {
+            ui.set_width(440.0);
+            let title = egui::RichText::new(request.title()).font(font::strong()).color(tokens(ui).value);
+            ui.label(title);
+            ui.add_space(8.0);
+            let field = TextRow::formula("Path", path).hint(request.hint()).show(ui);
+            if !field.lost_focus() && path.is_empty() {
+                field.request_focus();
+            }
+            let entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
+            ui.add_space(12.0);
+            let buttons = self.buttons_ui(ui, request, path);
+            if entered && !path.trim().is_empty() { Answer::Given } else { buttons }
+        });
+        if shown.should_close() { Answer::Dropped } else { shown.inner }
+    }
+
+    fn buttons_ui(&mut self, ui: &mut egui::Ui, request: FileRequest, path: &str) -> Answer {
+        ui.horizontal(|ui| {
+            if ui.add(ActionButton::new("Browse…")).clicked() {
+                self.browse(request, ui.ctx());
+            }
+            let right = egui::Layout::right_to_left(egui::Align::Center);
+            ui.with_layout(right, |ui| {
+                let named = !path.trim().is_empty();
+                let go = ActionButton::new(request.verb()).kind(ButtonKind::Main);
+                if ui.add_enabled_ui(named, |ui| ui.add(go)).inner.clicked() {
+                    return Answer::Given;
+                }
+                if ui.add(ActionButton::new("Cancel")).clicked() { Answer::Dropped } else { Answer::Open }
+            })
+            .inner
+        })
+        .inner
+    }
+
+    /// Opens the desktop's own dialog, off the window's thread. Where there is none, nothing happens.
+    fn browse(&mut self, request: FileRequest, ctx: &Context) {
+        let (sender, ctx) = (self.sender.clone(), ctx.clone());
+        thread::spawn(move || {
+            let dialog = rfd::FileDialog::new().set_title(request.title());
+            let path = match request {
+                FileRequest::OpenImage => dialog.add_filter("Pictures", &["png"]).pick_file(),
+                FileRequest::Export => dialog
+                    .add_filter("Meshes", &MeshFormat::ALL.map(|(ending, _)| ending))
+                    .set_file_name("mesh.vtu")
+                    .save_file(),
+            };
+            if let Some(path) = path {
+                // The window may have closed in the meantime.
+                let _ = sender.send(Outcome::Chosen(request, path));
+            }
+            ctx.request_repaint();
+        });
+    }
+
+    fn run(&self, ctx: &Context, work: impl FnOnce() -> Outcome + Send + 'static) {
+        let (sender, ctx) = (self.sender.clone(), ctx.clone());
+        thread::spawn(move || {
+            let _ = sender.send(work());
+            ctx.request_repaint();
+        });
+    }
+}
+
+/// How the question for a path stands.
+#[derive(Clone, Copy, PartialEq)]
+enum Answer {
+    Open,
+    Given,
+    Dropped,
+}
+
+fn told(text: String) -> Outcome {
+    Outcome::Told(Notice { failed: false, text })
+}
+
+fn listed(files: &[PathBuf]) -> String {
+    files.iter().map(|file| file.display().to_string()).collect::<Vec<_>>().join(", ")
+}
+
+fn failure(error: impl std::fmt::Display) -> Outcome {
+    Outcome::Told(Notice { failed: true, text: error.to_string() })
+}
+
+fn file_name(path: &Path) -> String {
+    path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
+}

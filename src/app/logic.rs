@@ -1,0 +1,164 @@
+//! What each command does. A match arm is one call into the room that owns the data.
+
+use eframe::egui::{Context, ThemePreference, ViewportCommand};
+use glam::DVec2;
+
+use super::App;
+use super::command::Command;
+use super::files::FileRequest;
+use super::readout::{Quantity, value_at};
+use super::tools::{PaintKind, Tool, Tools};
+use super::view::FieldOverlay;
+use crate::document::{Document, Example, Settings};
+
+impl App {
+    /// Carries out one command.
+    pub fn execute(&mut self, command: Command, ctx: &Context) {
+        match command {
+            Command::New => self.open("new document", "Untitled", new_document()),
+            Command::OpenExample(example) => self.open_example(example),
+            Command::AskForImage => self.files.ask(FileRequest::OpenImage, ctx),
+            Command::OpenImage(path) => self.files.load_image(path, self.session.document().settings(), ctx),
+            Command::AskForExport => self.files.ask(FileRequest::Export, ctx),
+            Command::Export(path) => self.export(path, ctx),
+            Command::Quit => ctx.send_viewport_cmd(ViewportCommand::Close),
+
+            Command::Undo => drop(self.session.document_mut().undo()),
+            Command::Redo => drop(self.session.document_mut().redo()),
+            Command::ClearPaint => self.session.document_mut().clear_paint(),
+            Command::Set(setting) => self.session.set(setting),
+            Command::EndGesture => self.session.document_mut().end_gesture(),
+            Command::CancelUpdate => self.session.cancel_update(),
+
+            Command::BeginStroke(point) => self.begin_stroke(point),
+            Command::DrawTo(point) => self.draw_to(point),
+            Command::EndStroke => self.session.document_mut().end_stroke(),
+            Command::LineTo(point) => self.line_to(point),
+            Command::Escape => self.escape(),
+
+            Command::Use(tool) => self.tools.tool = tool,
+            Command::Paint(kind) => self.paint(kind),
+            Command::BrushRadius(radius) => self.set_brush_radius(radius),
+            Command::ScaleBrush(factor) => self.set_brush_radius(self.tools.radius * factor),
+            Command::BrushHardness(hardness) => self.tools.hardness = hardness.clamp(0.0, 1.0),
+            Command::BrushStrength(strength) => *self.tools.strength_mut() = strength.clamp(0.01, 1.0),
+            Command::BrushDiameter(diameter) => self.set_brush_diameter(diameter),
+            Command::PickValue(point) => self.pick_value(point),
+
+            Command::Query(point) => self.query(point),
+            Command::QueryTriangle(id) => self.session.query_triangle(id),
+
+            Command::Fit => self.view.camera = None,
+            Command::Zoom(factor) => self.view.zoom(factor),
+            Command::ToggleEdges => self.view.edges = !self.view.edges,
+            Command::Overlay(overlay) => self.toggle_overlay(overlay),
+            Command::Colormap(map) => self.view.colormap = map,
+            Command::Theme(theme) => self.set_theme(theme, ctx),
+            Command::TogglePanels => self.view.panels = !self.view.panels,
+            Command::Palette => self.palette.open(),
+            Command::About => self.about = true,
+        }
+    }
+
+    fn open(&mut self, title: &'static str, name: &str, document: Document) {
+        self.document_name = name.to_owned();
+        self.session.document_mut().replace_with(title, document);
+        self.session.query(None);
+        self.session.set_notice(None);
+        let settings = self.session.document().settings();
+        let extent = settings.domain.bounds.size().max_element();
+        let fitting = Tools::for_domain(extent, settings.transfer.h_min);
+        self.tools.radius = fitting.radius;
+        self.tools.diameter = fitting.diameter;
+        self.view.camera = None;
+    }
+
+    fn open_example(&mut self, example: Example) {
+        self.open("example", example.name(), example.document(super::files::terrain_slope));
+    }
+
+    fn export(&mut self, path: std::path::PathBuf, ctx: &Context) {
+        self.files.export(path, &self.session, ctx);
+    }
+
+    fn begin_stroke(&mut self, point: DVec2) {
+        let brush = self.tools.brush();
+        let document = self.session.document_mut();
+        document.begin_stroke(brush);
+        document.draw_to(point);
+        self.last_painted = Some(point);
+        self.hints.did(self.tools.tool);
+    }
+
+    fn draw_to(&mut self, point: DVec2) {
+        self.session.document_mut().draw_to(point);
+        self.last_painted = Some(point);
+    }
+
+    fn line_to(&mut self, point: DVec2) {
+        self.begin_stroke(self.last_painted.unwrap_or(point));
+        self.draw_to(point);
+        self.session.document_mut().end_stroke();
+    }
+
+    fn escape(&mut self) {
+        if self.session.document().stroke().is_some() {
+            self.session.document_mut().cancel_stroke();
+        } else {
+            self.session.query(None);
+            self.session.set_notice(None);
+        }
+    }
+
+    fn paint(&mut self, kind: PaintKind) {
+        self.tools.kind = kind;
+        self.tools.tool = Tool::Brush;
+    }
+
+    fn set_brush_radius(&mut self, radius: f64) {
+        let extent = self.session.document().settings().domain.bounds.size().max_element();
+        if radius.is_finite() {
+            self.tools.radius = radius.clamp(1e-4 * extent, extent);
+        }
+    }
+
+    fn set_brush_diameter(&mut self, diameter: f64) {
+        let transfer = self.session.document().settings().transfer;
+        if diameter.is_finite() {
+            self.tools.diameter = diameter.clamp(transfer.h_min, transfer.h_max);
+        }
+    }
+
+    /// Risk becomes the brush's strength, a diameter the brush's diameter.
+    fn pick_value(&mut self, point: DVec2) {
+        let value = |quantity| value_at(point, self.session.document(), self.session.follower(), quantity);
+        match self.tools.kind {
+            PaintKind::Risk => {
+                let risk = value(Quantity::Risk);
+                if risk > 0.0 {
+                    self.tools.paint_strength = risk.clamp(0.01, 1.0);
+                }
+            }
+            PaintKind::Diameter => self.set_brush_diameter(value(Quantity::TargetDiameter)),
+        }
+    }
+
+    fn query(&mut self, point: DVec2) {
+        self.session.query(Some(point));
+        self.hints.did(Tool::Query);
+    }
+
+    /// The key of an overlay that is shown takes it away.
+    fn toggle_overlay(&mut self, overlay: FieldOverlay) {
+        self.view.overlay = if self.view.overlay == overlay { FieldOverlay::None } else { overlay };
+    }
+
+    fn set_theme(&mut self, theme: ThemePreference, ctx: &Context) {
+        self.theme = theme;
+        ctx.set_theme(theme);
+    }
+}
+
+fn new_document() -> Document {
+    Document::new(Settings::default(), None).expect("the default settings are sound: a test opens them")
+}

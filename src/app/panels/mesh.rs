@@ -1,0 +1,82 @@
+use eframe::egui::{RichText, Ui};
+
+use super::super::App;
+use super::super::command::Command;
+use super::super::theme::{font, tokens};
+use super::super::widgets::{NumberRow, Section, SliderRow, format, segmented, value_row};
+use crate::document::Setting;
+use crate::field::Rule;
+use crate::geometry::Rect;
+
+/// Triangles in a million.
+const MILLION: f64 = 1e6;
+
+impl App {
+    pub(super) fn mesh_ui(&mut self, ui: &mut Ui) {
+        Section::new("Mesh").closed().show(ui, |ui| {
+            self.spacing_ui(ui);
+            self.rule_ui(ui);
+            self.budget_ui(ui);
+            self.bounds_ui(ui);
+            self.inside_ui(ui);
+        });
+    }
+
+    fn spacing_ui(&mut self, ui: &mut Ui) {
+        let settings = self.session.document().settings();
+        let extent = settings.domain.bounds.size().max_element();
+        let mut spacing = settings.spacing;
+        let help = "Side of a coarse cell. Cells are made a little smaller where the domain asks for it.";
+        let range = extent / 250.0..=extent;
+        let response = SliderRow::new("Spacing δ", &mut spacing, range).logarithmic().help(help).show(ui);
+        if response.changed() {
+            self.commands.push(Command::Set(Setting::Spacing(spacing)));
+        }
+        self.settle(&response);
+        let [columns, rows] = self.session.mesh().lattice().cells();
+        value_row(ui, "Coarse grid", &format!("{columns} × {rows}"));
+    }
+
+    fn rule_ui(&mut self, ui: &mut Ui) {
+        let mut rule = self.session.document().settings().rule;
+        let choices = [(Rule::Area, "Area rule"), (Rule::Vertex, "Vertex rule")];
+        if segmented(ui, "Refinement rule", &mut rule, &choices).changed() {
+            self.commands.extend([Command::Set(Setting::Rule(rule)), Command::EndGesture]);
+        }
+        let words = match rule {
+            Rule::Area => "A triangle obeys h̄ everywhere inside it: no stroke is missed.",
+            Rule::Vertex => {
+                "The report's rule: h̄ counts at the three corners only. A stroke that passes between the nodes leaves \
+                 no trace, and every edit makes the mesh anew."
+            }
+        };
+        ui.label(RichText::new(words).font(font::caption()).color(tokens(ui).faint));
+        ui.add_space(4.0);
+    }
+
+    fn budget_ui(&mut self, ui: &mut Ui) {
+        let mut millions = self.session.document().settings().max_triangles as f64 / MILLION;
+        let help = "Most triangles, in millions. An edit that would need more leaves the mesh as it was.";
+        let row = NumberRow::new("Budget", &mut millions).range(0.001..=100.0).unit("M").help(help);
+        if row.show(ui).changed() {
+            let max_triangles = (millions * MILLION).round() as usize;
+            self.commands.extend([Command::Set(Setting::MaxTriangles(max_triangles)), Command::EndGesture]);
+        }
+        let bytes = self.session.mesh().triangles().len() * 32 + self.session.mesh().nodes().len() * 8;
+        value_row(ui, "Memory", &format!("{} MB", format::fixed(bytes as f64 / MILLION, 1)));
+    }
+
+    fn bounds_ui(&mut self, ui: &mut Ui) {
+        let bounds = self.session.document().settings().domain.bounds;
+        let mut edges = [bounds.min.x, bounds.min.y, bounds.max.x, bounds.max.y];
+        let mut changed = false;
+        for (name, value) in ["Left", "Bottom", "Right", "Top"].into_iter().zip(&mut edges) {
+            changed |= NumberRow::new(name, value).show(ui).changed();
+        }
+        if changed {
+            let [left, bottom, right, top] = edges;
+            let bounds = Rect::new(glam::dvec2(left, bottom), glam::dvec2(right, top));
+            self.commands.extend([Command::Set(Setting::Bounds(bounds)), Command::EndGesture]);
+        }
+    }
+}

@@ -1,0 +1,70 @@
+//! The panels round the canvas. A panel reads the app and sends commands; it changes nothing itself.
+
+mod brush;
+mod field;
+mod inspector;
+mod levels;
+mod mesh;
+mod menu;
+mod status;
+mod tools;
+mod transfer;
+mod view;
+
+use eframe::egui::{self, Frame, Margin, Panel, ScrollArea, Ui};
+
+pub use field::FieldTexts;
+
+use super::App;
+use super::theme::{metrics, tokens};
+
+impl App {
+    /// All panels, from the rim inwards.
+    pub(super) fn panels_ui(&mut self, ui: &mut Ui) {
+        let t = *tokens(ui);
+        let bar = Frame::new().fill(t.window).inner_margin(Margin::symmetric(12, 2));
+        Panel::top("menu").frame(bar).exact_size(metrics::MENU_BAR).show(ui, |ui| self.menu_ui(ui));
+        Panel::bottom("status").frame(bar).exact_size(metrics::STATUS_BAR).show(ui, |ui| self.status_ui(ui));
+        if self.view.panels {
+            let strip = Frame::new().fill(t.panel).inner_margin(Margin::symmetric(6, 10));
+            let width = metrics::TOOL + 12.0;
+            Panel::left("tools")
+                .frame(strip)
+                .resizable(false)
+                .exact_size(width)
+                .show(ui, |ui| self.tools_ui(ui));
+            let side =
+                Frame::new().fill(t.panel).inner_margin(Margin::symmetric(metrics::PANEL_MARGIN as i8, 0));
+            let width = metrics::PANEL_WIDTH;
+            Panel::right("side")
+                .frame(side)
+                .resizable(false)
+                .exact_size(width)
+                .show(ui, |ui| self.side_ui(ui));
+        }
+    }
+
+    fn side_ui(&mut self, ui: &mut Ui) {
+        self.hovered_neighbour = None;
+        self.view.lone_level = None;
+        ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+            if self.tools.has_ring() {
+                self.brush_ui(ui);
+            }
+            self.transfer_ui(ui);
+            self.levels_ui(ui);
+            self.inspector_ui(ui);
+            self.field_ui(ui);
+            self.mesh_ui(ui);
+            self.view_ui(ui);
+            ui.add_space(metrics::PANEL_MARGIN);
+        });
+    }
+
+    /// Ends the gesture of a setting when the control was let go.
+    fn settle(&mut self, response: &egui::Response) {
+        if super::widgets::edit_done(response) {
+            self.commands.push(super::command::Command::EndGesture);
+        }
+    }
+}

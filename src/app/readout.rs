@@ -1,0 +1,108 @@
+//! What the query tool reads out of a mesh.
+
+use glam::DVec2;
+
+use crate::document::{Base, Document, Follower};
+use crate::field::Rule;
+use crate::mesh::{Location, Mesh, Neighbour, NodeId, Orientation, TriangleId, barycentric, interpolate};
+
+/// A quantity known at every point, and interpolated from the nodes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quantity {
+    /// h̄, in world units.
+    TargetDiameter,
+    /// Risk, 0 to 1: painted or that of the base, whichever is higher.
+    Risk,
+}
+
+/// Everything about one point and the triangle round it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Readout {
+    /// The point in world units.
+    pub point: DVec2,
+    /// Where it lies.
+    pub location: Location,
+    /// The triangle round it, if any.
+    pub triangle: Option<TriangleReadout>,
+}
+
+/// A triangle, and what interpolation makes of a quantity in it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TriangleReadout {
+    /// Its id.
+    pub id: TriangleId,
+    /// Its level.
+    pub level: u32,
+    /// Which way its vertices run.
+    pub orientation: Orientation,
+    /// Its bisection edge in world units.
+    pub diameter: f64,
+    /// Ids and world coordinates, in the triangle's order.
+    pub vertices: [(NodeId, DVec2); 3],
+    /// The bisection neighbour first, anticlockwise.
+    pub neighbours: [Neighbour; 3],
+    /// ζ₁ ζ₂ ζ₃ of the point.
+    pub zeta: [f64; 3],
+    /// The quantity at the vertices, in their order.
+    pub at_vertices: [f64; 3],
+    /// The quantity interpolated at the point.
+    pub interpolated: f64,
+    /// The quantity at the point itself.
+    pub exact: f64,
+}
+
+impl Readout {
+    /// Reads out the point `point`, in world units.
+    pub fn at(point: DVec2, document: &Document, follower: &Follower, quantity: Quantity) -> Self {
+        let mesh = follower.mesh();
+        let location = mesh.locate(point);
+        let value = |p: DVec2| value_at(p, document, follower, quantity);
+        let triangle = location.triangle().map(|id| read_triangle(mesh, id, point, value));
+        Self { point, location, triangle }
+    }
+}
+
+fn read_triangle(mesh: &Mesh, id: TriangleId, point: DVec2, value: impl Fn(DVec2) -> f64) -> TriangleReadout {
+    let triangle = mesh.triangle(id);
+    let zeta = barycentric(mesh.corners(id), mesh.lattice().lattice_from_world(point));
+    let vertices = triangle.vertices.map(|node| (node, mesh.world(node)));
+    let at_vertices = vertices.map(|(_, place)| value(place));
+    TriangleReadout {
+        id,
+        level: triangle.level(),
+        orientation: triangle.orientation(),
+        diameter: mesh.diameter(triangle.level()),
+        vertices,
+        neighbours: triangle.neighbours,
+        zeta,
+        at_vertices,
+        interpolated: interpolate(zeta, at_vertices),
+        exact: value(point),
+    }
+}
+
+/// The quantity at a point in world units; NaN where it is not known.
+pub fn value_at(point: DVec2, document: &Document, follower: &Follower, quantity: Quantity) -> f64 {
+    match quantity {
+        Quantity::TargetDiameter => target_at(point, document, follower),
+        Quantity::Risk => risk_at(point, document),
+    }
+}
+
+/// h̄ as the rule in force sees it: by pixel, or at the very point.
+fn target_at(point: DVec2, document: &Document, follower: &Follower) -> f64 {
+    match follower.settings().rule {
+        Rule::Area => follower.field().at(point).unwrap_or(f64::NAN),
+        Rule::Vertex => follower.field().target_at_node(document.layers().as_paint(), point),
+    }
+}
+
+fn risk_at(point: DVec2, document: &Document) -> f64 {
+    let painted = document.layers().risk.sample(point).map_or(f64::NAN, f64::from);
+    match &document.settings().base {
+        Base::RiskImage { raster, .. } => {
+            raster.sample(point).map_or(painted, |risk| painted.max(f64::from(risk)))
+        }
+        Base::Constant(_) | Base::Formula(_) => painted,
+    }
+}

@@ -1,0 +1,181 @@
+//! The document, the mesh that follows it, and the point that was asked about.
+
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use glam::DVec2;
+
+use super::readout::{Quantity, Readout};
+use crate::document::{Document, FollowError, Follower, Setting, Stage};
+use crate::mesh::{Mesh, TriangleId};
+
+/// Pixels or triangles in one slice of work: well below a millisecond.
+const SLICE: usize = 2048;
+
+/// A message that stays on the canvas until it is dismissed.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Notice {
+    /// Whether something failed, or is just to be known.
+    pub failed: bool,
+    /// A sentence.
+    pub text: String,
+}
+
+/// What the window works on.
+pub struct Session {
+    document: Document,
+    follower: Follower,
+    queried: Option<DVec2>,
+    notice: Option<Notice>,
+    level_counts: (u64, Vec<usize>),
+    work: Duration,
+    last_update: Option<Duration>,
+}
+
+impl Session {
+    /// Opens a document, and makes its mesh in one go.
+    ///
+    /// # Errors
+    /// When it has none.
+    pub fn new(mut document: Document) -> Result<Self, FollowError> {
+        let began = Instant::now();
+        let follower = Follower::new(&mut document)?;
+        let level_counts = (follower.generation(), follower.mesh().level_counts());
+        Ok(Self {
+            document,
+            follower,
+            queried: None,
+            notice: None,
+            level_counts,
+            work: Duration::ZERO,
+            last_update: Some(began.elapsed()),
+        })
+    }
+
+    /// The document.
+    pub fn document(&self) -> &Document {
+        &self.document
+    }
+
+    /// The document, to be edited.
+    pub fn document_mut(&mut self) -> &mut Document {
+        &mut self.document
+    }
+
+    /// Field and mesh as far as they are in step.
+    pub fn follower(&self) -> &Follower {
+        &self.follower
+    }
+
+    /// The mesh on the screen.
+    pub fn mesh(&self) -> &Mesh {
+        self.follower.mesh()
+    }
+
+    /// The mesh on the screen, for work that outlasts a frame.
+    pub fn shared_mesh(&self) -> Arc<Mesh> {
+        self.follower.shared_mesh()
+    }
+
+    /// Triangles per level of the mesh on the screen.
+    pub fn level_counts(&self) -> &[usize] {
+        &self.level_counts.1
+    }
+
+    /// Time that the last whole update took, all slices together.
+    pub fn last_update(&self) -> Option<Duration> {
+        self.last_update
+    }
+
+    /// What is left to do.
+    pub fn stage(&self) -> Stage {
+        self.follower.stage()
+    }
+
+    /// The message to be shown.
+    pub fn notice(&self) -> Option<&Notice> {
+        self.notice.as_ref()
+    }
+
+    /// Shows a message, or none.
+    pub fn set_notice(&mut self, notice: Option<Notice>) {
+        self.notice = notice;
+    }
+
+    /// Shows a failure.
+    pub fn report(&mut self, failure: impl std::fmt::Display) {
+        self.notice = Some(Notice { failed: true, text: failure.to_string() });
+    }
+
+    /// Changes a setting; what cannot be met is reported, and the document stays as it was.
+    pub fn set(&mut self, setting: Setting) {
+        match self.document.set(setting) {
+            Ok(()) => self.notice = None,
+            Err(error) => self.report(error),
+        }
+    }
+
+    /// Gives up the update under way. The document keeps what was edited; the notice says that the mesh lags behind.
+    pub fn cancel_update(&mut self) {
+        self.follower.cancel(&self.document);
+        let text =
+            "The mesh was not updated: it still shows an earlier state. The next edit brings it up to date.";
+        self.notice = Some(Notice { failed: false, text: text.into() });
+    }
+
+    /// Asks about a point in world units, or about none.
+    pub fn query(&mut self, point: Option<DVec2>) {
+        self.queried = point;
+    }
+
+    /// Asks about the middle of a triangle.
+    pub fn query_triangle(&mut self, id: TriangleId) {
+        let [a, b, c] = self.mesh().world_corners(id);
+        self.queried = Some((a + b + c) / 3.0);
+    }
+
+    /// What is to be said of the queried point, in the present mesh.
+    pub fn readout(&self, quantity: Quantity) -> Option<Readout> {
+        self.queried.map(|point| Readout::at(point, &self.document, &self.follower, quantity))
+    }
+
+    /// Brings field and mesh nearer to the document until `deadline`, and tells whether work is left.
+    ///
+    /// What turns out to be impossible is reported. A setting that caused it is taken back; paint stays, to be undone or
+    /// thinned out by whoever painted it.
+    pub fn follow(&mut self, deadline: Instant) -> bool {
+        let began = Instant::now();
+        let generation = self.follower.generation();
+        let left = loop {
+            match self.follower.advance(&mut self.document, SLICE) {
+                Ok(Stage::InStep) => break false,
+                Ok(_) if Instant::now() >= deadline => break true,
+                Ok(_) => {}
+                Err(error) => {
+                    self.take_back(&error);
+                    break true;
+                }
+            }
+        };
+        self.note_time(began.elapsed(), generation, left);
+        left
+    }
+
+    fn take_back(&mut self, error: &FollowError) {
+        self.report(error);
+        if self.document.settings() != self.follower.settings() {
+            self.document.reject_last();
+        }
+    }
+
+    fn note_time(&mut self, spent: Duration, generation_before: u64, left: bool) {
+        let shown = self.follower.generation();
+        if shown != generation_before {
+            self.last_update = Some(self.work + spent);
+            self.work = Duration::ZERO;
+            self.level_counts = (shown, self.follower.mesh().level_counts());
+        } else {
+            self.work = if left { self.work + spent } else { Duration::ZERO };
+        }
+    }
+}
