@@ -1,6 +1,6 @@
 //! From keys to commands.
 
-use eframe::egui::{Context, Key, KeyboardShortcut, Modifiers, RawInput};
+use eframe::egui::{Context, Key, KeyboardShortcut, Modifiers, Popup, RawInput};
 
 use super::App;
 use super::catalog::catalog;
@@ -8,7 +8,8 @@ use super::catalog::catalog;
 impl App {
     /// Sends the commands whose shortcuts were pressed, unless somebody is typing.
     pub(super) fn follow_keys(&mut self, ctx: &Context) {
-        if self.palette.is_open() {
+        // A menu or a dialog takes Escape and Enter itself.
+        if self.palette.is_open() || Popup::is_any_open(ctx) {
             return;
         }
         let typing = ctx.egui_wants_keyboard_input();

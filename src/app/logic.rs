@@ -15,7 +15,7 @@ impl App {
     /// Carries out one command.
     pub fn execute(&mut self, command: Command, ctx: &Context) {
         match command {
-            Command::New => self.open("new document", "Untitled", new_document()),
+            Command::New => self.open("new document", new_document()),
             Command::OpenExample(example) => self.open_example(example),
             Command::AskForImage => self.files.ask(FileRequest::OpenImage, ctx),
             Command::OpenImage(path) => self.files.load_image(path, self.session.document().settings(), ctx),
@@ -60,9 +60,9 @@ impl App {
         }
     }
 
-    fn open(&mut self, title: &'static str, name: &str, document: Document) {
-        self.document_name = name.to_owned();
+    fn open(&mut self, title: &'static str, document: Document) {
         self.session.document_mut().replace_with(title, document);
+        self.opened_revision = self.session.document().revision();
         self.session.query(None);
         self.session.set_notice(None);
         let settings = self.session.document().settings();
@@ -74,7 +74,7 @@ impl App {
     }
 
     fn open_example(&mut self, example: Example) {
-        self.open("example", example.name(), example.document(super::files::terrain_slope));
+        self.open("example", example.document(super::files::terrain_slope));
     }
 
     fn export(&mut self, path: std::path::PathBuf, ctx: &Context) {

@@ -51,7 +51,8 @@ const SMALLEST_SIZE: [f32; 2] = [900.0, 600.0];
 /// The program in its window.
 pub struct App {
     session: Session,
-    document_name: String,
+    /// The document's revision when it was opened: it is edited once it has another.
+    opened_revision: u64,
     tools: Tools,
     view: View,
     theme: ThemePreference,
@@ -87,8 +88,8 @@ impl App {
         let tools = Tools::for_domain(extent, settings.transfer.h_min);
         let gpu = render_state.map(CanvasGpu::new).transpose().map_err(|error| error.to_string())?;
         Ok(Self {
+            opened_revision: session.document().revision(),
             session,
-            document_name: Example::ALL[0].name().to_owned(),
             tools,
             view: View::default(),
             theme,
@@ -129,8 +130,9 @@ impl App {
     }
 
     fn title(&self) -> String {
-        let edited = if self.session.document().history().is_empty() { "" } else { " — edited" };
-        format!("{}{edited}", self.document_name)
+        let document = self.session.document();
+        let edited = if document.revision() == self.opened_revision { "" } else { " — edited" };
+        format!("{}{edited}", document.settings().name)
     }
 
     fn palette_ui(&mut self, ctx: &Context) {

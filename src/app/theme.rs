@@ -11,6 +11,8 @@ use eframe::egui::{
 use egui::epaint::text::{FontData, FontDefinitions, FontTweak};
 use egui::style::{HandleShape, ScrollStyle, WidgetVisuals, Widgets};
 
+use crate::colormap::Ground;
+
 /// Colours by role. [`DARK`] and [`LIGHT`] are the two sets.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tokens {
@@ -73,7 +75,7 @@ pub struct Tokens {
 /// Light text on dark ground; the default.
 pub const DARK: Tokens = Tokens {
     dark: true,
-    canvas: Color32::from_rgb(0x0b, 0x0d, 0x10),
+    canvas: opaque(Ground::Dark.canvas()),
     window: Color32::from_rgb(0x0f, 0x11, 0x15),
     panel: Color32::from_rgb(0x15, 0x18, 0x1e),
     popup: Color32::from_rgb(0x1a, 0x1e, 0x25),
@@ -92,13 +94,9 @@ pub const DARK: Tokens = Tokens {
     on_selected: Color32::WHITE,
     danger: Color32::from_rgb(0xff, 0x7b, 0x72),
     danger_fill: Color32::from_rgb(0xb8, 0x32, 0x32),
-    neighbours: [
-        Color32::from_rgb(0xf4, 0xb9, 0x42),
-        Color32::from_rgb(0x5a, 0xd1, 0xc0),
-        Color32::from_rgb(0xe2, 0x6f, 0xb0),
-    ],
+    neighbours: neighbours(Ground::Dark),
     pick: Color32::WHITE,
-    level_zero: Color32::from_rgb(0x1d, 0x21, 0x2b),
+    level_zero: opaque(Ground::Dark.level_0()),
     thumb: Color32::WHITE,
     thumb_edge: Color32::from_rgba_premultiplied(0, 0, 0, 0x60),
     scrim: Color32::from_rgba_premultiplied(0, 0, 0, 0x8c),
@@ -108,7 +106,7 @@ pub const DARK: Tokens = Tokens {
 /// Dark text on light ground, in the same roles.
 pub const LIGHT: Tokens = Tokens {
     dark: false,
-    canvas: Color32::from_rgb(0xe3, 0xe6, 0xeb),
+    canvas: opaque(Ground::Light.canvas()),
     window: Color32::from_rgb(0xf0, 0xf2, 0xf5),
     panel: Color32::from_rgb(0xfa, 0xfb, 0xfc),
     popup: Color32::from_rgb(0xff, 0xff, 0xff),
@@ -127,18 +125,23 @@ pub const LIGHT: Tokens = Tokens {
     on_selected: Color32::WHITE,
     danger: Color32::from_rgb(0xb4, 0x26, 0x26),
     danger_fill: Color32::from_rgb(0xb8, 0x32, 0x32),
-    neighbours: [
-        Color32::from_rgb(0xb3, 0x74, 0x00),
-        Color32::from_rgb(0x00, 0x86, 0x75),
-        Color32::from_rgb(0xb8, 0x36, 0x80),
-    ],
+    neighbours: neighbours(Ground::Light),
     pick: Color32::from_rgb(0x0f, 0x14, 0x1c),
-    level_zero: Color32::from_rgb(0xd3, 0xd8, 0xe0),
+    level_zero: opaque(Ground::Light.level_0()),
     thumb: Color32::WHITE,
     thumb_edge: Color32::from_rgb(0x9a, 0xa4, 0xb4),
     scrim: Color32::from_rgba_premultiplied(0x0a, 0x0d, 0x13, 0x66),
     shadow: Color32::from_rgba_premultiplied(0x04, 0x05, 0x07, 0x2c),
 };
+
+const fn opaque([r, g, b]: [u8; 3]) -> Color32 {
+    Color32::from_rgb(r, g, b)
+}
+
+const fn neighbours(ground: Ground) -> [Color32; 3] {
+    let [first, second, third] = ground.neighbours();
+    [opaque(first), opaque(second), opaque(third)]
+}
 
 impl Tokens {
     /// The set of a theme.

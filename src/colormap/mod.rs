@@ -7,15 +7,6 @@ mod tables;
 use std::str::FromStr;
 use std::sync::LazyLock;
 
-/// Outline of the bisection neighbour, neighbour 1.
-pub const NEIGHBOUR_1: [u8; 3] = [0xf4, 0xb9, 0x42];
-/// Outline of neighbour 2.
-pub const NEIGHBOUR_2: [u8; 3] = [0x5a, 0xd1, 0xc0];
-/// Outline of neighbour 3.
-pub const NEIGHBOUR_3: [u8; 3] = [0xe2, 0x6f, 0xb0];
-/// Outlines of the three neighbours in the report's order, the bisection neighbour first.
-pub const NEIGHBOURS: [[u8; 3]; 3] = [NEIGHBOUR_1, NEIGHBOUR_2, NEIGHBOUR_3];
-
 /// A table of colours from 0 to 1.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Colormap {
@@ -127,18 +118,26 @@ pub enum Ground {
 
 impl Ground {
     /// The canvas itself.
-    pub fn canvas(self) -> [u8; 3] {
+    pub const fn canvas(self) -> [u8; 3] {
         match self {
             Self::Dark => [0x0b, 0x0d, 0x10],
-            Self::Light => [0xfa, 0xfb, 0xfc],
+            Self::Light => [0xf4, 0xf5, 0xf7],
         }
     }
 
     /// Triangles of level 0: close to the canvas, so that refinement stands out.
-    pub fn level_0(self) -> [u8; 3] {
+    pub const fn level_0(self) -> [u8; 3] {
         match self {
             Self::Dark => [0x1d, 0x21, 0x2b],
             Self::Light => [0xe9, 0xec, 0xf1],
+        }
+    }
+
+    /// The three neighbours of a triangle, the bisection neighbour first: the same on the canvas, in chips and in pins.
+    pub const fn neighbours(self) -> [[u8; 3]; 3] {
+        match self {
+            Self::Dark => [[0xf4, 0xb9, 0x42], [0x5a, 0xd1, 0xc0], [0xe2, 0x6f, 0xb0]],
+            Self::Light => [[0xb3, 0x74, 0x00], [0x00, 0x86, 0x75], [0xb8, 0x36, 0x80]],
         }
     }
 }
@@ -378,8 +377,9 @@ mod tests {
 
     #[test]
     fn neighbours_differ_from_each_other_for_every_eye() {
-        for (i, a) in NEIGHBOURS.iter().enumerate() {
-            for b in &NEIGHBOURS[..i] {
+        let neighbours = Ground::Dark.neighbours();
+        for (i, a) in neighbours.iter().enumerate() {
+            for b in &neighbours[..i] {
                 let (a, b) = (linear_rgb(*a), linear_rgb(*b));
                 assert!(difference(a, b) > 40.0);
                 let seen = difference(deuteranopia(a), deuteranopia(b));

@@ -63,6 +63,7 @@ fn document(settings: Settings) -> Document {
 fn diamond() -> Settings {
     let formula = Formula::parse("if(abs(x) + abs(y) < 8, 0.25, 20)").expect("a sound formula");
     Settings {
+        name: Example::Diamond.name().into(),
         domain: Domain::rectangle(Rect::around(DVec2::ZERO, 10.0)),
         spacing: 1.0,
         transfer: Transfer { h_min: 0.02, h_max: 20.0, shape: 1.0 },
@@ -75,9 +76,10 @@ fn diamond() -> Settings {
 
 fn terrain(slope: Raster) -> Settings {
     Settings {
+        name: Example::Terrain.name().into(),
         domain: Domain::rectangle(slope.bounds()),
         spacing: slope.bounds().size().max_element() / 24.0,
-        transfer: Transfer { h_min: 0.05, h_max: 2.0, shape: 0.8 },
+        transfer: Transfer { h_min: 0.05, h_max: 2.0, shape: 1.6 },
         base: Base::RiskImage { name: "jacksboro_slope.png".into(), raster: Arc::new(slope) },
         rule: Rule::Area,
         resolution: 1024,
@@ -94,7 +96,7 @@ const SITES: [(DVec2, f64, f64, f64); 4] = [
 ];
 
 fn threats() -> Document {
-    let mut document = document(Settings::default());
+    let mut document = document(Settings { name: Example::Threats.name().into(), ..Settings::default() });
     for (place, radius, hardness, strength) in SITES {
         document.begin_stroke(Brush { medium: Medium::Risk, radius, hardness, strength });
         document.draw_to(place);
@@ -119,6 +121,7 @@ impl Default for Settings {
     /// The unit square, 24 coarse cells a side, nothing asked for but what is painted.
     fn default() -> Self {
         Self {
+            name: "Untitled".into(),
             domain: Domain::rectangle(Rect::UNIT),
             spacing: 1.0 / 24.0,
             transfer: Transfer { h_min: 0.0024, h_max: 0.2, shape: 1.0 },

@@ -9,6 +9,8 @@ use crate::raster::{MAX_SIDE, Raster};
 /// Everything about a document that is not paint.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
+    /// What the document is called.
+    pub name: String,
     /// Ω.
     pub domain: Domain,
     /// Largest side δ̄ of a coarse cell, in world units.

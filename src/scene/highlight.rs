@@ -1,11 +1,8 @@
 use glam::{DVec2, dvec2};
 
 use super::Camera;
+use crate::colormap::Ground;
 use crate::mesh::{Mesh, TriangleId};
-
-/// Colours of the three neighbours, the bisection neighbour first: the same on the canvas, in chips and in pins.
-pub const NEIGHBOUR_COLORS: [[u8; 4]; 3] =
-    [[0xf4, 0xb9, 0x42, 0xff], [0x5a, 0xd1, 0xc0, 0xff], [0xe2, 0x6f, 0xb0, 0xff]];
 
 const WHITE: [u8; 4] = [0xff; 4];
 /// Outlines are cut off this far outside the canvas, where no line width reaches.
@@ -50,6 +47,7 @@ pub fn highlight_outlines(
     mesh: &Mesh,
     camera: &Camera,
     highlights: &Highlights,
+    ground: Ground,
     px_per_point: f32,
 ) -> Vec<Outline> {
     let mut outlines = Vec::new();
@@ -58,7 +56,8 @@ pub fn highlight_outlines(
             outlines.push(Outline { polygon, fill, line, line_width_px: width * px_per_point });
         }
     };
-    for (id, color) in highlights.neighbours.into_iter().zip(NEIGHBOUR_COLORS) {
+    for (id, [r, g, b]) in highlights.neighbours.into_iter().zip(ground.neighbours()) {
+        let color = [r, g, b, 0xff];
         draw(id, translucent(color, 0x60), color, 1.5);
     }
     if highlights.hovered != highlights.selected {
@@ -125,10 +124,10 @@ mod tests {
         let mesh = mesh();
         let camera = Camera::fit(mesh.lattice(), Rect::UNIT, [100, 100], 0.0);
         let highlights = Highlights::around(&mesh, TriangleId::from_index(0));
-        let outlines = highlight_outlines(&mesh, &camera, &highlights, 1.0);
+        let outlines = highlight_outlines(&mesh, &camera, &highlights, Ground::Dark, 1.0);
         // Two sides of the first triangle are on the boundary; the selected one has a halo.
         assert_eq!(outlines.len(), 3);
-        assert_eq!(outlines[0].line, NEIGHBOUR_COLORS[0]);
+        assert_eq!(outlines[0].line[..3], Ground::Dark.neighbours()[0]);
         let white = outlines.last().unwrap();
         assert_eq!((white.line, white.line_width_px), (WHITE, 2.0));
         for corner in [[0.0, 50.0], [0.0, 100.0], [50.0, 100.0]] {
@@ -153,6 +152,6 @@ mod tests {
         let camera = Camera::fit(mesh.lattice(), Rect::UNIT, [100, 100], 0.0);
         let highlights =
             Highlights { hovered: Some(TriangleId::from_index(1_000_000)), ..Highlights::default() };
-        assert_eq!(highlight_outlines(&mesh, &camera, &highlights, 1.0), []);
+        assert_eq!(highlight_outlines(&mesh, &camera, &highlights, Ground::Dark, 1.0), []);
     }
 }

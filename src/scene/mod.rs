@@ -10,6 +10,6 @@ mod overlay;
 mod style;
 
 pub use camera::Camera;
-pub use highlight::{Highlights, NEIGHBOUR_COLORS, Outline, highlight_outlines};
+pub use highlight::{Highlights, Outline, highlight_outlines};
 pub use overlay::{Overlay, TexelMap};
 pub use style::{LEVELS, LevelColors, LevelPaint, Style};

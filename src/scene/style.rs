@@ -1,10 +1,15 @@
 use super::Camera;
+use crate::colormap::Ground;
 
 /// Levels that a mesh can have: the lattice ends before.
 pub const LEVELS: usize = 64;
 
 /// The colour of each level, from 0: red, green, blue as sRGB bytes. The fourth byte is not used, fills are opaque.
 pub type LevelColors = [[u8; 4]; LEVELS];
+
+fn opaque([r, g, b]: [u8; 3]) -> [u8; 4] {
+    [r, g, b, 0xff]
+}
 
 /// How a mesh looks. Colours are sRGB bytes.
 #[derive(Clone, Debug, PartialEq)]
@@ -35,7 +40,7 @@ impl Style {
     pub fn dark(level_colors: LevelColors) -> Self {
         Self {
             level_colors,
-            ground: [0x0b, 0x0d, 0x10, 0xff],
+            ground: opaque(Ground::Dark.canvas()),
             edges: true,
             edge_width_px: 1.0,
             edge_fade_px: [3.0, 8.0],
@@ -46,7 +51,7 @@ impl Style {
 
     /// The look on a light ground.
     pub fn light(level_colors: LevelColors) -> Self {
-        Self { ground: [0xf4, 0xf5, 0xf7, 0xff], edge_shade: 0.72, ..Self::dark(level_colors) }
+        Self { ground: opaque(Ground::Light.canvas()), edge_shade: 0.72, ..Self::dark(level_colors) }
     }
 
     /// The same look on a screen with `px_per_point` pixels for a point: edges keep their width to the eye.

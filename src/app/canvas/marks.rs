@@ -4,8 +4,9 @@ use eframe::egui::{Align2, Color32, Painter, Pos2, Rect, Shape, Stroke, pos2, ve
 
 use super::super::theme::font;
 use super::super::tools::Tools;
+use crate::colormap::Ground;
 use crate::mesh::{Mesh, TriangleId};
-use crate::scene::{Camera, Highlights, NEIGHBOUR_COLORS, Outline, highlight_outlines};
+use crate::scene::{Camera, Highlights, Outline, highlight_outlines};
 
 /// Side of a triangle in points below which its number would not fit.
 const SMALLEST_NUMBERED: f64 = 26.0;
@@ -17,14 +18,21 @@ pub fn paint_highlights(
     mesh: &Mesh,
     camera: &Camera,
     highlights: &Highlights,
+    ground: Ground,
 ) {
     let px_per_point = painter.pixels_per_point();
-    for outline in highlight_outlines(mesh, camera, highlights, px_per_point) {
+    for outline in highlight_outlines(mesh, camera, highlights, ground, px_per_point) {
         painter.add(outline_shape(&outline, rect, px_per_point));
     }
-    for (i, neighbour) in highlights.neighbours.iter().enumerate() {
-        if let Some(id) = neighbour {
-            paint_number(painter, rect, mesh, camera, *id, i);
+    for (i, (neighbour, [r, g, b])) in highlights.neighbours.iter().zip(Ground::Dark.neighbours()).enumerate()
+    {
+        if let Some(id) = *neighbour
+            && let Some(at) = middle_with_room(painter, rect, mesh, camera, id)
+        {
+            // On a dark disc in either theme.
+            painter.circle_filled(at, 9.0, Color32::from_black_alpha(150));
+            let number = (i + 1).to_string();
+            painter.text(at, Align2::CENTER_CENTER, number, font::strong(), Color32::from_rgb(r, g, b));
         }
     }
 }
@@ -39,19 +47,21 @@ fn color([r, g, b, a]: [u8; 4]) -> Color32 {
     Color32::from_rgba_unmultiplied(r, g, b, a)
 }
 
-/// The neighbour's number in its middle, 1 for the bisection neighbour, where there is room.
-fn paint_number(painter: &Painter, rect: Rect, mesh: &Mesh, camera: &Camera, id: TriangleId, which: usize) {
+/// The middle of a triangle, where there is room for a number.
+fn middle_with_room(
+    painter: &Painter,
+    rect: Rect,
+    mesh: &Mesh,
+    camera: &Camera,
+    id: TriangleId,
+) -> Option<Pos2> {
     let px_per_point = f64::from(painter.pixels_per_point());
     let leg = mesh.diameter(mesh.triangle(id).level()) / std::f64::consts::SQRT_2;
     if leg * camera.px_per_world() / px_per_point < SMALLEST_NUMBERED {
-        return;
+        return None;
     }
     let [a, b, c] = mesh.corners(id).map(|corner| camera.screen_from_lattice(corner));
-    let middle = (a + b + c) / (3.0 * px_per_point);
-    let at = rect.min + vec2(middle.x as f32, middle.y as f32);
-    painter.circle_filled(at, 9.0, Color32::from_black_alpha(150));
-    let ink = color(NEIGHBOUR_COLORS[which]);
-    painter.text(at, Align2::CENTER_CENTER, format!("{}", which + 1), font::strong(), ink);
+    Some(point_from_px(rect, (a + b + c) / 3.0, px_per_point as f32))
 }
 
 /// A small dot with a dark rim where the queried point is.

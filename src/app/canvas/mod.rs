@@ -122,7 +122,7 @@ impl App {
         let hovered = self.pointer_world.filter(|_| hovering).and_then(|p| mesh.locate(p).triangle());
         let mut highlights = selected.map_or(Highlights::default(), |id| Highlights::around(mesh, id));
         highlights.hovered = hovered.or(self.hovered_neighbour);
-        marks::paint_highlights(&painter, rect, mesh, camera, &highlights);
+        marks::paint_highlights(&painter, rect, mesh, camera, &highlights, self.view.ground);
         let at = |world| marks::point_from_px(rect, camera.screen_from_world(world), px_per_point);
         if let Some(readout) = readout {
             marks::paint_point(&painter, at(readout.point));
