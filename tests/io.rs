@@ -1,0 +1,433 @@
+//! Every format that meshes are written in, read back by a reader that knows only the format.
+
+use std::collections::{BTreeMap, HashMap, HashSet};
+
+use glam::{DVec2, dvec2};
+use meshbrush::colormap::{Colormap, Ground, LevelColors};
+use meshbrush::geometry::Rect;
+use meshbrush::io::{MeshData, Quantity, csv, msh, node, obj, svg, vtu};
+use meshbrush::mesh::{Limits, Mesh, NodeId};
+
+/// A mesh as a reader finds it.
+#[derive(Debug, Default)]
+struct Found {
+    nodes: Vec<DVec2>,
+    triangles: Vec<[usize; 3]>,
+    levels: Vec<u32>,
+    targets: Vec<f64>,
+    quantities: Vec<f64>,
+}
+
+/// What was written.
+struct Sample {
+    mesh: Mesh,
+    targets: Vec<f64>,
+    quantities: Vec<Quantity>,
+}
+
+impl Sample {
+    fn new(bounds: Rect, spacing: f64, inside: impl Fn(DVec2) -> bool, finest: f64) -> Self {
+        let limits = Limits::default();
+        let mut mesh = Mesh::coarse_grid(bounds, spacing, inside, &limits).unwrap();
+        let focus = bounds.min + 0.3 * bounds.size();
+        let target = |p: DVec2| finest + 0.3 * (p - focus).length();
+        mesh.refine(&limits, |e| Ok(e.world_corners().iter().any(|&p| e.diameter() > target(p)))).unwrap();
+        let nodes = || (0..mesh.nodes().len()).map(|n| mesh.world(NodeId::from_index(n)));
+        let targets = nodes().map(target).collect();
+        let height = Quantity { name: "height".into(), values: nodes().map(|p| p.x * 1e-9 - p.y).collect() };
+        Self { targets, quantities: vec![height], mesh }
+    }
+
+    /// A square, a rectangle whose cells are not square, and a ring with a hole.
+    fn all() -> Vec<Self> {
+        let oblong = Rect::new(dvec2(-3.25, 100.0), dvec2(4.5, 103.3));
+        let ring = |p: DVec2| (0.5..=1.2).contains(&p.length());
+        vec![
+            Self::new(Rect::UNIT, 0.25, |_| true, 0.01),
+            Self::new(oblong, 1.1, |_| true, 0.05),
+            Self::new(Rect::around(DVec2::ZERO, 1.0), 0.1, ring, 0.02),
+        ]
+    }
+
+    fn data(&self) -> MeshData<'_> {
+        MeshData { target_diameter: &self.targets, quantities: &self.quantities }
+    }
+
+    fn written(&self, write: impl FnOnce(&mut Vec<u8>, &Mesh, &MeshData) -> std::io::Result<()>) -> Vec<u8> {
+        let mut file = Vec::new();
+        write(&mut file, &self.mesh, &self.data()).unwrap();
+        file
+    }
+
+    /// The area of all triangles, from the coarse triangles that were kept.
+    fn area(&self) -> f64 {
+        let lattice = self.mesh.lattice();
+        let [columns, rows] = lattice.cells().map(f64::from);
+        let extent = lattice.bounds().size();
+        self.mesh.coarse_triangles() as f64 * extent.x * extent.y / (2.0 * columns * rows)
+    }
+
+    fn assert_same(&self, found: &Found) {
+        assert_eq!(found.nodes.len(), self.mesh.nodes().len());
+        assert_eq!(found.triangles.len(), self.mesh.triangles().len());
+        let mut counts = vec![0; self.mesh.level_counts().len()];
+        for &level in &found.levels {
+            counts[level as usize] += 1;
+        }
+        assert_eq!(counts, self.mesh.level_counts());
+        for (n, &place) in found.nodes.iter().enumerate() {
+            assert_eq!(place, self.mesh.world(NodeId::from_index(n)));
+        }
+        assert_eq!(found.targets, self.targets);
+        self.assert_well_made(found, 1e-9);
+    }
+
+    /// Anticlockwise triangles that cover the area, the first edge the longest.
+    fn assert_well_made(&self, found: &Found, tolerance: f64) {
+        let mut covered = 0.0;
+        for corners in &found.triangles {
+            let [a, b, c] = corners.map(|n| found.nodes[n]);
+            let area = 0.5 * (b - a).perp_dot(c - a);
+            assert!(area > 0.0, "{corners:?} does not run anticlockwise");
+            assert!(a.distance(b) > 1.2 * b.distance(c).max(c.distance(a)), "{corners:?}");
+            covered += area;
+        }
+        assert!((covered / self.area() - 1.0).abs() < tolerance, "{covered} of {}", self.area());
+    }
+}
+
+fn numbers<T: std::str::FromStr>(line: &str) -> Vec<T> {
+    line.split_whitespace().map(|word| word.parse().ok().expect(word)).collect()
+}
+
+#[test]
+fn vtu_comes_back() {
+    for sample in Sample::all() {
+        let file = sample.written(vtu::write);
+        let found = read_vtu(&file);
+        sample.assert_same(&found);
+        assert_eq!(found.quantities, sample.quantities[0].values);
+    }
+}
+
+fn read_vtu(file: &[u8]) -> Found {
+    let mark = b"<AppendedData encoding=\"raw\">\n_";
+    let start = file.windows(mark.len()).position(|w| w == mark).unwrap() + mark.len();
+    let header = std::str::from_utf8(&file[..start]).unwrap();
+    assert!(header.contains("byte_order=\"LittleEndian\" header_type=\"UInt64\""));
+    let attribute = |element: &str, name: &str| {
+        let after = element.split(&format!(" {name}=\"")).nth(1)?;
+        Some(after.split('"').next()?.to_owned())
+    };
+    let array = |name: &str, kind: &str| -> &[u8] {
+        let named = |element: &&str| attribute(element, "Name").as_deref() == Some(name);
+        let element = header.split('<').find(named).unwrap();
+        assert_eq!(attribute(element, "type").unwrap(), kind);
+        let at = start + attribute(element, "offset").unwrap().parse::<usize>().unwrap();
+        let length = u64::from_le_bytes(file[at..at + 8].try_into().unwrap()) as usize;
+        &file[at + 8..at + 8 + length]
+    };
+    let floats = |name| -> Vec<f64> {
+        array(name, "Float64").chunks(8).map(|b| f64::from_le_bytes(b.try_into().unwrap())).collect()
+    };
+    let whole = |name| -> Vec<usize> {
+        array(name, "Int64").chunks(8).map(|b| i64::from_le_bytes(b.try_into().unwrap()) as usize).collect()
+    };
+    let nodes: Vec<DVec2> = floats("Points").chunks(3).map(|p| dvec2(p[0], p[1])).collect();
+    let triangles: Vec<[usize; 3]> = whole("connectivity").chunks(3).map(|t| t.try_into().unwrap()).collect();
+    assert_eq!(whole("offsets"), (1..=triangles.len()).map(|n| 3 * n).collect::<Vec<_>>());
+    assert!(array("types", "UInt8").iter().all(|&kind| kind == 5));
+    let piece = header.split('<').find(|e| e.starts_with("Piece")).unwrap();
+    assert_eq!(attribute(piece, "NumberOfPoints").unwrap(), nodes.len().to_string());
+    assert_eq!(attribute(piece, "NumberOfCells").unwrap(), triangles.len().to_string());
+    assert!(file.ends_with(b"\n  </AppendedData>\n</VTKFile>\n"));
+    Found {
+        nodes,
+        triangles,
+        levels: array("level", "UInt8").iter().map(|&level| level.into()).collect(),
+        targets: floats("target_diameter"),
+        quantities: floats("height"),
+    }
+}
+
+#[test]
+fn csv_comes_back() {
+    for sample in Sample::all() {
+        let file = String::from_utf8(sample.written(csv::write)).unwrap();
+        let mut lines = file.lines();
+        let header: Vec<&str> = lines.next().unwrap().split(',').collect();
+        let column = |name: &str| header.iter().position(|&h| h == name).unwrap();
+        let three = |name: &str| [1, 2, 3].map(|i| column(&format!("{name}{i}")));
+        let count = sample.mesh.nodes().len();
+        let mut found =
+            Found { nodes: vec![DVec2::NAN; count], targets: vec![f64::NAN; count], ..Found::default() };
+        let mut across = Vec::new();
+        for line in lines {
+            let fields: Vec<&str> = line.split(',').collect();
+            assert_eq!(fields.len(), header.len());
+            let float = |column: usize| -> f64 { fields[column].parse().unwrap() };
+            let corners: [usize; 3] = three("v").map(|c| fields[c].parse().unwrap());
+            for (i, &corner) in corners.iter().enumerate() {
+                found.nodes[corner] = dvec2(float(three("x")[i]), float(three("y")[i]));
+                found.targets[corner] = float(three("target")[i]);
+                assert_eq!(float(three("height")[i]), sample.quantities[0].values[corner]);
+            }
+            assert_eq!(fields[column("triangle")], found.triangles.len().to_string());
+            found.triangles.push(corners);
+            found.levels.push(fields[column("level")].parse().unwrap());
+            across.push(three("n").map(|c| fields[c].parse::<usize>().ok()));
+        }
+        sample.assert_same(&found);
+        // Neighbour i lies across the edge from corner i to the next.
+        let edges = |t: [usize; 3]| [[t[0], t[1]], [t[1], t[2]], [t[2], t[0]]];
+        assert_neighbours(&found.triangles, &across, edges);
+    }
+}
+
+#[test]
+fn node_ele_and_neigh_come_back() {
+    for sample in Sample::all() {
+        let text = |bytes| String::from_utf8(bytes).unwrap();
+        let nodes = text(sample.written(node::write));
+        let elements = text(sample.written(|out, mesh, _| node::write_elements(out, mesh)));
+        let neighbours = text(sample.written(|out, mesh, _| node::write_neighbours(out, mesh)));
+        let mut found = Found::default();
+        let mut marked = HashSet::new();
+        assert_eq!(numbers::<usize>(nodes.lines().next().unwrap())[1..], [2, 2, 1]);
+        for (n, line) in nodes.lines().skip(1).enumerate() {
+            let row = numbers::<f64>(line);
+            assert_eq!((row[0], row.len()), (n as f64, 6));
+            found.nodes.push(dvec2(row[1], row[2]));
+            found.targets.push(row[3]);
+            assert_eq!(row[4], sample.quantities[0].values[n]);
+            marked.extend((row[5] == 1.0).then_some(n));
+        }
+        assert_eq!(numbers::<usize>(elements.lines().next().unwrap()), [sample.mesh.triangles().len(), 3, 1]);
+        for line in elements.lines().skip(1) {
+            let row = numbers::<usize>(line);
+            found.triangles.push([row[1], row[2], row[3]]);
+            found.levels.push(row[4] as u32);
+        }
+        sample.assert_same(&found);
+        let across: Vec<[Option<usize>; 3]> = neighbours
+            .lines()
+            .skip(1)
+            .map(|line| numbers::<i64>(line)[1..].to_vec())
+            .map(|row| [row[0], row[1], row[2]].map(|n| usize::try_from(n).ok()))
+            .collect();
+        // Neighbour i lies opposite corner i.
+        let opposite = |t: [usize; 3]| [[t[1], t[2]], [t[2], t[0]], [t[0], t[1]]];
+        let boundary = assert_neighbours(&found.triangles, &across, opposite);
+        assert_eq!(marked, boundary.into_iter().flatten().collect());
+    }
+}
+
+/// Neighbours share exactly the edges that they should; returns the edges without one.
+fn assert_neighbours(
+    triangles: &[[usize; 3]],
+    across: &[[Option<usize>; 3]],
+    edges: impl Fn([usize; 3]) -> [[usize; 2]; 3],
+) -> Vec<[usize; 2]> {
+    let mut owner = HashMap::new();
+    for (t, &corners) in triangles.iter().enumerate() {
+        for edge in edges(corners) {
+            assert_eq!(owner.insert(edge, t), None);
+        }
+    }
+    let mut boundary = Vec::new();
+    for (t, &corners) in triangles.iter().enumerate() {
+        for (j, [from, to]) in edges(corners).into_iter().enumerate() {
+            assert_eq!(across[t][j], owner.get(&[to, from]).copied());
+            boundary.extend(across[t][j].is_none().then_some([from, to]));
+        }
+    }
+    boundary
+}
+
+#[test]
+fn msh_comes_back_with_its_boundary() {
+    for sample in Sample::all() {
+        let file = String::from_utf8(sample.written(msh::write)).unwrap();
+        let (found, boundary) = read_msh(&file);
+        sample.assert_same(&found);
+        assert_eq!(found.quantities, sample.quantities[0].values);
+        // Round the boundary and every hole: each of its nodes is left as often as it is reached.
+        let mut degree = HashMap::new();
+        for [from, to] in &boundary {
+            *degree.entry(from).or_insert(0) += 1;
+            *degree.entry(to).or_insert(0) -= 1;
+        }
+        assert!(degree.values().all(|&d| d == 0));
+        let around: f64 = boundary.iter().map(|&[a, b]| 0.5 * found.nodes[a].perp_dot(found.nodes[b])).sum();
+        assert!((around / sample.area() - 1.0).abs() < 1e-9);
+    }
+}
+
+fn read_msh(file: &str) -> (Found, Vec<[usize; 2]>) {
+    let section = |name: &str| -> Vec<&str> {
+        let body = file.split(&format!("${name}\n")).nth(1).unwrap();
+        body.split(&format!("$End{name}\n")).next().unwrap().lines().collect()
+    };
+    let values = |name: &str, label: &str| -> Vec<f64> {
+        let body = file.split(&format!("${name}\n1\n\"{label}\"\n1\n0\n3\n0\n1\n")).nth(1).unwrap();
+        let body = body.split(&format!("$End{name}")).next().unwrap();
+        let count: usize = body.lines().next().unwrap().parse().unwrap();
+        let rows: Vec<Vec<f64>> = body.lines().skip(1).map(numbers).collect();
+        assert!(rows.iter().enumerate().all(|(n, row)| row[0] == (n + 1) as f64));
+        assert_eq!(rows.len(), count);
+        rows.iter().map(|row| row[1]).collect()
+    };
+    assert_eq!(section("MeshFormat"), ["4.1 0 8"]);
+    assert_eq!(section("PhysicalNames"), ["2", "1 2 \"boundary\"", "2 1 \"domain\""]);
+    let entities: Vec<Vec<f64>> = section("Entities").iter().map(|line| numbers(line)).collect();
+    assert_eq!(entities[0], [0.0, 1.0, 1.0, 0.0]);
+    assert_eq!(entities[1][7..], [1.0, 2.0, 0.0]); // curve 1: physical group 2, no points
+    assert_eq!(entities[2][7..], [1.0, 1.0, 1.0, 1.0]); // surface 1: physical group 1, bounded by curve 1
+
+    let rows = section("Nodes");
+    let count = numbers::<usize>(rows[0])[1];
+    assert_eq!(numbers::<usize>(rows[0]), [1, count, 1, count]);
+    assert_eq!(numbers::<usize>(rows[1]), [2, 1, 0, count]);
+    assert_eq!(rows.len(), 2 + 2 * count);
+    let nodes =
+        rows[2 + count..].iter().map(|line| numbers::<f64>(line)).map(|p| dvec2(p[0], p[1])).collect();
+
+    let rows: Vec<Vec<usize>> = section("Elements").iter().map(|line| numbers(line)).collect();
+    let (blocks, all) = (rows[0][0], rows[0][1]);
+    assert_eq!((blocks, rows[0][2], rows[0][3]), (2, 1, all));
+    assert_eq!(rows[1][..3], [2, 1, 2]);
+    let (triangle_rows, rest) = rows[2..].split_at(rows[1][3]);
+    assert_eq!(rest[0][..3], [1, 1, 1]);
+    assert_eq!(rest[0][3], rest.len() - 1);
+    assert!(triangle_rows.iter().chain(&rest[1..]).zip(1..).all(|(row, tag)| row[0] == tag));
+    assert_eq!(triangle_rows.len() + rest.len() - 1, all);
+    let found = Found {
+        nodes,
+        triangles: triangle_rows.iter().map(|t| [t[1] - 1, t[2] - 1, t[3] - 1]).collect(),
+        levels: values("ElementData", "level").iter().map(|&level| level as u32).collect(),
+        targets: values("NodeData", "target_diameter"),
+        quantities: values("NodeData", "height"),
+    };
+    (found, rest[1..].iter().map(|line| [line[1] - 1, line[2] - 1]).collect())
+}
+
+#[test]
+fn obj_comes_back() {
+    for sample in Sample::all() {
+        let file = String::from_utf8(sample.written(obj::write)).unwrap();
+        let mut found = Found::default();
+        let mut level = None;
+        for line in file.lines() {
+            let (kind, rest) = line.split_once(' ').unwrap();
+            match kind {
+                "#" => {}
+                "v" => {
+                    let p = numbers::<f64>(rest);
+                    assert_eq!(p[2], 0.0);
+                    found.nodes.push(dvec2(p[0], p[1]));
+                }
+                "vt" => found.targets.push(numbers(rest)[0]),
+                "g" => level = rest.strip_prefix("level_").map(|level| level.parse().unwrap()),
+                "f" => {
+                    let corner = |word: &str| {
+                        let (place, texture) = word.split_once('/').unwrap();
+                        assert_eq!(place, texture);
+                        place.parse::<usize>().unwrap() - 1
+                    };
+                    let corners: Vec<usize> = rest.split(' ').map(corner).collect();
+                    found.triangles.push(corners.try_into().unwrap());
+                    found.levels.push(level.unwrap());
+                }
+                other => panic!("{other} is not expected"),
+            }
+        }
+        sample.assert_same(&found);
+    }
+}
+
+#[test]
+fn svg_shows_every_triangle_and_every_edge_once() {
+    let colors = LevelColors::new(Colormap::Viridis, Ground::Dark, 12);
+    for sample in Sample::all() {
+        let style = svg::Style {
+            size: [800, 600],
+            level_colors: colors.as_table(),
+            background: [1, 2, 3],
+            edges: true,
+        };
+        let file = String::from_utf8(sample.written(|out, mesh, _| svg::write(out, mesh, &style))).unwrap();
+        let view_box = numbers::<f64>(file.split("viewBox=\"").nth(1).unwrap().split('"').next().unwrap());
+        let bounds = sample.mesh.lattice().bounds();
+        let scale = bounds.size() / dvec2(view_box[2], view_box[3]);
+        let mut found = Found::default();
+        let mut node_at: BTreeMap<[i64; 2], usize> = BTreeMap::new();
+        let (mut drawn_edges, mut edges) = (0, HashSet::new());
+        for path in file.split("<path ").skip(1) {
+            let data = path.split(" d=\"").nth(1).unwrap().split('"').next().unwrap();
+            let lines = path_points(data);
+            let Some(id) = path.strip_prefix("id=\"level-") else {
+                drawn_edges += lines.len();
+                edges.extend(lines.into_iter().map(|line| {
+                    let mut ends = [line[0], line[1]];
+                    ends.sort_unstable();
+                    ends
+                }));
+                continue;
+            };
+            let level: u32 = id.split('"').next().unwrap().parse().unwrap();
+            let [r, g, b, _] = colors.of(level as u8);
+            assert!(path.contains(&format!("fill=\"#{r:02x}{g:02x}{b:02x}\"")));
+            for corners in lines {
+                let triangle: Vec<usize> = corners
+                    .iter()
+                    .map(|&place| {
+                        *node_at.entry(place).or_insert_with(|| {
+                            let place = dvec2(place[0] as f64, view_box[3] - place[1] as f64);
+                            found.nodes.push(bounds.min + place * scale);
+                            found.nodes.len() - 1
+                        })
+                    })
+                    .collect();
+                // Drawn over the apex; either way round.
+                let [a, apex, b] = triangle.try_into().unwrap();
+                let turn = (found.nodes[b] - found.nodes[a]).perp_dot(found.nodes[apex] - found.nodes[a]);
+                found.triangles.push(if turn > 0.0 { [a, b, apex] } else { [b, a, apex] });
+                found.levels.push(level);
+            }
+        }
+        assert_eq!(found.nodes.len(), sample.mesh.nodes().len());
+        assert_eq!(found.triangles.len(), sample.mesh.triangles().len());
+        let at_level = |l: usize| found.levels.iter().filter(|&&level| level as usize == l).count();
+        let counts = sample.mesh.level_counts();
+        assert_eq!((0..counts.len()).map(at_level).collect::<Vec<_>>(), counts);
+        assert_eq!((drawn_edges, edges.len()), (sample.mesh.edges().count(), sample.mesh.edges().count()));
+        sample.assert_well_made(&found, 1e-9);
+    }
+}
+
+/// The corners of each piece of a path of M, m, h, v, l and z.
+fn path_points(data: &str) -> Vec<Vec<[i64; 2]>> {
+    let mut pieces: Vec<Vec<[i64; 2]>> = Vec::new();
+    let mut at = [0, 0];
+    for (start, letter) in data.match_indices(|c: char| c.is_ascii_alphabetic()) {
+        let rest = &data[start + 1..];
+        let rest = rest.split(|c: char| c.is_ascii_alphabetic()).next().unwrap();
+        let steps = numbers::<i64>(&rest.replace('-', " -"));
+        let step = match (letter, &steps[..]) {
+            ("M" | "m" | "l", &[dx, dy]) => [dx, dy],
+            ("h", &[dx]) => [dx, 0],
+            ("v", &[dy]) => [0, dy],
+            ("z", &[]) => {
+                at = pieces.last().unwrap()[0];
+                continue;
+            }
+            other => panic!("{other:?} is not expected"),
+        };
+        at = [at[0] + step[0], at[1] + step[1]];
+        if letter.eq_ignore_ascii_case("m") {
+            pieces.push(Vec::new());
+        }
+        pieces.last_mut().unwrap().push(at);
+    }
+    pieces
+}
