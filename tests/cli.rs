@@ -1,0 +1,416 @@
+//! The program itself, run as a person runs it.
+
+use std::fs;
+use std::io::Read;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+
+use serde_json::Value;
+
+/// A folder of its own for each test, removed at the end.
+struct Folder(PathBuf);
+
+impl Folder {
+    fn new(name: &str) -> Self {
+        let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("cli-{name}-{}", std::process::id()));
+        fs::create_dir_all(&path).unwrap();
+        Self(path)
+    }
+
+    fn file(&self, name: &str, content: impl AsRef<[u8]>) -> PathBuf {
+        let path = self.0.join(name);
+        fs::write(&path, content).unwrap();
+        path
+    }
+
+    fn read(&self, name: &str) -> String {
+        fs::read_to_string(self.0.join(name)).unwrap()
+    }
+
+    fn names(&self) -> Vec<String> {
+        let name = |entry: std::io::Result<fs::DirEntry>| entry.unwrap().file_name().into_string().unwrap();
+        let mut names: Vec<String> = fs::read_dir(&self.0).unwrap().map(name).collect();
+        names.sort();
+        names
+    }
+
+    /// Runs the program in this folder with arguments parted by spaces; `'…'` keeps spaces.
+    fn run(&self, arguments: &str) -> Ran {
+        let output = self.command(arguments).output().unwrap();
+        Ran::new(output)
+    }
+
+    fn command(&self, arguments: &str) -> Command {
+        let words = arguments.split('\'').enumerate().flat_map(|(n, part)| match n % 2 {
+            0 => part.split_whitespace().collect(),
+            _ => vec![part],
+        });
+        let mut command = Command::new(env!("CARGO_BIN_EXE_meshbrush"));
+        command.current_dir(&self.0).args(words);
+        command
+    }
+
+    /// The summary of a mesh.
+    fn json(&self, arguments: &str) -> Value {
+        let ran = self.run(&format!("mesh --json {arguments}"));
+        assert_eq!(ran.status, 0, "{arguments}: {}", ran.err);
+        assert_eq!(ran.out.lines().count(), 1);
+        serde_json::from_str(&ran.out).unwrap()
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        let _ = fs::remove_dir_all(&self.0);
+    }
+}
+
+struct Ran {
+    status: i32,
+    out: String,
+    err: String,
+}
+
+impl Ran {
+    fn new(output: Output) -> Self {
+        let text = |bytes| String::from_utf8(bytes).unwrap();
+        let status = output.status.code().expect("the program ends by itself");
+        Self { status, out: text(output.stdout), err: text(output.stderr) }
+    }
+}
+
+const DIAMOND: &str = "--domain -10,-10,10,10 --spacing 1 --target";
+
+fn diamond(target: f64) -> String {
+    format!("{DIAMOND} 'if(abs(x)+abs(y)<8, {target:?}, 20)'")
+}
+
+#[test]
+fn the_series_of_section_5_4_comes_out() {
+    let counts =
+        [1088, 1600, 2888, 4936, 9560, 17752, 35176, 67944, 135544, 266616, 532872, 1057160, 2113944];
+    let folder = Folder::new("series");
+    for (level, count) in (1..).zip(counts) {
+        let halved = 0.5f64.powi(level / 2);
+        // Odd levels are exact; even ones are irrational, so a hair above.
+        let target = if level % 2 == 1 { halved } else { halved * 2.0f64.sqrt() * (1.0 + 1e-12) };
+        let summary = folder.json(&diamond(target));
+        assert_eq!(summary["triangles"], count, "level {level}");
+        assert_eq!(summary["max_level"], level);
+    }
+}
+
+#[test]
+fn the_summary_says_all_that_a_program_asks() {
+    let folder = Folder::new("summary");
+    let summary = folder.json(&diamond(0.25));
+    assert_eq!(summary["triangles"], 9560);
+    assert_eq!(summary["nodes"], 4821);
+    assert_eq!(summary["levels"], serde_json::json!([440, 72, 72, 144, 384, 8448]));
+    assert_eq!(summary["spacing"], 1.0);
+    assert_eq!(summary["rule"], "vertex");
+    assert!(summary["seconds"].as_f64().is_some_and(|s| (0.0..60.0).contains(&s)));
+    let hash = summary["hash"].as_str().unwrap();
+    assert!(hash.len() == 32 && hash.chars().all(|c| c.is_ascii_hexdigit()));
+    // The same mesh by way of an even-level target has the same hash; another mesh has another.
+    assert_eq!(folder.json(&diamond(0.26))["hash"], hash);
+    assert_ne!(folder.json(&diamond(0.24))["hash"], hash);
+}
+
+#[test]
+fn people_get_the_summary_on_standard_error() {
+    let ran = Folder::new("people").run(&format!("mesh --checks {}", diamond(0.25)));
+    assert_eq!((ran.status, ran.out.as_str()), (0, ""));
+    assert!(ran.err.contains("9,560 triangles, 4,821 nodes, levels 0 to 5"), "{}", ran.err);
+    assert!(ran.err.contains("every invariant of the mesh holds"));
+    assert!(ran.err.lines().any(|l| l.split_whitespace().eq(["4", "0.353553", "384"])), "{}", ran.err);
+}
+
+#[test]
+fn every_ending_is_written_and_the_files_agree() {
+    let folder = Folder::new("endings");
+    let outputs = "-o m.vtu -o m.msh -o m.obj -o m.NODE -o m.csv -o m.svg";
+    let ran = folder.run(&format!("mesh {} {outputs} --quantity x*y", diamond(0.25)));
+    assert_eq!(ran.status, 0, "{}", ran.err);
+    assert_eq!(folder.names(), ["m.NODE", "m.csv", "m.ele", "m.msh", "m.neigh", "m.obj", "m.svg", "m.vtu"]);
+    assert_eq!(folder.read("m.csv").lines().count(), 9561);
+    assert!(folder.read("m.csv").lines().next().unwrap().ends_with("quantity1,quantity2,quantity3"));
+    assert!(folder.read("m.ele").starts_with("9560 3 1\n"));
+    assert!(folder.read("m.NODE").starts_with("4821 2 2 1\n0 -10 -10 20 100 1\n"));
+    assert!(folder.read("m.msh").contains("$Nodes\n1 4821 1 4821\n"));
+    assert_eq!(folder.read("m.obj").lines().filter(|l| l.starts_with("f ")).count(), 9560);
+    assert!(folder.read("m.svg").contains("<title>9560 triangles, 4821 nodes</title>"));
+    assert!(folder.read("m.svg").contains("width=\"1600\" height=\"1600\""));
+}
+
+/// An image of grey bytes, the top row first.
+fn png(size: [u32; 2], grey: &[u8]) -> Vec<u8> {
+    let mut file = Vec::new();
+    let mut encoder = png::Encoder::new(&mut file, size[0], size[1]);
+    encoder.set_color(png::ColorType::Grayscale);
+    encoder.write_header().unwrap().write_image_data(grey).unwrap();
+    file
+}
+
+#[test]
+fn an_image_of_risk_refines_where_it_is_bright() {
+    let folder = Folder::new("risk");
+    // A white line one pixel wide, near the top: between the nodes of a coarse grid of four cells.
+    let mut grey = vec![0; 64 * 64];
+    grey[6 * 64..7 * 64].fill(255);
+    folder.file("risk.png", png([64, 64], &grey));
+    let options = "--risk-raster risk.png --h-min 0.02 --spacing 0.25 --checks";
+    let by_area = folder.json(&format!("{options} -o m.csv"));
+    assert_eq!(by_area["resolution"], serde_json::json!([64, 64]));
+    assert_eq!(by_area["violations"], 0);
+    let table = folder.read("m.csv");
+    assert_eq!(by_area["max_level"], 9);
+    let finest = table.lines().skip(1).filter(|row| row.split(',').nth(1) == Some("9"));
+    let heights: Vec<f64> = finest.map(|row| row.split(',').nth(9).unwrap().parse().unwrap()).collect();
+    assert!(!heights.is_empty());
+    // The line covers 57/64 to 58/64; the triangles that meet it, and those bisected with them, reach 1/64 beyond.
+    assert!(heights.iter().all(|y| (56.0 / 64.0..=59.0 / 64.0).contains(y)), "{heights:?}");
+    // The report's rule sees nothing of it.
+    let by_vertex = folder.json(&format!("{options} --rule vertex"));
+    assert_eq!(by_vertex["triangles"], 32);
+}
+
+#[test]
+fn grids_lie_where_they_say_and_images_cover_the_domain() {
+    let folder = Folder::new("grids");
+    let header = "ncols 2\nnrows 2\nxllcorner 4\nyllcorner 0\ncellsize 1\nNODATA_value -9999\n";
+    folder.file("length.asc", format!("{header}-9999 -9999\n-9999 0.1\n"));
+    let own = folder.json("--target-raster length.asc -o own.csv --spacing 1");
+    assert_eq!((&own["resolution"], &own["spacing"]), (&serde_json::json!([2, 2]), &1.0.into()));
+    assert_eq!(own["max_level"], 8); // 2^-3 (level 7) is longer than 0.1, √2 · 2^-4 is not
+    // The same pixels ask on a larger domain, and there their outer edges are met from both sides.
+    let wide = folder.json("--target-raster length.asc --domain 2,-2,8,4 --spacing 1");
+    let finest = |summary: &Value| summary["levels"][8].as_u64().unwrap();
+    assert_eq!(wide["max_level"], 8);
+    assert!(finest(&own) < finest(&wide) && finest(&wide) < 2 * finest(&own), "{own} {wide}");
+    // Black asks for --h-min, white for --h-max.
+    folder.file("grey.png", png([2, 1], &[0, 255]));
+    let image = "--target-raster grey.png --domain 0,0,2,1 --spacing 1 --h-max 1.5";
+    assert_eq!(folder.json(&format!("{image} --h-min 1.45"))["triangles"], 4);
+    assert_eq!(folder.json(&format!("{image} --h-min 0.5"))["max_level"], 3);
+    // A grid that misses the domain asks for nothing, and that is said.
+    let ran = folder.run("mesh --target-raster length.asc --domain 0,0,1,1");
+    assert!(ran.err.contains("does not meet the domain") && ran.err.contains("800 triangles"), "{}", ran.err);
+}
+
+#[test]
+fn points_are_found_and_values_interpolated() {
+    let folder = Folder::new("points");
+    let rows = "0.3,0.15\n0.5,0.5\n0.5,0.1\n0,0\n2,2\nNaN,0\n-0.9,-0.9\n";
+    folder.file("points.csv", format!("x,y\n\n{rows}"));
+    let options = "--domain -1,-1,1,1 --spacing 0.5 --inside 'r < 1.2' --target 'if(r < 0.4, 0.125, 1)'";
+    let ran = folder.run(&format!("locate {options} --points points.csv --quantity '2*x + y'"));
+    assert_eq!(ran.status, 0, "{}", ran.err);
+    let mut lines = ran.out.lines();
+    assert_eq!(lines.next(), Some("x,y,where,triangle,level,v1,v2,v3,zeta1,zeta2,zeta3,value"));
+    let rows: Vec<Vec<&str>> = lines.map(|line| line.split(',').collect()).collect();
+    let wheres: Vec<&str> = rows.iter().map(|row| row[2]).collect();
+    assert_eq!(wheres, ["inside", "vertex", "edge", "vertex", "outside", "invalid", "hole"]);
+    for row in &rows {
+        assert_eq!(row.len(), 12);
+        let numbers: Vec<f64> = row[8..].iter().filter_map(|field| field.parse().ok()).collect();
+        let [x, y] = [row[0], row[1]].map(|field| field.parse::<f64>().unwrap());
+        match numbers[..] {
+            [a, b, c, value] => {
+                assert!((a + b + c - 1.0).abs() < 1e-15);
+                assert!((value - (2.0 * x + y)).abs() < 1e-12, "a linear quantity is met exactly");
+            }
+            _ => assert!(row[3..].iter().all(|field| field.is_empty())),
+        }
+    }
+    let to_file = folder.run(&format!("locate {options} --points points.csv -o found.csv"));
+    assert_eq!((to_file.status, to_file.out.as_str()), (0, ""));
+    let values: Vec<String> =
+        folder.read("found.csv").lines().map(|row| row.rsplit(',').next().unwrap().to_owned()).collect();
+    assert_eq!(values[4], "0.125");
+}
+
+#[test]
+fn a_level_cap_is_kept_and_said() {
+    let folder = Folder::new("cap");
+    let ran = folder.run(&format!("mesh --max-level 3 --checks {}", diamond(0.25)));
+    assert_eq!(ran.status, 0);
+    assert!(ran.err.contains("levels 0 to 3") && ran.err.contains("--max-level left"), "{}", ran.err);
+}
+
+#[test]
+fn a_reader_that_has_seen_enough_is_no_error() {
+    let folder = Folder::new("pipe");
+    let rows = "0.3,0.2\n".repeat(20_000);
+    folder.file("points.csv", format!("x,y\n{rows}"));
+    let mut command = folder.command("locate --points points.csv");
+    let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    let mut first = [0; 10];
+    child.stdout.take().unwrap().read_exact(&mut first).unwrap();
+    // The pipe is closed here, with most of the answer unread.
+    let ran = Ran::new(child.wait_with_output().unwrap());
+    assert_eq!((ran.status, ran.err.as_str()), (0, ""));
+}
+
+/// Runs a command that must fail: one sentence on standard error, no result, no panic.
+fn assert_fails(folder: &Folder, arguments: &str, status: i32, sentence: &str) {
+    let ran = folder.run(arguments);
+    assert_eq!(ran.status, status, "{arguments}: {}", ran.err);
+    assert!(ran.err.contains(sentence), "{arguments}: {}", ran.err);
+    assert!(!ran.err.contains("panicked"), "{arguments}: {}", ran.err);
+    assert_eq!(ran.out, "", "{arguments}");
+    if !ran.err.starts_with("error: ") {
+        assert!(ran.err.starts_with("meshbrush: "), "{arguments}: {}", ran.err);
+        // A formula's mistake is followed by the formula and carets.
+        let lines = if ran.err.contains('^') { 3 } else { 1 };
+        assert!(ran.err.lines().count() <= lines, "{arguments}: {}", ran.err);
+    }
+}
+
+#[test]
+fn impossible_targets_fail_with_their_place() {
+    let folder = Folder::new("targets");
+    for (options, sentence) in [
+        ("--target 0", "The target diameter is 0 at x = "),
+        ("--target -1", "The target diameter is -1 at x = "),
+        ("--target 'sqrt(x - 2)'", "The target diameter is NaN at x = "),
+        ("--target 'if(x < 0.5, 0.1, 0/0)'", "The target diameter is NaN at x = 0."),
+        ("--target 1/0", "The target diameter is inf at x = "),
+        ("--target 1e-300", "nodes would leave the lattice"),
+        ("--target 1 --target -x", "The target diameter is -"),
+        ("--target -1 --h-min 0.1", "The target diameter is -1 at x = "),
+        ("--risk 0/0 --h-min 0.01", "The target diameter is NaN at x = "),
+        ("--target 1/0 --rule area", "The target diameter is inf at x = "),
+        ("--target 1e-300 --rule area", "nodes would leave the lattice"),
+        ("--target 0.001 --max-triangles 1000", "more than 1000 triangles, which is the limit"),
+        ("--target 1 --quantity 1/x -o new.vtu", "--quantity is inf at x = 0, y = 0"),
+    ] {
+        folder.file("old.vtu", "old");
+        assert_fails(&folder, &format!("mesh {options} -o old.vtu --json"), 1, sentence);
+        assert_eq!(folder.read("old.vtu"), "old", "{options}");
+        assert_eq!(folder.names(), ["old.vtu"], "{options}");
+    }
+}
+
+#[test]
+fn wrong_arguments_are_explained() {
+    let folder = Folder::new("arguments");
+    for (arguments, status, sentence) in [
+        ("mesh --spacing 0", 2, "--spacing 0: a length must be positive and finite."),
+        ("mesh --spacing -1", 2, "--spacing -1: a length"),
+        ("mesh --spacing NaN", 2, "--spacing NaN: a length"),
+        ("mesh --spacing inf", 2, "--spacing inf: a length"),
+        ("mesh --spacing 1e-9", 1, "the limit is 50000000"),
+        ("mesh --spacing 1e-300", 1, "the limit is 50000000"),
+        ("mesh --spacing 3mm", 2, "invalid value '3mm'"),
+        ("mesh --domain 1,0,0,1", 2, "X0 less than X1"),
+        ("mesh --domain 0,0,0,1", 2, "X0 less than X1"),
+        ("mesh --domain 0,0,1", 2, "write four numbers with commas between"),
+        ("mesh --domain 0,0,1,NaN", 2, "all four numbers must be finite"),
+        ("mesh --domain 0,0,inf,1", 2, "all four numbers must be finite"),
+        ("mesh --domain 1e16,0,1.0000000000000008e16,8 --spacing 1", 1, "Move the domain nearer"),
+        ("mesh --target '1 + 2*sqr(x)'", 2, "--target: There is no `sqr`; write `v^2`."),
+        ("mesh --target ''", 2, "meshbrush: --target: "),
+        ("mesh --risk x", 2, "need --h-min"),
+        ("mesh --risk x --h-min 2 --h-max 1", 2, "exchange them"),
+        ("mesh --risk x --h-min 0.1 --transfer-shape 0", 2, "The shape 0 of the transfer curve"),
+        ("mesh --risk x --h-min -0.1", 2, "--h-min -0.1: a length"),
+        ("mesh --inside 0", 1, "No coarse triangle lies in the domain"),
+        ("mesh --max-triangles 0", 2, "--max-triangles 0: choose from"),
+        ("mesh --resolution 0", 2, "--resolution 0: choose from"),
+        ("mesh --resolution 100000", 2, "--resolution 100000: choose from"),
+        ("mesh --rule both", 2, "invalid value 'both'"),
+        ("mesh -o mesh.stl", 2, "choose one of .vtu .msh .obj .node .csv .svg"),
+        ("mesh -o mesh", 2, "the ending says what to write"),
+        ("mesh -o m.svg --size 0", 2, "--size 0: write a width"),
+        ("mesh -o m.svg --colormap jet", 2, "There is no colormap `jet`"),
+        ("mesh -o nowhere/m.vtu", 1, "nowhere/m.vtu cannot be written: there is no folder nowhere."),
+        ("mesh --target-raster risk.tif", 2, "a raster is a .png or an .asc file."),
+        ("mesh --unknown", 2, "unexpected argument"),
+        ("locate", 2, "--points"),
+        ("locate --points nothing.csv", 1, "nothing.csv: cannot be read"),
+    ] {
+        assert_fails(&folder, arguments, status, sentence);
+        assert_eq!(folder.names(), [""; 0], "{arguments}");
+    }
+}
+
+#[test]
+fn a_formula_is_shown_with_a_pointer() {
+    let ran = Folder::new("pointer").run("mesh --target '1 + 2*sqr(x)'");
+    let lines: Vec<&str> = ran.err.lines().collect();
+    let expected =
+        ["meshbrush: --target: There is no `sqr`; write `v^2`.", "    1 + 2*sqr(x)", "          ^^^"];
+    assert_eq!(lines, expected);
+}
+
+#[test]
+fn bad_files_are_named_with_the_rule_they_break() {
+    let folder = Folder::new("files");
+    let good = png([8, 8], &[128; 64]);
+    folder.file("short.png", &good[..good.len() - 30]);
+    folder.file("text.png", "not a picture");
+    folder.file("empty.png", "");
+    folder.file("bomb.png", bomb());
+    folder.file("short.asc", "ncols 3\nnrows 3\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2 3\n");
+    folder.file("metres.asc", "ncols 1\nnrows 1\nxllcorner 0\nyllcorner 0\ncellsize 1\n483\n");
+    folder.file("points.csv", "x,y\n1,2\n1,east\n");
+    fs::create_dir(folder.0.join("folder.vtu")).unwrap();
+    for (arguments, status, sentence) in [
+        ("mesh --h-min 0.1 --risk-raster none.png", 1, "none.png: cannot be read"),
+        ("mesh --h-min 0.1 --risk-raster short.png", 1, "short.png: the file ends too early"),
+        ("mesh --h-min 0.1 --risk-raster text.png", 1, "text.png: this is not a PNG image"),
+        ("mesh --h-min 0.1 --risk-raster empty.png", 1, "empty.png: "),
+        ("mesh --h-min 0.1 --risk-raster bomb.png", 1, "100000 × 100000 pixels cannot be taken"),
+        ("mesh --target-raster short.asc", 1, "short.asc, line 7: the file ends too early"),
+        ("mesh --h-min 0.1 --risk-raster metres.asc", 1, "metres.asc: the risk is 483 at x = 0.5, y = 0.5"),
+        ("mesh --target-raster short.png", 2, "need --h-min"),
+        ("mesh -o folder.vtu", 1, "a folder has this name"),
+        ("locate --points points.csv", 1, "points.csv, line 3: y is `east`, which is not a number."),
+        ("locate --points points.csv -o points.csv", 2, "points.csv is an input file"),
+    ] {
+        let before = folder.names();
+        assert_fails(&folder, arguments, status, sentence);
+        assert_eq!(folder.names(), before, "{arguments}");
+    }
+}
+
+/// A small file that announces an image of ten thousand million pixels.
+fn bomb() -> Vec<u8> {
+    let header = b"IHDR\x00\x01\x86\xa0\x00\x01\x86\xa0\x10\x06\x00\x00\x00";
+    let crc = !header.iter().fold(!0u32, |crc, &byte| {
+        (0..8).fold(crc ^ u32::from(byte), |crc, _| (crc >> 1) ^ (0xedb8_8320 & (crc & 1).wrapping_neg()))
+    });
+    [b"\x89PNG\r\n\x1a\n\x00\x00\x00\x0d", &header[..], &crc.to_be_bytes()].concat()
+}
+
+#[cfg(unix)]
+#[test]
+fn a_folder_that_cannot_be_written_is_an_error() {
+    // Nobody, the superuser included, makes files here.
+    let folder = Folder::new("unwritable");
+    if Path::new("/proc/self").is_dir() {
+        assert_fails(
+            &folder,
+            "mesh --target 1 -o /proc/self/m.vtu --json",
+            1,
+            "/proc/self/m.vtu cannot be written",
+        );
+    }
+}
+
+#[test]
+fn help_and_version_are_results() {
+    let folder = Folder::new("help");
+    for arguments in ["--help", "mesh --help", "locate -h", "--version"] {
+        let ran = folder.run(arguments);
+        assert_eq!((ran.status, ran.err.as_str()), (0, ""), "{arguments}");
+        assert!(!ran.out.is_empty());
+    }
+}
+
+#[cfg(not(feature = "gui"))]
+#[test]
+fn a_build_without_a_window_says_so() {
+    assert_fails(&Folder::new("window"), "", 2, "built without its window");
+}
