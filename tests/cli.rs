@@ -143,6 +143,33 @@ fn every_ending_is_written_and_the_files_agree() {
     assert!(folder.read("m.svg").contains("width=\"1600\" height=\"1600\""));
 }
 
+#[test]
+fn a_picture_shows_the_levels() {
+    let folder = Folder::new("picture");
+    let run = |options: &str| {
+        let ran = folder.run(&format!("mesh {} -o m.png {options}", diamond(0.25)));
+        assert_eq!(ran.status, 0, "{}", ran.err);
+        let file = std::io::BufReader::new(fs::File::open(folder.0.join("m.png")).unwrap());
+        let mut reader = png::Decoder::new(file).read_info().unwrap();
+        let mut bytes = vec![0; reader.output_buffer_size().unwrap()];
+        let frame = reader.next_frame(&mut bytes).unwrap();
+        assert_eq!(frame.color_type, png::ColorType::Rgba);
+        let pixel = |x: u32, y: u32| {
+            let at = 4 * (y * frame.width + x) as usize;
+            <[u8; 4]>::try_from(&bytes[at..at + 4]).unwrap()
+        };
+        let middle = pixel(frame.width / 2 + 2, frame.height / 2 - 1);
+        ([frame.width, frame.height], pixel(frame.width / 10, frame.height / 20 + 1), middle)
+    };
+    let plain = "--no-edges --size 400";
+    // Level 0 is close to the canvas; the deepest level takes the end of the colour map.
+    assert_eq!(run(plain), ([400, 400], [0x1d, 0x21, 0x2b, 255], [0xfd, 0xe7, 0x25, 255]));
+    assert_eq!(run(&format!("{plain} --light")).1, [0xe9, 0xec, 0xf1, 255]);
+    assert_eq!(run(&format!("{plain} --colormap greys")).2, [249, 249, 249, 255]);
+    assert_ne!(run("--size 400").2, [0xfd, 0xe7, 0x25, 255], "an edge runs there");
+    assert_eq!(run("--size 300x200").0, [300, 200]);
+}
+
 /// An image of grey bytes, the top row first.
 fn png(size: [u32; 2], grey: &[u8]) -> Vec<u8> {
     let mut file = Vec::new();
@@ -320,7 +347,7 @@ fn wrong_arguments_are_explained() {
         ("mesh --resolution 0", 2, "--resolution 0: choose from"),
         ("mesh --resolution 100000", 2, "--resolution 100000: choose from"),
         ("mesh --rule both", 2, "invalid value 'both'"),
-        ("mesh -o mesh.stl", 2, "choose one of .vtu .msh .obj .node .csv .svg"),
+        ("mesh -o mesh.stl", 2, "choose one of .vtu .msh .obj .node .csv .svg .png"),
         ("mesh -o mesh", 2, "the ending says what to write"),
         ("mesh -o m.svg --size 0", 2, "--size 0: write a width"),
         ("mesh -o m.svg --colormap jet", 2, "There is no colormap `jet`"),

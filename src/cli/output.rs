@@ -8,8 +8,10 @@ use super::failure::Failure;
 use super::job::ending;
 use crate::colormap::{Colormap, Ground, LevelColors};
 use crate::geometry::Lattice;
-use crate::io::{MeshData, csv, msh, node, obj, svg, vtu, write_file};
+use crate::io::{MeshData, csv, msh, node, obj, png, svg, vtu, write_file};
 use crate::mesh::Mesh;
+use crate::render::{Image, software};
+use crate::scene::{Camera, Style};
 
 /// A file to be written.
 #[derive(Debug)]
@@ -26,15 +28,17 @@ enum Format {
     Node,
     Csv,
     Svg,
+    Png,
 }
 
-const ENDINGS: [(&str, Format); 6] = [
+const ENDINGS: [(&str, Format); 7] = [
     ("vtu", Format::Vtu),
     ("msh", Format::Msh),
     ("obj", Format::Obj),
     ("node", Format::Node),
     ("csv", Format::Csv),
     ("svg", Format::Svg),
+    ("png", Format::Png),
 ];
 
 impl Output {
@@ -55,7 +59,7 @@ impl Output {
 
     /// Whether some node data is written.
     pub fn wants_node_data(&self) -> bool {
-        !matches!(self.format, Format::Svg)
+        !matches!(self.format, Format::Svg | Format::Png)
     }
 
     /// Writes the file, or the three files of `.node`, and returns their names.
@@ -70,6 +74,10 @@ impl Output {
             Format::Obj => write_one(path, |mut out| obj::write(&mut out, mesh, data))?,
             Format::Csv => write_one(path, |mut out| csv::write(&mut out, mesh, data))?,
             Format::Svg => write_one(path, |mut out| svg::write(&mut out, mesh, &look.for_svg(mesh)))?,
+            Format::Png => {
+                let picture = look.draw(mesh);
+                write_one(path, |mut out| png::write(&mut out, picture.size, &picture.rgba))?;
+            }
             Format::Node => {
                 let (elements, neighbours) = (path.with_extension("ele"), path.with_extension("neigh"));
                 write_one(path, |mut out| node::write(&mut out, mesh, data))?;
@@ -156,6 +164,19 @@ impl Look {
         let height =
             self.height.unwrap_or_else(|| in_proportion().clamp(1.0, f64::from(LARGEST_PICTURE)) as u32);
         [self.width, height]
+    }
+
+    fn draw(&self, mesh: &Mesh) -> Image {
+        let lattice = mesh.lattice();
+        let camera = Camera::fit(lattice, lattice.bounds(), self.size(lattice), 0.0);
+        let colors = *self.level_colors.as_table();
+        let style = match self.ground {
+            Ground::Dark => Style::dark(colors),
+            Ground::Light => Style::light(colors),
+        };
+        let [r, g, b] = self.ground.canvas();
+        let style = Style { edges: self.edges, ground: [r, g, b, 0xff], ..style };
+        software::draw(mesh, &camera, &style, None, &[])
     }
 
     fn for_svg(&self, mesh: &Mesh) -> svg::Style<'_> {
