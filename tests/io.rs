@@ -301,10 +301,12 @@ fn read_msh(file: &str) -> (Found, Vec<[usize; 2]>) {
     assert_eq!(rest[0][3], rest.len() - 1);
     assert!(triangle_rows.iter().chain(&rest[1..]).zip(1..).all(|(row, tag)| row[0] == tag));
     assert_eq!(triangle_rows.len() + rest.len() - 1, all);
+    let levels: Vec<u32> = values("ElementData", "level").iter().map(|&level| level as u32).collect();
+    assert_eq!(levels.len(), all);
     let found = Found {
         nodes,
         triangles: triangle_rows.iter().map(|t| [t[1] - 1, t[2] - 1, t[3] - 1]).collect(),
-        levels: values("ElementData", "level").iter().map(|&level| level as u32).collect(),
+        levels: levels[..triangle_rows.len()].to_vec(),
         targets: values("NodeData", "target_diameter"),
         quantities: values("NodeData", "height"),
     };

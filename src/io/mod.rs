@@ -75,11 +75,20 @@ fn cells(mesh: &Mesh) -> impl Iterator<Item = Cell> + '_ {
     })
 }
 
-/// The edges at which the domain ends, as pairs of nodes with the domain to their left.
-fn boundary_edges(mesh: &Mesh) -> impl Iterator<Item = [usize; 2]> + '_ {
+/// An edge at which the domain ends.
+struct BoundaryEdge {
+    /// Its nodes, with the domain to the left.
+    ends: [usize; 2],
+    /// Of the triangle that it belongs to.
+    level: u32,
+}
+
+fn boundary_edges(mesh: &Mesh) -> impl Iterator<Item = BoundaryEdge> + '_ {
     mesh.triangles().iter().flat_map(|triangle| {
-        let edges = triangle.edge_nodes().map(|(from, to)| [from.index(), to.index()]);
-        (0..3).filter(|&j| triangle.neighbours[j].triangle().is_none()).map(move |j| edges[j])
+        let edges = triangle.edge_nodes().into_iter().zip(triangle.neighbours);
+        edges
+            .filter(|(_, across)| across.triangle().is_none())
+            .map(|((from, to), _)| BoundaryEdge { ends: [from.index(), to.index()], level: triangle.level() })
     })
 }
 

@@ -24,9 +24,12 @@ pub fn write(out: &mut impl Write, mesh: &Mesh, data: &MeshData) -> io::Result<(
     write_nodes(out, mesh)?;
     write_elements(out, mesh)?;
     for (name, values) in data.node_values() {
-        write_values(out, "NodeData", name, values.iter().copied())?;
+        write_values(out, "NodeData", name, values)?;
     }
-    write_values(out, "ElementData", "level", mesh.triangles().iter().map(|t| f64::from(t.level())))
+    // meshio wants element data for all elements or for none: a boundary edge has its triangle's level.
+    let mut levels: Vec<f64> = mesh.triangles().iter().map(|t| t.level().into()).collect();
+    levels.extend(boundary_edges(mesh).map(|edge| f64::from(edge.level)));
+    write_values(out, "ElementData", "level", &levels)
 }
 
 /// One curve (the boundary, physical group 2) and the surface that it bounds (physical group 1).
@@ -62,23 +65,18 @@ fn write_elements(out: &mut impl Write, mesh: &Mesh) -> io::Result<()> {
     }
     writeln!(out, "1 1 {LINE} {lines}")?;
     for (tag, edge) in (triangles + 1..).zip(boundary_edges(mesh)) {
-        let [from, to] = edge.map(|node| node + 1);
+        let [from, to] = edge.ends.map(|node| node + 1);
         writeln!(out, "{tag} {from} {to}")?;
     }
     writeln!(out, "$EndElements")
 }
 
-/// A view of Gmsh: one number for each of the first entities.
-fn write_values(
-    out: &mut impl Write,
-    section: &str,
-    name: &str,
-    values: impl ExactSizeIterator<Item = f64>,
-) -> io::Result<()> {
+/// A view of Gmsh: one number for each node or element.
+fn write_values(out: &mut impl Write, section: &str, name: &str, values: &[f64]) -> io::Result<()> {
     // One string (the name), one real number (the time), three whole numbers (step, components, count).
     writeln!(out, "${section}\n1\n\"{name}\"\n1\n0\n3\n0\n1\n{}", values.len())?;
     for (tag, value) in (1..).zip(values) {
-        writeln!(out, "{tag} {}", Number(value))?;
+        writeln!(out, "{tag} {}", Number(*value))?;
     }
     writeln!(out, "$End{section}")
 }

@@ -14,7 +14,7 @@ use crate::mesh::Mesh;
 /// Those of `out`.
 pub fn write(out: &mut impl Write, mesh: &Mesh, data: &MeshData) -> io::Result<()> {
     let mut on_boundary = vec![false; mesh.nodes().len()];
-    for node in boundary_edges(mesh).flatten() {
+    for node in boundary_edges(mesh).flat_map(|edge| edge.ends) {
         on_boundary[node] = true;
     }
     writeln!(out, "{} 2 {} 1", mesh.nodes().len(), data.node_values().count())?;
