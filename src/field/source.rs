@@ -2,7 +2,7 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use super::{Formula, Transfer};
+use super::{Formula, RiskToDiameter};
 use crate::mesh::InvalidTarget;
 use crate::raster::Raster;
 
@@ -25,7 +25,7 @@ impl Source {
     /// The target diameter at a point in world units; rasters ask for nothing (infinity) beyond their edge.
     ///
     /// Unchecked: a formula may give NaN or less than zero. See [`checked_target`].
-    pub fn target(&self, point: DVec2, transfer: &Transfer) -> f64 {
+    pub fn target(&self, point: DVec2, transfer: &impl RiskToDiameter) -> f64 {
         match self {
             Self::Constant(diameter) => *diameter,
             Self::TargetFormula(formula) => formula.eval(point.x, point.y),
@@ -57,7 +57,11 @@ impl Source {
 /// # Errors
 /// When a source gives NaN, infinity, zero or less. Only a raster may ask for nothing, beyond its edge or where it has no
 /// value.
-pub fn smallest_target(sources: &[Source], point: DVec2, transfer: &Transfer) -> Result<f64, InvalidTarget> {
+pub fn smallest_target(
+    sources: &[Source],
+    point: DVec2,
+    transfer: &impl RiskToDiameter,
+) -> Result<f64, InvalidTarget> {
     let mut smallest = f64::INFINITY;
     for source in sources {
         let value = source.target(point, transfer);

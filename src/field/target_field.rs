@@ -1,6 +1,6 @@
 use glam::DVec2;
 
-use super::{Source, Transfer, TransferTable, smallest_target};
+use super::{RiskToDiameter, Source, Transfer, TransferTable, smallest_target};
 use crate::geometry::Lattice;
 use crate::mesh::{Element, InvalidTarget, Progress, bisection_edge_length, level_for_diameter};
 use crate::raster::{PixelRect, Pyramid, Raster, RasterOnLattice};
@@ -111,7 +111,7 @@ impl TargetField {
         let slice = PixelRect { min: [0, first], max: [columns, last] };
         for (x, y) in slice.pixels() {
             let point = self.base.pixel_center(x, y);
-            let value = smallest_target(&self.spec.sources, point, &self.spec.transfer)?;
+            let value = smallest_target(&self.spec.sources, point, &self.table)?;
             self.base.set(x, y, f32_not_below(value));
         }
         self.filled_rows = last;
@@ -144,7 +144,7 @@ impl TargetField {
             asked = asked.min(f64::from(paint.diameter.get(x, y)));
             let risk = paint.risk.get(x, y);
             if risk > 0.0 {
-                asked = asked.min(self.table.diameter(risk));
+                asked = asked.min(self.table.diameter(f64::from(risk)));
             }
         }
         asked.clamp(self.spec.transfer.h_min, self.spec.transfer.h_max)
@@ -166,7 +166,8 @@ impl TargetField {
     pub fn target_at_node(&self, paint: Paint, point: DVec2) -> f64 {
         let asked = self.spec.sources.iter().map(|source| source.target(point, &self.spec.transfer));
         let painted = paint.diameter.sample(point).map_or(f64::INFINITY, f64::from);
-        let risk = paint.risk.sample(point).map_or(f64::INFINITY, |risk| self.table.diameter(risk));
+        let risk =
+            paint.risk.sample(point).map_or(f64::INFINITY, |risk| self.table.diameter(f64::from(risk)));
         let smallest = asked.fold(painted.min(risk), |a, b| if b.is_nan() { b } else { a.min(b) });
         smallest.clamp(self.spec.transfer.h_min, self.spec.transfer.h_max)
     }

@@ -36,6 +36,12 @@ pub enum TransferError {
     Shape(f64),
 }
 
+/// What turns a risk into a target diameter: the curve itself, or its table.
+pub trait RiskToDiameter {
+    /// The target diameter for a risk between 0 and 1; risks beyond are cut off. NaN gives NaN.
+    fn diameter(&self, risk: f64) -> f64;
+}
+
 impl Transfer {
     /// Checks that the curve falls from a finite `h_max` to a positive `h_min`.
     ///
@@ -55,10 +61,13 @@ impl Transfer {
         }
         Ok(self)
     }
+}
 
-    /// The target diameter for a risk between 0 and 1; risks beyond are cut off. NaN gives NaN.
-    pub fn diameter(&self, risk: f64) -> f64 {
-        if risk <= 0.0 {
+impl RiskToDiameter for Transfer {
+    fn diameter(&self, risk: f64) -> f64 {
+        if risk.is_nan() {
+            risk // a power of 1 would hide it
+        } else if risk <= 0.0 {
             self.h_max
         } else if risk >= 1.0 {
             self.h_min
@@ -83,11 +92,16 @@ impl TransferTable {
         let knots = (0..=STEPS).map(|i| transfer.diameter(i as f64 / STEPS as f64)).collect();
         Self { knots }
     }
+}
 
-    /// The target diameter for a risk, linear between the knots; exact at risk 0 and 1.
+impl RiskToDiameter for TransferTable {
+    /// Linear between the knots; exact at risk 0 and 1.
     #[inline]
-    pub fn diameter(&self, risk: f32) -> f64 {
-        let place = f64::from(risk).clamp(0.0, 1.0) * STEPS as f64;
+    fn diameter(&self, risk: f64) -> f64 {
+        if risk.is_nan() {
+            return risk;
+        }
+        let place = risk.clamp(0.0, 1.0) * STEPS as f64;
         let knot = (place as usize).min(STEPS - 1);
         let (left, right) = (self.knots[knot], self.knots[knot + 1]);
         left + (right - left) * (place - knot as f64)
@@ -107,6 +121,7 @@ mod tests {
         assert!((EVEN.diameter(0.5) - 0.1).abs() < 1e-15);
         assert_eq!(EVEN.diameter(-3.0), 1.0);
         assert_eq!(EVEN.diameter(7.0), 0.01);
+        assert!(Transfer { h_min: 1.0, ..EVEN }.diameter(f64::NAN).is_nan());
     }
 
     #[test]
@@ -116,8 +131,8 @@ mod tests {
             let table = TransferTable::new(&curve);
             // Below the first knot a steep curve is cut by the straight line from h_max.
             for i in 5..=10_000 {
-                let risk = i as f32 / 10_000.0;
-                let (exact, quick) = (curve.diameter(f64::from(risk)), table.diameter(risk));
+                let risk = f64::from(i) / 10_000.0;
+                let (exact, quick) = (curve.diameter(risk), table.diameter(risk));
                 assert!((quick / exact - 1.0).abs() < 0.1 && (0.01..=1.0).contains(&quick), "{shape} {risk}");
             }
             assert_eq!((table.diameter(0.0), table.diameter(1.0)), (1.0, 0.01));

@@ -5,7 +5,7 @@ use super::super::command::Command;
 use super::super::readout::{Quantity, value_at};
 use super::super::widgets::{Section, Transfer as Shown, TransferCurve};
 use crate::document::Setting;
-use crate::field::Transfer;
+use crate::field::{RiskToDiameter, Transfer};
 
 /// Exponents that the curve's middle handle reaches.
 const SHAPES: std::ops::RangeInclusive<f64> = 0.2..=5.0;
