@@ -33,8 +33,8 @@ impl App {
                 .resizable(false)
                 .exact_size(width)
                 .show(ui, |ui| self.tools_ui(ui));
-            let side =
-                Frame::new().fill(t.panel).inner_margin(Margin::symmetric(metrics::PANEL_MARGIN as i8, 0));
+            // The scroll bar runs in the margin.
+            let side = Frame::new().fill(t.panel);
             let width = metrics::PANEL_WIDTH;
             Panel::right("side")
                 .frame(side)
@@ -47,18 +47,23 @@ impl App {
     fn side_ui(&mut self, ui: &mut Ui) {
         self.hovered_neighbour = None;
         self.view.lone_level = None;
+        let margin = Margin::symmetric(metrics::PANEL_MARGIN as i8, 0);
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-            if self.tools.has_ring() {
-                self.brush_ui(ui);
-            }
-            self.transfer_ui(ui);
-            self.levels_ui(ui);
-            self.inspector_ui(ui);
-            self.field_ui(ui);
-            self.mesh_ui(ui);
-            self.view_ui(ui);
-            ui.add_space(metrics::PANEL_MARGIN);
+            Frame::new().inner_margin(margin).show(ui, |ui| self.sections_ui(ui));
         });
+    }
+
+    fn sections_ui(&mut self, ui: &mut Ui) {
+        if self.tools.has_ring() {
+            self.brush_ui(ui);
+        }
+        self.transfer_ui(ui);
+        self.levels_ui(ui);
+        self.inspector_ui(ui);
+        self.field_ui(ui);
+        self.mesh_ui(ui);
+        self.view_ui(ui);
+        ui.add_space(metrics::PANEL_MARGIN);
     }
 
     /// Ends the gesture of a setting when the control was let go.
