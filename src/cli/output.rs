@@ -8,7 +8,7 @@ use super::failure::Failure;
 use super::job::ending;
 use crate::colormap::{Colormap, Ground, LevelColors};
 use crate::geometry::Lattice;
-use crate::io::{MeshData, csv, msh, node, obj, png, svg, vtu, write_file};
+use crate::io::{MeshData, MeshFormat, png, svg, write_file};
 use crate::mesh::Mesh;
 use crate::render::{Image, software};
 use crate::scene::{Camera, Style};
@@ -22,24 +22,23 @@ pub struct Output {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Format {
-    Vtu,
-    Msh,
-    Obj,
-    Node,
-    Csv,
+    /// The mesh with its data.
+    Mesh(MeshFormat),
+    /// A picture of lines and faces.
     Svg,
+    /// A picture of pixels.
     Png,
 }
 
-const ENDINGS: [(&str, Format); 7] = [
-    ("vtu", Format::Vtu),
-    ("msh", Format::Msh),
-    ("obj", Format::Obj),
-    ("node", Format::Node),
-    ("csv", Format::Csv),
-    ("svg", Format::Svg),
-    ("png", Format::Png),
-];
+impl Format {
+    fn from_ending(ending: &str) -> Option<Self> {
+        match ending {
+            "svg" => Some(Self::Svg),
+            "png" => Some(Self::Png),
+            _ => MeshFormat::from_ending(ending).map(Self::Mesh),
+        }
+    }
+}
 
 impl Output {
     /// A file whose ending says what to write.
@@ -47,19 +46,17 @@ impl Output {
     /// # Errors
     /// When the ending is unknown.
     pub fn new(path: &Path) -> Result<Self, Failure> {
-        let wanted = ending(path);
-        let known = ENDINGS.iter().find(|(ending, _)| *ending == wanted);
-        let Some(&(_, format)) = known else {
-            let endings = ENDINGS.map(|(ending, _)| format!(".{ending}")).join(" ");
+        let Some(format) = Format::from_ending(&ending(path)) else {
+            let meshes = MeshFormat::ALL.map(|(ending, _)| format!(".{ending}")).join(" ");
             let problem = format!("-o {}: the ending says what to write; choose one of", path.display());
-            return Err(Failure::Usage(format!("{problem} {endings}")));
+            return Err(Failure::Usage(format!("{problem} {meshes} .svg .png")));
         };
         Ok(Self { path: path.to_owned(), format })
     }
 
     /// Whether some node data is written.
     pub fn wants_node_data(&self) -> bool {
-        !matches!(self.format, Format::Svg | Format::Png)
+        matches!(self.format, Format::Mesh(_))
     }
 
     /// Writes the file, or the three files of `.node`, and returns their names.
@@ -69,21 +66,13 @@ impl Output {
     pub fn write(&self, mesh: &Mesh, data: &MeshData, look: &Look) -> Result<Vec<PathBuf>, Failure> {
         let path = &self.path;
         match self.format {
-            Format::Vtu => write_one(path, |mut out| vtu::write(&mut out, mesh, data))?,
-            Format::Msh => write_one(path, |mut out| msh::write(&mut out, mesh, data))?,
-            Format::Obj => write_one(path, |mut out| obj::write(&mut out, mesh, data))?,
-            Format::Csv => write_one(path, |mut out| csv::write(&mut out, mesh, data))?,
+            Format::Mesh(format) => {
+                return format.write(path, mesh, data).map_err(|error| failed(path, error.to_string()));
+            }
             Format::Svg => write_one(path, |mut out| svg::write(&mut out, mesh, &look.for_svg(mesh)))?,
             Format::Png => {
                 let picture = look.draw(mesh);
                 write_one(path, |mut out| png::write(&mut out, picture.size, &picture.rgba))?;
-            }
-            Format::Node => {
-                let (elements, neighbours) = (path.with_extension("ele"), path.with_extension("neigh"));
-                write_one(path, |mut out| node::write(&mut out, mesh, data))?;
-                write_one(&elements, |mut out| node::write_elements(&mut out, mesh))?;
-                write_one(&neighbours, |mut out| node::write_neighbours(&mut out, mesh))?;
-                return Ok(vec![path.clone(), elements, neighbours]);
             }
         }
         Ok(vec![path.clone()])
