@@ -15,6 +15,8 @@ use crate::app::theme::{font, metrics, tokens};
 
 /// Height of the plot; the numbers stand in a row below it.
 const HEIGHT: f32 = 104.0;
+/// Least width of the cell in which a number is typed.
+const CELL: f32 = 52.0;
 /// Room for the numbers of the axis.
 const AXIS: f32 = 44.0;
 /// Radius of a handle.
@@ -220,7 +222,12 @@ impl<'a> TransferCurve<'a> {
             ui.painter().hline(plot.rect.x_range(), y, Stroke::new(1.0, t.line));
             if (decade - plot.axis.high) % every == 0 {
                 let place = Rect::from_x_y_ranges(rect.left()..=plot.rect.left() - 8.0, y - 8.0..=y + 8.0);
-                let text = paint::line(ui, &format::digits(diameter, 1), font::axis(), t.faint);
+                let number = if (-3..=4).contains(&decade) {
+                    format::digits(diameter, 1)
+                } else {
+                    format!("1e{decade}")
+                };
+                let text = paint::line(ui, &number, font::axis(), t.faint);
                 paint::at_right(ui, place, text);
             }
         }
@@ -291,7 +298,9 @@ impl<'a> TransferCurve<'a> {
         let gap = name.size().x + 8.0;
         let (name_at, cell_at, align) = match handle {
             Handle::Min => {
-                (rect.with_max_x(rect.right() - number - 8.0), rect.with_min_x(rect.left() + gap), Align::Max)
+                // The cell keeps its place while its number is typed, and the name stays clear of it.
+                let cell = rect.with_min_x(rect.right() - number.max(CELL));
+                (rect.with_max_x(cell.left() - 4.0), cell, Align::Max)
             }
             _ => (rect.with_max_x(rect.left() + gap), rect.with_min_x(rect.left() + gap), Align::Min),
         };
