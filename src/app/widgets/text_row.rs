@@ -1,7 +1,8 @@
 //! A text field that says what is wrong, and where.
 
 use eframe::egui::{
-    self, Align2, FontId, Pos2, Rect, Response, Shape, Stroke, StrokeKind, TextEdit, Ui, pos2, vec2,
+    self, Align2, FontId, Pos2, Rect, Response, Role, Sense, Shape, Stroke, StrokeKind, TextEdit, Ui,
+    WidgetInfo, pos2, vec2,
 };
 use egui::text::CCursor;
 
@@ -133,7 +134,9 @@ fn message(ui: &mut Ui, field: Rect, text: &str) {
     let colour = tokens(ui).danger;
     let galley = ui.painter().layout(text.to_owned(), font::caption(), colour, field.width() - 8.0);
     let height = (galley.size().y + 6.0).max(metrics::ROW - 4.0);
-    let (_, rect) = ui.allocate_space(vec2(ui.available_width(), height));
+    let (id, rect) = ui.allocate_space(vec2(ui.available_width(), height));
+    let response = ui.interact(rect, id, Sense::hover());
+    response.widget_info(|| WidgetInfo::labeled(Role::Alert, true, text));
     ui.painter().galley(pos2(field.left() + 8.0, rect.top() + 4.0), galley, colour);
 }
 
