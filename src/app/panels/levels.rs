@@ -5,6 +5,10 @@ use super::super::view::deepest_level;
 use super::super::widgets::{LevelLegend, LevelRow, Section, format};
 use crate::colormap::LevelColors;
 
+/// Height of the legend in points, however many levels there are: the sections below must not move away from under a
+/// pointer that drags the coarse spacing or the smallest diameter.
+const HEIGHT: f32 = 224.0;
+
 impl App {
     /// The legend is the histogram: same colours as on the canvas, counts beside the bars.
     pub(super) fn levels_ui(&mut self, ui: &mut Ui) {
@@ -20,7 +24,8 @@ impl App {
             let under_pointer =
                 self.pointer_world.and_then(|point| self.session.mesh().locate(point).triangle());
             let lit = under_pointer.map(|id| self.session.mesh().triangle(id).level());
-            let legend = LevelLegend::new(&rows).lit(lit).show(ui);
+            ui.set_min_height(HEIGHT);
+            let legend = LevelLegend::new(&rows).lit(lit).max_height(HEIGHT).show(ui);
             self.view.lone_level = legend.hovered;
         });
     }
