@@ -61,6 +61,7 @@ fn tool(app: &App) -> Vec<Entry> {
         tool("Brush", Tool::Brush, Key::B),
         tool("Eraser", Tool::Eraser, Key::E),
         tool("Query", Tool::Query, Key::Q),
+        tool("Domain", Tool::Domain, Key::D),
         tool("Pan", Tool::Pan, Key::H),
         kind("Paint risk", PaintKind::Risk).key(Key::R).group(),
         kind("Paint target diameter", PaintKind::Diameter).key(Key::T),

@@ -75,6 +75,9 @@ pub enum Command {
     /// Asks about a triangle.
     QueryTriangle(TriangleId),
 
+    /// Makes the rectangle between two points, in world units, the domain's.
+    Frame(DVec2, DVec2),
+
     /// Shows the whole domain.
     Fit,
     /// Zooms about the middle of the canvas by a factor.

@@ -100,6 +100,11 @@ impl Files {
         self.asking = Some((request, String::new()));
     }
 
+    /// Whether a path is being asked for.
+    pub fn is_asking(&self) -> bool {
+        self.asking.is_some()
+    }
+
     /// Reads a picture and makes it the base field's risk.
     pub fn load_image(&mut self, path: PathBuf, settings: &Settings, ctx: &Context) {
         let bounds = settings.domain.bounds;

@@ -12,6 +12,7 @@ pub struct Hints {
     painted: u32,
     erased: u32,
     queried: u32,
+    framed: u32,
 }
 
 const PAINT_RISK: &[Hint] = &[
@@ -46,6 +47,8 @@ const ERASE: &[Hint] = &[
 ];
 const QUERY: &[Hint] =
     &[Text("Click a triangle to read it out"), Key("B"), Text("brush"), Key("Esc"), Text("let go")];
+const DOMAIN: &[Hint] =
+    &[Text("Drag a rectangle: it becomes the domain"), Key("Ctrl+Z"), Text("undo"), Key("B"), Text("brush")];
 const PAN: &[Hint] =
     &[Text("Drag to move, wheel to zoom"), Key("Home"), Text("fits"), Key("B"), Text("brush")];
 
@@ -56,6 +59,7 @@ impl Hints {
             Tool::Brush => self.painted += 1,
             Tool::Eraser => self.erased += 1,
             Tool::Query => self.queried += 1,
+            Tool::Domain => self.framed += 1,
             Tool::Pan => {}
         }
     }
@@ -66,10 +70,12 @@ impl Hints {
             (Tool::Brush, _) if self.painted >= ENOUGH => &[],
             (Tool::Eraser, _) if self.erased >= ENOUGH => &[],
             (Tool::Query, _) if self.queried >= ENOUGH => &[],
+            (Tool::Domain, _) if self.framed >= ENOUGH => &[],
             (Tool::Brush, PaintKind::Risk) => PAINT_RISK,
             (Tool::Brush, PaintKind::Diameter) => PAINT_DIAMETER,
             (Tool::Eraser, _) => ERASE,
             (Tool::Query, _) => QUERY,
+            (Tool::Domain, _) => DOMAIN,
             (Tool::Pan, _) => PAN,
         }
     }

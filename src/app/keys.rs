@@ -9,7 +9,7 @@ impl App {
     /// Sends the commands whose shortcuts were pressed, unless somebody is typing.
     pub(super) fn follow_keys(&mut self, ctx: &Context) {
         // A menu or a dialog takes Escape and Enter itself.
-        if self.palette.is_open() || Popup::is_any_open(ctx) {
+        if self.asks_something() || Popup::is_any_open(ctx) {
             return;
         }
         let typing = ctx.egui_wants_keyboard_input();
@@ -20,7 +20,7 @@ impl App {
         });
         for entry in entries {
             let Some(shortcut) = entry.shortcut else { continue };
-            let for_typing = typing && !shortcut.modifiers.command;
+            let for_typing = typing && edits_text(&shortcut);
             if !for_typing && entry.enabled && shortcut.logical_key != Key::Tab {
                 for _ in 0..ctx
                     .input_mut(|input| input.count_and_consume_key(shortcut.modifiers, shortcut.logical_key))
@@ -34,7 +34,7 @@ impl App {
     /// Tab hides the panels while nothing has the keyboard's focus; egui would move the focus instead.
     pub(super) fn catch_tab(&mut self, ctx: &Context, raw_input: &mut RawInput) {
         let focused = ctx.memory(|memory| memory.focused().is_some());
-        if focused || self.palette.is_open() {
+        if focused || self.asks_something() {
             return;
         }
         raw_input.events.retain(|event| match event {
@@ -47,6 +47,11 @@ impl App {
             _ => true,
         });
     }
+}
+
+/// Whether a shortcut belongs to the text field while somebody types in one.
+fn edits_text(shortcut: &KeyboardShortcut) -> bool {
+    !shortcut.modifiers.command || matches!(shortcut.logical_key, Key::Z | Key::Backspace)
 }
 
 fn modifier_count(modifiers: Modifiers) -> u8 {

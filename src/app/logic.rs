@@ -4,12 +4,14 @@ use eframe::egui::{Context, ThemePreference, ViewportCommand};
 use glam::DVec2;
 
 use super::App;
+use super::canvas::Gesture;
 use super::command::Command;
 use super::files::FileRequest;
 use super::readout::{Quantity, value_at};
 use super::tools::{PaintKind, Tool, Tools};
 use super::view::FieldOverlay;
-use crate::document::{Document, Example, Settings};
+use crate::document::{Document, Example, Setting, Settings};
+use crate::geometry::Rect;
 
 impl App {
     /// Carries out one command.
@@ -23,8 +25,8 @@ impl App {
             Command::Export(path) => self.export(path, ctx),
             Command::Quit => ctx.send_viewport_cmd(ViewportCommand::Close),
 
-            Command::Undo => drop(self.session.document_mut().undo()),
-            Command::Redo => drop(self.session.document_mut().redo()),
+            Command::Undo => self.travel(Document::undo),
+            Command::Redo => self.travel(Document::redo),
             Command::ClearPaint => self.session.document_mut().clear_paint(),
             Command::Set(setting) => self.session.set(setting),
             Command::EndGesture => self.session.document_mut().end_gesture(),
@@ -48,6 +50,8 @@ impl App {
             Command::Query(point) => self.query(point),
             Command::QueryTriangle(id) => self.session.query_triangle(id),
 
+            Command::Frame(a, b) => self.frame(a, b),
+
             Command::Fit => self.view.camera = None,
             Command::Zoom(factor) => self.view.zoom(factor),
             Command::ToggleEdges => self.view.edges = !self.view.edges,
@@ -62,7 +66,7 @@ impl App {
 
     fn open(&mut self, title: &'static str, document: Document) {
         self.session.document_mut().replace_with(title, document);
-        self.opened_revision = self.session.document().revision();
+        self.unedited.push(self.session.document().version());
         self.session.query(None);
         self.session.set_notice(None);
         let settings = self.session.document().settings();
@@ -71,6 +75,18 @@ impl App {
         self.tools.radius = fitting.radius;
         self.tools.diameter = fitting.diameter;
         self.view.camera = None;
+    }
+
+    /// Undoes or redoes. Where that brings another domain, the brush keeps its share of it.
+    fn travel(&mut self, step: fn(&mut Document) -> bool) {
+        let extent = |app: &Self| app.session.document().settings().domain.bounds.size().max_element();
+        let before = extent(self);
+        step(self.session.document_mut());
+        let ratio = extent(self) / before;
+        if ratio != 1.0 {
+            self.tools.radius *= ratio;
+            self.tools.diameter *= ratio;
+        }
     }
 
     fn open_example(&mut self, example: Example) {
@@ -104,6 +120,8 @@ impl App {
     fn escape(&mut self) {
         if self.session.document().stroke().is_some() {
             self.session.document_mut().cancel_stroke();
+        } else if matches!(self.gesture, Gesture::Framing { .. }) {
+            self.gesture = Gesture::None;
         } else {
             self.session.query(None);
             self.session.set_notice(None);
@@ -146,6 +164,12 @@ impl App {
     fn query(&mut self, point: DVec2) {
         self.session.query(Some(point));
         self.hints.did(Tool::Query);
+    }
+
+    fn frame(&mut self, a: DVec2, b: DVec2) {
+        self.session.set(Setting::Bounds(Rect::new(a.min(b), a.max(b))));
+        self.session.document_mut().end_gesture();
+        self.hints.did(Tool::Domain);
     }
 
     /// The key of an overlay that is shown takes it away.

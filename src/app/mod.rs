@@ -51,8 +51,8 @@ const SMALLEST_SIZE: [f32; 2] = [900.0, 600.0];
 /// The program in its window.
 pub struct App {
     session: Session,
-    /// The document's revision when it was opened: it is edited once it has another.
-    opened_revision: u64,
+    /// The versions of the document that were opened and not edited since.
+    unedited: Vec<u64>,
     tools: Tools,
     view: View,
     theme: ThemePreference,
@@ -88,7 +88,7 @@ impl App {
         let tools = Tools::for_domain(extent, settings.transfer.h_min);
         let gpu = render_state.map(CanvasGpu::new).transpose().map_err(|error| error.to_string())?;
         Ok(Self {
-            opened_revision: session.document().revision(),
+            unedited: vec![session.document().version()],
             session,
             tools,
             view: View::default(),
@@ -129,9 +129,14 @@ impl App {
         self.commands.push(command);
     }
 
+    /// Whether a dialog is open, which takes the keys.
+    fn asks_something(&self) -> bool {
+        self.palette.is_open() || self.about || self.files.is_asking()
+    }
+
     fn title(&self) -> String {
         let document = self.session.document();
-        let edited = if document.revision() == self.opened_revision { "" } else { " — edited" };
+        let edited = if self.unedited.contains(&document.version()) { "" } else { " — edited" };
         format!("{}{edited}", document.settings().name)
     }
 

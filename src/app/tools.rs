@@ -11,6 +11,8 @@ pub enum Tool {
     Eraser,
     /// Asks about a point.
     Query,
+    /// Draws the domain's rectangle.
+    Domain,
     /// Moves the view.
     Pan,
 }

@@ -29,6 +29,8 @@ impl Change {
 pub(super) struct Entry {
     pub(super) title: &'static str,
     pub(super) change: Change,
+    /// The document's version on the other side.
+    pub(super) version: u64,
 }
 
 /// Gestures that can be undone and redone. Neither mesh nor field is kept: they are derived.

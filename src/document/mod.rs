@@ -30,6 +30,9 @@ pub struct Document {
     open_gesture: Option<&'static str>,
     repainted: Repainted,
     revision: u64,
+    version: u64,
+    /// The highest version so far.
+    last_version: u64,
 }
 
 /// Pixels that changed since the follower last asked.
@@ -64,6 +67,8 @@ impl Document {
             open_gesture: None,
             repainted: Repainted::Everything,
             revision: 0,
+            version: 0,
+            last_version: 0,
         })
     }
 
@@ -85,6 +90,11 @@ impl Document {
     /// Grows with every change.
     pub fn revision(&self) -> u64 {
         self.revision
+    }
+
+    /// Names the document as it is: undo brings the former version back. A stroke counts once it has ended.
+    pub fn version(&self) -> u64 {
+        self.version
     }
 
     /// The stroke under way.
@@ -116,7 +126,7 @@ impl Document {
             };
             let patch = stroke.finish();
             if !patch.is_empty() {
-                self.history.push(Entry { title, change: Change::Paint(patch) });
+                self.enter(title, Change::Paint(patch));
             }
         }
     }
@@ -173,11 +183,14 @@ impl Document {
         } else {
             let old = std::mem::replace(&mut self.settings, settings);
             if !joins {
-                self.history.push(Entry { title, change: Change::Settings(Box::new(old)) });
+                self.enter(title, Change::Settings(Box::new(old)));
             }
             self.revision += 1;
         }
         self.open_gesture = Some(title);
+        if joins {
+            self.next_version();
+        }
         Ok(())
     }
 
@@ -209,9 +222,12 @@ impl Document {
         did
     }
 
-    /// Takes back the last gesture for good: it turned out that it cannot be met.
+    /// Takes back the last gesture for good, if it changed a setting: it turned out that this cannot be met.
+    ///
+    /// Paint stays: whoever painted since then should not lose it.
     pub fn reject_last(&mut self) {
-        if self.undo() {
+        let paints = matches!(self.last_change(), Some(Change::Paint(_)));
+        if self.stroke.is_none() && !paints && self.undo() {
             self.history.forget_undone();
         }
     }
@@ -228,6 +244,7 @@ impl Document {
     }
 
     fn exchange(&mut self, entry: &mut Entry) {
+        std::mem::swap(&mut entry.version, &mut self.version);
         match &mut entry.change {
             Change::Paint(patch) => {
                 let area = patch.exchange(&mut self.layers);
@@ -248,8 +265,20 @@ impl Document {
     fn replace(&mut self, title: &'static str, settings: Settings, layers: Layers) {
         let settings = std::mem::replace(&mut self.settings, settings);
         let layers = std::mem::replace(&mut self.layers, layers);
-        self.history.push(Entry { title, change: Change::Everything(Box::new((settings, layers))) });
+        self.enter(title, Change::Everything(Box::new((settings, layers))));
         self.note_replaced();
+    }
+
+    /// Enters a gesture into the history.
+    fn enter(&mut self, title: &'static str, change: Change) {
+        let version = self.version;
+        self.next_version();
+        self.history.push(Entry { title, change, version });
+    }
+
+    fn next_version(&mut self) {
+        self.last_version += 1;
+        self.version = self.last_version;
     }
 
     fn last_change(&self) -> Option<&Change> {

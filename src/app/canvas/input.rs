@@ -36,6 +36,13 @@ pub enum Gesture {
         /// Whether it moved far enough to be a drag.
         dragged: bool,
     },
+    /// Drawing the domain's rectangle.
+    Framing {
+        /// Where the pointer went down.
+        from: Pos2,
+        /// Where it is.
+        to: Pos2,
+    },
 }
 
 /// The canvas as the pointer sees it.
@@ -62,6 +69,14 @@ impl Pointer<'_> {
         self.camera.world_from_screen(self.px(at))
     }
 
+    /// World coordinates of a position in points, with no more digits than a pixel is worth.
+    fn round_world(&self, at: Pos2) -> DVec2 {
+        let unit = 10_f64.powf((1.0 / self.camera.px_per_world()).log10().ceil());
+        let inverse = (1.0 / unit).round();
+        let world = self.world(at);
+        if unit < 1.0 { (world * inverse).round() / inverse } else { (world / unit).round() * unit }
+    }
+
     /// Follows the events of this frame in their order, so that a quick stroke keeps every point the mouse reported.
     pub fn follow_events(
         &mut self,
@@ -85,8 +100,13 @@ impl Pointer<'_> {
                 Event::PointerButton { pos, button, pressed: false, .. } => {
                     self.released(pos, button, gesture, commands);
                 }
+                Event::WindowFocused(false) => give_up(gesture, commands),
                 _ => {}
             }
+        }
+        // Let go where no event told of it, as in another window.
+        if !ui.input(|input| input.pointer.any_down()) {
+            give_up(gesture, commands);
         }
         if response.contains_pointer() {
             self.scroll(ui);
@@ -127,6 +147,7 @@ impl Pointer<'_> {
                 commands.push(Command::Query(point));
                 Gesture::None
             }
+            Tool::Domain => Gesture::Framing { from: pos, to: pos },
             Tool::Pan => Gesture::None,
         }
     }
@@ -139,6 +160,7 @@ impl Pointer<'_> {
                 *self.camera = self.camera.panned(self.px(pos) - self.px(*last));
                 *last = pos;
             }
+            Gesture::Framing { to, .. } => *to = pos,
             Gesture::Sizing { from, radius, dragged } => {
                 *dragged |= from.distance(pos) > CLICK_SLACK;
                 if *dragged {
@@ -162,6 +184,11 @@ impl Pointer<'_> {
                 commands.push(Command::LineTo(self.world(pos)));
             }
             Gesture::Sizing { .. } if released == PointerButton::Primary => {}
+            Gesture::Framing { from, .. } if released == PointerButton::Primary => {
+                if (pos.x - from.x).abs().min((pos.y - from.y).abs()) > CLICK_SLACK {
+                    commands.push(Command::Frame(self.round_world(from), self.round_world(pos)));
+                }
+            }
             Gesture::Panning { button, .. } if released == button => {}
             _ => return,
         }
@@ -178,5 +205,12 @@ impl Pointer<'_> {
         {
             *self.camera = self.camera.zoomed(factor, self.px(at));
         }
+    }
+}
+
+/// Ends a gesture where it is. What was painted stays.
+fn give_up(gesture: &mut Gesture, commands: &mut Vec<Command>) {
+    if std::mem::take(gesture) == Gesture::Painting {
+        commands.push(Command::EndStroke);
     }
 }

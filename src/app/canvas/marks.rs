@@ -1,6 +1,6 @@
 //! What is drawn over the mesh: the brush ring, highlighted triangles and their numbers.
 
-use eframe::egui::{Align2, Color32, Painter, Pos2, Rect, Shape, Stroke, pos2, vec2};
+use eframe::egui::{Align2, Color32, Painter, Pos2, Rect, Shape, Stroke, StrokeKind, pos2, vec2};
 
 use super::super::theme::font;
 use super::super::tools::Tools;
@@ -95,6 +95,12 @@ pub fn paint_line_preview(painter: &Painter, from: Pos2, to: Pos2) {
     let ends = [from, to];
     painter.line_segment(ends, Stroke::new(3.0, Color32::from_black_alpha(110)));
     painter.extend(Shape::dashed_line(&ends, Stroke::new(1.5, Color32::WHITE), 6.0, 4.0));
+}
+
+/// The rectangle that is to become the domain.
+pub fn paint_frame(painter: &Painter, frame: Rect) {
+    painter.rect_stroke(frame, 0.0, Stroke::new(3.5, Color32::from_black_alpha(130)), StrokeKind::Middle);
+    painter.rect_stroke(frame, 0.0, Stroke::new(1.5, Color32::WHITE), StrokeKind::Middle);
 }
 
 /// Where a canvas pixel is, in points.

@@ -42,6 +42,10 @@ impl App {
         let mut commands = std::mem::take(&mut self.commands);
         self.follow_pointer(ui, &response, &mut camera, &mut commands);
         self.view.camera = Some(camera);
+        if !commands.is_empty() {
+            // The panels of this frame were drawn before.
+            ui.ctx().request_repaint();
+        }
         for command in commands {
             self.execute(command, ui.ctx());
         }
@@ -126,6 +130,9 @@ impl App {
         let at = |world| marks::point_from_px(rect, camera.screen_from_world(world), px_per_point);
         if let Some(readout) = readout {
             marks::paint_point(&painter, at(readout.point));
+        }
+        if let Gesture::Framing { from, to } = self.gesture {
+            marks::paint_frame(&painter, Rect::from_two_pos(from, to));
         }
         if let Some(pointer) = response.hover_pos().filter(|_| self.tools.has_ring()) {
             let points_per_world = camera.px_per_world() as f32 / px_per_point;

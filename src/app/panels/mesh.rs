@@ -3,6 +3,7 @@ use eframe::egui::{RichText, Ui};
 use super::super::App;
 use super::super::command::Command;
 use super::super::theme::{font, tokens};
+use super::super::tools::Tool;
 use super::super::widgets::{NumberRow, Section, SliderRow, format, segmented, value_row};
 use crate::document::Setting;
 use crate::field::Rule;
@@ -17,6 +18,15 @@ impl App {
             self.spacing_ui(ui);
             self.rule_ui(ui);
             self.budget_ui(ui);
+        });
+    }
+
+    /// The rectangle, and the formula that cuts the domain out of it. With its tool in hand it stands first, open.
+    pub(super) fn domain_ui(&mut self, ui: &mut Ui) {
+        let section = Section::new("Domain");
+        let in_hand = self.tools.tool == Tool::Domain;
+        let section = if in_hand { section.id("domain tool") } else { section.closed() };
+        section.show(ui, |ui| {
             self.bounds_ui(ui);
             self.inside_ui(ui);
         });

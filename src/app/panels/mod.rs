@@ -17,10 +17,14 @@ pub use field::FieldTexts;
 
 use super::App;
 use super::theme::{metrics, tokens};
+use super::tools::Tool;
 
 impl App {
     /// All panels, from the rim inwards.
     pub(super) fn panels_ui(&mut self, ui: &mut Ui) {
+        // Hidden panels have nothing under the pointer either.
+        self.hovered_neighbour = None;
+        self.view.lone_level = None;
         let t = *tokens(ui);
         let bar = Frame::new().fill(t.window).inner_margin(Margin::symmetric(12, 2));
         Panel::top("menu").frame(bar).exact_size(metrics::MENU_BAR).show(ui, |ui| self.menu_ui(ui));
@@ -45,8 +49,6 @@ impl App {
     }
 
     fn side_ui(&mut self, ui: &mut Ui) {
-        self.hovered_neighbour = None;
-        self.view.lone_level = None;
         let margin = Margin::symmetric(metrics::PANEL_MARGIN as i8, 0);
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             Frame::new().inner_margin(margin).show(ui, |ui| self.sections_ui(ui));
@@ -57,11 +59,17 @@ impl App {
         if self.tools.has_ring() {
             self.brush_ui(ui);
         }
+        if self.tools.tool == Tool::Domain {
+            self.domain_ui(ui);
+        }
         self.transfer_ui(ui);
         self.levels_ui(ui);
         self.inspector_ui(ui);
         self.field_ui(ui);
         self.mesh_ui(ui);
+        if self.tools.tool != Tool::Domain {
+            self.domain_ui(ui);
+        }
         self.view_ui(ui);
         ui.add_space(metrics::PANEL_MARGIN);
     }

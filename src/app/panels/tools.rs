@@ -5,10 +5,11 @@ use super::super::command::Command;
 use super::super::tools::Tool;
 use super::super::widgets::{Icon, ToolButton};
 
-const TOOLS: [(Tool, Icon, &str, &str); 4] = [
+const TOOLS: [(Tool, Icon, &str, &str); 5] = [
     (Tool::Brush, Icon::BRUSH, "Brush", "B"),
     (Tool::Eraser, Icon::ERASER, "Eraser", "E"),
     (Tool::Query, Icon::QUERY, "Query", "Q"),
+    (Tool::Domain, Icon::DOMAIN, "Domain", "D"),
     (Tool::Pan, Icon::PAN, "Pan", "H"),
 ];
 
