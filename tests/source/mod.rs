@@ -1,0 +1,420 @@
+//! Reads the program's own source, as far as the rules of the house need it: tokens, paths, functions.
+//!
+//! Comments, doc comments, strings and code under `#[cfg(test)]` are left out before anything is asked, so that words in
+//! them are no code. This is no parser of Rust: it knows as much as rustfmt's layout and this crate's habits ask for.
+
+use std::fs;
+use std::ops::RangeInclusive;
+use std::path::{Path, PathBuf};
+
+/// A word or a sign of the code, with its line counted from one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Token {
+    pub line: usize,
+    /// A name, a number, `::`, `"` for any string or character, or a single sign.
+    pub text: String,
+}
+
+/// A path such as `crate::mesh::Mesh`, whole even where it was written in braces.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PathInCode {
+    pub line: usize,
+    pub segments: Vec<String>,
+}
+
+/// A function with a body.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Function {
+    pub name: String,
+    pub lines: RangeInclusive<usize>,
+}
+
+/// One file of `src` without comments, strings and tests.
+#[derive(Clone, Debug)]
+pub struct SourceFile {
+    /// From the root of the repository, with `/`.
+    pub path: String,
+    /// Where it stands in the tree of modules; empty for `lib.rs` and `main.rs`.
+    pub module: Vec<String>,
+    pub tokens: Vec<Token>,
+    /// Lines that are not under `#[cfg(test)]`.
+    pub line_count: usize,
+    /// Modules in files of their own that are under `#[cfg(test)]`.
+    test_modules: Vec<Vec<String>>,
+}
+
+/// All Rust files under `src`, by path; those that only tests use are left out.
+pub fn read_src() -> Vec<SourceFile> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut paths = Vec::new();
+    collect(&root.join("src"), &mut paths);
+    paths.sort();
+    let files: Vec<SourceFile> = paths
+        .iter()
+        .map(|path| {
+            let relative: Vec<_> =
+                path.strip_prefix(root).unwrap().iter().map(|part| part.to_str().unwrap()).collect();
+            SourceFile::new(&relative.join("/"), &fs::read_to_string(path).unwrap())
+        })
+        .collect();
+    let for_tests: Vec<Vec<String>> = files.iter().flat_map(|file| file.test_modules.clone()).collect();
+    files.into_iter().filter(|file| !for_tests.iter().any(|module| file.module.starts_with(module))).collect()
+}
+
+fn collect(folder: &Path, paths: &mut Vec<PathBuf>) {
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            collect(&path, paths);
+        } else if path.extension().is_some_and(|ending| ending == "rs") {
+            paths.push(path);
+        }
+    }
+}
+
+impl SourceFile {
+    pub fn new(path: &str, text: &str) -> Self {
+        let module = module_of(path);
+        let (tokens, test_lines, names) = without_tests(tokens(text));
+        let test_modules = names.into_iter().map(|name| [module.clone(), vec![name]].concat()).collect();
+        let line_count = text.lines().count() - test_lines;
+        Self { path: path.to_owned(), module, tokens, line_count, test_modules }
+    }
+
+    /// The room: the first folder or file under `src`; empty for `lib.rs` and `main.rs`.
+    pub fn room(&self) -> &str {
+        self.module.first().map_or("", String::as_str)
+    }
+
+    /// Every path with two segments or more, those of `use` taken apart. `crate`, `self` and `super` are resolved: such
+    /// a path begins with `crate`, followed by the room.
+    pub fn paths(&self) -> Vec<PathInCode> {
+        let mut found = Vec::new();
+        let mut inline: Vec<(String, usize)> = Vec::new();
+        let (mut depth, mut at) = (0, 0);
+        while at < self.tokens.len() {
+            let module: Vec<String> =
+                self.module.iter().cloned().chain(inline.iter().map(|(name, _)| name.clone())).collect();
+            match self.text(at) {
+                "mod" if self.text(at + 2) == "{" => inline.push((self.text(at + 1).to_owned(), depth)),
+                "{" => depth += 1,
+                "}" => {
+                    depth -= 1;
+                    inline.retain(|&(_, outside)| outside < depth);
+                }
+                "use" if is_name(self.text(at + 1)) || matches!(self.text(at + 1), "{" | "::") => {
+                    let mut leaves = Vec::new();
+                    at = self.use_tree(at + 1, &mut Vec::new(), &mut leaves);
+                    found.extend(leaves.into_iter().map(|path| resolved(path, &module)));
+                    continue;
+                }
+                _ if self.begins_path(at) => {
+                    let mut path =
+                        PathInCode { line: self.tokens[at].line, segments: vec![self.text(at).into()] };
+                    while self.text(at + 1) == "::" && is_name(self.text(at + 2)) {
+                        path.segments.push(self.text(at + 2).to_owned());
+                        at += 2;
+                    }
+                    found.push(resolved(path, &module));
+                }
+                _ => {}
+            }
+            at += 1;
+        }
+        found
+    }
+
+    /// Every function that has a body, from the line of its name to the closing brace.
+    pub fn functions(&self) -> Vec<Function> {
+        let named = (0..self.tokens.len()).filter(|&at| self.text(at) == "fn" && is_name(self.text(at + 1)));
+        named.filter_map(|at| self.function(at)).collect()
+    }
+
+    fn function(&self, at: usize) -> Option<Function> {
+        let open = self.at_depth_0(at + 1, &["{", ";"])?;
+        if self.text(open) == ";" {
+            return None;
+        }
+        let close = end_of_group(&self.tokens, open);
+        let lines = self.tokens[at].line..=self.tokens[close].line;
+        Some(Function { name: self.text(at + 1).to_owned(), lines })
+    }
+
+    /// The first of `signs` from `at` on that stands in no parentheses or brackets.
+    fn at_depth_0(&self, at: usize, signs: &[&str]) -> Option<usize> {
+        let mut depth = 0;
+        (at..self.tokens.len()).find(|&i| {
+            match self.text(i) {
+                "(" | "[" => depth += 1,
+                ")" | "]" => depth -= 1,
+                _ => {}
+            }
+            depth == 0 && signs.contains(&self.text(i))
+        })
+    }
+
+    fn begins_path(&self, at: usize) -> bool {
+        is_name(self.text(at)) && self.text(at + 1) == "::" && is_name(self.text(at + 2))
+    }
+
+    /// Takes the tree of a `use` apart, from `at` on; answers where it ends.
+    fn use_tree(&self, mut at: usize, before: &mut Vec<String>, leaves: &mut Vec<PathInCode>) -> usize {
+        let kept = before.len();
+        let line = self.tokens.get(at).map_or(0, |token| token.line);
+        loop {
+            match self.text(at) {
+                "::" => at += 1,
+                "{" => {
+                    at += 1;
+                    while self.text(at) != "}" {
+                        at = self.use_tree(at, before, leaves);
+                        at += usize::from(self.text(at) == ",");
+                    }
+                    before.truncate(kept);
+                    return at + 1;
+                }
+                "as" => at += 2,
+                name if is_name(name) || name == "*" => {
+                    before.push(name.to_owned());
+                    at += 1;
+                }
+                _ => break,
+            }
+        }
+        leaves.push(PathInCode { line, segments: before.clone() });
+        before.truncate(kept);
+        at
+    }
+
+    /// The text of a token; empty beyond the end.
+    fn text(&self, at: usize) -> &str {
+        self.tokens.get(at).map_or("", |token| &token.text)
+    }
+}
+
+fn module_of(path: &str) -> Vec<String> {
+    let inner = path.trim_start_matches("src/").trim_end_matches(".rs");
+    let mut module: Vec<String> = inner.split('/').map(str::to_owned).collect();
+    if matches!(module.last().map(String::as_str), Some("mod" | "lib" | "main")) {
+        module.pop();
+    }
+    module
+}
+
+fn resolved(path: PathInCode, module: &[String]) -> PathInCode {
+    let supers = path.segments.iter().take_while(|segment| *segment == "super").count();
+    let first = path.segments.first().map_or("", String::as_str);
+    let kept = if supers > 0 { module.len().saturating_sub(supers) } else { module.len() };
+    if supers == 0 && first != "self" {
+        return path;
+    }
+    let rest = path.segments.into_iter().skip(supers.max(1));
+    let base = ["crate".to_owned()].into_iter().chain(module[..kept].iter().cloned());
+    PathInCode { line: path.line, segments: base.chain(rest).collect() }
+}
+
+fn is_name(text: &str) -> bool {
+    text.starts_with(|c: char| c.is_alphabetic() || c == '_')
+}
+
+/// The code without tests, how many lines those had, and the names of modules of theirs in other files.
+fn without_tests(tokens: Vec<Token>) -> (Vec<Token>, usize, Vec<String>) {
+    let (mut kept, mut lines, mut names) = (Vec::new(), 0, Vec::new());
+    let mut at = 0;
+    while at < tokens.len() {
+        let attribute = attribute_end(&tokens, at);
+        let for_tests = attribute.is_some_and(|end| {
+            let words: Vec<&str> = tokens[at..end].iter().map(|token| token.text.as_str()).collect();
+            words.contains(&"cfg") && words.contains(&"test") && !words.contains(&"not")
+        });
+        if !for_tests {
+            kept.push(tokens[at].clone());
+            at += 1;
+            continue;
+        }
+        let end = item_end(&tokens, attribute.unwrap_or(at));
+        if tokens[end].text == ";" && tokens[end - 2].text == "mod" {
+            names.push(tokens[end - 1].text.clone());
+        }
+        lines += tokens[end].line + 1 - tokens[at].line;
+        at = end + 1;
+    }
+    (kept, lines, names)
+}
+
+/// One past the attribute that begins at `at`, if one does.
+fn attribute_end(tokens: &[Token], at: usize) -> Option<usize> {
+    let begins = tokens[at].text == "#" && tokens.get(at + 1).is_some_and(|token| token.text == "[");
+    begins.then(|| end_of_group(tokens, at + 1) + 1)
+}
+
+/// The last token of the item at `at`, which may have further attributes.
+fn item_end(tokens: &[Token], mut at: usize) -> usize {
+    while let Some(end) = attribute_end(tokens, at) {
+        at = end;
+    }
+    while at < tokens.len() {
+        match tokens[at].text.as_str() {
+            ";" => return at,
+            "{" => return end_of_group(tokens, at),
+            "(" | "[" => at = end_of_group(tokens, at),
+            _ => {}
+        }
+        at += 1;
+    }
+    tokens.len() - 1
+}
+
+/// The bracket that closes the one at `open`.
+fn end_of_group(tokens: &[Token], open: usize) -> usize {
+    let mut depth = 0;
+    for (at, token) in tokens.iter().enumerate().skip(open) {
+        match token.text.as_str() {
+            "(" | "[" | "{" => depth += 1,
+            ")" | "]" | "}" => depth -= 1,
+            _ => {}
+        }
+        if depth == 0 {
+            return at;
+        }
+    }
+    panic!("line {}: a bracket is never closed", tokens[open].line)
+}
+
+/// The code as tokens, without comments and without what stands in quotes.
+fn tokens(text: &str) -> Vec<Token> {
+    let mut reader = Reader { chars: text.chars().collect(), at: 0, line: 1, tokens: Vec::new() };
+    while reader.at < reader.chars.len() {
+        reader.next();
+    }
+    reader.tokens
+}
+
+struct Reader {
+    chars: Vec<char>,
+    at: usize,
+    line: usize,
+    tokens: Vec<Token>,
+}
+
+impl Reader {
+    fn peek(&self, ahead: usize) -> char {
+        self.chars.get(self.at + ahead).copied().unwrap_or('\0')
+    }
+
+    fn skip(&mut self, count: usize) {
+        for _ in 0..count {
+            self.line += usize::from(self.peek(0) == '\n');
+            self.at += 1;
+        }
+    }
+
+    fn push(&mut self, text: impl Into<String>) {
+        self.tokens.push(Token { line: self.line, text: text.into() });
+    }
+
+    fn next(&mut self) {
+        match (self.peek(0), self.peek(1)) {
+            ('/', '/') => self.skip_while(|c| c != '\n'),
+            ('/', '*') => self.skip_block_comment(),
+            ('"', _) => self.string(),
+            ('\'', _) => self.character_or_lifetime(),
+            (':', ':') => {
+                self.push("::");
+                self.skip(2);
+            }
+            (c, _) if c.is_alphanumeric() || c == '_' => self.word(),
+            (c, _) => {
+                if !c.is_whitespace() {
+                    self.push(c);
+                }
+                self.skip(1);
+            }
+        }
+    }
+
+    fn skip_while(&mut self, goes_on: impl Fn(char) -> bool) {
+        while self.at < self.chars.len() && goes_on(self.peek(0)) {
+            self.skip(1);
+        }
+    }
+
+    /// Block comments nest.
+    fn skip_block_comment(&mut self) {
+        let mut depth = 0;
+        while self.at < self.chars.len() {
+            match (self.peek(0), self.peek(1)) {
+                ('/', '*') => depth += 1,
+                ('*', '/') => depth -= 1,
+                _ => {
+                    self.skip(1);
+                    continue;
+                }
+            }
+            self.skip(2);
+            if depth == 0 {
+                return;
+            }
+        }
+    }
+
+    /// A name or a number; or the letters before a string (`r`, `b`, `br`, `c`) and the string.
+    fn word(&mut self) {
+        let start = self.at;
+        let mut end = start;
+        while self.chars.get(end).is_some_and(|c| c.is_alphanumeric() || *c == '_') {
+            end += 1;
+        }
+        let word: String = self.chars[start..end].iter().collect();
+        let hashes = self.chars[end..].iter().take_while(|c| **c == '#').count();
+        let quoted = self.chars.get(end + hashes) == Some(&'"');
+        let raw = matches!(word.as_str(), "r" | "br" | "cr");
+        if quoted && raw {
+            self.skip(end - start + hashes);
+            self.raw_string(hashes);
+        } else if quoted && hashes == 0 && matches!(word.as_str(), "b" | "c") {
+            self.skip(end - start);
+            self.string();
+        } else {
+            self.push(word);
+            self.skip(end - start);
+        }
+    }
+
+    fn string(&mut self) {
+        self.push('"');
+        self.skip(1);
+        while self.at < self.chars.len() && self.peek(0) != '"' {
+            let escaped = usize::from(self.peek(0) == '\\');
+            self.skip(1 + escaped);
+        }
+        self.skip(1);
+    }
+
+    fn raw_string(&mut self, hashes: usize) {
+        self.push('"');
+        self.skip(1);
+        while self.at < self.chars.len() {
+            let closed = self.peek(0) == '"' && (1..=hashes).all(|ahead| self.peek(ahead) == '#');
+            self.skip(1 + if closed { hashes } else { 0 });
+            if closed {
+                return;
+            }
+        }
+    }
+
+    /// `'a'` and `'\n'` are characters, `'a` is a lifetime.
+    fn character_or_lifetime(&mut self) {
+        let length = match (self.peek(1), self.peek(2)) {
+            ('\\', _) => {
+                (3..).find(|&ahead| matches!(self.peek(ahead), '\'' | '\0')).map_or(1, |end| end + 1)
+            }
+            (_, '\'') => 3,
+            _ => 1,
+        };
+        if length > 1 {
+            self.push('"');
+        }
+        self.skip(length);
+    }
+}
