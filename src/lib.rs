@@ -17,3 +17,8 @@ pub mod render;
 pub mod cli;
 #[cfg(feature = "gui")]
 pub mod app;
+
+/// The examples of the README, compiled and run with the documentation's.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
