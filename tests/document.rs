@@ -2,7 +2,7 @@
 
 use glam::{DVec2, dvec2};
 use meshbrush::document::{Base, Document, Example, Follower, Setting, Settings, Stage};
-use meshbrush::field::{Formula, Rule};
+use meshbrush::field::{Formula, Rule, VertexRule};
 use meshbrush::geometry::Rect;
 use meshbrush::paint::{Brush, Medium};
 use meshbrush::raster::Raster;
@@ -182,6 +182,16 @@ fn what_cannot_be_met_leaves_document_and_mesh_as_they_were() {
 }
 
 #[test]
+fn a_formula_that_is_no_length_at_a_node_is_refused_by_the_vertex_rule_too() {
+    // Below zero at a single node, between the middles of all pixels.
+    let formula = Formula::parse("if(x == 0.5 and y == 0.5, -1, 0.2)").unwrap();
+    let settings =
+        Settings { spacing: 0.25, rule: Rule::Vertex, base: Base::Formula(formula), ..Settings::default() };
+    let error = Follower::new(&mut Document::new(settings, None).unwrap()).unwrap_err();
+    assert!(error.to_string().contains("-1 at x = 0.5, y = 0.5"), "{error}");
+}
+
+#[test]
 fn the_area_rule_implies_the_vertex_rule() {
     let mut document = Example::Threats.document(slope);
     let follower = Follower::new(&mut document).unwrap();
@@ -189,4 +199,8 @@ fn the_area_rule_implies_the_vertex_rule() {
     by_vertex.set(Setting::Rule(Rule::Vertex)).unwrap();
     let coarser = Follower::new(&mut by_vertex).unwrap();
     assert!(coarser.mesh().triangles().len() < follower.mesh().triangles().len());
+    // No triangle of the area rule's mesh breaks the vertex rule.
+    let (field, paint) = (follower.field(), document.layers().as_paint());
+    let mut rule = VertexRule::new(|point| field.target_at_node(paint, point));
+    assert_eq!(follower.mesh().unsatisfied(|element| rule.exceeds(element)).unwrap(), []);
 }

@@ -10,6 +10,7 @@ use eframe::egui::{self, Context, Id, Key, Modal};
 use glam::DVec2;
 
 use super::command::Command;
+use super::readout::target_at;
 use super::session::{Notice, Session};
 use super::theme::{font, tokens};
 use super::widgets::{ActionButton, ButtonKind, TextRow, format};
@@ -95,8 +96,8 @@ impl Default for Files {
 }
 
 impl Files {
-    /// Asks for a path: in a dialog of the desktop, where it has one, and in a field here, which always works.
-    pub fn ask(&mut self, request: FileRequest, _ctx: &Context) {
+    /// Asks for a path in a field, which always works; from there the desktop's own dialog can be opened.
+    pub fn ask(&mut self, request: FileRequest) {
         self.asking = Some((request, String::new()));
     }
 
@@ -126,8 +127,10 @@ impl Files {
             return;
         };
         let (mesh, field) = (session.shared_mesh(), session.follower().field().clone());
+        let (layers, rule) = (session.document().layers().clone(), session.follower().settings().rule);
         self.run(ctx, move || {
-            let at = |&node| field.at(mesh.lattice().world_from_lattice(node)).unwrap_or(f64::NAN);
+            let world = |&node| mesh.lattice().world_from_lattice(node);
+            let at = |node| target_at(world(node), &field, layers.as_paint(), rule);
             let target_diameter: Vec<f64> = mesh.nodes().iter().map(at).collect();
             let data = MeshData { target_diameter: &target_diameter, quantities: &[] };
             let triangles = format::count(mesh.triangles().len() as u64);

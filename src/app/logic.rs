@@ -12,6 +12,7 @@ use super::tools::{PaintKind, Tool, Tools};
 use super::view::FieldOverlay;
 use crate::document::{Document, Example, Setting, Settings};
 use crate::geometry::Rect;
+use crate::mesh::TriangleId;
 
 impl App {
     /// Carries out one command.
@@ -19,9 +20,9 @@ impl App {
         match command {
             Command::New => self.open("new document", new_document()),
             Command::OpenExample(example) => self.open_example(example),
-            Command::AskForImage => self.files.ask(FileRequest::OpenImage, ctx),
+            Command::AskForImage => self.files.ask(FileRequest::OpenImage),
             Command::OpenImage(path) => self.files.load_image(path, self.session.document().settings(), ctx),
-            Command::AskForExport => self.files.ask(FileRequest::Export, ctx),
+            Command::AskForExport => self.files.ask(FileRequest::Export),
             Command::Export(path) => self.export(path, ctx),
             Command::Quit => ctx.send_viewport_cmd(ViewportCommand::Close),
 
@@ -48,7 +49,7 @@ impl App {
             Command::PickValue(point) => self.pick_value(point),
 
             Command::Query(point) => self.query(point),
-            Command::QueryTriangle(id) => self.session.query_triangle(id),
+            Command::QueryTriangle(id) => self.query_triangle(id),
 
             Command::Frame(a, b) => self.frame(a, b),
 
@@ -159,6 +160,14 @@ impl App {
             }
             PaintKind::Diameter => self.set_brush_diameter(value(Quantity::TargetDiameter)),
         }
+    }
+
+    /// Goes to a triangle, and moves the view where it is out of sight.
+    fn query_triangle(&mut self, id: TriangleId) {
+        let [a, b, c] = self.session.mesh().world_corners(id);
+        let middle = (a + b + c) / 3.0;
+        self.session.query(Some(middle));
+        self.view.reveal(middle);
     }
 
     fn query(&mut self, point: DVec2) {

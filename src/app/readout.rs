@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use crate::document::{Base, Document, Follower};
-use crate::field::Rule;
+use crate::field::{Paint, Rule, TargetField};
 use crate::mesh::{Location, Mesh, Neighbour, NodeId, Orientation, TriangleId, barycentric, interpolate};
 
 /// A quantity known at every point, and interpolated from the nodes.
@@ -84,16 +84,19 @@ fn read_triangle(mesh: &Mesh, id: TriangleId, point: DVec2, value: impl Fn(DVec2
 /// The quantity at a point in world units; NaN where it is not known.
 pub fn value_at(point: DVec2, document: &Document, follower: &Follower, quantity: Quantity) -> f64 {
     match quantity {
-        Quantity::TargetDiameter => target_at(point, document, follower),
+        Quantity::TargetDiameter => {
+            let rule = follower.settings().rule;
+            target_at(point, follower.field(), document.layers().as_paint(), rule)
+        }
         Quantity::Risk => risk_at(point, document),
     }
 }
 
-/// h̄ as the rule in force sees it: by pixel, or at the very point.
-fn target_at(point: DVec2, document: &Document, follower: &Follower) -> f64 {
-    match follower.settings().rule {
-        Rule::Area => follower.field().at(point).unwrap_or(f64::NAN),
-        Rule::Vertex => follower.field().target_at_node(document.layers().as_paint(), point),
+/// h̄ as a rule sees it, in world units: by pixel, or at the very point.
+pub fn target_at(point: DVec2, field: &TargetField, paint: Paint, rule: Rule) -> f64 {
+    match rule {
+        Rule::Area => field.at(point).unwrap_or(f64::NAN),
+        Rule::Vertex => field.target_at_node(paint, point),
     }
 }
 

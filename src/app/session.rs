@@ -7,7 +7,7 @@ use glam::DVec2;
 
 use super::readout::{Quantity, Readout};
 use crate::document::{Document, FollowError, Follower, Setting, Stage};
-use crate::mesh::{Mesh, TriangleId};
+use crate::mesh::Mesh;
 
 /// Pixels or triangles in one slice of work: well below a millisecond.
 const SLICE: usize = 2048;
@@ -126,12 +126,6 @@ impl Session {
     /// Asks about a point in world units, or about none.
     pub fn query(&mut self, point: Option<DVec2>) {
         self.queried = point;
-    }
-
-    /// Asks about the middle of a triangle.
-    pub fn query_triangle(&mut self, id: TriangleId) {
-        let [a, b, c] = self.mesh().world_corners(id);
-        self.queried = Some((a + b + c) / 3.0);
     }
 
     /// What is to be said of the queried point, in the present mesh.

@@ -12,7 +12,7 @@ use super::summary::Summary;
 use super::terminal::{Terminal, grouped};
 use crate::field::Formula;
 use crate::io::{MeshData, Quantity};
-use crate::mesh::{Mesh, NodeId};
+use crate::mesh::{Mesh, NodeId, TriangleId};
 
 /// Broken invariants that are printed one by one; the others are counted.
 const SHOWN_VIOLATIONS: usize = 20;
@@ -30,7 +30,8 @@ pub fn run(typed: &MeshArguments, out: &mut dyn Write, terminal: &mut Terminal) 
         check_place(path, &input_files(&job))?;
     }
     let built = build(&job, terminal)?;
-    let violations = if typed.checks { Some(report_violations(&built, terminal)?) } else { None };
+    let violations =
+        if typed.checks { Some(report_violations(&built, job.limits.max_level, terminal)?) } else { None };
     let summary = Summary::of(&built, job.rule, violations);
     if !typed.json {
         terminal.say(&summary.for_people());
@@ -68,16 +69,21 @@ pub fn note_capped(built: &Built, terminal: &mut Terminal) {
 }
 
 /// Checks every invariant, prints what is broken, and returns how much is.
-fn report_violations(built: &Built, terminal: &mut Terminal) -> Result<usize, Failure> {
+fn report_violations(
+    built: &Built,
+    max_level: Option<u32>,
+    terminal: &mut Terminal,
+) -> Result<usize, Failure> {
     let broken = built.mesh.violations();
     for violation in broken.iter().take(SHOWN_VIOLATIONS) {
         terminal.say(&format!("check: {violation}"));
     }
-    let coarse = built.target.unsatisfied(&built.mesh)?.len();
-    // What the level cap left is as it was asked for.
-    let too_coarse = if built.capped > 0 { 0 } else { coarse };
+    // Triangles at the level cap are as they were asked for.
+    let below_cap = |id: &TriangleId| max_level.is_none_or(|cap| built.mesh.triangle(*id).level() < cap);
+    let too_coarse = built.target.unsatisfied(&built.mesh)?.iter().filter(|id| below_cap(id)).count();
     if too_coarse > 0 {
-        terminal.say(&format!("check: {} triangles exceed their target diameter (Eq. 14)", grouped(coarse)));
+        let count = grouped(too_coarse);
+        terminal.say(&format!("check: {count} triangles exceed their target diameter (Eq. 14)"));
     }
     let count = broken.len() + too_coarse;
     if count == 0 {

@@ -1,4 +1,4 @@
-//! The command line: arguments as typed ([`args`]), the job they mean ([`job`]), running it.
+//! The command line: arguments as typed (`args`), the job they mean (`job`), running it.
 //!
 //! Results go to standard output, everything else to standard error. Exit status 0: done; 1: the work failed, with a
 //! sentence; 2: wrong usage.

@@ -107,7 +107,8 @@ impl TargetField {
     fn fill_rows(&mut self, paint: Option<Paint>, pixels: usize) -> Result<Progress, InvalidTarget> {
         let [columns, rows] = self.spec.size;
         let first = self.filled_rows;
-        let last = (first + (pixels as u32 / columns).max(1)).min(rows);
+        let slice_rows = (pixels / columns as usize).clamp(1, rows as usize) as u32;
+        let last = (first + slice_rows).min(rows);
         let slice = PixelRect { min: [0, first], max: [columns, last] };
         for (x, y) in slice.pixels() {
             let point = self.base.pixel_center(x, y);
@@ -161,15 +162,18 @@ impl TargetField {
         self.on_lattice.any_above(&self.levels, element.corners, element.triangle.level() as u8)
     }
 
-    /// h̄ at a node, for the vertex rule: sources are asked at the very point and not by pixel. Unchecked, as
-    /// [`Source::target`].
+    /// h̄ at a node, for the vertex rule: sources are asked at the very point and not by pixel.
+    ///
+    /// A value that no mesh can meet (NaN, infinity, zero or less) comes out as it is, for the rule to refuse.
     pub fn target_at_node(&self, paint: Paint, point: DVec2) -> f64 {
-        let asked = self.spec.sources.iter().map(|source| source.target(point, &self.spec.transfer));
+        let asked = match smallest_target(&self.spec.sources, point, &self.spec.transfer) {
+            Ok(asked) => asked,
+            Err(invalid) => return invalid.value,
+        };
         let painted = paint.diameter.sample(point).map_or(f64::INFINITY, f64::from);
         let risk =
             paint.risk.sample(point).map_or(f64::INFINITY, |risk| self.table.diameter(f64::from(risk)));
-        let smallest = asked.fold(painted.min(risk), |a, b| if b.is_nan() { b } else { a.min(b) });
-        smallest.clamp(self.spec.transfer.h_min, self.spec.transfer.h_max)
+        asked.min(painted).min(risk).clamp(self.spec.transfer.h_min, self.spec.transfer.h_max)
     }
 
     /// h̄ at a point in world units, `None` outside the field.

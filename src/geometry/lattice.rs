@@ -264,8 +264,13 @@ fn cells_per_side(size: DVec2, spacing: f64) -> [u32; 2] {
 fn halvings_within(cells: [u32; 2], cell: DVec2, reach: f64) -> i32 {
     let by_bits = LATTICE_BITS as i32 - ceil_log2(cells[0].max(cells[1]));
     let ulp = reach.next_up() - reach;
-    let by_precision = (cell.min_element() / (4.0 * ulp)).log2().floor().clamp(-1.0, 64.0) as i32;
-    by_bits.min(by_precision)
+    let mut halvings = 0;
+    let mut step = cell.min_element();
+    while halvings < by_bits && step / 2.0 >= 4.0 * ulp {
+        step /= 2.0;
+        halvings += 1;
+    }
+    halvings
 }
 
 fn ceil_log2(n: u32) -> i32 {

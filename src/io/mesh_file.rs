@@ -37,7 +37,8 @@ impl MeshFormat {
     /// Writes a mesh, and returns the names of the files written.
     ///
     /// # Errors
-    /// When the file system says no. What was there before is then still there.
+    /// When the file system says no. What was there before is then still there; of Triangle's three files, those not yet
+    /// written.
     pub fn write(self, path: &Path, mesh: &Mesh, data: &MeshData) -> io::Result<Vec<PathBuf>> {
         match self {
             Self::Vtu => write_file(path, |mut out| vtu::write(&mut out, mesh, data))?,

@@ -14,7 +14,8 @@ pub struct Number(pub f64);
 
 impl fmt::Display for Number {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let plain = self.0 == 0.0 || (1e-5..1e16).contains(&self.0.abs()) || !self.0.is_finite();
-        if plain { write!(f, "{}", self.0) } else { write!(f, "{:e}", self.0) }
+        let number = self.0 + 0.0; // no -0
+        let plain = number == 0.0 || (1e-5..1e16).contains(&number.abs()) || !number.is_finite();
+        if plain { write!(f, "{}", number) } else { write!(f, "{:e}", number) }
     }
 }

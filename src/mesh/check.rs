@@ -1,6 +1,6 @@
 //! The invariants of a mesh, executable. Not fast: meant for tests and for doubt.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 
 use super::refine::Diameters;
 use super::{Element, InvalidTarget, Mesh, NodeId, Orientation, TriangleId};
@@ -143,7 +143,7 @@ impl Mesh {
     }
 
     fn check_edges(&self, found: &mut Vec<Violation>) {
-        let mut owners: HashMap<(NodeId, NodeId), (u32, bool)> = HashMap::new();
+        let mut owners: BTreeMap<(NodeId, NodeId), (u32, bool)> = BTreeMap::new();
         for triangle in &self.triangles {
             for (j, (from, to)) in triangle.edge_nodes().into_iter().enumerate() {
                 let entry = owners.entry((from.min(to), from.max(to))).or_default();

@@ -94,7 +94,7 @@ pub enum RefineError {
     /// The target is smaller than the lattice can resolve.
     #[error(
         "The target diameter near x = {}, y = {} is too small: below {smallest:e} (level {level}) nodes would leave the \
-         lattice. Raise the smallest diameter or choose a smaller coarse spacing.",
+         lattice. Raise the smallest diameter, or mesh a smaller domain.",
         at.x, at.y
     )]
     TooFine {

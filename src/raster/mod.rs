@@ -96,12 +96,18 @@ impl<T: Copy> Raster<T> {
     }
 
     /// The value of a pixel by column and row.
+    ///
+    /// # Panics
+    /// Beyond the raster.
     #[inline]
     pub fn get(&self, x: u32, y: u32) -> T {
         self.values[y as usize * self.size[0] as usize + x as usize]
     }
 
     /// Changes a pixel by column and row.
+    ///
+    /// # Panics
+    /// Beyond the raster.
     #[inline]
     pub fn set(&mut self, x: u32, y: u32, value: T) {
         self.values[y as usize * self.size[0] as usize + x as usize] = value;
@@ -140,7 +146,7 @@ impl<T: Copy> Raster<T> {
         PixelRect { min: clamp(low), max: clamp(high) }
     }
 
-    /// This raster over another size, each new pixel taking the value under its middle.
+    /// This raster over another rectangle and size: each new pixel takes the value under its middle, or `outside`.
     pub fn resampled(&self, bounds: Rect, size: [u32; 2], outside: T) -> Self {
         let mut new = Self::filled(bounds, size, outside);
         for (x, y) in new.all().pixels() {

@@ -26,7 +26,11 @@ impl<T: Copy> Layer<T> {
 
 impl<T: Copy + PartialOrd> Pyramid<T> {
     /// The pyramid over a grid of one value; `size` is columns and rows.
+    ///
+    /// # Panics
+    /// When a side is zero.
     pub fn filled(size: [u32; 2], value: T) -> Self {
+        assert!(size.iter().all(|&side| side > 0), "sides are checked where a raster is read");
         let mut layers = Vec::new();
         let mut size = size;
         loop {
@@ -44,6 +48,9 @@ impl<T: Copy + PartialOrd> Pyramid<T> {
     }
 
     /// The value of a pixel.
+    ///
+    /// # Panics
+    /// Beyond the grid.
     pub fn get(&self, x: u32, y: u32) -> T {
         self.layers[0].get(x, y)
     }
