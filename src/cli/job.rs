@@ -217,7 +217,7 @@ fn limits(typed: &InputArguments) -> Result<Limits, Failure> {
     let max_triangles = typed.max_triangles;
     if !(2..=MOST_TRIANGLES).contains(&max_triangles) {
         let problem = format!("--max-triangles {max_triangles}: choose from 2 to {MOST_TRIANGLES}");
-        return Err(Failure::Usage(format!("{problem}. A triangle takes 36 bytes of memory.")));
+        return Err(Failure::Usage(format!("{problem}. A triangle takes 38 bytes of memory.")));
     }
     Ok(Limits { max_triangles, max_level: typed.max_level })
 }

@@ -113,7 +113,7 @@ fn threats() -> Document {
 }
 
 impl Settings {
-    /// Most triangles unless the user says otherwise: 720 MB.
+    /// Most triangles unless the user says otherwise: 760 MB.
     pub const MAX_TRIANGLES: usize = 20_000_000;
 }
 

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, HashMap};
 
 use super::refine::Diameters;
-use super::{Element, InvalidTarget, Mesh, NodeId, Orientation, TriangleId};
+use super::{DEEPEST_LEVEL, Element, InvalidTarget, Mesh, NodeId, Orientation, TriangleId};
 use crate::geometry::LatticePoint;
 
 /// A broken invariant of [`Mesh`], in the order of the list there.
@@ -57,6 +57,19 @@ pub enum Violation {
     /// Invariant 8.
     #[error("entry {0:?} does not lie in the coarse triangle of the same index")]
     LostBucket(TriangleId),
+    /// Invariant 9: the triangle noted for the node does not have it.
+    #[error("the triangle noted for node {0:?} does not have that node")]
+    LostNode(NodeId),
+    /// Invariant 9.
+    #[error("{noted} triangles are noted for level {level}, and there are {counted}")]
+    Miscounted {
+        /// The level.
+        level: usize,
+        /// As the mesh has it.
+        noted: usize,
+        /// As it is.
+        counted: usize,
+    },
 }
 
 impl Mesh {
@@ -76,6 +89,7 @@ impl Mesh {
         self.check_area(&mut found);
         self.check_nodes(&mut found);
         self.check_buckets(&mut found);
+        self.check_ledgers(&mut found);
         found
     }
 
@@ -211,6 +225,24 @@ impl Mesh {
             });
             if !inside {
                 found.push(Violation::LostBucket(id));
+            }
+        }
+    }
+
+    fn check_ledgers(&self, found: &mut Vec<Violation>) {
+        let has_it = |n: &NodeId| {
+            let noted = self.triangle_at.get(n.index()).and_then(|id| self.triangles.get(id.index()));
+            noted.is_some_and(|triangle| triangle.vertices.contains(n))
+        };
+        let nodes = (0..self.nodes.len().max(self.triangle_at.len())).map(NodeId::from_index);
+        found.extend(nodes.filter(|n| !has_it(n)).map(Violation::LostNode));
+        let mut counted = [0; DEEPEST_LEVEL + 1];
+        for triangle in &self.triangles {
+            counted[triangle.level() as usize] += 1;
+        }
+        for (level, (&counted, &noted)) in counted.iter().zip(&self.levels.0).enumerate() {
+            if counted != noted as usize {
+                found.push(Violation::Miscounted { level, noted: noted as usize, counted });
             }
         }
     }
@@ -360,5 +392,16 @@ mod tests {
         mesh.triangles.swap(2, 5);
         assert_reported(&mesh, |v| *v == Violation::LostBucket(TriangleId(2)));
         assert_reported(&mesh, |v| *v == Violation::LostBucket(TriangleId(5)));
+    }
+
+    #[test]
+    fn a_wrong_entry_of_a_ledger_is_reported() {
+        let mut mesh = sound_mesh();
+        let elsewhere = mesh.triangles.iter().position(|t| !t.vertices.contains(&NodeId(4))).unwrap();
+        mesh.triangle_at[4] = TriangleId::from_index(elsewhere);
+        assert_eq!(mesh.violations(), [Violation::LostNode(NodeId(4))]);
+        let mut mesh = sound_mesh();
+        mesh.levels.0[7] += 1;
+        assert_eq!(mesh.violations(), [Violation::Miscounted { level: 7, noted: 1, counted: 0 }]);
     }
 }

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::{Limits, Mesh, Neighbour, NodeId, Orientation, Triangle, TriangleId};
+use super::{LevelCounts, Limits, Mesh, Neighbour, NodeId, Orientation, Triangle, TriangleId};
 use crate::geometry::{GridError, Lattice, LatticePoint, Rect};
 
 /// Why no coarse triangulation could be made.
@@ -93,7 +93,7 @@ impl<'a> CoarseGrid<'a> {
             (0..self.node_count()).map(|n| contains(self.lattice.world_from_lattice(self.node(n)))).collect();
         let (coarse, kept) = self.filter_triangles(&inside);
         let (nodes, id_of_node) = self.filter_nodes(&kept);
-        let triangles = kept
+        let triangles: Vec<Triangle> = kept
             .iter()
             .map(|&number| {
                 let vertices = self.vertices(number).map(|n| id_of_node[n]);
@@ -105,7 +105,12 @@ impl<'a> CoarseGrid<'a> {
                 Triangle::new(vertices, neighbours, Orientation::Anticlockwise, 0)
             })
             .collect();
-        Mesh { lattice: *self.lattice, nodes, triangles, coarse }
+        let mut triangle_at = vec![TriangleId(0); nodes.len()];
+        for (index, vertex) in triangles.iter().enumerate().flat_map(|(i, t)| t.vertices.map(|v| (i, v))) {
+            triangle_at[vertex.index()] = TriangleId::from_index(index);
+        }
+        let levels = LevelCounts::coarse(triangles.len());
+        Mesh { lattice: *self.lattice, nodes, triangles, triangle_at, levels, coarse }
     }
 
     /// The index map ℳ_t, and the numbers of the coarse triangles that stay (Algorithm 17).

@@ -16,7 +16,8 @@ impl Mesh {
         make_room(&mut self.triangles, more, most);
         // A bisection makes one node, and one or two triangles.
         make_room(&mut self.nodes, more, most);
-        let room_for_nodes = self.nodes.capacity() - self.nodes.len();
+        make_room(&mut self.triangle_at, more, most);
+        let room_for_nodes = self.nodes.capacity().min(self.triangle_at.capacity()) - self.nodes.len();
         self.triangles.capacity().min(self.triangles.len() + room_for_nodes)
     }
 }

@@ -33,7 +33,7 @@ use std::f64::consts::SQRT_2;
 
 use glam::DVec2;
 
-use crate::geometry::{Lattice, LatticePoint};
+use crate::geometry::{LATTICE_BITS, Lattice, LatticePoint};
 
 pub use adjacency::Adjacency;
 pub use check::Violation;
@@ -45,6 +45,9 @@ pub use locate::Location;
 pub use locator::Locator;
 pub use refine::{Element, InvalidTarget, Limits, Progress, RefineError, Refiner};
 pub use triangle::{Orientation, Triangle};
+
+/// The deepest level of any lattice.
+const DEEPEST_LEVEL: usize = 2 * LATTICE_BITS as usize;
 
 /// A conforming triangulation of a domain, refined from a coarse grid (T of the report).
 ///
@@ -58,13 +61,17 @@ pub use triangle::{Orientation, Triangle};
 /// 6. *Area*: the triangles cover exactly the coarse triangles that were kept.
 /// 7. *Nodes*: every node is a vertex of some triangle, and no two nodes coincide.
 /// 8. *Buckets*: the entry with a coarse triangle's index lies in that coarse triangle.
+/// 9. *Ledgers*: the triangle noted for a node has that node, and the triangles of each level are counted right.
 ///
-/// The ninth, that no triangle exceeds its target (Eq. 14), needs the rule: [`Mesh::unsatisfied`].
+/// The tenth, that no triangle exceeds its target (Eq. 14), needs the rule: [`Mesh::unsatisfied`].
 #[derive(Debug)]
 pub struct Mesh {
     lattice: Lattice,
     nodes: Vec<LatticePoint>,
     triangles: Vec<Triangle>,
+    /// For each node one of the triangles round it.
+    triangle_at: Vec<TriangleId>,
+    levels: LevelCounts,
     coarse: coarse::CoarseIndex,
 }
 
@@ -102,6 +109,15 @@ impl Mesh {
         self.nodes[id.index()]
     }
 
+    /// One of the triangles round a node; [`Self::triangles_round`] goes on from there.
+    ///
+    /// # Panics
+    /// When the id is not of this mesh.
+    #[inline]
+    pub fn triangle_at(&self, id: NodeId) -> TriangleId {
+        self.triangle_at[id.index()]
+    }
+
     /// World coordinates of a node.
     #[inline]
     pub fn world(&self, id: NodeId) -> DVec2 {
@@ -121,18 +137,33 @@ impl Mesh {
 
     /// How many triangles there are at each level, from level 0 to the deepest.
     pub fn level_counts(&self) -> Vec<usize> {
-        let mut counts = vec![0; 2 * crate::geometry::LATTICE_BITS as usize + 1];
-        for triangle in &self.triangles {
-            counts[triangle.level() as usize] += 1;
-        }
-        let used = counts.iter().rposition(|&n| n > 0).map_or(0, |deepest| deepest + 1);
-        counts.truncate(used);
-        counts
+        let deepest = self.levels.0.iter().rposition(|&n| n > 0);
+        self.levels.0[..deepest.map_or(0, |level| level + 1)].iter().map(|&n| n as usize).collect()
     }
 
     /// Length of the bisection edge of a triangle at `level`, in world units (Eq. 1).
     pub fn diameter(&self, level: u32) -> f64 {
         bisection_edge_length(self.lattice.spacing(), level)
+    }
+}
+
+/// Triangles per level, kept up to date with every bisection.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct LevelCounts([u32; DEEPEST_LEVEL + 1]);
+
+impl LevelCounts {
+    /// Of a mesh of so many coarse triangles.
+    fn coarse(triangles: usize) -> Self {
+        let mut counts = [0; DEEPEST_LEVEL + 1];
+        counts[0] = triangles as u32;
+        Self(counts)
+    }
+
+    /// So many parents of a level have given way to their children.
+    #[inline]
+    fn bisected(&mut self, level: u32, parents: u32) {
+        self.0[level as usize] -= parents;
+        self.0[level as usize + 1] += 2 * parents;
     }
 }
 
@@ -142,6 +173,8 @@ impl Clone for Mesh {
             lattice: self.lattice,
             nodes: self.nodes.clone(),
             triangles: self.triangles.clone(),
+            triangle_at: self.triangle_at.clone(),
+            levels: self.levels,
             coarse: self.coarse.clone(),
         }
     }
@@ -151,6 +184,8 @@ impl Clone for Mesh {
         self.lattice = source.lattice;
         self.nodes.clone_from(&source.nodes);
         self.triangles.clone_from(&source.triangles);
+        self.triangle_at.clone_from(&source.triangle_at);
+        self.levels = source.levels;
         self.coarse.clone_from(&source.coarse);
     }
 }

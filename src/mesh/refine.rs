@@ -2,11 +2,8 @@
 
 use glam::DVec2;
 
-use super::{Mesh, Triangle, TriangleId, bisection_edge_length, memory};
-use crate::geometry::{LATTICE_BITS, Lattice, LatticePoint};
-
-/// The deepest level of any lattice.
-const DEEPEST_LEVEL: usize = 2 * LATTICE_BITS as usize;
+use super::{DEEPEST_LEVEL, Mesh, Triangle, TriangleId, bisection_edge_length, memory};
+use crate::geometry::{Lattice, LatticePoint};
 
 /// Most triangles of any mesh, whatever its budget: ids above are taken for marks.
 const MOST_TRIANGLES: usize = (1 << 31) - 1;
@@ -15,14 +12,14 @@ const MOST_TRIANGLES: usize = (1 << 31) - 1;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
     /// Most triangles; refinement that would pass it stops with an error. A triangle and its share of the nodes take
-    /// 36 bytes, and 4 more while the mesh is refined.
+    /// 38 bytes, and 4 more while the mesh is refined from scratch.
     pub max_triangles: usize,
     /// Deepest level, or `None` for as deep as the lattice goes. Triangles at this level count as satisfied.
     pub max_level: Option<u32>,
 }
 
 impl Default for Limits {
-    /// 50 million triangles (1.8 GB), and any level.
+    /// 50 million triangles (1.9 GB), and any level.
     fn default() -> Self {
         Self { max_triangles: 50_000_000, max_level: None }
     }
