@@ -2,9 +2,11 @@
 //! the integer lattice on which every node of a mesh lies.
 
 mod lattice;
+mod lattice_rect;
 mod predicates;
 mod rect;
 
 pub use lattice::{GridError, LATTICE_BITS, Lattice, LatticePoint};
+pub use lattice_rect::LatticeRect;
 pub use predicates::{Side, exact_sum_sign, side_of_edge};
 pub use rect::Rect;

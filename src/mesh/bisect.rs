@@ -110,7 +110,7 @@ impl Mesh {
 
     /// Algorithm 20: `id` no longer borders on `old` but on `new`.
     #[inline(always)]
-    fn replace_neighbour(&mut self, id: TriangleId, old: Neighbour, new: Neighbour) {
+    pub(super) fn replace_neighbour(&mut self, id: TriangleId, old: Neighbour, new: Neighbour) {
         let neighbours = &mut self.triangles[id.index()].neighbours;
         debug_assert!(neighbours.contains(&old), "neighbours are symmetric");
         *neighbours = neighbours.map(|n| select_unpredictable(n == old, new, n));

@@ -18,16 +18,20 @@
 
 mod adjacency;
 mod bisect;
+mod changes;
 mod check;
 mod coarse;
+mod coarsen;
 mod fingerprint;
 mod ids;
 mod interpolate;
 mod locate;
 mod locator;
+mod marks;
 mod memory;
 mod refine;
 mod triangle;
+mod update;
 
 use std::f64::consts::SQRT_2;
 
@@ -36,6 +40,7 @@ use glam::DVec2;
 use crate::geometry::{LATTICE_BITS, Lattice, LatticePoint};
 
 pub use adjacency::Adjacency;
+pub use changes::Changes;
 pub use check::Violation;
 pub use coarse::CoarseError;
 pub use fingerprint::{Fingerprint, fingerprint_of};
@@ -45,6 +50,7 @@ pub use locate::Location;
 pub use locator::Locator;
 pub use refine::{Element, InvalidTarget, Limits, Progress, RefineError, Refiner};
 pub use triangle::{Orientation, Triangle};
+pub use update::Updater;
 
 /// The deepest level of any lattice.
 const DEEPEST_LEVEL: usize = 2 * LATTICE_BITS as usize;
@@ -147,7 +153,7 @@ impl Mesh {
     }
 }
 
-/// Triangles per level, kept up to date with every bisection.
+/// Triangles per level, kept up to date with every bisection and every merger.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct LevelCounts([u32; DEEPEST_LEVEL + 1]);
 
@@ -164,6 +170,13 @@ impl LevelCounts {
     fn bisected(&mut self, level: u32, parents: u32) {
         self.0[level as usize] -= parents;
         self.0[level as usize + 1] += 2 * parents;
+    }
+
+    /// The opposite of [`Self::bisected`]: a parent of this level is back.
+    #[inline]
+    fn merged(&mut self, level: u32) {
+        self.0[level as usize] += 1;
+        self.0[level as usize + 1] -= 2;
     }
 }
 

@@ -18,6 +18,13 @@ pub struct Limits {
     pub max_level: Option<u32>,
 }
 
+impl Limits {
+    /// [`Self::max_triangles`], as far as ids go.
+    fn most_triangles(&self) -> usize {
+        self.max_triangles.min(MOST_TRIANGLES)
+    }
+}
+
 impl Default for Limits {
     /// 50 million triangles (1.9 GB), and any level.
     fn default() -> Self {
@@ -181,8 +188,7 @@ impl Refiner {
             if level >= deepest {
                 return Err(too_fine(mesh, id));
             }
-            // The closure bisects at most one pair at each level down to this one.
-            let most_new = 2 * (level as usize + 1);
+            let most_new = Mesh::most_new_triangles(level);
             if mesh.triangles.len() + most_new > room {
                 room = self.room_for(mesh, id, most_new)?;
             }
@@ -195,14 +201,10 @@ impl Refiner {
     /// triangles the mesh can have before this must be asked again.
     #[cold]
     fn room_for(&mut self, mesh: &mut Mesh, id: TriangleId, most_new: usize) -> Result<usize, RefineError> {
-        let limit = self.limits.max_triangles.min(MOST_TRIANGLES);
-        // Close to the limit the call is counted exactly.
-        if mesh.triangles.len() + most_new > limit && mesh.triangles.len() + mesh.closure_size(id) > limit {
-            return Err(RefineError::TooManyTriangles { limit });
-        }
-        let room = mesh.make_room(most_new, limit);
+        let room = mesh.room_for(id, most_new, &self.limits)?;
+        let limit = self.limits.most_triangles();
         memory::make_room(&mut self.agenda.after, most_new, limit);
-        Ok(room.min(self.agenda.after.capacity()).min(limit))
+        Ok(room.min(self.agenda.after.capacity()))
     }
 
     /// How many triangles asked for more than [`Limits::max_level`] allows.
@@ -277,7 +279,7 @@ impl Agenda {
     }
 }
 
-fn too_fine(mesh: &Mesh, id: TriangleId) -> RefineError {
+pub(super) fn too_fine(mesh: &Mesh, id: TriangleId) -> RefineError {
     let level = mesh.lattice.deepest_level();
     RefineError::TooFine { at: mesh.world_corners(id)[0], smallest: mesh.diameter(level), level }
 }
@@ -313,7 +315,7 @@ impl Mesh {
     /// As [`Self::refine_triangle`], with a stack to reuse; tells of every entry that it bisects, in the order of the new
     /// entries. Each entry of the chain is one level above the one before, so it ends at a coarse triangle at the latest.
     #[inline]
-    fn refine_triangle_with(
+    pub(super) fn refine_triangle_with(
         &mut self,
         id: TriangleId,
         chain: &mut Vec<TriangleId>,
@@ -346,6 +348,33 @@ impl Mesh {
         }
     }
 
+    /// Makes room for a call of [`Self::refine_triangle`] that appends at most `most_new` triangles; returns how many triangles
+    /// there can be before this must be asked again.
+    ///
+    /// # Errors
+    /// When the call would pass the triangle budget.
+    #[cold]
+    pub(super) fn room_for(
+        &mut self,
+        id: TriangleId,
+        most_new: usize,
+        limits: &Limits,
+    ) -> Result<usize, RefineError> {
+        let (count, limit) = (self.triangles.len(), limits.most_triangles());
+        // Close to the limit the call is counted exactly.
+        if count + most_new > limit && count + self.closure_size(id) > limit {
+            return Err(RefineError::TooManyTriangles { limit });
+        }
+        Ok(self.make_room(most_new, limit).min(limit))
+    }
+
+    /// The most triangles that [`Self::refine_triangle`] appends for one of this level: the closure bisects at most one pair at
+    /// each level down to it.
+    #[inline]
+    pub(super) fn most_new_triangles(level: u32) -> usize {
+        2 * (level as usize + 1)
+    }
+
     /// How many triangles [`Self::refine_triangle`] would append.
     fn closure_size(&self, id: TriangleId) -> usize {
         let (mut current, mut size) = (id, 0);
@@ -367,7 +396,12 @@ impl Mesh {
 
     #[inline]
     pub(super) fn element(&self, id: TriangleId, diameters: &Diameters) -> Element<'_> {
-        let triangle = self.triangle(id);
+        self.element_of(self.triangle(id), diameters)
+    }
+
+    /// The element of a triangle that need not be in the array.
+    #[inline]
+    pub(super) fn element_of<'a>(&'a self, triangle: &'a Triangle, diameters: &Diameters) -> Element<'a> {
         let corners = triangle.vertices.map(|v| self.node(v));
         Element {
             triangle,

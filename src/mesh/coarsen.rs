@@ -1,0 +1,340 @@
+//! Taking bisections back: the table of `bisect` read from right to left.
+//!
+//! # Who is whose sibling
+//!
+//! Call the half of a square cell that a diagonal cuts off a *half*, and the quarter that two diagonals cut out a *quarter*.
+//! Let s = δ / 2ʲ. A triangle of level 2j is a half of a cell of side s with corners at multiples of s, and one of level
+//! 2j + 1 is a quarter of such a cell, its newest vertex the centre. For so it is with the coarse triangles (j = 0); bisecting
+//! a half gives two quarters of the same cell; and bisecting a quarter, at the side of its cell, gives two triangles with
+//! legs of s/2 along the axes: halves of cells of side s/2.
+//!
+//! The corners of such a half are an old corner of the large cell, the middle of the large cell's side, and its centre.
+//! Measured in s/2 they have none, one and two odd coordinates: call that number their *rank*. Algorithm 1 lists them in this
+//! order, as (end of the cut edge, midpoint, apex of the parent). The cut edge of a half joins its first vertex to its third.
+//! Hence, with m the newest vertex:
+//!
+//! | level      | coordinates in        | vertices, by rank      | apex of the parent       | kept child begins with    |
+//! |------------|-----------------------|------------------------|--------------------------|---------------------------|
+//! | 2j + 1 ≥ 3 | δ / 2ʲ                | (0, 1, m) or (1, 2, m) | the one of rank 1        | rank 0                    |
+//! | 2j + 2 ≥ 4 | δ / 2ʲ, as its parent | (end, m, apex)         | the third                | the end of the lower rank |
+//!
+//! The last entry: the parent's vertices are those of the line above, so its cut edge, from first to second, runs from the
+//! lower rank to the higher; and the kept child has the parent's first vertex. The diagonals thus join the corners whose sum of
+//! coordinates is even. In the cells of the coarse grid it is the falling one, the antidiagonal: at level 1 the parent's apex
+//! lies diagonally below or above m with both coordinates on the same side, and all triangles run anticlockwise, so that of
+//! the two children at level 2 the kept one does, and the new one, a mirror image, does not.
+//!
+//! So the lattice knows the vertices of every triangle in their order: a mesh refined again after it was coarsened has the
+//! very triangles of one that never was, up to their numbers.
+
+use super::changes::ChangeLog;
+use super::{Mesh, Neighbour, NodeId, Orientation, Triangle, TriangleId};
+
+/// The two children of one parent, named as in `bisect`.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Siblings {
+    kept: TriangleId,
+    new: TriangleId,
+}
+
+impl Siblings {
+    /// The entry that the parent takes: the lower one. A coarse triangle's entry is lower than all that were appended, so that
+    /// it stays with a descendant of that coarse triangle.
+    fn place(&self) -> TriangleId {
+        self.kept.min(self.new)
+    }
+
+    /// The entry that becomes free.
+    fn freed(&self) -> TriangleId {
+        self.kept.max(self.new)
+    }
+}
+
+/// All triangles round a node that is the newest vertex of each: what a bisection left behind, and nothing has cut since.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Star {
+    centre: NodeId,
+    one: Siblings,
+    /// `None` where the cut edge is on the boundary.
+    other: Option<Siblings>,
+}
+
+impl Star {
+    pub(super) fn centre(&self) -> NodeId {
+        self.centre
+    }
+
+    fn sides(&self) -> impl Iterator<Item = Siblings> {
+        std::iter::once(self.one).chain(self.other)
+    }
+
+    /// The triangles round the centre.
+    pub(super) fn children(&self) -> impl Iterator<Item = TriangleId> {
+        self.sides().flat_map(|side| [side.kept, side.new])
+    }
+
+    /// The entries that the parents take.
+    pub(super) fn places(&self) -> impl Iterator<Item = TriangleId> {
+        self.sides().map(|side| side.place())
+    }
+
+    /// The entries that become free, the highest first.
+    pub(super) fn freed(&self) -> impl Iterator<Item = TriangleId> + use<> {
+        let (one, other) = (self.one.freed(), self.other.map(|side| side.freed()));
+        let higher = other.map_or(one, |other| one.max(other));
+        std::iter::once(higher).chain(other.map(|other| one.min(other)))
+    }
+}
+
+impl Mesh {
+    /// The star round the newest vertex of `id`, if it is one: `None` for a coarse triangle, and where a triangle round that
+    /// node was bisected.
+    #[inline]
+    pub(super) fn star_of(&self, id: TriangleId) -> Option<Star> {
+        let centre = self.triangle(id).newest_vertex()?;
+        let (one, facing) = self.siblings(id)?;
+        let Some(facing) = facing.triangle() else { return Some(Star { centre, one, other: None }) };
+        // Across half of the cut edge: its level is the same, or it was bisected.
+        if self.triangle(facing).level() != self.triangle(id).level() {
+            return None;
+        }
+        let (other, _) = self.siblings(facing)?;
+        debug_assert_eq!(self.triangle(facing).newest_vertex(), Some(centre));
+        Some(Star { centre, one, other: Some(other) })
+    }
+
+    /// A triangle with its sibling, and what lies across its half of the cut edge; `None` where the sibling was bisected.
+    #[inline]
+    fn siblings(&self, id: TriangleId) -> Option<(Siblings, Neighbour)> {
+        let triangle = self.triangle(id);
+        let apex = self.parents_apex(id);
+        // The legs meet in the newest vertex. One ends in the apex of the parent: there lies the sibling.
+        let [_, second, _] = triangle.edges();
+        let (sibling, facing) = if second.0 == apex || second.1 == apex { (1, 2) } else { (2, 1) };
+        let across = triangle.neighbours[sibling].triangle();
+        let sibling = across.expect("a triangle and its sibling cover their parent");
+        if self.triangle(sibling).level() != triangle.level() {
+            return None;
+        }
+        let siblings = if self.is_kept(id, sibling) {
+            Siblings { kept: id, new: sibling }
+        } else {
+            Siblings { kept: sibling, new: id }
+        };
+        Some((siblings, triangle.neighbours[facing]))
+    }
+
+    /// Place of the parent's apex among the vertices of a triangle that is not coarse.
+    #[inline]
+    fn parents_apex(&self, id: TriangleId) -> usize {
+        let triangle = self.triangle(id);
+        let first_is_apex = match triangle.level() {
+            level if level.is_multiple_of(2) => return 2,
+            1 => {
+                let (first, centre) = (self.node(triangle.vertices[0]), self.node(triangle.vertices[2]));
+                (first.x < centre.x) == (first.y < centre.y)
+            }
+            level => self.rank(triangle.vertices[0], level) == 1,
+        };
+        usize::from(!first_is_apex)
+    }
+
+    /// Whether `id` is the kept child, and not its sibling.
+    #[inline]
+    fn is_kept(&self, id: TriangleId, sibling: TriangleId) -> bool {
+        match self.triangle(id).level() {
+            level if !level.is_multiple_of(2) => self.parents_apex(id) == 1,
+            2 => self.triangle(id).orientation() == Orientation::Anticlockwise,
+            level => {
+                let rank = |id| self.rank(self.triangle(id).vertices[0], level - 1);
+                rank(id) < rank(sibling)
+            }
+        }
+    }
+
+    /// How many coordinates of a node are odd, in units of the cells of which the triangles of an odd `level` are quarters.
+    #[inline]
+    fn rank(&self, node: NodeId, level: u32) -> u32 {
+        let (node, cell) = (self.node(node), self.lattice.halvings() - level / 2);
+        (node.x >> cell & 1) + (node.y >> cell & 1)
+    }
+
+    /// The parents of a star, as [`Self::merge`] would put them back.
+    #[inline]
+    pub(super) fn parents(&self, star: &Star) -> impl Iterator<Item = Triangle> + use<> {
+        let across = |side: Option<Siblings>| side.map_or(Neighbour::BOUNDARY, |side| side.place().into());
+        let one = self.parent(star.one, across(star.other));
+        let other = star.other.map(|other| self.parent(other, across(Some(star.one))));
+        std::iter::once(one).chain(other)
+    }
+
+    /// The parent of two siblings: the rule at the head of `bisect`, backwards.
+    #[inline]
+    fn parent(&self, Siblings { kept, new }: Siblings, across: Neighbour) -> Triangle {
+        let (kept, new) = (self.triangle(kept), self.triangle(new));
+        let level = kept.level() - 1;
+        let [a, ..] = kept.vertices;
+        let vertices = if level.is_multiple_of(2) {
+            [a, new.vertices[0], new.vertices[1]]
+        } else {
+            [a, new.vertices[0], new.vertices[2]]
+        };
+        // The kept child runs as its parent does.
+        let mut parent = Triangle::new(vertices, [across; 3], kept.orientation(), level);
+        let (kept, new) = (kept.neighbours[0], new.neighbours[0]);
+        parent.neighbours = if parent.matched() { [across, kept, new] } else { [across, new, kept] };
+        parent
+    }
+
+    /// Puts the parents of a star back.
+    ///
+    /// ```text
+    ///          o                       o
+    ///        / | \                   /   \          the parents stand in the entries `star.places()`; the entries
+    ///      / a | a'\               /   a   \        `star.freed()` and the node are no longer referred to, and are
+    ///     o----m----o     =>      o---------o       to be removed
+    ///      \ b | b'/               \   b   /
+    ///        \ | /                   \   /
+    ///          o                       o
+    /// ```
+    pub(super) fn merge(&mut self, star: &Star, log: &mut ChangeLog) {
+        let parents: [Option<Triangle>; 2] = {
+            let mut parents = self.parents(star);
+            [parents.next(), parents.next()]
+        };
+        for (side, parent) in star.sides().zip(parents.into_iter().flatten()) {
+            let (place, freed) = (side.place(), side.freed());
+            if let Some(outer) = self.triangle(freed).neighbours[0].triangle() {
+                self.replace_neighbour(outer, freed.into(), place.into());
+                log.triangle(outer);
+            }
+            for vertex in self.triangle(freed).vertices {
+                let noted = &mut self.triangle_at[vertex.index()];
+                *noted = if *noted == freed { place } else { *noted };
+            }
+            self.triangles[place.index()] = parent;
+            self.levels.merged(parent.level());
+            log.triangle(place);
+        }
+        log.any = true;
+    }
+
+    /// Removes an entry that nothing refers to any more. The last entry takes its place.
+    #[inline]
+    pub(super) fn remove_triangle(&mut self, id: TriangleId, log: &mut ChangeLog) {
+        let last = TriangleId::from_index(self.triangles.len() - 1);
+        debug_assert!(id.index() >= self.coarse_triangles(), "a coarse triangle's entry is never freed");
+        let moved = self.triangles[last.index()];
+        self.triangles.swap_remove(id.index());
+        log.triangles.swap_removed(last.index(), id.index());
+        if id == last {
+            return;
+        }
+        log.triangle(id);
+        for neighbour in moved.neighbours.iter().filter_map(|n| n.triangle()) {
+            self.replace_neighbour(neighbour, last.into(), id.into());
+            log.triangle(neighbour);
+        }
+        for vertex in moved.vertices {
+            let noted = &mut self.triangle_at[vertex.index()];
+            *noted = if *noted == last { id } else { *noted };
+        }
+    }
+
+    /// Removes a node that no triangle has any more. The last node takes its place.
+    #[inline]
+    pub(super) fn remove_node(&mut self, id: NodeId, log: &mut ChangeLog) {
+        let last = NodeId::from_index(self.nodes.len() - 1);
+        log.nodes.swap_removed(last.index(), id.index());
+        if id != last {
+            // No coarse node is ever the last here, so that the triangles round it are joined by edges.
+            let mut round = [None; 8];
+            let found = self.triangles_round(last, self.triangle_at(last));
+            round.iter_mut().zip(found).for_each(|(place, id)| *place = Some(id));
+            for triangle in round.into_iter().flatten() {
+                let vertices = &mut self.triangles[triangle.index()].vertices;
+                *vertices = vertices.map(|v| if v == last { id } else { v });
+                log.triangle(triangle);
+            }
+            log.node(id);
+        }
+        self.nodes.swap_remove(id.index());
+        self.triangle_at.swap_remove(id.index());
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::{DVec2, dvec2};
+
+    use super::*;
+    use crate::geometry::Rect;
+    use crate::mesh::Limits;
+
+    /// A rectangle with a corner and a node cut out, so that diagonals and sides are on the boundary.
+    fn coarse() -> Mesh {
+        let removed = [DVec2::ZERO, dvec2(0.75, 0.5)];
+        let bounds = Rect::new(DVec2::ZERO, dvec2(1.25, 1.0));
+        Mesh::coarse_grid(bounds, 0.25, |p| !removed.contains(&p), &Limits::default()).unwrap()
+    }
+
+    /// The last of the chain of triangles that must be bisected before `id`, or `id` itself.
+    fn first_to_bisect(mesh: &Mesh, mut id: TriangleId) -> TriangleId {
+        loop {
+            match mesh.triangle(id).neighbours[0].triangle() {
+                Some(across) if mesh.triangle(across).level() < mesh.triangle(id).level() => id = across,
+                _ => return id,
+            }
+        }
+    }
+
+    fn bisect(mesh: &mut Mesh, id: TriangleId) {
+        match mesh.triangle(id).neighbours[0].triangle() {
+            None => mesh.bisect_at_boundary(id),
+            Some(across) => mesh.bisect_pair(id, across),
+        }
+    }
+
+    /// The triangle to bisect next: near a place of its own for each seed, so that all levels are met, or anywhere.
+    fn any_triangle(mesh: &Mesh, random: &mut fastrand::Rng, seed: usize) -> TriangleId {
+        let focus = TriangleId::from_index(seed % mesh.coarse_triangles());
+        let anywhere = TriangleId::from_index(random.usize(..mesh.triangles.len()));
+        first_to_bisect(mesh, if random.u8(..8) > 0 { focus } else { anywhere })
+    }
+
+    #[test]
+    fn a_bisection_taken_back_leaves_no_trace() {
+        let deepest = coarse().lattice().deepest_level();
+        let (mut levels, mut at_boundary) = ([0; 61], [0; 2]);
+        for seed in 0..30 {
+            let mut random = fastrand::Rng::with_seed(seed as u64);
+            let mut mesh = coarse();
+            for step in 0..400 {
+                let count = mesh.triangles.len();
+                let id = any_triangle(&mesh, &mut random, seed);
+                let level = mesh.triangle(id).level();
+                if level == deepest {
+                    continue;
+                }
+                let before = mesh.clone();
+                bisect(&mut mesh, id);
+                levels[level as usize] += 1;
+                at_boundary[level as usize % 2] += usize::from(mesh.triangles.len() == count + 1);
+                let new = (count..mesh.triangles.len()).map(TriangleId::from_index);
+                for child in new.chain([id]) {
+                    let star = mesh.star_of(child).expect("nothing was bisected since");
+                    let mut log = ChangeLog::default();
+                    let mut again = mesh.clone();
+                    again.merge(&star, &mut log);
+                    star.freed().for_each(|freed| again.remove_triangle(freed, &mut log));
+                    again.remove_node(star.centre(), &mut log);
+                    assert_eq!(again.nodes, before.nodes);
+                    assert_eq!(again.triangles, before.triangles, "child {child:?} of {id:?}, level {level}");
+                    assert!(step % 50 > 0 || again.violations().is_empty());
+                }
+            }
+        }
+        assert!(levels[..deepest as usize].iter().all(|&n| n > 0), "{levels:?}");
+        assert!(at_boundary.iter().all(|&n| n > 20), "{at_boundary:?}");
+    }
+}

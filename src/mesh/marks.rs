@@ -1,0 +1,206 @@
+//! A set of places in an array.
+
+use std::ops::Range;
+
+/// A set of places in an array, as bits, quick to change and to read from either end.
+///
+/// Above the bits stand three layers that say which words below are not empty, 64 to a bit. So an empty set is seen at once,
+/// and going through a small set in a large array costs no more than in a small one. An eighth of a byte for each place.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Marks {
+    layers: [Vec<u64>; LAYERS],
+    count: usize,
+}
+
+/// With four layers the topmost has one word for 2²⁴ places, and is gone through word by word.
+const LAYERS: usize = 4;
+
+impl Marks {
+    /// How many places are in the set.
+    pub(super) fn count(&self) -> usize {
+        self.count
+    }
+
+    #[inline]
+    pub(super) fn contains(&self, place: usize) -> bool {
+        self.layers[0].get(place / 64).is_some_and(|word| word >> (place % 64) & 1 == 1)
+    }
+
+    /// Adds a place, and tells whether it was new.
+    #[inline]
+    pub(super) fn insert(&mut self, place: usize) -> bool {
+        if place / 64 >= self.layers[0].len() {
+            self.make_room(place);
+        }
+        let word = &mut self.layers[0][place / 64];
+        let (before, bit) = (*word, 1 << (place % 64));
+        *word |= bit;
+        if before == 0 {
+            self.note_word(place / 64);
+        }
+        self.count += usize::from(before & bit == 0);
+        before & bit == 0
+    }
+
+    #[inline]
+    fn note_word(&mut self, mut place: usize) {
+        for layer in &mut self.layers[1..] {
+            let word = &mut layer[place / 64];
+            let before = *word;
+            *word |= 1 << (place % 64);
+            if before != 0 {
+                return;
+            }
+            place /= 64;
+        }
+    }
+
+    #[cold]
+    fn make_room(&mut self, place: usize) {
+        // Doubling, so that growing by one place at a time costs little.
+        let mut words = (place / 64 + 1).max(2 * self.layers[0].len());
+        for layer in &mut self.layers {
+            layer.resize(words, 0);
+            words = words.div_ceil(64);
+        }
+    }
+
+    /// Takes a place out, and tells whether it was in.
+    #[inline]
+    pub(super) fn remove(&mut self, place: usize) -> bool {
+        let was_in = self.contains(place);
+        if was_in {
+            self.layers[0][place / 64] &= !(1 << (place % 64));
+            self.count -= 1;
+            self.forget_empty_word(place / 64);
+        }
+        was_in
+    }
+
+    #[inline]
+    fn forget_empty_word(&mut self, mut place: usize) {
+        for k in 1..LAYERS {
+            if self.layers[k - 1][place] != 0 {
+                return;
+            }
+            self.layers[k][place / 64] &= !(1 << (place % 64));
+            place /= 64;
+        }
+    }
+
+    /// The array's last entry took the place `to`, as by `swap_remove`: its mark goes with it.
+    #[inline]
+    pub(super) fn swap_removed(&mut self, last: usize, to: usize) {
+        if self.remove(last) && last != to {
+            self.insert(to);
+        } else {
+            self.remove(to);
+        }
+    }
+
+    /// The last place of the set.
+    #[inline]
+    pub(super) fn last(&self) -> Option<usize> {
+        if self.count == 0 {
+            return None;
+        }
+        let top = &self.layers[LAYERS - 1];
+        let word = top.iter().rposition(|&word| word != 0).expect("a place is noted in every layer");
+        let last = |place: usize, layer: &Vec<u64>| 64 * place + layer[place].ilog2() as usize;
+        Some(self.layers.iter().rev().fold(word, last))
+    }
+
+    /// Takes all places out, a word at a time.
+    pub(super) fn clear(&mut self) {
+        while let Some(last) = self.last() {
+            let word = last / 64;
+            self.count -= self.layers[0][word].count_ones() as usize;
+            self.layers[0][word] = 0;
+            self.forget_empty_word(word);
+        }
+    }
+
+    /// Takes all places out, as ascending ranges that do not touch.
+    pub(super) fn take_ranges(&mut self) -> Vec<Range<usize>> {
+        let mut ranges: Vec<Range<usize>> = Vec::new();
+        while let Some(last) = self.last() {
+            let word = last / 64;
+            let mut bits = std::mem::take(&mut self.layers[0][word]);
+            self.count -= bits.count_ones() as usize;
+            self.forget_empty_word(word);
+            while bits != 0 {
+                let end = 64 - bits.leading_zeros() as usize;
+                let length = (bits << (64 - end)).leading_ones() as usize;
+                push_before(&mut ranges, 64 * word + end - length..64 * word + end);
+                bits &= !(u64::MAX >> (64 - length) << (end - length));
+            }
+        }
+        ranges.reverse();
+        ranges
+    }
+
+    /// Memory taken, in bytes.
+    pub(super) fn bytes(&self) -> usize {
+        self.layers.iter().map(|layer| 8 * layer.capacity()).sum()
+    }
+}
+
+/// Adds a range that ends at or before the start of the last.
+fn push_before(ranges: &mut Vec<Range<usize>>, range: Range<usize>) {
+    match ranges.last_mut() {
+        Some(last) if last.start == range.end => last.start = range.start,
+        _ => ranges.push(range),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use super::*;
+
+    #[test]
+    fn marks_are_a_set() {
+        let mut random = fastrand::Rng::with_seed(5);
+        for size in [1, 64, 65, 5000, 300_000, 40_000_000] {
+            let (mut marks, mut plain) = (Marks::default(), BTreeSet::new());
+            for _ in 0..5000 {
+                let near = plain.last().map_or(0, |&p: &usize| p.saturating_sub(random.usize(..70)));
+                let place = if random.bool() { near } else { random.usize(..size) };
+                match random.u8(..8) {
+                    0..4 => assert_eq!(marks.insert(place), plain.insert(place)),
+                    4..6 => assert_eq!(marks.remove(place), plain.remove(&place)),
+                    6 => assert_eq!(
+                        marks.last().map(|last| marks.remove(last)),
+                        plain.pop_last().map(|_| true)
+                    ),
+                    _ => {
+                        let to = random.usize(..=place);
+                        marks.swap_removed(place, to);
+                        let was_in = plain.remove(&place) && place != to;
+                        if was_in {
+                            plain.insert(to)
+                        } else {
+                            plain.remove(&to)
+                        };
+                    }
+                }
+                assert_eq!((marks.last(), marks.count()), (plain.last().copied(), plain.len()));
+                assert_eq!(marks.contains(place), plain.contains(&place));
+            }
+            (0..size.min(1000)).for_each(|place| {
+                marks.insert(place);
+                plain.insert(place);
+            });
+            let mut copy = marks.clone();
+            copy.clear();
+            let ranges = marks.take_ranges();
+            for rest in [copy, marks] {
+                assert_eq!((rest.last(), rest.count()), (None, 0));
+                assert!(rest.layers.iter().flatten().all(|&word| word == 0));
+            }
+            assert!(ranges.windows(2).all(|pair| pair[0].end < pair[1].start));
+            assert!(ranges.into_iter().flatten().eq(plain));
+        }
+    }
+}

@@ -1,0 +1,365 @@
+//! The mesh after the rule has changed in some places: refined and coarsened there, and nowhere else.
+//!
+//! # What is done
+//!
+//! Three kinds of work, always in this order: *search* for the triangles that touch a changed rectangle; *refine* those that
+//! exceed their target, until none does; *coarsen*: let nodes go that nothing needs any more, until there is none.
+//!
+//! # Why it ends at the mesh made from scratch
+//!
+//! The rule must be monotone: a triangle inside a satisfied triangle is satisfied. Then the conforming refinements that satisfy
+//! it have a smallest one, M*, which every other refines. The work keeps two promises at all times:
+//!
+//! 1. A triangle that exceeds its target is marked as *unasked*.
+//! 2. A node that could go has a triangle round it that is marked as *loose*. A node can go when it is the newest vertex of all
+//!    triangles round it (four, or two at the boundary) and neither parent exceeds its target.
+//!
+//! A change of the rule within a rectangle keeps them, as every triangle that touches the rectangle is marked as both: a
+//! parent that touches it has a child that does. So do bisection (the children take over the mark of their parent; a triangle
+//! whose parent was not marked is satisfied by monotony) and coarsening (a node can become free only when a triangle round it
+//! is put back, and those are marked as loose). Once no mark is left, all triangles are satisfied and no node can go, and
+//! this is M*: were it finer, take a triangle of the deepest level among those that lie strictly inside a triangle of M*. No
+//! triangle round its newest vertex was bisected, or there would be a deeper one; and the parents lie in triangles of M*, so
+//! they are satisfied. That node could go.
+//!
+//! # Why it ends, and how soon
+//!
+//! A triangle that exceeds its target is bisected in every mesh that satisfies the rule, and what compatibility demands besides
+//! is too: nodes that are created belong to M*. Once all triangles are satisfied, nodes that go do not. So as long as the rule
+//! stays the same, each node is created or removed once at most, and only those in which the meshes before and after differ.
+//! Beyond that there is one question for each triangle that touches a rectangle, and a few for each that changes. The
+//! search starts in the coarse triangles that the rectangle touches and goes from neighbour to neighbour. Nothing looks at the
+//! rest of the mesh.
+//!
+//! Where the triangle budget is met while nodes could go, these go first. Then a node may go that is needed again; but the
+//! loose marks have then become fewer, so that this ends too.
+//!
+//! # How the work survives the moves
+//!
+//! Coarsening fills a gap in the arrays with the last entry. What is still to be done is a set of marks on places of the array,
+//! and the mark moves with its entry. The search alone remembers ids, and while it goes on nothing moves.
+//!
+//! Triangles are taken from the end of the array: the youngest first. Those are near in space and in memory, and when a place
+//! is painted and erased again, entries leave from the end and no other has to move.
+
+use super::changes::ChangeLog;
+use super::coarsen::Star;
+use super::locate::WalkEnd;
+use super::marks::Marks;
+use super::refine::{Diameters, too_fine};
+use super::{Changes, Element, InvalidTarget, Limits, Mesh, Progress, RefineError, TriangleId};
+use crate::geometry::{LatticePoint, LatticeRect};
+
+/// Brings a mesh up to date where its rule has changed, in slices.
+///
+/// For a mesh that satisfied a monotone rule before ([`Mesh::refine`] makes one), the result is the mesh made from scratch, up
+/// to the order of its entries. The minimum of a target over the closed triangle is such a rule; the report's Eq. (12), the
+/// minimum over the vertices, is not. Time and memory go with the triangles that touch the changed rectangles, and those that
+/// change, and not with the mesh. The mesh is conforming after every slice.
+///
+/// ```
+/// use meshbrush::geometry::{Lattice, LatticeRect, Rect};
+/// use meshbrush::mesh::{Element, Limits, Mesh, Progress, Updater};
+///
+/// // Level 9 wherever a triangle touches a square, level 2 elsewhere.
+/// let exceeds = |element: &Element, square: &LatticeRect| {
+///     element.triangle.level() < if square.touches(element.corners) { 9 } else { 2 }
+/// };
+/// let mut mesh = Mesh::coarse_grid(Rect::UNIT, 0.25, |_| true, &Limits::default())?;
+/// let square = |x| mesh.lattice().rect_round(&Rect::around(glam::dvec2(x, 0.4), 0.05)).unwrap();
+/// let (before, after) = (square(0.3), square(0.6));
+/// mesh.refine(&Limits::default(), |element| Ok(exceeds(element, &before)))?;
+///
+/// let mut updater = Updater::new(Limits::default());
+/// updater.add(before);
+/// updater.add(after);
+/// while updater.run(&mut mesh, |element| Ok(exceeds(element, &after)), 100)? == Progress::More {
+///     assert!(mesh.violations().is_empty()); // it could be drawn
+/// }
+/// # let mut anew = Mesh::coarse_grid(Rect::UNIT, 0.25, |_| true, &Limits::default())?;
+/// # anew.refine(&Limits::default(), |element| Ok(exceeds(element, &after)))?;
+/// assert_eq!(mesh.fingerprint(), anew.fingerprint());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Updater {
+    limits: Limits,
+    /// Rectangles yet to be searched.
+    areas: Vec<LatticeRect>,
+    search: Option<Search>,
+    /// Triangles found by the search under way; otherwise empty.
+    reached: Marks,
+    /// Triangles that may exceed their target.
+    unasked: Marks,
+    /// Triangles whose newest vertex may have become free to go.
+    loose: Marks,
+    chain: Vec<TriangleId>,
+    log: ChangeLog,
+}
+
+impl Updater {
+    /// No work yet. An updater belongs to one mesh, and every change of that mesh must be its own.
+    pub fn new(limits: Limits) -> Self {
+        Self {
+            limits,
+            areas: Vec::new(),
+            search: None,
+            reached: Marks::default(),
+            unasked: Marks::default(),
+            loose: Marks::default(),
+            chain: Vec::new(),
+            log: ChangeLog::default(),
+        }
+    }
+
+    /// Adds a rectangle to the work: the rule may give another answer for triangles that touch it. Must be called before the next
+    /// [`Self::run`] after such a change, and may be called while earlier work is under way.
+    pub fn add(&mut self, area: LatticeRect) {
+        self.areas.push(area);
+    }
+
+    /// Whether nothing is left to do.
+    pub fn is_done(&self) -> bool {
+        self.areas.is_empty() && self.search.is_none() && self.unasked.count() == 0 && self.loose.count() == 0
+    }
+
+    /// Gives up what is left to do. The mesh is conforming, but where work was left it may be coarser or finer than it ought
+    /// to be, until it is made anew.
+    pub fn cancel(&mut self) {
+        self.areas.clear();
+        self.search = None;
+        for marks in [&mut self.reached, &mut self.unasked, &mut self.loose] {
+            marks.clear();
+        }
+    }
+
+    /// Which entries of the mesh changed since this was last asked, `None` if none did.
+    pub fn take_changes(&mut self) -> Option<Changes> {
+        self.log.take()
+    }
+
+    /// Memory taken, in bytes: a fraction of a byte for each triangle.
+    pub fn bytes(&self) -> usize {
+        let marks = [&self.reached, &self.unasked, &self.loose, &self.log.triangles, &self.log.nodes];
+        marks.map(Marks::bytes).iter().sum()
+    }
+
+    /// Works until done or until `visits` triangles were looked at. A visit bisects one pair at each level at most.
+    ///
+    /// `exceeds` tells whether an element's diameter exceeds its target. It must depend on the element alone, be monotone, and
+    /// answer as ever outside the rectangles that were added. A parent that could be put back is no entry of the array; what it
+    /// says about its nodes and neighbours is what it would say then.
+    ///
+    /// # Errors
+    /// When the rule meets a bad target, or a limit is reached. The mesh is conforming and the work is kept: after a change of
+    /// the rule that is added it may go on.
+    pub fn run(
+        &mut self,
+        mesh: &mut Mesh,
+        mut exceeds: impl FnMut(&Element) -> Result<bool, InvalidTarget>,
+        visits: usize,
+    ) -> Result<Progress, RefineError> {
+        let diameters = Diameters::of(mesh);
+        let cap = self.limits.max_level.unwrap_or(u32::MAX);
+        let mut exceeds = |element: &Element| -> Result<bool, InvalidTarget> {
+            Ok(element.triangle.level() < cap && exceeds(element)?)
+        };
+        // So many triangles there can be before memory or the budget must be looked at.
+        let mut room = 0;
+        // Ends: see the head of this file.
+        for _ in 0..visits {
+            if self.search.is_some() || !self.areas.is_empty() {
+                self.search_on(mesh);
+            } else if let Some(id) = self.unasked.last() {
+                let id = TriangleId::from_index(id);
+                if !exceeds(&mesh.element(id, &diameters))? {
+                    self.unasked.remove(id.index());
+                    continue;
+                }
+                match self.refine(mesh, id, &mut room) {
+                    Err(RefineError::TooManyTriangles { .. }) if self.loose.count() > 0 => {
+                        self.loosen(mesh, &diameters, &mut exceeds)?;
+                    }
+                    other => other?,
+                }
+            } else if self.loose.count() > 0 {
+                self.loosen(mesh, &diameters, &mut exceeds)?;
+            } else {
+                return Ok(Progress::Done);
+            }
+        }
+        Ok(if self.is_done() { Progress::Done } else { Progress::More })
+    }
+
+    /// One step of the search: a triangle or a coarse triangle.
+    fn search_on(&mut self, mesh: &Mesh) {
+        let Some(search) = &mut self.search else {
+            self.search = self.areas.pop().map(|area| Search::new(mesh, area));
+            return;
+        };
+        if let Some(id) = search.found.pop() {
+            self.unasked.insert(id.index());
+            self.loose.insert(id.index());
+            for across in mesh.triangle(id).neighbours.iter().filter_map(|n| n.triangle()) {
+                if search.area.touches(mesh.corners(across)) && self.reached.insert(across.index()) {
+                    search.found.push(across);
+                }
+            }
+        } else if let Some((cell, upper)) = search.next_half_cell() {
+            if let Some(start) = search.start(mesh, cell, upper)
+                && self.reached.insert(start.index())
+            {
+                search.found.push(start);
+            }
+        } else {
+            self.search = None;
+            self.reached.clear();
+        }
+    }
+
+    /// Bisects a triangle and what must be bisected with it.
+    #[inline]
+    fn refine(&mut self, mesh: &mut Mesh, id: TriangleId, room: &mut usize) -> Result<(), RefineError> {
+        let level = mesh.triangle(id).level();
+        if level >= mesh.lattice().deepest_level() {
+            return Err(too_fine(mesh, id));
+        }
+        let most_new = Mesh::most_new_triangles(level);
+        if mesh.triangles().len() + most_new > *room {
+            *room = mesh.room_for(id, most_new, &self.limits)?;
+        }
+        let (first_node, first_new) = (mesh.nodes().len(), mesh.triangles().len());
+        let mut new = first_new;
+        let Self { chain, unasked, log, .. } = self;
+        mesh.refine_triangle_with(id, chain, |parent| {
+            if unasked.contains(parent.index()) {
+                unasked.insert(new);
+            }
+            log.triangles.insert(parent.index());
+            log.triangles.insert(new);
+            new += 1;
+        });
+        // The neighbour across a new child's bisection edge bordered on the parent's entry before.
+        for new in first_new..new {
+            if let Some(outer) = mesh.triangles()[new].neighbours[0].triangle() {
+                log.triangle(outer);
+            }
+        }
+        for node in first_node..mesh.nodes().len() {
+            log.nodes.insert(node);
+        }
+        log.any = true;
+        Ok(())
+    }
+
+    /// Takes one loose mark, and lets the newest vertex of that triangle go if it can.
+    fn loosen(
+        &mut self,
+        mesh: &mut Mesh,
+        diameters: &Diameters,
+        exceeds: &mut impl FnMut(&Element) -> Result<bool, InvalidTarget>,
+    ) -> Result<(), InvalidTarget> {
+        let Some(last) = self.loose.last() else { return Ok(()) };
+        let Some(star) = mesh.star_of(TriangleId::from_index(last)) else {
+            self.loose.remove(last);
+            return Ok(());
+        };
+        let mut needed = false;
+        for parent in mesh.parents(&star) {
+            needed = needed || exceeds(&mesh.element_of(&parent, diameters))?;
+        }
+        // They have the same newest vertex: one question answers for all of them.
+        star.children().for_each(|child| {
+            self.loose.remove(child.index());
+        });
+        if !needed {
+            self.coarsen(mesh, &star);
+        }
+        Ok(())
+    }
+
+    fn coarsen(&mut self, mesh: &mut Mesh, star: &Star) {
+        mesh.merge(star, &mut self.log);
+        for parent in star.places() {
+            self.unasked.remove(parent.index());
+            self.loose.insert(parent.index());
+        }
+        // The highest first: so the last entry of the array is never itself one to be removed later.
+        for freed in star.freed() {
+            let last = mesh.triangles().len() - 1;
+            self.unasked.swap_removed(last, freed.index());
+            self.loose.swap_removed(last, freed.index());
+            mesh.remove_triangle(freed, &mut self.log);
+        }
+        mesh.remove_node(star.centre(), &mut self.log);
+    }
+}
+
+/// A search for the triangles that touch a rectangle.
+///
+/// In one coarse triangle they can be reached from each other across edges: what it has in common with the rectangle is convex,
+/// and on the straight way between two points of it one goes from triangle to triangle across an edge, or round a node that
+/// lies in the rectangle too. So one triangle for each coarse triangle that the rectangle touches is enough to start from, holes
+/// or not.
+#[derive(Clone, Debug)]
+struct Search {
+    area: LatticeRect,
+    /// The cells that the area touches: the first and last column, and the first and last row.
+    columns: [u32; 2],
+    rows: [u32; 2],
+    /// The next half cell, counted row by row.
+    next: u64,
+    /// Triangles found, whose neighbours have not been looked at.
+    found: Vec<TriangleId>,
+}
+
+impl Search {
+    fn new(mesh: &Mesh, area: LatticeRect) -> Self {
+        let steps = mesh.lattice().cell_steps();
+        let [columns, rows] = mesh.lattice().cells();
+        // Closed cells: a line between two cells belongs to both.
+        let touched = |low: u32, high: u32, count: u32| {
+            [low.div_ceil(steps).saturating_sub(1), (high / steps).min(count - 1)]
+        };
+        let columns = touched(area.min.x, area.max.x, columns);
+        let rows = touched(area.min.y, area.max.y, rows);
+        Self { area, columns, rows, next: 0, found: Vec::new() }
+    }
+
+    /// The next cell that the area touches, by column and row, and whether it is the upper half.
+    fn next_half_cell(&mut self) -> Option<([u32; 2], bool)> {
+        let ([c0, c1], [r0, r1]) = (self.columns, self.rows);
+        if c0 > c1 {
+            return None; // beyond the grid
+        }
+        let (across, upper) = (u64::from(c1 - c0 + 1), self.next % 2 == 1);
+        let cell = self.next / 2;
+        self.next += 1;
+        let row = r0 + (cell / across) as u32;
+        (row <= r1).then_some(([c0 + (cell % across) as u32, row], upper))
+    }
+
+    /// A triangle in the given half of a cell that touches the area, unless the half does not or is not in the domain.
+    fn start(&self, mesh: &Mesh, [column, row]: [u32; 2], upper: bool) -> Option<TriangleId> {
+        let number = 2 * (row as usize * mesh.lattice().cells()[0] as usize + column as usize);
+        let entry = mesh.coarse.get(number + usize::from(upper))?;
+        let steps = mesh.lattice().cell_steps();
+        let (left, bottom) = (column * steps, row * steps);
+        // The corner of the common rectangle that lies deepest in the half.
+        let (point, inside) = if upper {
+            let x = self.area.max.x.min(left + steps);
+            let y = self.area.max.y.min(bottom + steps);
+            (LatticePoint::new(x, y), x - left + (y - bottom) >= steps)
+        } else {
+            let (x, y) = (self.area.min.x.max(left), self.area.min.y.max(bottom));
+            (LatticePoint::new(x, y), x - left + (y - bottom) <= steps)
+        };
+        if !inside {
+            return None;
+        }
+        match mesh.walk(entry, point.as_dvec2()) {
+            WalkEnd::Found(id, _) => Some(id),
+            WalkEnd::Blocked => unreachable!("the walk stays in the coarse triangle that it starts in"),
+        }
+    }
+}
