@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use glam::DVec2;
 
 use super::readout::{Quantity, Readout};
-use crate::document::{Document, FollowError, Follower, Setting, Stage};
+use crate::document::{Document, FollowError, Follower, MeshChange, Setting, Stage};
 use crate::mesh::Mesh;
 
 /// Pixels or triangles in one slice of work: well below a millisecond.
@@ -27,7 +27,6 @@ pub struct Session {
     follower: Follower,
     queried: Option<DVec2>,
     notice: Option<Notice>,
-    level_counts: (u64, Vec<usize>),
     work: Duration,
     last_update: Option<Duration>,
 }
@@ -40,13 +39,11 @@ impl Session {
     pub fn new(mut document: Document) -> Result<Self, FollowError> {
         let began = Instant::now();
         let follower = Follower::new(&mut document)?;
-        let level_counts = (follower.generation(), follower.mesh().level_counts());
         Ok(Self {
             document,
             follower,
             queried: None,
             notice: None,
-            level_counts,
             work: Duration::ZERO,
             last_update: Some(began.elapsed()),
         })
@@ -78,8 +75,8 @@ impl Session {
     }
 
     /// Triangles per level of the mesh on the screen.
-    pub fn level_counts(&self) -> &[usize] {
-        &self.level_counts.1
+    pub fn level_counts(&self) -> Vec<usize> {
+        self.mesh().level_counts()
     }
 
     /// Time that the last whole update took, all slices together.
@@ -139,7 +136,7 @@ impl Session {
     /// thinned out by whoever painted it.
     pub fn follow(&mut self, deadline: Instant) -> bool {
         let began = Instant::now();
-        let generation = self.follower.generation();
+        let revision = self.follower.revision();
         let left = loop {
             match self.follower.advance(&mut self.document, SLICE) {
                 Ok(Stage::InStep) => break false,
@@ -151,25 +148,25 @@ impl Session {
                 }
             }
         };
-        self.note_time(began.elapsed(), generation, left);
+        let changed = self.follower.revision() != revision;
+        if left || changed {
+            self.work += began.elapsed();
+        }
+        if !left && self.work > Duration::ZERO {
+            self.last_update = Some(std::mem::take(&mut self.work));
+        }
         left
+    }
+
+    /// What became of the mesh since this was last asked.
+    pub fn take_mesh_change(&mut self) -> Option<MeshChange> {
+        self.follower.take_change()
     }
 
     fn take_back(&mut self, error: &FollowError) {
         self.report(error);
         if self.document.settings() != self.follower.settings() {
             self.document.reject_last();
-        }
-    }
-
-    fn note_time(&mut self, spent: Duration, generation_before: u64, left: bool) {
-        let shown = self.follower.generation();
-        if shown != generation_before {
-            self.last_update = Some(self.work + spent);
-            self.work = Duration::ZERO;
-            self.level_counts = (shown, self.follower.mesh().level_counts());
-        } else {
-            self.work = if left { self.work + spent } else { Duration::ZERO };
         }
     }
 }

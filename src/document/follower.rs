@@ -1,26 +1,42 @@
 use std::sync::Arc;
 
 use super::{Document, Repainted, Settings};
-use crate::field::{Rule, TargetField, VertexRule};
-use crate::mesh::{CoarseError, InvalidTarget, Mesh, Progress, RefineError, Refiner};
+use crate::field::{Paint, Rule, TargetField, VertexRule};
+use crate::mesh::{Changes, CoarseError, InvalidTarget, Mesh, Progress, RefineError, Refiner, Updater};
+use crate::raster::PixelRect;
 
 /// Keeps field and mesh in step with a document, in slices.
 ///
-/// Every edit leads to a mesh made anew beside the one that is shown; the two change places when the new one is whole. So
-/// nothing flickers, and whatever goes wrong, the former mesh is still there. (Updating the mesh in place is to come in
-/// here: [`Self::advance`] is the one place that decides what an edit costs.)
+/// Paint changes the mesh where it is, and nowhere else ([`Updater`]): the mesh is conforming and can be drawn after every
+/// slice, and at rest it is the one that would be made from scratch. Everything else (settings, and every edit under the
+/// vertex rule, which cannot be undone locally) leads to a mesh made anew beside the one that is shown; the two change places
+/// when the new one is whole.
 #[derive(Clone, Debug)]
 pub struct Follower {
     settings: Settings,
     field: TargetField,
     mesh: Arc<Mesh>,
-    generation: u64,
-    repainted: bool,
+    /// Work on the shown mesh; idle under the vertex rule.
+    updater: Updater,
+    revision: u64,
+    /// Another mesh is shown since [`Self::take_change`] was last called.
+    replaced: bool,
+    /// The shown mesh no longer is the one of its settings and field: the next work makes it anew.
+    lost_step: bool,
     /// All of the paint changed: the field is to be filled anew.
     refill: bool,
     job: Option<Job>,
     /// The revision of the document that could not be met: not tried again.
     given_up_on: Option<u64>,
+}
+
+/// What became of the shown mesh.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum MeshChange {
+    /// It is another one.
+    Replaced,
+    /// These entries changed.
+    Within(Changes),
 }
 
 /// A mesh in the making.
@@ -30,6 +46,8 @@ struct Job {
     /// A field in the making, where that of the shown mesh does not serve.
     field: Option<TargetField>,
     refining: Option<Refining>,
+    /// What was painted since the work began: the new mesh is updated there once it is shown.
+    repainted: Vec<PixelRect>,
 }
 
 #[derive(Clone, Debug)]
@@ -80,24 +98,27 @@ impl Follower {
         let (field, mesh) = job.finished();
         let field = field.expect("the first job fills a field of its own");
         let settings = document.settings().clone();
+        let updater = Updater::new(settings.limits());
         Ok(Self {
             settings,
             field,
             mesh: Arc::new(mesh),
-            generation: 0,
-            repainted: false,
+            updater,
+            revision: 0,
+            replaced: true,
+            lost_step: false,
             refill: false,
             job: None,
             given_up_on: None,
         })
     }
 
-    /// The last whole mesh.
+    /// The shown mesh: conforming at all times.
     pub fn mesh(&self) -> &Mesh {
         &self.mesh
     }
 
-    /// The last whole mesh, to be kept by work that takes longer than a frame.
+    /// The shown mesh as it is, to be kept by work that takes longer than a frame.
     pub fn shared_mesh(&self) -> Arc<Mesh> {
         self.mesh.clone()
     }
@@ -112,15 +133,22 @@ impl Follower {
         &self.settings
     }
 
-    /// Grows whenever another mesh is shown.
-    pub fn generation(&self) -> u64 {
-        self.generation
+    /// Grows whenever the shown mesh changes.
+    pub fn revision(&self) -> u64 {
+        self.revision
+    }
+
+    /// What became of the shown mesh since this was last asked.
+    pub fn take_change(&mut self) -> Option<MeshChange> {
+        let within = self.updater.take_changes().map(MeshChange::Within);
+        if std::mem::take(&mut self.replaced) { Some(MeshChange::Replaced) } else { within }
     }
 
     /// What is left to do.
     pub fn stage(&self) -> Stage {
         match &self.job {
-            None => Stage::InStep,
+            None if self.updater.is_done() => Stage::InStep,
+            None => Stage::Refining { triangles: self.mesh.triangles().len() },
             Some(Job { refining: None, .. }) => Stage::Filling,
             Some(Job { refining: Some(refining), .. }) => {
                 Stage::Refining { triangles: refining.mesh.triangles().len() }
@@ -130,55 +158,91 @@ impl Follower {
 
     /// Gives up the work under way. The document may then differ from the mesh, until its next change.
     pub fn cancel(&mut self, document: &Document) {
+        if !self.updater.is_done() {
+            self.updater.cancel();
+            self.lost_step = true;
+        }
+        self.give_up(document);
+    }
+
+    fn give_up(&mut self, document: &Document) {
         self.job = None;
         self.given_up_on = Some(document.revision());
     }
 
     /// Takes over what changed in the document, and does one slice of work: about `visits` pixels or triangles.
     ///
-    /// A change of settings begins anew. Paint that changes under the work is taken over as it is, and once that mesh is
-    /// shown another is made: during a long stroke the mesh follows at the pace at which meshes can be made.
+    /// A change of settings begins anew. Paint joins the work under way.
     ///
     /// # Errors
-    /// When the document has no mesh. The former one stays, and the document is not tried again until it changes.
+    /// When the document has no mesh. The shown one stays, conforming, and the document is not tried again until it changes.
     pub fn advance(&mut self, document: &mut Document, visits: usize) -> Result<Stage, FollowError> {
         self.take_over_paint(document);
         if self.given_up_on == Some(document.revision()) {
             return Ok(Stage::InStep);
         }
-        let result = self.advance_job(document, visits);
+        let result = self.work(document, visits);
         if result.is_err() {
-            self.cancel(document);
+            self.give_up(document);
         }
         result
     }
 
-    fn advance_job(&mut self, document: &Document, visits: usize) -> Result<Stage, FollowError> {
+    fn work(&mut self, document: &Document, visits: usize) -> Result<Stage, FollowError> {
         let wanted = document.settings();
-        let outdated = self.job.as_ref().is_some_and(|job| job.settings != *wanted);
-        let begin = self.job.is_none() && (self.repainted || self.settings != *wanted);
-        if outdated || begin {
-            self.repainted = false;
+        let outdated = match &self.job {
+            Some(job) => job.settings != *wanted,
+            None => self.lost_step || self.settings != *wanted,
+        };
+        if outdated {
             let reuse_field = self.reuses_field(wanted);
-            self.refill = false;
             self.job = Some(Job::new(wanted, reuse_field)?);
+            self.refill = false;
         }
-        let Some(job) = &mut self.job else { return Ok(Stage::InStep) };
-        if job.advance(document, Some(&self.field), visits)? == Progress::Done {
-            self.show();
+        match &mut self.job {
+            Some(job) => {
+                if job.advance(document, Some(&self.field), visits)? == Progress::Done {
+                    self.show();
+                }
+            }
+            None => self.update(visits)?,
         }
-        Ok(if self.repainted { Stage::Filling } else { self.stage() })
+        Ok(self.stage())
+    }
+
+    /// One slice of work on the shown mesh.
+    fn update(&mut self, visits: usize) -> Result<(), RefineError> {
+        if self.updater.is_done() {
+            return Ok(());
+        }
+        let field = &self.field;
+        let mesh = Arc::make_mut(&mut self.mesh);
+        let result = self.updater.run(mesh, |element| Ok(field.exceeds(element)), visits);
+        self.revision += u64::from(self.updater.has_changes());
+        result.map(|_| ())
     }
 
     fn show(&mut self) {
-        if let Some(job) = self.job.take() {
-            self.settings = job.settings.clone();
-            let (field, mesh) = job.finished();
-            if let Some(field) = field {
-                self.field = field;
-            }
-            self.mesh = Arc::new(mesh);
-            self.generation += 1;
+        let Some(job) = self.job.take() else { return };
+        self.settings = job.settings.clone();
+        self.updater = Updater::new(self.settings.limits());
+        let repainted = job.repainted.clone();
+        let (field, mesh) = job.finished();
+        if let Some(field) = field {
+            self.field = field;
+        }
+        self.mesh = Arc::new(mesh);
+        self.revision += 1;
+        self.replaced = true;
+        self.lost_step = false;
+        self.note_repainted(&repainted);
+    }
+
+    /// The field has changed in these areas; the mesh is to follow.
+    fn note_repainted(&mut self, areas: &[PixelRect]) {
+        match self.settings.rule {
+            Rule::Area => areas.iter().for_each(|&area| self.updater.add(self.field.lattice_rect(area))),
+            Rule::Vertex => self.lost_step |= !areas.is_empty(),
         }
     }
 
@@ -191,22 +255,19 @@ impl Follower {
 
     fn take_over_paint(&mut self, document: &mut Document) {
         match document.take_repainted() {
-            Repainted::Within(area) if area.is_empty() => {}
-            Repainted::Within(area) => {
+            Repainted::Within(areas) => {
                 let paint = document.layers().as_paint();
                 if paint.risk.size() == self.field.target().size() {
-                    self.field.update(paint, area);
+                    areas.iter().for_each(|&area| self.field.update(paint, area));
+                    self.note_repainted(&areas);
                 }
-                if let Some(field) = self.job.as_mut().and_then(|job| job.field.as_mut())
-                    && paint.risk.size() == field.target().size()
-                {
-                    field.update(paint, area);
+                if let Some(job) = &mut self.job {
+                    job.take_over_paint(paint, areas);
                 }
-                self.repainted = true;
             }
             Repainted::Everything => {
                 self.job = None;
-                self.repainted = true;
+                self.lost_step = true;
                 self.refill = true;
             }
         }
@@ -218,7 +279,17 @@ impl Job {
         let lattice = settings.lattice().map_err(CoarseError::from)?;
         let field = (!reuse_field).then(|| TargetField::new(settings.field_spec(), &lattice));
         let refining = if field.is_none() { Some(Refining::new(settings)?) } else { None };
-        Ok(Self { settings: settings.clone(), field, refining })
+        Ok(Self { settings: settings.clone(), field, refining, repainted: Vec::new() })
+    }
+
+    fn take_over_paint(&mut self, paint: Paint, areas: Vec<PixelRect>) {
+        if let Some(field) = &mut self.field {
+            if paint.risk.size() != field.target().size() {
+                return; // the work is about to begin anew
+            }
+            areas.iter().for_each(|&area| field.update(paint, area));
+        }
+        self.repainted.extend(areas);
     }
 
     /// One slice of filling or refining.

@@ -10,7 +10,7 @@ mod settings;
 use glam::DVec2;
 
 pub use examples::Example;
-pub use follower::{FollowError, Follower, Stage};
+pub use follower::{FollowError, Follower, MeshChange, Stage};
 pub use history::History;
 pub use setting::Setting;
 pub use settings::{Base, MAX_COARSE_TRIANGLES, RESOLUTIONS, Settings, SettingsError};
@@ -36,15 +36,13 @@ pub struct Document {
 }
 
 /// Pixels that changed since the follower last asked.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Repainted {
-    /// Those in the rectangle; it may be empty.
-    Within(PixelRect),
+    /// Those in the rectangles; there may be none.
+    Within(Vec<PixelRect>),
     /// The layers as such were replaced.
     Everything,
 }
-
-const NO_PIXELS: PixelRect = PixelRect { min: [0, 0], max: [0, 0] };
 
 impl Document {
     /// A document with the given settings and paint, and no history.
@@ -113,7 +111,7 @@ impl Document {
     pub fn draw_to(&mut self, point: DVec2) {
         if let Some(stroke) = &mut self.stroke {
             let area = stroke.draw_to(&mut self.layers, point);
-            self.note_repainted(area);
+            self.note_repainted([area]);
         }
     }
 
@@ -134,8 +132,8 @@ impl Document {
     /// Gives up the stroke under way, as if it had never begun.
     pub fn cancel_stroke(&mut self) {
         if let Some(stroke) = self.stroke.take() {
-            let area = stroke.finish().exchange(&mut self.layers);
-            self.note_repainted(area);
+            let areas = stroke.finish().exchange(&mut self.layers);
+            self.note_repainted(areas);
         }
     }
 
@@ -240,15 +238,15 @@ impl Document {
 
     /// What was repainted since this was last asked.
     pub fn take_repainted(&mut self) -> Repainted {
-        std::mem::replace(&mut self.repainted, Repainted::Within(NO_PIXELS))
+        std::mem::replace(&mut self.repainted, Repainted::Within(Vec::new()))
     }
 
     fn exchange(&mut self, entry: &mut Entry) {
         std::mem::swap(&mut entry.version, &mut self.version);
         match &mut entry.change {
             Change::Paint(patch) => {
-                let area = patch.exchange(&mut self.layers);
-                self.note_repainted(area);
+                let areas = patch.exchange(&mut self.layers);
+                self.note_repainted(areas);
             }
             Change::Settings(settings) => {
                 std::mem::swap(&mut **settings, &mut self.settings);
@@ -293,9 +291,9 @@ impl Document {
         }
     }
 
-    fn note_repainted(&mut self, area: PixelRect) {
-        if let Repainted::Within(earlier) = self.repainted {
-            self.repainted = Repainted::Within(earlier.union(&area));
+    fn note_repainted(&mut self, areas: impl IntoIterator<Item = PixelRect>) {
+        if let Repainted::Within(earlier) = &mut self.repainted {
+            earlier.extend(areas.into_iter().filter(|area| !area.is_empty()));
         }
         self.revision += 1;
     }

@@ -1,7 +1,7 @@
 use glam::DVec2;
 
 use super::{RiskToDiameter, Source, Transfer, TransferTable, smallest_target};
-use crate::geometry::Lattice;
+use crate::geometry::{Lattice, LatticeRect};
 use crate::mesh::{Element, InvalidTarget, Progress, bisection_edge_length, level_for_diameter};
 use crate::raster::{PixelRect, Pyramid, Raster, RasterOnLattice};
 
@@ -174,6 +174,11 @@ impl TargetField {
         let risk =
             paint.risk.sample(point).map_or(f64::INFINITY, |risk| self.table.diameter(f64::from(risk)));
         asked.min(painted).min(risk).clamp(self.spec.transfer.h_min, self.spec.transfer.h_max)
+    }
+
+    /// The part of the lattice on which [`Self::exceeds`] may answer differently once the pixels of `area` have changed.
+    pub fn lattice_rect(&self, area: PixelRect) -> LatticeRect {
+        self.on_lattice.lattice_rect(area)
     }
 
     /// h̄ at a point in world units, `None` outside the field.

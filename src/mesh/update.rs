@@ -133,6 +133,11 @@ impl Updater {
         }
     }
 
+    /// Whether an entry of the mesh changed since [`Self::take_changes`] was last called.
+    pub fn has_changes(&self) -> bool {
+        self.log.any
+    }
+
     /// Which entries of the mesh changed since this was last asked, `None` if none did.
     pub fn take_changes(&mut self) -> Option<Changes> {
         self.log.take()

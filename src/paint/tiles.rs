@@ -28,16 +28,15 @@ impl Patch {
     }
 
     /// Exchanges the kept pixels with those of the layers: once takes the gesture back, twice changes nothing. Returns
-    /// the pixels exchanged.
-    pub fn exchange(&mut self, layers: &mut Layers) -> PixelRect {
-        let mut changed = PixelRect { min: [0, 0], max: [0, 0] };
+    /// the pixels exchanged, a rectangle for each tile: a long stroke touches far fewer than lie in its bounds.
+    pub fn exchange(&mut self, layers: &mut Layers) -> Vec<PixelRect> {
+        let size = layers.risk.size();
         for (&place, old) in &mut self.tiles {
-            let area = tile_area(place, layers.risk.size());
+            let area = tile_area(place, size);
             exchange_pixels(&mut layers.risk, area, &mut old.risk);
             exchange_pixels(&mut layers.diameter, area, &mut old.diameter);
-            changed = changed.union(&area);
         }
-        changed
+        self.tiles.keys().map(|&place| tile_area(place, size)).collect()
     }
 
     /// Whether the gesture touched nothing.

@@ -1,5 +1,5 @@
 use super::{PixelRect, Raster};
-use crate::geometry::{Lattice, LatticePoint};
+use crate::geometry::{Lattice, LatticePoint, LatticeRect};
 
 /// Maxima of a raster over squares of 1, 2 × 2, 4 × 4 … pixels.
 ///
@@ -108,6 +108,21 @@ impl RasterOnLattice {
         // 2^30 lattice steps times 2^13 columns times 2^13 rows: below 2^57, and sums of two below 2^58.
         let per_pixel = [i64::from(extent.x) * rows, i64::from(extent.y) * columns];
         Self { per_step: columns * rows, per_pixel }
+    }
+
+    /// The smallest rectangle of the lattice that holds the closed pixels of `area`: all triangles that meet one of them touch
+    /// it.
+    pub fn lattice_rect(&self, area: PixelRect) -> LatticeRect {
+        let low =
+            |pixel: u32, per_pixel: i64| (i64::from(pixel) * per_pixel).div_euclid(self.per_step) as u32;
+        let high = |pixel: u32, per_pixel: i64| {
+            (i64::from(pixel) * per_pixel + self.per_step - 1).div_euclid(self.per_step) as u32
+        };
+        let [per_x, per_y] = self.per_pixel;
+        LatticeRect {
+            min: LatticePoint::new(low(area.min[0], per_x), low(area.min[1], per_y)),
+            max: LatticePoint::new(high(area.max[0], per_x), high(area.max[1], per_y)),
+        }
     }
 
     /// Whether some pixel that meets the closed triangle has a value above `limit`.

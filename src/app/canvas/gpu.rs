@@ -6,7 +6,7 @@ use eframe::egui;
 use eframe::egui_wgpu::{self, CallbackResources, CallbackTrait, RenderState, ScreenDescriptor};
 use eframe::wgpu;
 
-use crate::document::Follower;
+use crate::document::{Follower, MeshChange};
 use crate::mesh::Progress;
 use crate::render::gpu::{GpuError, GpuRenderer, emulates_gpu};
 use crate::scene::{Camera, Overlay, Style};
@@ -29,7 +29,9 @@ pub struct CanvasGpu {
     state: RenderState,
     /// The driver only emulates a GPU: drawing in software and showing the picture is several times as fast.
     in_software: bool,
-    /// The mesh that could not be taken in: not tried again.
+    /// The mesh on the screen is another one than the follower's: all of it is to be sent.
+    behind: bool,
+    /// The revision that could not be taken in: not tried again.
     refused: Option<u64>,
 }
 
@@ -46,7 +48,7 @@ impl CanvasGpu {
             Ok("gpu") => false,
             _ => emulates_gpu(&state.adapter),
         };
-        Ok(Self { state: state.clone(), in_software, refused: None })
+        Ok(Self { state: state.clone(), in_software, behind: true, refused: None })
     }
 
     /// Brings what the GPU knows of mesh and overlay up to date, and tells whether some of it is left to send. The former
@@ -57,6 +59,7 @@ impl CanvasGpu {
     pub fn sync(
         &mut self,
         follower: &Follower,
+        change: Option<MeshChange>,
         overlay: Option<&Overlay>,
         camera: &Camera,
         style: &Style,
@@ -71,11 +74,28 @@ impl CanvasGpu {
         let (device, queue) = (&self.state.device, &self.state.queue);
         renderer.set_overlay(device, queue, overlay)?;
         if self.in_software {
-            let (mesh, revision) = (follower.mesh(), follower.generation());
+            let (mesh, revision) = (follower.mesh(), follower.revision());
             renderer.prepare_in_software(device, queue, mesh, revision, camera, style)?;
             return Ok(Progress::Done);
         }
-        upload(renderer, &self.state, follower, &mut self.refused)
+        let revision = follower.revision();
+        match change {
+            Some(MeshChange::Within(changes)) if !self.behind => {
+                let (nodes, triangles) = (&changes.nodes, &changes.triangles);
+                let mirror = renderer.mirror_mut();
+                // After a failure the next mesh travels whole.
+                mirror.write_ranges(device, queue, follower.mesh(), revision, nodes, triangles)?;
+            }
+            Some(_) => self.behind = true,
+            None => {}
+        }
+        if !self.behind || self.refused == Some(revision) {
+            return Ok(Progress::Done);
+        }
+        let progress = upload(renderer, &self.state, follower);
+        self.refused = progress.is_err().then_some(revision);
+        self.behind = progress != Ok(Progress::Done);
+        progress
     }
 
     /// The shape that draws the mesh on the canvas.
@@ -85,21 +105,15 @@ impl CanvasGpu {
     }
 }
 
-/// Sends the next part of a mesh that the GPU does not have yet.
+/// Sends the next part of a mesh that the GPU does not have yet. A mesh that changed in the meantime is sent anew.
 fn upload(
     renderer: &mut GpuRenderer,
     state: &RenderState,
     follower: &Follower,
-    refused: &mut Option<u64>,
 ) -> Result<Progress, GpuError> {
-    let (mirror, generation) = (renderer.mirror_mut(), follower.generation());
-    if mirror.shown() == Some(generation) || *refused == Some(generation) {
-        return Ok(Progress::Done);
-    }
-    if mirror.uploading() != Some(generation) {
-        let begun = mirror.begin(&state.device, &state.queue, follower.mesh(), generation);
-        *refused = begun.is_err().then_some(generation);
-        begun?;
+    let (mirror, revision) = (renderer.mirror_mut(), follower.revision());
+    if mirror.uploading() != Some(revision) {
+        mirror.begin(&state.device, &state.queue, follower.mesh(), revision)?;
     }
     Ok(mirror.upload_some(&state.queue, follower.mesh(), BYTES_PER_FRAME))
 }

@@ -102,13 +102,14 @@ impl App {
     }
 
     fn paint_mesh(&mut self, ui: &Ui, rect: Rect, camera: Camera) {
+        let change = self.session.take_mesh_change();
         let Some(gpu) = &mut self.gpu else { return };
         let settings = self.session.follower().settings();
         let colors = self.view.level_colors(settings);
         let (document, follower) = (self.session.document(), self.session.follower());
         let overlay = self.overlay_colors.overlay(self.view.overlay, document, follower, colors);
         let style = self.view.style(settings, ui.pixels_per_point());
-        match gpu.sync(follower, overlay.as_ref(), &camera, &style) {
+        match gpu.sync(follower, change, overlay.as_ref(), &camera, &style) {
             Ok(Progress::Done) => {}
             Ok(Progress::More) => ui.ctx().request_repaint(),
             Err(error) => self.session.report(error),

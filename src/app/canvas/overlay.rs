@@ -31,7 +31,7 @@ impl OverlayColors {
             self.made_from = None;
             return None;
         }
-        let wanted = Some((kind, document.revision(), follower.generation(), colors.clone()));
+        let wanted = Some((kind, document.revision(), follower.revision(), colors.clone()));
         if self.made_from != wanted {
             self.made_from = wanted;
             self.revision += 1;
