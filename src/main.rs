@@ -2,11 +2,14 @@
 
 use std::process::ExitCode;
 
-/// What opens the window, in a build that has one.
+use meshbrush::cli::Window;
+
+/// The window, in a build that has one.
 #[cfg(feature = "gui")]
-const WINDOW: Option<meshbrush::cli::OpenWindow> = Some(meshbrush::app::run);
+const WINDOW: Option<Window> =
+    Some(Window { open: meshbrush::app::run, write_screenshots: meshbrush::app::write_screenshots });
 #[cfg(not(feature = "gui"))]
-const WINDOW: Option<meshbrush::cli::OpenWindow> = None;
+const WINDOW: Option<Window> = None;
 
 fn main() -> ExitCode {
     meshbrush::cli::run(std::env::args_os(), WINDOW)

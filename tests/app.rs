@@ -1058,6 +1058,29 @@ fn a_long_stroke_never_waits_for_the_mesh() {
     assert!(level_at(&window, FREE) > 10);
 }
 
+// ------------------------------------------------------------------------------------------------------ layout
+
+#[test]
+fn the_bars_have_room_for_what_they_show_at_any_width() {
+    for width in [900.0, 940.0, 1000.0, 1100.0, 1440.0] {
+        for zoom in [1.0, 1e6] {
+            let mut window = window_of(vec2(width, 600.0));
+            window.hover_at(canvas(&window).center());
+            send(&mut window, Command::Zoom(zoom));
+            let screen = Rect::from_min_size(Pos2::ZERO, vec2(width, 600.0));
+            let bottom = window.get_all_by_role(Role::Definition).filter(|cell| cell.rect().top() > 570.0);
+            let cells: Vec<Rect> = bottom.map(|cell| cell.rect()).collect();
+            assert!(cells.len() >= 5, "{} cells at {width}", cells.len());
+            for (i, cell) in cells.iter().enumerate() {
+                assert!(screen.contains_rect(*cell), "{cell:?} at {width}");
+                assert!(cells[..i].iter().all(|other| !other.intersects(*cell)), "{cells:?} at {width}");
+            }
+            let right = cells.iter().map(|cell| cell.right()).fold(0.0, f32::max);
+            assert!((width - 16.0 - right).abs() < 1.0, "the last cell ends with the panel, not at {right}");
+        }
+    }
+}
+
 // --------------------------------------------------------------------------------------------------- pictures
 
 /// What the window looks like: rows from the top, four bytes a pixel.
@@ -1123,4 +1146,19 @@ fn an_overlay_and_the_light_theme_are_seen_on_the_canvas() {
     let light = picture(&mut window);
     let corner = canvas(&window).left_top() + vec2(3.0, 3.0);
     assert!(pixel(&plain, corner)[0] < 40 && pixel(&light, corner)[0] > 180);
+}
+
+#[test]
+fn the_screenshots_are_the_same_every_time() {
+    let take = |name: &str| {
+        let folder = scratch(name);
+        let files = meshbrush::app::write_screenshots(&folder).unwrap();
+        files.iter().map(|file| std::fs::read(file).unwrap()).collect::<Vec<_>>()
+    };
+    let (first, second) = std::thread::scope(|scope| {
+        let second = scope.spawn(|| take("screenshots-2"));
+        (take("screenshots-1"), second.join().unwrap())
+    });
+    assert_eq!(first.len(), 8);
+    assert!(first == second, "the same commands, another picture");
 }

@@ -207,11 +207,11 @@ fn status_bar(ui: &mut Ui) {
     egui::Frame::new().fill(t.window).inner_margin(egui::Margin::symmetric(8, 2)).show(ui, |ui| {
         ui.horizontal(|ui| {
             ui.spacing_mut().item_spacing.x = 12.0;
-            status_cell(ui, "x", "0.5813", 6);
-            status_cell(ui, "y", "0.7402", 6);
-            status_cell(ui, "h̄", "0.0061", 6);
-            status_cell(ui, "triangles", "37,987", 9);
-            status_cell(ui, "update", "0.4 ms", 6);
+            StatusCell::new("x", "0.5813", 6).show(ui);
+            StatusCell::new("y", "0.7402", 6).show(ui);
+            StatusCell::new("h̄", "0.0061", 6).show(ui);
+            StatusCell::new("triangles", "37,987", 9).show(ui);
+            StatusCell::new("update", "0.4 ms", 6).show(ui);
         });
     });
 }
@@ -222,12 +222,12 @@ fn overlays(ui: &mut Ui) {
     ui.painter().rect_filled(rect, 0.0, t.canvas);
     floating_tag(ui, rect.center() - vec2(0.0, 24.0), Align2::CENTER_CENTER, rect, "paint +2,418 triangles");
     let hints = [
-        Hint::Text("Drag to paint risk  ·"),
+        Hint::Text("Drag to paint risk"),
         Hint::Key("["),
         Hint::Key("]"),
-        Hint::Text("size  ·"),
+        Hint::Text("size"),
         Hint::Key("E"),
-        Hint::Text("erase  ·"),
+        Hint::Text("erase"),
         Hint::Key("Ctrl+Z"),
         Hint::Text("undo"),
     ];

@@ -80,6 +80,8 @@ pub enum Command {
 
     /// Shows the whole domain.
     Fit,
+    /// Puts a point, in world units, in the middle of the canvas.
+    LookAt(DVec2),
     /// Zooms about the middle of the canvas by a factor.
     Zoom(f64),
     /// Draws edges or not.

@@ -54,6 +54,7 @@ impl App {
             Command::Frame(a, b) => self.frame(a, b),
 
             Command::Fit => self.view.camera = None,
+            Command::LookAt(point) => self.view.look_at(point),
             Command::Zoom(factor) => self.view.zoom(factor),
             Command::ToggleEdges => self.view.edges = !self.view.edges,
             Command::Overlay(overlay) => self.toggle_overlay(overlay),

@@ -12,6 +12,7 @@ mod hints;
 mod keys;
 mod logic;
 mod panels;
+mod screenshots;
 pub mod readout;
 pub mod session;
 pub mod theme;
@@ -31,6 +32,7 @@ pub use canvas::CANVAS_NAME;
 use canvas::{CanvasGpu, Gesture, OverlayColors};
 use catalog::catalog;
 use command::Command;
+pub use screenshots::write as write_screenshots;
 use session::Session;
 use tools::Tools;
 use view::View;
@@ -65,8 +67,12 @@ pub struct App {
     busy: busy::Busy,
     field_texts: panels::FieldTexts,
     about: bool,
+    /// Whether everything that differs from run to run is left out: pictures are to be the same every time.
+    reproducible: bool,
 
     gesture: Gesture,
+    /// Where the canvas was in the last frame.
+    canvas_rect: egui::Rect,
     pointer_world: Option<DVec2>,
     last_painted: Option<DVec2>,
     hovered_neighbour: Option<TriangleId>,
@@ -102,11 +108,21 @@ impl App {
             busy: busy::Busy::default(),
             field_texts: panels::FieldTexts::default(),
             about: false,
+            reproducible: false,
             gesture: Gesture::None,
+            canvas_rect: egui::Rect::NOTHING,
             pointer_world: None,
             last_painted: None,
             hovered_neighbour: None,
         })
+    }
+
+    /// From now on shows the same on every machine: no times, and the mesh drawn in software.
+    fn be_reproducible(&mut self) {
+        self.reproducible = true;
+        if let Some(gpu) = &mut self.gpu {
+            gpu.draw_in_software();
+        }
     }
 
     /// Document and mesh, for tests.
@@ -179,8 +195,9 @@ impl App {
     }
 }
 
-impl eframe::App for App {
-    fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
+impl App {
+    /// One frame.
+    fn show(&mut self, ui: &mut Ui) {
         let ctx = ui.ctx().clone();
         self.view.ground = if ctx.theme() == Theme::Dark { Ground::Dark } else { Ground::Light };
         self.follow_keys(&ctx);
@@ -189,6 +206,12 @@ impl eframe::App for App {
         self.about_ui(&ctx);
         self.panels_ui(ui);
         egui::CentralPanel::default().frame(Frame::NONE).show(ui, |ui| self.canvas_ui(ui));
+    }
+}
+
+impl eframe::App for App {
+    fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
+        self.show(ui);
     }
 
     fn raw_input_hook(&mut self, ctx: &Context, raw_input: &mut egui::RawInput) {
@@ -226,6 +249,10 @@ fn window_icon() -> egui::IconData {
     eframe::icon_data::from_png_bytes(icon).unwrap_or_default()
 }
 
+/// What to tell where nothing can be drawn.
+const NO_DRIVER: &str = "There is no usable graphics driver. Install a Vulkan or OpenGL driver, for example the package \
+                         mesa-vulkan-drivers, or use the command line: meshbrush mesh --help.";
+
 /// What to tell somebody whose window did not open.
 fn failure_to_open(error: eframe::Error) -> String {
     match error {
@@ -234,11 +261,7 @@ fn failure_to_open(error: eframe::Error) -> String {
              meshbrush mesh --help."
                 .into()
         }
-        eframe::Error::Wgpu(_) => {
-            "There is no usable graphics driver. Install a Vulkan or OpenGL driver, for example the package \
-             mesa-vulkan-drivers, or use the command line: meshbrush mesh --help."
-                .into()
-        }
+        eframe::Error::Wgpu(_) => NO_DRIVER.into(),
         other => format!("The window could not be opened: {other}."),
     }
 }

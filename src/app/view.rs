@@ -80,6 +80,11 @@ impl View {
         }
     }
 
+    /// Puts a point of the world in the middle.
+    pub fn look_at(&mut self, point: DVec2) {
+        self.camera = self.camera.map(|camera| camera.centered_on(point));
+    }
+
     /// Puts a point of the world in the middle, where it is not in sight already.
     pub fn reveal(&mut self, point: DVec2) {
         if let Some(camera) = &mut self.camera

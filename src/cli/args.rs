@@ -25,6 +25,11 @@ pub enum Command {
     /// Build a mesh and find the triangle round each of a list of points
     #[command(after_help = LOCATE_EXAMPLES)]
     Locate(LocateArguments),
+    /// Write the pictures of the window that the documentation shows
+    ///
+    /// They are painted without a display, by the program's own commands.
+    #[cfg(feature = "gui")]
+    Screenshots(ScreenshotsArguments),
 }
 
 const MESH_EXAMPLES: &str = "\
@@ -186,4 +191,13 @@ pub struct LocateArguments {
     /// Interpolate this formula in x and y from the vertices, instead of the target diameter
     #[arg(long, value_name = "EXPR", allow_hyphen_values = true, help_heading = "Points")]
     pub quantity: Option<String>,
+}
+
+/// `meshbrush screenshots`.
+#[cfg(feature = "gui")]
+#[derive(Debug, Args)]
+pub struct ScreenshotsArguments {
+    /// Folder to write to; made where it is not there
+    #[arg(value_name = "DIR")]
+    pub folder: PathBuf,
 }

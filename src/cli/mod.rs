@@ -16,7 +16,7 @@ mod terminal;
 
 use std::ffi::OsString;
 use std::io;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Parser;
@@ -27,11 +27,16 @@ use terminal::Terminal;
 
 pub use terminal::grouped;
 
-/// Opens the window, on a picture or the first example, and returns when it is closed; the error is a sentence.
-pub type OpenWindow = fn(Option<PathBuf>) -> Result<(), String>;
+/// What the command line can ask of the window. Errors are sentences.
+pub struct Window {
+    /// Opens it, on a picture or the first example, and returns when it is closed.
+    pub open: fn(Option<PathBuf>) -> Result<(), String>,
+    /// Writes pictures of it into a folder, without a display, and returns the files.
+    pub write_screenshots: fn(&Path) -> Result<Vec<PathBuf>, String>,
+}
 
 /// Runs the program. `arguments` begin with its name; `window` is `None` in a build without one.
-pub fn run(arguments: impl IntoIterator<Item = OsString>, window: Option<OpenWindow>) -> ExitCode {
+pub fn run(arguments: impl IntoIterator<Item = OsString>, window: Option<Window>) -> ExitCode {
     let arguments = match Arguments::try_parse_from(arguments) {
         Ok(arguments) => arguments,
         Err(answer) => {
@@ -51,23 +56,28 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>, window: Option<OpenWin
     }
 }
 
-fn run_command(
-    arguments: Arguments,
-    window: Option<OpenWindow>,
-    terminal: &mut Terminal,
-) -> Result<(), Failure> {
+fn run_command(arguments: Arguments, window: Option<Window>, terminal: &mut Terminal) -> Result<(), Failure> {
     let mut out = io::stdout().lock();
     match (arguments.command, window) {
         (Some(Command::Mesh(typed)), _) => mesh::run(&typed, &mut out, terminal),
         (Some(Command::Locate(typed)), _) => locate::run(&typed, &mut out, terminal),
-        (None, Some(open)) => {
+        #[cfg(feature = "gui")]
+        (Some(Command::Screenshots(typed)), window) => {
+            let Some(window) = window else { return Err(without_window()) };
+            for file in (window.write_screenshots)(&typed.folder).map_err(Failure::Work)? {
+                terminal.say(&file.display().to_string());
+            }
+            Ok(())
+        }
+        (None, Some(window)) => {
             drop(out);
-            open(arguments.picture).map_err(Failure::Work)
+            (window.open)(arguments.picture).map_err(Failure::Work)
         }
-        (None, None) => {
-            let problem =
-                "This meshbrush was built without its window (feature `gui`). Its commands are `mesh` and";
-            Err(Failure::Usage(format!("{problem} `locate`; `meshbrush --help` lists them.")))
-        }
+        (None, None) => Err(without_window()),
     }
+}
+
+fn without_window() -> Failure {
+    let problem = "This meshbrush was built without its window (feature `gui`). Its commands are `mesh` and";
+    Failure::Usage(format!("{problem} `locate`; `meshbrush --help` lists them."))
 }

@@ -2,6 +2,14 @@ use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
+/// Makes a folder, and those that it lies in, where they are not there yet.
+///
+/// # Errors
+/// Those of the file system.
+pub fn make_folder(path: &Path) -> io::Result<()> {
+    fs::create_dir_all(path)
+}
+
 /// Writes a file as a whole or not at all.
 ///
 /// The content goes to a temporary file in the same folder, which then takes the place of `path`: whatever was there stays

@@ -21,7 +21,7 @@ pub mod points;
 pub mod svg;
 pub mod vtu;
 
-pub use atomic::write_file;
+pub use atomic::{make_folder, write_file};
 pub use error::{Flaw, Place, ReadError};
 pub use mesh_file::MeshFormat;
 pub use number::Number;

@@ -4,7 +4,9 @@ use std::fs::File;
 use std::io::{self, BufRead, BufReader, Seek, Write};
 use std::path::Path;
 
-use png::{BitDepth, ColorType, Decoder, DecodingError, Encoder, EncodingError, Transformations};
+use png::{
+    BitDepth, ColorType, Compression, Decoder, DecodingError, Encoder, EncodingError, Filter, Transformations,
+};
 
 use super::error::PlacedFlaw;
 use super::{Flaw, ReadError};
@@ -99,12 +101,27 @@ impl From<DecodingError> for Flaw {
 /// # Errors
 /// Those of `out`, and when the count of bytes does not fit `size`.
 pub fn write(out: &mut impl Write, size: [u32; 2], rgba: &[u8]) -> io::Result<()> {
+    encode(Encoder::new(out, size[0], size[1]), ColorType::Rgba, rgba)
+}
+
+/// As [`write`] for an opaque picture that is written once and loaded often: takes its time to make the file small.
+///
+/// # Errors
+/// As [`write`].
+pub fn write_small(out: &mut impl Write, size: [u32; 2], rgba: &[u8]) -> io::Result<()> {
     let mut encoder = Encoder::new(out, size[0], size[1]);
-    encoder.set_color(ColorType::Rgba);
+    encoder.set_compression(Compression::High);
+    encoder.set_filter(Filter::NoFilter);
+    let rgb: Vec<u8> = rgba.chunks_exact(4).flat_map(|pixel| &pixel[..3]).copied().collect();
+    encode(encoder, ColorType::Rgb, &rgb)
+}
+
+fn encode<W: Write>(mut encoder: Encoder<'_, W>, color: ColorType, bytes: &[u8]) -> io::Result<()> {
+    encoder.set_color(color);
     encoder.set_depth(BitDepth::Eight);
     let write = || {
         let mut writer = encoder.write_header()?;
-        writer.write_image_data(rgba)?;
+        writer.write_image_data(bytes)?;
         writer.finish()
     };
     write().map_err(|error| match error {

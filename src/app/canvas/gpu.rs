@@ -51,6 +51,11 @@ impl CanvasGpu {
         Ok(Self { state: state.clone(), in_software, behind: true, refused: None })
     }
 
+    /// Draws in software from now on, whatever the driver.
+    pub fn draw_in_software(&mut self) {
+        self.in_software = true;
+    }
+
     /// Brings what the GPU knows of mesh and overlay up to date, and tells whether some of it is left to send. The former
     /// mesh stays on the screen until all of the new one is there.
     ///

@@ -11,7 +11,11 @@ use eframe::egui::{self, Align2, CursorIcon, Rect, Response, Sense, Ui, vec2};
 
 pub use gpu::CanvasGpu;
 pub use input::Gesture;
+#[cfg(test)]
+pub use marks::NUMBER_DISC;
 pub use overlay::OverlayColors;
+
+use glam::DVec2;
 
 use super::command::Command;
 use super::theme::tokens;
@@ -38,6 +42,7 @@ impl App {
         if rect.width() < 1.0 || rect.height() < 1.0 {
             return;
         }
+        self.canvas_rect = rect;
         let mut camera = self.camera_for(rect, ui.pixels_per_point());
         let mut commands = std::mem::take(&mut self.commands);
         self.follow_pointer(ui, &response, &mut camera, &mut commands);
@@ -193,6 +198,13 @@ impl App {
         if progress_row(&mut child, what, done as u64, None) {
             self.session.cancel_update();
         }
+    }
+
+    /// Where a point of the world is on the screen, once there was a frame.
+    pub fn on_screen(&self, world: DVec2) -> Option<egui::Pos2> {
+        let (camera, rect) = (self.view.camera?, self.canvas_rect);
+        let px_per_point = camera.size_px()[0] as f32 / rect.width();
+        Some(marks::point_from_px(rect, camera.screen_from_world(world), px_per_point))
     }
 
     /// The part of the world on the canvas.

@@ -2,57 +2,88 @@ use eframe::egui::{Align, Layout, Ui};
 
 use super::super::App;
 use super::super::readout::{Quantity, value_at};
-use super::super::widgets::{format, status_cell};
+use super::super::widgets::{StatusCell, format};
 use crate::document::Stage;
 use crate::field::Rule;
 
+/// Space between cells.
+const GAP: f32 = 16.0;
+/// Shown where there is nothing to show.
+const NONE: &str = "–";
+
 impl App {
     pub(super) fn status_ui(&mut self, ui: &mut Ui) {
+        let [left, right] = self.fitting_cells(ui);
         ui.horizontal_centered(|ui| {
-            ui.spacing_mut().item_spacing.x = 16.0;
-            self.pointer_cells(ui);
-            self.mesh_cells(ui);
+            ui.spacing_mut().item_spacing.x = GAP;
+            for cell in left {
+                cell.show(ui);
+            }
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                ui.spacing_mut().item_spacing.x = 16.0;
-                let rule = match self.session.follower().settings().rule {
-                    Rule::Area => "area",
-                    Rule::Vertex => "vertex",
-                };
-                status_cell(ui, "rule", rule, 6);
-                status_cell(ui, "update", &self.update_text(), 11);
+                for cell in right {
+                    cell.show(ui);
+                }
             });
         });
     }
 
+    /// The cells at the left, from the left, and those at the right, from the right. Where there is no room for all, those
+    /// that matter least are left out.
+    fn fitting_cells(&self, ui: &Ui) -> [Vec<StatusCell>; 2] {
+        let [x, y, target] = self.pointer_cells();
+        let [triangles, nodes, deepest] = self.mesh_cells();
+        let [rule, update] = self.work_cells();
+        let mut left = vec![x, y, target, triangles, nodes, deepest];
+        let mut right = vec![rule, update];
+        let room = ui.available_width();
+        let width = |cells: &[StatusCell]| cells.iter().map(|cell| cell.width(ui) + GAP).sum::<f32>();
+        while width(&left) + width(&right) - GAP > room && left.len() > 4 {
+            left.remove(4);
+        }
+        if width(&left) + width(&right) - GAP > room {
+            right.truncate(1);
+        }
+        [left, right]
+    }
+
     /// Position of the pointer, and h̄ there.
-    fn pointer_cells(&self, ui: &mut Ui) {
-        let Some(point) = self.pointer_world else {
-            status_cell(ui, "x", "", 8);
-            status_cell(ui, "y", "", 8);
-            status_cell(ui, "h̄", "", 8);
-            return;
+    fn pointer_cells(&self) -> [StatusCell; 3] {
+        let cells = |[x, y, target]: [String; 3]| {
+            [("x", x), ("y", y), ("h̄", target)].map(|(name, value)| StatusCell::new(name, value, 8))
         };
+        let Some(point) = self.pointer_world else { return cells([NONE; 3].map(String::from)) };
         let step = self.view.camera.map_or(1e-4, |camera| 1.0 / camera.px_per_world());
         let target =
             value_at(point, self.session.document(), self.session.follower(), Quantity::TargetDiameter);
         let inside = self.session.document().settings().domain.bounds.contains(point);
-        status_cell(ui, "x", &format::coordinate(point.x, step), 8);
-        status_cell(ui, "y", &format::coordinate(point.y, step), 8);
-        status_cell(ui, "h̄", &if inside { format::length(target) } else { "outside".into() }, 8);
+        let target = if inside { format::length(target) } else { "outside".into() };
+        cells([format::coordinate(point.x, step), format::coordinate(point.y, step), target])
     }
 
-    fn mesh_cells(&self, ui: &mut Ui) {
+    fn mesh_cells(&self) -> [StatusCell; 3] {
         let mesh = self.session.mesh();
         let deepest = self.session.level_counts().len().saturating_sub(1);
-        status_cell(ui, "triangles", &format::count(mesh.triangles().len() as u64), 10);
-        status_cell(ui, "nodes", &format::count(mesh.nodes().len() as u64), 10);
-        status_cell(ui, "deepest level", &deepest.to_string(), 2);
+        [
+            StatusCell::new("triangles", format::count(mesh.triangles().len() as u64), 10),
+            StatusCell::new("nodes", format::count(mesh.nodes().len() as u64), 10),
+            StatusCell::new("deepest level", deepest.to_string(), 2),
+        ]
+    }
+
+    /// The rule, and how long the last update took or how far the present one is.
+    fn work_cells(&self) -> [StatusCell; 2] {
+        let rule = match self.session.follower().settings().rule {
+            Rule::Area => "area",
+            Rule::Vertex => "vertex",
+        };
+        [StatusCell::new("rule", rule, 0), StatusCell::new("update", self.update_text(), 11)]
     }
 
     fn update_text(&self) -> String {
         match self.session.stage() {
+            Stage::InStep if self.reproducible => NONE.into(),
             Stage::InStep => {
-                self.session.last_update().map_or(String::new(), |time| format::time(time.as_secs_f64()))
+                self.session.last_update().map_or(NONE.into(), |time| format::time(time.as_secs_f64()))
             }
             Stage::Filling => "sampling".into(),
             Stage::Refining { triangles } => format::count(triangles as u64),

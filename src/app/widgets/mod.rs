@@ -44,7 +44,7 @@ pub use progress::progress_row;
 pub use section::{Section, SectionResponse};
 pub use segmented::segmented;
 pub use slider::SliderRow;
-pub use status::status_cell;
+pub use status::StatusCell;
 pub use text_row::{TextError, TextRow};
 pub use toggle::toggle_row;
 pub use tool_button::{ActionButton, ButtonKind, ToolButton};

@@ -13,7 +13,7 @@ mod picture;
 
 pub use chunks::ChunkLimits;
 pub use mirror::{MeshMirror, NODE_BUFFERS};
-pub use offscreen::{Offscreen, offscreen};
+pub use offscreen::{Offscreen, offscreen, read_back};
 
 use self::overlay_pass::OverlayPass;
 use self::picture::MeshPicture;

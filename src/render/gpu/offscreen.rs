@@ -120,7 +120,7 @@ impl Offscreen {
         let mut encoder = self.encoder();
         self.renderer.prepare(&self.device, &self.queue, &mut encoder, camera, style)?;
         self.paint(&mut encoder, &canvas, style);
-        self.read_back(encoder, &canvas)
+        read_back(&self.device, &self.queue, encoder, &canvas)
     }
 
     /// Draws a frame by [`GpuRenderer::prepare_in_software`] and reads it back.
@@ -138,7 +138,7 @@ impl Offscreen {
         let mut encoder = self.encoder();
         self.renderer.prepare_in_software(&self.device, &self.queue, mesh, revision, camera, style)?;
         self.paint(&mut encoder, &canvas, style);
-        self.read_back(encoder, &canvas)
+        read_back(&self.device, &self.queue, encoder, &canvas)
     }
 
     fn encoder(&self) -> wgpu::CommandEncoder {
@@ -148,35 +148,6 @@ impl Offscreen {
     fn paint(&self, encoder: &mut wgpu::CommandEncoder, canvas: &wgpu::Texture, style: &Style) {
         let view = canvas.create_view(&wgpu::TextureViewDescriptor::default());
         self.renderer.paint(&mut begin_pass(encoder, &view, style.ground_color()));
-    }
-
-    fn read_back(
-        &self,
-        mut encoder: wgpu::CommandEncoder,
-        canvas: &wgpu::Texture,
-    ) -> Result<Image, GpuError> {
-        let size = [canvas.width(), canvas.height()];
-        let row_bytes = (4 * size[0]).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
-        let buffer = self.device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some("read back"),
-            size: u64::from(row_bytes) * u64::from(size[1]),
-            usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
-            mapped_at_creation: false,
-        });
-        let layout =
-            wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(row_bytes), rows_per_image: None };
-        let destination = wgpu::TexelCopyBufferInfo { buffer: &buffer, layout };
-        encoder.copy_texture_to_buffer(canvas.as_image_copy(), destination, canvas.size());
-        self.queue.submit([encoder.finish()]);
-        buffer.map_async(wgpu::MapMode::Read, .., |_| {});
-        self.wait()?;
-        let bytes = buffer.get_mapped_range(..).map_err(|e| GpuError::ReadBack { reason: e.to_string() })?;
-        let rows = bytes.chunks(row_bytes as usize);
-        let mut rgba: Vec<u8> = rows.flat_map(|row| &row[..4 * size[0] as usize]).copied().collect();
-        if self.format == wgpu::TextureFormat::Bgra8Unorm {
-            rgba.chunks_exact_mut(4).for_each(|pixel| pixel.swap(0, 2));
-        }
-        Ok(Image { size, rgba })
     }
 
     fn canvas(&self, camera: &Camera) -> Result<wgpu::Texture, GpuError> {
@@ -190,9 +161,47 @@ impl Offscreen {
     }
 
     fn wait(&self) -> Result<(), GpuError> {
-        let done = self.device.poll(wgpu::PollType::wait_indefinitely());
-        done.map(|_| ()).map_err(|e| GpuError::ReadBack { reason: e.to_string() })
+        wait(&self.device)
     }
+}
+
+fn wait(device: &wgpu::Device) -> Result<(), GpuError> {
+    let done = device.poll(wgpu::PollType::wait_indefinitely());
+    done.map(|_| ()).map_err(|e| GpuError::ReadBack { reason: e.to_string() })
+}
+
+/// Runs what `encoder` holds, waits until it is done, and reads `canvas`, which may be a source of copies, back.
+///
+/// # Errors
+/// When the device is lost.
+pub fn read_back(
+    device: &wgpu::Device,
+    queue: &wgpu::Queue,
+    mut encoder: wgpu::CommandEncoder,
+    canvas: &wgpu::Texture,
+) -> Result<Image, GpuError> {
+    let size = [canvas.width(), canvas.height()];
+    let row_bytes = (4 * size[0]).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
+    let buffer = device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some("read back"),
+        size: u64::from(row_bytes) * u64::from(size[1]),
+        usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
+        mapped_at_creation: false,
+    });
+    let layout =
+        wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(row_bytes), rows_per_image: None };
+    let destination = wgpu::TexelCopyBufferInfo { buffer: &buffer, layout };
+    encoder.copy_texture_to_buffer(canvas.as_image_copy(), destination, canvas.size());
+    queue.submit([encoder.finish()]);
+    buffer.map_async(wgpu::MapMode::Read, .., |_| {});
+    wait(device)?;
+    let bytes = buffer.get_mapped_range(..).map_err(|e| GpuError::ReadBack { reason: e.to_string() })?;
+    let rows = bytes.chunks(row_bytes as usize);
+    let mut rgba: Vec<u8> = rows.flat_map(|row| &row[..4 * size[0] as usize]).copied().collect();
+    if canvas.format() == wgpu::TextureFormat::Bgra8Unorm {
+        rgba.chunks_exact_mut(4).for_each(|pixel| pixel.swap(0, 2));
+    }
+    Ok(Image { size, rgba })
 }
 
 async fn open() -> Result<(wgpu::Device, wgpu::Queue, String), GpuError> {

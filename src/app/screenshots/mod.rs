@@ -1,0 +1,139 @@
+//! The pictures of the repository, painted by the program itself: no display, no hand.
+
+mod offscreen;
+
+use std::path::{Path, PathBuf};
+
+use eframe::egui::{Event, Pos2, ThemePreference, Vec2};
+use glam::{DVec2, dvec2};
+
+use super::SMALLEST_SIZE;
+use super::WINDOW_SIZE;
+use super::command::Command;
+use super::tools::{PaintKind, Tool};
+use crate::document::{Base, Example, Setting};
+use crate::field::{Formula, Rule};
+use crate::io;
+use offscreen::OffscreenWindow;
+
+/// A picture: its name, the size of the window in points, pixels for a point, and what a person does before it is taken.
+struct Scene {
+    name: &'static str,
+    size: [f32; 2],
+    px_per_point: f32,
+    act: fn(&mut OffscreenWindow),
+}
+
+const SCENES: [Scene; 8] = [
+    scene("window", window),
+    scene("query", query),
+    scene("diamond", diamond),
+    scene("terrain", terrain),
+    scene("light", light),
+    scene("deep", deep),
+    scene("palette", palette),
+    Scene { name: "smallest", size: SMALLEST_SIZE, px_per_point: 2.0, act: smallest },
+];
+
+const fn scene(name: &'static str, act: fn(&mut OffscreenWindow)) -> Scene {
+    Scene { name, size: WINDOW_SIZE, px_per_point: 1.0, act }
+}
+
+/// Writes every picture into a folder, and returns the files.
+///
+/// # Errors
+/// A sentence, when there is no graphics driver or a file cannot be written.
+pub fn write(folder: &Path) -> Result<Vec<PathBuf>, String> {
+    io::make_folder(folder).map_err(|error| format!("{} cannot be made: {error}.", folder.display()))?;
+    SCENES.iter().map(|scene| scene.write(folder)).collect()
+}
+
+impl Scene {
+    fn write(&self, folder: &Path) -> Result<PathBuf, String> {
+        let mut window = OffscreenWindow::open(Vec2::from(self.size), self.px_per_point)?;
+        (self.act)(&mut window);
+        let picture = window.picture()?;
+        let file = folder.join(format!("{}.png", self.name));
+        let written =
+            io::write_file(&file, |mut out| io::png::write_small(&mut out, picture.size, &picture.rgba));
+        written.map_err(|error| format!("{} cannot be written: {error}.", file.display()))?;
+        Ok(file)
+    }
+}
+
+/// The first example, about to be painted on.
+fn window(window: &mut OffscreenWindow) {
+    point_at(window, dvec2(0.56, 0.66));
+}
+
+/// A triangle at the end of the route, and its neighbours.
+fn query(window: &mut OffscreenWindow) {
+    let place = dvec2(0.6472, 0.1368);
+    window.send(Command::Use(Tool::Query));
+    look_at(window, place, 7.0);
+    window.send(Command::Query(place));
+    point_at(window, place + dvec2(0.012, 0.028));
+}
+
+/// Figure 1 of the report.
+fn diamond(window: &mut OffscreenWindow) {
+    window.send(Command::OpenExample(Example::Diamond));
+    window.send(Command::Use(Tool::Query));
+    window.send(Command::Query(dvec2(6.3, 2.3)));
+}
+
+/// Slope as risk, close enough to see triangles.
+fn terrain(window: &mut OffscreenWindow) {
+    window.send(Command::OpenExample(Example::Terrain));
+    window.send(Command::Use(Tool::Query));
+    look_at(window, dvec2(20.2, 19.8), 5.0);
+    window.send(Command::Query(dvec2(22.1, 19.2)));
+}
+
+/// The first example in the light theme.
+fn light(window: &mut OffscreenWindow) {
+    window.send(Command::Theme(ThemePreference::Light));
+    window.send(Command::Query(dvec2(0.715, 0.61)));
+    point_at(window, dvec2(0.43, 0.73));
+}
+
+/// Thirty levels and more round a point, by a formula.
+fn deep(window: &mut OffscreenWindow) {
+    let place = dvec2(0.3127, 0.6183);
+    let formula = Formula::parse("max(1e-8, 0.3*hypot(x - 0.3127, y - 0.6183))").expect("a sound formula");
+    window.send(Command::New);
+    window.send(Command::Set(Setting::Rule(Rule::Vertex)));
+    window.send(Command::Set(Setting::SmallestDiameter(1e-8)));
+    window.send(Command::Set(Setting::Base(Base::Formula(formula))));
+    window.send(Command::Use(Tool::Query));
+    look_at(window, place, 2e5);
+    window.send(Command::Query(place + dvec2(1.1e-6, 0.7e-6)));
+}
+
+/// A command by a few of its letters.
+fn palette(window: &mut OffscreenWindow) {
+    window.send(Command::Palette);
+    window.event(Event::Text("over".into()));
+}
+
+/// As small as the window can be, painting a diameter.
+fn smallest(window: &mut OffscreenWindow) {
+    window.send(Command::Paint(PaintKind::Diameter));
+    point_at(window, dvec2(0.9, 0.5));
+}
+
+fn point_at(window: &mut OffscreenWindow, world: DVec2) {
+    let at = on_screen(window, world);
+    window.event(Event::PointerMoved(at));
+}
+
+/// Puts a point of the world in the middle, as a middle drag does, and zooms.
+fn look_at(window: &mut OffscreenWindow, world: DVec2, factor: f64) {
+    window.send(Command::LookAt(world));
+    window.send(Command::Zoom(factor));
+}
+
+/// Where a point of the world is on the screen.
+fn on_screen(window: &OffscreenWindow, world: DVec2) -> Pos2 {
+    window.app().on_screen(world).unwrap_or_default()
+}

@@ -1,0 +1,160 @@
+//! A window that nobody sees: the app's frames without a display, painted into a texture.
+//!
+//! It does what eframe does for a real window, and nothing more: input in, shapes out, egui's renderer paints them.
+
+use std::sync::Arc;
+
+use eframe::egui::{Context, Event, FullOutput, Pos2, RawInput, Rect, Vec2, ViewportId};
+use eframe::{egui_wgpu, wgpu};
+use egui_wgpu::{RenderState, RendererOptions, ScreenDescriptor, WgpuConfiguration, WgpuSetup};
+
+use super::super::App;
+use super::super::command::Command;
+use crate::document::Stage;
+use crate::render::Image;
+use crate::render::gpu::{device_descriptor, read_back};
+
+/// Seconds from frame to frame. Time is counted and not measured: the same input gives the same picture.
+const FRAME: f64 = 1.0 / 60.0;
+/// Frames until animations, such as those of tooltips and menus, have surely ended.
+const SETTLING_FRAMES: u32 = 30;
+
+/// The app in a window that nobody sees.
+pub struct OffscreenWindow {
+    app: App,
+    ctx: Context,
+    state: RenderState,
+    size: Vec2,
+    px_per_point: f32,
+    frames: u32,
+    events: Vec<Event>,
+}
+
+impl OffscreenWindow {
+    /// Opens the app in a window of `size` points.
+    ///
+    /// # Errors
+    /// A sentence, when there is no graphics driver that can paint it.
+    pub fn open(size: Vec2, px_per_point: f32) -> Result<Self, String> {
+        let state = render_state()?;
+        let ctx = Context::default();
+        let mut app = App::new(&ctx, Some(&state))?;
+        app.be_reproducible();
+        let mut window = Self { app, ctx, state, size, px_per_point, frames: 0, events: Vec::new() };
+        window.settle();
+        Ok(window)
+    }
+
+    /// The app.
+    pub fn app(&self) -> &App {
+        &self.app
+    }
+
+    /// Carries out a command, and whatever follows from it.
+    pub fn send(&mut self, command: Command) {
+        self.app.send(command);
+        self.settle();
+    }
+
+    /// Something that a person does, and whatever follows from it.
+    pub fn event(&mut self, event: Event) {
+        self.events.push(event);
+        self.settle();
+    }
+
+    /// Runs frames until nothing changes any more.
+    fn settle(&mut self) {
+        let mut quiet = 0;
+        while quiet < SETTLING_FRAMES {
+            self.frame();
+            quiet = if self.app.session().stage() == Stage::InStep { quiet + 1 } else { 0 };
+        }
+    }
+
+    fn frame(&mut self) -> FullOutput {
+        self.frames += 1;
+        let mut input = RawInput {
+            screen_rect: Some(Rect::from_min_size(Pos2::ZERO, self.size)),
+            max_texture_side: Some(self.state.device.limits().max_texture_dimension_2d as usize),
+            time: Some(f64::from(self.frames) * FRAME),
+            events: std::mem::take(&mut self.events),
+            focused: true,
+            ..RawInput::default()
+        };
+        let viewport = input.viewports.entry(ViewportId::ROOT).or_default();
+        viewport.native_pixels_per_point = Some(self.px_per_point);
+        self.app.catch_tab(&self.ctx, &mut input);
+        let mut output = self.ctx.run_ui(input, |ui| self.app.show(ui));
+        self.take_textures(&mut output);
+        output
+    }
+
+    fn take_textures(&self, output: &mut FullOutput) {
+        let mut renderer = self.state.renderer.write();
+        for (id, images) in output.textures_delta.set.drain() {
+            for image in images {
+                renderer.update_texture(&self.state.device, &self.state.queue, id, &image);
+            }
+        }
+        for id in output.textures_delta.free.drain() {
+            renderer.free_texture(&id);
+        }
+    }
+
+    /// Paints the window as it is now.
+    ///
+    /// # Errors
+    /// A sentence, when the driver does not give the picture back.
+    pub fn picture(&mut self) -> Result<Image, String> {
+        let output = self.frame();
+        let shapes = self.ctx.tessellate(output.shapes, self.px_per_point);
+        let size = (self.size * self.px_per_point).round();
+        let screen = ScreenDescriptor {
+            size_in_pixels: [size.x as u32, size.y as u32],
+            pixels_per_point: self.px_per_point,
+        };
+        let (device, queue) = (&self.state.device, &self.state.queue);
+        let mut renderer = self.state.renderer.write();
+        let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        let before = renderer.update_buffers(device, queue, &mut encoder, &shapes, &screen);
+        queue.submit(before);
+        let canvas = self.canvas(screen.size_in_pixels);
+        let view = canvas.create_view(&wgpu::TextureViewDescriptor::default());
+        renderer.render(&mut begin_pass(&mut encoder, &view), &shapes, &screen);
+        read_back(device, queue, encoder, &canvas).map_err(|error| error.to_string())
+    }
+
+    fn canvas(&self, [width, height]: [u32; 2]) -> wgpu::Texture {
+        self.state.device.create_texture(&wgpu::TextureDescriptor {
+            label: Some("window"),
+            size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format: self.state.target_format,
+            usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
+            view_formats: &[],
+        })
+    }
+}
+
+/// A driver without a window behind it.
+fn render_state() -> Result<RenderState, String> {
+    let mut config = WgpuConfiguration::default();
+    if let WgpuSetup::CreateNew(setup) = &mut config.wgpu_setup {
+        setup.device_descriptor = Arc::new(device_descriptor);
+    }
+    let instance = pollster::block_on(config.wgpu_setup.new_instance());
+    let opened = RenderState::create(&config, &instance, None, RendererOptions::PREDICTABLE);
+    pollster::block_on(opened).map_err(|_| super::super::NO_DRIVER.to_owned())
+}
+
+fn begin_pass(encoder: &mut wgpu::CommandEncoder, view: &wgpu::TextureView) -> wgpu::RenderPass<'static> {
+    let ops = wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::BLACK), store: wgpu::StoreOp::Store };
+    let attachment = wgpu::RenderPassColorAttachment { view, resolve_target: None, ops, depth_slice: None };
+    let pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+        color_attachments: &[Some(attachment)],
+        ..wgpu::RenderPassDescriptor::default()
+    });
+    pass.forget_lifetime()
+}
