@@ -191,7 +191,7 @@ pub mod metrics {
     /// Space between rows.
     pub const ROW_GAP: f32 = 4.0;
     /// Width of the column of names before sliders and fields.
-    pub const LABEL_WIDTH: f32 = 104.0;
+    pub const LABEL_WIDTH: f32 = 88.0;
     /// Width of the column of numbers after sliders.
     pub const VALUE_WIDTH: f32 = 72.0;
     /// Side of a tool button.
@@ -363,6 +363,8 @@ fn widget_visuals(tokens: &Tokens) -> Widgets {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::app::canvas::NUMBER_DISC;
+    use crate::colormap::{Colormap, LevelColors};
 
     /// Relative luminance as WCAG 2 defines it.
     fn luminance(colour: Color32) -> f64 {
@@ -410,6 +412,23 @@ mod tests {
             for ground in [t.panel, t.popup] {
                 readable("danger", t, t.danger, ground);
                 readable("accent", t, t.accent, ground);
+            }
+        }
+    }
+
+    #[test]
+    fn numbers_on_the_canvas_stand_out_from_every_level() {
+        for (map, ground) in Colormap::ALL
+            .into_iter()
+            .flat_map(|map| [Ground::Dark, Ground::Light].map(|ground| (map, ground)))
+        {
+            let colors = LevelColors::new(map, ground, 20);
+            for level in 0..=20 {
+                let [r, g, b, _] = colors.of(level);
+                let disc = Color32::from_rgb(r, g, b).blend(NUMBER_DISC);
+                for number in DARK.neighbours {
+                    readable(map.name(), &DARK, number, disc);
+                }
             }
         }
     }

@@ -11,6 +11,9 @@ use crate::scene::{Camera, Highlights, Outline, highlight_outlines};
 /// Side of a triangle in points below which its number would not fit.
 const SMALLEST_NUMBERED: f64 = 26.0;
 
+/// Ground of a neighbour's number, on whatever the triangle's colour is.
+pub const NUMBER_DISC: Color32 = Color32::from_black_alpha(225);
+
 /// Draws the selected triangle, its neighbours and the one under the pointer.
 pub fn paint_highlights(
     painter: &Painter,
@@ -30,7 +33,7 @@ pub fn paint_highlights(
             && let Some(at) = middle_with_room(painter, rect, mesh, camera, id)
         {
             // On a dark disc in either theme.
-            painter.circle_filled(at, 9.0, Color32::from_black_alpha(150));
+            painter.circle_filled(at, 9.0, NUMBER_DISC);
             let number = (i + 1).to_string();
             painter.text(at, Align2::CENTER_CENTER, number, font::strong(), Color32::from_rgb(r, g, b));
         }

@@ -3,7 +3,7 @@ use eframe::egui::Ui;
 use super::super::App;
 use super::super::command::Command;
 use super::super::tools::{PaintKind, Tool};
-use super::super::widgets::{Section, SliderRow, format, segmented};
+use super::super::widgets::{Section, SliderRow, segmented, value_row};
 
 impl App {
     pub(super) fn brush_ui(&mut self, ui: &mut Ui) {
@@ -65,15 +65,12 @@ impl App {
     fn diameter_ui(&mut self, ui: &mut Ui) {
         let transfer = self.session.document().settings().transfer;
         let field = self.session.follower().field();
-        let text = |diameter: f64| match field.level_of_diameter(diameter) {
-            Some(level) => format!("{} · L{level}", format::length(diameter)),
-            None => format::length(diameter),
-        };
         let mut diameter = self.tools.diameter.clamp(transfer.h_min, transfer.h_max);
+        let level = field.level_of_diameter(diameter).map_or("–".into(), |level| level.to_string());
         let slider = SliderRow::new("Diameter", &mut diameter, transfer.h_min..=transfer.h_max).logarithmic();
-        if slider.text(&text).help("Target diameter that the brush paints, and its level.").show(ui).changed()
-        {
+        if slider.help("Target diameter that the brush paints.").show(ui).changed() {
             self.commands.push(Command::BrushDiameter(diameter));
         }
+        value_row(ui, "Refines to level", &level);
     }
 }

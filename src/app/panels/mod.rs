@@ -26,8 +26,11 @@ impl App {
         self.hovered_neighbour = None;
         self.view.lone_level = None;
         let t = *tokens(ui);
-        let bar = Frame::new().fill(t.window).inner_margin(Margin::symmetric(12, 2));
-        Panel::top("menu").frame(bar).exact_size(metrics::MENU_BAR).show(ui, |ui| self.menu_ui(ui));
+        let bar = Frame::new().fill(t.window).inner_margin(Margin::symmetric(metrics::PANEL_MARGIN as i8, 2));
+        // The row of a menu bar stands at the top of its room.
+        let above = ((metrics::MENU_BAR - metrics::ROW) / 2.0) as i8;
+        let menu = bar.inner_margin(Margin::symmetric(metrics::PANEL_MARGIN as i8, above));
+        Panel::top("menu").frame(menu).exact_size(metrics::MENU_BAR).show(ui, |ui| self.menu_ui(ui));
         Panel::bottom("status").frame(bar).exact_size(metrics::STATUS_BAR).show(ui, |ui| self.status_ui(ui));
         if self.view.panels {
             let strip = Frame::new().fill(t.panel).inner_margin(Margin::symmetric(6, 10));
@@ -55,6 +58,7 @@ impl App {
         });
     }
 
+    /// What belongs to the tool in hand stands first.
     fn sections_ui(&mut self, ui: &mut Ui) {
         if self.tools.has_ring() {
             self.brush_ui(ui);
@@ -62,9 +66,14 @@ impl App {
         if self.tools.tool == Tool::Domain {
             self.domain_ui(ui);
         }
+        if self.tools.tool == Tool::Query {
+            self.inspector_ui(ui);
+        }
         self.transfer_ui(ui);
         self.levels_ui(ui);
-        self.inspector_ui(ui);
+        if self.tools.tool != Tool::Query {
+            self.inspector_ui(ui);
+        }
         self.field_ui(ui);
         self.mesh_ui(ui);
         if self.tools.tool != Tool::Domain {

@@ -41,13 +41,25 @@ pub fn hint_pill(ui: &Ui, anchor: Pos2, align: Align2, bounds: Rect, hints: &[Hi
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, spoken(shown)));
     paint_ground(ui, rect);
     let mut at = pos2(rect.left() + 12.0, rect.center().y);
-    for hint in shown {
-        at.x += paint_piece(ui, at, hint) + GAP;
+    for (i, hint) in shown.iter().enumerate() {
+        at.x += paint_piece(ui, at, hint);
+        let gap = gap_after(hint);
+        if gap == SEPARATION && i + 1 < shown.len() {
+            ui.painter().circle_filled(at + vec2(gap / 2.0, 0.0), 1.25, tokens(ui).faint);
+        }
+        at.x += gap;
     }
     response
 }
 
+/// Space between keys, and between a key and what it does.
 const GAP: f32 = 5.0;
+/// Space behind words, where the next thing begins; a dot stands in it.
+const SEPARATION: f32 = 17.0;
+
+fn gap_after(hint: &Hint<'_>) -> f32 {
+    if matches!(hint, Hint::Text(_)) { SEPARATION } else { GAP }
+}
 
 fn paint_ground(ui: &Ui, rect: Rect) {
     let t = tokens(ui);
@@ -72,7 +84,8 @@ fn piece_width(ui: &Ui, hint: &Hint<'_>) -> f32 {
 
 fn width(ui: &Ui, hints: &[Hint<'_>]) -> f32 {
     let pieces: f32 = hints.iter().map(|hint| piece_width(ui, hint)).sum();
-    pieces + GAP * hints.len().saturating_sub(1) as f32
+    let gaps: f32 = hints.iter().take(hints.len().saturating_sub(1)).map(gap_after).sum();
+    pieces + gaps
 }
 
 /// The first hints, as many as fit into `room` points; never ends with keys that nothing explains.
