@@ -104,10 +104,10 @@ pub fn write(out: &mut impl Write, size: [u32; 2], rgba: &[u8]) -> io::Result<()
     encode(Encoder::new(out, size[0], size[1]), ColorType::Rgba, rgba)
 }
 
-/// As [`write`] for an opaque picture that is written once and loaded often: takes its time to make the file small.
+/// As [`write()`] for an opaque picture that is written once and loaded often: takes its time to make the file small.
 ///
 /// # Errors
-/// As [`write`].
+/// As [`write()`].
 pub fn write_small(out: &mut impl Write, size: [u32; 2], rgba: &[u8]) -> io::Result<()> {
     let mut encoder = Encoder::new(out, size[0], size[1]);
     encoder.set_compression(Compression::High);

@@ -61,8 +61,9 @@ impl Scene {
     }
 }
 
-/// The first example, about to be painted on.
+/// The first example, about to be painted on, with a triangle that was asked about.
 fn window(window: &mut OffscreenWindow) {
+    window.send(Command::Query(dvec2(0.651, 0.464)));
     point_at(window, dvec2(0.56, 0.66));
 }
 
