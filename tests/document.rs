@@ -1,7 +1,8 @@
 //! A document, its history, and the mesh that follows it.
 
 use glam::{DVec2, dvec2};
-use meshbrush::document::{Base, Document, Example, Follower, Setting, Settings, Stage};
+use meshbrush::document::{Base, Document, Example, Follower, MeshChange, Setting, Settings, Stage};
+use meshbrush::domain::Domain;
 use meshbrush::field::{Formula, Rule, VertexRule};
 use meshbrush::geometry::Rect;
 use meshbrush::paint::{Brush, Medium};
@@ -53,39 +54,63 @@ fn the_diamond_is_figure_1() {
     assert_eq!(Follower::new(&mut document).unwrap().mesh().triangles().len(), 9560);
 }
 
+/// A square, a rectangle, and a domain with a hole and a bite out of its rim.
+fn domains() -> [Domain; 3] {
+    let formula = Formula::parse("not(hypot(x - 0.4, y - 0.6) < 0.2 or x + y > 1.7)").unwrap();
+    [
+        Domain::rectangle(Rect::UNIT),
+        Domain::rectangle(Rect::new(DVec2::ZERO, dvec2(1.0, 0.7))),
+        Domain { bounds: Rect::UNIT, inside: Some(formula) },
+    ]
+}
+
+fn random_edit(random: &mut fastrand::Rng, document: &mut Document) {
+    let setting = match random.u8(..16) {
+        kind @ 0..11 => {
+            match kind {
+                0..8 => random_stroke(random, document),
+                8 | 9 => _ = document.undo(),
+                _ => _ = document.redo(),
+            }
+            return;
+        }
+        11 => Setting::SmallestDiameter(0.005 * (1.0 + 9.0 * random.f64())),
+        12 => Setting::TransferShape(0.5 + 2.0 * random.f64()),
+        13 => Setting::Spacing([0.3, 0.2, 0.15][random.usize(..3)]),
+        14 => Setting::Rule(if random.u8(..4) == 0 { Rule::Vertex } else { Rule::Area }),
+        _ => Setting::Resolution(100 + random.u32(..60)),
+    };
+    document.set(setting).unwrap();
+    document.end_gesture();
+}
+
+/// `MESHBRUSH_EDITS` says how many edits; the default takes a second.
 #[test]
 fn after_any_edits_the_mesh_is_the_one_made_from_scratch() {
+    let edits: usize = std::env::var("MESHBRUSH_EDITS").map_or(600, |n| n.parse().unwrap());
     let mut random = fastrand::Rng::with_seed(11);
-    let settings = Settings { resolution: 128, spacing: 0.2, ..Settings::default() };
-    let mut document = Document::new(settings, None).unwrap();
-    let mut follower = Follower::new(&mut document).unwrap();
-    for round in 0..120 {
-        match random.u8(..8) {
-            0..4 => random_stroke(&mut random, &mut document),
-            4 => drop(document.undo()),
-            5 => drop(document.redo()),
-            6 => {
-                let h_min = 0.005 * (1.0 + 9.0 * random.f64());
-                document.set(Setting::SmallestDiameter(h_min)).unwrap();
-                document.end_gesture();
+    let [mut in_place, mut compared] = [0; 2];
+    for domain in domains() {
+        let settings = Settings { domain, resolution: 128, spacing: 0.2, ..Settings::default() };
+        let mut document = Document::new(settings, None).unwrap();
+        let mut follower = Follower::new(&mut document).unwrap();
+        for edit in 0..edits / 3 {
+            random_edit(&mut random, &mut document);
+            // Often the next edit comes while the mesh is still in the making.
+            if random.bool() {
+                follower.advance(&mut document, random.usize(1..3000)).unwrap();
+                assert_eq!(follower.mesh().violations(), [], "edit {edit}");
+                in_place += usize::from(matches!(follower.take_change(), Some(MeshChange::Within(_))));
+                continue;
             }
-            _ => {
-                let spacing = [0.3, 0.2, 0.15][random.usize(..3)];
-                document.set(Setting::Spacing(spacing)).unwrap();
-                document.end_gesture();
-            }
+            settle(&mut follower, &mut document);
+            let anew = Follower::new(&mut document.clone()).unwrap();
+            assert_eq!(follower.mesh().fingerprint(), anew.mesh().fingerprint(), "edit {edit}");
+            assert_eq!(follower.mesh().violations(), [], "edit {edit}");
+            compared += 1;
         }
-        // Sometimes the next edit comes while the mesh is still in the making.
-        if random.bool() {
-            follower.advance(&mut document, random.usize(1..3000)).unwrap();
-            continue;
-        }
-        settle(&mut follower, &mut document);
-        let mut copy = document.clone();
-        let anew = Follower::new(&mut copy).unwrap();
-        assert_eq!(follower.mesh().fingerprint(), anew.mesh().fingerprint(), "round {round}");
-        assert_eq!(follower.mesh().violations(), []);
     }
+    assert!(in_place > edits / 20 && compared > edits / 3, "{in_place} {compared} of {edits}");
 }
 
 #[test]

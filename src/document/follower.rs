@@ -1,7 +1,7 @@
 use std::sync::Arc;
 
 use super::{Document, Repainted, Settings};
-use crate::field::{Paint, Rule, TargetField, VertexRule};
+use crate::field::{Rule, TargetField, VertexRule};
 use crate::mesh::{Changes, CoarseError, InvalidTarget, Mesh, Progress, RefineError, Refiner, Updater};
 use crate::raster::PixelRect;
 
@@ -25,6 +25,8 @@ pub struct Follower {
     lost_step: bool,
     /// All of the paint changed: the field is to be filled anew.
     refill: bool,
+    /// What was painted and is not yet in the field.
+    unread: Vec<PixelRect>,
     job: Option<Job>,
     /// The revision of the document that could not be met: not tried again.
     given_up_on: Option<u64>,
@@ -46,7 +48,7 @@ struct Job {
     /// A field in the making, where that of the shown mesh does not serve.
     field: Option<TargetField>,
     refining: Option<Refining>,
-    /// What was painted since the work began: the new mesh is updated there once it is shown.
+    /// What was painted since the work began: field and mesh are updated there once they are shown.
     repainted: Vec<PixelRect>,
 }
 
@@ -108,6 +110,7 @@ impl Follower {
             replaced: true,
             lost_step: false,
             refill: false,
+            unread: Vec::new(),
             job: None,
             given_up_on: None,
         })
@@ -147,6 +150,9 @@ impl Follower {
     /// What is left to do.
     pub fn stage(&self) -> Stage {
         match &self.job {
+            None if !self.unread.is_empty() || (self.lost_step && self.given_up_on.is_none()) => {
+                Stage::Filling
+            }
             None if self.updater.is_done() => Stage::InStep,
             None => Stage::Refining { triangles: self.mesh.triangles().len() },
             Some(Job { refining: None, .. }) => Stage::Filling,
@@ -181,6 +187,7 @@ impl Follower {
         if self.given_up_on == Some(document.revision()) {
             return Ok(Stage::InStep);
         }
+        self.given_up_on = None;
         let result = self.work(document, visits);
         if result.is_err() {
             self.give_up(document);
@@ -192,12 +199,11 @@ impl Follower {
         let wanted = document.settings();
         let outdated = match &self.job {
             Some(job) => job.settings != *wanted,
-            None => self.lost_step || self.settings != *wanted,
+            None => (self.lost_step && self.unread.is_empty()) || self.settings != *wanted,
         };
         if outdated {
-            let reuse_field = self.reuses_field(wanted);
+            let reuse_field = self.reuses_field(wanted) && self.unread.is_empty();
             self.job = Some(Job::new(wanted, reuse_field)?);
-            self.refill = false;
         }
         match &mut self.job {
             Some(job) => {
@@ -205,13 +211,20 @@ impl Follower {
                     self.show();
                 }
             }
-            None => self.update(visits)?,
+            None => self.update(document, visits)?,
         }
         Ok(self.stage())
     }
 
-    /// One slice of work on the shown mesh.
-    fn update(&mut self, visits: usize) -> Result<(), RefineError> {
+    /// One slice of work on the shown field and mesh.
+    fn update(&mut self, document: &Document, visits: usize) -> Result<(), RefineError> {
+        if let Some(area) = self.unread.pop() {
+            let (now, later) = area.split_after(visits);
+            self.unread.extend(later);
+            self.field.update(document.layers().as_paint(), now);
+            self.note_repainted(&[now]);
+            return Ok(());
+        }
         if self.updater.is_done() {
             return Ok(());
         }
@@ -234,8 +247,8 @@ impl Follower {
         self.mesh = Arc::new(mesh);
         self.revision += 1;
         self.replaced = true;
-        self.lost_step = false;
-        self.note_repainted(&repainted);
+        (self.lost_step, self.refill) = (false, false);
+        self.unread = repainted;
     }
 
     /// The field has changed in these areas; the mesh is to follow.
@@ -256,17 +269,14 @@ impl Follower {
     fn take_over_paint(&mut self, document: &mut Document) {
         match document.take_repainted() {
             Repainted::Within(areas) => {
-                let paint = document.layers().as_paint();
-                if paint.risk.size() == self.field.target().size() {
-                    areas.iter().for_each(|&area| self.field.update(paint, area));
-                    self.note_repainted(&areas);
-                }
                 if let Some(job) = &mut self.job {
-                    job.take_over_paint(paint, areas);
+                    job.repainted.extend(&areas);
                 }
+                self.unread.extend(areas);
             }
             Repainted::Everything => {
                 self.job = None;
+                self.unread.clear();
                 self.lost_step = true;
                 self.refill = true;
             }
@@ -280,16 +290,6 @@ impl Job {
         let field = (!reuse_field).then(|| TargetField::new(settings.field_spec(), &lattice));
         let refining = if field.is_none() { Some(Refining::new(settings)?) } else { None };
         Ok(Self { settings: settings.clone(), field, refining, repainted: Vec::new() })
-    }
-
-    fn take_over_paint(&mut self, paint: Paint, areas: Vec<PixelRect>) {
-        if let Some(field) = &mut self.field {
-            if paint.risk.size() != field.target().size() {
-                return; // the work is about to begin anew
-            }
-            areas.iter().for_each(|&area| field.update(paint, area));
-        }
-        self.repainted.extend(areas);
     }
 
     /// One slice of filling or refining.

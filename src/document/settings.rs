@@ -70,7 +70,7 @@ pub enum SettingsError {
 }
 
 /// Fewest and most pixels along the longer side of a document's field.
-pub const RESOLUTIONS: std::ops::RangeInclusive<u32> = 16..=MAX_SIDE / 2;
+pub const RESOLUTIONS: std::ops::RangeInclusive<u32> = 16..=MAX_SIDE / 4;
 
 /// Most coarse triangles in the window: the coarse grid is made in one go, and must not hold a frame up.
 pub const MAX_COARSE_TRIANGLES: usize = 200_000;

@@ -26,6 +26,15 @@ impl PixelRect {
         self.min[0] >= self.max[0] || self.min[1] >= self.max[1]
     }
 
+    /// Cuts off whole rows, about `count` pixels of them and one row at least; the rest, if there is one.
+    pub fn split_after(self, count: usize) -> (Self, Option<Self>) {
+        let columns = self.max[0].saturating_sub(self.min[0]).max(1) as usize;
+        let rows = (count / columns).clamp(1, u32::MAX as usize) as u32;
+        let cut = self.min[1].saturating_add(rows).min(self.max[1]);
+        let rest = Self { min: [self.min[0], cut], ..self };
+        (Self { max: [self.max[0], cut], ..self }, (!rest.is_empty()).then_some(rest))
+    }
+
     /// The smallest rectangle that holds both.
     pub fn union(&self, other: &Self) -> Self {
         if self.is_empty() {
@@ -131,9 +140,7 @@ impl<T: Copy> Raster<T> {
 
     /// The value under a point, `None` outside. On a line between pixels, the pixel right of or above it.
     pub fn sample(&self, point: DVec2) -> Option<T> {
-        let p = self.pixel_from_world(point);
-        let inside = self.bounds.contains(point);
-        inside.then(|| self.get((p.x as u32).min(self.size[0] - 1), (p.y as u32).min(self.size[1] - 1)))
+        Some(self.get(self.pixel_under(point, 0)?, self.pixel_under(point, 1)?))
     }
 
     /// The pixels whose middle may lie in a world rectangle: those that it touches, within the raster.
@@ -149,11 +156,24 @@ impl<T: Copy> Raster<T> {
     /// This raster over another rectangle and size: each new pixel takes the value under its middle, or `outside`.
     pub fn resampled(&self, bounds: Rect, size: [u32; 2], outside: T) -> Self {
         let mut new = Self::filled(bounds, size, outside);
-        for (x, y) in new.all().pixels() {
-            if let Some(value) = self.sample(new.pixel_center(x, y)) {
-                new.set(x, y, value);
+        // Column and row of a pixel do not depend on each other: each is looked up once.
+        let column_under = |x| self.pixel_under(new.pixel_center(x, 0), 0);
+        let row_under = |y| self.pixel_under(new.pixel_center(0, y), 1);
+        let columns: Vec<_> = (0..size[0]).map(column_under).collect();
+        let rows: Vec<_> = (0..size[1]).map(row_under).collect();
+        for (to, from) in new.values.chunks_exact_mut(size[0] as usize).zip(rows) {
+            let Some(row) = from else { continue };
+            let from = &self.values[row as usize * self.size[0] as usize..][..self.size[0] as usize];
+            for (value, column) in to.iter_mut().zip(&columns) {
+                *value = column.map_or(outside, |column| from[column as usize]);
             }
         }
         new
+    }
+
+    /// Column (axis 0) or row (axis 1) under a point, `None` outside.
+    fn pixel_under(&self, point: DVec2, axis: usize) -> Option<u32> {
+        let inside = (self.bounds.min[axis]..=self.bounds.max[axis]).contains(&point[axis]);
+        inside.then(|| (self.pixel_from_world(point)[axis] as u32).min(self.size[axis] - 1))
     }
 }
