@@ -98,6 +98,8 @@ pub struct RasterOnLattice {
     per_step: i64,
     /// Common units in a pixel, along x and y.
     per_pixel: [i64; 2],
+    /// Pixels in a lattice step, along x and y, rounded.
+    pixels_per_step: [f64; 2],
 }
 
 impl RasterOnLattice {
@@ -107,7 +109,9 @@ impl RasterOnLattice {
         let [columns, rows] = size.map(i64::from);
         // 2^30 lattice steps times 2^13 columns times 2^13 rows: below 2^57, and sums of two below 2^58.
         let per_pixel = [i64::from(extent.x) * rows, i64::from(extent.y) * columns];
-        Self { per_step: columns * rows, per_pixel }
+        let [x, y] = [extent.x, extent.y].map(f64::from);
+        let pixels_per_step = [f64::from(size[0]) / x, f64::from(size[1]) / y];
+        Self { per_step: columns * rows, per_pixel, pixels_per_step }
     }
 
     /// The smallest rectangle of the lattice that holds the closed pixels of `area`: all triangles that meet one of them touch
@@ -138,17 +142,35 @@ impl RasterOnLattice {
         if pyramid.max() <= limit {
             return false;
         }
-        let shape = Octagon::around(corners, self.per_step);
         let size = pyramid.size();
-        let (mut x0, mut x1) = closed_pixels(shape.x, self.per_pixel[0], size[0]);
-        let (mut y0, mut y1) = closed_pixels(shape.y, self.per_pixel[1], size[1]);
-        let mut layer = 0;
-        // Start where the triangle spans a few squares only; the top layer has one, so this ends.
-        while x1 - x0 > 1 || y1 - y0 > 1 {
-            (x0, x1, y0, y1) = (x0 / 2, x1 / 2, y0 / 2, y1 / 2);
+        let (x0, x1) = self.closed_pixels(0, corners.map(|c| c.x), size[0]);
+        let (y0, y1) = self.closed_pixels(1, corners.map(|c| c.y), size[1]);
+        // Start where the triangle spans two squares at most along both axes; the top layer has one, so this ends.
+        let mut layer = (x1 - x0).max(y1 - y0).checked_ilog2().unwrap_or(0);
+        while (x1 >> layer) - (x0 >> layer) > 1 || (y1 >> layer) - (y0 >> layer) > 1 {
             layer += 1;
         }
+        let (x0, x1, y0, y1) = (x0 >> layer, x1 >> layer, y0 >> layer, y1 >> layer);
+        let layer = layer as usize;
+        let above = |x, y| pyramid.layers[layer].get(x, y) > limit;
+        // Most triangles are answered here.
+        if !(above(x0, y0) | above(x1, y0) | above(x0, y1) | above(x1, y1)) {
+            return false;
+        }
+        let shape = Octagon::around(corners, self.per_step);
         (y0..=y1).any(|y| (x0..=x1).any(|x| self.search(pyramid, &shape, limit, layer, x, y)))
+    }
+
+    /// First and last pixel along an axis whose closure meets a triangle with the given coordinates on it.
+    #[inline]
+    fn closed_pixels(&self, axis: usize, [a, b, c]: [u32; 3], count: u32) -> (u32, u32) {
+        let pixels = |steps: u32| f64::from(steps) * self.pixels_per_step[axis];
+        // A lattice coordinate in pixels is a fraction of at most 2^30 parts, and known here to within 2^-39: so a margin
+        // of 2^-32 tells whole numbers, lines between two pixels, from all others.
+        let margin = 1.0 / f64::from(1u32 << 31) / 2.0;
+        let first = (pixels(a.min(b).min(c)) - margin) as u32; // no less than zero
+        let last = (pixels(a.max(b).max(c)) + margin) as u32;
+        (first, last.min(count - 1))
     }
 
     /// Descends into one square of a layer. The depth is that of the pyramid.
@@ -252,14 +274,6 @@ impl Octagon {
             && self.sum.holds(&other.sum)
             && self.difference.holds(&other.difference)
     }
-}
-
-/// First and last pixel whose closure meets a span.
-#[inline]
-fn closed_pixels(span: Span, per_pixel: i64, count: u32) -> (u32, u32) {
-    let first = (span.low - 1).div_euclid(per_pixel).max(0);
-    let last = (span.high / per_pixel).min(i64::from(count) - 1);
-    (first as u32, last as u32)
 }
 
 impl<T: Copy + PartialOrd> From<&Raster<T>> for Pyramid<T> {
