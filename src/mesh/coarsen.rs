@@ -159,13 +159,12 @@ impl Mesh {
         (node.x >> cell & 1) + (node.y >> cell & 1)
     }
 
-    /// The parents of a star, as [`Self::merge`] would put them back.
+    /// The parents of a star, to be put back by [`Self::merge`].
     #[inline]
-    pub(super) fn parents(&self, star: &Star) -> impl Iterator<Item = Triangle> + use<> {
-        let across = |side: Option<Siblings>| side.map_or(Neighbour::BOUNDARY, |side| side.place().into());
-        let one = self.parent(star.one, across(star.other));
-        let other = star.other.map(|other| self.parent(other, across(Some(star.one))));
-        std::iter::once(one).chain(other)
+    pub(super) fn parents(&self, star: &Star) -> [Option<Triangle>; 2] {
+        let across = |side: Siblings| Neighbour::from(side.place());
+        let one = self.parent(star.one, star.other.map_or(Neighbour::BOUNDARY, across));
+        [Some(one), star.other.map(|other| self.parent(other, across(star.one)))]
     }
 
     /// The parent of two siblings: the rule at the head of `bisect`, backwards.
@@ -186,7 +185,7 @@ impl Mesh {
         parent
     }
 
-    /// Puts the parents of a star back.
+    /// Puts the parents of a star back, as [`Self::parents`] tells them.
     ///
     /// ```text
     ///          o                       o
@@ -197,12 +196,8 @@ impl Mesh {
     ///        \ | /                   \   /
     ///          o                       o
     /// ```
-    pub(super) fn merge(&mut self, star: &Star, log: &mut ChangeLog) {
-        let parents: [Option<Triangle>; 2] = {
-            let mut parents = self.parents(star);
-            [parents.next(), parents.next()]
-        };
-        for (side, parent) in star.sides().zip(parents.into_iter().flatten()) {
+    pub(super) fn merge(&mut self, star: &Star, parents: &[Option<Triangle>; 2], log: &mut ChangeLog) {
+        for (side, parent) in star.sides().zip(parents.iter().flatten()) {
             let (place, freed) = (side.place(), side.freed());
             if let Some(outer) = self.triangle(freed).neighbours[0].triangle() {
                 self.replace_neighbour(outer, freed.into(), place.into());
@@ -212,7 +207,7 @@ impl Mesh {
                 let noted = &mut self.triangle_at[vertex.index()];
                 *noted = if *noted == freed { place } else { *noted };
             }
-            self.triangles[place.index()] = parent;
+            self.triangles[place.index()] = *parent;
             self.levels.merged(parent.level());
             log.triangle(place);
         }
@@ -325,7 +320,7 @@ mod tests {
                     let star = mesh.star_of(child).expect("nothing was bisected since");
                     let mut log = ChangeLog::default();
                     let mut again = mesh.clone();
-                    again.merge(&star, &mut log);
+                    again.merge(&star, &mesh.parents(&star), &mut log);
                     star.freed().for_each(|freed| again.remove_triangle(freed, &mut log));
                     again.remove_node(star.centre(), &mut log);
                     assert_eq!(again.nodes, before.nodes);

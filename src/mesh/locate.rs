@@ -167,6 +167,7 @@ impl Mesh {
     /// The triangles round `node` that can be reached from `start` (one of them) across edges, `start` first.
     ///
     /// At most eight. Where only a corner joins two parts of the domain, the other part is not reached.
+    #[inline]
     pub fn triangles_round(&self, node: NodeId, start: TriangleId) -> impl Iterator<Item = TriangleId> + '_ {
         let mut id = Some(start);
         let mut clockwise = false;
@@ -185,6 +186,7 @@ impl Mesh {
     }
 
     /// The next triangle round `node`, `None` at the boundary.
+    #[inline]
     fn turn(&self, node: NodeId, id: TriangleId, clockwise: bool) -> Option<TriangleId> {
         let triangle = self.triangle(id);
         // Anticlockwise edges: the one that ends in the node is crossed to turn anticlockwise round it.

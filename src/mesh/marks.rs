@@ -10,6 +10,8 @@ use std::ops::Range;
 pub(super) struct Marks {
     layers: [Vec<u64>; LAYERS],
     count: usize,
+    /// No word of bits behind this one has any: near at hand when the last place is asked for again and again.
+    last_word: usize,
 }
 
 /// With four layers the topmost has one word for 2²⁴ places, and is gone through word by word.
@@ -35,6 +37,7 @@ impl Marks {
         let word = &mut self.layers[0][place / 64];
         let (before, bit) = (*word, 1 << (place % 64));
         *word |= bit;
+        self.last_word = self.last_word.max(place / 64);
         if before == 0 {
             self.note_word(place / 64);
         }
@@ -100,14 +103,21 @@ impl Marks {
 
     /// The last place of the set.
     #[inline]
-    pub(super) fn last(&self) -> Option<usize> {
+    pub(super) fn last(&mut self) -> Option<usize> {
         if self.count == 0 {
             return None;
         }
-        let top = &self.layers[LAYERS - 1];
-        let word = top.iter().rposition(|&word| word != 0).expect("a place is noted in every layer");
-        let last = |place: usize, layer: &Vec<u64>| 64 * place + layer[place].ilog2() as usize;
-        Some(self.layers.iter().rev().fold(word, last))
+        if self.layers[0][self.last_word] == 0 {
+            self.last_word = self.find_last_word();
+        }
+        Some(64 * self.last_word + self.layers[0][self.last_word].ilog2() as usize)
+    }
+
+    fn find_last_word(&self) -> usize {
+        let top = self.layers[LAYERS - 1].iter().rposition(|&word| word != 0);
+        let top = top.expect("a place is noted in every layer");
+        let last = |word: usize, layer: &Vec<u64>| 64 * word + layer[word].ilog2() as usize;
+        self.layers[1..].iter().rev().fold(top, last)
     }
 
     /// Takes all places out, a word at a time.
@@ -195,7 +205,7 @@ mod tests {
             let mut copy = marks.clone();
             copy.clear();
             let ranges = marks.take_ranges();
-            for rest in [copy, marks] {
+            for mut rest in [copy, marks] {
                 assert_eq!((rest.last(), rest.count()), (None, 0));
                 assert!(rest.layers.iter().flatten().all(|&word| word == 0));
             }

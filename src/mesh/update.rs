@@ -10,17 +10,18 @@
 //! The rule must be monotone: a triangle inside a satisfied triangle is satisfied. Then the conforming refinements that satisfy
 //! it have a smallest one, M*, which every other refines. The work keeps two promises at all times:
 //!
-//! 1. A triangle that exceeds its target is marked as *unasked*.
+//! 1. A triangle that exceeds its target is marked as *exceeding*. (One that is marked may have ceased to.)
 //! 2. A node that could go has a triangle round it that is marked as *loose*. A node can go when it is the newest vertex of all
 //!    triangles round it (four, or two at the boundary) and neither parent exceeds its target.
 //!
-//! A change of the rule within a rectangle keeps them, as every triangle that touches the rectangle is marked as both: a
-//! parent that touches it has a child that does. So do bisection (the children take over the mark of their parent; a triangle
-//! whose parent was not marked is satisfied by monotony) and coarsening (a node can become free only when a triangle round it
-//! is put back, and those are marked as loose). Once no mark is left, all triangles are satisfied and no node can go, and
-//! this is M*: were it finer, take a triangle of the deepest level among those that lie strictly inside a triangle of M*. No
-//! triangle round its newest vertex was bisected, or there would be a deeper one; and the parents lie in triangles of M*, so
-//! they are satisfied. That node could go.
+//! A change of the rule within a rectangle keeps them once it is searched: every triangle that touches the rectangle is asked,
+//! and marked as loose, as a parent that touches it has a child that does. Bisection keeps them: the children take over the
+//! mark of their parent, and where it had none they are satisfied by monotony. Coarsening keeps them: a node can become free
+//! only when a triangle round it is put back, and those are marked as loose.
+//!
+//! Once no mark is left, all triangles are satisfied and no node can go, and this is M*. For were it finer, take a triangle
+//! of the deepest level among those that lie strictly inside a triangle of M*. No triangle round its newest vertex was
+//! bisected, or there would be a deeper one; and the parents lie in triangles of M*, so they are satisfied. That node could go.
 //!
 //! # Why it ends, and how soon
 //!
@@ -31,8 +32,8 @@
 //! search starts in the coarse triangles that the rectangle touches and goes from neighbour to neighbour. Nothing looks at the
 //! rest of the mesh.
 //!
-//! Where the triangle budget is met while nodes could go, these go first. Then a node may go that is needed again; but the
-//! loose marks have then become fewer, so that this ends too.
+//! Where the triangle budget is met while nodes could go, these go first, until none can. By the same argument the mesh is then
+//! nowhere finer than M*, and what is bisected from there on belongs to M*: the budget is met again only if M* does not fit.
 //!
 //! # How the work survives the moves
 //!
@@ -47,7 +48,7 @@ use super::coarsen::Star;
 use super::locate::WalkEnd;
 use super::marks::Marks;
 use super::refine::{Diameters, too_fine};
-use super::{Changes, Element, InvalidTarget, Limits, Mesh, Progress, RefineError, TriangleId};
+use super::{Changes, Element, InvalidTarget, Limits, Mesh, Progress, RefineError, Triangle, TriangleId};
 use crate::geometry::{LatticePoint, LatticeRect};
 
 /// Brings a mesh up to date where its rule has changed, in slices.
@@ -90,7 +91,7 @@ pub struct Updater {
     /// Triangles found by the search under way; otherwise empty.
     reached: Marks,
     /// Triangles that may exceed their target.
-    unasked: Marks,
+    exceeding: Marks,
     /// Triangles whose newest vertex may have become free to go.
     loose: Marks,
     chain: Vec<TriangleId>,
@@ -105,7 +106,7 @@ impl Updater {
             areas: Vec::new(),
             search: None,
             reached: Marks::default(),
-            unasked: Marks::default(),
+            exceeding: Marks::default(),
             loose: Marks::default(),
             chain: Vec::new(),
             log: ChangeLog::default(),
@@ -120,7 +121,10 @@ impl Updater {
 
     /// Whether nothing is left to do.
     pub fn is_done(&self) -> bool {
-        self.areas.is_empty() && self.search.is_none() && self.unasked.count() == 0 && self.loose.count() == 0
+        self.areas.is_empty()
+            && self.search.is_none()
+            && self.exceeding.count() == 0
+            && self.loose.count() == 0
     }
 
     /// Gives up what is left to do. The mesh is conforming, but where work was left it may be coarser or finer than it ought
@@ -128,7 +132,7 @@ impl Updater {
     pub fn cancel(&mut self) {
         self.areas.clear();
         self.search = None;
-        for marks in [&mut self.reached, &mut self.unasked, &mut self.loose] {
+        for marks in [&mut self.reached, &mut self.exceeding, &mut self.loose] {
             marks.clear();
         }
     }
@@ -145,7 +149,7 @@ impl Updater {
 
     /// Memory taken, in bytes: a fraction of a byte for each triangle.
     pub fn bytes(&self) -> usize {
-        let marks = [&self.reached, &self.unasked, &self.loose, &self.log.triangles, &self.log.nodes];
+        let marks = [&self.reached, &self.exceeding, &self.loose, &self.log.triangles, &self.log.nodes];
         marks.map(Marks::bytes).iter().sum()
     }
 
@@ -174,11 +178,11 @@ impl Updater {
         // Ends: see the head of this file.
         for _ in 0..visits {
             if self.search.is_some() || !self.areas.is_empty() {
-                self.search_on(mesh);
-            } else if let Some(id) = self.unasked.last() {
+                self.search_on(mesh, &diameters, &mut exceeds)?;
+            } else if let Some(id) = self.exceeding.last() {
                 let id = TriangleId::from_index(id);
                 if !exceeds(&mesh.element(id, &diameters))? {
-                    self.unasked.remove(id.index());
+                    self.exceeding.remove(id.index());
                     continue;
                 }
                 match self.refine(mesh, id, &mut room) {
@@ -196,17 +200,27 @@ impl Updater {
         Ok(if self.is_done() { Progress::Done } else { Progress::More })
     }
 
-    /// One step of the search: a triangle or a coarse triangle.
-    fn search_on(&mut self, mesh: &Mesh) {
+    /// One step of the search: a triangle or half a coarse cell.
+    #[inline]
+    fn search_on(
+        &mut self,
+        mesh: &Mesh,
+        diameters: &Diameters,
+        exceeds: &mut impl FnMut(&Element) -> Result<bool, InvalidTarget>,
+    ) -> Result<(), InvalidTarget> {
         let Some(search) = &mut self.search else {
             self.search = self.areas.pop().map(|area| Search::new(mesh, area));
-            return;
+            return Ok(());
         };
-        if let Some(id) = search.found.pop() {
-            self.unasked.insert(id.index());
+        if let Some(&id) = search.found.last() {
+            if exceeds(&mesh.element(id, diameters))? {
+                self.exceeding.insert(id.index());
+            }
             self.loose.insert(id.index());
+            search.found.pop();
             for across in mesh.triangle(id).neighbours.iter().filter_map(|n| n.triangle()) {
-                if search.area.touches(mesh.corners(across)) && self.reached.insert(across.index()) {
+                if !self.reached.contains(across.index()) && search.area.touches(mesh.corners(across)) {
+                    self.reached.insert(across.index());
                     search.found.push(across);
                 }
             }
@@ -220,6 +234,7 @@ impl Updater {
             self.search = None;
             self.reached.clear();
         }
+        Ok(())
     }
 
     /// Bisects a triangle and what must be bisected with it.
@@ -235,10 +250,10 @@ impl Updater {
         }
         let (first_node, first_new) = (mesh.nodes().len(), mesh.triangles().len());
         let mut new = first_new;
-        let Self { chain, unasked, log, .. } = self;
+        let Self { chain, exceeding, log, .. } = self;
         mesh.refine_triangle_with(id, chain, |parent| {
-            if unasked.contains(parent.index()) {
-                unasked.insert(new);
+            if exceeding.contains(parent.index()) {
+                exceeding.insert(new);
             }
             log.triangles.insert(parent.index());
             log.triangles.insert(new);
@@ -269,30 +284,31 @@ impl Updater {
             self.loose.remove(last);
             return Ok(());
         };
+        let parents = mesh.parents(&star);
         let mut needed = false;
-        for parent in mesh.parents(&star) {
-            needed = needed || exceeds(&mesh.element_of(&parent, diameters))?;
+        for parent in parents.iter().flatten() {
+            needed = needed || exceeds(&mesh.element_of(parent, diameters))?;
         }
         // They have the same newest vertex: one question answers for all of them.
         star.children().for_each(|child| {
             self.loose.remove(child.index());
         });
         if !needed {
-            self.coarsen(mesh, &star);
+            self.coarsen(mesh, &star, &parents);
         }
         Ok(())
     }
 
-    fn coarsen(&mut self, mesh: &mut Mesh, star: &Star) {
-        mesh.merge(star, &mut self.log);
+    fn coarsen(&mut self, mesh: &mut Mesh, star: &Star, parents: &[Option<Triangle>; 2]) {
+        mesh.merge(star, parents, &mut self.log);
         for parent in star.places() {
-            self.unasked.remove(parent.index());
+            self.exceeding.remove(parent.index());
             self.loose.insert(parent.index());
         }
         // The highest first: so the last entry of the array is never itself one to be removed later.
         for freed in star.freed() {
             let last = mesh.triangles().len() - 1;
-            self.unasked.swap_removed(last, freed.index());
+            self.exceeding.swap_removed(last, freed.index());
             self.loose.swap_removed(last, freed.index());
             mesh.remove_triangle(freed, &mut self.log);
         }
