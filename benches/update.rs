@@ -1,0 +1,157 @@
+//! Updates in place: the same dab on meshes from ten thousand to ten million triangles, beside making the mesh anew.
+//!
+//! The field is a raster with the area rule, as in the window; its own update is not counted. *same place*: a dab is
+//! painted and erased again, over and over. *moving*: a dab is painted at the next of eight places and the oldest of three is
+//! erased, so that entries leave from the middle of the arrays and others fill the gaps.
+//!
+//! Throughput counts the triangles that come or go, in the fresh meshes those that are there in the end.
+
+use std::hint::black_box;
+use std::time::{Duration, Instant};
+
+use criterion::measurement::WallTime;
+use criterion::{BenchmarkGroup, BenchmarkId, Criterion, SamplingMode, Throughput};
+use meshbrush::geometry::{LatticePoint, LatticeRect, Rect};
+use meshbrush::mesh::{Element, InvalidTarget, Limits, Mesh, Progress, Refiner, Updater};
+use meshbrush::raster::{PixelRect, Pyramid, RasterOnLattice};
+
+/// Pixels along a side of the field.
+const SIDE: u32 = 2048;
+/// Radius of a dab in pixels, and the level that it asks for: about ten thousand triangles.
+const RADIUS: u32 = 78;
+const LEVEL: u8 = 12;
+/// Centres of the dabs, in the left half.
+const PLACES: [[u32; 2]; 8] =
+    [[200, 200], [600, 300], [250, 700], [800, 750], [300, 1200], [750, 1100], [200, 1700], [700, 1800]];
+
+/// A mesh on the unit square with 512 coarse triangles, with the field that it satisfies.
+struct Scene {
+    coarse: Mesh,
+    mesh: Mesh,
+    levels: Pyramid<u8>,
+    on_lattice: RasterOnLattice,
+}
+
+impl Scene {
+    /// The right half asks for `level` up to the given row, which decides how large the mesh is.
+    fn new(level: u8, rows: u32) -> Self {
+        let coarse =
+            Mesh::coarse_grid(Rect::UNIT, 1.0 / 16.0, |_| true, &Limits::default()).expect("a square");
+        let mut levels = Pyramid::filled([SIDE; 2], 0);
+        levels.update(PixelRect { min: [SIDE / 2 + 1, 0], max: [SIDE, rows] }, |_, _| level);
+        // One pixel as fine as any in all meshes: the rule has a way out where nothing is finer than a triangle.
+        levels.update(PixelRect { min: [SIDE - 1; 2], max: [SIDE; 2] }, |_, _| 16);
+        let on_lattice = RasterOnLattice::new(coarse.lattice(), [SIDE; 2]);
+        let mut scene = Self { mesh: coarse.clone(), coarse, levels, on_lattice };
+        scene
+            .mesh
+            .refine(&Limits::default(), rule(&scene.levels, scene.on_lattice))
+            .expect("within the limits");
+        scene
+    }
+
+    /// Paints or erases the dab at a place, and returns the part of the lattice that may change.
+    fn stamp(&mut self, place: [u32; 2], level: u8) -> LatticeRect {
+        let area = PixelRect { min: place.map(|c| c - RADIUS), max: place.map(|c| c + RADIUS + 1) };
+        self.levels.update(area, |x, y| {
+            let [dx, dy] = [x.abs_diff(place[0]), y.abs_diff(place[1])];
+            if dx * dx + dy * dy <= RADIUS * RADIUS { level } else { 0 }
+        });
+        // A pixel is a whole number of lattice steps.
+        let pixel = self.coarse.lattice().extent().x / SIDE;
+        let point = |[x, y]: [u32; 2]| LatticePoint::new(x * pixel, y * pixel);
+        LatticeRect { min: point(area.min), max: point(area.max) }
+    }
+
+    fn update(&mut self, updater: &mut Updater, area: LatticeRect) -> Duration {
+        let start = Instant::now();
+        updater.add(area);
+        let progress = updater.run(&mut self.mesh, rule(&self.levels, self.on_lattice), usize::MAX);
+        let time = start.elapsed();
+        assert_eq!(progress, Ok(Progress::Done));
+        black_box(updater.take_changes());
+        time
+    }
+}
+
+/// The area rule.
+fn rule(levels: &Pyramid<u8>, on: RasterOnLattice) -> impl Fn(&Element) -> Result<bool, InvalidTarget> {
+    move |element| Ok(on.any_above(levels, element.corners, element.triangle.level() as u8))
+}
+
+/// Level of the right half and rows that it fills.
+const SIZES: [(u8, u32); 5] = [(5, 2048), (9, 1500), (12, 1950), (13, 2048), (16, 1220)];
+
+fn same_place(group: &mut BenchmarkGroup<WallTime>, scene: &mut Scene) {
+    let count = scene.mesh.triangles().len();
+    let mut updater = Updater::new(Limits::default());
+    let dab = |scene: &mut Scene, updater: &mut Updater, level| {
+        let area = scene.stamp(PLACES[3], level);
+        scene.update(updater, area)
+    };
+    dab(scene, &mut updater, LEVEL);
+    let changed = 2 * (scene.mesh.triangles().len() - count) as u64;
+    dab(scene, &mut updater, 0);
+    group.throughput(Throughput::Elements(changed));
+    group.bench_function(BenchmarkId::new("same place", count), |b| {
+        b.iter_custom(|rounds| {
+            (0..rounds).map(|_| dab(scene, &mut updater, LEVEL) + dab(scene, &mut updater, 0)).sum()
+        });
+    });
+    assert_eq!(scene.mesh.triangles().len(), count);
+}
+
+fn moving(group: &mut BenchmarkGroup<WallTime>, scene: &mut Scene) {
+    let count = scene.mesh.triangles().len();
+    let mut updater = Updater::new(Limits::default());
+    let mut at = 0;
+    let mut step = |scene: &mut Scene| {
+        let painted = scene.stamp(PLACES[at % 8], LEVEL);
+        let time = scene.update(&mut updater, painted);
+        let erased = scene.stamp(PLACES[(at + 5) % 8], 0);
+        at += 1;
+        time + scene.update(&mut updater, erased)
+    };
+    for _ in 0..16 {
+        step(scene);
+    }
+    let changed = 2 * (scene.mesh.triangles().len() - count) as u64 / 3;
+    group.throughput(Throughput::Elements(changed));
+    group.bench_function(BenchmarkId::new("moving", count), |b| {
+        b.iter_custom(|rounds| (0..rounds).map(|_| step(scene)).sum());
+    });
+}
+
+fn anew(group: &mut BenchmarkGroup<WallTime>, scene: &Scene) {
+    let count = scene.mesh.triangles().len();
+    group.throughput(Throughput::Elements(count as u64));
+    let (mut mesh, mut refiner) = (scene.coarse.clone(), Refiner::new(&scene.coarse, Limits::default()));
+    group.bench_function(BenchmarkId::new("made anew", count), |b| {
+        b.iter_custom(|rounds| {
+            let once = |_| {
+                let start = Instant::now();
+                mesh.clone_from(&scene.coarse);
+                refiner.restart(&mesh);
+                let made = refiner.run(&mut mesh, rule(&scene.levels, scene.on_lattice), usize::MAX);
+                assert_eq!(made, Ok(Progress::Done));
+                start.elapsed()
+            };
+            (0..rounds).map(once).sum()
+        });
+    });
+}
+
+fn main() {
+    let mut criterion = Criterion::default().configure_from_args();
+    let mut group = criterion.benchmark_group("update");
+    group.sample_size(10).sampling_mode(SamplingMode::Flat).warm_up_time(Duration::from_millis(300));
+    group.measurement_time(Duration::from_millis(1000));
+    for (level, rows) in SIZES {
+        let mut scene = Scene::new(level, rows);
+        same_place(&mut group, &mut scene);
+        anew(&mut group, &scene);
+        moving(&mut group, &mut scene);
+    }
+    group.finish();
+    criterion.final_summary();
+}
