@@ -1,8 +1,10 @@
 //! The report's own numbers (Section 5.4).
 
+mod closure;
+
 use glam::DVec2;
-use meshbrush::geometry::Rect;
-use meshbrush::mesh::{Limits, Mesh, bisection_edge_length};
+use meshbrush::geometry::{LatticePoint, Rect};
+use meshbrush::mesh::{Limits, Mesh, bisection_edge_length, fingerprint_of};
 
 /// The mesh of Figure 1 on [−10, 10]², where every coordinate is exact, with the report's vertex rule (Eq. 12).
 fn diamond(target: f64) -> Mesh {
@@ -29,5 +31,28 @@ fn the_series_of_section_5_4_comes_out_at_every_level() {
         if triangles < 20_000 {
             assert_eq!(mesh.violations(), []);
         }
+    }
+}
+
+/// The same series by the fixed-point closure, in whole numbers only: ‖x‖₁ < 8 about the middle of the grid.
+#[test]
+fn the_fixed_point_closure_has_the_same_triangles() {
+    for (level, triangles) in (1..).zip(TRIANGLES) {
+        let mesh = diamond(bisection_edge_length(1.0, level) * (1.0 + 1e-12));
+        let cell = i64::from(mesh.lattice().cell_steps());
+        let inside = |&[x, y]: &closure::Point| (x - 10 * cell).abs() + (y - 10 * cell).abs() < 8 * cell;
+        let exceeds = |triangle: &closure::Triangle| {
+            // Outside the target is as long as the whole grid: nothing exceeds it.
+            closure::level(cell, triangle) < level && triangle.iter().any(inside)
+        };
+        let found = closure::refine(closure::coarse(20, 20, cell, |_, _| true), exceeds);
+        assert_eq!(found.len(), triangles, "level {level}");
+        if triangles < 20_000 {
+            let points = mesh.triangles().iter().map(|t| t.vertices.map(|v| mesh.node(v)));
+            let mine = points.map(|t| t.map(|p| [i64::from(p.x), i64::from(p.y)]));
+            assert_eq!(closure::set_of(mine), closure::set_of(found.iter().copied()), "level {level}");
+        }
+        let corners = found.iter().map(|t| t.map(|[x, y]| LatticePoint::new(x as u32, y as u32)));
+        assert_eq!(fingerprint_of(corners), mesh.fingerprint(), "level {level}");
     }
 }

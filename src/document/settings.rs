@@ -73,7 +73,7 @@ pub enum SettingsError {
 pub const RESOLUTIONS: std::ops::RangeInclusive<u32> = 16..=MAX_SIDE / 4;
 
 /// Most coarse triangles in the window: the coarse grid is made in one go, and must not hold a frame up.
-pub const MAX_COARSE_TRIANGLES: usize = 200_000;
+pub const MAX_COARSE_TRIANGLES: usize = 130_000;
 
 impl Settings {
     /// Checks every number, and passes the settings on when all can be met.
