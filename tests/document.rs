@@ -92,9 +92,14 @@ fn after_any_edits_the_mesh_is_the_one_made_from_scratch() {
     let [mut in_place, mut compared] = [0; 2];
     for domain in domains() {
         let settings = Settings { domain, resolution: 128, spacing: 0.2, ..Settings::default() };
-        let mut document = Document::new(settings, None).unwrap();
+        let mut document = Document::new(settings.clone(), None).unwrap();
         let mut follower = Follower::new(&mut document).unwrap();
         for edit in 0..edits / 3 {
+            if edit % 200 == 199 {
+                // Paint piles up until strokes change nothing any more: begin with a blank document now and then.
+                document = Document::new(settings.clone(), None).unwrap();
+                follower = Follower::new(&mut document).unwrap();
+            }
             random_edit(&mut random, &mut document);
             // Often the next edit comes while the mesh is still in the making.
             if random.bool() {
