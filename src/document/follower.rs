@@ -230,8 +230,9 @@ impl Follower {
         }
         let field = &self.field;
         let mesh = Arc::make_mut(&mut self.mesh);
+        let steps = self.updater.steps();
         let result = self.updater.run(mesh, |element| Ok(field.exceeds(element)), visits);
-        self.revision += u64::from(self.updater.has_changes());
+        self.revision += u64::from(self.updater.steps() != steps);
         result.map(|_| ())
     }
 

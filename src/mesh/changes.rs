@@ -20,8 +20,9 @@ pub struct Changes {
 pub(super) struct ChangeLog {
     pub(super) nodes: Marks,
     pub(super) triangles: Marks,
-    /// Something changed, be it only that an array became shorter.
-    pub(super) any: bool,
+    /// How many times nodes were created or removed.
+    steps: u64,
+    steps_told: u64,
 }
 
 impl ChangeLog {
@@ -35,9 +36,20 @@ impl ChangeLog {
         self.triangles.insert(id.index());
     }
 
+    /// To be called for every change: it may be that an array became shorter, and nothing else.
+    #[inline]
+    pub(super) fn step(&mut self) {
+        self.steps += 1;
+    }
+
+    pub(super) fn steps(&self) -> u64 {
+        self.steps
+    }
+
     /// What changed since this was last asked, `None` if nothing did.
     pub(super) fn take(&mut self) -> Option<Changes> {
         let (nodes, triangles) = (self.nodes.take_ranges(), self.triangles.take_ranges());
-        std::mem::take(&mut self.any).then_some(Changes { nodes, triangles })
+        let told = std::mem::replace(&mut self.steps_told, self.steps);
+        (told != self.steps).then_some(Changes { nodes, triangles })
     }
 }

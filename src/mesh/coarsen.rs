@@ -211,7 +211,7 @@ impl Mesh {
             self.levels.merged(parent.level());
             log.triangle(place);
         }
-        log.any = true;
+        log.step();
     }
 
     /// Removes an entry that nothing refers to any more. The last entry takes its place.

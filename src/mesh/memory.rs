@@ -22,6 +22,22 @@ impl Mesh {
     }
 }
 
+impl Mesh {
+    /// Gives the memory back that a larger mesh has left behind, but for room to double.
+    #[cold]
+    pub(super) fn give_memory_back(&mut self) {
+        self.triangles.shrink_to(2 * self.triangles.len());
+        self.nodes.shrink_to(2 * self.nodes.len());
+        self.triangle_at.shrink_to(2 * self.triangle_at.len());
+    }
+
+    /// Memory that nodes and triangles take, in bytes: 38 for each triangle, more where the mesh was larger a while ago.
+    /// What is reserved and was never touched does not count.
+    pub fn bytes(&self) -> usize {
+        size_of_val(&*self.triangles) + size_of_val(&*self.nodes) + size_of_val(&*self.triangle_at)
+    }
+}
+
 /// Makes room for `more` further entries, and where the array is large at once for `most` in all.
 pub(super) fn make_room<T>(array: &mut Vec<T>, more: usize, most: usize) {
     if array.capacity() - array.len() >= more {

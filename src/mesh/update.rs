@@ -96,6 +96,8 @@ pub struct Updater {
     loose: Marks,
     chain: Vec<TriangleId>,
     log: ChangeLog,
+    /// The most triangles since memory was last given back.
+    most_triangles: usize,
 }
 
 impl Updater {
@@ -110,6 +112,7 @@ impl Updater {
             loose: Marks::default(),
             chain: Vec::new(),
             log: ChangeLog::default(),
+            most_triangles: 0,
         }
     }
 
@@ -137,14 +140,14 @@ impl Updater {
         }
     }
 
-    /// Whether an entry of the mesh changed since [`Self::take_changes`] was last called.
-    pub fn has_changes(&self) -> bool {
-        self.log.any
-    }
-
     /// Which entries of the mesh changed since this was last asked, `None` if none did.
     pub fn take_changes(&mut self) -> Option<Changes> {
         self.log.take()
+    }
+
+    /// How often the mesh was changed so far: whenever this grows, another mesh is to be shown.
+    pub fn steps(&self) -> u64 {
+        self.log.steps()
     }
 
     /// Memory taken, in bytes: a fraction of a byte for each triangle.
@@ -175,6 +178,7 @@ impl Updater {
         };
         // So many triangles there can be before memory or the budget must be looked at.
         let mut room = 0;
+        self.most_triangles = self.most_triangles.max(mesh.triangles().len());
         // Ends: see the head of this file.
         for _ in 0..visits {
             if self.search.is_some() || !self.areas.is_empty() {
@@ -194,10 +198,17 @@ impl Updater {
             } else if self.loose.count() > 0 {
                 self.loosen(mesh, &diameters, &mut exceeds)?;
             } else {
-                return Ok(Progress::Done);
+                break;
             }
         }
-        Ok(if self.is_done() { Progress::Done } else { Progress::More })
+        if !self.is_done() {
+            return Ok(Progress::More);
+        }
+        if mesh.triangles().len() < self.most_triangles / 4 {
+            mesh.give_memory_back();
+            self.most_triangles = mesh.triangles().len();
+        }
+        Ok(Progress::Done)
     }
 
     /// One step of the search: a triangle or half a coarse cell.
@@ -268,7 +279,7 @@ impl Updater {
         for node in first_node..mesh.nodes().len() {
             log.nodes.insert(node);
         }
-        log.any = true;
+        log.step();
         Ok(())
     }
 
