@@ -141,7 +141,35 @@ fn anew(group: &mut BenchmarkGroup<WallTime>, scene: &Scene) {
     });
 }
 
+/// Bytes for each triangle of all that an update in place needs, after one that touched the whole mesh.
+fn memory(level: u8) {
+    let before = resident();
+    let mut scene = Scene::new(level, SIDE);
+    let mut updater = Updater::new(Limits::default());
+    scene.update(
+        &mut updater,
+        LatticeRect { min: LatticePoint::new(0, 0), max: scene.mesh.lattice().extent() },
+    );
+    let count = scene.mesh.triangles().len() as f64;
+    let (arrays, marks) = (scene.mesh.bytes() as f64 / count, updater.bytes() as f64 / count);
+    // A pyramid is a third larger than its lowest layer.
+    let field = (SIDE * SIDE) as usize * 4 / 3;
+    let resident = resident().saturating_sub(before + field) as f64 / count;
+    eprintln!(
+        "memory/{count}: {arrays:.2} in arrays, {marks:.2} in marks, {resident:.2} resident bytes per triangle"
+    );
+}
+
+/// Memory of this process in use, in bytes; zero where the system does not say.
+fn resident() -> usize {
+    let statm = std::fs::read_to_string("/proc/self/statm").unwrap_or_default();
+    let pages = statm.split(' ').nth(1).and_then(|pages| pages.parse().ok());
+    pages.map_or(0, |pages: usize| 4096 * pages)
+}
+
 fn main() {
+    memory(13);
+    memory(17);
     let mut criterion = Criterion::default().configure_from_args();
     let mut group = criterion.benchmark_group("update");
     group.sample_size(10).sampling_mode(SamplingMode::Flat).warm_up_time(Duration::from_millis(300));
