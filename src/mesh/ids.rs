@@ -1,6 +1,8 @@
 use bytemuck::{Pod, Zeroable};
 
 /// A node by its place in [`Mesh::nodes`](super::Mesh::nodes), from zero.
+///
+/// Refinement keeps all ids. Coarsening fills gaps with the last node, never with a coarse one: those keep their ids for ever.
 #[repr(transparent)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Pod, Zeroable)]
 pub struct NodeId(pub(super) u32);
@@ -20,8 +22,9 @@ impl NodeId {
 
 /// A triangle by its place in [`Mesh::triangles`](super::Mesh::triangles), from zero.
 ///
-/// Refinement keeps the index of a bisected triangle for one of its children, so the entry with a coarse
-/// triangle's index is always one of that triangle's descendants.
+/// Refinement keeps the index of a bisected triangle for one of its children, and coarsening gives a parent the lower index of
+/// its children's, so the entry with a coarse triangle's index is always one of that triangle's descendants. Coarsening fills
+/// gaps with the last entry: beyond the coarse triangles an id says nothing about the triangle that an update leaves there.
 #[repr(transparent)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Pod, Zeroable)]
 pub struct TriangleId(pub(super) u32);

@@ -87,7 +87,7 @@ impl Mesh {
         &self.lattice
     }
 
-    /// All nodes in lattice coordinates (𝒩), in order of creation.
+    /// All nodes in lattice coordinates (𝒩), those of the coarse grid first.
     pub fn nodes(&self) -> &[LatticePoint] {
         &self.nodes
     }

@@ -10,7 +10,8 @@ use super::{Neighbour, NodeId};
 /// - `neighbours` anticlockwise, the one across the bisection edge first.
 ///
 /// Which triangle is the *sibling*, the other child of the same parent, cannot always be told from the order of
-/// the vertices: the four triangles round a node can fit both ways. The lattice decides.
+/// the vertices: at level 1, the four triangles round a node fit both ways. The lattice decides, at every level; the rule and its
+/// proof stand at the head of `coarsen.rs`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Pod, Zeroable)]
 pub struct Triangle {
