@@ -2,10 +2,9 @@
 
 use std::sync::Arc;
 
-use glam::DVec2;
-
 use super::failure::Failure;
 use super::job::{Job, Meaning, RasterFormat, RasterSpec, SourceSpec};
+use crate::domain::Domain;
 use crate::field::{Source, Transfer, f32_not_below};
 use crate::geometry::Rect;
 use crate::io;
@@ -81,15 +80,10 @@ fn read_images(job: &Job, placed: Vec<Option<Raster>>, domain: Rect) -> Result<V
     job.sources.iter().zip(placed).map(read).collect()
 }
 
-fn coarse_mesh(job: &Job, domain: Rect) -> Result<Mesh, Failure> {
-    let spacing = job.spacing.unwrap_or(domain.size().max_element() / USUAL_CELLS);
-    let inside = |p: DVec2| {
-        job.inside.as_ref().is_none_or(|formula| {
-            let value = formula.eval(p.x, p.y);
-            value != 0.0 && !value.is_nan()
-        })
-    };
-    Ok(Mesh::coarse_grid(domain, spacing, inside, &job.limits)?)
+fn coarse_mesh(job: &Job, bounds: Rect) -> Result<Mesh, Failure> {
+    let spacing = job.spacing.unwrap_or(bounds.size().max_element() / USUAL_CELLS);
+    let domain = Domain { bounds, inside: job.inside.clone() };
+    Ok(Mesh::coarse_grid(bounds, spacing, |point| domain.contains(point), &job.limits)?)
 }
 
 /// With no bounds given, formulas and lengths are taken as they are: the ends are then out of reach.

@@ -222,7 +222,7 @@ impl Follower {
             let (now, later) = area.split_after(visits);
             self.unread.extend(later);
             self.field.update(document.layers().as_paint(), now);
-            self.note_repainted(&[now]);
+            self.note_repainted(now);
             return Ok(());
         }
         if self.updater.is_done() {
@@ -237,10 +237,10 @@ impl Follower {
     }
 
     fn show(&mut self) {
-        let Some(job) = self.job.take() else { return };
+        let Some(mut job) = self.job.take() else { return };
         self.settings = job.settings.clone();
         self.updater = Updater::new(self.settings.limits());
-        let repainted = job.repainted.clone();
+        self.unread = std::mem::take(&mut job.repainted);
         let (field, mesh) = job.finished();
         if let Some(field) = field {
             self.field = field;
@@ -249,14 +249,13 @@ impl Follower {
         self.revision += 1;
         self.replaced = true;
         (self.lost_step, self.refill) = (false, false);
-        self.unread = repainted;
     }
 
-    /// The field has changed in these areas; the mesh is to follow.
-    fn note_repainted(&mut self, areas: &[PixelRect]) {
+    /// The field has changed within `area`; the mesh is to follow.
+    fn note_repainted(&mut self, area: PixelRect) {
         match self.settings.rule {
-            Rule::Area => areas.iter().for_each(|&area| self.updater.add(self.field.lattice_rect(area))),
-            Rule::Vertex => self.lost_step |= !areas.is_empty(),
+            Rule::Area => self.updater.add(self.field.lattice_rect(area)),
+            Rule::Vertex => self.lost_step = true,
         }
     }
 

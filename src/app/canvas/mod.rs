@@ -142,19 +142,28 @@ impl App {
         }
         if let Some(pointer) = response.hover_pos().filter(|_| self.tools.has_ring()) {
             let points_per_world = camera.px_per_world() as f32 / px_per_point;
-            let sizing = matches!(self.gesture, Gesture::Sizing { dragged: true, .. });
-            if let Some(last) = self.last_painted
-                && ui.input(|input| input.modifiers.shift)
-                && !sizing
-            {
-                marks::paint_line_preview(&painter, at(last), pointer);
-            }
-            let middle = match self.gesture {
-                Gesture::Sizing { from, dragged: true, .. } => from,
-                _ => pointer,
-            };
-            marks::paint_brush_ring(&painter, middle, &self.tools, points_per_world);
+            self.paint_brush(ui, &painter, pointer, self.last_painted.map(at), points_per_world);
         }
+    }
+
+    /// The ring of the brush, and with Shift held the line that a click would paint from `last`.
+    fn paint_brush(
+        &self,
+        ui: &Ui,
+        painter: &egui::Painter,
+        pointer: egui::Pos2,
+        last: Option<egui::Pos2>,
+        points_per_world: f32,
+    ) {
+        if let Gesture::Sizing { from, dragged: true, .. } = self.gesture {
+            return marks::paint_brush_ring(painter, from, &self.tools, points_per_world);
+        }
+        if let Some(last) = last
+            && ui.input(|input| input.modifiers.shift)
+        {
+            marks::paint_line_preview(painter, last, pointer);
+        }
+        marks::paint_brush_ring(painter, pointer, &self.tools, points_per_world);
     }
 
     /// Message, progress and hint, over the canvas.
