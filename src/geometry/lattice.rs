@@ -209,6 +209,13 @@ impl Lattice {
             lattice_coordinate(self.bounds.min.y, self.bounds.max.y, self.step.y, extent.y, p.y),
         )
     }
+
+    /// The lattice point nearest to a point in world units; one of the rim for a point beyond.
+    pub fn nearest(&self, p: DVec2) -> LatticePoint {
+        let (p, extent) = (self.lattice_from_world(p), self.extent());
+        let nearest = (p + DVec2::splat(0.5)).floor().clamp(DVec2::ZERO, extent.as_dvec2());
+        LatticePoint::new(nearest.x as u32, nearest.y as u32)
+    }
 }
 
 #[inline]

@@ -10,6 +10,15 @@ pub struct LatticeRect {
 }
 
 impl LatticeRect {
+    /// This rectangle with every side moved outwards by so many steps, as far as the lattice goes.
+    pub fn expanded(&self, steps: u32, extent: LatticePoint) -> Self {
+        let Self { min, max } = *self;
+        Self {
+            min: LatticePoint::new(min.x.saturating_sub(steps), min.y.saturating_sub(steps)),
+            max: LatticePoint::new((max.x + steps).min(extent.x), (max.y + steps).min(extent.y)),
+        }
+    }
+
     /// Whether the rectangle and a closed triangle of a mesh have a point in common.
     ///
     /// The edges of such a triangle run along axes and diagonals of the lattice, so that the two meet when their extents

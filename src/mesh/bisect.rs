@@ -43,7 +43,8 @@ impl Mesh {
     #[inline(always)]
     pub(super) fn bisect_pair(&mut self, a: TriangleId, b: TriangleId) {
         let midpoint = self.push_midpoint(a);
-        self.levels.bisected(self.triangle(a).level(), 2);
+        self.counts.bisected(self.triangle(a).kind());
+        self.counts.bisected(self.triangle(b).kind());
         let new_a = TriangleId::from_index(self.triangles.len());
         let new_b = TriangleId::from_index(self.triangles.len() + 1);
         // Parents that begin with the same vertex keep their children on the same half.
@@ -61,7 +62,7 @@ impl Mesh {
     #[inline(always)]
     pub(super) fn bisect_at_boundary(&mut self, id: TriangleId) {
         let midpoint = self.push_midpoint(id);
-        self.levels.bisected(self.triangle(id).level(), 1);
+        self.counts.bisected(self.triangle(id).kind());
         self.bisect_side(id, midpoint, Facing::BOUNDARY);
     }
 
@@ -97,9 +98,9 @@ impl Mesh {
         let kept_vertices = [a, by_level(midpoint, b), by_level(c, midpoint)];
         let new_vertices = [b, by_level(midpoint, c), by_level(c, midpoint)];
         let new_orientation = if odd { t.orientation().reversed() } else { t.orientation() };
-        let level = t.level() + 1;
-        self.triangles[parent.index()] = Triangle::new(kept_vertices, kept_sees, t.orientation(), level);
-        self.triangles.push(Triangle::new(new_vertices, new_sees, new_orientation, level));
+        let kind = t.kind().finer();
+        self.triangles[parent.index()] = Triangle::new(kept_vertices, kept_sees, t.orientation(), kind);
+        self.triangles.push(Triangle::new(new_vertices, new_sees, new_orientation, kind));
         // The one node that the parent's entry loses; the new child has it.
         let [_, lost] = t.bisection_edge();
         self.triangle_at[lost.index()] = TriangleId::from_index(self.triangles.len() - 1);

@@ -1,7 +1,7 @@
 use std::ops::Range;
 
 use super::marks::Marks;
-use super::{NodeId, TriangleId};
+use super::{Mesh, NodeId, TriangleId};
 
 /// Which entries of a mesh's two arrays differ from what they were when this was last asked.
 ///
@@ -15,12 +15,36 @@ pub struct Changes {
     pub triangles: Vec<Range<usize>>,
 }
 
+impl Changes {
+    /// Takes in what changed after this, in `mesh` as it is now.
+    pub fn extend(&mut self, later: &Self, mesh: &Mesh) {
+        join(&mut self.nodes, &later.nodes, mesh.nodes().len());
+        join(&mut self.triangles, &later.triangles, mesh.triangles().len());
+    }
+}
+
+/// Both lists of ranges as one that ascends and has no gaps of no length, up to `end`.
+fn join(ranges: &mut Vec<Range<usize>>, later: &[Range<usize>], end: usize) {
+    ranges.extend_from_slice(later);
+    ranges.sort_unstable_by_key(|range| range.start);
+    let mut joined: Vec<Range<usize>> = Vec::with_capacity(ranges.len());
+    for range in
+        ranges.drain(..).map(|range| range.start..range.end.min(end)).filter(|range| !range.is_empty())
+    {
+        match joined.last_mut() {
+            Some(last) if range.start <= last.end => last.end = last.end.max(range.end),
+            _ => joined.push(range),
+        }
+    }
+    *ranges = joined;
+}
+
 /// [`Changes`] as they come about.
 #[derive(Clone, Debug, Default)]
 pub(super) struct ChangeLog {
     pub(super) nodes: Marks,
     pub(super) triangles: Marks,
-    /// How many times nodes were created or removed.
+    /// How many times something changed.
     steps: u64,
     steps_told: u64,
 }

@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, HashMap};
 
 use super::refine::Diameters;
+use super::triangle::Kind;
 use super::{DEEPEST_LEVEL, Element, InvalidTarget, Mesh, NodeId, Orientation, TriangleId};
 use crate::geometry::LatticePoint;
 
@@ -61,10 +62,12 @@ pub enum Violation {
     #[error("the triangle noted for node {0:?} does not have that node")]
     LostNode(NodeId),
     /// Invariant 9.
-    #[error("{noted} triangles are noted for level {level}, and there are {counted}")]
+    #[error("{noted} triangles are noted for level {level} (outside: {outside}), and there are {counted}")]
     Miscounted {
         /// The level.
-        level: usize,
+        level: u32,
+        /// Whether those outside the domain are meant, or those inside.
+        outside: bool,
         /// As the mesh has it.
         noted: usize,
         /// As it is.
@@ -236,13 +239,17 @@ impl Mesh {
         };
         let nodes = (0..self.nodes.len().max(self.triangle_at.len())).map(NodeId::from_index);
         found.extend(nodes.filter(|n| !has_it(n)).map(Violation::LostNode));
-        let mut counted = [0; DEEPEST_LEVEL + 1];
+        let mut counted = [0; Kind::COUNT];
         for triangle in &self.triangles {
-            counted[triangle.level() as usize] += 1;
+            counted[triangle.kind().index()] += 1;
         }
-        for (level, (&counted, &noted)) in counted.iter().zip(&self.levels.0).enumerate() {
-            if counted != noted as usize {
-                found.push(Violation::Miscounted { level, noted: noted as usize, counted });
+        for outside in [false, true] {
+            for level in 0..=DEEPEST_LEVEL as u32 {
+                let kind = Kind::inside(level).with_outside(outside).index();
+                let (noted, counted) = (self.counts.0[kind] as usize, counted[kind]);
+                if counted != noted {
+                    found.push(Violation::Miscounted { level, outside, noted, counted });
+                }
             }
         }
     }
@@ -294,7 +301,7 @@ mod tests {
     }
 
     fn with_level(t: Triangle, level: u32) -> Triangle {
-        Triangle::new(t.vertices, t.neighbours, t.orientation(), level)
+        Triangle::new(t.vertices, t.neighbours, t.orientation(), Kind::inside(level))
     }
 
     #[test]
@@ -318,7 +325,7 @@ mod tests {
     fn a_wrong_orientation_is_reported() {
         let mut mesh = sound_mesh();
         let t = mesh.triangles[1];
-        mesh.triangles[1] = Triangle::new(t.vertices, t.neighbours, t.orientation().reversed(), t.level());
+        mesh.triangles[1] = Triangle::new(t.vertices, t.neighbours, t.orientation().reversed(), t.kind());
         assert_reported(&mesh, |v| *v == Violation::WrongOrientation(TriangleId(1)));
     }
 
@@ -401,7 +408,11 @@ mod tests {
         mesh.triangle_at[4] = TriangleId::from_index(elsewhere);
         assert_eq!(mesh.violations(), [Violation::LostNode(NodeId(4))]);
         let mut mesh = sound_mesh();
-        mesh.levels.0[7] += 1;
-        assert_eq!(mesh.violations(), [Violation::Miscounted { level: 7, noted: 1, counted: 0 }]);
+        mesh.counts.0[7] += 1;
+        let miscounted = Violation::Miscounted { level: 7, outside: false, noted: 1, counted: 0 };
+        assert_eq!(mesh.violations(), [miscounted]);
+        let mut mesh = sound_mesh();
+        mesh.triangles[3].set_outside(true);
+        assert_reported(&mesh, |v| matches!(v, Violation::Miscounted { outside: true, .. }));
     }
 }

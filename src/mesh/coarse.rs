@@ -2,7 +2,8 @@
 
 use glam::DVec2;
 
-use super::{LevelCounts, Limits, Mesh, Neighbour, NodeId, Orientation, Triangle, TriangleId};
+use super::triangle::Kind;
+use super::{KindCounts, Limits, Mesh, Neighbour, NodeId, Orientation, Triangle, TriangleId};
 use crate::geometry::{GridError, Lattice, LatticePoint, Rect};
 
 /// Why no coarse triangulation could be made.
@@ -102,15 +103,15 @@ impl<'a> CoarseGrid<'a> {
                     Some(id) => id.into(),
                     None => Neighbour::BOUNDARY,
                 });
-                Triangle::new(vertices, neighbours, Orientation::Anticlockwise, 0)
+                Triangle::new(vertices, neighbours, Orientation::Anticlockwise, Kind::inside(0))
             })
             .collect();
         let mut triangle_at = vec![TriangleId(0); nodes.len()];
         for (index, vertex) in triangles.iter().enumerate().flat_map(|(i, t)| t.vertices.map(|v| (i, v))) {
             triangle_at[vertex.index()] = TriangleId::from_index(index);
         }
-        let levels = LevelCounts::coarse(triangles.len());
-        Mesh { lattice: *self.lattice, nodes, triangles, triangle_at, levels, coarse }
+        let counts = KindCounts::coarse(triangles.len());
+        Mesh { lattice: *self.lattice, nodes, triangles, triangle_at, counts, coarse }
     }
 
     /// The index map ℳ_t, and the numbers of the coarse triangles that stay (Algorithm 17).

@@ -171,15 +171,15 @@ impl Mesh {
     #[inline]
     fn parent(&self, Siblings { kept, new }: Siblings, across: Neighbour) -> Triangle {
         let (kept, new) = (self.triangle(kept), self.triangle(new));
-        let level = kept.level() - 1;
+        let kind = kept.kind().coarser();
         let [a, ..] = kept.vertices;
-        let vertices = if level.is_multiple_of(2) {
+        let vertices = if kind.level().is_multiple_of(2) {
             [a, new.vertices[0], new.vertices[1]]
         } else {
             [a, new.vertices[0], new.vertices[2]]
         };
         // The kept child runs as its parent does.
-        let mut parent = Triangle::new(vertices, [across; 3], kept.orientation(), level);
+        let mut parent = Triangle::new(vertices, [across; 3], kept.orientation(), kind);
         let (kept, new) = (kept.neighbours[0], new.neighbours[0]);
         parent.neighbours = if parent.matched() { [across, kept, new] } else { [across, new, kept] };
         parent
@@ -207,8 +207,9 @@ impl Mesh {
                 let noted = &mut self.triangle_at[vertex.index()];
                 *noted = if *noted == freed { place } else { *noted };
             }
+            let children = [place, freed].map(|id| self.triangle(id).kind());
+            self.counts.merged(children, parent.kind());
             self.triangles[place.index()] = *parent;
-            self.levels.merged(parent.level());
             log.triangle(place);
         }
         log.step();

@@ -33,7 +33,7 @@ pub enum Location {
     },
     /// Beyond the rectangle that the coarse grid covers.
     OutsideBounds,
-    /// Within that rectangle, but where no triangle was kept: in a hole or beyond the domain.
+    /// Within that rectangle, but where no triangle was kept, or only one outside the domain.
     InHole,
     /// A coordinate is NaN.
     Invalid,
@@ -81,6 +81,7 @@ impl Mesh {
                 WalkEnd::Found(id, sides) => self.lowest_round(id, sides),
                 WalkEnd::Blocked => unreachable!("the walk stays in the coarse triangle that it starts in"),
             })
+            .filter(|found| *found != Location::InHole)
             .min_by_key(Location::triangle)
             .unwrap_or(Location::InHole)
     }
@@ -133,27 +134,31 @@ impl Mesh {
         }
     }
 
-    /// Where a point lies that was found in triangle `id` on the given sides of its edges; ties go to the lowest index.
+    /// Where a point lies that was found in triangle `id` on the given sides of its edges; ties go to the lowest index of the
+    /// domain.
     pub(super) fn lowest_round(&self, id: TriangleId, sides: [Side; 3]) -> Location {
         let triangle = self.triangle(id);
         let on = sides.map(|side| side == Side::On);
         match on.iter().filter(|&&on| on).count() {
+            0 if triangle.is_outside() => Location::InHole,
             0 => Location::Inside { triangle: id },
             1 => {
                 let edge = on.iter().position(|&on| on).unwrap_or(0);
-                match triangle.neighbours[edge].triangle() {
-                    Some(across) if across < id => {
+                let both = [Some(id), triangle.neighbours[edge].triangle()];
+                match both.into_iter().flatten().filter(|&id| self.belongs(id)).min() {
+                    None => Location::InHole,
+                    Some(lowest) if lowest == id => Location::OnEdge { triangle: id, edge },
+                    Some(across) => {
                         Location::OnEdge { triangle: across, edge: self.edge_towards(across, id) }
                     }
-                    _ => Location::OnEdge { triangle: id, edge },
                 }
             }
             _ => {
                 // Two of three edges anticlockwise: the first of them ends in the vertex that they share.
                 let first = (0..3).find(|&j| on[j] && on[(j + 1) % 3]).unwrap_or(0);
                 let node = triangle.edge_nodes()[first].1;
-                let lowest = self.triangles_round(node, id).min().unwrap_or(id);
-                Location::OnVertex { triangle: lowest, node }
+                let lowest = self.triangles_round(node, id).filter(|&id| self.belongs(id)).min();
+                lowest.map_or(Location::InHole, |triangle| Location::OnVertex { triangle, node })
             }
         }
     }

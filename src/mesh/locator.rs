@@ -220,7 +220,8 @@ fn ids_by_level(mesh: &Mesh) -> Vec<Vec<TriangleId>> {
     let counts = mesh.level_counts();
     let mut by_level = vec![Vec::new()];
     by_level.extend(counts.into_iter().map(Vec::with_capacity));
-    for (index, triangle) in mesh.triangles.iter().enumerate() {
+    // Squares without a triangle are looked at once more, by a walk: that says what lies outside.
+    for (index, triangle) in mesh.triangles.iter().enumerate().filter(|(_, t)| !t.is_outside()) {
         by_level[triangle.level() as usize + 1].push(TriangleId::from_index(index));
     }
     by_level

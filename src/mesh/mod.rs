@@ -29,7 +29,9 @@ mod locate;
 mod locator;
 mod marks;
 mod memory;
+mod outside;
 mod refine;
+mod survey;
 mod triangle;
 mod update;
 
@@ -38,6 +40,7 @@ use std::f64::consts::SQRT_2;
 use glam::DVec2;
 
 use crate::geometry::{LATTICE_BITS, Lattice, LatticePoint};
+use triangle::Kind;
 
 pub use adjacency::Adjacency;
 pub use changes::Changes;
@@ -49,6 +52,7 @@ pub use interpolate::{barycentric, interpolate};
 pub use locate::Location;
 pub use locator::Locator;
 pub use refine::{Element, InvalidTarget, Limits, Progress, RefineError, Refiner};
+pub use survey::{Survey, Topology};
 pub use triangle::{Orientation, Triangle};
 pub use update::Updater;
 
@@ -67,7 +71,8 @@ const DEEPEST_LEVEL: usize = 2 * LATTICE_BITS as usize;
 /// 6. *Area*: the triangles cover exactly the coarse triangles that were kept.
 /// 7. *Nodes*: every node is a vertex of some triangle, and no two nodes coincide.
 /// 8. *Buckets*: the entry with a coarse triangle's index lies in that coarse triangle.
-/// 9. *Ledgers*: the triangle noted for a node has that node, and the triangles of each level are counted right.
+/// 9. *Ledgers*: the triangle noted for a node has that node, and the triangles of each level and class are counted
+///    right.
 ///
 /// The tenth, that no triangle exceeds its target (Eq. 14), needs the rule: [`Mesh::unsatisfied`].
 #[derive(Debug)]
@@ -77,7 +82,7 @@ pub struct Mesh {
     triangles: Vec<Triangle>,
     /// For each node one of the triangles round it.
     triangle_at: Vec<TriangleId>,
-    levels: LevelCounts,
+    counts: KindCounts,
     coarse: coarse::CoarseIndex,
 }
 
@@ -141,10 +146,11 @@ impl Mesh {
         self.triangle(id).vertices.map(|v| self.world(v))
     }
 
-    /// How many triangles there are at each level, from level 0 to the deepest.
+    /// How many triangles of the domain there are at each level, from level 0 to the deepest.
     pub fn level_counts(&self) -> Vec<usize> {
-        let deepest = self.levels.0.iter().rposition(|&n| n > 0);
-        self.levels.0[..deepest.map_or(0, |level| level + 1)].iter().map(|&n| n as usize).collect()
+        let inside = &self.counts.0[..DEEPEST_LEVEL + 1];
+        let deepest = inside.iter().rposition(|&n| n > 0);
+        inside[..deepest.map_or(0, |level| level + 1)].iter().map(|&n| n as usize).collect()
     }
 
     /// Length of the bisection edge of a triangle at `level`, in world units (Eq. 1).
@@ -153,30 +159,43 @@ impl Mesh {
     }
 }
 
-/// Triangles per level, kept up to date with every bisection and every merger.
+/// Triangles by level and class, kept up to date with every bisection and every merger.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct LevelCounts([u32; DEEPEST_LEVEL + 1]);
+struct KindCounts([u32; Kind::COUNT]);
 
-impl LevelCounts {
+impl KindCounts {
     /// Of a mesh of so many coarse triangles.
     fn coarse(triangles: usize) -> Self {
-        let mut counts = [0; DEEPEST_LEVEL + 1];
+        let mut counts = [0; Kind::COUNT];
         counts[0] = triangles as u32;
         Self(counts)
     }
 
-    /// So many parents of a level have given way to their children.
+    /// A parent of this kind has given way to its children.
     #[inline]
-    fn bisected(&mut self, level: u32, parents: u32) {
-        self.0[level as usize] -= parents;
-        self.0[level as usize + 1] += 2 * parents;
+    fn bisected(&mut self, parent: Kind) {
+        self.0[parent.index()] -= 1;
+        self.0[parent.finer().index()] += 2;
     }
 
-    /// The opposite of [`Self::bisected`]: a parent of this level is back.
+    /// The opposite of [`Self::bisected`]: a parent of this kind is back, whatever class its children were.
     #[inline]
-    fn merged(&mut self, level: u32) {
-        self.0[level as usize] += 1;
-        self.0[level as usize + 1] -= 2;
+    fn merged(&mut self, children: [Kind; 2], parent: Kind) {
+        for child in children {
+            self.0[child.index()] -= 1;
+        }
+        self.0[parent.index()] += 1;
+    }
+
+    /// Triangles outside the domain, by level.
+    fn outside(&self) -> impl Iterator<Item = u32> {
+        self.0[Kind::COUNT / 2..].iter().copied()
+    }
+
+    /// A triangle has changed its class.
+    fn moved(&mut self, from: Kind, to: Kind) {
+        self.0[from.index()] -= 1;
+        self.0[to.index()] += 1;
     }
 }
 
@@ -187,7 +206,7 @@ impl Clone for Mesh {
             nodes: self.nodes.clone(),
             triangles: self.triangles.clone(),
             triangle_at: self.triangle_at.clone(),
-            levels: self.levels,
+            counts: self.counts,
             coarse: self.coarse.clone(),
         }
     }
@@ -198,7 +217,7 @@ impl Clone for Mesh {
         self.nodes.clone_from(&source.nodes);
         self.triangles.clone_from(&source.triangles);
         self.triangle_at.clone_from(&source.triangle_at);
-        self.levels = source.levels;
+        self.counts = source.counts;
         self.coarse.clone_from(&source.coarse);
     }
 }

@@ -20,7 +20,59 @@ pub struct Triangle {
     /// References to the three neighbours, N(t).
     pub neighbours: [Neighbour; 3],
     orientation: u32,
-    level: u32,
+    kind: Kind,
+}
+
+/// Level and class of a triangle in one word: the level, plus [`Kind::OUTSIDE`] where it lies outside the domain.
+///
+/// Children are of their parent's class until somebody asks anew.
+#[repr(transparent)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Pod, Zeroable)]
+pub(super) struct Kind(u32);
+
+impl Kind {
+    /// More than any level: the GPU's shader knows this number too.
+    const OUTSIDE: u32 = 64;
+    /// How many kinds there can be.
+    pub(super) const COUNT: usize = 2 * Self::OUTSIDE as usize;
+
+    #[inline]
+    pub(super) const fn inside(level: u32) -> Self {
+        Self(level)
+    }
+
+    #[inline]
+    pub(super) const fn with_outside(self, outside: bool) -> Self {
+        Self(self.level() | if outside { Self::OUTSIDE } else { 0 })
+    }
+
+    #[inline]
+    pub(super) const fn level(self) -> u32 {
+        self.0 % Self::OUTSIDE
+    }
+
+    #[inline]
+    pub(super) const fn is_outside(self) -> bool {
+        self.0 >= Self::OUTSIDE
+    }
+
+    /// The kind of the children.
+    #[inline]
+    pub(super) const fn finer(self) -> Self {
+        Self(self.0 + 1)
+    }
+
+    /// The kind of the parent.
+    #[inline]
+    pub(super) const fn coarser(self) -> Self {
+        Self(self.0 - 1)
+    }
+
+    /// Place in a table of all kinds.
+    #[inline]
+    pub(super) const fn index(self) -> usize {
+        self.0 as usize
+    }
 }
 
 /// Which way the vertices of a triangle run round it, O(t).
@@ -49,9 +101,9 @@ impl Triangle {
         vertices: [NodeId; 3],
         neighbours: [Neighbour; 3],
         orientation: Orientation,
-        level: u32,
+        kind: Kind,
     ) -> Self {
-        Self { vertices, neighbours, orientation: orientation as u32, level }
+        Self { vertices, neighbours, orientation: orientation as u32, kind }
     }
 
     /// How many bisections made this triangle from a coarse one, L(t).
@@ -59,7 +111,24 @@ impl Triangle {
     #[doc(alias = "depth")]
     #[inline]
     pub const fn level(&self) -> u32 {
-        self.level
+        self.kind.level()
+    }
+
+    /// Whether the triangle is there only to hold up its neighbours, and lies outside the domain
+    /// ([`Mesh::sort_out`](super::Mesh::sort_out)).
+    #[inline]
+    pub const fn is_outside(&self) -> bool {
+        self.kind.is_outside()
+    }
+
+    #[inline]
+    pub(super) const fn kind(&self) -> Kind {
+        self.kind
+    }
+
+    #[inline]
+    pub(super) fn set_outside(&mut self, outside: bool) {
+        self.kind = self.kind.with_outside(outside);
     }
 
     /// Which way [`Self::vertices`] run, O(t).
@@ -73,7 +142,7 @@ impl Triangle {
     /// This is k of the report, counted from zero: 2 at even levels, 1 at odd levels.
     #[inline]
     pub const fn bisection_end(&self) -> usize {
-        2 - (self.level & 1) as usize
+        2 - (self.kind.0 & 1) as usize
     }
 
     /// The ends of the bisection edge, the longest one.
@@ -96,7 +165,7 @@ impl Triangle {
     #[doc(alias = "peak")]
     #[inline]
     pub const fn newest_vertex(&self) -> Option<NodeId> {
-        if self.level == 0 { None } else { Some(self.apex()) }
+        if self.level() == 0 { None } else { Some(self.apex()) }
     }
 
     /// The edges as pairs of places among the vertices, each (from, to), anticlockwise round the triangle and

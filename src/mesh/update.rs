@@ -86,7 +86,7 @@ use crate::geometry::{LatticePoint, LatticeRect};
 pub struct Updater {
     limits: Limits,
     /// Rectangles yet to be searched.
-    areas: Vec<LatticeRect>,
+    areas: Vec<Area>,
     search: Option<Search>,
     /// Triangles found by the search under way; otherwise empty.
     reached: Marks,
@@ -119,7 +119,13 @@ impl Updater {
     /// Adds a rectangle to the work: the rule may give another answer for triangles that touch it. Must be called before the next
     /// [`Self::run`] after such a change, and may be called while earlier work is under way.
     pub fn add(&mut self, area: LatticeRect) {
-        self.areas.push(area);
+        self.areas.push(Area { rect: area, tell: false });
+    }
+
+    /// As [`Self::add`], where besides something has changed that is derived from each triangle alone: all that touch the rectangle
+    /// are told of as changed ([`Self::take_changes`]).
+    pub fn add_and_tell(&mut self, area: LatticeRect) {
+        self.areas.push(Area { rect: area, tell: true });
     }
 
     /// Whether nothing is left to do.
@@ -228,9 +234,13 @@ impl Updater {
                 self.exceeding.insert(id.index());
             }
             self.loose.insert(id.index());
+            if search.area.tell {
+                self.log.triangle(id);
+                self.log.step();
+            }
             search.found.pop();
             for across in mesh.triangle(id).neighbours.iter().filter_map(|n| n.triangle()) {
-                if !self.reached.contains(across.index()) && search.area.touches(mesh.corners(across)) {
+                if !self.reached.contains(across.index()) && search.area.rect.touches(mesh.corners(across)) {
                     self.reached.insert(across.index());
                     search.found.push(across);
                 }
@@ -327,6 +337,14 @@ impl Updater {
     }
 }
 
+/// A rectangle to be searched.
+#[derive(Clone, Copy, Debug)]
+struct Area {
+    rect: LatticeRect,
+    /// Whether all triangles that touch it count as changed.
+    tell: bool,
+}
+
 /// A search for the triangles that touch a rectangle.
 ///
 /// In one coarse triangle they can be reached from each other across edges: what it has in common with the rectangle is convex,
@@ -335,7 +353,7 @@ impl Updater {
 /// or not.
 #[derive(Clone, Debug)]
 struct Search {
-    area: LatticeRect,
+    area: Area,
     /// The cells that the area touches: the first and last column, and the first and last row.
     columns: [u32; 2],
     rows: [u32; 2],
@@ -346,15 +364,15 @@ struct Search {
 }
 
 impl Search {
-    fn new(mesh: &Mesh, area: LatticeRect) -> Self {
+    fn new(mesh: &Mesh, area: Area) -> Self {
         let steps = mesh.lattice().cell_steps();
         let [columns, rows] = mesh.lattice().cells();
         // Closed cells: a line between two cells belongs to both.
         let touched = |low: u32, high: u32, count: u32| {
             [low.div_ceil(steps).saturating_sub(1), (high / steps).min(count - 1)]
         };
-        let columns = touched(area.min.x, area.max.x, columns);
-        let rows = touched(area.min.y, area.max.y, rows);
+        let columns = touched(area.rect.min.x, area.rect.max.x, columns);
+        let rows = touched(area.rect.min.y, area.rect.max.y, rows);
         Self { area, columns, rows, next: 0, found: Vec::new() }
     }
 
@@ -379,11 +397,11 @@ impl Search {
         let (left, bottom) = (column * steps, row * steps);
         // The corner of the common rectangle that lies deepest in the half.
         let (point, inside) = if upper {
-            let x = self.area.max.x.min(left + steps);
-            let y = self.area.max.y.min(bottom + steps);
+            let x = self.area.rect.max.x.min(left + steps);
+            let y = self.area.rect.max.y.min(bottom + steps);
             (LatticePoint::new(x, y), x - left + (y - bottom) >= steps)
         } else {
-            let (x, y) = (self.area.min.x.max(left), self.area.min.y.max(bottom));
+            let (x, y) = (self.area.rect.min.x.max(left), self.area.rect.min.y.max(bottom));
             (LatticePoint::new(x, y), x - left + (y - bottom) <= steps)
         };
         if !inside {

@@ -22,7 +22,7 @@ pub struct Highlights {
 impl Highlights {
     /// A triangle and its three neighbours.
     pub fn around(mesh: &Mesh, selected: TriangleId) -> Self {
-        let neighbours = mesh.triangle(selected).neighbours.map(|n| n.triangle());
+        let neighbours = mesh.neighbours_in_domain(selected).map(|n| n.triangle());
         Self { selected: Some(selected), neighbours, hovered: None }
     }
 }

@@ -12,7 +12,7 @@ const HEIGHT: f32 = 224.0;
 impl App {
     /// The legend is the histogram: same colours as on the canvas, counts beside the bars.
     pub(super) fn levels_ui(&mut self, ui: &mut Ui) {
-        let total = self.session.mesh().triangles().len();
+        let total = self.session.mesh().triangle_count();
         let note = format!("{} triangles", format::count(total as u64));
         Section::new("Levels").note(&note).show(ui, |ui| {
             let settings = self.session.follower().settings();

@@ -64,7 +64,7 @@ impl App {
         let mesh = self.session.mesh();
         let deepest = self.session.level_counts().len().saturating_sub(1);
         [
-            StatusCell::new("triangles", format::count(mesh.triangles().len() as u64), 10),
+            StatusCell::new("triangles", format::count(mesh.triangle_count() as u64), 10),
             StatusCell::new("nodes", format::count(mesh.nodes().len() as u64), 10),
             StatusCell::new("deepest level", deepest.to_string(), 2),
         ]

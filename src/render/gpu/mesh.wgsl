@@ -29,7 +29,8 @@ struct Triangle {
     vertices: array<u32, 3>,
     neighbours: array<u32, 3>,
     orientation: u32,
-    level: u32,
+    // The level, plus 64 where the triangle lies outside the domain.
+    kind: u32,
 }
 
 @group(0) @binding(0) var<uniform> view: View;
@@ -51,10 +52,13 @@ struct Corner {
 fn vs_main(@builtin(vertex_index) index: u32) -> Corner {
     let entry = index / 3u;
     let corner = index % 3u;
-    let level_number = triangles[entry].level;
+    let level_number = triangles[entry].kind % 64u;
     let level = view.levels[level_number];
     var placed: Placed;
-    if level.huge != 0u {
+    if triangles[entry].kind >= 64u {
+        // All three corners in one place: nothing is drawn.
+        placed.px = vec2(0.0);
+    } else if level.huge != 0u {
         placed = huge_corner(entry, corner);
     } else {
         let steps = steps_from_anchor(triangles[entry].vertices[corner]);

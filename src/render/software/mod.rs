@@ -37,7 +37,7 @@ fn draw_triangles(image: &mut Image, mesh: &Mesh, camera: &Camera, style: &Style
     let snapped: Vec<[i32; 2]> =
         mesh.nodes().iter().map(|&p| raster::snapped(camera.screen_from_lattice(p))).collect();
     let mut canvas = Canvas::of(image);
-    for triangle in mesh.triangles() {
+    for triangle in mesh.triangles().iter().filter(|t| !t.is_outside()) {
         let level = triangle.level() as usize;
         if paints[level].leg_px < HUGE_LEG_PX {
             canvas.fill_snapped(triangle.vertices.map(|v| snapped[v.index()]), &brushes[level]);

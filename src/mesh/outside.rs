@@ -1,0 +1,65 @@
+//! Triangles outside the domain.
+//!
+//! Where the boundary is met by refinement, the coarse grid covers the whole rectangle, and what lies outside the domain is sorted
+//! out when all is refined. Those triangles are not removed: they hold up their neighbours. So the mesh is updated in place, and a
+//! point is located in it, as if there were no boundary. They only bear a mark, and counts, fingerprint, location and whatever
+//! leaves the program pass them over.
+
+use std::ops::Range;
+
+use super::refine::Diameters;
+use super::{Element, Mesh, Neighbour, TriangleId};
+
+impl Mesh {
+    /// How many triangles belong to the domain.
+    pub fn triangle_count(&self) -> usize {
+        self.triangles.len() - self.outside_count()
+    }
+
+    /// How many triangles lie outside the domain.
+    pub fn outside_count(&self) -> usize {
+        self.counts.outside().map(|n| n as usize).sum()
+    }
+
+    /// Whether a triangle belongs to the domain.
+    ///
+    /// # Panics
+    /// When the id is not of this mesh.
+    #[inline]
+    pub fn belongs(&self, id: TriangleId) -> bool {
+        !self.triangle(id).is_outside()
+    }
+
+    /// The neighbours of a triangle as the domain has them: those outside are boundary. Anticlockwise, the one across the
+    /// bisection edge first.
+    ///
+    /// # Panics
+    /// When the id is not of this mesh.
+    pub fn neighbours_in_domain(&self, id: TriangleId) -> [Neighbour; 3] {
+        self.triangle(id).neighbours.map(|across| match across.triangle() {
+            Some(other) if self.belongs(other) => across,
+            _ => Neighbour::BOUNDARY,
+        })
+    }
+
+    /// Area of the triangles that belong to the domain, in square world units.
+    ///
+    /// Where cells are not quite square this is the area of the true triangles all the same.
+    pub fn area(&self) -> f64 {
+        let cell = self.lattice.step() * f64::from(self.lattice.cell_steps());
+        let share = |level: usize| 0.5 * cell.x * cell.y / (1u64 << level) as f64;
+        self.level_counts().iter().enumerate().map(|(level, &count)| count as f64 * share(level)).sum()
+    }
+
+    /// Asks anew which of the triangles `ids` lie outside the domain. New triangles are of their parent's class until then.
+    pub fn sort_out(&mut self, ids: Range<usize>, mut is_outside: impl FnMut(&Element) -> bool) {
+        let diameters = Diameters::of(self);
+        for index in ids {
+            let outside = is_outside(&self.element(TriangleId::from_index(index), &diameters));
+            let triangle = &mut self.triangles[index];
+            let before = triangle.kind();
+            triangle.set_outside(outside);
+            self.counts.moved(before, triangle.kind());
+        }
+    }
+}
