@@ -18,6 +18,7 @@ use meshbrush::app::view::FieldOverlay;
 use meshbrush::app::{App, CANVAS_NAME};
 use meshbrush::colormap::Ground;
 use meshbrush::document::{Base, Document, Example, Follower, Setting, Settings, Stage};
+use meshbrush::domain::{Domain, Shape};
 use meshbrush::field::{Formula, Rule};
 use meshbrush::mesh::{Fingerprint, Location, TriangleId};
 
@@ -774,7 +775,7 @@ fn spacing_diameters_and_base_change_the_mesh_at_once() {
     assert_eq!(settings(&window).base, Base::Constant(0.05));
     changed(&window, "constant");
     type_into(&mut window, "Domain where", "hypot(x - 0.5, y - 0.5) < 0.5");
-    assert!(settings(&window).domain.inside.is_some());
+    assert!(settings(&window).domain.formula().is_some());
     changed(&window, "domain");
     type_into(&mut window, "Right", "2");
     assert_eq!(settings(&window).domain.bounds.max.x, 2.0);
@@ -850,7 +851,10 @@ fn impossible_settings_are_refused_with_a_sentence() {
         Setting::Base(Base::Constant(-1.0)),
         Setting::Resolution(1),
         Setting::Bounds(meshbrush::geometry::Rect::new(DVec2::ONE, DVec2::ZERO)),
-        Setting::Inside(Some(Formula::parse("x > 9").unwrap())),
+        Setting::Domain(Domain {
+            bounds: meshbrush::geometry::Rect::UNIT,
+            shape: Shape::Formula(Formula::parse("x > 9").unwrap()),
+        }),
     ] {
         set(&mut window, setting.clone());
         assert!(notice(&window).ends_with('.'), "{setting:?}: {}", notice(&window));

@@ -2,7 +2,7 @@
 
 use glam::{DVec2, dvec2};
 use meshbrush::document::{Base, Document, Example, Follower, MeshChange, Setting, Settings, Stage};
-use meshbrush::domain::Domain;
+use meshbrush::domain::{Domain, Shape};
 use meshbrush::field::{Formula, Rule, VertexRule};
 use meshbrush::geometry::Rect;
 use meshbrush::paint::{Brush, Medium};
@@ -60,7 +60,7 @@ fn domains() -> [Domain; 3] {
     [
         Domain::rectangle(Rect::UNIT),
         Domain::rectangle(Rect::new(DVec2::ZERO, dvec2(1.0, 0.7))),
-        Domain { bounds: Rect::UNIT, inside: Some(formula) },
+        Domain { bounds: Rect::UNIT, shape: Shape::Formula(formula) },
     ]
 }
 
@@ -192,7 +192,7 @@ fn what_cannot_be_met_leaves_document_and_mesh_as_they_were() {
         Setting::Base(Base::Formula(formula("x - 0.7"))),
         Setting::Base(Base::Formula(formula("1 / 0"))),
         Setting::MaxTriangles(1300),
-        Setting::Inside(Some(formula("x > 2"))),
+        Setting::Domain(Domain { bounds: Rect::UNIT, shape: Shape::Formula(formula("x > 2")) }),
     ];
     for setting in late {
         document.set(setting).unwrap();

@@ -56,6 +56,20 @@ pub struct InputArguments {
     #[arg(long, value_name = "EXPR", allow_hyphen_values = true)]
     pub inside: Option<String>,
 
+    /// Domain with holes: a GeoJSON file with polygons, in its own coordinates
+    ///
+    /// The coarse grid covers the rectangle round them. What one of several polygons covers belongs to the domain.
+    #[arg(long, value_name = "FILE.geojson", conflicts_with_all = ["domain", "inside"])]
+    pub region: Option<PathBuf>,
+
+    /// How the mesh meets the outline of a region
+    #[arg(long, value_enum, default_value_t = BoundaryArgument::Fitted)]
+    pub boundary: BoundaryArgument,
+
+    /// Largest diameter of triangles on the outline, when fitted [default: an eleventh of the spacing]
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
+    pub boundary_diameter: Option<f64>,
+
     /// Longest side of a coarse cell [default: a twentieth of the domain's longer side]
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
     pub spacing: Option<f64>,
@@ -114,6 +128,15 @@ pub struct InputArguments {
     /// Deepest level allowed; triangles there count as satisfied
     #[arg(long, value_name = "LEVEL")]
     pub max_level: Option<u32>,
+}
+
+/// How the boundary is met, as typed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum BoundaryArgument {
+    /// A coarse triangle stays when its three nodes are inside (Appendix A of the report)
+    Report,
+    /// The mesh is refined along the outline; then a triangle stays when its centroid is inside
+    Fitted,
 }
 
 /// The two rules, as typed.

@@ -1,5 +1,6 @@
 //! Refines a coarse mesh until the job's rule holds everywhere.
 
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use glam::DVec2;
@@ -8,8 +9,9 @@ use super::failure::Failure;
 use super::job::Job;
 use super::sources::Start;
 use super::terminal::{Terminal, grouped};
+use crate::domain::{DomainOnLattice, Region};
 use crate::field::{Rule, Source, TargetField, TargetFieldSpec, Transfer, VertexRule, smallest_target};
-use crate::mesh::{Element, InvalidTarget, Limits, Mesh, NodeId, Progress, Refiner, TriangleId};
+use crate::mesh::{CoarseError, Element, InvalidTarget, Limits, Mesh, NodeId, Progress, Refiner, TriangleId};
 
 /// Triangles asked about, or pixels evaluated, between two looks at the clock.
 const SLICE: usize = 1 << 18;
@@ -18,6 +20,10 @@ const SLICE: usize = 1 << 18;
 pub struct Built {
     /// The mesh.
     pub mesh: Mesh,
+    /// The domain as it was asked for.
+    pub domain: DomainOnLattice,
+    /// Its polygons, if it has some.
+    pub region: Option<Arc<Region>>,
     /// Its target diameter.
     pub target: Target,
     /// Time spent on refinement alone.
@@ -85,13 +91,19 @@ impl Target {
     ///
     /// # Errors
     /// When a target is impossible.
-    pub fn unsatisfied(&self, mesh: &Mesh) -> Result<Vec<TriangleId>, InvalidTarget> {
+    pub fn unsatisfied(
+        &self,
+        mesh: &Mesh,
+        domain: &DomainOnLattice,
+    ) -> Result<Vec<TriangleId>, InvalidTarget> {
         match self {
             Self::ByVertex(target) => {
                 let mut rule = VertexRule::new(|p| target.at(p));
-                mesh.unsatisfied(|element| rule.exceeds(element))
+                mesh.unsatisfied(|element| domain.exceeds(element, |element| rule.exceeds(element)))
             }
-            Self::ByArea { field, .. } => mesh.unsatisfied(|element| Ok(field.exceeds(element))),
+            Self::ByArea { field, .. } => {
+                mesh.unsatisfied(|element| domain.exceeds(element, |element| Ok(field.exceeds(element))))
+            }
         }
     }
 }
@@ -105,24 +117,31 @@ pub fn build(job: &Job, terminal: &mut Terminal) -> Result<Built, Failure> {
     for warning in &start.warnings {
         terminal.say(&format!("meshbrush: note: {warning}"));
     }
-    let Start { mut mesh, sources, transfer, unasked, size, .. } = start;
+    let Start { mut mesh, domain, region, sources, transfer, unasked, size, .. } = start;
     let (target, refined) = match job.rule {
         Rule::Vertex => {
             let target = PointTarget { sources, transfer, unasked };
             let mut rule = VertexRule::new(|p| target.at(p));
-            let refined = refine(&mut mesh, &job.limits, |element| rule.exceeds(element), terminal);
+            let exceeds = |element: &Element| domain.exceeds(element, |element| rule.exceeds(element));
+            let refined = refine(&mut mesh, &job.limits, exceeds, terminal);
             (Target::ByVertex(target), refined)
         }
         Rule::Area => {
             let field = fill(TargetFieldSpec { sources, transfer, size }, &mesh, terminal)?;
-            let exceeds = |element: &Element| Ok(field.exceeds(element));
+            let exceeds = |element: &Element| domain.exceeds(element, |element| Ok(field.exceeds(element)));
             let refined = refine(&mut mesh, &job.limits, exceeds, terminal);
             (Target::ByArea { field: Box::new(field), unasked }, refined)
         }
     };
     terminal.clear();
     let (refinement, capped) = refined?;
-    Ok(Built { mesh, target, refinement, capped })
+    if domain.is_fitted() {
+        mesh.sort_out(0..mesh.triangles().len(), |element| domain.excludes(element));
+        if mesh.triangle_count() == 0 {
+            return Err(CoarseError::EmptyDomain { spacing: mesh.lattice().spacing() }.into());
+        }
+    }
+    Ok(Built { mesh, domain, region, target, refinement, capped })
 }
 
 fn fill(spec: TargetFieldSpec, mesh: &Mesh, terminal: &mut Terminal) -> Result<TargetField, Failure> {

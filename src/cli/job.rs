@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use glam::DVec2;
 
-use super::args::{InputArguments, RuleArgument};
+use super::args::{BoundaryArgument, InputArguments, RuleArgument};
 use super::failure::Failure;
 use crate::field::{Formula, Rule, Transfer};
 use crate::geometry::Rect;
@@ -18,6 +18,12 @@ pub struct Job {
     pub domain: Option<Rect>,
     /// The domain is where this is not 0.
     pub inside: Option<Formula>,
+    /// The domain is what the polygons of this file cover.
+    pub region: Option<PathBuf>,
+    /// Whether the mesh is fitted to the outline of a region.
+    pub fitted: bool,
+    /// The diameter to fit it with, in world units.
+    pub boundary_diameter: Option<f64>,
     /// Longest side of a coarse cell, in world units.
     pub spacing: Option<f64>,
     /// All that asks for small triangles.
@@ -90,6 +96,12 @@ impl Job {
         let job = Self {
             domain: typed.domain.as_deref().map(parse_domain).transpose()?,
             inside: typed.inside.as_deref().map(|text| parse_formula("--inside", text)).transpose()?,
+            region: typed.region.clone(),
+            fitted: typed.boundary == BoundaryArgument::Fitted,
+            boundary_diameter: typed
+                .boundary_diameter
+                .map(|value| length("--boundary-diameter", value))
+                .transpose()?,
             spacing: typed.spacing.map(|value| length("--spacing", value)).transpose()?,
             sources,
             h_min: typed.h_min.map(|value| length("--h-min", value)).transpose()?,

@@ -56,7 +56,7 @@ pub fn input_files(job: &Job) -> Vec<PathBuf> {
         SourceSpec::Raster(raster) => Some(raster.path.clone()),
         _ => None,
     };
-    job.sources.iter().filter_map(path).collect()
+    job.sources.iter().filter_map(path).chain(job.region.clone()).collect()
 }
 
 /// Says when triangles are coarser than asked for, because of the level cap.
@@ -80,7 +80,8 @@ fn report_violations(
     }
     // Triangles at the level cap are as they were asked for.
     let below_cap = |id: &TriangleId| max_level.is_none_or(|cap| built.mesh.triangle(*id).level() < cap);
-    let too_coarse = built.target.unsatisfied(&built.mesh)?.iter().filter(|id| below_cap(id)).count();
+    let too_coarse =
+        built.target.unsatisfied(&built.mesh, &built.domain)?.iter().filter(|id| below_cap(id)).count();
     if too_coarse > 0 {
         let count = grouped(too_coarse);
         terminal.say(&format!("check: {count} triangles exceed their target diameter (Eq. 14)"));

@@ -4,11 +4,11 @@ use std::sync::Arc;
 
 use super::failure::Failure;
 use super::job::{Job, Meaning, RasterFormat, RasterSpec, SourceSpec};
-use crate::domain::Domain;
+use crate::domain::{Boundary, Domain, DomainOnLattice, Region, Shape};
 use crate::field::{Source, Transfer, f32_not_below};
-use crate::geometry::Rect;
+use crate::geometry::{Lattice, Rect};
 use crate::io;
-use crate::mesh::Mesh;
+use crate::mesh::{CoarseError, Mesh};
 use crate::raster::{MAX_SIDE, Raster};
 
 /// Pixels along the longer side of the domain when nobody says how many.
@@ -18,6 +18,10 @@ const USUAL_CELLS: f64 = 20.0;
 
 /// All that refinement starts from.
 pub struct Start {
+    /// The domain on the lattice of the mesh.
+    pub domain: DomainOnLattice,
+    /// Its polygons, if it has some.
+    pub region: Option<Arc<Region>>,
     /// The coarse triangulation of the domain.
     pub mesh: Mesh,
     /// What asks for small triangles.
@@ -39,18 +43,17 @@ impl Start {
     /// When a raster cannot be read or used, or no coarse grid can be laid.
     pub fn new(job: &Job) -> Result<Self, Failure> {
         let placed = read_placed(job)?;
-        let domain =
-            job.domain.or_else(|| placed.iter().flatten().map(Raster::bounds).reduce(|a, b| a.union(&b)));
-        let domain = domain.unwrap_or(Rect::UNIT);
-        let rasters = read_images(job, placed, domain)?;
-        let mesh = coarse_mesh(job, domain)?;
+        let shape = domain(job, &placed)?;
+        let (bounds, region) = (shape.bounds, shape.region().cloned());
+        let rasters = read_images(job, placed, bounds)?;
+        let (domain, mesh) = coarse_mesh(job, &shape)?;
         let transfer = transfer(job, &mesh);
-        let warnings = warnings(job, &rasters, domain);
-        let size = field_size(job, &rasters, domain);
+        let warnings = warnings(job, &rasters, bounds);
+        let size = field_size(job, &rasters, bounds);
         let sources = job.sources.iter().zip(rasters).map(|(spec, raster)| source(spec, raster, &transfer));
         let sources = sources.collect::<Result<_, _>>()?;
         let unasked = job.h_max.unwrap_or(mesh.diameter(0));
-        Ok(Self { mesh, sources, transfer, unasked, size, warnings })
+        Ok(Self { domain, region, mesh, sources, transfer, unasked, size, warnings })
     }
 }
 
@@ -80,10 +83,31 @@ fn read_images(job: &Job, placed: Vec<Option<Raster>>, domain: Rect) -> Result<V
     job.sources.iter().zip(placed).map(read).collect()
 }
 
-fn coarse_mesh(job: &Job, bounds: Rect) -> Result<Mesh, Failure> {
+/// The domain that is asked for; where none is, wherever the rasters lie, or the unit square.
+fn domain(job: &Job, placed: &[Option<Raster>]) -> Result<Domain, Failure> {
+    if let Some(path) = &job.region {
+        let polygons = io::geojson::read(path)?;
+        return Domain::of_polygons(&polygons)
+            .map_err(|error| Failure::Work(format!("{}: {error}", path.display())));
+    }
+    let bounds =
+        job.domain.or_else(|| placed.iter().flatten().map(Raster::bounds).reduce(|a, b| a.union(&b)));
+    let shape = job.inside.clone().map_or(Shape::Whole, Shape::Formula);
+    Ok(Domain { bounds: bounds.unwrap_or(Rect::UNIT), shape })
+}
+
+fn coarse_mesh(job: &Job, domain: &Domain) -> Result<(DomainOnLattice, Mesh), Failure> {
+    let bounds = domain.bounds;
     let spacing = job.spacing.unwrap_or(bounds.size().max_element() / USUAL_CELLS);
-    let domain = Domain { bounds, inside: job.inside.clone() };
-    Ok(Mesh::coarse_grid(bounds, spacing, |point| domain.contains(point), &job.limits)?)
+    let lattice = Lattice::covering(bounds, spacing, job.limits.max_triangles).map_err(CoarseError::from)?;
+    let boundary = match (job.fitted, job.boundary_diameter) {
+        (false, _) => Boundary::Report,
+        (true, None) => Boundary::usual(spacing),
+        (true, Some(diameter)) => Boundary::Fitted { diameter },
+    };
+    let domain = DomainOnLattice::new(domain, boundary, &lattice);
+    let mesh = Mesh::coarse_grid(bounds, spacing, |node| domain.admits(node), &job.limits)?;
+    Ok((domain, mesh))
 }
 
 /// With no bounds given, formulas and lengths are taken as they are: the ends are then out of reach.

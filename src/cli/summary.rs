@@ -4,7 +4,9 @@ use serde::Serialize;
 
 use super::build::Built;
 use super::terminal::grouped;
+use crate::domain::Region;
 use crate::field::Rule;
+use crate::mesh::Topology;
 
 /// The figures of a mesh; its JSON is the answer of `--json`.
 #[derive(Debug, Serialize)]
@@ -21,6 +23,11 @@ pub struct Summary {
     pub hash: String,
     /// Seconds of refinement, without reading and writing.
     pub seconds: f64,
+    /// The area of the mesh, in square world units.
+    pub area: f64,
+    /// What the outline of a region became.
+    #[serde(flatten)]
+    pub outline: Option<Outline>,
     /// Side δ of a coarse cell as it came out, in world units.
     pub spacing: f64,
     /// "vertex" or "area".
@@ -37,14 +44,54 @@ pub struct Summary {
     diameters: Vec<f64>,
 }
 
+/// A region beside the mesh that was made of it.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Outline {
+    /// The area that the polygons cover, in square world units.
+    pub region_area: f64,
+    /// Holes of the polygons.
+    pub region_holes: usize,
+    /// Holes of the mesh.
+    pub holes: usize,
+    /// Parts of the mesh that edges join.
+    pub parts: usize,
+}
+
+impl Outline {
+    fn of(region: &Region, topology: Topology) -> Self {
+        let Topology { parts, holes, .. } = topology;
+        Self { region_area: region.area(), region_holes: region.hole_count(), holes, parts }
+    }
+
+    fn for_people(&self, area: f64) -> String {
+        let gained = area - self.region_area;
+        let word = if gained < 0.0 { "less" } else { "more" };
+        let percent = 100.0 * gained.abs() / self.region_area;
+        let Self { region_area, region_holes, holes, parts } = self;
+        let parts = if *parts == 1 { "1 part".into() } else { format!("{} parts", grouped(*parts)) };
+        format!(
+            "area {}, {percent:.3} % {word} than the polygons' {}; {holes} holes of {region_holes}, {parts}\n",
+            short(area),
+            short(*region_area),
+        )
+    }
+}
+
 impl Summary {
     /// The figures of a mesh made by `rule`.
     pub fn of(built: &Built, rule: Rule, violations: Option<usize>) -> Self {
         let mesh = &built.mesh;
         let levels = mesh.level_counts();
+        let topology = built.region.as_ref().map(|_| mesh.topology());
         Self {
-            triangles: mesh.triangles().len(),
-            nodes: mesh.nodes().len(),
+            triangles: mesh.triangle_count(),
+            nodes: topology.map_or(mesh.nodes().len(), |topology| topology.nodes),
+            area: mesh.area(),
+            outline: built
+                .region
+                .as_ref()
+                .zip(topology)
+                .map(|(region, topology)| Outline::of(region, topology)),
             max_level: levels.len() - 1,
             hash: mesh.fingerprint().to_string(),
             seconds: built.refinement.as_secs_f64(),
@@ -72,6 +119,9 @@ impl Summary {
             duration(self.seconds),
             self.spacing,
         );
+        if let Some(outline) = &self.outline {
+            text.insert_str(text.len() - 1, &outline.for_people(self.area));
+        }
         text += &format!("{:>5}  {:>12}  {:>13}\n", "level", "diameter", "triangles");
         for (level, (&count, diameter)) in self.levels.iter().zip(&self.diameters).enumerate() {
             text += &format!("{level:>5}  {:>12}  {:>13}\n", short(*diameter), grouped(count));

@@ -3,7 +3,7 @@ use std::sync::Arc;
 use glam::{DVec2, dvec2};
 
 use super::{Base, Document, Settings};
-use crate::domain::Domain;
+use crate::domain::{Boundary, Domain};
 use crate::field::{Formula, Rule, Transfer};
 use crate::geometry::Rect;
 use crate::paint::{Brush, Medium};
@@ -66,6 +66,7 @@ fn diamond() -> Settings {
         name: Example::Diamond.name().into(),
         domain: Domain::rectangle(Rect::around(DVec2::ZERO, 10.0)),
         spacing: 1.0,
+        boundary: Boundary::usual(1.0),
         transfer: Transfer { h_min: 0.02, h_max: 20.0, shape: 1.0 },
         base: Base::Formula(formula),
         rule: Rule::Vertex,
@@ -79,6 +80,7 @@ fn terrain(slope: Raster) -> Settings {
         name: Example::Terrain.name().into(),
         domain: Domain::rectangle(slope.bounds()),
         spacing: slope.bounds().size().max_element() / 24.0,
+        boundary: Boundary::usual(slope.bounds().size().max_element() / 24.0),
         transfer: Transfer { h_min: 0.05, h_max: 2.0, shape: 1.6 },
         base: Base::RiskImage { name: "jacksboro_slope.png".into(), raster: Arc::new(slope) },
         rule: Rule::Area,
@@ -124,6 +126,7 @@ impl Default for Settings {
             name: "Untitled".into(),
             domain: Domain::rectangle(Rect::UNIT),
             spacing: 1.0 / 24.0,
+            boundary: Boundary::usual(1.0 / 24.0),
             transfer: Transfer { h_min: 0.0024, h_max: 0.2, shape: 1.0 },
             base: Base::Constant(0.2),
             rule: Rule::Area,

@@ -1,8 +1,10 @@
 use std::sync::Arc;
 
+use super::job::{Finished, Job};
 use super::{Document, Repainted, Settings};
-use crate::field::{Rule, TargetField, VertexRule};
-use crate::mesh::{Changes, CoarseError, InvalidTarget, Mesh, Progress, RefineError, Refiner, Updater};
+use crate::domain::{Boundary, DomainOnLattice};
+use crate::field::{Rule, TargetField};
+use crate::mesh::{Changes, CoarseError, Element, InvalidTarget, Mesh, Progress, RefineError, Updater};
 use crate::raster::PixelRect;
 
 /// Keeps field and mesh in step with a document, in slices.
@@ -14,10 +16,13 @@ use crate::raster::PixelRect;
 #[derive(Clone, Debug)]
 pub struct Follower {
     settings: Settings,
+    domain: DomainOnLattice,
     field: TargetField,
     mesh: Arc<Mesh>,
     /// Work on the shown mesh; idle under the vertex rule.
     updater: Updater,
+    /// What it changed since [`Self::take_change`] was last called.
+    changes: Option<Changes>,
     revision: u64,
     /// Another mesh is shown since [`Self::take_change`] was last called.
     replaced: bool,
@@ -39,25 +44,6 @@ pub enum MeshChange {
     Replaced,
     /// These entries changed.
     Within(Changes),
-}
-
-/// A mesh in the making.
-#[derive(Clone, Debug)]
-struct Job {
-    settings: Settings,
-    /// A field in the making, where that of the shown mesh does not serve.
-    field: Option<TargetField>,
-    refining: Option<Refining>,
-    /// What was painted since the work began: field and mesh are updated there once they are shown.
-    repainted: Vec<PixelRect>,
-}
-
-#[derive(Clone, Debug)]
-struct Refining {
-    mesh: Mesh,
-    refiner: Refiner,
-    /// h̄ by node, as far as the vertex rule has asked.
-    known: Vec<f64>,
 }
 
 /// How far a [`Follower`] is behind its document.
@@ -97,15 +83,16 @@ impl Follower {
         document.take_repainted();
         let mut job = Job::new(document.settings(), false)?;
         while job.advance(document, None, usize::MAX)? == Progress::More {}
-        let (field, mesh) = job.finished();
+        let Finished { settings, domain, field, mesh } = job.finished();
         let field = field.expect("the first job fills a field of its own");
-        let settings = document.settings().clone();
         let updater = Updater::new(settings.limits());
         Ok(Self {
             settings,
+            domain,
             field,
             mesh: Arc::new(mesh),
             updater,
+            changes: None,
             revision: 0,
             replaced: true,
             lost_step: false,
@@ -143,7 +130,7 @@ impl Follower {
 
     /// What became of the shown mesh since this was last asked.
     pub fn take_change(&mut self) -> Option<MeshChange> {
-        let within = self.updater.take_changes().map(MeshChange::Within);
+        let within = self.changes.take().map(MeshChange::Within);
         if std::mem::take(&mut self.replaced) { Some(MeshChange::Replaced) } else { within }
     }
 
@@ -155,10 +142,10 @@ impl Follower {
             }
             None if self.updater.is_done() => Stage::InStep,
             None => Stage::Refining { triangles: self.mesh.triangles().len() },
-            Some(Job { refining: None, .. }) => Stage::Filling,
-            Some(Job { refining: Some(refining), .. }) => {
-                Stage::Refining { triangles: refining.mesh.triangles().len() }
-            }
+            Some(job) => match &job.refining {
+                None => Stage::Filling,
+                Some(refining) => Stage::Refining { triangles: refining.mesh.triangles().len() },
+            },
         }
     }
 
@@ -197,6 +184,7 @@ impl Follower {
 
     fn work(&mut self, document: &Document, visits: usize) -> Result<Stage, FollowError> {
         let wanted = document.settings();
+        self.take_over_domain(wanted);
         let outdated = match &self.job {
             Some(job) => job.settings != *wanted,
             None => (self.lost_step && self.unread.is_empty()) || self.settings != *wanted,
@@ -228,26 +216,61 @@ impl Follower {
         if self.updater.is_done() {
             return Ok(());
         }
-        let field = &self.field;
+        let (field, domain) = (&self.field, &self.domain);
         let mesh = Arc::make_mut(&mut self.mesh);
-        let steps = self.updater.steps();
-        let result = self.updater.run(mesh, |element| Ok(field.exceeds(element)), visits);
-        self.revision += u64::from(self.updater.steps() != steps);
+        let exceeds = |element: &Element| domain.exceeds(element, |element| Ok(field.exceeds(element)));
+        let result = self.updater.run(mesh, exceeds, visits);
+        if let Some(changes) = self.updater.take_changes() {
+            self.revision += 1;
+            if domain.is_fitted() {
+                for ids in &changes.triangles {
+                    mesh.sort_out(ids.clone(), |element| domain.excludes(element));
+                }
+            }
+            match &mut self.changes {
+                Some(earlier) => earlier.extend(&changes, mesh),
+                None => self.changes = Some(changes),
+            }
+        }
         result.map(|_| ())
+    }
+
+    /// Takes over a domain of another shape, where the mesh can follow in place or need not.
+    fn take_over_domain(&mut self, wanted: &Settings) {
+        let as_wanted = Settings { domain: wanted.domain.clone(), ..self.settings.clone() };
+        if self.job.is_some() || self.lost_step || self.settings == *wanted || as_wanted != *wanted {
+            return;
+        }
+        let (before, after) = (&self.settings.domain, &wanted.domain);
+        let (Some(before), Some(after)) = (before.as_region(), after.as_region()) else { return };
+        let fits = matches!(wanted.boundary, Boundary::Fitted { .. }) && wanted.rule == Rule::Area;
+        if !fits || before.frame() != after.frame() {
+            return;
+        }
+        let lattice = *self.mesh.lattice();
+        self.domain = DomainOnLattice::new(&wanted.domain, wanted.boundary, &lattice);
+        for area in before.areas_changed(&after) {
+            if let Some(rect) = lattice.rect_round(&area) {
+                // Corners are moved to the nearest lattice point.
+                self.updater.add_and_tell(rect.expanded(1, lattice.extent()));
+            }
+        }
+        self.settings = wanted.clone();
     }
 
     fn show(&mut self) {
         let Some(mut job) = self.job.take() else { return };
-        self.settings = job.settings.clone();
-        self.updater = Updater::new(self.settings.limits());
         self.unread = std::mem::take(&mut job.repainted);
-        let (field, mesh) = job.finished();
+        let Finished { settings, domain, field, mesh } = job.finished();
+        self.updater = Updater::new(settings.limits());
+        (self.settings, self.domain) = (settings, domain);
         if let Some(field) = field {
             self.field = field;
         }
         self.mesh = Arc::new(mesh);
         self.revision += 1;
         self.replaced = true;
+        self.changes = None;
         (self.lost_step, self.refill) = (false, false);
     }
 
@@ -279,70 +302,6 @@ impl Follower {
                 self.unread.clear();
                 self.lost_step = true;
                 self.refill = true;
-            }
-        }
-    }
-}
-
-impl Job {
-    fn new(settings: &Settings, reuse_field: bool) -> Result<Self, FollowError> {
-        let lattice = settings.lattice().map_err(CoarseError::from)?;
-        let field = (!reuse_field).then(|| TargetField::new(settings.field_spec(), &lattice));
-        let refining = if field.is_none() { Some(Refining::new(settings)?) } else { None };
-        Ok(Self { settings: settings.clone(), field, refining, repainted: Vec::new() })
-    }
-
-    /// One slice of filling or refining.
-    fn advance(
-        &mut self,
-        document: &Document,
-        shown: Option<&TargetField>,
-        visits: usize,
-    ) -> Result<Progress, FollowError> {
-        let Some(refining) = &mut self.refining else {
-            let field = self.field.as_mut().expect("a job without a field of its own starts refining");
-            if field.fill(document.layers().as_paint(), visits)? == Progress::Done {
-                self.refining = Some(Refining::new(&self.settings)?);
-            }
-            return Ok(Progress::More);
-        };
-        let field =
-            self.field.as_ref().or(shown).expect("a job without a field of its own reuses the shown one");
-        Ok(refining.advance(field, document, self.settings.rule, visits)?)
-    }
-
-    fn finished(self) -> (Option<TargetField>, Mesh) {
-        let refining = self.refining.expect("a job is done when refining is");
-        (self.field, refining.mesh)
-    }
-}
-
-impl Refining {
-    fn new(settings: &Settings) -> Result<Self, FollowError> {
-        let domain = &settings.domain;
-        let contains = |point| domain.contains(point);
-        let limits = settings.limits();
-        let mesh = Mesh::coarse_grid(domain.bounds, settings.spacing, contains, &limits)?;
-        let refiner = Refiner::new(&mesh, limits);
-        Ok(Self { mesh, refiner, known: Vec::new() })
-    }
-
-    fn advance(
-        &mut self,
-        field: &TargetField,
-        document: &Document,
-        rule: Rule,
-        visits: usize,
-    ) -> Result<Progress, RefineError> {
-        match rule {
-            Rule::Area => self.refiner.run(&mut self.mesh, |element| Ok(field.exceeds(element)), visits),
-            Rule::Vertex => {
-                let paint = document.layers().as_paint();
-                let target = |point| field.target_at_node(paint, point);
-                let mut rule = VertexRule::resumed(target, std::mem::take(&mut self.known));
-                let progress = self.refiner.run(&mut self.mesh, |element| rule.exceeds(element), visits);
-                self.known = rule.into_known();
-                progress
             }
         }
     }

@@ -4,6 +4,7 @@
 mod examples;
 mod follower;
 mod history;
+mod job;
 mod setting;
 mod settings;
 

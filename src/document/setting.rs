@@ -1,6 +1,6 @@
 use super::{Base, Settings};
-use crate::domain::Domain;
-use crate::field::{Formula, Rule};
+use crate::domain::{Boundary, Domain};
+use crate::field::Rule;
 use crate::geometry::Rect;
 
 /// One change of one setting, as a menu, a slider, a test or a script sends it.
@@ -24,8 +24,10 @@ pub enum Setting {
     MaxTriangles(usize),
     /// The rectangle that the coarse grid covers, in world units.
     Bounds(Rect),
-    /// The part of the rectangle that is the domain; `None` for all of it.
-    Inside(Option<Formula>),
+    /// The domain altogether.
+    Domain(Domain),
+    /// How its boundary is met.
+    Boundary(Boundary),
 }
 
 impl Setting {
@@ -41,7 +43,8 @@ impl Setting {
             Self::Resolution(_) => "field resolution",
             Self::MaxTriangles(_) => "triangle budget",
             Self::Bounds(_) => "domain",
-            Self::Inside(_) => "domain formula",
+            Self::Domain(_) => "domain shape",
+            Self::Boundary(_) => "boundary",
         }
     }
 
@@ -62,8 +65,9 @@ impl Setting {
             Self::Rule(rule) => settings.rule = rule,
             Self::Resolution(resolution) => settings.resolution = resolution,
             Self::MaxTriangles(max_triangles) => settings.max_triangles = max_triangles,
-            Self::Bounds(bounds) => settings.domain = Domain { bounds, ..settings.domain.clone() },
-            Self::Inside(inside) => settings.domain.inside = inside,
+            Self::Bounds(bounds) => settings.domain = settings.domain.with_bounds(bounds),
+            Self::Domain(domain) => settings.domain = domain,
+            Self::Boundary(boundary) => settings.boundary = boundary,
         }
     }
 }

@@ -1,6 +1,6 @@
 use std::sync::Arc;
 
-use crate::domain::Domain;
+use crate::domain::{Boundary, Domain, DomainOnLattice};
 use crate::field::{Formula, Rule, Source, TargetFieldSpec, Transfer, TransferError, checked_target};
 use crate::geometry::{GridError, Lattice};
 use crate::mesh::Limits;
@@ -13,6 +13,8 @@ pub struct Settings {
     pub name: String,
     /// Ω.
     pub domain: Domain,
+    /// How the mesh meets the boundary of a domain of polygons.
+    pub boundary: Boundary,
     /// Largest side δ̄ of a coarse cell, in world units.
     pub spacing: f64,
     /// From risk to diameter; its ends bound h̄ everywhere.
@@ -52,6 +54,12 @@ pub enum SettingsError {
     /// The transfer curve is.
     #[error(transparent)]
     Transfer(#[from] TransferError),
+    /// So is the diameter at the boundary.
+    #[error("A diameter of {0} at the boundary cannot be met: it must be positive and finite.")]
+    BoundaryDiameter(f64),
+    /// Nothing is left of the domain.
+    #[error("Nothing would be left of the domain: keep some of it.")]
+    EmptyDomain,
     /// The constant is no length.
     #[error("A target diameter of {0} cannot be met: it must be positive and finite.")]
     Constant(f64),
@@ -84,6 +92,13 @@ impl Settings {
     pub fn checked(self) -> Result<Self, SettingsError> {
         self.lattice()?;
         self.transfer.checked()?;
+        if let Boundary::Fitted { diameter } = self.boundary {
+            checked_target(diameter, self.domain.bounds.center())
+                .map_err(|e| SettingsError::BoundaryDiameter(e.value))?;
+        }
+        if self.domain.region().is_some_and(|region| region.is_empty()) {
+            return Err(SettingsError::EmptyDomain);
+        }
         if let Base::Constant(value) = self.base {
             checked_target(value, self.domain.bounds.center())
                 .map_err(|e| SettingsError::Constant(e.value))?;
@@ -101,6 +116,14 @@ impl Settings {
     /// When the grid is impossible or too fine.
     pub fn lattice(&self) -> Result<Lattice, GridError> {
         Lattice::covering(self.domain.bounds, self.spacing, MAX_COARSE_TRIANGLES)
+    }
+
+    /// The domain on that lattice.
+    ///
+    /// # Errors
+    /// As [`Self::lattice`].
+    pub fn domain_on_lattice(&self) -> Result<DomainOnLattice, GridError> {
+        Ok(DomainOnLattice::new(&self.domain, self.boundary, &self.lattice()?))
     }
 
     /// Columns and rows of the field: the resolution along the longer side, square pixels as nearly as may be.

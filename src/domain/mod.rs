@@ -1,31 +1,122 @@
-//! Ω, the domain: a rectangle, or the part of it where a formula holds.
+//! Ω, the domain: a rectangle, or the part of it that a formula or polygons say; and how the mesh meets its boundary.
 
-use glam::DVec2;
+mod fit;
+mod on_lattice;
+mod region;
+mod tangle;
+
+use std::sync::Arc;
 
 use crate::field::Formula;
 use crate::geometry::Rect;
 
-/// A domain in world units. A coarse triangle belongs to the mesh when its three nodes lie inside (Appendix A).
+pub use fit::{Boundary, DomainOnLattice};
+pub use on_lattice::RegionOnLattice;
+pub use region::{Polygon, Region, Ring, corners, signed_area};
+use tangle::check_tangle;
+pub use tangle::{MOST_CORNERS, MOST_CROSSINGS};
+
+/// A domain in world units.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Domain {
     /// The rectangle that the coarse grid covers.
     pub bounds: Rect,
-    /// Where it is not zero lies the domain; `None` for the whole rectangle.
-    pub inside: Option<Formula>,
+    /// Which part of it is meant.
+    pub shape: Shape,
+}
+
+/// Why polygons make no domain.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum RegionError {
+    /// They cover nothing.
+    #[error("The polygons cover no area: a ring needs three corners that are not on one line.")]
+    NoArea,
+    /// Sides are beyond f64.
+    #[error("The polygons reach too far: the width and the height round them must be finite numbers.")]
+    TooLarge,
+    /// More corners than can be worked with.
+    #[error(
+        "The polygons have {corners} corners, and at most {MOST_CORNERS} can be worked with. Simplify the outline first, to the \
+         detail that the mesh is to have."
+    )]
+    TooManyCorners {
+        /// Corners of all rings.
+        corners: usize,
+    },
+    /// Edges cross all over.
+    #[error(
+        "The rings cross themselves or each other more than {MOST_CROSSINGS} times, so that nobody could say what they enclose. \
+         Check that the points come in the order of the outline."
+    )]
+    Tangled,
+}
+
+/// Which part of a rectangle is meant.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Shape {
+    /// All of it.
+    Whole,
+    /// Where the formula is neither zero nor NaN.
+    Formula(Formula),
+    /// What polygons cover.
+    Region(Arc<Region>),
 }
 
 impl Domain {
     /// The whole of a rectangle.
     pub fn rectangle(bounds: Rect) -> Self {
-        Self { bounds, inside: None }
+        Self { bounds, shape: Shape::Whole }
     }
 
-    /// Whether a point in world units lies in the domain: the report's `DomainQ`. A formula that gives NaN excludes it.
-    pub fn contains(&self, point: DVec2) -> bool {
-        let by_formula = self.inside.as_ref().is_none_or(|formula| {
-            let value = formula.eval(point.x, point.y);
-            value != 0.0 && !value.is_nan()
-        });
-        by_formula && self.bounds.contains(point)
+    /// What polygons cover; the bounds are the rectangle round them, so that straight sides along it are met exactly.
+    ///
+    /// # Errors
+    /// When they cover nothing, or too much lies too close together to tell what.
+    pub fn of_polygons(polygons: &[Polygon]) -> Result<Self, RegionError> {
+        let points = polygons.iter().flatten().flatten().map(|&p| Rect::new(p, p));
+        let bounds = points.reduce(|a, b| a.union(&b)).filter(Rect::is_proper).ok_or(RegionError::NoArea)?;
+        if !bounds.size().is_finite() {
+            return Err(RegionError::TooLarge);
+        }
+        check_tangle(polygons, &bounds)?;
+        let region = Region::new(polygons, bounds);
+        if region.is_empty() {
+            return Err(RegionError::NoArea);
+        }
+        Ok(Self { bounds, shape: Shape::Region(Arc::new(region)) })
+    }
+
+    /// The polygons, if the domain has some.
+    pub fn region(&self) -> Option<&Arc<Region>> {
+        match &self.shape {
+            Shape::Region(region) => Some(region),
+            Shape::Whole | Shape::Formula(_) => None,
+        }
+    }
+
+    /// The polygons, or the whole rectangle as one; `None` for a formula.
+    pub fn as_region(&self) -> Option<Arc<Region>> {
+        match &self.shape {
+            Shape::Region(region) => Some(region.clone()),
+            Shape::Whole => Some(Arc::new(Region::new(&[vec![corners(&self.bounds)]], self.bounds))),
+            Shape::Formula(_) => None,
+        }
+    }
+
+    /// The formula, if the domain has one.
+    pub fn formula(&self) -> Option<&Formula> {
+        match &self.shape {
+            Shape::Formula(formula) => Some(formula),
+            Shape::Whole | Shape::Region(_) => None,
+        }
+    }
+
+    /// The domain with other bounds. Polygons are cut off where these are smaller.
+    pub fn with_bounds(&self, bounds: Rect) -> Self {
+        let shape = match &self.shape {
+            Shape::Region(region) if bounds.is_proper() => Shape::Region(Arc::new(region.reframed(bounds))),
+            other => other.clone(),
+        };
+        Self { bounds, shape }
     }
 }

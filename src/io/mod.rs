@@ -12,6 +12,7 @@ mod atomic;
 pub mod csv;
 mod error;
 mod mesh_file;
+pub mod geojson;
 pub mod msh;
 pub mod node;
 mod number;

@@ -4,6 +4,7 @@ use super::super::App;
 use super::super::command::Command;
 use super::super::widgets::{ActionButton, NumberRow, Section, TextError, TextRow, segmented, value_row};
 use crate::document::{Base, RESOLUTIONS, Setting};
+use crate::domain::{Domain, Shape};
 use crate::field::Formula;
 
 /// Texts as typed, which need not be sound yet.
@@ -124,10 +125,12 @@ impl App {
 
     /// The formula that cuts the domain out of its rectangle.
     pub(super) fn inside_ui(&mut self, ui: &mut Ui) {
-        let current = self.session.document().settings().domain.inside.clone();
+        let domain = &self.session.document().settings().domain;
+        let (bounds, current) = (domain.bounds, domain.formula().cloned());
         let hint = "the whole rectangle; or x^2 + y^2 < 1";
         if let Some(inside) = formula_row(ui, "Domain where", hint, &mut self.field_texts.inside, current) {
-            self.set_whole(Setting::Inside(inside));
+            let shape = inside.map_or(Shape::Whole, Shape::Formula);
+            self.set_whole(Setting::Domain(Domain { bounds, shape }));
         }
     }
 }

@@ -1,0 +1,125 @@
+//! A mesh in the making, beside the one that is shown.
+
+use super::follower::FollowError;
+use super::{Document, Settings};
+use crate::domain::DomainOnLattice;
+use crate::field::{Rule, TargetField, VertexRule};
+use crate::mesh::{CoarseError, Element, Mesh, Progress, RefineError, Refiner};
+use crate::raster::PixelRect;
+
+/// A mesh in the making.
+#[derive(Clone, Debug)]
+pub(super) struct Job {
+    pub(super) settings: Settings,
+    domain: DomainOnLattice,
+    /// A field in the making, where that of the shown mesh does not serve.
+    field: Option<TargetField>,
+    pub(super) refining: Option<Refining>,
+    /// What was painted since the work began: field and mesh are updated there once they are shown.
+    pub(super) repainted: Vec<PixelRect>,
+}
+
+/// What a job leaves behind.
+pub(super) struct Finished {
+    pub(super) settings: Settings,
+    pub(super) domain: DomainOnLattice,
+    pub(super) field: Option<TargetField>,
+    pub(super) mesh: Mesh,
+}
+
+#[derive(Clone, Debug)]
+pub(super) struct Refining {
+    pub(super) mesh: Mesh,
+    refiner: Refiner,
+    refined: bool,
+    /// How many triangles were asked whether they lie outside.
+    sorted: usize,
+    /// h̄ by node, as far as the vertex rule has asked.
+    known: Vec<f64>,
+}
+
+impl Job {
+    /// `reuse_field`: the field of the shown mesh serves.
+    pub(super) fn new(settings: &Settings, reuse_field: bool) -> Result<Self, FollowError> {
+        let lattice = settings.lattice().map_err(CoarseError::from)?;
+        let domain = DomainOnLattice::new(&settings.domain, settings.boundary, &lattice);
+        let field = (!reuse_field).then(|| TargetField::new(settings.field_spec(), &lattice));
+        let refining = if field.is_none() { Some(Refining::new(settings, &domain)?) } else { None };
+        Ok(Self { settings: settings.clone(), domain, field, refining, repainted: Vec::new() })
+    }
+
+    /// One slice of filling, refining or sorting out what lies outside.
+    pub(super) fn advance(
+        &mut self,
+        document: &Document,
+        shown: Option<&TargetField>,
+        visits: usize,
+    ) -> Result<Progress, FollowError> {
+        let Some(refining) = &mut self.refining else {
+            let field = self.field.as_mut().expect("a job without a field of its own starts refining");
+            if field.fill(document.layers().as_paint(), visits)? == Progress::Done {
+                self.refining = Some(Refining::new(&self.settings, &self.domain)?);
+            }
+            return Ok(Progress::More);
+        };
+        let field =
+            self.field.as_ref().or(shown).expect("a job without a field of its own reuses the shown one");
+        if !refining.refined {
+            let progress = refining.refine(&self.domain, field, document, self.settings.rule, visits)?;
+            refining.refined = progress == Progress::Done;
+            return Ok(Progress::More);
+        }
+        Ok(refining.sort_out(&self.domain, visits))
+    }
+
+    pub(super) fn finished(self) -> Finished {
+        let Self { settings, domain, field, refining, .. } = self;
+        Finished { settings, domain, field, mesh: refining.expect("a job is done when refining is").mesh }
+    }
+}
+
+impl Refining {
+    fn new(settings: &Settings, domain: &DomainOnLattice) -> Result<Self, FollowError> {
+        let limits = settings.limits();
+        let admits = |node| domain.admits(node);
+        let mesh = Mesh::coarse_grid(settings.domain.bounds, settings.spacing, admits, &limits)?;
+        let refiner = Refiner::new(&mesh, limits);
+        Ok(Self { mesh, refiner, refined: false, sorted: 0, known: Vec::new() })
+    }
+
+    fn refine(
+        &mut self,
+        domain: &DomainOnLattice,
+        field: &TargetField,
+        document: &Document,
+        rule: Rule,
+        visits: usize,
+    ) -> Result<Progress, RefineError> {
+        match rule {
+            Rule::Area => {
+                let exceeds =
+                    |element: &Element| domain.exceeds(element, |element| Ok(field.exceeds(element)));
+                self.refiner.run(&mut self.mesh, exceeds, visits)
+            }
+            Rule::Vertex => {
+                let paint = document.layers().as_paint();
+                let target = |point| field.target_at_node(paint, point);
+                let mut rule = VertexRule::resumed(target, std::mem::take(&mut self.known));
+                let exceeds = |element: &Element| domain.exceeds(element, |element| rule.exceeds(element));
+                let progress = self.refiner.run(&mut self.mesh, exceeds, visits);
+                self.known = rule.into_known();
+                progress
+            }
+        }
+    }
+
+    fn sort_out(&mut self, domain: &DomainOnLattice, visits: usize) -> Progress {
+        let all = self.mesh.triangles().len();
+        let first = self.sorted;
+        self.sorted = if domain.is_fitted() { first.saturating_add(visits).min(all) } else { all };
+        if domain.is_fitted() {
+            self.mesh.sort_out(first..self.sorted, |element| domain.excludes(element));
+        }
+        if self.sorted == all { Progress::Done } else { Progress::More }
+    }
+}

@@ -1,0 +1,104 @@
+//! How a mesh meets the boundary of its domain.
+
+use glam::DVec2;
+
+use super::{Domain, RegionOnLattice, Shape};
+use crate::field::Formula;
+use crate::geometry::{Lattice, Rect};
+use crate::mesh::{Element, bisection_edge_length};
+
+/// How the mesh meets the boundary of a region.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Boundary {
+    /// Appendix A: a coarse triangle belongs to the mesh when its three nodes lie inside.
+    Report,
+    /// The mesh is refined towards the boundary; then a triangle belongs to it when its centroid lies inside.
+    Fitted {
+        /// Largest diameter of a triangle that the boundary passes through, in world units.
+        diameter: f64,
+    },
+}
+
+impl Boundary {
+    /// A start: coarse enough to be quick, fine enough to see the shape. `spacing` is δ̄ in world units.
+    pub fn usual(spacing: f64) -> Self {
+        Self::Fitted { diameter: bisection_edge_length(spacing, 7) }
+    }
+}
+
+/// A domain laid on the lattice of a mesh: what the coarse grid, the refinement rule and [`Mesh::sort_out`](crate::mesh::Mesh::sort_out) ask.
+#[derive(Clone, Debug)]
+pub struct DomainOnLattice {
+    bounds: Rect,
+    lattice: Lattice,
+    formula: Option<Formula>,
+    region: Option<RegionOnLattice>,
+    /// The diameter at the boundary, where that is met by refinement.
+    fitted: Option<f64>,
+}
+
+impl DomainOnLattice {
+    /// Lays a domain on a lattice that covers its bounds. Only a region can be fitted; a formula is met as in the report.
+    pub fn new(domain: &Domain, boundary: Boundary, lattice: &Lattice) -> Self {
+        let (formula, region) = match &domain.shape {
+            Shape::Whole => (None, None),
+            Shape::Formula(formula) => (Some(formula.clone()), None),
+            Shape::Region(region) => (None, Some(RegionOnLattice::new(region, lattice))),
+        };
+        let fitted = match boundary {
+            Boundary::Fitted { diameter } if region.is_some() => Some(diameter),
+            _ => None,
+        };
+        Self { bounds: domain.bounds, lattice: *lattice, formula, region, fitted }
+    }
+
+    /// Whether the boundary is met by refinement, and triangles outside are to be sorted out at the end.
+    pub fn is_fitted(&self) -> bool {
+        self.fitted.is_some()
+    }
+
+    /// Whether a node of the coarse grid, in world units, lets its triangles into the mesh: the report's `DomainQ`. Where the
+    /// boundary is fitted every node does.
+    pub fn admits(&self, node: DVec2) -> bool {
+        if self.is_fitted() {
+            return true;
+        }
+        if let Some(formula) = &self.formula {
+            let value = formula.eval(node.x, node.y);
+            return value != 0.0 && !value.is_nan() && self.bounds.contains(node);
+        }
+        match &self.region {
+            Some(region) => region.contains(self.lattice.nearest(node)),
+            None => self.bounds.contains(node),
+        }
+    }
+
+    /// Whether an element's diameter exceeds its target, given whether it exceeds h̄. What misses the domain never does; what the
+    /// boundary passes through does until it is as small as asked.
+    ///
+    /// As monotone as `by_field` is: a triangle inside one that misses the domain, or that the boundary does not touch, does so too.
+    ///
+    /// # Errors
+    /// Those of `by_field`.
+    #[inline]
+    pub fn exceeds<E>(
+        &self,
+        element: &Element,
+        by_field: impl FnOnce(&Element) -> Result<bool, E>,
+    ) -> Result<bool, E> {
+        let (Some(diameter), Some(region)) = (self.fitted, &self.region) else { return by_field(element) };
+        if element.diameter() > diameter && region.cuts(element) {
+            return Ok(true);
+        }
+        Ok(!region.misses(element) && by_field(element)?)
+    }
+
+    /// Whether an element lies outside a fitted domain: its centroid does.
+    #[inline]
+    pub fn excludes(&self, element: &Element) -> bool {
+        match &self.region {
+            Some(region) if self.is_fitted() => !region.has_centroid_of(element),
+            _ => false,
+        }
+    }
+}

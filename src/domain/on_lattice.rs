@@ -1,0 +1,529 @@
+//! A region as the mesh asks about it: exactly, in lattice coordinates.
+
+use glam::DVec2;
+
+use super::Region;
+use crate::geometry::{Lattice, LatticePoint, LatticeRect};
+use crate::mesh::Element;
+
+/// A region with its corners moved to the nearest points of a mesh's lattice, and a tree of squares to find its edges by.
+///
+/// A square of the tree is outside, inside, or *cut*: an edge has a point in common with it, rim included. The smallest squares
+/// that are cut know their edges. All answers are exact for the region as it lies on the lattice.
+///
+/// Edges along the sides of the grid are no *boundary*: the mesh ends there anyway.
+#[derive(Clone, Debug)]
+pub struct RegionOnLattice {
+    /// Squares along x and y at the root, one for each coarse cell.
+    cells: [u32; 2],
+    /// Binary logarithm of the side of a root square, in lattice steps.
+    root_bits: u32,
+    /// The tree, root first: side lengths halve from one entry to the next.
+    layers: Vec<Layer>,
+    edges: Vec<Edge>,
+    /// For each smallest square the end of its part of `edges_of_square`.
+    ends: Vec<u32>,
+    edges_of_square: Vec<u32>,
+}
+
+/// Squares of one size, row by row from below.
+#[derive(Clone, Debug)]
+struct Layer {
+    columns: u32,
+    states: Vec<State>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum State {
+    Outside,
+    Inside,
+    Cut,
+}
+
+/// An edge of the region.
+#[derive(Clone, Copy, Debug)]
+struct Edge {
+    ends: [[i64; 2]; 2],
+    /// Whether it lies along a side of the grid.
+    on_frame: bool,
+}
+
+/// The smallest squares number about this many for each edge, within bounds.
+const SQUARES_PER_EDGE: usize = 4;
+const MOST_SQUARES: usize = 1 << 20;
+
+impl RegionOnLattice {
+    /// Lays the region on the lattice of a mesh.
+    pub fn new(region: &Region, lattice: &Lattice) -> Self {
+        let extent = lattice.extent();
+        let place = |p: DVec2| {
+            let p = lattice.nearest(p);
+            [i64::from(p.x), i64::from(p.y)]
+        };
+        let sides = [[0, i64::from(extent.x)], [0, i64::from(extent.y)]];
+        let on_side =
+            |[a, b]: [[i64; 2]; 2], axis: usize| a[axis] == b[axis] && sides[axis].contains(&a[axis]);
+        let edges: Vec<Edge> = region
+            .edges()
+            .map(|edge| edge.map(place))
+            .filter(|[from, to]| from != to)
+            .map(|ends| Edge { ends, on_frame: on_side(ends, 0) || on_side(ends, 1) })
+            .collect();
+        let (cells, root_bits) = (lattice.cells(), lattice.halvings());
+        let wanted = (SQUARES_PER_EDGE * edges.len()).clamp(1 << 12, MOST_SQUARES);
+        let roots = cells[0] as usize * cells[1] as usize;
+        let mut halvings = 0;
+        while halvings < root_bits && (roots << (2 * (halvings + 1))) <= wanted {
+            halvings += 1;
+        }
+        let mut new = Self {
+            cells,
+            root_bits,
+            layers: Vec::new(),
+            edges,
+            ends: Vec::new(),
+            edges_of_square: Vec::new(),
+        };
+        new.sort_edges_into_squares(halvings);
+        new.fill_squares(halvings);
+        new
+    }
+
+    /// Whether a point of the closed region lies at a lattice point.
+    pub fn contains(&self, p: LatticePoint) -> bool {
+        let p = [i64::from(p.x), i64::from(p.y)];
+        let square = self.square_of(p);
+        match self.smallest().states[square] {
+            State::Outside => false,
+            State::Inside => true,
+            State::Cut => {
+                self.edges_in(square).any(|edge| edge.holds(p)) || self.is_inside([p[0], p[1]].map(|c| c * 3))
+            }
+        }
+    }
+
+    /// Whether an element has no point in common with the region.
+    pub fn misses(&self, element: &Element) -> bool {
+        match self.meets(element, &|_| true) {
+            Meeting::Cut => false,
+            Meeting::Uncut(inside) => !inside,
+        }
+    }
+
+    /// Whether the boundary has a point in common with an element.
+    pub fn cuts(&self, element: &Element) -> bool {
+        self.meets(element, &|edge| !edge.on_frame) == Meeting::Cut
+    }
+
+    /// Whether the centroid of an element lies in the region. On an edge, the side does not matter but is always the same.
+    pub fn has_centroid_of(&self, element: &Element) -> bool {
+        self.is_inside(thrice_centroid(element))
+    }
+
+    /// Goes down the tree from the smallest square that holds the element.
+    fn meets(&self, element: &Element, counts: &impl Fn(&Edge) -> bool) -> Meeting {
+        let depth = (element.triangle.level() as usize / 2).min(self.layers.len() - 1);
+        let centroid = thrice_centroid(element);
+        let side = 3 << (self.root_bits as usize - depth);
+        let square = [(centroid[0] / side) as u32, (centroid[1] / side) as u32];
+        match self.state(depth, square) {
+            State::Outside => return Meeting::Uncut(false),
+            State::Inside => return Meeting::Uncut(true),
+            State::Cut => {}
+        }
+        let triangle = Corners::of(element.corners);
+        if self.cut_within(depth, square, element, &triangle, counts) {
+            Meeting::Cut
+        } else {
+            Meeting::Uncut(self.is_inside(centroid))
+        }
+    }
+
+    /// Whether an edge that counts touches the triangle, somewhere in a square of the tree.
+    fn cut_within(
+        &self,
+        depth: usize,
+        [column, row]: [u32; 2],
+        element: &Element,
+        triangle: &Corners,
+        counts: &impl Fn(&Edge) -> bool,
+    ) -> bool {
+        let square = [column, row];
+        if self.state(depth, square) != State::Cut || !self.rect(depth, square).touches(element.corners) {
+            return false;
+        }
+        if depth + 1 == self.layers.len() {
+            let square = row as usize * self.smallest().columns as usize + column as usize;
+            return self.edges_in(square).any(|edge| counts(edge) && edge.touches(triangle));
+        }
+        let quarters = [[0, 0], [1, 0], [0, 1], [1, 1]];
+        quarters.iter().any(|[x, y]| {
+            self.cut_within(depth + 1, [2 * column + x, 2 * row + y], element, triangle, counts)
+        })
+    }
+
+    /// Whether a point lies inside, given by three times its coordinates: by the squares and edges to its left.
+    fn is_inside(&self, thrice: [i64; 2]) -> bool {
+        let layer = self.smallest();
+        let point = thrice.map(|c| c.div_euclid(3));
+        let mut square = self.square_of(point);
+        let row_start = square - square % layer.columns as usize;
+        let mut inside = false;
+        let mut right = i64::MAX;
+        loop {
+            match layer.states[square] {
+                State::Outside => return inside,
+                State::Inside => return !inside,
+                State::Cut => {}
+            }
+            let left = 3 * ((square - row_start) as i64) << self.smallest_bits();
+            // Each crossing is counted in the one square where it lies: right of its left rim, up to its right rim.
+            let left = if square == row_start { i64::MIN } else { left };
+            let crossings = self.edges_in(square).filter(|edge| edge.crosses_between(left, right, thrice));
+            inside ^= crossings.count() % 2 == 1;
+            if square == row_start {
+                return inside;
+            }
+            right = left;
+            square -= 1;
+        }
+    }
+
+    fn sort_edges_into_squares(&mut self, halvings: u32) {
+        let [columns, rows] = self.cells.map(|n| n << halvings);
+        let bits = self.root_bits - halvings;
+        let mut pairs: Vec<(u32, u32)> = Vec::with_capacity(2 * self.edges.len());
+        for (n, edge) in self.edges.iter().enumerate() {
+            edge.squares_touched([columns, rows], bits, |square| pairs.push((square as u32, n as u32)));
+        }
+        pairs.sort_unstable();
+        self.ends = vec![0; columns as usize * rows as usize];
+        for &(square, _) in &pairs {
+            self.ends[square as usize] += 1;
+        }
+        let mut end = 0;
+        for count in &mut self.ends {
+            end += *count;
+            *count = end;
+        }
+        self.edges_of_square = pairs.into_iter().map(|(_, edge)| edge).collect();
+    }
+
+    /// Finds the state of every square: of the smallest along the middle of each row, of the others from those.
+    fn fill_squares(&mut self, halvings: u32) {
+        let [columns, rows] = self.cells.map(|n| n << halvings);
+        let mut states = Vec::with_capacity(columns as usize * rows as usize);
+        for row in 0..rows {
+            let mut inside = false;
+            for column in 0..columns {
+                let square = row as usize * columns as usize + column as usize;
+                let state = match (self.edges_in(square).next().is_some(), inside) {
+                    (true, _) => State::Cut,
+                    (false, true) => State::Inside,
+                    (false, false) => State::Outside,
+                };
+                if state == State::Cut {
+                    inside ^= self.crossings_of_middle(column, row, columns, halvings) % 2 == 1;
+                }
+                states.push(state);
+            }
+        }
+        self.layers = vec![Layer { columns, states }];
+        for depth in (0..halvings).rev() {
+            let columns = self.cells[0] << depth;
+            let rows = self.cells[1] << depth;
+            let finer = &self.layers[0];
+            let states = (0..rows).flat_map(|row| (0..columns).map(move |column| [column, row]));
+            let layer = Layer { columns, states: states.map(|square| finer.joined(square)).collect() };
+            self.layers.insert(0, layer);
+        }
+    }
+
+    /// How many edges cross the middle line of a smallest square, each counted in one square of the row.
+    fn crossings_of_middle(&self, column: u32, row: u32, columns: u32, halvings: u32) -> usize {
+        let bits = self.root_bits - halvings;
+        let left = if column == 0 { i64::MIN } else { 3 * (i64::from(column) << bits) };
+        let right = if column + 1 == columns { i64::MAX } else { 3 * (i64::from(column + 1) << bits) };
+        // Half a side up, in thirds of a step: no corner lies at that height where the side is one step.
+        let height = (3 * (2 * i64::from(row) + 1) << bits) / 2;
+        let square = row as usize * columns as usize + column as usize;
+        self.edges_in(square).filter(|edge| edge.crosses_between(left, right, [i64::MAX, height])).count()
+    }
+
+    fn smallest(&self) -> &Layer {
+        self.layers.last().expect("there is a root")
+    }
+
+    fn smallest_bits(&self) -> u32 {
+        self.root_bits - (self.layers.len() as u32 - 1)
+    }
+
+    fn edges_in(&self, square: usize) -> impl Iterator<Item = &Edge> {
+        let start = if square == 0 { 0 } else { self.ends[square - 1] as usize };
+        self.edges_of_square[start..self.ends[square] as usize].iter().map(|&n| &self.edges[n as usize])
+    }
+
+    fn state(&self, depth: usize, [column, row]: [u32; 2]) -> State {
+        let layer = &self.layers[depth];
+        layer.states[row as usize * layer.columns as usize + column as usize]
+    }
+
+    fn rect(&self, depth: usize, square: [u32; 2]) -> LatticeRect {
+        let bits = self.root_bits - depth as u32;
+        let corner = |[x, y]: [u32; 2]| LatticePoint::new(x << bits, y << bits);
+        LatticeRect { min: corner(square), max: corner(square.map(|n| n + 1)) }
+    }
+
+    /// The smallest square that holds a point of the grid; on a rim the upper and the right one, as far as there is one.
+    fn square_of(&self, point: [i64; 2]) -> usize {
+        let (layer, bits) = (self.smallest(), self.smallest_bits());
+        let rows = layer.states.len() / layer.columns as usize;
+        let at = |c: i64, count: usize| ((c >> bits).max(0) as usize).min(count - 1);
+        at(point[1], rows) * layer.columns as usize + at(point[0], layer.columns as usize)
+    }
+}
+
+/// How a triangle meets the edges that count.
+#[derive(PartialEq)]
+enum Meeting {
+    /// One of them touches it.
+    Cut,
+    /// None does; whether the triangle lies inside.
+    Uncut(bool),
+}
+
+impl Layer {
+    /// The state of four squares together.
+    fn joined(&self, [column, row]: [u32; 2]) -> State {
+        let first = (2 * row * self.columns + 2 * column) as usize;
+        let above = first + self.columns as usize;
+        let [a, b, c, d] = [first, first + 1, above, above + 1].map(|n| self.states[n]);
+        if a == b && b == c && c == d { a } else { State::Cut }
+    }
+}
+
+/// A triangle of a mesh, with its extents along x, y, x + y and x − y: across the directions that its sides can have.
+struct Corners {
+    places: [[i64; 2]; 3],
+    extents: [[i64; 2]; 4],
+}
+
+impl Corners {
+    fn of(corners: [LatticePoint; 3]) -> Self {
+        let places = corners.map(|p| [i64::from(p.x), i64::from(p.y)]);
+        let along = |measure: fn([i64; 2]) -> i64| {
+            let [a, b, c] = places.map(measure);
+            [a.min(b).min(c), a.max(b).max(c)]
+        };
+        let extents = [along(|p| p[0]), along(|p| p[1]), along(|p| p[0] + p[1]), along(|p| p[0] - p[1])];
+        Self { places, extents }
+    }
+}
+
+impl Edge {
+    /// Whether the edge has a point in common with a closed triangle: no line along a side of the triangle, nor one along the
+    /// edge, separates them.
+    fn touches(&self, triangle: &Corners) -> bool {
+        let [[ax, ay], [bx, by]] = self.ends;
+        let apart = |[low, high]: [i64; 2], a: i64, b: i64| a.max(b) < low || a.min(b) > high;
+        let [x, y, sum, difference] = triangle.extents;
+        if apart(x, ax, bx)
+            || apart(y, ay, by)
+            || apart(sum, ax + ay, bx + by)
+            || apart(difference, ax - ay, bx - by)
+        {
+            return false;
+        }
+        // Lattice coordinates stay below 2^31, so the products fit.
+        let sides = triangle.places.map(|[px, py]| (bx - ax) * (py - ay) - (by - ay) * (px - ax));
+        !(sides.iter().all(|&s| s > 0) || sides.iter().all(|&s| s < 0))
+    }
+
+    /// Whether a lattice point lies on the edge.
+    fn holds(&self, [px, py]: [i64; 2]) -> bool {
+        let [[ax, ay], [bx, by]] = self.ends;
+        let between = |a: i64, b: i64, p: i64| a.min(b) <= p && p <= a.max(b);
+        between(ax, bx, px) && between(ay, by, py) && (bx - ax) * (py - ay) == (by - ay) * (px - ax)
+    }
+
+    /// Whether the edge crosses the horizontal line through a point, left of the point, and from `left` on up to but without
+    /// `right`. Everything in thirds of a lattice step. An end at the line counts as below it.
+    fn crosses_between(&self, left: i64, right: i64, [px, py]: [i64; 2]) -> bool {
+        let [[ax, ay], [bx, by]] = self.ends.map(|end| end.map(|c| 3 * c));
+        if (ay <= py) == (by <= py) {
+            return false;
+        }
+        // The crossing lies at x = ax + (py − ay) (bx − ax) / (by − ay).
+        let (rise, run) = (i128::from(by - ay), i128::from(bx - ax));
+        let is_left_of = |limit: i64| {
+            let limit_run = i128::from(limit) - i128::from(ax);
+            let (crossing, bound) = (i128::from(py - ay) * run, limit_run * rise);
+            if rise > 0 { crossing < bound } else { crossing > bound }
+        };
+        is_left_of(px) && is_left_of(right) && (left == i64::MIN || !is_left_of(left))
+    }
+
+    /// Calls `touched` for every square of a grid that the edge has a point in common with, rim included.
+    fn squares_touched(&self, counts: [u32; 2], bits: u32, mut touched: impl FnMut(usize)) {
+        let [[ax, ay], [bx, by]] = self.ends;
+        let (low, high) = ([ax.min(bx), ay.min(by)], [ax.max(bx), ay.max(by)]);
+        let first = |c: i64| ((c - 1) >> bits).max(0);
+        let last = |c: i64, count: u32| (c >> bits).min(i64::from(count) - 1);
+        for row in first(low[1])..=last(high[1], counts[1]) {
+            let (bottom, top) = (row << bits, (row + 1) << bits);
+            // The part of the edge at these heights, and the columns round it.
+            let (from, to) = self.columns_between(bottom, top);
+            for column in first(from.max(low[0]))..=last(to.min(high[0]), counts[0]) {
+                touched(row as usize * counts[0] as usize + column as usize);
+            }
+        }
+    }
+
+    /// The least and the greatest x of the part of the edge between two heights, rounded outwards.
+    fn columns_between(&self, bottom: i64, top: i64) -> (i64, i64) {
+        let [[ax, ay], [bx, by]] = self.ends;
+        if ay == by {
+            return (ax.min(bx), ax.max(bx));
+        }
+        let at = |height: i64| {
+            let height = height.clamp(ay.min(by), ay.max(by));
+            let (run, rise) = (i128::from(bx - ax) * i128::from(height - ay), i128::from(by - ay));
+            let floor = run.div_euclid(rise);
+            let exact = run.rem_euclid(rise) == 0;
+            // A negative divisor rounds up instead of down: a step either way holds the point.
+            (ax + floor as i64 - i64::from(!exact), ax + floor as i64 + i64::from(!exact))
+        };
+        let ((l0, h0), (l1, h1)) = (at(bottom), at(top));
+        (l0.min(l1), h0.max(h1))
+    }
+}
+
+fn thrice_centroid(element: &Element) -> [i64; 2] {
+    let sum = |c: fn(&LatticePoint) -> u32| element.corners.iter().map(|p| i64::from(c(p))).sum();
+    [sum(|p| p.x), sum(|p| p.y)]
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::dvec2;
+
+    use super::*;
+    use crate::domain::{Polygon, Ring};
+    use crate::geometry::Rect;
+    use crate::mesh::{Limits, Mesh, TriangleId};
+
+    /// A star with a hole, with corners on and off the lattice, and a strip along the left side of the frame.
+    fn region(random: &mut fastrand::Rng) -> Region {
+        let ring = |centre: DVec2, radius: f64, points: usize, random: &mut fastrand::Rng| -> Ring {
+            let at = |k: usize, random: &mut fastrand::Rng| {
+                let angle = k as f64 / points as f64 * std::f64::consts::TAU;
+                let p =
+                    centre + radius * (0.3 + 0.7 * random.f64()) * dvec2(libm::cos(angle), libm::sin(angle));
+                if random.bool() { (p * 16.0).round() / 16.0 } else { p }
+            };
+            (0..points).map(|k| at(k, random)).collect()
+        };
+        let star: Polygon = vec![
+            ring(DVec2::splat(0.5), 0.6, 3 + random.usize(..30), random),
+            ring(DVec2::splat(0.5), 0.2, 3 + random.usize(..8), random),
+        ];
+        let strip = vec![crate::domain::corners(&Rect::new(DVec2::ZERO, dvec2(random.f64() * 0.2, 1.0)))];
+        Region::new(&[star, strip], Rect::UNIT)
+    }
+
+    /// By all edges, one after the other, in i128: shares nothing but the corners.
+    fn brute_force(region: &Region, lattice: &Lattice, p: [i128; 2], scale: i128) -> (bool, bool) {
+        let place = |p: DVec2| {
+            let p = lattice.nearest(p);
+            [i128::from(p.x) * scale, i128::from(p.y) * scale]
+        };
+        let (mut inside, mut on) = (false, false);
+        for [a, b] in region.edges().map(|edge| edge.map(place)) {
+            let turn = (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
+            let within = |i: usize| a[i].min(b[i]) <= p[i] && p[i] <= a[i].max(b[i]);
+            on |= turn == 0 && within(0) && within(1);
+            inside ^= (a[1] > p[1]) != (b[1] > p[1]) && (turn > 0) == (b[1] > a[1]);
+        }
+        (inside, on)
+    }
+
+    fn cut_by_brute_force(region: &Region, lattice: &Lattice, corners: [LatticePoint; 3]) -> bool {
+        let corners = corners.map(|p| [i128::from(p.x), i128::from(p.y)]);
+        let place = |p: DVec2| {
+            let p = lattice.nearest(p);
+            [i128::from(p.x), i128::from(p.y)]
+        };
+        let turn = |a: [i128; 2], b: [i128; 2], p: [i128; 2]| {
+            ((b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0])).signum()
+        };
+        let holds = |p| {
+            let turns = [0, 1, 2].map(|i| turn(corners[i], corners[(i + 1) % 3], p));
+            turns.iter().all(|&t| t >= 0) || turns.iter().all(|&t| t <= 0)
+        };
+        let on = |a: [i128; 2], b: [i128; 2], p: [i128; 2]| {
+            turn(a, b, p) == 0 && (0..2).all(|i| a[i].min(b[i]) <= p[i] && p[i] <= a[i].max(b[i]))
+        };
+        region.edges().map(|edge| edge.map(place)).any(|[a, b]| {
+            holds(a)
+                || holds(b)
+                || (0..3).any(|i| {
+                    let (c, d) = (corners[i], corners[(i + 1) % 3]);
+                    (turn(a, b, c) != turn(a, b, d) && turn(c, d, a) != turn(c, d, b))
+                        || on(a, b, c)
+                        || on(a, b, d)
+                })
+        })
+    }
+
+    #[test]
+    fn every_answer_is_that_of_brute_force() {
+        let mut random = fastrand::Rng::with_seed(11);
+        let (mut cut, mut inside, mut outside, mut on_edge) = (0, 0, 0, 0);
+        for _ in 0..60 {
+            let region = region(&mut random);
+            let mut mesh = Mesh::coarse_grid(Rect::UNIT, 0.34, |_| true, &Limits::default()).unwrap();
+            for _ in 0..150 {
+                mesh.refine_triangle(TriangleId::from_index(random.usize(..mesh.triangles().len())));
+            }
+            let lattice = *mesh.lattice();
+            let sorted = RegionOnLattice::new(&region, &lattice);
+            let all = 0..mesh.triangles().len();
+            mesh.sort_out(all, |element| {
+                let touched = cut_by_brute_force(&region, &lattice, element.corners);
+                let sum =
+                    |c: fn(&LatticePoint) -> u32| element.corners.iter().map(|p| i128::from(c(p))).sum();
+                let (centroid_in, centroid_on) =
+                    brute_force(&region, &lattice, [sum(|p| p.x), sum(|p| p.y)], 3);
+                assert_eq!(sorted.misses(element), !touched && !centroid_in);
+                assert!(centroid_on || sorted.has_centroid_of(element) == centroid_in);
+                assert!(!sorted.cuts(element) || touched);
+                cut += usize::from(sorted.cuts(element));
+                inside += usize::from(!touched && centroid_in);
+                outside += usize::from(sorted.misses(element));
+                !centroid_in
+            });
+            for node in mesh.nodes() {
+                let (inside, on) =
+                    brute_force(&region, &lattice, [i128::from(node.x), i128::from(node.y)], 1);
+                assert_eq!(sorted.contains(*node), inside || on, "{node:?}");
+                on_edge += usize::from(on);
+            }
+        }
+        assert!(
+            cut > 1000 && inside > 1000 && outside > 1000 && on_edge > 30,
+            "{cut} {inside} {outside} {on_edge}"
+        );
+    }
+
+    #[test]
+    fn sides_of_the_frame_are_no_boundary() {
+        let whole = Region::new(&[vec![crate::domain::corners(&Rect::UNIT)]], Rect::UNIT);
+        let mut mesh = Mesh::coarse_grid(Rect::UNIT, 0.25, |_| true, &Limits::default()).unwrap();
+        let sorted = RegionOnLattice::new(&whole, mesh.lattice());
+        mesh.sort_out(0..32, |element| {
+            assert!(!sorted.cuts(element) && !sorted.misses(element) && sorted.has_centroid_of(element));
+            false
+        });
+        assert!(mesh.nodes().iter().all(|&node| sorted.contains(node)));
+    }
+}

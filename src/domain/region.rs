@@ -1,0 +1,313 @@
+//! Domains with an outline: polygons with holes.
+
+use std::collections::HashMap;
+
+use glam::DVec2;
+use i_overlay::core::fill_rule::FillRule;
+use i_overlay::core::overlay::{IntOverlayOptions, Overlay, ShapeType};
+use i_overlay::core::overlay_rule::OverlayRule;
+use i_overlay::core::solver::Solver;
+use i_overlay::i_float::int::point::IntPoint;
+
+use crate::geometry::Rect;
+
+/// A closed line of straight edges; the last point is joined to the first. World units.
+pub type Ring = Vec<DVec2>;
+
+/// An outer ring, then the rings of its holes.
+pub type Polygon = Vec<Ring>;
+
+/// The part of a rectangle, its *frame*, that polygons cover.
+///
+/// Outer rings run anticlockwise and holes clockwise; no two edges cross. Points lie on a fine grid over the frame, so that an
+/// edit leaves every edge that it does not meet exactly as it was.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Region {
+    frame: Rect,
+    polygons: Vec<Polygon>,
+}
+
+/// Longest list of changed areas; beyond it they become one.
+const MOST_AREAS: usize = 64;
+
+impl Region {
+    /// What the polygons cover within `frame`. They may overlap, and each may run either way or cross itself: a point is covered
+    /// by a polygon that it cannot leave without crossing its rings an odd number of times.
+    ///
+    /// `frame` must be proper and all points finite.
+    pub fn new(polygons: &[Polygon], frame: Rect) -> Self {
+        let grid = Grid::over(&frame);
+        let simple: Vec<Shape> =
+            polygons.iter().flat_map(|rings| overlay(&grid.contours(rings), &[], Rule::EITHER)).collect();
+        let contours: Vec<Contour> = simple.into_iter().flatten().collect();
+        Self::cut_to_frame(&grid, &contours)
+    }
+
+    fn cut_to_frame(grid: &Grid, contours: &[Contour]) -> Self {
+        grid.region(overlay(contours, &[grid.contour(&corners(&grid.frame))], Rule::BOTH))
+    }
+
+    /// The rectangle that the region is part of.
+    pub fn frame(&self) -> &Rect {
+        &self.frame
+    }
+
+    /// The polygons. None overlap.
+    pub fn polygons(&self) -> &[Polygon] {
+        &self.polygons
+    }
+
+    /// Whether nothing is covered.
+    pub fn is_empty(&self) -> bool {
+        self.polygons.is_empty()
+    }
+
+    /// All rings, outer ones and holes.
+    pub fn rings(&self) -> impl Iterator<Item = &Ring> {
+        self.polygons.iter().flatten()
+    }
+
+    /// All edges, with the region to the left.
+    pub fn edges(&self) -> impl Iterator<Item = [DVec2; 2]> {
+        self.rings().flat_map(|ring| {
+            let ends = ring.iter().skip(1).chain(ring.first());
+            ring.iter().zip(ends).map(|(&from, &to)| [from, to])
+        })
+    }
+
+    /// How many corners the rings have.
+    pub fn corner_count(&self) -> usize {
+        self.rings().map(Vec::len).sum()
+    }
+
+    /// How many holes the polygons have.
+    pub fn hole_count(&self) -> usize {
+        self.polygons.iter().map(|rings| rings.len() - 1).sum()
+    }
+
+    /// The area covered, in square world units.
+    pub fn area(&self) -> f64 {
+        self.rings().map(|ring| signed_area(ring)).sum()
+    }
+
+    /// The region with what `outline` encloses added, within the frame.
+    pub fn with(&self, outline: &Ring) -> Self {
+        self.combined(outline, Rule::EITHER)
+    }
+
+    /// The region without what `outline` encloses.
+    pub fn without(&self, outline: &Ring) -> Self {
+        self.combined(outline, Rule::FIRST_ONLY)
+    }
+
+    fn combined(&self, outline: &Ring, rule: Rule) -> Self {
+        let grid = Grid::over(&self.frame);
+        let frame = [grid.contour(&corners(&self.frame))];
+        let within: Vec<Contour> =
+            overlay(&[grid.contour(outline)], &frame, Rule::BOTH).into_iter().flatten().collect();
+        grid.region(overlay(&grid.contours_of(self), &within, rule))
+    }
+
+    /// The region in another frame, cut off where that is smaller.
+    pub fn reframed(&self, frame: Rect) -> Self {
+        Self::new(&self.polygons, frame)
+    }
+
+    /// Rectangles that hold every point which lies in one of two regions and not in the other, and every edge of which the
+    /// other has not the same.
+    pub fn areas_changed(&self, other: &Self) -> Vec<Rect> {
+        if self.frame != other.frame {
+            return vec![self.frame.union(&other.frame)];
+        }
+        let grid = Grid::over(&self.frame);
+        let differing = overlay(&grid.contours_of(self), &grid.contours_of(other), Rule::ONE_ONLY);
+        let mut areas: Vec<Rect> = differing.iter().filter_map(|shape| grid.extent(shape.first()?)).collect();
+        for [from, to] in unshared_edges(self, other) {
+            let edge = Rect::spanning(from, to);
+            if !areas.iter().any(|area| area.contains(edge.min) && area.contains(edge.max)) {
+                areas.push(edge);
+            }
+        }
+        if areas.len() <= MOST_AREAS {
+            return areas;
+        }
+        areas.into_iter().reduce(|a, b| a.union(&b)).into_iter().collect()
+    }
+}
+
+/// The edges that only one of two regions has.
+fn unshared_edges(a: &Region, b: &Region) -> Vec<[DVec2; 2]> {
+    let key = |edge: [DVec2; 2]| edge.map(|p| [p.x.to_bits(), p.y.to_bits()]);
+    let mut balance: HashMap<_, (i32, [DVec2; 2])> = HashMap::new();
+    for (region, sign) in [(a, 1), (b, -1)] {
+        for edge in region.edges() {
+            balance.entry(key(edge)).or_insert((0, edge)).0 += sign;
+        }
+    }
+    // In an order that does not depend on the hash.
+    let mut unshared: Vec<_> = balance.into_values().filter(|(n, _)| *n != 0).map(|(_, edge)| edge).collect();
+    unshared.sort_unstable_by_key(|&edge| key(edge));
+    unshared
+}
+
+/// The corners of a rectangle, anticlockwise.
+pub fn corners(rect: &Rect) -> Ring {
+    let Rect { min, max } = *rect;
+    vec![min, DVec2::new(max.x, min.y), max, DVec2::new(min.x, max.y)]
+}
+
+/// Area enclosed by a ring in square world units, positive when it runs anticlockwise.
+pub fn signed_area(ring: &[DVec2]) -> f64 {
+    let Some(&origin) = ring.first() else { return 0.0 };
+    let ends = ring.iter().skip(1).chain(ring.first());
+    // From a corner of the ring: coordinates in the millions would cost digits.
+    0.5 * ring.iter().zip(ends).map(|(&a, &b)| (a - origin).perp_dot(b - origin)).sum::<f64>()
+}
+
+type Contour = Vec<IntPoint<i64>>;
+type Shape = Vec<Contour>;
+
+/// Which points the result of an overlay has.
+#[derive(Clone, Copy)]
+struct Rule(OverlayRule, FillRule);
+
+impl Rule {
+    /// Those enclosed an odd number of times by the first; those of either.
+    const EITHER: Self = Self(OverlayRule::Union, FillRule::EvenOdd);
+    /// Those of both; parts of the first may overlap.
+    const BOTH: Self = Self(OverlayRule::Intersect, FillRule::NonZero);
+    const FIRST_ONLY: Self = Self(OverlayRule::Difference, FillRule::EvenOdd);
+    const ONE_ONLY: Self = Self(OverlayRule::Xor, FillRule::EvenOdd);
+}
+
+fn overlay(first: &[Contour], second: &[Contour], Rule(rule, fill): Rule) -> Vec<Shape> {
+    let corners = first.iter().chain(second).map(Vec::len).sum();
+    // As geographic standards want it: a hole that touches another ring at one point stays a hole.
+    let mut overlay = Overlay::new_custom(corners, IntOverlayOptions::ogc(), Solver::default());
+    overlay.add_source(first, ShapeType::Subject);
+    overlay.add_source(second, ShapeType::Clip);
+    overlay.overlay(rule, fill)
+}
+
+/// The grid that the corners of a region lie on: 2³⁰ steps along each side of the frame, or as many as f64 can tell apart.
+struct Grid {
+    frame: Rect,
+    steps: f64,
+    step: DVec2,
+}
+
+const GRID_BITS: i32 = 30;
+
+impl Grid {
+    fn over(frame: &Rect) -> Self {
+        let reach = frame.min.abs().max(frame.max.abs()).max_element();
+        let ulp = reach.next_up() - reach;
+        let mut steps = f64::from(1 << GRID_BITS);
+        // Powers of two: a step is as exact as the side, and what is on the grid stays where it is.
+        while steps > 2.0 && (frame.size() / steps).min_element() < 4.0 * ulp {
+            steps /= 2.0;
+        }
+        Self { frame: *frame, steps, step: frame.size() / steps }
+    }
+
+    fn contour(&self, ring: &[DVec2]) -> Contour {
+        let nearest = |p: &DVec2| {
+            // Far beyond the frame nothing is kept anyway.
+            let steps = ((*p - self.frame.min) / self.step).clamp(DVec2::splat(-1e12), DVec2::splat(1e12));
+            IntPoint::new((steps.x + 0.5).floor() as i64, (steps.y + 0.5).floor() as i64)
+        };
+        ring.iter().map(nearest).collect()
+    }
+
+    fn contours(&self, rings: &[Ring]) -> Vec<Contour> {
+        rings.iter().map(|ring| self.contour(ring)).collect()
+    }
+
+    fn contours_of(&self, region: &Region) -> Vec<Contour> {
+        region.rings().map(|ring| self.contour(ring)).collect()
+    }
+
+    fn world(&self, p: &IntPoint<i64>) -> DVec2 {
+        let place = |k: i64, min: f64, max: f64, step: f64| {
+            if k as f64 == self.steps { max } else { min + k as f64 * step }
+        };
+        let Rect { min, max } = self.frame;
+        DVec2::new(place(p.x, min.x, max.x, self.step.x), place(p.y, min.y, max.y, self.step.y))
+    }
+
+    fn region(&self, shapes: Vec<Shape>) -> Region {
+        let ring = |contour: &Contour| contour.iter().map(|p| self.world(p)).collect();
+        let polygons = shapes.iter().map(|shape| shape.iter().map(ring).collect()).collect();
+        Region { frame: self.frame, polygons }
+    }
+
+    /// The rectangle round a contour.
+    fn extent(&self, contour: &Contour) -> Option<Rect> {
+        contour.iter().map(|p| self.world(p)).map(|p| Rect::new(p, p)).reduce(|a, b| a.union(&b))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::dvec2;
+
+    fn square(centre: DVec2, half: f64) -> Ring {
+        corners(&Rect::around(centre, half))
+    }
+
+    fn unit(polygons: &[Polygon]) -> Region {
+        Region::new(polygons, Rect::UNIT)
+    }
+
+    #[test]
+    fn winding_overlaps_and_crossings_are_put_right() {
+        let centre = DVec2::splat(0.5);
+        let hole = square(centre, 0.125);
+        let mut clockwise = square(centre, 0.25);
+        clockwise.reverse();
+        for outer in [square(centre, 0.25), clockwise] {
+            let region = unit(&[vec![outer, hole.clone()]]);
+            assert_eq!((region.area(), region.hole_count()), (0.25 - 0.0625, 1));
+        }
+        // Two polygons that overlap cover their union, and a part beyond the frame is cut off.
+        let region = unit(&[vec![square(centre, 0.25)], vec![square(DVec2::ONE, 0.375)]]);
+        assert_eq!(region.area(), 0.25 + 0.140625 - 0.015625);
+        // A figure of eight: both lobes.
+        let bow = vec![dvec2(0.0, 0.0), dvec2(1.0, 1.0), dvec2(1.0, 0.0), dvec2(0.0, 1.0)];
+        assert!((unit(&[vec![bow]]).area() - 0.5).abs() < 1e-8);
+    }
+
+    #[test]
+    fn an_edit_leaves_distant_edges_as_they_were_and_tells_where_it_changed_something() {
+        let frame = Rect::new(dvec2(4.0e6, -7.0e6), dvec2(4.0e6 + 900.0, -7.0e6 + 700.0));
+        let ring = (0..200).map(|k| f64::from(k) * 0.03141).map(|angle| {
+            frame.center()
+                + dvec2(300.0 * libm::cos(angle), 300.0 * libm::sin(angle) + 20.0 * libm::sin(9.0 * angle))
+        });
+        let region = Region::new(&[vec![ring.collect()]], frame);
+        let again = region.reframed(frame);
+        assert_eq!(again, region, "what is on the grid stays where it is");
+        let dab = square(frame.center() + dvec2(300.0, 0.0), 10.0);
+        for edited in [region.with(&dab), region.without(&dab)] {
+            let areas = region.areas_changed(&edited);
+            let near = Rect::around(frame.center() + dvec2(300.0, 0.0), 30.0);
+            assert!(
+                !areas.is_empty()
+                    && areas.iter().all(|area| near.contains(area.min) && near.contains(area.max))
+            );
+            assert!(!unshared_edges(&region, &edited).is_empty());
+        }
+        let restored = region.with(&dab).without(&dab);
+        assert!((restored.area() - region.without(&dab).area()).abs() < 1e-3);
+        assert!(region.areas_changed(&region).is_empty());
+    }
+
+    #[test]
+    fn nothing_is_left_of_a_region_without_its_frame() {
+        let region = unit(&[vec![square(DVec2::splat(0.5), 0.3)]]);
+        assert!(region.without(&square(DVec2::splat(0.5), 5.0)).is_empty());
+        assert_eq!(region.with(&square(DVec2::splat(0.5), 5.0)).area(), 1.0);
+        assert!(unit(&[]).is_empty() && unit(&[vec![vec![DVec2::ZERO, DVec2::ONE]]]).is_empty());
+    }
+}

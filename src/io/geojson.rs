@@ -1,0 +1,273 @@
+//! `.geojson`: polygons with holes, as geographic programs write them (RFC 7946).
+
+use std::fmt;
+use std::fs::File;
+use std::io::{BufReader, Read};
+use std::path::Path;
+
+use glam::DVec2;
+use serde::Deserialize;
+use serde::de::{DeserializeSeed, Deserializer, Error, SeqAccess, Visitor};
+
+use super::error::{Flaw, PlacedFlaw, ReadError};
+use crate::domain::{MOST_CORNERS, Polygon};
+
+/// Largest file read.
+const MOST_BYTES: u64 = 256 << 20;
+
+/// Reads every polygon of a file: of a geometry, a feature, or a collection of either. Other geometries are passed over.
+///
+/// Coordinates are taken as they are, the first as x and the second as y.
+///
+/// # Errors
+/// When the file cannot be read, is no GeoJSON, has no polygon, or more corners than a domain can have.
+pub fn read(path: &Path) -> Result<Vec<Polygon>, ReadError> {
+    let open = || -> Result<File, PlacedFlaw> {
+        let file = File::open(path)?;
+        let bytes = file.metadata()?.len();
+        if bytes > MOST_BYTES {
+            let limit = MOST_BYTES >> 20;
+            return Err(Flaw::Syntax(format!(
+                "{} MiB are too much for an outline: the limit is {limit} MiB. Keep the polygons only, and simplify them.",
+                bytes >> 20
+            ))
+            .into());
+        }
+        Ok(file)
+    };
+    open().and_then(|file| parse(BufReader::new(file.take(MOST_BYTES)))).map_err(|flaw| flaw.in_file(path))
+}
+
+/// As [`read`], from bytes.
+///
+/// # Errors
+/// As [`read`]; the file is then called as given.
+pub fn from_bytes(bytes: &[u8], name: &Path) -> Result<Vec<Polygon>, ReadError> {
+    parse(bytes).map_err(|flaw| flaw.in_file(name))
+}
+
+fn parse(input: impl Read) -> Result<Vec<Polygon>, PlacedFlaw> {
+    let mut json = serde_json::Deserializer::from_reader(input);
+    let object = Object::deserialize(&mut json).map_err(placed)?;
+    json.end().map_err(placed)?;
+    let mut polygons = Vec::new();
+    let mut others = Vec::new();
+    collect(object, &mut polygons, &mut others).map_err(Flaw::Syntax)?;
+    if polygons.is_empty() {
+        return Err(Flaw::Syntax(no_polygon(&others)).into());
+    }
+    Ok(polygons)
+}
+
+fn no_polygon(others: &[String]) -> String {
+    let found = match others.first() {
+        Some(kind) => format!("it has {kind}"),
+        None => "it has no geometry".into(),
+    };
+    format!(
+        "a domain needs a Polygon or a MultiPolygon, and {found}. Export the area and not its points or lines."
+    )
+}
+
+/// What serde_json says, at its line.
+fn placed(error: serde_json::Error) -> PlacedFlaw {
+    let line = error.line();
+    if error.is_eof() {
+        return Flaw::CutOff.at(line.max(1));
+    }
+    if error.is_io() {
+        return Flaw::Io(error.into()).into();
+    }
+    let text = error.to_string();
+    let problem = text.split(" at line ").next().unwrap_or(&text);
+    Flaw::Syntax(format!("this is no GeoJSON that can be read: {problem}.")).at(line.max(1))
+}
+
+/// Any object of the format; what it has beyond this is passed over.
+#[derive(Deserialize)]
+struct Object {
+    #[serde(rename = "type")]
+    kind: String,
+    #[serde(default)]
+    coordinates: Option<Coordinates>,
+    #[serde(default)]
+    geometry: Option<Box<Self>>,
+    #[serde(default)]
+    geometries: Vec<Self>,
+    #[serde(default)]
+    features: Vec<Self>,
+}
+
+/// Ends when the nesting does, which the parser bounds.
+fn collect(object: Object, polygons: &mut Vec<Polygon>, others: &mut Vec<String>) -> Result<(), String> {
+    let Object { kind, coordinates, geometry, geometries, features } = object;
+    match (kind.as_str(), coordinates) {
+        ("Polygon", Some(coordinates)) => polygons.extend(coordinates.polygons(&kind, 3)?),
+        ("MultiPolygon", Some(coordinates)) => polygons.extend(coordinates.polygons(&kind, 4)?),
+        ("Polygon" | "MultiPolygon", None) => return Err(format!("a {kind} has no \"coordinates\".")),
+        (_, Some(_)) if others.is_empty() => others.push(kind),
+        (_, Some(_)) => {}
+        (_, None) => {}
+    }
+    let inner = geometry.map(|geometry| *geometry).into_iter().chain(geometries).chain(features);
+    inner.into_iter().try_for_each(|object| collect(object, polygons, others))
+}
+
+/// Nested lists of positions, as long as they are not too many: no list of lists is kept in between.
+#[derive(Default)]
+struct Coordinates {
+    positions: Vec<DVec2>,
+    /// Where rings end among the positions, and polygons among the rings.
+    ring_ends: Vec<usize>,
+    polygon_ends: Vec<usize>,
+    /// How deep the positions lie: 1 for a position by itself, 3 for a list of rings. 0 while nothing was met.
+    depth: usize,
+}
+
+impl Coordinates {
+    /// The polygons, if the positions lie as deep as they must.
+    fn polygons(mut self, kind: &str, depth: usize) -> Result<Vec<Polygon>, String> {
+        if self.positions.is_empty() {
+            return Ok(Vec::new());
+        }
+        if self.depth != depth {
+            let lists = "lists of positions in lists of rings";
+            return Err(format!(
+                "the coordinates of a {kind} must be {lists}, nested {depth} deep; here it is {}.",
+                self.depth
+            ));
+        }
+        if depth == 3 {
+            self.polygon_ends.push(self.ring_ends.len());
+        }
+        let mut rings = self.rings().into_iter();
+        let mut start = 0;
+        let polygon = |end: usize| {
+            let count = end - std::mem::replace(&mut start, end);
+            rings.by_ref().take(count).collect::<Polygon>()
+        };
+        Ok(self.polygon_ends.iter().copied().map(polygon).filter(|polygon| !polygon.is_empty()).collect())
+    }
+
+    /// The rings, without the first position again at the end.
+    fn rings(&self) -> Vec<Vec<DVec2>> {
+        let mut start = 0;
+        let ring = |&end: &usize| {
+            let mut ring = self.positions[std::mem::replace(&mut start, end)..end].to_vec();
+            if ring.len() > 1 && ring.first() == ring.last() {
+                ring.pop();
+            }
+            ring
+        };
+        self.ring_ends.iter().map(ring).collect()
+    }
+}
+
+impl<'de> Deserialize<'de> for Coordinates {
+    fn deserialize<D: Deserializer<'de>>(json: D) -> Result<Self, D::Error> {
+        let mut coordinates = Self::default();
+        coordinates.depth = List(&mut coordinates).deserialize(json)?.depth();
+        Ok(coordinates)
+    }
+}
+
+/// Deepest nesting that means something: the positions of a MultiPolygon.
+const DEEPEST: usize = 4;
+
+/// A list of numbers, or of lists; what is met goes to the coordinates.
+struct List<'a>(&'a mut Coordinates);
+
+/// What a value turned out to be.
+#[derive(Clone, Copy, PartialEq)]
+enum Met {
+    Number(f64),
+    /// A list whose positions lie so deep; 0 where it is empty.
+    List(usize),
+}
+
+impl Met {
+    fn depth(self) -> usize {
+        match self {
+            Self::Number(_) => 0,
+            Self::List(depth) => depth,
+        }
+    }
+}
+
+impl<'de> DeserializeSeed<'de> for List<'_> {
+    type Value = Met;
+
+    fn deserialize<D: Deserializer<'de>>(self, json: D) -> Result<Met, D::Error> {
+        json.deserialize_any(self)
+    }
+}
+
+impl<'de> Visitor<'de> for List<'_> {
+    type Value = Met;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str("a number or a list")
+    }
+
+    fn visit_f64<E: Error>(self, value: f64) -> Result<Met, E> {
+        if value.is_finite() { Ok(Met::Number(value)) } else { Err(E::custom("a coordinate is not finite")) }
+    }
+
+    fn visit_u64<E: Error>(self, value: u64) -> Result<Met, E> {
+        Ok(Met::Number(value as f64))
+    }
+
+    fn visit_i64<E: Error>(self, value: i64) -> Result<Met, E> {
+        Ok(Met::Number(value as f64))
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Met, A::Error> {
+        let mut position = DVec2::ZERO;
+        let (mut numbers, mut lists, mut depth) = (0, 0, 0);
+        while let Some(met) = list.next_element_seed(List(self.0))? {
+            match met {
+                Met::Number(value) => {
+                    if numbers < 2 {
+                        position[numbers] = value;
+                    }
+                    numbers += 1;
+                }
+                Met::List(inner) if depth > 0 && inner > 0 && inner != depth => {
+                    return Err(A::Error::custom("lists of different depth stand side by side"));
+                }
+                Met::List(inner) => {
+                    depth = depth.max(inner);
+                    lists += 1;
+                }
+            }
+        }
+        if numbers > 0 && lists > 0 {
+            return Err(A::Error::custom("numbers and lists stand side by side"));
+        }
+        let depth = if depth > 0 { depth + 1 } else { usize::from(numbers > 0) };
+        self.0.close(position, numbers, depth).map_err(A::Error::custom)?;
+        Ok(Met::List(depth))
+    }
+}
+
+impl Coordinates {
+    /// A list has ended in which positions lie `depth` deep.
+    fn close(&mut self, position: DVec2, numbers: usize, depth: usize) -> Result<(), String> {
+        match depth {
+            0 => {}
+            1 if numbers < 2 => return Err("a position needs two numbers".into()),
+            1 => self.positions.push(position),
+            2 => self.ring_ends.push(self.positions.len()),
+            3 => self.polygon_ends.push(self.ring_ends.len()),
+            DEEPEST => {}
+            _ => return Err("lists are nested deeper than those of a MultiPolygon".into()),
+        }
+        if self.positions.len() > MOST_CORNERS {
+            let help = "Simplify the outline first, to the detail that the mesh is to have";
+            return Err(format!(
+                "a polygon has more than {MOST_CORNERS} corners, which is the limit. {help}"
+            ));
+        }
+        Ok(())
+    }
+}
