@@ -593,10 +593,12 @@ fn shift_drag_sizes_the_brush() {
 }
 
 #[test]
-fn a_rectangle_drawn_with_the_domain_tool_becomes_the_domain() {
+fn a_frame_drawn_with_the_domain_tool_becomes_the_domain() {
     let mut window = window();
     let before = fingerprint(&window);
     key(&mut window, Modifiers::NONE, Key::D);
+    window.get_by_role_and_label(Role::RadioButton, "Frame").click();
+    window.run();
     stroke(&mut window, dvec2(-0.05, 0.25), dvec2(0.5, 0.8));
     let bounds = settings(&window).domain.bounds;
     assert!(bounds.min.distance(dvec2(-0.05, 0.25)) < 0.003, "{bounds:?}");
@@ -735,6 +737,90 @@ fn every_example_opens_and_new_is_empty() {
     }
     key(&mut window, Modifiers::COMMAND, Key::N);
     assert_eq!(window.state().session().mesh().level_counts().len(), 1);
+}
+
+/// Area of the mesh.
+fn area(window: &Window) -> f64 {
+    window.state().session().mesh().area()
+}
+
+#[test]
+fn the_domain_is_cut_with_brush_rectangle_and_polygon_and_each_is_one_entry() {
+    let mut window = window();
+    let before = fingerprint(&window);
+    key(&mut window, Modifiers::NONE, Key::D);
+    let radius = window.state().tools().radius;
+    stroke(&mut window, dvec2(0.3, 0.6), dvec2(0.6, 0.6));
+    let cut = std::f64::consts::PI * radius * radius + 0.6 * radius;
+    assert!((area(&window) - (1.0 - cut)).abs() < 0.005, "{} {cut}", area(&window));
+    assert_eq!(entries(&window), 1);
+    assert_eq!(window.state().session().topology().unwrap().holes, 1);
+    assert_eq!(window.state().session().mesh().locate(dvec2(0.45, 0.6)), Location::InHole);
+    let brushed = fingerprint(&window);
+
+    window.get_by_role_and_label(Role::RadioButton, "Rectangle").click();
+    window.run();
+    let whole = area(&window);
+    stroke(&mut window, dvec2(0.7, 0.1), dvec2(0.9, 0.3));
+    assert!((area(&window) - (whole - 0.04)).abs() < 0.004, "{}", area(&window));
+    assert_eq!(entries(&window), 2);
+
+    window.get_by_role_and_label(Role::RadioButton, "Polygon").click();
+    window.get_by_role_and_label(Role::RadioButton, "Add").click();
+    window.run();
+    let smaller = area(&window);
+    for corner in [dvec2(0.65, 0.05), dvec2(0.95, 0.05), dvec2(0.65, 0.35)] {
+        click(&mut window, corner, Modifiers::NONE);
+    }
+    assert_eq!(entries(&window), 2, "a polygon that is not closed cuts nothing");
+    key(&mut window, Modifiers::NONE, Key::Enter);
+    assert!((area(&window) - (smaller + 0.02)).abs() < 0.004, "half of the square is back");
+    assert_eq!(entries(&window), 3);
+
+    key(&mut window, Modifiers::COMMAND, Key::Z);
+    key(&mut window, Modifiers::COMMAND, Key::Z);
+    assert_eq!(fingerprint(&window), brushed);
+    key(&mut window, Modifiers::COMMAND, Key::Z);
+    assert_eq!(fingerprint(&window), before);
+    assert_eq!(window.state().session().mesh().violations(), []);
+}
+
+#[test]
+fn the_outline_is_met_in_two_ways_and_the_panel_says_what_that_costs() {
+    let mut window = window_of(TALL);
+    send(&mut window, Command::OpenExample(Example::Aegean));
+    key(&mut window, Modifiers::NONE, Key::D);
+    let fitted = window.state().session().mesh().triangle_count();
+    assert!(window.query_by_label_contains("of 65").is_some());
+    assert!(fitted > 30_000);
+    window.get_by_role_and_label(Role::RadioButton, "Report").click();
+    window.run();
+    assert!(window.state().session().mesh().triangle_count() < 1000);
+    assert_eq!(window.state().session().mesh().outside_count(), 0);
+    window.get_by_role_and_label(Role::RadioButton, "Fitted").click();
+    window.run();
+    assert_eq!(window.state().session().mesh().triangle_count(), fitted);
+    window.get_by_label("Whole rectangle").click();
+    window.run();
+    assert!(settings(&window).domain.region().is_none());
+    assert_eq!(area(&window), 36.0);
+}
+
+#[test]
+fn a_file_of_polygons_opens_as_a_document() {
+    let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("lake.geojson");
+    let rings = "[[[10, 0], [14, 0], [14, 2], [10, 2], [10, 0]], [[11, 0.5], [12, 0.5], [12, 1], [11, 1], [11, 0.5]]]";
+    std::fs::write(&path, format!("{{\"type\": \"Polygon\", \"coordinates\": {rings}}}")).unwrap();
+    let mut window = window();
+    send(&mut window, Command::OpenDomain(path.clone()));
+    wait_until(&mut window, |window| settings(window).name == "lake");
+    assert_eq!(settings(&window).domain.bounds.max, dvec2(14.0, 2.0));
+    assert!((area(&window) - 7.5).abs() < 0.01, "{}", area(&window));
+    std::fs::write(&path, "{\"type\": \"Point\", \"coordinates\": [1, 2]}").unwrap();
+    send(&mut window, Command::OpenDomain(path));
+    let text = wait_for_notice(&mut window);
+    assert!(text.contains("lake.geojson: a domain needs a Polygon"), "{text}");
+    assert_eq!(settings(&window).name, "lake");
 }
 
 #[test]
@@ -908,6 +994,17 @@ fn scratch(name: &str) -> PathBuf {
 }
 
 /// Runs frames until work off the thread has been heard of.
+fn wait_until(window: &mut Window, done: impl Fn(&Window) -> bool) {
+    for _ in 0..1000 {
+        window.run();
+        if done(window) {
+            return;
+        }
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    panic!("it did not happen");
+}
+
 fn wait_for_notice(window: &mut Window) -> String {
     let patience = Instant::now() + Duration::from_secs(20);
     while notice(window).is_empty() {
@@ -1023,7 +1120,8 @@ fn cancel_gives_a_long_update_up_and_the_next_edit_takes_it_up_again() {
 #[test]
 fn one_slice_of_work_is_small_however_much_there_is_to_do() {
     const VISITS: usize = 2048;
-    let mut document = Example::Threats.document(|| unreachable!("not of this example"));
+    let mut document =
+        Example::Threats.document(|| unreachable!("not of this example"), || unreachable!("nor this"));
     let mut follower = Follower::new(&mut document).unwrap();
     document.set(Setting::SmallestDiameter(TWO_MILLIONS)).unwrap();
     let (mut last, mut most, mut slices) = (0, 0, 0);

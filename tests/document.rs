@@ -2,7 +2,7 @@
 
 use glam::{DVec2, dvec2};
 use meshbrush::document::{Base, Document, Example, Follower, MeshChange, Setting, Settings, Stage};
-use meshbrush::domain::{Domain, Shape};
+use meshbrush::domain::{Domain, Polygon, Shape, corners};
 use meshbrush::field::{Formula, Rule, VertexRule};
 use meshbrush::geometry::Rect;
 use meshbrush::paint::{Brush, Medium};
@@ -11,6 +11,12 @@ use meshbrush::raster::Raster;
 fn slope() -> Raster {
     let values = (0..64 * 48).map(|i| (i % 97) as f32 / 97.0).collect();
     Raster::from_values(Rect::new(DVec2::ZERO, dvec2(4.0, 3.0)), [64, 48], values)
+}
+
+/// A square with a square hole.
+fn sea() -> Vec<Polygon> {
+    let square = |half| corners(&Rect::around(DVec2::splat(3.0), half));
+    vec![vec![square(3.0), square(1.0)]]
 }
 
 fn settle(follower: &mut Follower, document: &mut Document) {
@@ -36,7 +42,7 @@ fn random_stroke(random: &mut fastrand::Rng, document: &mut Document) {
 #[test]
 fn every_example_opens() {
     for example in Example::ALL {
-        let mut document = example.document(slope);
+        let mut document = example.document(slope, sea);
         let follower = Follower::new(&mut document).unwrap();
         assert!(
             follower.mesh().triangles().len() > 5000,
@@ -50,7 +56,7 @@ fn every_example_opens() {
 
 #[test]
 fn the_diamond_is_figure_1() {
-    let mut document = Example::Diamond.document(slope);
+    let mut document = Example::Diamond.document(slope, sea);
     assert_eq!(Follower::new(&mut document).unwrap().mesh().triangles().len(), 9560);
 }
 
@@ -166,7 +172,7 @@ fn a_slider_drag_is_one_entry_and_idle_frames_add_none() {
 
 #[test]
 fn what_cannot_be_met_leaves_document_and_mesh_as_they_were() {
-    let mut document = Example::Threats.document(slope);
+    let mut document = Example::Threats.document(slope, sea);
     let mut follower = Follower::new(&mut document).unwrap();
     let (settings, fingerprint) = (document.settings().clone(), follower.mesh().fingerprint());
     let bad = [
@@ -223,7 +229,7 @@ fn a_formula_that_is_no_length_at_a_node_is_refused_by_the_vertex_rule_too() {
 
 #[test]
 fn the_area_rule_implies_the_vertex_rule() {
-    let mut document = Example::Threats.document(slope);
+    let mut document = Example::Threats.document(slope, sea);
     let follower = Follower::new(&mut document).unwrap();
     let mut by_vertex = document.clone();
     by_vertex.set(Setting::Rule(Rule::Vertex)).unwrap();

@@ -4,7 +4,7 @@ use eframe::egui::{Key, Modifiers, ThemePreference};
 
 use super::App;
 use super::command::{Command, Entry, Menu};
-use super::tools::{PaintKind, Tool};
+use super::tools::{DomainShape, PaintKind, Tool};
 use super::view::FieldOverlay;
 use crate::colormap::Colormap;
 use crate::document::Example;
@@ -19,6 +19,8 @@ fn file() -> Vec<Entry> {
     vec![
         Entry::new(File, "New", Command::New).ctrl(Key::N),
         Entry::new(File, "Open picture as risk…", Command::AskForImage).ctrl(Key::O),
+        Entry::new(File, "Open domain…", Command::AskForDomain)
+            .keys(Modifiers::COMMAND | Modifiers::SHIFT, Key::O),
         Entry::new(File, "Export mesh…", Command::AskForExport).ctrl(Key::E),
         Entry::new(File, "Quit", Command::Quit).ctrl(Key::Q).group(),
     ]
@@ -70,6 +72,23 @@ fn tool(app: &App) -> Vec<Entry> {
         harder("Harder brush", 0.1, Key::CloseCurlyBracket),
         harder("Softer brush", -0.1, Key::OpenCurlyBracket),
     ];
+    let shape = |title: &str, shape| {
+        let taken = tools.tool == Tool::Domain && tools.domain_shape == shape;
+        Entry::new(InTool, title, Command::DomainShape(shape)).checked(taken)
+    };
+    entries.extend([
+        shape("Cut domain with the brush", DomainShape::Brush).group(),
+        shape("Cut domain with a rectangle", DomainShape::Rectangle),
+        shape("Cut domain with a polygon", DomainShape::Polygon),
+        shape("Draw the frame of the domain", DomainShape::Frame),
+        Entry::new(InTool, "Add to the domain", Command::DomainAdds(!tools.domain_adds))
+            .key(Key::X)
+            .checked(tools.domain_adds),
+    ]);
+    let drawing = !app.outline.is_empty();
+    if drawing {
+        entries.push(Entry::new(InTool, "Close the polygon", Command::CloseOutline).key(Key::Enter));
+    }
     for (i, key) in DIGITS.into_iter().enumerate() {
         let percent = 10 * (i + 1);
         let command = Command::BrushStrength(percent as f64 / 100.0);

@@ -5,10 +5,11 @@ use std::path::PathBuf;
 use eframe::egui::{Key, KeyboardShortcut, Modifiers, ThemePreference};
 use glam::DVec2;
 
-use super::tools::{PaintKind, Tool};
+use super::tools::{DomainShape, PaintKind, Tool};
 use super::view::FieldOverlay;
 use crate::colormap::Colormap;
-use crate::document::{Example, Setting};
+use crate::document::{Example, Setting, Settings};
+use crate::domain::Stencil;
 use crate::mesh::TriangleId;
 
 /// One thing to do.
@@ -22,6 +23,12 @@ pub enum Command {
     AskForImage,
     /// Takes a greyscale picture as the base field's risk.
     OpenImage(PathBuf),
+    /// A document with these settings and no paint.
+    NewWith(Box<Settings>),
+    /// Asks for a file of polygons to mesh.
+    AskForDomain,
+    /// Opens a file of polygons as a new document's domain.
+    OpenDomain(PathBuf),
     /// Asks where to write the mesh.
     AskForExport,
     /// Writes the mesh; the ending chooses the format.
@@ -75,6 +82,16 @@ pub enum Command {
     /// Asks about a triangle.
     QueryTriangle(TriangleId),
 
+    /// Adds a shape to the domain (`true`) or takes it away. Goes on until [`Command::EndGesture`].
+    Reshape(Stencil, bool),
+    /// Sets the next corner of the polygon to cut the domain with, in world units.
+    AddCorner(DVec2),
+    /// Closes that polygon and cuts.
+    CloseOutline,
+    /// What the domain tool cuts with.
+    DomainShape(DomainShape),
+    /// Whether it adds or takes away.
+    DomainAdds(bool),
     /// Makes the rectangle between two points, in world units, the domain's.
     Frame(DVec2, DVec2),
 

@@ -14,7 +14,8 @@ use super::readout::target_at;
 use super::session::{Notice, Session};
 use super::theme::{font, tokens};
 use super::widgets::{ActionButton, ButtonKind, TextRow, format};
-use crate::document::{Base, Setting, Settings};
+use crate::document::{Base, Document, Example, Setting, Settings};
+use crate::domain::{Domain, Polygon};
 use crate::geometry::Rect;
 use crate::io::png::{Behind, decode};
 use crate::io::{self, MeshData, MeshFormat};
@@ -31,11 +32,25 @@ pub fn terrain_slope() -> Raster {
         .expect("the picture is part of the program: a test opens it")
 }
 
+/// The sea between Greece and Turkey.
+fn aegean_sea() -> Vec<Polygon> {
+    let file = include_bytes!("../../assets/aegean_sea.geojson");
+    io::geojson::from_bytes(file, Path::new("aegean_sea.geojson"))
+        .expect("the outline is part of the program: a test opens it")
+}
+
+/// A document that comes with the program.
+pub fn example(example: Example) -> Document {
+    example.document(terrain_slope, aegean_sea)
+}
+
 /// What a file is asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FileRequest {
     /// A picture to take as risk.
     OpenImage,
+    /// Polygons to mesh.
+    OpenDomain,
     /// Where to write the mesh.
     Export,
 }
@@ -44,13 +59,14 @@ impl FileRequest {
     fn title(self) -> &'static str {
         match self {
             Self::OpenImage => "Open picture as risk",
+            Self::OpenDomain => "Open domain",
             Self::Export => "Export mesh",
         }
     }
 
     fn verb(self) -> &'static str {
         match self {
-            Self::OpenImage => "Open",
+            Self::OpenImage | Self::OpenDomain => "Open",
             Self::Export => "Export",
         }
     }
@@ -58,6 +74,7 @@ impl FileRequest {
     fn hint(self) -> &'static str {
         match self {
             Self::OpenImage => "path of a greyscale .png",
+            Self::OpenDomain => "path of a .geojson with polygons",
             Self::Export => "path ending in .vtu .msh .obj .node .csv",
         }
     }
@@ -65,6 +82,7 @@ impl FileRequest {
     fn command(self, path: PathBuf) -> Command {
         match self {
             Self::OpenImage => Command::OpenImage(path),
+            Self::OpenDomain => Command::OpenDomain(path),
             Self::Export => Command::Export(path),
         }
     }
@@ -76,6 +94,8 @@ enum Outcome {
     Chosen(FileRequest, PathBuf),
     /// A picture was read.
     Image(Base),
+    /// A domain was read, and settings that suit it made.
+    Domain(Box<Settings>),
     /// Something to tell.
     Told(Notice),
 }
@@ -117,6 +137,23 @@ impl Files {
         });
     }
 
+    /// Reads polygons, and makes a document of them.
+    pub fn load_domain(&mut self, path: PathBuf, ctx: &Context) {
+        self.run(ctx, move || {
+            let read = io::geojson::read(&path).map_err(|error| error.to_string());
+            let settings: Result<_, String> = read.and_then(|polygons| {
+                let domain =
+                    Domain::of_polygons(&polygons).map_err(|e| format!("{}: {e}", path.display()))?;
+                let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+                Ok(Settings::for_domain(name, domain))
+            });
+            match settings {
+                Ok(settings) => Outcome::Domain(Box::new(settings)),
+                Err(error) => failure(error),
+            }
+        });
+    }
+
     /// Writes the mesh on the screen, with h̄ at its nodes.
     pub fn export(&mut self, path: PathBuf, session: &Session, ctx: &Context) {
         let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
@@ -152,6 +189,7 @@ impl Files {
                 Outcome::Image(base) => {
                     commands.extend([Command::Set(Setting::Base(base)), Command::EndGesture])
                 }
+                Outcome::Domain(settings) => commands.push(Command::NewWith(settings)),
                 Outcome::Told(notice) => session.set_notice(Some(notice)),
             }
         }
@@ -208,6 +246,7 @@ impl Files {
             let dialog = rfd::FileDialog::new().set_title(request.title());
             let path = match request {
                 FileRequest::OpenImage => dialog.add_filter("Pictures", &["png"]).pick_file(),
+                FileRequest::OpenDomain => dialog.add_filter("Polygons", &["geojson", "json"]).pick_file(),
                 FileRequest::Export => dialog
                     .add_filter("Meshes", &MeshFormat::ALL.map(|(ending, _)| ending))
                     .set_file_name("mesh.vtu")

@@ -47,8 +47,15 @@ const ERASE: &[Hint] = &[
 ];
 const QUERY: &[Hint] =
     &[Text("Click a triangle to read it out"), Key("B"), Text("brush"), Key("Esc"), Text("let go")];
-const DOMAIN: &[Hint] =
-    &[Text("Drag a rectangle: it becomes the domain"), Key("Ctrl+Z"), Text("undo"), Key("B"), Text("brush")];
+const DOMAIN: &[Hint] = &[
+    Text("Cut the domain: brush, rectangle or polygon"),
+    Key("X"),
+    Text("add or take away"),
+    Key("Alt"),
+    Text("the other way"),
+    Key("Ctrl+Z"),
+    Text("undo"),
+];
 const PAN: &[Hint] =
     &[Text("Drag to move, wheel to zoom"), Key("Home"), Text("fits"), Key("B"), Text("brush")];
 

@@ -8,9 +8,10 @@ use super::canvas::Gesture;
 use super::command::Command;
 use super::files::FileRequest;
 use super::readout::{Quantity, value_at};
-use super::tools::{PaintKind, Tool, Tools};
+use super::tools::{DomainShape, PaintKind, Tool, Tools};
 use super::view::FieldOverlay;
 use crate::document::{Document, Example, Setting, Settings};
+use crate::domain::Stencil;
 use crate::geometry::Rect;
 use crate::mesh::TriangleId;
 
@@ -22,6 +23,9 @@ impl App {
             Command::OpenExample(example) => self.open_example(example),
             Command::AskForImage => self.files.ask(FileRequest::OpenImage),
             Command::OpenImage(path) => self.files.load_image(path, self.session.document().settings(), ctx),
+            Command::NewWith(settings) => self.new_with(*settings),
+            Command::AskForDomain => self.files.ask(FileRequest::OpenDomain),
+            Command::OpenDomain(path) => self.files.load_domain(path, ctx),
             Command::AskForExport => self.files.ask(FileRequest::Export),
             Command::Export(path) => self.export(path, ctx),
             Command::Quit => ctx.send_viewport_cmd(ViewportCommand::Close),
@@ -39,7 +43,7 @@ impl App {
             Command::LineTo(point) => self.line_to(point),
             Command::Escape => self.escape(),
 
-            Command::Use(tool) => self.tools.tool = tool,
+            Command::Use(tool) => self.take_tool(tool),
             Command::Paint(kind) => self.paint(kind),
             Command::BrushRadius(radius) => self.set_brush_radius(radius),
             Command::ScaleBrush(factor) => self.set_brush_radius(self.tools.radius * factor),
@@ -51,6 +55,11 @@ impl App {
             Command::Query(point) => self.query(point),
             Command::QueryTriangle(id) => self.query_triangle(id),
 
+            Command::Reshape(stencil, adds) => self.reshape(&stencil, adds),
+            Command::AddCorner(corner) => self.outline.push(corner),
+            Command::CloseOutline => self.close_outline(),
+            Command::DomainShape(shape) => self.take_domain_shape(shape),
+            Command::DomainAdds(adds) => self.tools.domain_adds = adds,
             Command::Frame(a, b) => self.frame(a, b),
 
             Command::Fit => self.view.camera = None,
@@ -66,7 +75,7 @@ impl App {
         }
     }
 
-    fn open(&mut self, title: &'static str, document: Document) {
+    pub(super) fn open(&mut self, title: &'static str, document: Document) {
         self.session.document_mut().replace_with(title, document);
         self.unedited.push(self.session.document().version());
         self.session.query(None);
@@ -91,8 +100,15 @@ impl App {
         }
     }
 
+    fn new_with(&mut self, settings: Settings) {
+        match Document::new(settings, None) {
+            Ok(document) => self.open("open domain", document),
+            Err(error) => self.session.report(error),
+        }
+    }
+
     fn open_example(&mut self, example: Example) {
-        self.open("example", example.document(super::files::terrain_slope));
+        self.open("example", super::files::example(example));
     }
 
     fn export(&mut self, path: std::path::PathBuf, ctx: &Context) {
@@ -122,8 +138,9 @@ impl App {
     fn escape(&mut self) {
         if self.session.document().stroke().is_some() {
             self.session.document_mut().cancel_stroke();
-        } else if matches!(self.gesture, Gesture::Framing { .. }) {
+        } else if matches!(self.gesture, Gesture::Framing { .. }) || !self.outline.is_empty() {
             self.gesture = Gesture::None;
+            self.outline.clear();
         } else {
             self.session.query(None);
             self.session.set_notice(None);
@@ -174,6 +191,35 @@ impl App {
     fn query(&mut self, point: DVec2) {
         self.session.query(Some(point));
         self.hints.did(Tool::Query);
+    }
+
+    fn take_tool(&mut self, tool: Tool) {
+        self.tools.tool = tool;
+        self.outline.clear();
+    }
+
+    fn take_domain_shape(&mut self, shape: DomainShape) {
+        self.take_tool(Tool::Domain);
+        self.tools.domain_shape = shape;
+    }
+
+    fn reshape(&mut self, stencil: &Stencil, adds: bool) {
+        match self.session.document().settings().domain.reshaped(stencil, adds) {
+            Some(domain) => self.session.set(Setting::Domain(domain)),
+            None => self.session.report(
+                "The domain is given by a formula, and a formula has no outline to cut. Empty the row \"Domain where\" to start \
+                 from the whole rectangle.",
+            ),
+        }
+        self.hints.did(Tool::Domain);
+    }
+
+    fn close_outline(&mut self) {
+        let ring = std::mem::take(&mut self.outline);
+        if ring.len() >= 3 {
+            self.reshape(&Stencil::Ring(ring), self.tools.domain_adds);
+            self.session.document_mut().end_gesture();
+        }
     }
 
     fn frame(&mut self, a: DVec2, b: DVec2) {

@@ -40,6 +40,7 @@ use widgets::{CommandPalette, PaletteItem};
 
 use crate::colormap::Ground;
 use crate::document::Example;
+use crate::domain::Boundary;
 use crate::mesh::TriangleId;
 use crate::render::gpu::device_descriptor;
 
@@ -75,6 +76,10 @@ pub struct App {
     canvas_rect: egui::Rect,
     pointer_world: Option<DVec2>,
     last_painted: Option<DVec2>,
+    /// Corners so far of the polygon to cut the domain with, in world units.
+    outline: Vec<DVec2>,
+    /// How the outline was met before the report's way was chosen.
+    last_fitted: Option<Boundary>,
     hovered_neighbour: Option<TriangleId>,
 }
 
@@ -87,7 +92,7 @@ impl App {
         theme::install(ctx);
         let theme = ThemePreference::Dark;
         ctx.set_theme(theme);
-        let document = Example::ALL[0].document(files::terrain_slope);
+        let document = files::example(Example::ALL[0]);
         let session = Session::new(document).map_err(|error| error.to_string())?;
         let settings = session.document().settings();
         let extent = settings.domain.bounds.size().max_element();
@@ -113,6 +118,8 @@ impl App {
             canvas_rect: egui::Rect::NOTHING,
             pointer_world: None,
             last_painted: None,
+            outline: Vec::new(),
+            last_fitted: None,
             hovered_neighbour: None,
         })
     }

@@ -7,7 +7,7 @@ use glam::DVec2;
 
 use super::readout::{Quantity, Readout};
 use crate::document::{Document, FollowError, Follower, MeshChange, Setting, Stage};
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, Progress, Survey, Topology};
 
 /// Pixels or triangles in one slice of work: well below a millisecond.
 const SLICE: usize = 2048;
@@ -29,6 +29,16 @@ pub struct Session {
     notice: Option<Notice>,
     work: Duration,
     last_update: Option<Duration>,
+    survey: Surveyed,
+}
+
+/// The shape of the mesh, as far as it is known.
+#[derive(Default)]
+struct Surveyed {
+    /// The revision of the mesh that the rest is about.
+    revision: Option<u64>,
+    under_way: Option<Survey>,
+    topology: Option<Topology>,
 }
 
 impl Session {
@@ -46,6 +56,7 @@ impl Session {
             notice: None,
             work: Duration::ZERO,
             last_update: Some(began.elapsed()),
+            survey: Surveyed::default(),
         })
     }
 
@@ -155,7 +166,31 @@ impl Session {
         if !left && self.work > Duration::ZERO {
             self.last_update = Some(std::mem::take(&mut self.work));
         }
-        left
+        left || self.survey(deadline)
+    }
+
+    /// Nodes, parts and holes of the mesh on the screen, where some triangles lie outside; `None` until they are counted.
+    pub fn topology(&self) -> Option<Topology> {
+        self.survey.topology.filter(|_| self.survey.revision == Some(self.follower.revision()))
+    }
+
+    /// Counts parts and holes until `deadline`, where the mesh is at rest and has them; tells whether work is left.
+    fn survey(&mut self, deadline: Instant) -> bool {
+        let mesh = self.follower.mesh();
+        let revision = Some(self.follower.revision());
+        if self.survey.revision != revision {
+            let under_way = (mesh.outside_count() > 0).then(|| Survey::new(mesh));
+            self.survey = Surveyed { revision, under_way, topology: None };
+        }
+        let Some(survey) = &mut self.survey.under_way else { return false };
+        while survey.advance(mesh, SLICE) == Progress::More {
+            if Instant::now() >= deadline {
+                return true;
+            }
+        }
+        self.survey.topology = Some(survey.topology(mesh));
+        self.survey.under_way = None;
+        false
     }
 
     /// What became of the mesh since this was last asked.

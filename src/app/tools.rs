@@ -11,7 +11,7 @@ pub enum Tool {
     Eraser,
     /// Asks about a point.
     Query,
-    /// Draws the domain's rectangle.
+    /// Adds to the domain or takes away from it, or draws its rectangle.
     Domain,
     /// Moves the view.
     Pan,
@@ -24,6 +24,19 @@ pub enum PaintKind {
     Risk,
     /// The target diameter itself.
     Diameter,
+}
+
+/// What the domain tool cuts with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DomainShape {
+    /// The brush ring.
+    Brush,
+    /// A rectangle from corner to corner.
+    Rectangle,
+    /// A polygon, corner by corner.
+    Polygon,
+    /// The rectangle that the coarse grid covers: nothing is cut.
+    Frame,
 }
 
 /// The tool in hand, and the brush that painting and erasing share.
@@ -43,6 +56,10 @@ pub struct Tools {
     pub erase_strength: f64,
     /// The diameter that the brush paints, in world units.
     pub diameter: f64,
+    /// What the domain tool cuts with.
+    pub domain_shape: DomainShape,
+    /// Whether it adds to the domain, or takes away.
+    pub domain_adds: bool,
 }
 
 impl Tools {
@@ -56,11 +73,18 @@ impl Tools {
             paint_strength: 0.8,
             erase_strength: 1.0,
             diameter: 2.0 * h_min,
+            domain_shape: DomainShape::Brush,
+            domain_adds: false,
         }
     }
 
     /// Whether the tool in hand works with the brush ring.
     pub fn has_ring(&self) -> bool {
+        self.paints() || (self.tool == Tool::Domain && self.domain_shape == DomainShape::Brush)
+    }
+
+    /// Whether the tool in hand changes the paint.
+    pub fn paints(&self) -> bool {
         matches!(self.tool, Tool::Brush | Tool::Eraser)
     }
 

@@ -3,7 +3,7 @@ use std::sync::Arc;
 use glam::{DVec2, dvec2};
 
 use super::{Base, Document, Settings};
-use crate::domain::{Boundary, Domain};
+use crate::domain::{Boundary, Domain, Polygon};
 use crate::field::{Formula, Rule, Transfer};
 use crate::geometry::Rect;
 use crate::paint::{Brush, Medium};
@@ -18,11 +18,13 @@ pub enum Example {
     Diamond,
     /// The slope of a real terrain as risk.
     Terrain,
+    /// A sea with its islands.
+    Aegean,
 }
 
 impl Example {
     /// All of them, the first to be shown first.
-    pub const ALL: [Self; 3] = [Self::Threats, Self::Diamond, Self::Terrain];
+    pub const ALL: [Self; 4] = [Self::Threats, Self::Diamond, Self::Terrain, Self::Aegean];
 
     /// Name for menus.
     pub fn name(self) -> &'static str {
@@ -30,6 +32,7 @@ impl Example {
             Self::Threats => "Radar threats",
             Self::Diamond => "The report's diamond",
             Self::Terrain => "Terrain slope",
+            Self::Aegean => "Aegean Sea",
         }
     }
 
@@ -41,16 +44,20 @@ impl Example {
             }
             Self::Diamond => "Figure 1 of the report: a formula, by the report's vertex rule.",
             Self::Terrain => "Slope of the terrain at Jacksboro, from the SRTM elevation model, as risk.",
+            Self::Aegean => {
+                "The sea between Greece and Turkey, fitted to the coast, with 65 islands as holes."
+            }
         }
     }
 
-    /// The document. `slope` decodes the picture of the terrain, risk by pixel over the given rectangle; the other examples
-    /// do without.
-    pub fn document(self, slope: impl FnOnce() -> Raster) -> Document {
+    /// The document. `slope` decodes the picture of the terrain, risk by pixel over the given rectangle, and `sea` reads the
+    /// polygons of the Aegean in degrees; the other examples do without.
+    pub fn document(self, slope: impl FnOnce() -> Raster, sea: impl FnOnce() -> Vec<Polygon>) -> Document {
         match self {
             Self::Threats => threats(),
             Self::Diamond => document(diamond()),
             Self::Terrain => document(terrain(slope())),
+            Self::Aegean => document(aegean(&sea())),
         }
     }
 }
@@ -97,6 +104,13 @@ const SITES: [(DVec2, f64, f64, f64); 4] = [
     (dvec2(0.855, 0.225), 0.15, 0.10, 0.70),
 ];
 
+/// The sea at half a degree, the coast at a fiftieth.
+fn aegean(sea: &[Polygon]) -> Settings {
+    let domain = Domain::of_polygons(sea).expect("a sound outline");
+    let settings = Settings::for_domain(Example::Aegean.name().into(), domain);
+    Settings { spacing: 0.5, boundary: Boundary::Fitted { diameter: 0.02 }, ..settings }
+}
+
 fn threats() -> Document {
     let mut document = document(Settings { name: Example::Threats.name().into(), ..Settings::default() });
     for (place, radius, hardness, strength) in SITES {
@@ -117,6 +131,22 @@ fn threats() -> Document {
 impl Settings {
     /// Most triangles unless the user says otherwise: 760 MB.
     pub const MAX_TRIANGLES: usize = 20_000_000;
+
+    /// The usual settings for a domain: lengths in proportion to its longer side.
+    pub fn for_domain(name: String, domain: Domain) -> Self {
+        let (usual, extent) = (Self::default(), domain.bounds.size().max_element());
+        let Transfer { h_min, h_max, shape } = usual.transfer;
+        let spacing = usual.spacing * extent;
+        Self {
+            name,
+            domain,
+            spacing,
+            boundary: Boundary::usual(spacing),
+            transfer: Transfer { h_min: h_min * extent, h_max: h_max * extent, shape },
+            base: Base::Constant(h_max * extent),
+            ..usual
+        }
+    }
 }
 
 impl Default for Settings {

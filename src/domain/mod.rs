@@ -3,6 +3,7 @@
 mod fit;
 mod on_lattice;
 mod region;
+mod stencil;
 mod tangle;
 
 use std::sync::Arc;
@@ -13,6 +14,7 @@ use crate::geometry::Rect;
 pub use fit::{Boundary, DomainOnLattice};
 pub use on_lattice::RegionOnLattice;
 pub use region::{Polygon, Region, Ring, corners, signed_area};
+pub use stencil::Stencil;
 use tangle::check_tangle;
 pub use tangle::{MOST_CORNERS, MOST_CROSSINGS};
 

@@ -25,6 +25,7 @@ pub type Polygon = Vec<Ring>;
 pub struct Region {
     frame: Rect,
     polygons: Vec<Polygon>,
+    area: f64,
 }
 
 /// Longest list of changed areas; beyond it they become one.
@@ -87,24 +88,24 @@ impl Region {
 
     /// The area covered, in square world units.
     pub fn area(&self) -> f64 {
-        self.rings().map(|ring| signed_area(ring)).sum()
+        self.area
     }
 
-    /// The region with what `outline` encloses added, within the frame.
-    pub fn with(&self, outline: &Ring) -> Self {
-        self.combined(outline, Rule::EITHER)
+    /// The region with whatever one of the rings encloses added, within the frame.
+    pub fn with(&self, rings: &[Ring]) -> Self {
+        self.combined(rings, Rule::EITHER)
     }
 
-    /// The region without what `outline` encloses.
-    pub fn without(&self, outline: &Ring) -> Self {
-        self.combined(outline, Rule::FIRST_ONLY)
+    /// The region without whatever one of the rings encloses.
+    pub fn without(&self, rings: &[Ring]) -> Self {
+        self.combined(rings, Rule::FIRST_ONLY)
     }
 
-    fn combined(&self, outline: &Ring, rule: Rule) -> Self {
+    fn combined(&self, rings: &[Ring], rule: Rule) -> Self {
         let grid = Grid::over(&self.frame);
         let frame = [grid.contour(&corners(&self.frame))];
         let within: Vec<Contour> =
-            overlay(&[grid.contour(outline)], &frame, Rule::BOTH).into_iter().flatten().collect();
+            overlay(&grid.contours(rings), &frame, Rule::BOTH).into_iter().flatten().collect();
         grid.region(overlay(&grid.contours_of(self), &within, rule))
     }
 
@@ -237,8 +238,9 @@ impl Grid {
 
     fn region(&self, shapes: Vec<Shape>) -> Region {
         let ring = |contour: &Contour| contour.iter().map(|p| self.world(p)).collect();
-        let polygons = shapes.iter().map(|shape| shape.iter().map(ring).collect()).collect();
-        Region { frame: self.frame, polygons }
+        let polygons: Vec<Polygon> = shapes.iter().map(|shape| shape.iter().map(ring).collect()).collect();
+        let area = polygons.iter().flatten().map(|ring| signed_area(ring)).sum();
+        Region { frame: self.frame, polygons, area }
     }
 
     /// The rectangle round a contour.
@@ -249,6 +251,8 @@ impl Grid {
 
 #[cfg(test)]
 mod tests {
+    use std::slice;
+
     use super::*;
     use glam::dvec2;
 
@@ -289,7 +293,7 @@ mod tests {
         let again = region.reframed(frame);
         assert_eq!(again, region, "what is on the grid stays where it is");
         let dab = square(frame.center() + dvec2(300.0, 0.0), 10.0);
-        for edited in [region.with(&dab), region.without(&dab)] {
+        for edited in [region.with(slice::from_ref(&dab)), region.without(slice::from_ref(&dab))] {
             let areas = region.areas_changed(&edited);
             let near = Rect::around(frame.center() + dvec2(300.0, 0.0), 30.0);
             assert!(
@@ -298,16 +302,16 @@ mod tests {
             );
             assert!(!unshared_edges(&region, &edited).is_empty());
         }
-        let restored = region.with(&dab).without(&dab);
-        assert!((restored.area() - region.without(&dab).area()).abs() < 1e-3);
+        let restored = region.with(slice::from_ref(&dab)).without(slice::from_ref(&dab));
+        assert!((restored.area() - region.without(slice::from_ref(&dab)).area()).abs() < 1e-3);
         assert!(region.areas_changed(&region).is_empty());
     }
 
     #[test]
     fn nothing_is_left_of_a_region_without_its_frame() {
         let region = unit(&[vec![square(DVec2::splat(0.5), 0.3)]]);
-        assert!(region.without(&square(DVec2::splat(0.5), 5.0)).is_empty());
-        assert_eq!(region.with(&square(DVec2::splat(0.5), 5.0)).area(), 1.0);
+        assert!(region.without(&[square(DVec2::splat(0.5), 5.0)]).is_empty());
+        assert_eq!(region.with(&[square(DVec2::splat(0.5), 5.0)]).area(), 1.0);
         assert!(unit(&[]).is_empty() && unit(&[vec![vec![DVec2::ZERO, DVec2::ONE]]]).is_empty());
     }
 }

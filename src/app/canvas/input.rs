@@ -4,11 +4,15 @@ use eframe::egui::{self, Event, Key, Modifiers, PointerButton, Pos2, Response, U
 use glam::{DVec2, dvec2};
 
 use super::super::command::Command;
-use super::super::tools::{Tool, Tools};
+use super::super::tools::{DomainShape, Tool, Tools};
+use crate::domain::{Stencil, corners};
+use crate::geometry::Rect;
 use crate::scene::Camera;
 
 /// Points that the pointer must move, with Shift held, before a click becomes a drag of the brush's size.
 const CLICK_SLACK: f32 = 4.0;
+/// Points within which a click on the first corner of a polygon closes it.
+const CLOSING_POINTS: f64 = 9.0;
 /// Share by which one point of scrolling zooms; a notch of a wheel scrolls by about 50 points.
 const ZOOM_PER_POINT: f64 = 0.004;
 
@@ -36,12 +40,21 @@ pub enum Gesture {
         /// Whether it moved far enough to be a drag.
         dragged: bool,
     },
-    /// Drawing the domain's rectangle.
+    /// Cutting the domain with the brush.
+    Cutting {
+        /// Where the brush was last, in world units.
+        last: DVec2,
+        /// Whether it adds to the domain.
+        adds: bool,
+    },
+    /// Drawing a rectangle: the domain's, or one to cut it with.
     Framing {
         /// Where the pointer went down.
         from: Pos2,
         /// Where it is.
         to: Pos2,
+        /// Whether it is to be added to the domain or taken away; `None` where it becomes the frame.
+        adds: Option<bool>,
     },
 }
 
@@ -55,6 +68,8 @@ pub struct Pointer<'a> {
     pub tools: &'a Tools,
     /// Physical pixels for a point.
     pub px_per_point: f64,
+    /// The first corner of the polygon that is being set, in world units.
+    pub first_corner: Option<DVec2>,
 }
 
 impl Pointer<'_> {
@@ -147,9 +162,45 @@ impl Pointer<'_> {
                 commands.push(Command::Query(point));
                 Gesture::None
             }
-            Tool::Domain => Gesture::Framing { from: pos, to: pos },
+            Tool::Domain => self.press_domain(pos, modifiers, commands),
             Tool::Pan => Gesture::None,
         }
+    }
+
+    /// Alt turns adding into taking away, and back.
+    fn press_domain(&mut self, pos: Pos2, modifiers: Modifiers, commands: &mut Vec<Command>) -> Gesture {
+        let point = self.world(pos);
+        let adds = self.tools.domain_adds != modifiers.alt;
+        match self.tools.domain_shape {
+            DomainShape::Brush => {
+                commands.push(Command::Reshape(self.brush_along(vec![point]), adds));
+                Gesture::Cutting { last: point, adds }
+            }
+            DomainShape::Rectangle => Gesture::Framing { from: pos, to: pos, adds: Some(adds) },
+            DomainShape::Frame => Gesture::Framing { from: pos, to: pos, adds: None },
+            DomainShape::Polygon => {
+                let closes = self.first_corner.is_some_and(|first| {
+                    let px = self.camera.screen_from_world(first).distance(self.px(pos));
+                    px < CLOSING_POINTS * self.px_per_point
+                });
+                commands.push(if closes { Command::CloseOutline } else { Command::AddCorner(point) });
+                Gesture::None
+            }
+        }
+    }
+
+    fn brush_along(&self, path: Vec<DVec2>) -> Stencil {
+        Stencil::Stroke { path, radius: self.tools.radius }
+    }
+
+    /// Cuts from where the brush was to where it is; all that it does in one frame is cut at once.
+    fn cut_to(&self, point: DVec2, last: &mut DVec2, adds: bool, commands: &mut Vec<Command>) {
+        if let Some(Command::Reshape(Stencil::Stroke { path, .. }, _)) = commands.last_mut() {
+            path.push(point);
+        } else if point != *last {
+            commands.push(Command::Reshape(self.brush_along(vec![*last, point]), adds));
+        }
+        *last = point;
     }
 
     fn moved(&mut self, pos: Pos2, gesture: &mut Gesture, commands: &mut Vec<Command>) {
@@ -161,6 +212,7 @@ impl Pointer<'_> {
                 *last = pos;
             }
             Gesture::Framing { to, .. } => *to = pos,
+            Gesture::Cutting { last, adds } => self.cut_to(self.world(pos), last, *adds, commands),
             Gesture::Sizing { from, radius, dragged } => {
                 *dragged |= from.distance(pos) > CLICK_SLACK;
                 if *dragged {
@@ -184,10 +236,14 @@ impl Pointer<'_> {
                 commands.push(Command::LineTo(self.world(pos)));
             }
             Gesture::Sizing { .. } if released == PointerButton::Primary => {}
-            Gesture::Framing { from, .. } if released == PointerButton::Primary => {
+            Gesture::Framing { from, adds, .. } if released == PointerButton::Primary => {
                 if (pos.x - from.x).abs().min((pos.y - from.y).abs()) > CLICK_SLACK {
-                    commands.push(Command::Frame(self.round_world(from), self.round_world(pos)));
+                    let (a, b) = (self.round_world(from), self.round_world(pos));
+                    commands.extend(framed(a, b, adds));
                 }
+            }
+            Gesture::Cutting { .. } if released == PointerButton::Primary => {
+                commands.push(Command::EndGesture)
             }
             Gesture::Panning { button, .. } if released == button => {}
             _ => return,
@@ -208,9 +264,22 @@ impl Pointer<'_> {
     }
 }
 
-/// Ends a gesture where it is. What was painted stays.
+/// Ends a gesture where it is. What was painted or cut stays.
 fn give_up(gesture: &mut Gesture, commands: &mut Vec<Command>) {
-    if std::mem::take(gesture) == Gesture::Painting {
-        commands.push(Command::EndStroke);
+    match std::mem::take(gesture) {
+        Gesture::Painting => commands.push(Command::EndStroke),
+        Gesture::Cutting { .. } => commands.push(Command::EndGesture),
+        _ => {}
+    }
+}
+
+/// What a rectangle between two corners does to the domain.
+fn framed(a: DVec2, b: DVec2, adds: Option<bool>) -> Vec<Command> {
+    match adds {
+        None => vec![Command::Frame(a, b)],
+        Some(adds) => {
+            let ring = corners(&Rect::spanning(a, b));
+            vec![Command::Reshape(Stencil::Ring(ring), adds), Command::EndGesture]
+        }
     }
 }

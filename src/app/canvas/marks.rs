@@ -100,6 +100,36 @@ pub fn paint_line_preview(painter: &Painter, from: Pos2, to: Pos2) {
     painter.extend(Shape::dashed_line(&ends, Stroke::new(1.5, Color32::WHITE), 6.0, 4.0));
 }
 
+/// Shortest piece of an outline that is drawn, in points: what is shorter is not seen.
+const SHORTEST_PIECE: f32 = 0.7;
+
+/// A ring of the domain's outline, thin and light on a dark halo.
+pub fn paint_outline(painter: &Painter, corners: impl Iterator<Item = Pos2>) {
+    let mut line: Vec<Pos2> = Vec::new();
+    for corner in corners {
+        if line.last().is_none_or(|last| last.distance(corner) >= SHORTEST_PIECE) {
+            line.push(corner);
+        }
+    }
+    if Rect::from_points(&line).intersects(painter.clip_rect()) {
+        painter.add(Shape::closed_line(line.clone(), Stroke::new(2.5, Color32::from_black_alpha(110))));
+        painter.add(Shape::closed_line(line, Stroke::new(1.0, Color32::WHITE)));
+    }
+}
+
+/// A polygon whose corners are still being set: the next edge follows the pointer, and the first corner closes it.
+pub fn paint_open_polygon(painter: &Painter, corners: &[Pos2], pointer: Option<Pos2>) {
+    let Some(&first) = corners.first() else { return };
+    for edge in corners.windows(2) {
+        painter.line_segment([edge[0], edge[1]], Stroke::new(3.0, Color32::from_black_alpha(110)));
+        painter.line_segment([edge[0], edge[1]], Stroke::new(1.5, Color32::WHITE));
+    }
+    if let (Some(pointer), Some(&last)) = (pointer, corners.last()) {
+        paint_line_preview(painter, last, pointer);
+    }
+    painter.circle(first, 4.5, Color32::WHITE, Stroke::new(1.5, Color32::from_black_alpha(200)));
+}
+
 /// The rectangle that is to become the domain.
 pub fn paint_frame(painter: &Painter, frame: Rect) {
     painter.rect_stroke(frame, 0.0, Stroke::new(3.5, Color32::from_black_alpha(130)), StrokeKind::Middle);

@@ -87,7 +87,9 @@ impl App {
         commands: &mut Vec<Command>,
     ) {
         let px_per_point = f64::from(ui.pixels_per_point());
-        let mut pointer = Pointer { rect: response.rect, camera, tools: &self.tools, px_per_point };
+        let first_corner = self.outline.first().copied();
+        let tools = &self.tools;
+        let mut pointer = Pointer { rect: response.rect, camera, tools, px_per_point, first_corner };
         pointer.follow_events(ui, response, &mut self.gesture, commands);
         let over = response.hover_pos().or(response.interact_pointer_pos());
         self.pointer_world = over.map(|at| pointer.world(at));
@@ -137,13 +139,32 @@ impl App {
         if let Some(readout) = readout {
             marks::paint_point(&painter, at(readout.point));
         }
-        if let Gesture::Framing { from, to } = self.gesture {
+        if self.tools.tool == Tool::Domain {
+            self.paint_outlines(&painter, &at, response.hover_pos());
+        }
+        if let Gesture::Framing { from, to, .. } = self.gesture {
             marks::paint_frame(&painter, Rect::from_two_pos(from, to));
         }
         if let Some(pointer) = response.hover_pos().filter(|_| self.tools.has_ring()) {
             let points_per_world = camera.px_per_world() as f32 / px_per_point;
             self.paint_brush(ui, &painter, pointer, self.last_painted.map(at), points_per_world);
         }
+    }
+
+    /// The outline of the domain, and the polygon that is being set.
+    fn paint_outlines(
+        &self,
+        painter: &egui::Painter,
+        at: &impl Fn(DVec2) -> egui::Pos2,
+        pointer: Option<egui::Pos2>,
+    ) {
+        if let Some(region) = self.session.document().settings().domain.region() {
+            for ring in region.rings() {
+                marks::paint_outline(painter, ring.iter().map(|&corner| at(corner)));
+            }
+        }
+        let corners: Vec<egui::Pos2> = self.outline.iter().map(|&corner| at(corner)).collect();
+        marks::paint_open_polygon(painter, &corners, pointer);
     }
 
     /// The ring of the brush, and with Shift held the line that a click would paint from `last`.
@@ -159,6 +180,7 @@ impl App {
             return marks::paint_brush_ring(painter, from, &self.tools, points_per_world);
         }
         if let Some(last) = last
+            && self.tools.paints()
             && ui.input(|input| input.modifiers.shift)
         {
             marks::paint_line_preview(painter, last, pointer);

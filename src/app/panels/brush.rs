@@ -32,7 +32,7 @@ impl App {
         ui.add_space(4.0);
     }
 
-    fn size_ui(&mut self, ui: &mut Ui) {
+    pub(super) fn size_ui(&mut self, ui: &mut Ui) {
         let extent = self.session.document().settings().domain.bounds.size().max_element();
         let mut radius = self.tools.radius;
         let slider = SliderRow::new("Size", &mut radius, 1e-4 * extent..=0.5 * extent).logarithmic();

@@ -3,11 +3,9 @@ use eframe::egui::{RichText, Ui};
 use super::super::App;
 use super::super::command::Command;
 use super::super::theme::{font, tokens};
-use super::super::tools::Tool;
 use super::super::widgets::{NumberRow, Section, SliderRow, format, segmented, value_row};
 use crate::document::Setting;
 use crate::field::Rule;
-use crate::geometry::Rect;
 
 /// Triangles in a million.
 const MILLION: f64 = 1e6;
@@ -18,17 +16,6 @@ impl App {
             self.spacing_ui(ui);
             self.rule_ui(ui);
             self.budget_ui(ui);
-        });
-    }
-
-    /// The rectangle, and the formula that cuts the domain out of it. With its tool in hand it stands first, open.
-    pub(super) fn domain_ui(&mut self, ui: &mut Ui) {
-        let section = Section::new("Domain");
-        let in_hand = self.tools.tool == Tool::Domain;
-        let section = if in_hand { section.id("domain tool") } else { section.closed() };
-        section.show(ui, |ui| {
-            self.bounds_ui(ui);
-            self.inside_ui(ui);
         });
     }
 
@@ -74,19 +61,5 @@ impl App {
         }
         let bytes = self.session.mesh().triangles().len() * 32 + self.session.mesh().nodes().len() * 8;
         value_row(ui, "Memory", &format!("{} MB", format::fixed(bytes as f64 / MILLION, 1)));
-    }
-
-    fn bounds_ui(&mut self, ui: &mut Ui) {
-        let bounds = self.session.document().settings().domain.bounds;
-        let mut edges = [bounds.min.x, bounds.min.y, bounds.max.x, bounds.max.y];
-        let mut changed = false;
-        for (name, value) in ["Left", "Bottom", "Right", "Top"].into_iter().zip(&mut edges) {
-            changed |= NumberRow::new(name, value).show(ui).changed();
-        }
-        if changed {
-            let [left, bottom, right, top] = edges;
-            let bounds = Rect::new(glam::dvec2(left, bottom), glam::dvec2(right, top));
-            self.commands.extend([Command::Set(Setting::Bounds(bounds)), Command::EndGesture]);
-        }
     }
 }

@@ -1,6 +1,7 @@
 //! The panels round the canvas. A panel reads the app and sends commands; it changes nothing itself.
 
 mod brush;
+mod domain;
 mod field;
 mod inspector;
 mod levels;
@@ -60,7 +61,7 @@ impl App {
 
     /// What belongs to the tool in hand stands first.
     fn sections_ui(&mut self, ui: &mut Ui) {
-        if self.tools.has_ring() {
+        if self.tools.paints() {
             self.brush_ui(ui);
         }
         if self.tools.tool == Tool::Domain {

@@ -62,10 +62,15 @@ impl App {
 
     fn mesh_cells(&self) -> [StatusCell; 3] {
         let mesh = self.session.mesh();
+        let nodes = match (mesh.outside_count(), self.session.topology()) {
+            (0, _) => format::count(mesh.nodes().len() as u64),
+            (_, Some(topology)) => format::count(topology.nodes as u64),
+            (_, None) => NONE.into(),
+        };
         let deepest = self.session.level_counts().len().saturating_sub(1);
         [
             StatusCell::new("triangles", format::count(mesh.triangle_count() as u64), 10),
-            StatusCell::new("nodes", format::count(mesh.nodes().len() as u64), 10),
+            StatusCell::new("nodes", nodes, 10),
             StatusCell::new("deepest level", deepest.to_string(), 2),
         ]
     }
