@@ -222,7 +222,7 @@ impl Follower {
         let result = self.updater.run(mesh, exceeds, visits);
         if let Some(changes) = self.updater.take_changes() {
             self.revision += 1;
-            if domain.is_fitted() {
+            if domain.is_fitted() || mesh.outside_count() > 0 {
                 for ids in &changes.triangles {
                     mesh.sort_out(ids.clone(), |element| domain.excludes(element));
                 }

@@ -1,0 +1,373 @@
+//! Operations on a document, made from any source of choices, and what must hold after each.
+//!
+//! `tests/document.rs` makes them from random numbers, `fuzz/` from the bytes of a fuzzer; what that finds is kept as bytes in
+//! `tests/document.rs`.
+
+use std::ops::Range;
+
+use glam::{DVec2, dvec2};
+use meshbrush::document::{Base, Document, FollowError, Follower, MeshChange, Setting, Settings, Stage};
+use meshbrush::domain::{Boundary, Domain, Shape, Stencil, corners};
+use meshbrush::field::{Formula, Rule, Transfer};
+use meshbrush::geometry::{LatticePoint, Rect};
+use meshbrush::mesh::Triangle;
+use meshbrush::paint::{Brush, Medium};
+
+/// Where operations come from: random numbers, or the bytes of a fuzzer.
+pub trait Choices {
+    /// One of `0..count`; `count` is 256 at most.
+    fn below(&mut self, count: usize) -> usize;
+    /// From 0 to 1.
+    fn share(&mut self) -> f64;
+}
+
+/// Choices from bytes, one each; zeros once they are used up.
+pub struct Bytes<'a>(pub &'a [u8]);
+
+impl Bytes<'_> {
+    fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    fn next(&mut self) -> u8 {
+        self.0.split_off_first().copied().unwrap_or(0)
+    }
+}
+
+impl Choices for Bytes<'_> {
+    fn below(&mut self, count: usize) -> usize {
+        usize::from(self.next()) % count
+    }
+
+    /// Parts of 256: places of nodes, and of lines between pixels, come up often.
+    fn share(&mut self) -> f64 {
+        match self.next() {
+            255 => 1.0,
+            byte => f64::from(byte) / 256.0,
+        }
+    }
+}
+
+/// How large the meshes are.
+#[derive(Clone, Copy, Debug)]
+pub struct Scale {
+    /// The smallest diameter asked for, and a tenth of the largest.
+    pub diameter: f64,
+    /// Fewest pixels along the field's longer side, and three fifths of the most.
+    pub pixels: u32,
+    /// The tightest budget.
+    pub triangles: usize,
+}
+
+/// Something done to a document or to the follower of one.
+#[derive(Clone, Debug)]
+pub enum Operation {
+    /// A whole stroke.
+    Stroke(Brush, Vec<DVec2>),
+    /// The beginning of one.
+    Begin(Brush, DVec2),
+    /// Its next point, or nothing where none is under way.
+    Draw(DVec2),
+    End,
+    CancelStroke,
+    Undo,
+    Redo,
+    ClearPaint,
+    /// Adds a shape to the domain, or takes it away.
+    Cut(Stencil, bool),
+    Set(Setting),
+    EndGesture,
+    /// The work under way is given up.
+    CancelUpdate,
+}
+
+impl Operation {
+    pub fn choose(choices: &mut impl Choices, scale: Scale) -> Self {
+        match choices.below(36) {
+            0..14 => Self::stroke(choices),
+            14 => Self::Begin(brush(choices), point(choices)),
+            15 => Self::Draw(point(choices)),
+            16 => Self::End,
+            17 => Self::CancelStroke,
+            18..21 => Self::Undo,
+            21 | 22 => Self::Redo,
+            23 => match choices.below(3) {
+                0 => Self::ClearPaint,
+                1 => Self::CancelUpdate,
+                _ => Self::EndGesture,
+            },
+            24..28 => Self::Cut(stencil(choices), choices.below(3) == 0),
+            _ => Self::Set(setting(choices, scale)),
+        }
+    }
+
+    pub fn stroke(choices: &mut impl Choices) -> Self {
+        let brush = brush(choices);
+        let count = 1 + choices.below(3);
+        Self::Stroke(brush, (0..count).map(|_| point(choices)).collect())
+    }
+
+    /// Does it; what the document refuses must leave it as it was.
+    pub fn apply(self, document: &mut Document) {
+        match self {
+            Self::Stroke(brush, points) => {
+                document.begin_stroke(brush);
+                points.into_iter().for_each(|point| document.draw_to(point));
+                document.end_stroke();
+            }
+            Self::Begin(brush, point) => {
+                document.begin_stroke(brush);
+                document.draw_to(point);
+            }
+            Self::Draw(point) => document.draw_to(point),
+            Self::End => document.end_stroke(),
+            Self::CancelStroke => document.cancel_stroke(),
+            Self::Undo => _ = document.undo(),
+            Self::Redo => _ = document.redo(),
+            Self::ClearPaint => document.clear_paint(),
+            Self::Cut(stencil, adds) => {
+                if let Some(domain) = document.settings().domain.reshaped(&stencil, adds) {
+                    Self::Set(Setting::Domain(domain)).apply(document);
+                }
+            }
+            Self::Set(setting) => {
+                let before = document.settings().clone();
+                if document.set(setting).is_err() {
+                    assert_eq!(document.settings(), &before);
+                }
+            }
+            Self::EndGesture => document.end_gesture(),
+            Self::CancelUpdate => {}
+        }
+    }
+}
+
+fn brush(choices: &mut impl Choices) -> Brush {
+    let media = [Medium::Risk, Medium::Risk, Medium::Diameter(0.01), Medium::Eraser];
+    Brush {
+        medium: media[choices.below(media.len())],
+        radius: 0.02 + 0.1 * choices.share(),
+        hardness: choices.share(),
+        strength: choices.share(),
+    }
+}
+
+/// In the unit square, now and then beyond.
+fn point(choices: &mut impl Choices) -> DVec2 {
+    let point = dvec2(choices.share(), choices.share());
+    match choices.below(64) {
+        0 => 3.0 * point - 1.0,
+        1 => dvec2(f64::NAN, point.y),
+        _ => point,
+    }
+}
+
+fn stencil(choices: &mut impl Choices) -> Stencil {
+    let mut at = || dvec2(choices.share(), choices.share());
+    let (a, b, c) = (at(), at(), at());
+    match choices.below(4) {
+        0 => Stencil::Ring(corners(&Rect::spanning(a, b))),
+        1 => Stencil::Ring(vec![a, b, c]),
+        n => Stencil::Stroke { path: [a, b][..n - 1].to_vec(), radius: 0.02 + 0.15 * choices.share() },
+    }
+}
+
+fn setting(choices: &mut impl Choices, scale: Scale) -> Setting {
+    let diameter = scale.diameter * (1.0 + 9.0 * choices.share());
+    match choices.below(16) {
+        0 | 1 => Setting::SmallestDiameter(diameter),
+        2 => Setting::LargestDiameter(8.0 * diameter),
+        3 => Setting::TransferShape(0.5 + 2.0 * choices.share()),
+        4 | 5 => Setting::Spacing([0.3, 0.25, 0.2, 0.15][choices.below(4)]),
+        6 | 7 => Setting::Rule(if choices.below(4) == 0 { Rule::Vertex } else { Rule::Area }),
+        8 | 9 => Setting::Resolution(scale.pixels + (f64::from(scale.pixels) * 0.6 * choices.share()) as u32),
+        10 => Setting::MaxTriangles(scale.triangles * [1, 4, 20, 100][choices.below(4)]),
+        11 => Setting::Base(base(choices, diameter)),
+        12 => Setting::Bounds(bounds(choices)),
+        13 => Setting::Domain(inside(choices)),
+        14 if choices.below(4) == 0 => Setting::Boundary(Boundary::Report),
+        14 => Setting::Boundary(Boundary::Fitted { diameter: 2.0 * diameter }),
+        _ => impossible(choices),
+    }
+}
+
+fn base(choices: &mut impl Choices, diameter: f64) -> Base {
+    let texts = ["0.1 + 0.2 * x", "if(abs(x - y) < 0.1, 0.1, 0.5)", "x - 0.3", "1 / (x - y)"];
+    match choices.below(1 + texts.len()) {
+        0 => Base::Constant(8.0 * diameter),
+        n => Base::Formula(Formula::parse(texts[n - 1]).unwrap()),
+    }
+}
+
+fn bounds(choices: &mut impl Choices) -> Rect {
+    let size = dvec2(0.4 + choices.share(), 0.4 + choices.share());
+    let min = dvec2(choices.share(), choices.share()) - 0.5;
+    if choices.below(2) == 0 { Rect::UNIT } else { Rect::new(min, min + size) }
+}
+
+/// A hole and a bite out of the rim, a strip, two parts that do not touch, nothing at all.
+const INSIDES: [&str; 4] =
+    ["not(hypot(x - 0.4, y - 0.6) < 0.2 or x + y > 1.7)", "abs(x - y) < 0.4", "x < 0.25 or x > 0.7", "x > 9"];
+
+fn inside(choices: &mut impl Choices) -> Domain {
+    let chosen = choices.below(1 + 2 * INSIDES.len()).checked_sub(1).and_then(|n| INSIDES.get(n));
+    let formula = chosen.map(|text| Formula::parse(text).unwrap());
+    Domain { bounds: Rect::UNIT, shape: formula.map_or(Shape::Whole, Shape::Formula) }
+}
+
+/// What no document can meet.
+fn impossible(choices: &mut impl Choices) -> Setting {
+    let bad = [0.0, -1.0, f64::NAN, f64::INFINITY, 1e-300][choices.below(5)];
+    match choices.below(5) {
+        0 => Setting::Spacing(bad),
+        1 => Setting::SmallestDiameter(bad),
+        2 => Setting::TransferShape(bad),
+        3 => Setting::Base(Base::Constant(bad)),
+        _ => Setting::Bounds(Rect::new(DVec2::ZERO, dvec2(bad, 1.0))),
+    }
+}
+
+/// A square, a rectangle, and a domain with a hole and a bite out of its rim.
+pub fn domains() -> [Domain; 3] {
+    [
+        Domain::rectangle(Rect::UNIT),
+        Domain::rectangle(Rect::new(DVec2::ZERO, dvec2(1.0, 0.7))),
+        Domain { bounds: Rect::UNIT, shape: Shape::Formula(Formula::parse(INSIDES[0]).unwrap()) },
+    ]
+}
+
+/// A document and its follower, with a copy of the mesh that only hears of changed ranges, as the GPU does.
+pub struct Driver {
+    pub document: Document,
+    pub follower: Follower,
+    nodes: Vec<LatticePoint>,
+    triangles: Vec<Triangle>,
+    /// The document's revision when work was last given up: until the next the mesh may lag behind.
+    given_up: Option<u64>,
+    /// How often ranges of the shown mesh changed.
+    pub changes_within: usize,
+    /// How often the mesh was compared with one made from scratch.
+    pub compared: usize,
+}
+
+impl Driver {
+    pub fn new(settings: Settings) -> Self {
+        let mut document = Document::new(settings, None).unwrap();
+        let follower = Follower::new(&mut document).unwrap();
+        let (nodes, triangles) = (Vec::new(), Vec::new());
+        Self { document, follower, nodes, triangles, given_up: None, changes_within: 0, compared: 0 }
+    }
+
+    pub fn apply(&mut self, operation: Operation) {
+        if matches!(operation, Operation::CancelUpdate) {
+            self.follower.cancel(&self.document);
+            self.given_up = Some(self.document.revision());
+        }
+        operation.apply(&mut self.document);
+    }
+
+    /// One slice of work, and what must hold wherever the work stops.
+    pub fn advance(&mut self, visits: usize) {
+        self.work(visits);
+        self.check_stop();
+    }
+
+    /// One slice of work. True at rest.
+    fn work(&mut self, visits: usize) -> bool {
+        let stage = self.follower.advance(&mut self.document, visits).unwrap_or_else(|error| {
+            self.refused(&error);
+            Stage::Filling
+        });
+        stage == Stage::InStep
+    }
+
+    /// As the window does: a setting that cannot be met is taken back, paint stays.
+    fn refused(&mut self, error: &FollowError) {
+        assert!(error.to_string().ends_with('.'), "{error}");
+        if self.document.settings() != self.follower.settings() {
+            self.document.reject_last();
+        }
+    }
+
+    fn check_stop(&mut self) {
+        let change = self.follower.take_change();
+        let mesh = self.follower.mesh();
+        if change.is_some() {
+            assert_eq!(mesh.violations(), []);
+        }
+        match change {
+            Some(MeshChange::Replaced) => {
+                self.nodes = mesh.nodes().to_vec();
+                self.triangles = mesh.triangles().to_vec();
+            }
+            Some(MeshChange::Within(changes)) => {
+                self.changes_within += 1;
+                patch(&mut self.nodes, mesh.nodes(), &changes.nodes);
+                patch(&mut self.triangles, mesh.triangles(), &changes.triangles);
+            }
+            None => {}
+        }
+        assert!(self.nodes == mesh.nodes(), "a node changed and was not told");
+        assert!(self.triangles == mesh.triangles(), "a triangle changed and was not told");
+    }
+
+    /// Works on to rest, where the mesh must be the one made from scratch.
+    pub fn settle(&mut self) {
+        let settled = (0..1_000_000).any(|_| self.work(997));
+        assert!(settled, "the follower never gets in step");
+        self.check_stop();
+        if self.given_up == Some(self.document.revision()) {
+            return;
+        }
+        // Paint that cannot be met stays, and the mesh is then an earlier one.
+        if let Ok(anew) = Follower::new(&mut self.document.clone()) {
+            assert_eq!(self.follower.mesh().fingerprint(), anew.mesh().fingerprint());
+            self.compared += 1;
+        }
+    }
+}
+
+fn patch<T: Copy>(copy: &mut Vec<T>, now: &[T], ranges: &[Range<usize>]) {
+    copy.truncate(now.len());
+    for range in ranges {
+        // New entries are in the ranges, which ascend.
+        assert!(range.start <= copy.len(), "entries are new and were not told");
+        copy.extend_from_slice(&now[copy.len().min(range.end)..range.end]);
+        copy[range.clone()].copy_from_slice(&now[range.clone()]);
+    }
+}
+
+/// A thousand triangles, so that a fuzzer gets through thousands of edits a second.
+const SMALL: Scale = Scale { diameter: 0.04, pixels: 24, triangles: 200 };
+/// Most operations of one run: a longer one says no more, and less of it can be searched.
+const MOST_OPERATIONS: usize = 48;
+
+/// A document edited as the bytes say, the follower cut where they say.
+pub fn run_bytes(bytes: &[u8]) {
+    let mut choices = Bytes(bytes);
+    let domain = domains()[choices.below(3)].clone();
+    let transfer = Transfer { h_min: SMALL.diameter, ..Settings::default().transfer };
+    let mut driver = Driver::new(Settings {
+        domain,
+        max_triangles: 20 * SMALL.triangles,
+        resolution: SMALL.pixels,
+        spacing: 0.2,
+        transfer,
+        ..Settings::default()
+    });
+    for _ in 0..MOST_OPERATIONS {
+        if choices.is_empty() {
+            break;
+        }
+        driver.apply(Operation::choose(&mut choices, SMALL));
+        match choices.below(4) {
+            0 => driver.settle(),
+            slices => {
+                for _ in 1..slices {
+                    driver.advance(1 + choices.below(256) * [1, 16][choices.below(2)]);
+                }
+            }
+        }
+    }
+    driver.settle();
+}
