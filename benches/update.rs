@@ -2,7 +2,8 @@
 //!
 //! The field is a raster with the area rule, as in the window; its own update is not counted. *same place*: a dab is
 //! painted and erased again, over and over. *moving*: a dab is painted at the next of eight places and the oldest of three is
-//! erased, so that entries leave from the middle of the arrays and others fill the gaps.
+//! erased, so that entries leave from the middle of the arrays and others fill the gaps. *counted*: what the dab, or erasing it,
+//! would do, without doing it.
 //!
 //! Throughput counts the triangles that come or go, in the fresh meshes those that are there in the end.
 
@@ -12,7 +13,7 @@ use std::time::{Duration, Instant};
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, BenchmarkId, Criterion, SamplingMode, Throughput};
 use meshbrush::geometry::{LatticePoint, LatticeRect, Rect};
-use meshbrush::mesh::{Element, InvalidTarget, Limits, Mesh, Progress, Refiner, Updater};
+use meshbrush::mesh::{Element, Forecast, InvalidTarget, Limits, Mesh, Progress, Refiner, Updater};
 use meshbrush::raster::{PixelRect, Pyramid, RasterOnLattice};
 
 /// Pixels along a side of the field.
@@ -101,6 +102,30 @@ fn same_place(group: &mut BenchmarkGroup<WallTime>, scene: &mut Scene) {
     assert_eq!(scene.mesh.triangles().len(), count);
 }
 
+/// What the dab of `same place` would add, and what taking it away would free, counted without doing it.
+fn counted(group: &mut BenchmarkGroup<WallTime>, scene: &mut Scene) {
+    let count = scene.mesh.triangles().len();
+    let once = |scene: &Scene, area| {
+        let start = Instant::now();
+        let mut forecast = Forecast::new(&scene.mesh, area, &Limits::default());
+        let exceeds = |corners, level| scene.on_lattice.any_above(&scene.levels, corners, level as u8);
+        assert_eq!(forecast.run(&scene.mesh, exceeds, usize::MAX), Ok(Progress::Done));
+        (start.elapsed(), forecast.added() + forecast.removed())
+    };
+    let mut updater = Updater::new(Limits::default());
+    for (name, from, to) in [("dab counted", 0, LEVEL), ("erasing counted", LEVEL, 0)] {
+        let area = scene.stamp(PLACES[3], from);
+        scene.update(&mut updater, area);
+        scene.stamp(PLACES[3], to);
+        group.throughput(Throughput::Elements(once(scene, area).1 as u64));
+        group.bench_function(BenchmarkId::new(name, count), |b| {
+            b.iter_custom(|rounds| (0..rounds).map(|_| once(scene, area).0).sum());
+        });
+        scene.update(&mut updater, area);
+    }
+    assert_eq!(scene.mesh.triangles().len(), count);
+}
+
 fn moving(group: &mut BenchmarkGroup<WallTime>, scene: &mut Scene) {
     let count = scene.mesh.triangles().len();
     let mut updater = Updater::new(Limits::default());
@@ -177,6 +202,7 @@ fn main() {
     for (level, rows) in SIZES {
         let mut scene = Scene::new(level, rows);
         same_place(&mut group, &mut scene);
+        counted(&mut group, &mut scene);
         anew(&mut group, &scene);
         moving(&mut group, &mut scene);
     }

@@ -9,7 +9,7 @@ use fastrand::Rng;
 use glam::{DVec2, dvec2};
 use meshbrush::geometry::{LatticePoint, LatticeRect, Rect};
 use meshbrush::mesh::{
-    Changes, Element, InvalidTarget, Limits, Mesh, Orientation, Progress, RefineError, Updater,
+    Changes, Element, Forecast, InvalidTarget, Limits, Mesh, Orientation, Progress, RefineError, Updater,
 };
 
 type Answer = Result<bool, InvalidTarget>;
@@ -236,6 +236,61 @@ fn after_any_edits_cut_anywhere_the_mesh_is_the_one_made_from_scratch() {
     }
     eprintln!("{edits} edits, {rests} rests, {changed} changes, up to {largest} triangles");
     assert!(rests > edits / 20 && changed > edits / 20);
+}
+
+/// The smallest rectangle that holds all of `areas`, of which there is at least one.
+fn hull(areas: &[LatticeRect]) -> LatticeRect {
+    let low = |of: fn(&LatticeRect) -> u32| areas.iter().map(of).min().unwrap();
+    let high = |of: fn(&LatticeRect) -> u32| areas.iter().map(of).max().unwrap();
+    LatticeRect {
+        min: LatticePoint::new(low(|a| a.min.x), low(|a| a.min.y)),
+        max: LatticePoint::new(high(|a| a.max.x), high(|a| a.max.y)),
+    }
+}
+
+#[test]
+fn a_forecast_is_what_the_update_then_does() {
+    let edits = std::env::var("MESHBRUSH_EDITS").map_or(10_000, |n| n.parse().unwrap());
+    let [mut grew, mut shrank, mut both] = [0; 3];
+    for (seed, coarse) in domains().into_iter().enumerate() {
+        let mut random = Rng::with_seed(100 + seed as u64);
+        let mut mesh = coarse.clone();
+        let mut updater = Updater::new(Limits::default());
+        let mut spots = Vec::new();
+        for count in 0..edits / 9 {
+            let areas = edit(&mut random, &mut spots, &mesh);
+            let before = mesh.triangles().len();
+            let mut forecast = Forecast::new(&mesh, hull(&areas), &Limits::default());
+            let asks = |corners, level| spots.iter().any(|spot| level < spot.level && spot.meets(corners));
+            let slice = 1 << random.u32(..12);
+            while forecast.run(&mesh, asks, slice).unwrap() == Progress::More {}
+            areas.into_iter().for_each(|area| updater.add(area));
+            settle(&mut updater, &mut mesh, &spots);
+            let (added, removed) = (forecast.added(), forecast.removed());
+            assert_eq!(before + added - removed, mesh.triangles().len(), "seed {seed}, edit {count}");
+            grew += usize::from(added > 0 && removed == 0);
+            shrank += usize::from(removed > 0 && added == 0);
+            both += usize::from(added > 0 && removed > 0);
+        }
+    }
+    eprintln!("{grew} grew, {shrank} shrank, {both} both");
+    assert!(grew > edits / 20 && shrank > edits / 20 && both > edits / 50);
+}
+
+#[test]
+fn a_forecast_says_when_a_target_is_finer_than_the_lattice() {
+    let (mesh, ..) = with_a_far_corner(3);
+    let corner = LatticeRect { min: LatticePoint::new(0, 0), max: LatticePoint::new(0, 0) };
+    let mut forecast = Forecast::new(&mesh, corner, &Limits::default());
+    let error = forecast.run(&mesh, |corners, _| corner.touches(corners), usize::MAX).unwrap_err();
+    assert!(matches!(error, RefineError::TooFine { .. }), "{error}");
+    let limits = Limits { max_level: Some(9), ..Limits::default() };
+    let mut forecast = Forecast::new(&mesh, corner, &limits);
+    assert_eq!(forecast.run(&mesh, |corners, _| corner.touches(corners), usize::MAX), Ok(Progress::Done));
+    let mut mesh = mesh;
+    let before = mesh.triangles().len();
+    mesh.refine(&limits, |element| Ok(corner.touches(element.corners))).unwrap();
+    assert_eq!(before + forecast.added(), mesh.triangles().len());
 }
 
 /// A grid of 16 × 16 cells with one corner refined, and a disc far from there.

@@ -88,6 +88,8 @@ pub struct Updater {
     /// Rectangles yet to be searched.
     areas: Vec<Area>,
     search: Option<Search>,
+    /// Whether all triangles that the search finds count as changed.
+    tells: bool,
     /// Triangles found by the search under way; otherwise empty.
     reached: Marks,
     /// Triangles that may exceed their target.
@@ -107,6 +109,7 @@ impl Updater {
             limits,
             areas: Vec::new(),
             search: None,
+            tells: false,
             reached: Marks::default(),
             exceeding: Marks::default(),
             loose: Marks::default(),
@@ -226,32 +229,23 @@ impl Updater {
         exceeds: &mut impl FnMut(&Element) -> Result<bool, InvalidTarget>,
     ) -> Result<(), InvalidTarget> {
         let Some(search) = &mut self.search else {
-            self.search = self.areas.pop().map(|area| Search::new(mesh, area));
+            if let Some(area) = self.areas.pop() {
+                self.search = Some(Search::new(mesh, area.rect));
+                self.tells = area.tell;
+            }
             return Ok(());
         };
-        if let Some(&id) = search.found.last() {
+        if let Some(id) = search.found() {
             if exceeds(&mesh.element(id, diameters))? {
                 self.exceeding.insert(id.index());
             }
             self.loose.insert(id.index());
-            if search.area.tell {
+            if self.tells {
                 self.log.triangle(id);
                 self.log.step();
             }
-            search.found.pop();
-            for across in mesh.triangle(id).neighbours.iter().filter_map(|n| n.triangle()) {
-                if !self.reached.contains(across.index()) && search.area.rect.touches(mesh.corners(across)) {
-                    self.reached.insert(across.index());
-                    search.found.push(across);
-                }
-            }
-        } else if let Some((cell, upper)) = search.next_half_cell() {
-            if let Some(start) = search.start(mesh, cell, upper)
-                && self.reached.insert(start.index())
-            {
-                search.found.push(start);
-            }
-        } else {
+            search.spread_from(mesh, id, &mut self.reached);
+        } else if !search.enter_next(mesh, &mut self.reached) {
             self.search = None;
             self.reached.clear();
         }
@@ -352,8 +346,8 @@ struct Area {
 /// lies in the rectangle too. So one triangle for each coarse triangle that the rectangle touches is enough to start from, holes
 /// or not.
 #[derive(Clone, Debug)]
-struct Search {
-    area: Area,
+pub(super) struct Search {
+    area: LatticeRect,
     /// The cells that the area touches: the first and last column, and the first and last row.
     columns: [u32; 2],
     rows: [u32; 2],
@@ -364,16 +358,45 @@ struct Search {
 }
 
 impl Search {
-    fn new(mesh: &Mesh, area: Area) -> Self {
+    pub(super) fn new(mesh: &Mesh, area: LatticeRect) -> Self {
         let steps = mesh.lattice().cell_steps();
         let [columns, rows] = mesh.lattice().cells();
         // Closed cells: a line between two cells belongs to both.
         let touched = |low: u32, high: u32, count: u32| {
             [low.div_ceil(steps).saturating_sub(1), (high / steps).min(count - 1)]
         };
-        let columns = touched(area.rect.min.x, area.rect.max.x, columns);
-        let rows = touched(area.rect.min.y, area.rect.max.y, rows);
+        let columns = touched(area.min.x, area.max.x, columns);
+        let rows = touched(area.min.y, area.max.y, rows);
         Self { area, columns, rows, next: 0, found: Vec::new() }
+    }
+
+    /// A triangle found that the search has not gone on from, if there is one.
+    pub(super) fn found(&self) -> Option<TriangleId> {
+        self.found.last().copied()
+    }
+
+    /// Goes on from the triangle that [`Self::found`] gave, to its neighbours.
+    #[inline]
+    pub(super) fn spread_from(&mut self, mesh: &Mesh, id: TriangleId, reached: &mut Marks) {
+        self.found.pop();
+        for across in mesh.triangle(id).neighbours.iter().filter_map(|n| n.triangle()) {
+            if !reached.contains(across.index()) && self.area.touches(mesh.corners(across)) {
+                reached.insert(across.index());
+                self.found.push(across);
+            }
+        }
+    }
+
+    /// Enters the next half cell that the area touches; false where there is none.
+    #[inline]
+    pub(super) fn enter_next(&mut self, mesh: &Mesh, reached: &mut Marks) -> bool {
+        let Some((cell, upper)) = self.next_half_cell() else { return false };
+        if let Some(start) = self.start(mesh, cell, upper)
+            && reached.insert(start.index())
+        {
+            self.found.push(start);
+        }
+        true
     }
 
     /// The next cell that the area touches, by column and row, and whether it is the upper half.
@@ -397,11 +420,11 @@ impl Search {
         let (left, bottom) = (column * steps, row * steps);
         // The corner of the common rectangle that lies deepest in the half.
         let (point, inside) = if upper {
-            let x = self.area.rect.max.x.min(left + steps);
-            let y = self.area.rect.max.y.min(bottom + steps);
+            let x = self.area.max.x.min(left + steps);
+            let y = self.area.max.y.min(bottom + steps);
             (LatticePoint::new(x, y), x - left + (y - bottom) >= steps)
         } else {
-            let (x, y) = (self.area.rect.min.x.max(left), self.area.rect.min.y.max(bottom));
+            let (x, y) = (self.area.min.x.max(left), self.area.min.y.max(bottom));
             (LatticePoint::new(x, y), x - left + (y - bottom) <= steps)
         };
         if !inside {

@@ -1,0 +1,289 @@
+//! What an update would do to a mesh, counted without doing it.
+//!
+//! A bisection makes one node, and a node names its bisection: the triangles that share the edge of which it is the middle, one
+//! or two. So a mesh is told apart from its coarse grid by a set of nodes, and an update by the nodes that come and those that
+//! go. The work is that of [`Updater`](super::Updater), in the same order and for the same reasons; but where that one changes
+//! entries, this one notes nodes. Triangles that are not in the array are known by their corners alone: parent, children and
+//! the mirror image across the bisection edge follow from the lattice, as the head of `coarsen.rs` tells.
+
+use std::collections::HashMap;
+
+use super::locate::WalkEnd;
+use super::marks::Marks;
+use super::update::Search;
+use super::{Limits, Mesh, Progress, RefineError, TriangleId};
+use crate::geometry::{Lattice, LatticePoint, LatticeRect};
+
+/// Counts what [`Updater`](super::Updater) would do after a change of the rule, in slices, and leaves the mesh alone.
+///
+/// The mesh must be at rest: the one made from scratch by the rule as it was. It must not change until the count is done. Time
+/// and memory go with the triangles that touch the changed rectangle and those that would come and go.
+///
+/// ```
+/// use meshbrush::geometry::Rect;
+/// use meshbrush::mesh::{Forecast, Limits, Mesh, Progress};
+///
+/// let mesh = Mesh::coarse_grid(Rect::UNIT, 0.5, |_| true, &Limits::default())?;
+/// let square = mesh.lattice().rect_round(&Rect::around(glam::dvec2(0.3, 0.4), 0.1)).unwrap();
+/// let mut forecast = Forecast::new(&mesh, square, &Limits::default());
+/// let progress = forecast.run(&mesh, |corners, level| level < 2 && square.touches(corners), usize::MAX)?;
+/// assert_eq!((progress, forecast.added(), forecast.removed()), (Progress::Done, 8, 0));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Forecast {
+    max_level: u32,
+    search: Search,
+    searching: bool,
+    /// Triangles found by the search.
+    reached: Marks,
+    /// Triangles that may exceed their target.
+    asked: Vec<Shape>,
+    /// Entries whose newest vertex may be free to go, for when all triangles are satisfied.
+    loose: Vec<TriangleId>,
+    /// The same, of triangles that would be put back.
+    put_back: Vec<Shape>,
+    chain: Vec<Shape>,
+    fates: HashMap<LatticePoint, Fate>,
+    /// For each coarse triangle, by number, where the last walk in it ended: the next begins there.
+    near: HashMap<usize, TriangleId>,
+    added: usize,
+    removed: usize,
+}
+
+/// What becomes of a node.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Fate {
+    Comes,
+    Goes,
+    /// A triangle that was cut there would exceed its target.
+    Stays,
+}
+
+/// A triangle of the bisection tree, in the mesh or not.
+#[derive(Clone, Copy, Debug)]
+struct Shape {
+    /// Where the right angle is.
+    apex: LatticePoint,
+    /// The ends of the bisection edge.
+    ends: [LatticePoint; 2],
+    level: u32,
+}
+
+impl Shape {
+    fn of(mesh: &Mesh, id: TriangleId) -> Self {
+        let triangle = mesh.triangle(id);
+        let ends = triangle.bisection_edge().map(|end| mesh.node(end));
+        Self { apex: mesh.node(triangle.apex()), ends, level: triangle.level() }
+    }
+
+    fn corners(&self) -> [LatticePoint; 3] {
+        [self.apex, self.ends[0], self.ends[1]]
+    }
+
+    fn midpoint(&self) -> LatticePoint {
+        self.ends[0].midpoint(self.ends[1])
+    }
+
+    fn children(&self) -> [Self; 2] {
+        let apex = self.midpoint();
+        self.ends.map(|end| Self { apex, ends: [end, self.apex], level: self.level + 1 })
+    }
+
+    /// The triangle that this one is half of; its level must not be 0. Which of its ends is the parent's apex is what the
+    /// table at the head of `coarsen.rs` says, at even levels in units half as large.
+    fn parent(&self, lattice: &Lattice) -> Self {
+        let ([first, second], middle) = (self.ends, self.apex);
+        let unit = lattice.halvings() - self.level / 2;
+        let rank = (first.x >> unit & 1) + (first.y >> unit & 1);
+        let first_is_apex = match self.level {
+            1 => (first.x < middle.x) == (first.y < middle.y),
+            level if level.is_multiple_of(2) => rank == 2,
+            _ => rank == 1,
+        };
+        let (apex, end) = if first_is_apex { (first, second) } else { (second, first) };
+        // No other triangle has this half of the cut edge: its other end is on the lattice.
+        let far = LatticePoint::new(2 * middle.x - end.x, 2 * middle.y - end.y);
+        Self { apex, ends: [end, far], level: self.level - 1 }
+    }
+
+    /// The mirror image across the bisection edge, `None` where the domain ends there.
+    fn across(&self, mesh: &Mesh) -> Option<Self> {
+        let [p, q] = self.ends;
+        let mirrored = |p: u32, q: u32, apex: u32| (p + q).checked_sub(apex);
+        let apex = LatticePoint::new(mirrored(p.x, q.x, self.apex.x)?, mirrored(p.y, q.y, self.apex.y)?);
+        let image = Self { apex, ..*self };
+        image.coarse_entry(mesh).map(|_| image)
+    }
+
+    /// Number of the coarse triangle that this lies in, and its entry; `None` beyond the domain.
+    fn coarse_entry(&self, mesh: &Mesh) -> Option<(usize, TriangleId)> {
+        let steps = 4 * u64::from(mesh.lattice().cell_steps());
+        // A point strictly inside, in quarters of a lattice step.
+        let inner = |[apex, p, q]: [u32; 3]| 2 * u64::from(apex) + u64::from(p) + u64::from(q);
+        let (x, y) = (inner(self.corners().map(|c| c.x)), inner(self.corners().map(|c| c.y)));
+        let [columns, rows] = mesh.lattice().cells().map(u64::from);
+        let (column, row) = (x / steps, y / steps);
+        if column >= columns || row >= rows {
+            return None;
+        }
+        let upper = x % steps + y % steps > steps;
+        let number = 2 * (row * columns + column) as usize + usize::from(upper);
+        mesh.coarse.get(number).map(|entry| (number, entry))
+    }
+}
+
+impl Forecast {
+    /// Nothing counted yet. `area` holds all places where the rule has changed.
+    pub fn new(mesh: &Mesh, area: LatticeRect, limits: &Limits) -> Self {
+        Self {
+            max_level: limits.max_level.unwrap_or(u32::MAX),
+            search: Search::new(mesh, area),
+            searching: true,
+            reached: Marks::default(),
+            asked: Vec::new(),
+            loose: Vec::new(),
+            put_back: Vec::new(),
+            chain: Vec::new(),
+            fates: HashMap::new(),
+            near: HashMap::new(),
+            added: 0,
+            removed: 0,
+        }
+    }
+
+    /// Triangles that would come, as far as counted.
+    pub fn added(&self) -> usize {
+        self.added
+    }
+
+    /// Triangles that would go, as far as counted. Zero until all that come are counted.
+    pub fn removed(&self) -> usize {
+        self.removed
+    }
+
+    /// Counts until done or until `visits` triangles were looked at.
+    ///
+    /// `exceeds` is the rule as it would be, asked by corners and level. It must be monotone, and answer as ever outside the area.
+    ///
+    /// # Errors
+    /// When a target is finer than the lattice. The triangle budget is not looked at: the caller compares.
+    pub fn run(
+        &mut self,
+        mesh: &Mesh,
+        exceeds: impl Fn([LatticePoint; 3], u32) -> bool,
+        visits: usize,
+    ) -> Result<Progress, RefineError> {
+        let max_level = self.max_level;
+        let exceeds = |shape: &Shape| shape.level < max_level && exceeds(shape.corners(), shape.level);
+        let deepest = mesh.lattice().deepest_level();
+        // Ends: as the update does, see the head of `update.rs`.
+        for _ in 0..visits {
+            if let Some(shape) = self.asked.pop() {
+                if !exceeds(&shape) {
+                    continue;
+                }
+                if shape.level >= deepest {
+                    return Err(too_fine(mesh, &shape));
+                }
+                self.bisect(mesh, shape);
+                self.asked.extend(shape.children());
+            } else if self.searching {
+                self.search_on(mesh);
+            } else if let Some(shape) = self.put_back.pop() {
+                self.loosen(mesh, &shape, exceeds);
+            } else if let Some(id) = self.loose.pop() {
+                self.loosen(mesh, &Shape::of(mesh, id), exceeds);
+            } else {
+                return Ok(Progress::Done);
+            }
+        }
+        Ok(Progress::More)
+    }
+
+    /// One step of the search: a triangle or half a coarse cell.
+    fn search_on(&mut self, mesh: &Mesh) {
+        if let Some(id) = self.search.found() {
+            self.search.spread_from(mesh, id, &mut self.reached);
+            self.asked.push(Shape::of(mesh, id));
+            // Where a triangle round it was bisected, the newest vertex is looked at once that one is put back.
+            if mesh.star_of(id).is_some() {
+                self.loose.push(id);
+            }
+        } else {
+            self.searching = self.search.enter_next(mesh, &mut self.reached);
+        }
+    }
+
+    /// Notes that a triangle is bisected, and first whatever must be to keep the mesh compatible. Each of the chain is one level
+    /// above the one before.
+    fn bisect(&mut self, mesh: &Mesh, shape: Shape) {
+        self.chain.push(shape);
+        while let Some(&shape) = self.chain.last() {
+            let midpoint = shape.midpoint();
+            if self.is_node(mesh, midpoint, &shape) {
+                self.chain.pop();
+                continue;
+            }
+            let across = shape.across(mesh);
+            if let Some(across) = across
+                && across.level > 0
+                && !self.is_node(mesh, across.apex, &across)
+            {
+                self.chain.push(across.parent(mesh.lattice()));
+                continue;
+            }
+            self.chain.pop();
+            self.fates.insert(midpoint, Fate::Comes);
+            self.added += 1 + usize::from(across.is_some());
+        }
+    }
+
+    /// Notes that the newest vertex of a triangle goes, if it can.
+    fn loosen(&mut self, mesh: &Mesh, shape: &Shape, exceeds: impl Fn(&Shape) -> bool) {
+        if shape.level == 0 || self.fates.contains_key(&shape.apex) {
+            return;
+        }
+        let parent = shape.parent(mesh.lattice());
+        let parents = [Some(parent), parent.across(mesh)];
+        let parents = || parents.iter().flatten();
+        if parents().any(|parent| parent.children().iter().any(|child| self.is_bisected(mesh, child))) {
+            return;
+        }
+        let fate = if parents().any(exceeds) { Fate::Stays } else { Fate::Goes };
+        self.fates.insert(shape.apex, fate);
+        if fate == Fate::Goes {
+            self.removed += parents().count();
+            self.put_back.extend(parents());
+        }
+    }
+
+    fn is_bisected(&mut self, mesh: &Mesh, shape: &Shape) -> bool {
+        shape.level < mesh.lattice().deepest_level() && self.is_node(mesh, shape.midpoint(), shape)
+    }
+
+    /// Whether a point of a triangle, which may lie on its rim, is a node as far as counted.
+    fn is_node(&mut self, mesh: &Mesh, point: LatticePoint, of: &Shape) -> bool {
+        match self.fates.get(&point) {
+            Some(Fate::Comes | Fate::Stays) => true,
+            Some(Fate::Goes) => false,
+            None => self.was_node(mesh, point, of),
+        }
+    }
+
+    fn was_node(&mut self, mesh: &Mesh, point: LatticePoint, of: &Shape) -> bool {
+        let (number, entry) = of.coarse_entry(mesh).expect("shapes are made within the domain");
+        let near = self.near.entry(number).or_insert(entry);
+        let WalkEnd::Found(id, _) = mesh.walk(*near, point.as_dvec2()) else {
+            unreachable!("the walk stays in the coarse triangle that it starts in");
+        };
+        *near = id;
+        mesh.corners(id).contains(&point)
+    }
+}
+
+fn too_fine(mesh: &Mesh, shape: &Shape) -> RefineError {
+    let level = mesh.lattice().deepest_level();
+    let at = mesh.lattice().world_from_lattice(shape.apex);
+    RefineError::TooFine { at, smallest: mesh.diameter(level), level }
+}
