@@ -3,10 +3,12 @@
 mod operations;
 
 use glam::{DVec2, dvec2};
-use meshbrush::document::{Base, Document, Example, Follower, Setting, Settings, Stage};
+use meshbrush::document::{Base, Document, Example, Follower, Price, Pricer, Setting, Settings, Stage};
 use meshbrush::domain::{Domain, Polygon, Shape, corners};
 use meshbrush::field::{Formula, Rule, VertexRule};
 use meshbrush::geometry::Rect;
+use meshbrush::mesh::Progress;
+use meshbrush::paint::{Brush, Medium};
 use meshbrush::raster::Raster;
 use operations::{Choices, Driver, Operation, Scale, domains, run_bytes};
 
@@ -220,4 +222,93 @@ fn the_area_rule_implies_the_vertex_rule() {
     let (field, paint) = (follower.field(), document.layers().as_paint());
     let mut rule = VertexRule::new(|point| field.target_at_node(paint, point));
     assert_eq!(follower.mesh().unsatisfied(|element| rule.exceeds(element)).unwrap(), []);
+}
+
+fn any_brush(random: &mut fastrand::Rng) -> Brush {
+    let media = [Medium::Risk, Medium::Diameter(0.01), Medium::Eraser, Medium::Eraser];
+    let medium = media[random.usize(..media.len())];
+    Brush { medium, radius: 0.15 * random.f64(), hardness: random.f64(), strength: random.f64() }
+}
+
+#[test]
+fn the_price_of_a_dab_is_what_it_then_costs() {
+    let mut random = fastrand::Rng::with_seed(21);
+    let [mut dearer, mut cheaper, mut same] = [0; 3];
+    for domain in domains() {
+        let settings = Settings { domain, resolution: 160, spacing: 0.2, ..Settings::default() };
+        let mut document = Document::new(settings, None).unwrap();
+        let mut follower = Follower::new(&mut document).unwrap();
+        let mut pricer = Pricer::default();
+        for dab in 0..200 {
+            let brush = any_brush(&mut random);
+            let at = dvec2(random.f64(), random.f64()) * 1.2 - 0.1;
+            // Now and then the pointer moves on before the price is known.
+            for _ in 0..random.usize(..8) {
+                pricer.ask(Some((brush, at + 0.01 * random.f64())), &document, &follower);
+                pricer.advance(&document, &follower, random.usize(1..2000));
+            }
+            let before = (follower.mesh().triangles().len(), follower.revision(), document.revision());
+            pricer.ask(Some((brush, at)), &document, &follower);
+            let slice = 1 << random.u32(4..14);
+            while pricer.advance(&document, &follower, slice) == Progress::More {}
+            let price = pricer.price().unwrap();
+            let after = (follower.mesh().triangles().len(), follower.revision(), document.revision());
+            assert_eq!(before, after, "asking changes nothing");
+
+            document.begin_stroke(brush);
+            document.draw_to(at);
+            document.end_stroke();
+            settle(&mut follower, &mut document);
+            let change = follower.mesh().triangles().len() as i64 - before.0 as i64;
+            assert_eq!(price, Price::Change(change), "dab {dab}: {brush:?} at {at}");
+            dearer += usize::from(change > 0);
+            cheaper += usize::from(change < 0);
+            same += usize::from(change == 0);
+        }
+    }
+    assert!(dearer > 100 && cheaper > 100 && same > 10, "{dearer} {cheaper} {same}");
+}
+
+#[test]
+fn there_is_no_price_where_there_can_be_none() {
+    let mut document = Document::new(Settings { resolution: 160, ..Settings::default() }, None).unwrap();
+    let mut follower = Follower::new(&mut document).unwrap();
+    let mut pricer = Pricer::default();
+    let brush = Brush { medium: Medium::Risk, radius: 0.1, hardness: 1.0, strength: 1.0 };
+    let dab = Some((brush, dvec2(0.5, 0.5)));
+    let mut asked = |dab, document: &Document, follower: &Follower| {
+        pricer.ask(dab, document, follower);
+        while pricer.advance(document, follower, 1000) == Progress::More {}
+        pricer.price()
+    };
+    assert!(matches!(asked(dab, &document, &follower), Some(Price::Change(1..))));
+    assert_eq!(asked(None, &document, &follower), None);
+    assert_eq!(asked(Some((brush, dvec2(f64::NAN, 0.5))), &document, &follower), None);
+    // Nor is there one before the mesh shows what was painted, while one paints, and by the vertex rule.
+    document.begin_stroke(brush);
+    document.draw_to(dvec2(0.2, 0.2));
+    assert_eq!(asked(dab, &document, &follower), None);
+    settle(&mut follower, &mut document);
+    assert_eq!(asked(dab, &document, &follower), None);
+    document.end_stroke();
+    assert!(asked(dab, &document, &follower).is_some());
+    document.undo();
+    assert_eq!(asked(dab, &document, &follower), None);
+    settle(&mut follower, &mut document);
+    assert!(asked(dab, &document, &follower).is_some());
+    document.set(Setting::Rule(Rule::Vertex)).unwrap();
+    settle(&mut follower, &mut document);
+    assert_eq!(asked(dab, &document, &follower), None);
+}
+
+#[test]
+fn a_dab_too_dear_to_count_is_said_to_be() {
+    let mut document = Document::new(Settings { resolution: 160, ..Settings::default() }, None).unwrap();
+    document.set(Setting::SmallestDiameter(1e-4)).unwrap();
+    let follower = Follower::new(&mut document).unwrap();
+    let brush = Brush { medium: Medium::Risk, radius: 0.3, hardness: 1.0, strength: 1.0 };
+    let mut pricer = Pricer::default();
+    pricer.ask(Some((brush, dvec2(0.5, 0.5))), &document, &follower);
+    while pricer.advance(&document, &follower, 10_000) == Progress::More {}
+    assert_eq!(pricer.price(), Some(Price::MoreThan(Price::MOST as i64)));
 }

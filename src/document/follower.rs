@@ -149,6 +149,14 @@ impl Follower {
         }
     }
 
+    /// Whether field and mesh are those of the document as it is: nothing to do, and nothing given up.
+    pub fn is_in_step(&self, document: &Document) -> bool {
+        self.stage() == Stage::InStep
+            && self.given_up_on.is_none()
+            && self.settings == *document.settings()
+            && document.repainted == Repainted::Within(Vec::new())
+    }
+
     /// Gives up the work under way. The document may then differ from the mesh, until its next change.
     pub fn cancel(&mut self, document: &Document) {
         if !self.updater.is_done() {

@@ -5,6 +5,7 @@ mod examples;
 mod follower;
 mod history;
 mod job;
+mod pricer;
 mod setting;
 mod settings;
 
@@ -13,6 +14,7 @@ use glam::DVec2;
 pub use examples::Example;
 pub use follower::{FollowError, Follower, MeshChange, Stage};
 pub use history::History;
+pub use pricer::{Price, Pricer};
 pub use setting::Setting;
 pub use settings::{Base, MAX_COARSE_TRIANGLES, RESOLUTIONS, Settings, SettingsError};
 

@@ -1,7 +1,7 @@
 use glam::DVec2;
 
 use super::{RiskToDiameter, Source, Transfer, TransferTable, smallest_target};
-use crate::geometry::{Lattice, LatticeRect};
+use crate::geometry::{Lattice, LatticePoint, LatticeRect};
 use crate::mesh::{Element, InvalidTarget, Progress, bisection_edge_length, level_for_diameter};
 use crate::raster::{PixelRect, Pyramid, Raster, RasterOnLattice};
 
@@ -132,23 +132,26 @@ impl TargetField {
         }
         let mut levels = std::mem::replace(&mut self.levels, Pyramid::filled([1, 1], 0));
         levels.update(area, |x, y| {
-            let diameter = self.diameter_at_pixel(paint, x, y);
+            let painted = paint.map_or([0.0, f32::INFINITY], |p| [p.risk.get(x, y), p.diameter.get(x, y)]);
+            let diameter = self.diameter_with(x, y, painted);
             self.target.set(x, y, diameter as f32);
             self.level_for(diameter)
         });
         self.levels = levels;
     }
 
-    fn diameter_at_pixel(&self, paint: Option<Paint>, x: u32, y: u32) -> f64 {
-        let mut asked = f64::from(self.base.get(x, y));
-        if let Some(paint) = paint {
-            asked = asked.min(f64::from(paint.diameter.get(x, y)));
-            let risk = paint.risk.get(x, y);
-            if risk > 0.0 {
-                asked = asked.min(self.table.diameter(f64::from(risk)));
-            }
+    /// h̄ of a pixel, with so much risk and so small a diameter painted on it.
+    fn diameter_with(&self, x: u32, y: u32, [risk, diameter]: [f32; 2]) -> f64 {
+        let mut asked = f64::from(self.base.get(x, y)).min(f64::from(diameter));
+        if risk > 0.0 {
+            asked = asked.min(self.table.diameter(f64::from(risk)));
         }
         asked.clamp(self.spec.transfer.h_min, self.spec.transfer.h_max)
+    }
+
+    /// The level that a pixel would ask for with this risk and diameter painted on it.
+    pub fn level_with(&self, x: u32, y: u32, painted: [f32; 2]) -> u8 {
+        self.level_for(self.diameter_with(x, y, painted))
     }
 
     fn level_for(&self, diameter: f64) -> u8 {
@@ -160,6 +163,12 @@ impl TargetField {
     #[inline]
     pub fn exceeds(&self, element: &Element) -> bool {
         self.on_lattice.any_above(&self.levels, element.corners, element.triangle.level() as u8)
+    }
+
+    /// [`Self::exceeds`] where the pixels asked for other levels, of a triangle by its corners and its level.
+    #[inline]
+    pub fn would_exceed(&self, levels: &Pyramid<u8>, corners: [LatticePoint; 3], level: u32) -> bool {
+        self.on_lattice.any_above(levels, corners, level as u8)
     }
 
     /// h̄ at a node, for the vertex rule: sources are asked at the very point and not by pixel.

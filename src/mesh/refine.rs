@@ -20,7 +20,7 @@ pub struct Limits {
 
 impl Limits {
     /// [`Self::max_triangles`], as far as ids go.
-    fn most_triangles(&self) -> usize {
+    pub fn most_triangles(&self) -> usize {
         self.max_triangles.min(MOST_TRIANGLES)
     }
 }

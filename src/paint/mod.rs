@@ -9,7 +9,7 @@ use crate::field::Paint;
 use crate::geometry::Rect;
 use crate::raster::Raster;
 
-pub use stroke::Stroke;
+pub use stroke::{Dab, Stroke};
 pub use tiles::Patch;
 
 /// What a brush lays down.
@@ -48,6 +48,12 @@ impl Brush {
             let t = (self.radius - distance) / (self.radius - core);
             t * t * (3.0 - 2.0 * t)
         }
+    }
+
+    /// The brush, widened where it is smaller than a pixel so that it always reaches the middle of one.
+    fn on(&self, layers: &Layers) -> Self {
+        let radius = self.radius.max(0.71 * layers.risk.pixel_size().max_element());
+        Self { radius, ..*self }
     }
 }
 

@@ -50,7 +50,7 @@ impl Stroke {
             return PixelRect { min: [0, 0], max: [0, 0] };
         }
         let from = self.last.replace(point).unwrap_or(point);
-        let brush = self.brush_on(layers);
+        let brush = self.brush.on(layers);
         let area = layers.risk.pixels_touching(&Rect::spanning(from, point).expanded(brush.radius));
         for place in tiles_touching(area) {
             self.stamp_tile(layers, place, area, |pixel| {
@@ -63,12 +63,6 @@ impl Stroke {
     /// The old pixels of all that the stroke touched.
     pub fn finish(self) -> Patch {
         Patch::from_tiles(self.touched.into_iter().map(|(place, touched)| (place, touched.before)).collect())
-    }
-
-    /// The brush, widened where it is smaller than a pixel so that it always reaches the middle of one.
-    fn brush_on(&self, layers: &Layers) -> Brush {
-        let radius = self.brush.radius.max(0.71 * layers.risk.pixel_size().max_element());
-        Brush { radius, ..self.brush }
     }
 
     fn stamp_tile(
@@ -100,6 +94,41 @@ impl Stroke {
                 layers.risk.set(x, y, risk);
                 layers.diameter.set(x, y, diameter);
             }
+        }
+    }
+}
+
+/// What a stroke does that is a single touch of the brush: told, not laid down.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Dab {
+    brush: Brush,
+    /// As for a stroke.
+    h_max: f64,
+    at: DVec2,
+    area: PixelRect,
+}
+
+impl Dab {
+    /// A touch of `brush` at a point in world units, which must be finite. `h_max` is the largest target diameter.
+    pub fn new(brush: Brush, h_max: f64, at: DVec2, layers: &Layers) -> Self {
+        let brush = brush.on(layers);
+        let area = layers.risk.pixels_touching(&Rect::around(at, brush.radius));
+        Self { brush, h_max, at, area }
+    }
+
+    /// The pixels that may change.
+    pub fn area(&self) -> PixelRect {
+        self.area
+    }
+
+    /// Risk and diameter of a pixel once touched, by column and row.
+    pub fn pixel(&self, layers: &Layers, x: u32, y: u32) -> [f32; 2] {
+        let old = [layers.risk.get(x, y), layers.diameter.get(x, y)];
+        let coverage = self.brush.coverage((layers.risk.pixel_center(x, y) - self.at).length()) as f32;
+        if coverage > 0.0 {
+            laid_down(self.brush.medium, f64::from(coverage) * self.brush.strength, old, self.h_max)
+        } else {
+            old
         }
     }
 }
@@ -181,6 +210,30 @@ mod tests {
             painted(&mut layers, brush, &[dvec2(0.33333, 0.77777)]);
             assert!(!layers.is_blank());
         }
+    }
+
+    #[test]
+    fn a_dab_tells_what_a_stroke_of_one_point_lays_down() {
+        let mut random = fastrand::Rng::with_seed(4);
+        let mut layers = Layers::blank(Rect::UNIT, SIZE);
+        let mut changed = 0;
+        for _ in 0..60 {
+            let media = [Medium::Risk, Medium::Diameter(0.01), Medium::Eraser];
+            let medium = media[random.usize(..3)];
+            let radius = 0.3 * random.f64().powi(4);
+            let brush = Brush { medium, radius, hardness: random.f64(), strength: random.f64() };
+            let at = dvec2(random.f64(), random.f64()) * 1.2 - 0.1;
+            let before = layers.clone();
+            let dab = Dab::new(brush, 0.5, at, &before);
+            painted(&mut layers, brush, &[at]);
+            for (x, y) in before.risk.all().pixels() {
+                let was = [before.risk.get(x, y), before.diameter.get(x, y)];
+                let told = if dab.area().contains(x, y) { dab.pixel(&before, x, y) } else { was };
+                assert_eq!([layers.risk.get(x, y), layers.diameter.get(x, y)], told);
+                changed += usize::from(told != was);
+            }
+        }
+        assert!(changed > 10_000, "{changed}");
     }
 
     #[test]

@@ -26,6 +26,11 @@ impl PixelRect {
         self.min[0] >= self.max[0] || self.min[1] >= self.max[1]
     }
 
+    /// Whether a pixel lies in it, by column and row.
+    pub fn contains(&self, x: u32, y: u32) -> bool {
+        (self.min[0]..self.max[0]).contains(&x) && (self.min[1]..self.max[1]).contains(&y)
+    }
+
     /// Cuts off whole rows, about `count` pixels of them and one row at least; the rest, if there is one.
     pub fn split_after(self, count: usize) -> (Self, Option<Self>) {
         let columns = self.max[0].saturating_sub(self.min[0]).max(1) as usize;

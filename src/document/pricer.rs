@@ -1,0 +1,202 @@
+use glam::DVec2;
+
+use super::{Document, Follower};
+use crate::field::Rule;
+use crate::mesh::{Forecast, Progress};
+use crate::paint::{Brush, Dab};
+use crate::raster::{PixelRect, Pyramid};
+
+/// Works out in slices what one dab would do to the mesh, and touches neither document nor mesh.
+///
+/// The answer is exact, by the area rule. Under the vertex rule there is none: every edit makes the mesh anew.
+#[derive(Clone, Debug)]
+pub struct Pricer {
+    question: Option<Question>,
+    work: Work,
+    /// The levels that pixels would ask for: those of the field, but for what is written.
+    levels: Pyramid<u8>,
+    /// The revision of the document that the levels were copied at.
+    levels_of: Option<u64>,
+    /// Where levels of this dab and of those before may stand.
+    written: Vec<PixelRect>,
+}
+
+/// What is asked: the answer holds as long as none of this changes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Question {
+    brush: Brush,
+    at: DVec2,
+    document: u64,
+    mesh: u64,
+}
+
+#[derive(Clone, Debug)]
+enum Work {
+    Idle,
+    /// The dab's levels are written where they differ; those of the dab before are taken back.
+    Writing {
+        dab: Dab,
+        left: Vec<PixelRect>,
+        /// Round all pixels met so far that would ask for another level.
+        changed: PixelRect,
+    },
+    Counting(Box<Forecast>),
+    Known(Price),
+}
+
+/// What a dab would do to the number of triangles.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Price {
+    /// So many would come, or go where it is below zero.
+    Change(i64),
+    /// More than so many would come, or go: counting them all would take too long.
+    MoreThan(i64),
+    /// The dab asks for triangles finer than the lattice.
+    TooFine,
+}
+
+impl Price {
+    /// Where counting ends, in triangles that come or go.
+    pub const MOST: usize = 500_000;
+
+    /// The change, or as much of it as is known.
+    pub fn change(&self) -> i64 {
+        match *self {
+            Self::Change(change) | Self::MoreThan(change) => change,
+            Self::TooFine => 0,
+        }
+    }
+}
+
+const NO_PIXELS: PixelRect = PixelRect { min: [0, 0], max: [0, 0] };
+
+impl Default for Pricer {
+    fn default() -> Self {
+        let levels = Pyramid::filled([1, 1], 0);
+        Self { question: None, work: Work::Idle, levels, levels_of: None, written: Vec::new() }
+    }
+}
+
+impl Pricer {
+    /// Asks about a dab of `brush` at a point in world units, or about none. The same question again keeps its answer.
+    ///
+    /// There is an answer only while the follower is in step with its document and no stroke is under way.
+    pub fn ask(&mut self, dab: Option<(Brush, DVec2)>, document: &Document, follower: &Follower) {
+        let answerable = document.stroke().is_none()
+            && document.settings().rule == Rule::Area
+            && follower.is_in_step(document);
+        let question = dab.filter(|(_, at)| answerable && at.is_finite()).map(|(brush, at)| Question {
+            brush,
+            at,
+            document: document.revision(),
+            mesh: follower.revision(),
+        });
+        if question == self.question {
+            return;
+        }
+        self.question = question;
+        self.work = question.map_or(Work::Idle, |question| self.begin(question, document, follower));
+    }
+
+    fn begin(&mut self, question: Question, document: &Document, follower: &Follower) -> Work {
+        // Dabs that were given up before they were taken back pile up: a copy is cheaper then.
+        if self.levels_of != Some(question.document) || self.written.len() > 4 {
+            self.levels = follower.field().levels().clone();
+            self.levels_of = Some(question.document);
+            self.written.clear();
+        }
+        let h_max = document.settings().transfer.h_max;
+        let dab = Dab::new(question.brush, h_max, question.at, document.layers());
+        self.written.push(dab.area());
+        let left = self.written.iter().copied().filter(|area| !area.is_empty()).collect();
+        Work::Writing { dab, left, changed: NO_PIXELS }
+    }
+
+    /// What the dab costs, once known.
+    pub fn price(&self) -> Option<Price> {
+        if let Work::Known(price) = self.work { Some(price) } else { None }
+    }
+
+    /// Whether the answer is being worked out.
+    pub fn is_counting(&self) -> bool {
+        matches!(self.work, Work::Writing { .. } | Work::Counting(_))
+    }
+
+    /// One slice of work: about `visits` pixels or triangles. Document and follower must be as they were when asked.
+    pub fn advance(&mut self, document: &Document, follower: &Follower, visits: usize) -> Progress {
+        let next = match &mut self.work {
+            Work::Idle | Work::Known(_) => return Progress::Done,
+            Work::Writing { dab, left, changed } => {
+                let Some(area) = left.pop() else {
+                    self.written = vec![dab.area()];
+                    self.work = count(*changed, follower);
+                    return self.progress();
+                };
+                let (now, later) = area.split_after(visits);
+                left.extend(later);
+                write(&mut self.levels, dab, now, changed, document, follower);
+                None
+            }
+            Work::Counting(forecast) => price_so_far(forecast, &self.levels, follower, visits),
+        };
+        if let Some(price) = next {
+            self.work = Work::Known(price);
+        }
+        self.progress()
+    }
+
+    fn progress(&self) -> Progress {
+        if self.is_counting() { Progress::More } else { Progress::Done }
+    }
+}
+
+/// Writes what the pixels of `area` would ask for: after the dab where it reaches, and as ever elsewhere.
+fn write(
+    levels: &mut Pyramid<u8>,
+    dab: &Dab,
+    area: PixelRect,
+    changed: &mut PixelRect,
+    document: &Document,
+    follower: &Follower,
+) {
+    let field = follower.field();
+    levels.update(area, |x, y| {
+        let before = field.levels().get(x, y);
+        if !dab.area().contains(x, y) {
+            return before;
+        }
+        let after = field.level_with(x, y, dab.pixel(document.layers(), x, y));
+        if after != before {
+            *changed = changed.union(&PixelRect { min: [x, y], max: [x + 1, y + 1] });
+        }
+        after
+    });
+}
+
+fn count(changed: PixelRect, follower: &Follower) -> Work {
+    if changed.is_empty() {
+        return Work::Known(Price::Change(0));
+    }
+    let area = follower.field().lattice_rect(changed);
+    Work::Counting(Box::new(Forecast::new(follower.mesh(), area, &follower.settings().limits())))
+}
+
+fn price_so_far(
+    forecast: &mut Forecast,
+    levels: &Pyramid<u8>,
+    follower: &Follower,
+    visits: usize,
+) -> Option<Price> {
+    let field = follower.field();
+    let exceeds = |corners, level| field.would_exceed(levels, corners, level);
+    let progress = forecast.run(follower.mesh(), exceeds, visits);
+    let [added, removed] = [forecast.added(), forecast.removed()];
+    match progress {
+        Err(_) => Some(Price::TooFine),
+        Ok(Progress::Done) => Some(Price::Change(added as i64 - removed as i64)),
+        // A brush only refines and an eraser only coarsens: nothing that follows takes this back.
+        Ok(Progress::More) if added > Price::MOST => Some(Price::MoreThan(Price::MOST as i64)),
+        Ok(Progress::More) if removed > Price::MOST => Some(Price::MoreThan(-(Price::MOST as i64))),
+        Ok(Progress::More) => None,
+    }
+}
