@@ -951,6 +951,100 @@ fn impossible_settings_are_refused_with_a_sentence() {
     }
 }
 
+/// The tag beside the brush ring.
+fn price_tag(window: &Window) -> Option<String> {
+    let mut tags = window.query_all_by_role(Role::Label).filter_map(|node| node.accesskit_node().value());
+    tags.find(|label| {
+        ["+", "−", "over", "frees", "no change", "counting"].iter().any(|start| label.starts_with(start))
+    })
+}
+
+fn hover(window: &mut Window, world: DVec2) -> Option<String> {
+    move_to(window, world);
+    price_tag(window)
+}
+
+/// The number on the tag for a dab at a place, and what a click there then does to the number of triangles.
+fn told_and_true(window: &mut Window, world: DVec2) -> (String, i64) {
+    let told = hover(window, world).expect("a tag beside the ring");
+    let before = triangles(window) as i64;
+    click(window, world, Modifiers::NONE);
+    (told, triangles(window) as i64 - before)
+}
+
+fn as_told(change: i64) -> String {
+    match change {
+        0 => "no change".into(),
+        _ => format!("{} triangles", meshbrush::app::widgets::format::change(change)),
+    }
+}
+
+#[test]
+fn the_brush_shows_its_price_before_the_click_and_the_price_is_true() {
+    let mut window = window();
+    let (version, count) = (window.state().session().document().version(), triangles(&window));
+    assert_eq!(price_tag(&window), None, "the pointer is not on the canvas");
+    assert!(hover(&mut window, FREE).unwrap().starts_with('+'));
+    let session = window.state().session();
+    assert_eq!(
+        (session.document().version(), triangles(&window)),
+        (version, count),
+        "hovering changes nothing"
+    );
+    let mut seen = BTreeSet::new();
+    for tool in [Tool::Brush, Tool::Eraser] {
+        send(&mut window, Command::Use(tool));
+        for place in [FREE, FREE - dvec2(0.03, 0.02), dvec2(0.02, 0.97), FREE] {
+            let (told, change) = told_and_true(&mut window, place);
+            assert_eq!(told, as_told(change), "{tool:?} at {place}");
+            seen.insert(change.signum());
+        }
+    }
+    assert_eq!(seen.into_iter().collect::<Vec<_>>(), [-1, 1]);
+    // Beside the domain.
+    assert_eq!(told_and_true(&mut window, dvec2(1.09, 0.5)), ("no change".into(), 0));
+}
+
+#[test]
+fn the_price_is_asked_only_where_a_click_paints_a_dab() {
+    let mut window = window();
+    assert!(hover(&mut window, FREE).is_some());
+    for tool in [Tool::Query, Tool::Domain, Tool::Pan] {
+        send(&mut window, Command::Use(tool));
+        assert_eq!(price_tag(&window), None, "{tool:?}");
+    }
+    send(&mut window, Command::Use(Tool::Brush));
+    assert!(price_tag(&window).is_some());
+    for modifiers in [Modifiers::SHIFT, Modifiers::ALT] {
+        window.event(Event::ModifiersChanged(modifiers));
+        window.run();
+        assert_eq!(price_tag(&window), None, "{modifiers:?}");
+    }
+    window.event(Event::ModifiersChanged(Modifiers::NONE));
+    press(&mut window, FREE, Modifiers::NONE);
+    assert_eq!(price_tag(&window), None, "a stroke is under way");
+    release(&mut window, FREE);
+    assert!(price_tag(&window).is_some());
+    set(&mut window, Setting::Rule(Rule::Vertex));
+    assert_eq!(price_tag(&window), None, "every edit makes the mesh anew");
+    set(&mut window, Setting::Rule(Rule::Area));
+    // A larger brush costs more, with the pointer where it is.
+    let small = price_tag(&window).unwrap();
+    send(&mut window, Command::ScaleBrush(2.0));
+    assert_ne!(price_tag(&window).unwrap(), small);
+}
+
+#[test]
+fn a_price_past_the_budget_says_so() {
+    let mut window = window();
+    let count = triangles(&window);
+    set(&mut window, Setting::MaxTriangles(count + 100));
+    let tag = hover(&mut window, FREE).unwrap();
+    assert!(tag.starts_with('+') && tag.ends_with(" triangles, over the budget"), "{tag}");
+    send(&mut window, Command::Use(Tool::Eraser));
+    assert!(!price_tag(&window).unwrap().contains("budget"));
+}
+
 #[test]
 fn the_rule_switches_and_says_what_it_misses() {
     let mut window = window_of(TALL);

@@ -220,7 +220,8 @@ fn overlays(ui: &mut Ui) {
     let t = theme::tokens(ui);
     let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 110.0), egui::Sense::hover());
     ui.painter().rect_filled(rect, 0.0, t.canvas);
-    floating_tag(ui, rect.center() - vec2(0.0, 24.0), Align2::CENTER_CENTER, rect, "paint +2,418 triangles");
+    let above = rect.center() - vec2(0.0, 24.0);
+    floating_tag(ui, above, Align2::CENTER_CENTER, rect, "paint +2,418 triangles", t.value);
     let hints = [
         Hint::Text("Drag to paint risk"),
         Hint::Key("["),

@@ -6,8 +6,9 @@ use std::time::{Duration, Instant};
 use glam::DVec2;
 
 use super::readout::{Quantity, Readout};
-use crate::document::{Document, FollowError, Follower, MeshChange, Setting, Stage};
+use crate::document::{Document, FollowError, Follower, MeshChange, Pricer, Setting, Stage};
 use crate::mesh::{Mesh, Progress, Survey, Topology};
+use crate::paint::Brush;
 
 /// Pixels or triangles in one slice of work: well below a millisecond.
 const SLICE: usize = 2048;
@@ -25,6 +26,7 @@ pub struct Notice {
 pub struct Session {
     document: Document,
     follower: Follower,
+    pricer: Pricer,
     queried: Option<DVec2>,
     notice: Option<Notice>,
     work: Duration,
@@ -52,6 +54,7 @@ impl Session {
         Ok(Self {
             document,
             follower,
+            pricer: Pricer::default(),
             queried: None,
             notice: None,
             work: Duration::ZERO,
@@ -191,6 +194,20 @@ impl Session {
         self.survey.topology = Some(survey.topology(mesh));
         self.survey.under_way = None;
         false
+    }
+
+    /// Works out what a dab would cost, until `deadline`, and tells whether work is left. `None` gives up.
+    pub fn price_dab(&mut self, dab: Option<(Brush, DVec2)>, deadline: Instant) -> bool {
+        self.pricer.ask(dab, &self.document, &self.follower);
+        while self.pricer.progress() == Progress::More && Instant::now() < deadline {
+            self.pricer.advance(&self.document, &self.follower, SLICE);
+        }
+        self.pricer.progress() == Progress::More
+    }
+
+    /// What the dab asked about would cost.
+    pub fn pricer(&self) -> &Pricer {
+        &self.pricer
     }
 
     /// What became of the mesh since this was last asked.

@@ -118,8 +118,11 @@ impl Pricer {
     }
 
     /// Whether the answer is being worked out.
-    pub fn is_counting(&self) -> bool {
-        matches!(self.work, Work::Writing { .. } | Work::Counting(_))
+    pub fn progress(&self) -> Progress {
+        match self.work {
+            Work::Idle | Work::Known(_) => Progress::Done,
+            Work::Writing { .. } | Work::Counting(_) => Progress::More,
+        }
     }
 
     /// One slice of work: about `visits` pixels or triangles. Document and follower must be as they were when asked.
@@ -143,10 +146,6 @@ impl Pricer {
             self.work = Work::Known(price);
         }
         self.progress()
-    }
-
-    fn progress(&self) -> Progress {
-        if self.is_counting() { Progress::More } else { Progress::Done }
     }
 }
 

@@ -4,6 +4,7 @@ mod gpu;
 mod input;
 mod marks;
 mod overlay;
+mod price;
 
 use std::time::Instant;
 
@@ -54,7 +55,9 @@ impl App {
         for command in commands {
             self.execute(command, ui.ctx());
         }
-        if self.session.follow(Instant::now() + FRAME_BUDGET) {
+        let deadline = Instant::now() + FRAME_BUDGET;
+        let follows = self.session.follow(deadline);
+        if self.session.price_dab(self.hovered_dab(ui, &response), deadline) || follows {
             ui.ctx().request_repaint();
         }
         // Commands may have moved the view or changed the grid.
@@ -63,6 +66,10 @@ impl App {
         self.paint_mesh(ui, rect, camera);
         self.paint_marks(ui, &response, &camera);
         self.float_over(ui, rect);
+        if let Some(pointer) = response.hover_pos() {
+            let points_per_world = camera.px_per_world() as f32 / ui.pixels_per_point();
+            self.show_price(ui, rect, pointer, self.tools.radius as f32 * points_per_world);
+        }
     }
 
     /// The camera, fitted where there is none yet or the domain is another one.

@@ -11,6 +11,7 @@ use egui_wgpu::{RenderState, RendererOptions, ScreenDescriptor, WgpuConfiguratio
 use super::super::App;
 use super::super::command::Command;
 use crate::document::Stage;
+use crate::mesh::Progress;
 use crate::render::Image;
 use crate::render::gpu::{device_descriptor, read_back};
 
@@ -67,7 +68,9 @@ impl OffscreenWindow {
         let mut quiet = 0;
         while quiet < SETTLING_FRAMES {
             self.frame();
-            quiet = if self.app.session().stage() == Stage::InStep { quiet + 1 } else { 0 };
+            let session = self.app.session();
+            let rests = session.stage() == Stage::InStep && session.pricer().progress() == Progress::Done;
+            quiet = if rests { quiet + 1 } else { 0 };
         }
     }
 

@@ -2,22 +2,37 @@
 
 use eframe::egui::emath::GuiRounding as _;
 use eframe::egui::{
-    Align2, Pos2, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui, Vec2, WidgetInfo, pos2, vec2,
+    Align2, Color32, Pos2, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui, Vec2, WidgetInfo, pos2, vec2,
 };
 
 use super::paint;
 use crate::app::theme::{font, metrics, tokens};
 
-/// A short text on its own ground over the canvas: `paint +2,418 triangles`. Takes no clicks.
+/// A short text on its own ground over the canvas: `+2,418 triangles`. Takes no clicks.
 ///
-/// `align` says which point of the tag is at `anchor`; it is moved to stay within `bounds`. Returns its rectangle.
-pub fn floating_tag(ui: &Ui, anchor: Pos2, align: Align2, bounds: Rect, text: &str) -> Rect {
-    let galley = paint::line(ui, text, font::value(), tokens(ui).value);
-    let size = (galley.size() + vec2(20.0, 12.0)).ceil();
+/// `align` says which point of the tag is at `anchor`; it is moved to stay within `bounds`.
+pub fn floating_tag(
+    ui: &Ui,
+    anchor: Pos2,
+    align: Align2,
+    bounds: Rect,
+    text: &str,
+    color: Color32,
+) -> Response {
+    let galley = paint::line(ui, text, font::value(), color);
+    let size = tag_size(ui, text);
     let rect = within(align.anchor_size(anchor, size), bounds).round_to_pixels(ui.pixels_per_point());
+    let response = ui.interact(rect, ui.scope_id().with("floating tag"), Sense::hover());
+    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, text));
     paint_ground(ui, rect);
     paint::at_centre(ui, rect, galley);
-    rect
+    response
+}
+
+/// Size of a [`floating_tag`], in points.
+pub fn tag_size(ui: &Ui, text: &str) -> Vec2 {
+    let text = paint::line(ui, text, font::value(), Color32::PLACEHOLDER);
+    (text.size() + vec2(20.0, 12.0)).ceil()
 }
 
 /// A piece of a hint.
