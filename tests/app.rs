@@ -1046,6 +1046,24 @@ fn a_price_past_the_budget_says_so() {
 }
 
 #[test]
+fn the_budgets_are_typed_in_the_panel_and_what_is_too_small_is_told() {
+    let mut window = window_of(TALL);
+    open_section(&mut window, "Mesh");
+    type_into(&mut window, "Memory budget", "0.5");
+    assert_eq!(settings(&window).max_memory, 500_000_000);
+    type_into(&mut window, "Triangle budget", "1.5");
+    assert_eq!(settings(&window).max_triangles, 1_500_000);
+    let count = triangles(&window);
+    // Room for fewer triangles than there are.
+    type_into(&mut window, "Memory budget", "0.001");
+    assert!(notice(&window).contains("1 MB of memory"), "{}", notice(&window));
+    assert_eq!((settings(&window).max_memory, triangles(&window)), (500_000_000, count));
+    set(&mut window, Setting::MaxMemory(86 * (count + 100)));
+    let tag = hover(&mut window, FREE).unwrap();
+    assert!(tag.ends_with("over the budget"), "{tag}");
+}
+
+#[test]
 fn the_rule_switches_and_says_what_it_misses() {
     let mut window = window_of(TALL);
     open_section(&mut window, "Mesh");

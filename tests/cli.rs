@@ -310,6 +310,14 @@ fn impossible_targets_fail_with_their_place() {
         ("--target 1/0 --rule area", "The target diameter is inf at x = "),
         ("--target 1e-300 --rule area", "nodes would leave the lattice"),
         ("--target 0.001 --max-triangles 1000", "more than 1000 triangles, which is the limit"),
+        (
+            "--target 0.001 --max-memory 1MB",
+            "more than 21739 triangles, and 1 MB of memory, which is the limit",
+        ),
+        (
+            "--target 0.001 --max-memory 1MB --max-triangles 900",
+            "more than 900 triangles, which is the limit",
+        ),
         ("--target 1 --quantity 1/x -o new.vtu", "--quantity is inf at x = 0, y = 0"),
     ] {
         folder.file("old.vtu", "old");
@@ -344,6 +352,12 @@ fn wrong_arguments_are_explained() {
         ("mesh --risk x --h-min -0.1", 2, "--h-min -0.1: a length"),
         ("mesh --inside 0", 1, "No coarse triangle lies in the domain"),
         ("mesh --max-triangles 0", 2, "--max-triangles 0: choose from"),
+        ("mesh --max-memory 2", 2, "--max-memory 2: give a size with its unit, such as 500MB or 2GB."),
+        ("mesh --max-memory much", 2, "--max-memory much: give a size with its unit"),
+        ("mesh --max-memory 2PB", 2, "--max-memory 2PB: give a size with its unit"),
+        ("mesh --max-memory NaNGB", 2, "--max-memory NaNGB: give a size"),
+        ("mesh --max-memory 0GB", 2, "--max-memory 0GB: choose 1MB at least"),
+        ("mesh --max-memory -1GB", 2, "--max-memory -1GB: choose 1MB at least"),
         ("mesh --resolution 0", 2, "--resolution 0: choose from"),
         ("mesh --resolution 100000", 2, "--resolution 100000: choose from"),
         ("mesh --rule both", 2, "invalid value 'both'"),

@@ -167,6 +167,7 @@ fn what_cannot_be_met_leaves_document_and_mesh_as_they_were() {
         Setting::TransferShape(0.0),
         Setting::Base(Base::Constant(0.0)),
         Setting::Resolution(0),
+        Setting::MaxMemory(0),
         Setting::Bounds(Rect::new(DVec2::ONE, DVec2::ZERO)),
     ];
     for setting in bad {
@@ -181,6 +182,7 @@ fn what_cannot_be_met_leaves_document_and_mesh_as_they_were() {
         Setting::Base(Base::Formula(formula("x - 0.7"))),
         Setting::Base(Base::Formula(formula("1 / 0"))),
         Setting::MaxTriangles(1300),
+        Setting::MaxMemory(1_000_000),
         Setting::Domain(Domain { bounds: Rect::UNIT, shape: Shape::Formula(formula("x > 2")) }),
     ];
     for setting in late {
@@ -311,4 +313,41 @@ fn a_dab_too_dear_to_count_is_said_to_be() {
     pricer.ask(Some((brush, dvec2(0.5, 0.5))), &document, &follower);
     while pricer.advance(&document, &follower, 10_000) == Progress::More {}
     assert_eq!(pricer.price(), Some(Price::MoreThan(Price::MOST as i64)));
+}
+
+#[test]
+fn the_memory_budget_holds_while_one_paints_and_while_the_mesh_is_made_anew() {
+    let settings = Settings { max_memory: 2_000_000, resolution: 400, ..Settings::default() };
+    let mut document = Document::new(settings, None).unwrap();
+    let mut follower = Follower::new(&mut document).unwrap();
+    let room = 2_000_000 / 86;
+    let brush = Brush { medium: Medium::Risk, radius: 0.1, hardness: 1.0, strength: 1.0 };
+    let stroke = |document: &mut Document, y: f64| {
+        document.begin_stroke(brush);
+        document.draw_to(dvec2(0.1, y));
+        document.draw_to(dvec2(0.9, y));
+        document.end_stroke();
+    };
+    stroke(&mut document, 0.2);
+    let error = loop {
+        match follower.advance(&mut document, 5000) {
+            Ok(Stage::InStep) => panic!("the budget was passed"),
+            Ok(_) => {}
+            Err(error) => break error.to_string(),
+        }
+    };
+    assert!(error.contains("2 MB of memory") && error.contains("Raise the smallest diameter"), "{error}");
+    let count = follower.mesh().triangles().len();
+    assert!((room - 100..=room).contains(&count), "{count} of {room}");
+    assert!(2 * follower.mesh().bytes() <= 2_000_000);
+    assert_eq!(follower.mesh().violations(), []);
+    // A larger triangle budget does not help, more memory does.
+    document.set(Setting::MaxTriangles(50_000_000)).unwrap();
+    while follower.advance(&mut document, 5000).is_ok_and(|stage| stage != Stage::InStep) {}
+    assert!(follower.mesh().triangles().len() <= room);
+    document.set(Setting::MaxMemory(Settings::MAX_MEMORY)).unwrap();
+    settle(&mut follower, &mut document);
+    let anew = Follower::new(&mut document.clone()).unwrap();
+    assert_eq!(follower.mesh().fingerprint(), anew.mesh().fingerprint());
+    assert!(follower.mesh().triangles().len() > room);
 }

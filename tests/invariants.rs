@@ -101,7 +101,9 @@ fn a_bad_target_is_refused_and_the_mesh_stays_conforming() {
                 assert!(bad > 0.0, "{bad}: {error}");
                 assert!(at.x > 0.5 && smallest > bad && level == mesh.lattice().deepest_level());
             }
-            RefineError::TooManyTriangles { .. } => panic!("{bad}: {error}"),
+            RefineError::TooManyTriangles { .. } | RefineError::TooMuchMemory { .. } => {
+                panic!("{bad}: {error}")
+            }
         }
     }
     let mut mesh = with_a_hole();

@@ -125,6 +125,10 @@ pub struct InputArguments {
     #[arg(long, value_name = "N", default_value_t = 50_000_000)]
     pub max_triangles: usize,
 
+    /// Most memory allowed for the mesh, as in 500MB or 2GB: 46 bytes a triangle [default: what --max-triangles take]
+    #[arg(long, value_name = "SIZE", allow_hyphen_values = true)]
+    pub max_memory: Option<String>,
+
     /// Deepest level allowed; triangles there count as satisfied
     #[arg(long, value_name = "LEVEL")]
     pub max_level: Option<u32>,

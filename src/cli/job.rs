@@ -6,9 +6,10 @@ use glam::DVec2;
 
 use super::args::{BoundaryArgument, InputArguments, RuleArgument};
 use super::failure::Failure;
+use crate::document::LEAST_MEMORY;
 use crate::field::{Formula, Rule, Transfer};
 use crate::geometry::Rect;
-use crate::mesh::Limits;
+use crate::mesh::{Limits, MemoryLimit};
 use crate::raster::MAX_SIDE;
 
 /// A mesh to be made.
@@ -231,5 +232,29 @@ fn limits(typed: &InputArguments) -> Result<Limits, Failure> {
         let problem = format!("--max-triangles {max_triangles}: choose from 2 to {MOST_TRIANGLES}");
         return Err(Failure::Usage(format!("{problem}. A triangle takes 38 bytes of memory.")));
     }
-    Ok(Limits { max_triangles, max_level: typed.max_level })
+    let bytes = typed.max_memory.as_deref().map(memory).transpose()?;
+    Ok(Limits { max_triangles, max_level: typed.max_level, max_memory: bytes.map(MemoryLimit::for_one_mesh) })
+}
+
+/// Bytes of a size as typed: a number with a unit, in powers of 1000, or of 1024 where it has an i.
+fn memory(typed: &str) -> Result<usize, Failure> {
+    let wrong = |rule: &str| Failure::Usage(format!("--max-memory {typed}: {rule}, such as 500MB or 2GB."));
+    let text = typed.trim();
+    let split = text.find(|c: char| c.is_ascii_alphabetic()).unwrap_or(text.len());
+    let (number, unit) = text.split_at(split);
+    let unit = match unit.to_ascii_lowercase().as_str() {
+        "kb" => 1e3,
+        "mb" => 1e6,
+        "gb" => 1e9,
+        "tb" => 1e12,
+        "kib" => 1024.0,
+        "mib" => f64::from(1 << 20),
+        "gib" => f64::from(1 << 30),
+        "tib" => 1024.0 * f64::from(1 << 30),
+        _ => return Err(wrong("give a size with its unit")),
+    };
+    let number: f64 = number.trim().parse().map_err(|_| wrong("give a size with its unit"))?;
+    let bytes = number * unit;
+    // NaN is refused here too; what is too large for a count of bytes is no limit.
+    if bytes >= LEAST_MEMORY as f64 { Ok(bytes as usize) } else { Err(wrong("choose 1MB at least")) }
 }

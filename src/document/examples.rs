@@ -79,6 +79,7 @@ fn diamond() -> Settings {
         rule: Rule::Vertex,
         resolution: 1024,
         max_triangles: Settings::MAX_TRIANGLES,
+        max_memory: Settings::MAX_MEMORY,
     }
 }
 
@@ -93,6 +94,7 @@ fn terrain(slope: Raster) -> Settings {
         rule: Rule::Area,
         resolution: 1024,
         max_triangles: Settings::MAX_TRIANGLES,
+        max_memory: Settings::MAX_MEMORY,
     }
 }
 
@@ -131,6 +133,8 @@ fn threats() -> Document {
 impl Settings {
     /// Most triangles unless the user says otherwise: 760 MB.
     pub const MAX_TRIANGLES: usize = 20_000_000;
+    /// Most memory for meshes unless the user says otherwise, in bytes: room for a little more than [`Self::MAX_TRIANGLES`].
+    pub const MAX_MEMORY: usize = 2_000_000_000;
 
     /// The usual settings for a domain: lengths in proportion to its longer side.
     pub fn for_domain(name: String, domain: Domain) -> Self {
@@ -162,6 +166,7 @@ impl Default for Settings {
             rule: Rule::Area,
             resolution: 1024,
             max_triangles: Self::MAX_TRIANGLES,
+            max_memory: Self::MAX_MEMORY,
         }
     }
 }

@@ -16,7 +16,7 @@ pub use follower::{FollowError, Follower, MeshChange, Stage};
 pub use history::History;
 pub use pricer::{Price, Pricer};
 pub use setting::Setting;
-pub use settings::{Base, MAX_COARSE_TRIANGLES, RESOLUTIONS, Settings, SettingsError};
+pub use settings::{Base, LEAST_MEMORY, MAX_COARSE_TRIANGLES, RESOLUTIONS, Settings, SettingsError};
 
 use crate::paint::{Brush, Layers, Stroke};
 use crate::raster::PixelRect;

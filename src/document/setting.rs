@@ -22,6 +22,8 @@ pub enum Setting {
     Resolution(u32),
     /// Most triangles.
     MaxTriangles(usize),
+    /// Most memory for meshes, in bytes.
+    MaxMemory(usize),
     /// The rectangle that the coarse grid covers, in world units.
     Bounds(Rect),
     /// The domain altogether.
@@ -42,6 +44,7 @@ impl Setting {
             Self::Rule(_) => "refinement rule",
             Self::Resolution(_) => "field resolution",
             Self::MaxTriangles(_) => "triangle budget",
+            Self::MaxMemory(_) => "memory budget",
             Self::Bounds(_) => "domain",
             Self::Domain(_) => "domain shape",
             Self::Boundary(_) => "boundary",
@@ -65,6 +68,7 @@ impl Setting {
             Self::Rule(rule) => settings.rule = rule,
             Self::Resolution(resolution) => settings.resolution = resolution,
             Self::MaxTriangles(max_triangles) => settings.max_triangles = max_triangles,
+            Self::MaxMemory(max_memory) => settings.max_memory = max_memory,
             Self::Bounds(bounds) => settings.domain = settings.domain.with_bounds(bounds),
             Self::Domain(domain) => settings.domain = domain,
             Self::Boundary(boundary) => settings.boundary = boundary,

@@ -3,7 +3,7 @@ use std::sync::Arc;
 use crate::domain::{Boundary, Domain, DomainOnLattice};
 use crate::field::{Formula, Rule, Source, TargetFieldSpec, Transfer, TransferError, checked_target};
 use crate::geometry::{GridError, Lattice};
-use crate::mesh::Limits;
+use crate::mesh::{Bytes, Limits, MemoryLimit};
 use crate::raster::{MAX_SIDE, Raster};
 
 /// Everything about a document that is not paint.
@@ -27,6 +27,8 @@ pub struct Settings {
     pub resolution: u32,
     /// Most triangles.
     pub max_triangles: usize,
+    /// Most memory for the mesh and the next one made beside it, in bytes.
+    pub max_memory: usize,
 }
 
 /// The base field under the paint.
@@ -63,6 +65,12 @@ pub enum SettingsError {
     /// The constant is no length.
     #[error("A target diameter of {0} cannot be met: it must be positive and finite.")]
     Constant(f64),
+    /// There would be room for next to nothing.
+    #[error("A memory budget of {} cannot be kept: choose {} at least.", Bytes(*bytes), Bytes(LEAST_MEMORY))]
+    Memory {
+        /// As given.
+        bytes: usize,
+    },
     /// The raster would be empty or too large.
     #[error(
         "A field of {resolution} pixels cannot be made: choose between {least} and {most} along the longer side."
@@ -83,6 +91,9 @@ pub const RESOLUTIONS: std::ops::RangeInclusive<u32> = 16..=MAX_SIDE / 4;
 /// Most coarse triangles in the window: the coarse grid is made in one go, and must not hold a frame up.
 pub const MAX_COARSE_TRIANGLES: usize = 130_000;
 
+/// Least memory budget, in bytes: the program without a mesh takes a hundred times as much.
+pub const LEAST_MEMORY: usize = 1_000_000;
+
 impl Settings {
     /// Checks every number, and passes the settings on when all can be met.
     ///
@@ -102,6 +113,9 @@ impl Settings {
         if let Base::Constant(value) = self.base {
             checked_target(value, self.domain.bounds.center())
                 .map_err(|e| SettingsError::Constant(e.value))?;
+        }
+        if self.max_memory < LEAST_MEMORY {
+            return Err(SettingsError::Memory { bytes: self.max_memory });
         }
         if !RESOLUTIONS.contains(&self.resolution) {
             let (least, most) = RESOLUTIONS.into_inner();
@@ -145,6 +159,7 @@ impl Settings {
 
     /// What the mesh may cost.
     pub fn limits(&self) -> Limits {
-        Limits { max_triangles: self.max_triangles, max_level: None }
+        let max_memory = Some(MemoryLimit::for_two_meshes(self.max_memory));
+        Limits { max_triangles: self.max_triangles, max_level: None, max_memory }
     }
 }

@@ -65,7 +65,7 @@ impl Mesh {
         contains: impl Fn(DVec2) -> bool,
         limits: &Limits,
     ) -> Result<Self, CoarseError> {
-        let lattice = Lattice::covering(bounds, spacing, limits.max_triangles)?;
+        let lattice = Lattice::covering(bounds, spacing, limits.most_triangles())?;
         let mesh = CoarseGrid::new(&lattice).triangulate(contains);
         if mesh.triangles.is_empty() { Err(CoarseError::EmptyDomain { spacing }) } else { Ok(mesh) }
     }

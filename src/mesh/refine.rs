@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::{DEEPEST_LEVEL, Mesh, Triangle, TriangleId, bisection_edge_length, memory};
+use super::{Bytes, DEEPEST_LEVEL, MemoryLimit, Mesh, Triangle, TriangleId, bisection_edge_length, memory};
 use crate::geometry::{Lattice, LatticePoint};
 
 /// Most triangles of any mesh, whatever its budget: ids above are taken for marks.
@@ -16,19 +16,33 @@ pub struct Limits {
     pub max_triangles: usize,
     /// Deepest level, or `None` for as deep as the lattice goes. Triangles at this level count as satisfied.
     pub max_level: Option<u32>,
+    /// Most memory, or `None` for as much as [`Self::max_triangles`] take.
+    pub max_memory: Option<MemoryLimit>,
 }
 
 impl Limits {
-    /// [`Self::max_triangles`], as far as ids go.
+    /// [`Self::max_triangles`], as far as memory and ids go.
     pub fn most_triangles(&self) -> usize {
-        self.max_triangles.min(MOST_TRIANGLES)
+        let room = self.max_memory.map_or(usize::MAX, |memory| memory.triangles());
+        self.max_triangles.min(MOST_TRIANGLES).min(room)
+    }
+
+    /// What to say where [`Self::most_triangles`] would be passed.
+    fn passed(&self) -> RefineError {
+        let limit = self.most_triangles();
+        match self.max_memory {
+            Some(memory) if memory.triangles() < self.max_triangles.min(MOST_TRIANGLES) => {
+                RefineError::TooMuchMemory { limit, memory }
+            }
+            _ => RefineError::TooManyTriangles { limit },
+        }
     }
 }
 
 impl Default for Limits {
     /// 50 million triangles (1.9 GB), and any level.
     fn default() -> Self {
-        Self { max_triangles: 50_000_000, max_level: None }
+        Self { max_triangles: 50_000_000, max_level: None, max_memory: None }
     }
 }
 
@@ -95,6 +109,18 @@ pub enum RefineError {
         /// [`Limits::max_triangles`].
         limit: usize,
     },
+    /// The next call would pass the memory budget.
+    #[error(
+        "The mesh needs more than {limit} triangles, and {} of memory, which is the limit, has room for no more. Raise the \
+         smallest diameter, paint less, or raise the limit.",
+        Bytes(memory.bytes)
+    )]
+    TooMuchMemory {
+        /// The triangles that there is room for.
+        limit: usize,
+        /// [`Limits::max_memory`].
+        memory: MemoryLimit,
+    },
     /// The target is smaller than the lattice can resolve.
     #[error(
         "The target diameter near x = {}, y = {} is too small: below {smallest:e} (level {level}) nodes would leave the \
@@ -109,6 +135,13 @@ pub enum RefineError {
         /// Its level.
         level: u32,
     },
+}
+
+impl RefineError {
+    /// Whether the mesh would be too large: a larger budget helps.
+    pub fn is_over_budget(&self) -> bool {
+        matches!(self, Self::TooManyTriangles { .. } | Self::TooMuchMemory { .. })
+    }
 }
 
 /// Whether a sliced piece of work is finished.
@@ -363,7 +396,7 @@ impl Mesh {
         let (count, limit) = (self.triangles.len(), limits.most_triangles());
         // Close to the limit the call is counted exactly.
         if count + most_new > limit && count + self.closure_size(id) > limit {
-            return Err(RefineError::TooManyTriangles { limit });
+            return Err(limits.passed());
         }
         Ok(self.make_room(most_new, limit).min(limit))
     }

@@ -199,7 +199,7 @@ impl Updater {
                     continue;
                 }
                 match self.refine(mesh, id, &mut room) {
-                    Err(RefineError::TooManyTriangles { .. }) if self.loose.count() > 0 => {
+                    Err(error) if error.is_over_budget() && self.loose.count() > 0 => {
                         self.loosen(mesh, &diameters, &mut exceeds)?;
                     }
                     other => other?,

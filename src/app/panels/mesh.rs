@@ -4,11 +4,13 @@ use super::super::App;
 use super::super::command::Command;
 use super::super::theme::{font, tokens};
 use super::super::widgets::{NumberRow, Section, SliderRow, format, segmented, value_row};
-use crate::document::Setting;
+use crate::document::{LEAST_MEMORY, Setting};
 use crate::field::Rule;
 
 /// Triangles in a million.
 const MILLION: f64 = 1e6;
+/// Bytes in a gigabyte.
+const BILLION: f64 = 1e9;
 
 impl App {
     pub(super) fn mesh_ui(&mut self, ui: &mut Ui) {
@@ -52,14 +54,24 @@ impl App {
     }
 
     fn budget_ui(&mut self, ui: &mut Ui) {
-        let mut millions = self.session.document().settings().max_triangles as f64 / MILLION;
-        let help = "Most triangles, in millions. An edit that would need more leaves the mesh as it was.";
-        let row = NumberRow::new("Budget", &mut millions).range(0.001..=100.0).unit("M").help(help);
+        let settings = self.session.document().settings();
+        let mut millions = settings.max_triangles as f64 / MILLION;
+        let mut gigabytes = settings.max_memory as f64 / BILLION;
+        let help = "Most triangles, in millions. A stroke that would need more stops there; a setting is taken back.";
+        let row = NumberRow::new("Triangle budget", &mut millions).range(0.001..=100.0).unit("M").help(help);
         if row.show(ui).changed() {
             let max_triangles = (millions * MILLION).round() as usize;
             self.commands.extend([Command::Set(Setting::MaxTriangles(max_triangles)), Command::EndGesture]);
         }
-        let bytes = self.session.mesh().triangles().len() * 32 + self.session.mesh().nodes().len() * 8;
-        value_row(ui, "Memory", &format!("{} MB", format::fixed(bytes as f64 / MILLION, 1)));
+        let help = "Most memory, in gigabytes, for the mesh and for the next one while that is made beside it: 86 bytes \
+                    a triangle. The smaller of the two budgets counts.";
+        let least = LEAST_MEMORY as f64 / BILLION;
+        let row = NumberRow::new("Memory budget", &mut gigabytes).range(least..=1000.0).unit("GB").help(help);
+        if row.show(ui).changed() {
+            let max_memory = (gigabytes * BILLION).round() as usize;
+            self.commands.extend([Command::Set(Setting::MaxMemory(max_memory)), Command::EndGesture]);
+        }
+        let bytes = self.session.mesh().bytes() as f64;
+        value_row(ui, "Memory", &format!("{} MB", format::fixed(bytes / MILLION, 1)));
     }
 }
