@@ -6,7 +6,7 @@ use glam::{DVec2, dvec2};
 use meshbrush::colormap::{Colormap, Ground, LevelColors};
 use meshbrush::geometry::Rect;
 use meshbrush::io::{MeshData, Quantity, csv, msh, node, obj, svg, vtu};
-use meshbrush::mesh::{Limits, Mesh, NodeId};
+use meshbrush::mesh::{Extract, Limits, Mesh, NodeId};
 
 /// A mesh as a reader finds it.
 #[derive(Debug, Default)]
@@ -53,9 +53,12 @@ impl Sample {
         MeshData { target_diameter: &self.targets, quantities: &self.quantities }
     }
 
-    fn written(&self, write: impl FnOnce(&mut Vec<u8>, &Mesh, &MeshData) -> std::io::Result<()>) -> Vec<u8> {
+    fn written(
+        &self,
+        write: impl FnOnce(&mut Vec<u8>, &Extract, &MeshData) -> std::io::Result<()>,
+    ) -> Vec<u8> {
         let mut file = Vec::new();
-        write(&mut file, &self.mesh, &self.data()).unwrap();
+        write(&mut file, &self.mesh.extract(), &self.data()).unwrap();
         file
     }
 

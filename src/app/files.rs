@@ -166,9 +166,9 @@ impl Files {
         let (mesh, field) = (session.shared_mesh(), session.follower().field().clone());
         let (layers, rule) = (session.document().layers().clone(), session.follower().settings().rule);
         self.run(ctx, move || {
-            let world = |&node| mesh.lattice().world_from_lattice(node);
-            let at = |node| target_at(world(node), &field, layers.as_paint(), rule);
-            let target_diameter: Vec<f64> = mesh.nodes().iter().map(at).collect();
+            let mesh = mesh.extract();
+            let at = |node| target_at(node, &field, layers.as_paint(), rule);
+            let target_diameter: Vec<f64> = mesh.world_nodes().map(at).collect();
             let data = MeshData { target_diameter: &target_diameter, quantities: &[] };
             let triangles = format::count(mesh.triangles().len() as u64);
             match format.write(&path, &mesh, &data) {

@@ -11,7 +11,9 @@ use super::sources::Start;
 use super::terminal::{Terminal, grouped};
 use crate::domain::{DomainOnLattice, Region};
 use crate::field::{Rule, Source, TargetField, TargetFieldSpec, Transfer, VertexRule, smallest_target};
-use crate::mesh::{CoarseError, Element, InvalidTarget, Limits, Mesh, NodeId, Progress, Refiner, TriangleId};
+use crate::mesh::{
+    CoarseError, Element, Extract, InvalidTarget, Limits, Mesh, Progress, Refiner, TriangleId,
+};
 
 /// Triangles asked about, or pixels evaluated, between two looks at the clock.
 const SLICE: usize = 1 << 18;
@@ -75,8 +77,8 @@ impl Target {
     }
 
     /// h̄ at every node.
-    pub fn at_nodes(&self, mesh: &Mesh) -> Vec<f64> {
-        (0..mesh.nodes().len()).map(|n| self.at(mesh.world(NodeId::from_index(n)))).collect()
+    pub fn at_nodes(&self, mesh: &Extract) -> Vec<f64> {
+        mesh.world_nodes().map(|p| self.at(p)).collect()
     }
 
     /// Columns and rows of the pixels, if the rule goes by pixels.

@@ -3,6 +3,8 @@
 use std::io::Write;
 use std::path::PathBuf;
 
+use glam::DVec2;
+
 use super::args::MeshArguments;
 use super::build::{Built, build};
 use super::failure::Failure;
@@ -12,7 +14,7 @@ use super::summary::Summary;
 use super::terminal::{Terminal, grouped};
 use crate::field::Formula;
 use crate::io::{MeshData, Quantity};
-use crate::mesh::{Mesh, NodeId, TriangleId};
+use crate::mesh::{Extract, TriangleId};
 
 /// Broken invariants that are printed one by one; the others are counted.
 const SHOWN_VIOLATIONS: usize = 20;
@@ -102,23 +104,23 @@ fn write_files(
 ) -> Result<(), Failure> {
     let Built { mesh, target, .. } = built;
     let look = look.for_mesh(mesh);
+    let extract = mesh.extract();
     let (mut target_diameter, mut quantities) = (Vec::new(), Vec::new());
     if outputs.iter().any(Output::wants_node_data) {
-        target_diameter = target.at_nodes(mesh);
-        quantities.extend(quantity.map(|formula| evaluated(formula, mesh)).transpose()?);
+        target_diameter = target.at_nodes(&extract);
+        quantities.extend(quantity.map(|formula| evaluated(formula, &extract)).transpose()?);
     }
     let data = MeshData { target_diameter: &target_diameter, quantities: &quantities };
     for output in outputs {
-        for path in output.write(mesh, &data, &look)? {
+        for path in output.write(mesh, &extract, &data, &look)? {
             terminal.say(&format!("wrote {}", path.display()));
         }
     }
     Ok(())
 }
 
-fn evaluated(formula: &Formula, mesh: &Mesh) -> Result<Quantity, Failure> {
-    let value = |n| {
-        let p = mesh.world(NodeId::from_index(n));
+fn evaluated(formula: &Formula, mesh: &Extract) -> Result<Quantity, Failure> {
+    let value = |p: DVec2| {
         let value = formula.eval(p.x, p.y);
         if value.is_finite() {
             Ok(value)
@@ -129,6 +131,6 @@ fn evaluated(formula: &Formula, mesh: &Mesh) -> Result<Quantity, Failure> {
             )))
         }
     };
-    let values = (0..mesh.nodes().len()).map(value).collect::<Result<_, _>>()?;
+    let values = mesh.world_nodes().map(value).collect::<Result<_, _>>()?;
     Ok(Quantity { name: "quantity".to_owned(), values })
 }

@@ -9,7 +9,7 @@ use super::job::ending;
 use crate::colormap::{Colormap, Ground, LevelColors};
 use crate::geometry::Lattice;
 use crate::io::{MeshData, MeshFormat, png, svg, write_file};
-use crate::mesh::Mesh;
+use crate::mesh::{Extract, Mesh};
 use crate::render::{Image, software};
 use crate::scene::{Camera, Style};
 
@@ -59,17 +59,24 @@ impl Output {
         matches!(self.format, Format::Mesh(_))
     }
 
-    /// Writes the file, or the three files of `.node`, and returns their names.
+    /// Writes the file, or the three files of `.node`, and returns their names. `extract` is that of `mesh`, and `data` belongs
+    /// to its nodes.
     ///
     /// # Errors
     /// When the file system says no. What was there before is then still there.
-    pub fn write(&self, mesh: &Mesh, data: &MeshData, look: &Look) -> Result<Vec<PathBuf>, Failure> {
+    pub fn write(
+        &self,
+        mesh: &Mesh,
+        extract: &Extract,
+        data: &MeshData,
+        look: &Look,
+    ) -> Result<Vec<PathBuf>, Failure> {
         let path = &self.path;
         match self.format {
             Format::Mesh(format) => {
-                return format.write(path, mesh, data).map_err(|error| failed(path, error.to_string()));
+                return format.write(path, extract, data).map_err(|error| failed(path, error.to_string()));
             }
-            Format::Svg => write_one(path, |mut out| svg::write(&mut out, mesh, &look.for_svg(mesh)))?,
+            Format::Svg => write_one(path, |mut out| svg::write(&mut out, extract, &look.for_svg(mesh)))?,
             Format::Png => {
                 let picture = look.draw(mesh);
                 write_one(path, |mut out| png::write(&mut out, picture.size, &picture.rgba))?;

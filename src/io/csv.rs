@@ -6,8 +6,8 @@
 
 use std::io::{self, Write};
 
-use super::{MeshData, Number, Quantity, cells};
-use crate::mesh::{Mesh, NodeId};
+use super::{MeshData, Number, Quantity};
+use crate::mesh::{Extract, NodeId};
 
 const HEADER: &str = "triangle,level,v1,v2,v3,n1,n2,n3,x1,y1,x2,y2,x3,y3,target1,target2,target3";
 
@@ -15,13 +15,13 @@ const HEADER: &str = "triangle,level,v1,v2,v3,n1,n2,n3,x1,y1,x2,y2,x3,y3,target1
 ///
 /// # Errors
 /// Those of `out`.
-pub fn write(out: &mut impl Write, mesh: &Mesh, data: &MeshData) -> io::Result<()> {
+pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Result<()> {
     write!(out, "{HEADER}")?;
     for Quantity { name, .. } in data.quantities {
         write!(out, ",{name}1,{name}2,{name}3")?;
     }
     writeln!(out)?;
-    for (id, cell) in cells(mesh).enumerate() {
+    for (id, cell) in mesh.cells().enumerate() {
         let [a, b, c] = cell.corners;
         write!(out, "{id},{},{a},{b},{c}", cell.level)?;
         let [second, third, bisection] = cell.opposite;

@@ -2,7 +2,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use super::{MeshData, csv, msh, node, obj, vtu, write_file};
-use crate::mesh::Mesh;
+use crate::mesh::Extract;
 
 /// A format that carries a mesh with its data.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,7 +39,7 @@ impl MeshFormat {
     /// # Errors
     /// When the file system says no. What was there before is then still there; of Triangle's three files, those not yet
     /// written.
-    pub fn write(self, path: &Path, mesh: &Mesh, data: &MeshData) -> io::Result<Vec<PathBuf>> {
+    pub fn write(self, path: &Path, mesh: &Extract, data: &MeshData) -> io::Result<Vec<PathBuf>> {
         match self {
             Self::Vtu => write_file(path, |mut out| vtu::write(&mut out, mesh, data))?,
             Self::Msh => write_file(path, |mut out| msh::write(&mut out, mesh, data))?,
@@ -51,7 +51,7 @@ impl MeshFormat {
     }
 }
 
-fn write_node_files(path: &Path, mesh: &Mesh, data: &MeshData) -> io::Result<Vec<PathBuf>> {
+fn write_node_files(path: &Path, mesh: &Extract, data: &MeshData) -> io::Result<Vec<PathBuf>> {
     let (elements, neighbours) = (path.with_extension("ele"), path.with_extension("neigh"));
     write_file(path, |mut out| node::write(&mut out, mesh, data))?;
     write_file(&elements, |mut out| node::write_elements(&mut out, mesh))?;

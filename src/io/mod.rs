@@ -1,8 +1,8 @@
 //! Files, one module per format.
 //!
-//! A mesh writer is a function `write(out, mesh, data)`. What every format keeps to:
+//! A mesh writer is a function `write(out, mesh, data)`; the mesh is an [`Extract`](crate::mesh::Extract). What every format keeps to:
 //!
-//! - nodes and triangles stand in the order of [`Mesh::nodes`] and [`Mesh::triangles`], unless the format says otherwise;
+//! - nodes and triangles stand in the order that they have there, unless the format says otherwise;
 //! - a triangle's vertices run anticlockwise, the first two being the ends of its bisection edge;
 //! - coordinates and h̄ are in world units; numbers are the shortest that read back as the same f64;
 //! - counting starts at zero, except in `.msh` and `.obj`, where the format starts at one.
@@ -26,8 +26,6 @@ pub use atomic::{make_folder, write_file};
 pub use error::{Flaw, Place, ReadError};
 pub use mesh_file::MeshFormat;
 pub use number::Number;
-
-use crate::mesh::{Mesh, TriangleId};
 
 /// What is written beside the mesh itself. The level of each triangle comes from the mesh.
 #[derive(Clone, Copy, Debug)]
@@ -53,47 +51,4 @@ impl MeshData<'_> {
         let further = self.quantities.iter().map(|q| (q.name.as_str(), q.values.as_slice()));
         std::iter::once(("target_diameter", self.target_diameter)).chain(further)
     }
-}
-
-/// A triangle as files want it.
-struct Cell {
-    /// Nodes, anticlockwise, the first two the ends of the bisection edge.
-    corners: [usize; 3],
-    /// Triangles across the edges, the i-th opposite the i-th corner.
-    opposite: [Option<usize>; 3],
-    level: u32,
-}
-
-fn cells(mesh: &Mesh) -> impl Iterator<Item = Cell> + '_ {
-    mesh.triangles().iter().map(|triangle| {
-        let [bisection, second, third] = triangle.neighbours.map(|n| n.triangle().map(TriangleId::index));
-        Cell {
-            corners: triangle.edge_nodes().map(|(from, _)| from.index()),
-            // The bisection edge joins the first two corners, so its neighbour is opposite the last.
-            opposite: [second, third, bisection],
-            level: triangle.level(),
-        }
-    })
-}
-
-/// An edge at which the domain ends.
-struct BoundaryEdge {
-    /// Its nodes, with the domain to the left.
-    ends: [usize; 2],
-    /// Of the triangle that it belongs to.
-    level: u32,
-}
-
-fn boundary_edges(mesh: &Mesh) -> impl Iterator<Item = BoundaryEdge> + '_ {
-    mesh.triangles().iter().flat_map(|triangle| {
-        let edges = triangle.edge_nodes().into_iter().zip(triangle.neighbours);
-        edges
-            .filter(|(_, across)| across.triangle().is_none())
-            .map(|((from, to), _)| BoundaryEdge { ends: [from.index(), to.index()], level: triangle.level() })
-    })
-}
-
-/// Coordinates of all nodes in world units.
-fn world_nodes(mesh: &Mesh) -> impl Iterator<Item = glam::DVec2> + '_ {
-    mesh.nodes().iter().map(|&node| mesh.lattice().world_from_lattice(node))
 }

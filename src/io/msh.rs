@@ -6,8 +6,8 @@
 
 use std::io::{self, Write};
 
-use super::{MeshData, Number, boundary_edges, cells, world_nodes};
-use crate::mesh::Mesh;
+use super::{MeshData, Number};
+use crate::mesh::Extract;
 
 /// Gmsh's numbers for an element of two and of three nodes.
 const LINE: u8 = 1;
@@ -17,7 +17,7 @@ const TRIANGLE: u8 = 2;
 ///
 /// # Errors
 /// Those of `out`.
-pub fn write(out: &mut impl Write, mesh: &Mesh, data: &MeshData) -> io::Result<()> {
+pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Result<()> {
     writeln!(out, "$MeshFormat\n4.1 0 8\n$EndMeshFormat")?;
     writeln!(out, "$PhysicalNames\n2\n1 2 \"boundary\"\n2 1 \"domain\"\n$EndPhysicalNames")?;
     write_entities(out, mesh)?;
@@ -28,12 +28,12 @@ pub fn write(out: &mut impl Write, mesh: &Mesh, data: &MeshData) -> io::Result<(
     }
     // meshio wants element data for all elements or for none: a boundary edge has its triangle's level.
     let mut levels: Vec<f64> = mesh.triangles().iter().map(|t| t.level().into()).collect();
-    levels.extend(boundary_edges(mesh).map(|edge| f64::from(edge.level)));
+    levels.extend(mesh.boundary_edges().map(|edge| f64::from(edge.level)));
     write_values(out, "ElementData", "level", &levels)
 }
 
 /// One curve (the boundary, physical group 2) and the surface that it bounds (physical group 1).
-fn write_entities(out: &mut impl Write, mesh: &Mesh) -> io::Result<()> {
+fn write_entities(out: &mut impl Write, mesh: &Extract) -> io::Result<()> {
     let bounds = mesh.lattice().bounds();
     let [x0, y0, x1, y1] = [bounds.min.x, bounds.min.y, bounds.max.x, bounds.max.y].map(Number);
     writeln!(out, "$Entities\n0 1 1 0")?;
@@ -42,29 +42,29 @@ fn write_entities(out: &mut impl Write, mesh: &Mesh) -> io::Result<()> {
     writeln!(out, "$EndEntities")
 }
 
-fn write_nodes(out: &mut impl Write, mesh: &Mesh) -> io::Result<()> {
+fn write_nodes(out: &mut impl Write, mesh: &Extract) -> io::Result<()> {
     let count = mesh.nodes().len();
     writeln!(out, "$Nodes\n1 {count} 1 {count}\n2 1 0 {count}")?;
     for tag in 1..=count {
         writeln!(out, "{tag}")?;
     }
-    for p in world_nodes(mesh) {
+    for p in mesh.world_nodes() {
         writeln!(out, "{} {} 0", Number(p.x), Number(p.y))?;
     }
     writeln!(out, "$EndNodes")
 }
 
-fn write_elements(out: &mut impl Write, mesh: &Mesh) -> io::Result<()> {
+fn write_elements(out: &mut impl Write, mesh: &Extract) -> io::Result<()> {
     let triangles = mesh.triangles().len();
-    let lines = boundary_edges(mesh).count();
+    let lines = mesh.boundary_edges().count();
     let all = triangles + lines;
     writeln!(out, "$Elements\n2 {all} 1 {all}\n2 1 {TRIANGLE} {triangles}")?;
-    for (tag, cell) in (1..).zip(cells(mesh)) {
+    for (tag, cell) in (1..).zip(mesh.cells()) {
         let [a, b, c] = cell.corners.map(|node| node + 1);
         writeln!(out, "{tag} {a} {b} {c}")?;
     }
     writeln!(out, "1 1 {LINE} {lines}")?;
-    for (tag, edge) in (triangles + 1..).zip(boundary_edges(mesh)) {
+    for (tag, edge) in (triangles + 1..).zip(mesh.boundary_edges()) {
         let [from, to] = edge.ends.map(|node| node + 1);
         writeln!(out, "{tag} {from} {to}")?;
     }

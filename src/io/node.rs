@@ -5,20 +5,17 @@
 
 use std::io::{self, Write};
 
-use super::{MeshData, Number, boundary_edges, cells, world_nodes};
-use crate::mesh::Mesh;
+use super::{MeshData, Number};
+use crate::mesh::Extract;
 
 /// Writes the `.node` file: coordinates, h̄, quantities and boundary marker of each node.
 ///
 /// # Errors
 /// Those of `out`.
-pub fn write(out: &mut impl Write, mesh: &Mesh, data: &MeshData) -> io::Result<()> {
-    let mut on_boundary = vec![false; mesh.nodes().len()];
-    for node in boundary_edges(mesh).flat_map(|edge| edge.ends) {
-        on_boundary[node] = true;
-    }
+pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Result<()> {
+    let on_boundary = mesh.on_boundary();
     writeln!(out, "{} 2 {} 1", mesh.nodes().len(), data.node_values().count())?;
-    for (id, p) in world_nodes(mesh).enumerate() {
+    for (id, p) in mesh.world_nodes().enumerate() {
         write!(out, "{id} {} {}", Number(p.x), Number(p.y))?;
         for (_, values) in data.node_values() {
             write!(out, " {}", Number(values[id]))?;
@@ -32,9 +29,9 @@ pub fn write(out: &mut impl Write, mesh: &Mesh, data: &MeshData) -> io::Result<(
 ///
 /// # Errors
 /// Those of `out`.
-pub fn write_elements(out: &mut impl Write, mesh: &Mesh) -> io::Result<()> {
+pub fn write_elements(out: &mut impl Write, mesh: &Extract) -> io::Result<()> {
     writeln!(out, "{} 3 1", mesh.triangles().len())?;
-    for (id, cell) in cells(mesh).enumerate() {
+    for (id, cell) in mesh.cells().enumerate() {
         let [a, b, c] = cell.corners;
         writeln!(out, "{id} {a} {b} {c} {}", cell.level)?;
     }
@@ -45,9 +42,9 @@ pub fn write_elements(out: &mut impl Write, mesh: &Mesh) -> io::Result<()> {
 ///
 /// # Errors
 /// Those of `out`.
-pub fn write_neighbours(out: &mut impl Write, mesh: &Mesh) -> io::Result<()> {
+pub fn write_neighbours(out: &mut impl Write, mesh: &Extract) -> io::Result<()> {
     writeln!(out, "{} 3", mesh.triangles().len())?;
-    for (id, cell) in cells(mesh).enumerate() {
+    for (id, cell) in mesh.cells().enumerate() {
         let [a, b, c] = cell.opposite.map(|across| across.map_or(-1, |t| t as i64));
         writeln!(out, "{id} {a} {b} {c}")?;
     }

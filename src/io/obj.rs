@@ -5,24 +5,24 @@
 
 use std::io::{self, Write};
 
-use super::{MeshData, Number, cells, world_nodes};
-use crate::mesh::Mesh;
+use super::{MeshData, Number};
+use crate::mesh::Extract;
 
 /// Writes the mesh, one group for each level.
 ///
 /// # Errors
 /// Those of `out`.
-pub fn write(out: &mut impl Write, mesh: &Mesh, data: &MeshData) -> io::Result<()> {
+pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Result<()> {
     writeln!(out, "# Meshbrush: {} nodes, {} triangles", mesh.nodes().len(), mesh.triangles().len())?;
     writeln!(out, "# texture coordinate u: target diameter; groups: level")?;
-    for p in world_nodes(mesh) {
+    for p in mesh.world_nodes() {
         writeln!(out, "v {} {} 0", Number(p.x), Number(p.y))?;
     }
     for &target in data.target_diameter {
         writeln!(out, "vt {} 0", Number(target))?;
     }
     let mut by_level = vec![Vec::new(); mesh.level_counts().len()];
-    for cell in cells(mesh) {
+    for cell in mesh.cells() {
         by_level[cell.level as usize].push(cell.corners);
     }
     for (level, triangles) in by_level.iter().enumerate().filter(|(_, triangles)| !triangles.is_empty()) {

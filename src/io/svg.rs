@@ -7,7 +7,7 @@
 use std::io::{self, Write};
 
 use crate::geometry::LatticePoint;
-use crate::mesh::{Mesh, NodeId};
+use crate::mesh::{Extract, NodeId, bisection_edge_length};
 
 /// How a mesh is drawn.
 #[derive(Clone, Copy, Debug)]
@@ -26,7 +26,7 @@ pub struct Style<'a> {
 ///
 /// # Errors
 /// Those of `out`.
-pub fn write(out: &mut impl Write, mesh: &Mesh, style: &Style) -> io::Result<()> {
+pub fn write(out: &mut impl Write, mesh: &Extract, style: &Style) -> io::Result<()> {
     let page = Page::of(mesh);
     let [width, height] = style.size;
     writeln!(
@@ -50,7 +50,7 @@ pub fn write(out: &mut impl Write, mesh: &Mesh, style: &Style) -> io::Result<()>
     writeln!(out, "</svg>")
 }
 
-fn write_levels(out: &mut impl Write, mesh: &Mesh, page: &Page, style: &Style) -> io::Result<()> {
+fn write_levels(out: &mut impl Write, mesh: &Extract, page: &Page, style: &Style) -> io::Result<()> {
     let mut by_level = vec![Vec::new(); mesh.level_counts().len()];
     for triangle in mesh.triangles() {
         let [a, b] = triangle.bisection_edge();
@@ -74,14 +74,15 @@ fn write_levels(out: &mut impl Write, mesh: &Mesh, page: &Page, style: &Style) -
 }
 
 /// All edges once, by the finer of the two triangles that share them. Widths are in pixels, whatever the magnification.
-fn write_edges(out: &mut impl Write, mesh: &Mesh, page: &Page, style: &Style) -> io::Result<()> {
+fn write_edges(out: &mut impl Write, mesh: &Extract, page: &Page, style: &Style) -> io::Result<()> {
     writeln!(
         out,
         "<g id=\"edges\" fill=\"none\" stroke=\"#000\" stroke-opacity=\"0.5\" stroke-linecap=\"round\">"
     )?;
+    let spacing = mesh.lattice().spacing();
     let px_per_world = f64::from(style.size[0]) / mesh.lattice().bounds().size().x;
     for (level, edges) in edges_by_level(mesh).iter().enumerate().filter(|(_, edges)| !edges.is_empty()) {
-        let width = (0.04 * mesh.diameter(level as u32) * px_per_world).clamp(0.01, 0.7);
+        let width = (0.04 * bisection_edge_length(spacing, level as u32) * px_per_world).clamp(0.01, 0.7);
         write!(out, "<path stroke-width=\"{width:.2}\" vector-effect=\"non-scaling-stroke\" d=\"")?;
         let mut pen = Pen::default();
         for &(from, to) in edges {
@@ -93,15 +94,15 @@ fn write_edges(out: &mut impl Write, mesh: &Mesh, page: &Page, style: &Style) ->
     writeln!(out, "</g>")
 }
 
-fn edges_by_level(mesh: &Mesh) -> Vec<Vec<(NodeId, NodeId)>> {
+fn edges_by_level(mesh: &Extract) -> Vec<Vec<(NodeId, NodeId)>> {
     let mut by_level = vec![Vec::new(); mesh.level_counts().len()];
     for (index, triangle) in mesh.triangles().iter().enumerate() {
         for (edge, across) in triangle.edge_nodes().into_iter().zip(triangle.neighbours) {
             match across.triangle() {
                 Some(other) if other.index() < index => {} // the other triangle has drawn it
-                Some(other) => {
-                    by_level[triangle.level().max(mesh.triangle(other).level()) as usize].push(edge)
-                }
+                Some(other) => by_level
+                    [triangle.level().max(mesh.triangles()[other.index()].level()) as usize]
+                    .push(edge),
                 None => by_level[triangle.level() as usize].push(edge),
             }
         }
@@ -117,14 +118,14 @@ struct Page {
 }
 
 impl Page {
-    fn of(mesh: &Mesh) -> Self {
+    fn of(mesh: &Extract) -> Self {
         let bits = mesh.nodes().iter().fold(0, |bits, node| bits | node.x | node.y);
         let LatticePoint { x, y } = mesh.lattice().extent();
         let shift = (bits | x | y).trailing_zeros();
         Self { width: x >> shift, height: y >> shift, shift }
     }
 
-    fn place(&self, mesh: &Mesh, node: NodeId) -> [i64; 2] {
+    fn place(&self, mesh: &Extract, node: NodeId) -> [i64; 2] {
         let LatticePoint { x, y } = mesh.node(node);
         [i64::from(x >> self.shift), i64::from(self.height - (y >> self.shift))]
     }

@@ -4,8 +4,8 @@
 
 use std::io::{self, Write};
 
-use super::{MeshData, cells, world_nodes};
-use crate::mesh::Mesh;
+use super::MeshData;
+use crate::mesh::Extract;
 
 /// VTK's number for a triangle.
 const VTK_TRIANGLE: u8 = 5;
@@ -49,7 +49,7 @@ impl<'a> Array<'a> {
 ///
 /// # Errors
 /// Those of `out`.
-pub fn write(out: &mut impl Write, mesh: &Mesh, data: &MeshData) -> io::Result<()> {
+pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Result<()> {
     let sections = [
         ("PointData", point_data(data)),
         ("CellData", vec![levels(mesh)]),
@@ -89,23 +89,23 @@ fn point_data<'a>(data: &'a MeshData<'a>) -> Vec<Array<'a>> {
     data.node_values().map(array).collect()
 }
 
-fn levels(mesh: &Mesh) -> Array<'_> {
+fn levels<'a>(mesh: &'a Extract) -> Array<'a> {
     Array::new("level", "UInt8", 1, mesh.triangles().len(), || {
         mesh.triangles().iter().map(|t| [t.level() as u8])
     })
 }
 
-fn points(mesh: &Mesh) -> Array<'_> {
+fn points<'a>(mesh: &'a Extract) -> Array<'a> {
     Array::new("Points", "Float64", 3, 3 * mesh.nodes().len(), || {
-        world_nodes(mesh).flat_map(|p| [p.x, p.y, 0.0]).map(f64::to_le_bytes)
+        mesh.world_nodes().flat_map(|p| [p.x, p.y, 0.0]).map(f64::to_le_bytes)
     })
 }
 
-fn topology(mesh: &Mesh) -> Vec<Array<'_>> {
+fn topology<'a>(mesh: &'a Extract) -> Vec<Array<'a>> {
     let count = mesh.triangles().len();
     vec![
         Array::new("connectivity", "Int64", 1, 3 * count, || {
-            cells(mesh).flat_map(|cell| cell.corners).map(|node| (node as i64).to_le_bytes())
+            mesh.cells().flat_map(|cell| cell.corners).map(|node| (node as i64).to_le_bytes())
         }),
         Array::new("offsets", "Int64", 1, count, move || (1..=count as i64).map(|n| (3 * n).to_le_bytes())),
         Array::new("types", "UInt8", 1, count, move || std::iter::repeat_n([VTK_TRIANGLE], count)),

@@ -1,0 +1,133 @@
+use std::borrow::Cow;
+
+use glam::DVec2;
+
+use super::{Mesh, NodeId, Triangle, TriangleId};
+use crate::geometry::{Lattice, LatticePoint};
+
+/// What others get of a mesh, in files and elsewhere: nodes and triangles that count from zero without a gap.
+///
+/// Ids in it are places in its own arrays. Where the whole mesh is given away they are those of the mesh, and nothing is copied.
+#[derive(Clone, Debug)]
+pub struct Extract<'a> {
+    lattice: Lattice,
+    nodes: Cow<'a, [LatticePoint]>,
+    triangles: Cow<'a, [Triangle]>,
+}
+
+/// A triangle as others want it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Cell {
+    /// Nodes, anticlockwise, the first two the ends of the bisection edge.
+    pub corners: [usize; 3],
+    /// Triangles across the edges, the i-th opposite the i-th corner; `None` at the boundary.
+    pub opposite: [Option<usize>; 3],
+    /// How many bisections made it.
+    pub level: u32,
+}
+
+/// An edge at which the domain ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct BoundaryEdge {
+    /// Its nodes, with the domain to the left.
+    pub ends: [usize; 2],
+    /// The level of the triangle that it belongs to.
+    pub level: u32,
+}
+
+impl Mesh {
+    /// The part of the mesh that is the mesh of the domain: all of it.
+    pub fn extract(&self) -> Extract<'_> {
+        Extract {
+            lattice: self.lattice,
+            nodes: Cow::Borrowed(&self.nodes),
+            triangles: Cow::Borrowed(&self.triangles),
+        }
+    }
+}
+
+impl Extract<'_> {
+    /// The grid and lattice that the mesh was refined from.
+    pub fn lattice(&self) -> &Lattice {
+        &self.lattice
+    }
+
+    /// All nodes in lattice coordinates.
+    pub fn nodes(&self) -> &[LatticePoint] {
+        &self.nodes
+    }
+
+    /// All triangles.
+    pub fn triangles(&self) -> &[Triangle] {
+        &self.triangles
+    }
+
+    /// Lattice coordinates of a node.
+    ///
+    /// # Panics
+    /// When there is no such node.
+    #[inline]
+    pub fn node(&self, id: NodeId) -> LatticePoint {
+        self.nodes[id.index()]
+    }
+
+    /// World coordinates of a node.
+    ///
+    /// # Panics
+    /// When there is no such node.
+    #[inline]
+    pub fn world(&self, id: NodeId) -> DVec2 {
+        self.lattice.world_from_lattice(self.node(id))
+    }
+
+    /// Coordinates of all nodes in world units.
+    pub fn world_nodes(&self) -> impl ExactSizeIterator<Item = DVec2> + Clone + '_ {
+        self.nodes.iter().map(|&node| self.lattice.world_from_lattice(node))
+    }
+
+    /// How many triangles there are at each level, from level 0 to the deepest. Counted when asked.
+    pub fn level_counts(&self) -> Vec<usize> {
+        let mut counts = Vec::new();
+        for triangle in self.triangles.iter() {
+            let level = triangle.level() as usize;
+            if level >= counts.len() {
+                counts.resize(level + 1, 0);
+            }
+            counts[level] += 1;
+        }
+        counts
+    }
+
+    /// All triangles, as others want them.
+    pub fn cells(&self) -> impl ExactSizeIterator<Item = Cell> + Clone + '_ {
+        self.triangles.iter().map(|triangle| {
+            let [bisection, second, third] = triangle.neighbours.map(|n| n.triangle().map(TriangleId::index));
+            Cell {
+                corners: triangle.edge_nodes().map(|(from, _)| from.index()),
+                // The bisection edge joins the first two corners, so its neighbour is opposite the last.
+                opposite: [second, third, bisection],
+                level: triangle.level(),
+            }
+        })
+    }
+
+    /// All edges at which the domain ends, in the order of their triangles.
+    pub fn boundary_edges(&self) -> impl Iterator<Item = BoundaryEdge> + Clone + '_ {
+        self.triangles.iter().flat_map(|triangle| {
+            let edges = triangle.edge_nodes().into_iter().zip(triangle.neighbours);
+            edges.filter(|(_, across)| across.triangle().is_none()).map(|((from, to), _)| BoundaryEdge {
+                ends: [from.index(), to.index()],
+                level: triangle.level(),
+            })
+        })
+    }
+
+    /// For each node whether a boundary edge ends there.
+    pub fn on_boundary(&self) -> Vec<bool> {
+        let mut on_boundary = vec![false; self.nodes.len()];
+        for node in self.boundary_edges().flat_map(|edge| edge.ends) {
+            on_boundary[node] = true;
+        }
+        on_boundary
+    }
+}
