@@ -1,7 +1,9 @@
 //! Every format that meshes are written in, read back by a reader that knows only the format.
 
 use std::collections::{BTreeMap, HashMap, HashSet};
+use std::io::Read;
 
+use flate2::read::ZlibDecoder;
 use glam::{DVec2, dvec2};
 use meshbrush::colormap::{Colormap, Ground, LevelColors};
 use meshbrush::geometry::Rect;
@@ -16,6 +18,8 @@ struct Found {
     levels: Vec<u32>,
     targets: Vec<f64>,
     quantities: Vec<f64>,
+    /// For each node whether it is marked as one of the boundary.
+    marked: Vec<bool>,
 }
 
 /// What was written.
@@ -47,6 +51,11 @@ impl Sample {
             Self::new(oblong, 1.1, |_| true, 0.05),
             Self::new(Rect::around(DVec2::ZERO, 1.0), 0.1, ring, 0.02),
         ]
+    }
+
+    /// A square of so many triangles that their arrays take several blocks.
+    fn fine() -> Self {
+        Self::new(Rect::UNIT, 0.005, |_| true, 0.001)
     }
 
     fn data(&self) -> MeshData<'_> {
@@ -117,18 +126,21 @@ fn read_vtu(file: &[u8]) -> Found {
     let mark = b"<AppendedData encoding=\"raw\">\n_";
     let start = file.windows(mark.len()).position(|w| w == mark).unwrap() + mark.len();
     let header = std::str::from_utf8(&file[..start]).unwrap();
-    assert!(header.contains("byte_order=\"LittleEndian\" header_type=\"UInt64\""));
+    assert!(
+        header.contains(
+            "byte_order=\"LittleEndian\" header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\""
+        )
+    );
     let attribute = |element: &str, name: &str| {
         let after = element.split(&format!(" {name}=\"")).nth(1)?;
         Some(after.split('"').next()?.to_owned())
     };
-    let array = |name: &str, kind: &str| -> &[u8] {
+    let array = |name: &str, kind: &str| -> Vec<u8> {
         let named = |element: &&str| attribute(element, "Name").as_deref() == Some(name);
         let element = header.split('<').find(named).unwrap();
         assert_eq!(attribute(element, "type").unwrap(), kind);
         let at = start + attribute(element, "offset").unwrap().parse::<usize>().unwrap();
-        let length = u64::from_le_bytes(file[at..at + 8].try_into().unwrap()) as usize;
-        &file[at + 8..at + 8 + length]
+        decompressed(&file[at..])
     };
     let floats = |name| -> Vec<f64> {
         array(name, "Float64").chunks(8).map(|b| f64::from_le_bytes(b.try_into().unwrap())).collect()
@@ -150,6 +162,44 @@ fn read_vtu(file: &[u8]) -> Found {
         levels: array("level", "UInt8").iter().map(|&level| level.into()).collect(),
         targets: floats("target_diameter"),
         quantities: floats("height"),
+        marked: array("boundary", "UInt8").iter().map(|&mark| mark == 1).collect(),
+    }
+}
+
+/// The blocks of a compressed array, each as long as its table says.
+fn decompressed(array: &[u8]) -> Vec<u8> {
+    let word = |n: usize| u64::from_le_bytes(array[8 * n..][..8].try_into().unwrap()) as usize;
+    let (blocks, whole, last) = (word(0), word(1), word(2));
+    let mut at = 8 * (3 + blocks);
+    let mut bytes = Vec::new();
+    for block in 0..blocks {
+        let before = bytes.len();
+        let mut decoder = ZlibDecoder::new(&array[at..at + word(3 + block)]);
+        decoder.read_to_end(&mut bytes).unwrap();
+        assert_eq!(decoder.total_in() as usize, word(3 + block));
+        at += word(3 + block);
+        let expected = if block + 1 == blocks && last > 0 { last } else { whole };
+        assert_eq!(bytes.len() - before, expected);
+    }
+    bytes
+}
+
+#[test]
+fn vtu_marks_the_boundary_and_is_smaller_than_its_arrays() {
+    let sample = Sample::fine();
+    let file = sample.written(vtu::write);
+    let found = read_vtu(&file);
+    sample.assert_same(&found);
+    let (nodes, triangles) = (found.nodes.len(), found.triangles.len());
+    assert!(24 * nodes > 2 * 262_144, "several blocks are wanted");
+    assert!(file.len() < (42 * nodes + 34 * triangles) / 3, "{} bytes for {triangles}", file.len());
+    let bounds = sample.mesh.lattice().bounds();
+    for (place, marked) in found.nodes.iter().zip(found.marked) {
+        let on_boundary = place.x == bounds.min.x
+            || place.x == bounds.max.x
+            || place.y == bounds.min.y
+            || place.y == bounds.max.y;
+        assert_eq!(marked, on_boundary, "{place}");
     }
 }
 
@@ -312,6 +362,7 @@ fn read_msh(file: &str) -> (Found, Vec<[usize; 2]>) {
         levels: levels[..triangle_rows.len()].to_vec(),
         targets: values("NodeData", "target_diameter"),
         quantities: values("NodeData", "height"),
+        ..Found::default()
     };
     (found, rest[1..].iter().map(|line| [line[1] - 1, line[2] - 1]).collect())
 }

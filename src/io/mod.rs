@@ -9,6 +9,7 @@
 
 pub mod asc;
 mod atomic;
+mod blocks;
 pub mod csv;
 mod error;
 mod mesh_file;

@@ -1,10 +1,15 @@
-//! `.vtu`: an unstructured grid for VTK and ParaView, as XML with raw binary data appended.
+//! `.vtu`: an unstructured grid for VTK and ParaView, as XML with raw binary data appended, compressed by zlib.
 //!
-//! Point data: `target_diameter` (h̄) and the quantities; cell data: `level`. ParaView, VTK, PyVista and meshio read it.
+//! Point data: `target_diameter` (h̄), the quantities, and `boundary`, which is 1 on the boundary and 0 elsewhere; cell data:
+//! `level`. ParaView, VTK, PyVista and meshio read it.
+//!
+//! The header says where each array begins, hence how long those before it are when compressed. So every array is compressed
+//! twice, first to count and then to write: that costs time, but memory holds one block and the output may be a pipe.
 
 use std::io::{self, Write};
 
 use super::MeshData;
+use super::blocks::{BLOCK, Blocks};
 use crate::mesh::Extract;
 
 /// VTK's number for a triangle.
@@ -19,6 +24,8 @@ struct Array<'a> {
     components: usize,
     bytes: usize,
     write: WriteBytes<'a>,
+    /// Bytes of each block after compression.
+    compressed: Vec<u64>,
 }
 
 impl<'a> Array<'a> {
@@ -30,11 +37,40 @@ impl<'a> Array<'a> {
         items: impl Fn() -> I + 'a,
     ) -> Self {
         let write = Box::new(move |out: &mut dyn Write| items().try_for_each(|item| out.write_all(&item)));
-        Self { name, kind, components, bytes: values * N, write }
+        Self { name, kind, components, bytes: values * N, write, compressed: Vec::new() }
+    }
+
+    /// Compresses the array, and keeps the sizes alone.
+    fn measure(&mut self) -> io::Result<()> {
+        let mut sizes = Vec::new();
+        self.compress(|block| {
+            sizes.push(block.len() as u64);
+            Ok(())
+        })?;
+        self.compressed = sizes;
+        Ok(())
+    }
+
+    fn compress(&self, take: impl FnMut(&[u8]) -> io::Result<()>) -> io::Result<()> {
+        let mut blocks = Blocks::new(take);
+        (self.write)(&mut blocks)?;
+        blocks.finish()
+    }
+
+    /// The table of sizes before the blocks: how many blocks, the size of a block and of the last one (0 if it is whole) before
+    /// compression, and the size of each after it.
+    fn table(&self) -> impl Iterator<Item = u64> {
+        let start = [self.compressed.len(), BLOCK, self.bytes % BLOCK].map(|n| n as u64);
+        start.into_iter().chain(self.compressed.iter().copied())
+    }
+
+    /// Bytes in the file, with the table.
+    fn length(&self) -> u64 {
+        (size_of::<u64>() * self.table().count()) as u64 + self.compressed.iter().sum::<u64>()
     }
 
     /// The element of the header; `offset` is in bytes from the start of the appended data.
-    fn describe(&self, out: &mut impl Write, offset: usize) -> io::Result<()> {
+    fn describe(&self, out: &mut impl Write, offset: u64) -> io::Result<()> {
         let Self { name, kind, components, .. } = self;
         let components =
             if *components == 1 { String::new() } else { format!(" NumberOfComponents=\"{components}\"") };
@@ -43,6 +79,11 @@ impl<'a> Array<'a> {
             "        <DataArray type=\"{kind}\" Name=\"{name}\"{components} format=\"appended\" offset=\"{offset}\"/>"
         )
     }
+
+    fn append(&self, out: &mut impl Write) -> io::Result<()> {
+        self.table().try_for_each(|size| out.write_all(&size.to_le_bytes()))?;
+        self.compress(|block| out.write_all(block))
+    }
 }
 
 /// Writes the mesh as a VTK unstructured grid.
@@ -50,64 +91,69 @@ impl<'a> Array<'a> {
 /// # Errors
 /// Those of `out`.
 pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Result<()> {
-    let sections = [
-        ("PointData", point_data(data)),
+    let on_boundary = mesh.on_boundary();
+    let mut sections = [
+        ("PointData", point_data(data, &on_boundary)),
         ("CellData", vec![levels(mesh)]),
         ("Points", vec![points(mesh)]),
         ("Cells", topology(mesh)),
     ];
+    sections.iter_mut().flat_map(|(_, arrays)| arrays).try_for_each(Array::measure)?;
+    write_header(out, mesh, &sections)?;
+    sections.iter().flat_map(|(_, arrays)| arrays).try_for_each(|array| array.append(out))?;
+    writeln!(out, "\n  </AppendedData>\n</VTKFile>")
+}
+
+fn write_header(out: &mut impl Write, mesh: &Extract, sections: &[(&str, Vec<Array<'_>>)]) -> io::Result<()> {
     let (nodes, triangles) = (mesh.nodes().len(), mesh.triangles().len());
     writeln!(out, "<?xml version=\"1.0\"?>")?;
     writeln!(
         out,
-        "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">"
+        "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" \
+         header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">"
     )?;
     writeln!(out, "  <UnstructuredGrid>")?;
     writeln!(out, "    <Piece NumberOfPoints=\"{nodes}\" NumberOfCells=\"{triangles}\">")?;
     let mut offset = 0;
-    for (section, arrays) in &sections {
+    for (section, arrays) in sections {
         writeln!(out, "      <{section}>")?;
         for array in arrays {
             array.describe(out, offset)?;
-            offset += size_of::<u64>() + array.bytes;
+            offset += array.length();
         }
         writeln!(out, "      </{section}>")?;
     }
     writeln!(out, "    </Piece>\n  </UnstructuredGrid>\n  <AppendedData encoding=\"raw\">")?;
-    write!(out, "_")?;
-    for array in sections.iter().flat_map(|(_, arrays)| arrays) {
-        out.write_all(&(array.bytes as u64).to_le_bytes())?;
-        (array.write)(out)?;
-    }
-    writeln!(out, "\n  </AppendedData>\n</VTKFile>")
+    write!(out, "_")
 }
 
-fn point_data<'a>(data: &'a MeshData<'a>) -> Vec<Array<'a>> {
+fn point_data<'a>(data: &'a MeshData<'a>, on_boundary: &'a [bool]) -> Vec<Array<'a>> {
     let array = |(name, values): (&'a str, &'a [f64])| {
         Array::new(name, "Float64", 1, values.len(), move || values.iter().map(|v| v.to_le_bytes()))
     };
-    data.node_values().map(array).collect()
+    let boundary = || on_boundary.iter().map(|&on| [u8::from(on)]);
+    let mut arrays: Vec<Array> = data.node_values().map(array).collect();
+    arrays.push(Array::new("boundary", "UInt8", 1, on_boundary.len(), boundary));
+    arrays
 }
 
 fn levels<'a>(mesh: &'a Extract) -> Array<'a> {
-    Array::new("level", "UInt8", 1, mesh.triangles().len(), || {
-        mesh.triangles().iter().map(|t| [t.level() as u8])
-    })
+    let levels = || mesh.triangles().iter().map(|t| [t.level() as u8]);
+    Array::new("level", "UInt8", 1, mesh.triangles().len(), levels)
 }
 
 fn points<'a>(mesh: &'a Extract) -> Array<'a> {
-    Array::new("Points", "Float64", 3, 3 * mesh.nodes().len(), || {
-        mesh.world_nodes().flat_map(|p| [p.x, p.y, 0.0]).map(f64::to_le_bytes)
-    })
+    let coordinates = || mesh.world_nodes().flat_map(|p| [p.x, p.y, 0.0]).map(f64::to_le_bytes);
+    Array::new("Points", "Float64", 3, 3 * mesh.nodes().len(), coordinates)
 }
 
 fn topology<'a>(mesh: &'a Extract) -> Vec<Array<'a>> {
     let count = mesh.triangles().len();
+    let corners = || mesh.cells().flat_map(|cell| cell.corners).map(|node| (node as i64).to_le_bytes());
+    let ends = move || (1..=count as i64).map(|n| (3 * n).to_le_bytes());
     vec![
-        Array::new("connectivity", "Int64", 1, 3 * count, || {
-            mesh.cells().flat_map(|cell| cell.corners).map(|node| (node as i64).to_le_bytes())
-        }),
-        Array::new("offsets", "Int64", 1, count, move || (1..=count as i64).map(|n| (3 * n).to_le_bytes())),
+        Array::new("connectivity", "Int64", 1, 3 * count, corners),
+        Array::new("offsets", "Int64", 1, count, ends),
         Array::new("types", "UInt8", 1, count, move || std::iter::repeat_n([VTK_TRIANGLE], count)),
     ]
 }
