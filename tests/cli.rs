@@ -129,10 +129,16 @@ fn people_get_the_summary_on_standard_error() {
 #[test]
 fn every_ending_is_written_and_the_files_agree() {
     let folder = Folder::new("endings");
-    let outputs = "-o m.vtu -o m.msh -o m.obj -o m.NODE -o m.csv -o m.svg";
+    let outputs = "-o m.vtu -o m.msh -o m.obj -o m.NODE -o m.csv -o m.stl -o m.2dm -o m.svg";
     let ran = folder.run(&format!("mesh {} {outputs} --quantity x*y", diamond(0.25)));
     assert_eq!(ran.status, 0, "{}", ran.err);
-    assert_eq!(folder.names(), ["m.NODE", "m.csv", "m.ele", "m.msh", "m.neigh", "m.obj", "m.svg", "m.vtu"]);
+    assert_eq!(
+        folder.names(),
+        [
+            "m.2dm", "m.NODE", "m.csv", "m.edge", "m.ele", "m.msh", "m.neigh", "m.obj", "m.stl", "m.svg",
+            "m.vtu"
+        ]
+    );
     assert_eq!(folder.read("m.csv").lines().count(), 9561);
     assert!(folder.read("m.csv").lines().next().unwrap().ends_with("quantity1,quantity2,quantity3"));
     assert!(folder.read("m.ele").starts_with("9560 3 1\n"));
@@ -361,7 +367,7 @@ fn wrong_arguments_are_explained() {
         ("mesh --resolution 0", 2, "--resolution 0: choose from"),
         ("mesh --resolution 100000", 2, "--resolution 100000: choose from"),
         ("mesh --rule both", 2, "invalid value 'both'"),
-        ("mesh -o mesh.stl", 2, "choose one of .vtu .msh .obj .node .csv .svg .png"),
+        ("mesh -o mesh.ply", 2, "choose one of .vtu .msh .obj .stl .node .2dm .csv .svg .png"),
         ("mesh -o mesh", 2, "the ending says what to write"),
         ("mesh -o m.svg --size 0", 2, "--size 0: write a width"),
         ("mesh -o m.svg --colormap jet", 2, "There is no colormap `jet`"),

@@ -7,7 +7,7 @@ use flate2::read::ZlibDecoder;
 use glam::{DVec2, dvec2};
 use meshbrush::colormap::{Colormap, Ground, LevelColors};
 use meshbrush::geometry::Rect;
-use meshbrush::io::{MeshData, Quantity, csv, msh, node, obj, svg, vtu};
+use meshbrush::io::{MeshData, Quantity, csv, msh, node, obj, sms, stl, svg, vtu};
 use meshbrush::mesh::{Extract, Limits, Mesh, NodeId};
 
 /// A mesh as a reader finds it.
@@ -271,8 +271,113 @@ fn node_ele_and_neigh_come_back() {
         // Neighbour i lies opposite corner i.
         let opposite = |t: [usize; 3]| [[t[1], t[2]], [t[2], t[0]], [t[0], t[1]]];
         let boundary = assert_neighbours(&found.triangles, &across, opposite);
-        assert_eq!(marked, boundary.into_iter().flatten().collect());
+        assert_eq!(marked, boundary.iter().flatten().copied().collect());
+
+        let edges = text(sample.written(|out, mesh, _| node::write_edges(out, mesh)));
+        assert_eq!(numbers::<usize>(edges.lines().next().unwrap()), [sample.mesh.edges().count(), 1]);
+        let rows: Vec<Vec<usize>> = edges.lines().skip(1).map(numbers).collect();
+        assert!(rows.iter().enumerate().all(|(n, row)| row[0] == n && row.len() == 4));
+        let listed: Vec<_> =
+            rows.iter().map(|row| (NodeId::from_index(row[1]), NodeId::from_index(row[2]))).collect();
+        assert_eq!(listed, sample.mesh.edges().collect::<Vec<_>>());
+        let marked: HashSet<[usize; 2]> =
+            rows.iter().filter(|row| row[3] == 1).map(|row| [row[1], row[2]]).collect();
+        assert_eq!(marked, boundary.into_iter().collect());
     }
+}
+
+#[test]
+fn two_dm_comes_back_with_its_boundary() {
+    for sample in Sample::all() {
+        let (found, strings) = read_2dm(&String::from_utf8(sample.written(sms::write)).unwrap());
+        assert_eq!(found.nodes.len(), sample.mesh.nodes().len());
+        assert_eq!(found.triangles.len(), sample.mesh.triangles().len());
+        assert_eq!(found.quantities, sample.quantities[0].values);
+        sample.assert_well_made(&found, 1e-9);
+        assert_strings_follow_the_boundary(&sample.mesh, &strings);
+    }
+}
+
+#[test]
+fn a_nodestring_keeps_to_one_piece_of_the_outside() {
+    // Left out are the six triangles round each of two nodes; the hexagons touch in the node between them.
+    let left_out = [dvec2(0.375, 0.5), dvec2(0.625, 0.5)];
+    let sample = Sample::new(Rect::UNIT, 0.125, |p| !left_out.contains(&p), 0.5);
+    let (_, strings) = read_2dm(&String::from_utf8(sample.written(sms::write)).unwrap());
+    assert_strings_follow_the_boundary(&sample.mesh, &strings);
+    let mut edges: Vec<usize> = strings.iter().map(|string| string.len() - 1).collect();
+    edges.sort_unstable();
+    assert_eq!(edges, [6, 6, 32]);
+}
+
+fn read_2dm(file: &str) -> (Found, Vec<Vec<usize>>) {
+    assert!(file.starts_with("MESH2D\nMESHNAME \"Meshbrush\"\nNUM_MATERIALS_PER_ELEM 1\n"));
+    let mut found = Found::default();
+    let (mut strings, mut string) = (Vec::new(), Vec::new());
+    for line in file.lines().skip(3) {
+        let (card, rest) = line.split_once(' ').unwrap();
+        match (card, &numbers::<f64>(rest)[..]) {
+            ("E3T", &[id, a, b, c, 1.0]) => {
+                found.triangles.push([a, b, c].map(|node| node as usize - 1));
+                assert_eq!(id, found.triangles.len() as f64);
+            }
+            ("ND", &[id, x, y, z]) => {
+                found.nodes.push(dvec2(x, y));
+                found.quantities.push(z);
+                assert_eq!(id, found.nodes.len() as f64);
+            }
+            ("NS", &[last, id]) if last < 0.0 => {
+                string.push(-last as usize - 1);
+                strings.push(std::mem::take(&mut string));
+                assert_eq!(id, strings.len() as f64);
+            }
+            ("NS", nodes) => string.extend(nodes.iter().map(|&node| node as usize - 1)),
+            other => panic!("{other:?} is not expected"),
+        }
+    }
+    assert!(string.is_empty());
+    (found, strings)
+}
+
+/// Closed lines that are the boundary, each edge once, the domain to the left.
+fn assert_strings_follow_the_boundary(mesh: &Mesh, strings: &[Vec<usize>]) {
+    assert!(strings.iter().all(|string| string.first() == string.last() && string.len() > 3));
+    let mut drawn: Vec<[usize; 2]> =
+        strings.iter().flat_map(|string| string.windows(2).map(|edge| [edge[0], edge[1]])).collect();
+    let mut expected: Vec<[usize; 2]> = mesh.extract().boundary_edges().map(|edge| edge.ends).collect();
+    drawn.sort_unstable();
+    expected.sort_unstable();
+    assert_eq!(drawn, expected);
+}
+
+#[test]
+fn stl_comes_back() {
+    for sample in Sample::all() {
+        let file = sample.written(stl::write);
+        let triangles = sample.mesh.triangles().len();
+        assert_eq!(file.len(), 84 + 50 * triangles);
+        assert!(!file.starts_with(b"solid"));
+        assert_eq!(file[80..84], (triangles as u32).to_le_bytes());
+        let mut found = Found::default();
+        for facet in file[84..].chunks(50) {
+            let values: Vec<f32> =
+                facet[..48].chunks(4).map(|b| f32::from_le_bytes(b.try_into().unwrap())).collect();
+            assert_eq!(values[..3], [0.0, 0.0, 1.0]);
+            assert_eq!(facet[48..], [0, 0]);
+            found.triangles.push([0, 1, 2].map(|corner| found.nodes.len() + corner));
+            found.nodes.extend(values[3..].chunks(3).map(|p| dvec2(p[0].into(), p[1].into())));
+            assert!([5, 8, 11].iter().all(|&z| values[z] == 0.0));
+        }
+        sample.assert_well_made(&found, 1e-5);
+    }
+}
+
+#[test]
+fn stl_refuses_a_mesh_that_it_would_flatten() {
+    let far = Rect::new(dvec2(5e6, 5e6), dvec2(5e6 + 1.0, 5e6 + 1.0));
+    let sample = Sample::new(far, 0.25, |_| true, 0.01);
+    let failed = stl::write(&mut Vec::new(), &sample.mesh.extract(), &sample.data()).unwrap_err();
+    assert!(failed.to_string().contains("x = 5000"), "{failed}");
 }
 
 /// Neighbours share exactly the edges that they should; returns the edges without one.

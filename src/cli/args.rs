@@ -158,13 +158,13 @@ pub struct MeshArguments {
     #[command(flatten)]
     pub input: InputArguments,
 
-    /// File to write, may be repeated: .vtu .msh .obj .node (with .ele and .neigh) .csv .svg .png
+    /// File to write, may be repeated: .vtu .msh .obj .stl .node (with .ele, .neigh and .edge) .2dm .csv .svg .png
     ///
     /// Files carry the level of each triangle and the target diameter at each node; pictures do not.
     #[arg(short, long = "output", value_name = "FILE", help_heading = "Output")]
     pub output: Vec<PathBuf>,
 
-    /// A further value at the nodes, as a formula in x and y; `quantity` in .vtu, .msh, .csv and .node
+    /// A further value at the nodes, as a formula in x and y; `quantity` in .vtu, .msh, .csv and .node, z in .2dm
     #[arg(long, value_name = "EXPR", allow_hyphen_values = true, help_heading = "Output")]
     pub quantity: Option<String>,
 

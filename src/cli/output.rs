@@ -59,7 +59,7 @@ impl Output {
         matches!(self.format, Format::Mesh(_))
     }
 
-    /// Writes the file, or the three files of `.node`, and returns their names. `extract` is that of `mesh`, and `data` belongs
+    /// Writes the file, or the four files of `.node`, and returns their names. `extract` is that of `mesh`, and `data` belongs
     /// to its nodes.
     ///
     /// # Errors

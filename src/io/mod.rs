@@ -5,11 +5,12 @@
 //! - nodes and triangles stand in the order that they have there, unless the format says otherwise;
 //! - a triangle's vertices run anticlockwise, the first two being the ends of its bisection edge;
 //! - coordinates and h̄ are in world units; numbers are the shortest that read back as the same f64;
-//! - counting starts at zero, except in `.msh` and `.obj`, where the format starts at one.
+//! - counting starts at zero, except in `.msh`, `.obj` and `.2dm`, where the format starts at one.
 
 pub mod asc;
 mod atomic;
 mod blocks;
+mod boundary;
 pub mod csv;
 mod error;
 mod mesh_file;
@@ -20,6 +21,8 @@ mod number;
 pub mod obj;
 pub mod png;
 pub mod points;
+pub mod sms;
+pub mod stl;
 pub mod svg;
 pub mod vtu;
 

@@ -24,12 +24,12 @@ pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Resul
     write_nodes(out, mesh)?;
     write_elements(out, mesh)?;
     for (name, values) in data.node_values() {
-        write_values(out, "NodeData", name, values)?;
+        write_values(out, "NodeData", name, values.iter().copied())?;
     }
     // meshio wants element data for all elements or for none: a boundary edge has its triangle's level.
-    let mut levels: Vec<f64> = mesh.triangles().iter().map(|t| t.level().into()).collect();
-    levels.extend(mesh.boundary_edges().map(|edge| f64::from(edge.level)));
-    write_values(out, "ElementData", "level", &levels)
+    let lines = mesh.boundary_edges().map(|edge| edge.level);
+    let levels = mesh.triangles().iter().map(|triangle| triangle.level()).chain(lines).map(f64::from);
+    write_values(out, "ElementData", "level", levels)
 }
 
 /// One curve (the boundary, physical group 2) and the surface that it bounds (physical group 1).
@@ -72,11 +72,16 @@ fn write_elements(out: &mut impl Write, mesh: &Extract) -> io::Result<()> {
 }
 
 /// A view of Gmsh: one number for each node or element.
-fn write_values(out: &mut impl Write, section: &str, name: &str, values: &[f64]) -> io::Result<()> {
+fn write_values(
+    out: &mut impl Write,
+    section: &str,
+    name: &str,
+    values: impl Iterator<Item = f64> + Clone,
+) -> io::Result<()> {
     // One string (the name), one real number (the time), three whole numbers (step, components, count).
-    writeln!(out, "${section}\n1\n\"{name}\"\n1\n0\n3\n0\n1\n{}", values.len())?;
+    writeln!(out, "${section}\n1\n\"{name}\"\n1\n0\n3\n0\n1\n{}", values.clone().count())?;
     for (tag, value) in (1..).zip(values) {
-        writeln!(out, "{tag} {}", Number(*value))?;
+        writeln!(out, "{tag} {}", Number(value))?;
     }
     writeln!(out, "$End{section}")
 }

@@ -1,7 +1,8 @@
-//! `.node`, `.ele` and `.neigh`: the formats of Shewchuk's Triangle, three files that belong together.
+//! `.node`, `.ele`, `.neigh` and `.edge`: the formats of Shewchuk's Triangle, four files that belong together.
 //!
 //! Counting starts at zero. Node attributes are h̄ and then the quantities; the boundary marker is 1 on the boundary. The
 //! attribute of an element is its level. Neighbour i lies opposite corner i; −1 is the boundary.
+//! `.edge` has all edges, with marker 1 on the boundary and 0 elsewhere.
 
 use std::io::{self, Write};
 
@@ -47,6 +48,19 @@ pub fn write_neighbours(out: &mut impl Write, mesh: &Extract) -> io::Result<()> 
     for (id, cell) in mesh.cells().enumerate() {
         let [a, b, c] = cell.opposite.map(|across| across.map_or(-1, |t| t as i64));
         writeln!(out, "{id} {a} {b} {c}")?;
+    }
+    Ok(())
+}
+
+/// Writes the `.edge` file: the ends of each edge, and whether it is one of the boundary.
+///
+/// # Errors
+/// Those of `out`.
+pub fn write_edges(out: &mut impl Write, mesh: &Extract) -> io::Result<()> {
+    writeln!(out, "{} 1", mesh.edges().count())?;
+    for (id, edge) in mesh.edges().enumerate() {
+        let [from, to] = edge.ends;
+        writeln!(out, "{id} {from} {to} {}", u8::from(edge.on_boundary))?;
     }
     Ok(())
 }

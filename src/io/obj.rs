@@ -21,14 +21,11 @@ pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Resul
     for &target in data.target_diameter {
         writeln!(out, "vt {} 0", Number(target))?;
     }
-    let mut by_level = vec![Vec::new(); mesh.level_counts().len()];
-    for cell in mesh.cells() {
-        by_level[cell.level as usize].push(cell.corners);
-    }
-    for (level, triangles) in by_level.iter().enumerate().filter(|(_, triangles)| !triangles.is_empty()) {
+    // The mesh is gone through for each level: lists by level would be a second copy of it.
+    for (level, _) in mesh.level_counts().into_iter().enumerate().filter(|(_, count)| *count > 0) {
         writeln!(out, "g level_{level}")?;
-        for corners in triangles {
-            let [a, b, c] = corners.map(|node| node + 1);
+        for cell in mesh.cells().filter(|cell| cell.level as usize == level) {
+            let [a, b, c] = cell.corners.map(|node| node + 1);
             writeln!(out, "f {a}/{a} {b}/{b} {c}/{c}")?;
         }
     }

@@ -51,18 +51,15 @@ pub fn write(out: &mut impl Write, mesh: &Extract, style: &Style) -> io::Result<
 }
 
 fn write_levels(out: &mut impl Write, mesh: &Extract, page: &Page, style: &Style) -> io::Result<()> {
-    let mut by_level = vec![Vec::new(); mesh.level_counts().len()];
-    for triangle in mesh.triangles() {
-        let [a, b] = triangle.bisection_edge();
-        by_level[triangle.level() as usize].push([a, triangle.apex(), b]);
-    }
-    for (level, triangles) in by_level.iter().enumerate().filter(|(_, triangles)| !triangles.is_empty()) {
+    // The mesh is gone through for each level: lists by level would be a second copy of it.
+    for (level, _) in mesh.level_counts().into_iter().enumerate().filter(|(_, count)| *count > 0) {
         let [r, g, b, _] = style.level_colors[level.min(63)];
         write!(out, "<path id=\"level-{level}\" fill=\"#{r:02x}{g:02x}{b:02x}\" d=\"")?;
         let mut pen = Pen::default();
-        for corners in triangles {
+        for triangle in mesh.triangles().iter().filter(|triangle| triangle.level() as usize == level) {
+            let [a, b] = triangle.bisection_edge();
             // Along the two legs, and the closing line is the bisection edge: legs are often level or upright, and short.
-            let [a, apex, b] = corners.map(|node| page.place(mesh, node));
+            let [a, apex, b] = [a, triangle.apex(), b].map(|node| page.place(mesh, node));
             pen.move_to(out, a)?;
             pen.line_to(out, apex)?;
             pen.line_to(out, b)?;

@@ -26,6 +26,15 @@ pub struct Cell {
     pub level: u32,
 }
 
+/// An edge, as others want it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Edge {
+    /// Its nodes.
+    pub ends: [usize; 2],
+    /// Whether the domain ends there.
+    pub on_boundary: bool,
+}
+
 /// An edge at which the domain ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BoundaryEdge {
@@ -108,6 +117,18 @@ impl Extract<'_> {
                 opposite: [second, third, bisection],
                 level: triangle.level(),
             }
+        })
+    }
+
+    /// Every edge once, in the order of the triangles.
+    pub fn edges(&self) -> impl Iterator<Item = Edge> + Clone + '_ {
+        self.triangles.iter().enumerate().flat_map(|(index, triangle)| {
+            let edges = triangle.edge_nodes().into_iter().zip(triangle.neighbours);
+            let mine = edges.filter(move |(_, across)| across.triangle().is_none_or(|t| index < t.index()));
+            mine.map(|((from, to), across)| Edge {
+                ends: [from.index(), to.index()],
+                on_boundary: across.triangle().is_none(),
+            })
         })
     }
 

@@ -49,7 +49,7 @@ pub use adjacency::Adjacency;
 pub use changes::Changes;
 pub use check::Violation;
 pub use coarse::CoarseError;
-pub use extract::{BoundaryEdge, Cell, Extract};
+pub use extract::{BoundaryEdge, Cell, Edge, Extract};
 pub use fingerprint::{Fingerprint, fingerprint_of};
 pub use forecast::Forecast;
 pub use ids::{Neighbour, NodeId, TriangleId};

@@ -1,0 +1,41 @@
+use std::collections::HashMap;
+use std::f64::consts::TAU;
+
+use crate::mesh::{Extract, NodeId};
+
+/// The boundary as closed lines, every edge once: nodes in order, each the start of an edge with the domain to the left, the last
+/// edge leading back to the first node. Where the boundary touches itself in a node, a line keeps to one piece of what is outside.
+pub fn boundary_loops(mesh: &Extract) -> Vec<Vec<usize>> {
+    let edges: Vec<[usize; 2]> = mesh.boundary_edges().map(|edge| edge.ends).collect();
+    let mut leaving: HashMap<usize, Vec<usize>> = HashMap::new();
+    for (index, [from, _]) in edges.iter().enumerate() {
+        leaving.entry(*from).or_default().push(index);
+    }
+    let next = |edge: usize| {
+        let [from, to] = edges[edge];
+        let turn = |&onward: &usize| outer_angle(mesh, [from, to, edges[onward][1]]);
+        leaving.get(&to)?.iter().copied().min_by(|a, b| turn(a).total_cmp(&turn(b)))
+    };
+    let mut drawn = vec![false; edges.len()];
+    let mut loops = Vec::new();
+    for start in 0..edges.len() {
+        let mut nodes = Vec::new();
+        let mut edge = Some(start);
+        // Ends: every turn takes an edge that was not taken.
+        while let Some(now) = edge.filter(|&now| !std::mem::replace(&mut drawn[now], true)) {
+            nodes.push(edges[now][0]);
+            edge = next(now);
+        }
+        if !nodes.is_empty() {
+            loops.push(nodes);
+        }
+    }
+    loops
+}
+
+/// The angle at the middle one of three nodes, on the right of the way from the first to the last: what is outside there.
+fn outer_angle(mesh: &Extract, nodes: [usize; 3]) -> f64 {
+    let [from, at, to] = nodes.map(|node| mesh.node(NodeId::from_index(node)).as_dvec2());
+    let (back, onward) = (from - at, to - at);
+    (onward.to_angle() - back.to_angle()).rem_euclid(TAU)
+}

@@ -1,0 +1,44 @@
+//! `.2dm`: a mesh of SMS, which TUFLOW, BASEMENT, QGIS and other programs of hydraulics read.
+//!
+//! z is the first quantity, the ground's height as a rule, and 0 if there is none. All elements have material 1: levels are no
+//! materials, and a solver wants each material described. Nodestrings follow the boundary with the domain to their left, each
+//! closed by its first node. Counting starts at one.
+
+use std::io::{self, Write};
+
+use super::boundary::boundary_loops;
+use super::{MeshData, Number};
+use crate::mesh::Extract;
+
+/// Nodes of a nodestring that stand on a line.
+const NODES_A_LINE: usize = 10;
+
+/// Writes elements, nodes, and a nodestring for each loop of the boundary.
+///
+/// # Errors
+/// Those of `out`.
+pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Result<()> {
+    writeln!(out, "MESH2D\nMESHNAME \"Meshbrush\"\nNUM_MATERIALS_PER_ELEM 1")?;
+    for (id, cell) in (1..).zip(mesh.cells()) {
+        let [a, b, c] = cell.corners.map(|node| node + 1);
+        writeln!(out, "E3T {id} {a} {b} {c} 1")?;
+    }
+    for (node, p) in mesh.world_nodes().enumerate() {
+        let z = data.quantities.first().map_or(0.0, |quantity| quantity.values[node]);
+        writeln!(out, "ND {} {} {} {}", node + 1, Number(p.x), Number(p.y), Number(z))?;
+    }
+    for (id, round) in (1..).zip(boundary_loops(mesh)) {
+        write_nodestring(out, id, &round)?;
+    }
+    Ok(())
+}
+
+/// The last node is negative, and the string's own number follows it.
+fn write_nodestring(out: &mut impl Write, id: usize, nodes: &[usize]) -> io::Result<()> {
+    for line in nodes.chunks(NODES_A_LINE) {
+        write!(out, "NS")?;
+        line.iter().try_for_each(|node| write!(out, " {}", node + 1))?;
+        writeln!(out)?;
+    }
+    writeln!(out, "NS -{} {id}", nodes[0] + 1)
+}

@@ -1,0 +1,43 @@
+//! `.stl`: binary, for printing and for programs that read nothing else. The mesh lies in the plane z = 0, facing up.
+//!
+//! The format knows triangles only: no nodes that they share, no level, no h̄. Its numbers have seven digits; a mesh that
+//! would lose triangles by that is refused.
+
+use std::io::{self, Write};
+
+use super::MeshData;
+use crate::mesh::{Extract, NodeId};
+
+/// Must not begin with "solid": programs take that for the text form.
+const TITLE: &[u8] = b"Meshbrush";
+
+/// Writes the triangles, in the mesh's order, each anticlockwise.
+///
+/// # Errors
+/// Those of `out`, and when f32 is too coarse for the coordinates, or `u32` too small for the count.
+pub fn write(out: &mut impl Write, mesh: &Extract, _: &MeshData) -> io::Result<()> {
+    let count = u32::try_from(mesh.triangles().len()).map_err(io::Error::other)?;
+    let mut title = [b' '; 80];
+    title[..TITLE.len()].copy_from_slice(TITLE);
+    out.write_all(&title)?;
+    out.write_all(&count.to_le_bytes())?;
+    for cell in mesh.cells() {
+        let corners = cell.corners.map(|node| mesh.world(NodeId::from_index(node)).as_vec2());
+        let [a, b, c] = corners.map(|corner| corner.as_dvec2());
+        if (b - a).perp_dot(c - a) <= 0.0 {
+            let problem = format!(
+                "the numbers of .stl have seven digits, and the triangle near x = {}, y = {}",
+                a.x, a.y
+            );
+            return Err(io::Error::other(
+                problem + " would vanish; choose another format, or move the domain to the origin",
+            ));
+        }
+        out.write_all(bytemuck::bytes_of(&[0.0, 0.0, 1.0].map(f32::to_le_bytes)))?;
+        for corner in corners {
+            out.write_all(bytemuck::bytes_of(&[corner.x, corner.y, 0.0].map(f32::to_le_bytes)))?;
+        }
+        out.write_all(&[0, 0])?; // no attributes
+    }
+    Ok(())
+}
