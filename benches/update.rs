@@ -109,7 +109,7 @@ fn counted(group: &mut BenchmarkGroup<WallTime>, scene: &mut Scene) {
         let start = Instant::now();
         let mut forecast = Forecast::new(&scene.mesh, area, &Limits::default());
         let exceeds = |corners, level| scene.on_lattice.any_above(&scene.levels, corners, level as u8);
-        assert_eq!(forecast.run(&scene.mesh, exceeds, usize::MAX), Ok(Progress::Done));
+        assert_eq!(forecast.run(&scene.mesh, exceeds, |_, _| true, usize::MAX), Ok(Progress::Done));
         (start.elapsed(), forecast.added() + forecast.removed())
     };
     let mut updater = Updater::new(Limits::default());

@@ -249,19 +249,19 @@ fn the_price_of_a_dab_is_what_it_then_costs() {
                 pricer.ask(Some((brush, at + 0.01 * random.f64())), &document, &follower);
                 pricer.advance(&document, &follower, random.usize(1..2000));
             }
-            let before = (follower.mesh().triangles().len(), follower.revision(), document.revision());
+            let before = (follower.mesh().triangle_count(), follower.revision(), document.revision());
             pricer.ask(Some((brush, at)), &document, &follower);
             let slice = 1 << random.u32(4..14);
             while pricer.advance(&document, &follower, slice) == Progress::More {}
             let price = pricer.price().unwrap();
-            let after = (follower.mesh().triangles().len(), follower.revision(), document.revision());
+            let after = (follower.mesh().triangle_count(), follower.revision(), document.revision());
             assert_eq!(before, after, "asking changes nothing");
 
             document.begin_stroke(brush);
             document.draw_to(at);
             document.end_stroke();
             settle(&mut follower, &mut document);
-            let change = follower.mesh().triangles().len() as i64 - before.0 as i64;
+            let change = follower.mesh().triangle_count() as i64 - before.0 as i64;
             assert_eq!(price, Price::Change(change), "dab {dab}: {brush:?} at {at}");
             dearer += usize::from(change > 0);
             cheaper += usize::from(change < 0);

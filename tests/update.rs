@@ -263,10 +263,11 @@ fn a_forecast_is_what_the_update_then_does() {
             let mut forecast = Forecast::new(&mesh, hull(&areas), &Limits::default());
             let asks = |corners, level| spots.iter().any(|spot| level < spot.level && spot.meets(corners));
             let slice = 1 << random.u32(..12);
-            while forecast.run(&mesh, asks, slice).unwrap() == Progress::More {}
+            while forecast.run(&mesh, asks, |_, _| true, slice).unwrap() == Progress::More {}
             areas.into_iter().for_each(|area| updater.add(area));
             settle(&mut updater, &mut mesh, &spots);
             let (added, removed) = (forecast.added(), forecast.removed());
+            assert_eq!(forecast.change(), added as i64 - removed as i64, "all belong");
             assert_eq!(before + added - removed, mesh.triangles().len(), "seed {seed}, edit {count}");
             grew += usize::from(added > 0 && removed == 0);
             shrank += usize::from(removed > 0 && added == 0);
@@ -282,11 +283,15 @@ fn a_forecast_says_when_a_target_is_finer_than_the_lattice() {
     let (mesh, ..) = with_a_far_corner(3);
     let corner = LatticeRect { min: LatticePoint::new(0, 0), max: LatticePoint::new(0, 0) };
     let mut forecast = Forecast::new(&mesh, corner, &Limits::default());
-    let error = forecast.run(&mesh, |corners, _| corner.touches(corners), usize::MAX).unwrap_err();
+    let error =
+        forecast.run(&mesh, |corners, _| corner.touches(corners), |_, _| true, usize::MAX).unwrap_err();
     assert!(matches!(error, RefineError::TooFine { .. }), "{error}");
     let limits = Limits { max_level: Some(9), ..Limits::default() };
     let mut forecast = Forecast::new(&mesh, corner, &limits);
-    assert_eq!(forecast.run(&mesh, |corners, _| corner.touches(corners), usize::MAX), Ok(Progress::Done));
+    assert_eq!(
+        forecast.run(&mesh, |corners, _| corner.touches(corners), |_, _| true, usize::MAX),
+        Ok(Progress::Done)
+    );
     let mut mesh = mesh;
     let before = mesh.triangles().len();
     mesh.refine(&limits, |element| Ok(corner.touches(element.corners))).unwrap();

@@ -13,7 +13,7 @@ use super::output::check_place;
 use super::terminal::Terminal;
 use crate::field::Formula;
 use crate::io::{Number, points, write_file};
-use crate::mesh::{Location, Locator, Mesh, TriangleId, barycentric, interpolate};
+use crate::mesh::{Extract, Location, Locator, Mesh, TriangleId, barycentric, interpolate};
 
 const HEADER: &str = "x,y,where,triangle,level,v1,v2,v3,zeta1,zeta2,zeta3,value";
 
@@ -34,7 +34,8 @@ pub fn run(typed: &LocateArguments, out: &mut dyn Write, terminal: &mut Terminal
     let points = points::read(&typed.points)?;
     let built = build(&job, terminal)?;
     note_capped(&built, terminal);
-    let answers = Answers { mesh: &built.mesh, target: &built.target, quantity: quantity.as_ref() };
+    let extract = built.mesh.extract();
+    let answers = Answers { mesh: &built.mesh, extract, target: &built.target, quantity: quantity.as_ref() };
     match &typed.output {
         Some(path) => write_file(path, |out| answers.write(&points, out))
             .map_err(|error| Failure::Write { file: path.clone(), problem: error.to_string() }),
@@ -48,6 +49,8 @@ pub fn run(typed: &LocateArguments, out: &mut dyn Write, terminal: &mut Terminal
 /// What answers are made from.
 struct Answers<'a> {
     mesh: &'a Mesh,
+    /// What files get of the mesh: ids are those that a file would have.
+    extract: Extract<'a>,
     target: &'a Target,
     quantity: Option<&'a Formula>,
 }
@@ -75,7 +78,8 @@ impl Answers<'_> {
     /// The columns from `triangle` on. Vertices stand in the triangle's order, ζ likewise.
     fn write_triangle(&self, point: DVec2, id: TriangleId, out: &mut dyn Write) -> io::Result<()> {
         let triangle = self.mesh.triangle(id);
-        let [a, b, c] = triangle.vertices.map(|v| v.index());
+        let place = self.extract.place_of(id).expect("a point is found in triangles of the domain only");
+        let [a, b, c] = self.extract.triangles()[place.index()].vertices.map(|v| v.index());
         let at = self.mesh.lattice().lattice_from_world(point);
         let zeta = barycentric(self.mesh.corners(id), at);
         let value = interpolate(zeta, self.mesh.world_corners(id).map(|corner| self.value_at(corner)));
@@ -83,7 +87,7 @@ impl Answers<'_> {
         writeln!(
             out,
             ",{},{},{a},{b},{c},{zeta1},{zeta2},{zeta3},{}",
-            id.index(),
+            place.index(),
             triangle.level(),
             Number(value)
         )

@@ -113,6 +113,11 @@ impl Follower {
         self.mesh.clone()
     }
 
+    /// The domain on the lattice of the shown mesh.
+    pub fn domain(&self) -> &DomainOnLattice {
+        &self.domain
+    }
+
     /// h̄ as the document has it, once in step.
     pub fn field(&self) -> &TargetField {
         &self.field

@@ -1,3 +1,5 @@
+use std::convert::Infallible;
+
 use glam::DVec2;
 
 use super::{Document, Follower};
@@ -186,13 +188,17 @@ fn price_so_far(
     follower: &Follower,
     visits: usize,
 ) -> Option<Price> {
-    let field = follower.field();
-    let exceeds = |corners, level| field.would_exceed(levels, corners, level);
-    let progress = forecast.run(follower.mesh(), exceeds, visits);
+    let (field, domain) = (follower.field(), follower.domain());
+    let exceeds = |corners, level| {
+        let by_field = || Ok::<_, Infallible>(field.would_exceed(levels, corners, level));
+        domain.exceeds_at(corners, level, by_field).unwrap_or(false)
+    };
+    let belongs = |corners, _| !domain.excludes_at(corners);
+    let progress = forecast.run(follower.mesh(), exceeds, belongs, visits);
     let [added, removed] = [forecast.added(), forecast.removed()];
     match progress {
         Err(_) => Some(Price::TooFine),
-        Ok(Progress::Done) => Some(Price::Change(added as i64 - removed as i64)),
+        Ok(Progress::Done) => Some(Price::Change(forecast.change())),
         // A brush only refines and an eraser only coarsens: nothing that follows takes this back.
         Ok(Progress::More) if added > Price::MOST => Some(Price::MoreThan(Price::MOST as i64)),
         Ok(Progress::More) if removed > Price::MOST => Some(Price::MoreThan(-(Price::MOST as i64))),

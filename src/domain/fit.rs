@@ -4,8 +4,8 @@ use glam::DVec2;
 
 use super::{Domain, RegionOnLattice, Shape};
 use crate::field::Formula;
-use crate::geometry::{Lattice, Rect};
-use crate::mesh::{Element, bisection_edge_length};
+use crate::geometry::{Lattice, LatticePoint, Rect};
+use crate::mesh::{Element, bisection_edge_length, level_for_diameter};
 
 /// How the mesh meets the boundary of a region.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,8 +33,8 @@ pub struct DomainOnLattice {
     lattice: Lattice,
     formula: Option<Formula>,
     region: Option<RegionOnLattice>,
-    /// The diameter at the boundary, where that is met by refinement.
-    fitted: Option<f64>,
+    /// The level at the boundary, where that is met by refinement.
+    fitted: Option<u32>,
 }
 
 impl DomainOnLattice {
@@ -46,7 +46,9 @@ impl DomainOnLattice {
             Shape::Region(region) => (None, Some(RegionOnLattice::new(region, lattice))),
         };
         let fitted = match boundary {
-            Boundary::Fitted { diameter } if region.is_some() => Some(diameter),
+            Boundary::Fitted { diameter } if region.is_some() => {
+                Some(level_for_diameter(lattice.spacing(), diameter).unwrap_or(u32::MAX))
+            }
             _ => None,
         };
         Self { bounds: domain.bounds, lattice: *lattice, formula, region, fitted }
@@ -86,18 +88,38 @@ impl DomainOnLattice {
         element: &Element,
         by_field: impl FnOnce(&Element) -> Result<bool, E>,
     ) -> Result<bool, E> {
-        let (Some(diameter), Some(region)) = (self.fitted, &self.region) else { return by_field(element) };
-        if element.diameter() > diameter && region.cuts(element) {
-            return Ok(true);
-        }
-        Ok(!region.misses(element) && by_field(element)?)
+        self.exceeds_at(element.corners, element.triangle.level(), || by_field(element))
     }
 
     /// Whether an element lies outside a fitted domain: its centroid does.
     #[inline]
     pub fn excludes(&self, element: &Element) -> bool {
+        self.excludes_at(element.corners)
+    }
+
+    /// As [`Self::exceeds`], for a triangle by its corners and level, in the mesh or not.
+    ///
+    /// # Errors
+    /// Those of `by_field`.
+    #[inline]
+    pub fn exceeds_at<E>(
+        &self,
+        corners: [LatticePoint; 3],
+        level: u32,
+        by_field: impl FnOnce() -> Result<bool, E>,
+    ) -> Result<bool, E> {
+        let (Some(fitted), Some(region)) = (self.fitted, &self.region) else { return by_field() };
+        if level < fitted && region.cuts(corners, level) {
+            return Ok(true);
+        }
+        Ok(by_field()? && !region.misses(corners, level))
+    }
+
+    /// As [`Self::excludes`], for a triangle by its corners.
+    #[inline]
+    pub fn excludes_at(&self, corners: [LatticePoint; 3]) -> bool {
         match &self.region {
-            Some(region) if self.is_fitted() => !region.has_centroid_of(element),
+            Some(region) if self.is_fitted() => !region.has_centroid_of(corners),
             _ => false,
         }
     }

@@ -4,7 +4,6 @@ use glam::DVec2;
 
 use super::Region;
 use crate::geometry::{Lattice, LatticePoint, LatticeRect};
-use crate::mesh::Element;
 
 /// A region with its corners moved to the nearest points of a mesh's lattice, and a tree of squares to find its edges by.
 ///
@@ -102,28 +101,28 @@ impl RegionOnLattice {
         }
     }
 
-    /// Whether an element has no point in common with the region.
-    pub fn misses(&self, element: &Element) -> bool {
-        match self.meets(element, &|_| true) {
+    /// Whether a triangle of the mesh, given by corners and level, has no point in common with the region.
+    pub fn misses(&self, corners: [LatticePoint; 3], level: u32) -> bool {
+        match self.meets(corners, level, &|_| true) {
             Meeting::Cut => false,
             Meeting::Uncut(inside) => !inside,
         }
     }
 
-    /// Whether the boundary has a point in common with an element.
-    pub fn cuts(&self, element: &Element) -> bool {
-        self.meets(element, &|edge| !edge.on_frame) == Meeting::Cut
+    /// Whether the boundary has a point in common with a triangle of the mesh.
+    pub fn cuts(&self, corners: [LatticePoint; 3], level: u32) -> bool {
+        self.meets(corners, level, &|edge| !edge.on_frame) == Meeting::Cut
     }
 
-    /// Whether the centroid of an element lies in the region. On an edge, the side does not matter but is always the same.
-    pub fn has_centroid_of(&self, element: &Element) -> bool {
-        self.is_inside(thrice_centroid(element))
+    /// Whether the centroid of a triangle lies in the region. On an edge, the side does not matter but is always the same.
+    pub fn has_centroid_of(&self, corners: [LatticePoint; 3]) -> bool {
+        self.is_inside(thrice_centroid(corners))
     }
 
-    /// Goes down the tree from the smallest square that holds the element.
-    fn meets(&self, element: &Element, counts: &impl Fn(&Edge) -> bool) -> Meeting {
-        let depth = (element.triangle.level() as usize / 2).min(self.layers.len() - 1);
-        let centroid = thrice_centroid(element);
+    /// Goes down the tree from the smallest square that holds the triangle.
+    fn meets(&self, corners: [LatticePoint; 3], level: u32, counts: &impl Fn(&Edge) -> bool) -> Meeting {
+        let depth = (level as usize / 2).min(self.layers.len() - 1);
+        let centroid = thrice_centroid(corners);
         let side = 3 << (self.root_bits as usize - depth);
         let square = [(centroid[0] / side) as u32, (centroid[1] / side) as u32];
         match self.state(depth, square) {
@@ -131,8 +130,8 @@ impl RegionOnLattice {
             State::Inside => return Meeting::Uncut(true),
             State::Cut => {}
         }
-        let triangle = Corners::of(element.corners);
-        if self.cut_within(depth, square, element, &triangle, counts) {
+        let triangle = Corners::of(corners);
+        if self.cut_within(depth, square, corners, &triangle, counts) {
             Meeting::Cut
         } else {
             Meeting::Uncut(self.is_inside(centroid))
@@ -144,12 +143,12 @@ impl RegionOnLattice {
         &self,
         depth: usize,
         [column, row]: [u32; 2],
-        element: &Element,
+        corners: [LatticePoint; 3],
         triangle: &Corners,
         counts: &impl Fn(&Edge) -> bool,
     ) -> bool {
         let square = [column, row];
-        if self.state(depth, square) != State::Cut || !self.rect(depth, square).touches(element.corners) {
+        if self.state(depth, square) != State::Cut || !self.rect(depth, square).touches(corners) {
             return false;
         }
         if depth + 1 == self.layers.len() {
@@ -158,7 +157,7 @@ impl RegionOnLattice {
         }
         let quarters = [[0, 0], [1, 0], [0, 1], [1, 1]];
         quarters.iter().any(|[x, y]| {
-            self.cut_within(depth + 1, [2 * column + x, 2 * row + y], element, triangle, counts)
+            self.cut_within(depth + 1, [2 * column + x, 2 * row + y], corners, triangle, counts)
         })
     }
 
@@ -398,8 +397,8 @@ impl Edge {
     }
 }
 
-fn thrice_centroid(element: &Element) -> [i64; 2] {
-    let sum = |c: fn(&LatticePoint) -> u32| element.corners.iter().map(|p| i64::from(c(p))).sum();
+fn thrice_centroid(corners: [LatticePoint; 3]) -> [i64; 2] {
+    let sum = |c: fn(&LatticePoint) -> u32| corners.iter().map(|p| i64::from(c(p))).sum();
     [sum(|p| p.x), sum(|p| p.y)]
 }
 
@@ -494,12 +493,15 @@ mod tests {
                     |c: fn(&LatticePoint) -> u32| element.corners.iter().map(|p| i128::from(c(p))).sum();
                 let (centroid_in, centroid_on) =
                     brute_force(&region, &lattice, [sum(|p| p.x), sum(|p| p.y)], 3);
-                assert_eq!(sorted.misses(element), !touched && !centroid_in);
-                assert!(centroid_on || sorted.has_centroid_of(element) == centroid_in);
-                assert!(!sorted.cuts(element) || touched);
-                cut += usize::from(sorted.cuts(element));
+                assert_eq!(
+                    sorted.misses(element.corners, element.triangle.level()),
+                    !touched && !centroid_in
+                );
+                assert!(centroid_on || sorted.has_centroid_of(element.corners) == centroid_in);
+                assert!(!sorted.cuts(element.corners, element.triangle.level()) || touched);
+                cut += usize::from(sorted.cuts(element.corners, element.triangle.level()));
                 inside += usize::from(!touched && centroid_in);
-                outside += usize::from(sorted.misses(element));
+                outside += usize::from(sorted.misses(element.corners, element.triangle.level()));
                 !centroid_in
             });
             for node in mesh.nodes() {
@@ -521,7 +523,11 @@ mod tests {
         let mut mesh = Mesh::coarse_grid(Rect::UNIT, 0.25, |_| true, &Limits::default()).unwrap();
         let sorted = RegionOnLattice::new(&whole, mesh.lattice());
         mesh.sort_out(0..32, |element| {
-            assert!(!sorted.cuts(element) && !sorted.misses(element) && sorted.has_centroid_of(element));
+            assert!(
+                !sorted.cuts(element.corners, element.triangle.level())
+                    && !sorted.misses(element.corners, element.triangle.level())
+                    && sorted.has_centroid_of(element.corners)
+            );
             false
         });
         assert!(mesh.nodes().iter().all(|&node| sorted.contains(node)));

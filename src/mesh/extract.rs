@@ -2,7 +2,7 @@ use std::borrow::Cow;
 
 use glam::DVec2;
 
-use super::{Mesh, NodeId, Triangle, TriangleId};
+use super::{Mesh, Neighbour, NodeId, Triangle, TriangleId};
 use crate::geometry::{Lattice, LatticePoint};
 
 /// What others get of a mesh, in files and elsewhere: nodes and triangles that count from zero without a gap.
@@ -13,6 +13,8 @@ pub struct Extract<'a> {
     lattice: Lattice,
     nodes: Cow<'a, [LatticePoint]>,
     triangles: Cow<'a, [Triangle]>,
+    /// Where some triangles were left out: the place of each triangle of the mesh.
+    places: Option<Vec<Neighbour>>,
 }
 
 /// A triangle as others want it.
@@ -45,13 +47,43 @@ pub struct BoundaryEdge {
 }
 
 impl Mesh {
-    /// The part of the mesh that is the mesh of the domain: all of it.
+    /// The part of the mesh that belongs to the domain, in the mesh's order, with the nodes that it uses.
     pub fn extract(&self) -> Extract<'_> {
-        Extract {
-            lattice: self.lattice,
-            nodes: Cow::Borrowed(&self.nodes),
-            triangles: Cow::Borrowed(&self.triangles),
+        if self.outside_count() > 0 {
+            return self.extract_inside();
         }
+        let (nodes, triangles) = (Cow::Borrowed(&self.nodes[..]), Cow::Borrowed(&self.triangles[..]));
+        Extract { lattice: self.lattice, nodes, triangles, places: None }
+    }
+
+    fn extract_inside(&self) -> Extract<'_> {
+        let inside = || self.triangles.iter().filter(|t| !t.is_outside());
+        let mut places = Vec::with_capacity(self.triangles.len());
+        let mut count = 0;
+        for triangle in &self.triangles {
+            let place = TriangleId::from_index(count).into();
+            places.push(if triangle.is_outside() { Neighbour::BOUNDARY } else { place });
+            count += usize::from(!triangle.is_outside());
+        }
+        let mut used = vec![false; self.nodes.len()];
+        for vertex in inside().flat_map(|triangle| triangle.vertices) {
+            used[vertex.index()] = true;
+        }
+        let mut nodes = Vec::new();
+        let mut node_places = Vec::with_capacity(self.nodes.len());
+        for (&node, used) in self.nodes.iter().zip(used) {
+            node_places.push(NodeId::from_index(nodes.len()));
+            nodes.extend(used.then_some(node));
+        }
+        let renumbered = |triangle: &Triangle| {
+            let mut renumbered = *triangle;
+            renumbered.vertices = triangle.vertices.map(|v| node_places[v.index()]);
+            renumbered.neighbours =
+                triangle.neighbours.map(|n| n.triangle().map_or(n, |id| places[id.index()]));
+            renumbered
+        };
+        let triangles = inside().map(renumbered).collect();
+        Extract { lattice: self.lattice, nodes: Cow::Owned(nodes), triangles, places: Some(places) }
     }
 }
 
@@ -69,6 +101,14 @@ impl Extract<'_> {
     /// All triangles.
     pub fn triangles(&self) -> &[Triangle] {
         &self.triangles
+    }
+
+    /// The place in [`Self::triangles`] of a triangle of the mesh; `None` for one that lies outside the domain.
+    ///
+    /// # Panics
+    /// When the id is not of the mesh.
+    pub fn place_of(&self, id: TriangleId) -> Option<TriangleId> {
+        self.places.as_ref().map_or(Some(id), |places| places[id.index()].triangle())
     }
 
     /// Lattice coordinates of a node.

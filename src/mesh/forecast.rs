@@ -26,8 +26,8 @@ use crate::geometry::{Lattice, LatticePoint, LatticeRect};
 /// let mesh = Mesh::coarse_grid(Rect::UNIT, 0.5, |_| true, &Limits::default())?;
 /// let square = mesh.lattice().rect_round(&Rect::around(glam::dvec2(0.3, 0.4), 0.1)).unwrap();
 /// let mut forecast = Forecast::new(&mesh, square, &Limits::default());
-/// let progress = forecast.run(&mesh, |corners, level| level < 2 && square.touches(corners), usize::MAX)?;
-/// assert_eq!((progress, forecast.added(), forecast.removed()), (Progress::Done, 8, 0));
+/// let progress = forecast.run(&mesh, |corners, level| level < 2 && square.touches(corners), |_, _| true, usize::MAX)?;
+/// assert_eq!((progress, forecast.change()), (Progress::Done, 8));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug)]
@@ -49,6 +49,7 @@ pub struct Forecast {
     near: HashMap<usize, TriangleId>,
     added: usize,
     removed: usize,
+    change: i64,
 }
 
 /// What becomes of a node.
@@ -88,6 +89,12 @@ impl Shape {
     fn children(&self) -> [Self; 2] {
         let apex = self.midpoint();
         self.ends.map(|end| Self { apex, ends: [end, self.apex], level: self.level + 1 })
+    }
+
+    /// How many triangles of the domain come when this one is bisected, or go below zero.
+    fn gain(&self, belongs: &impl Fn([LatticePoint; 3], u32) -> bool) -> i64 {
+        let counts = |shape: &Self| i64::from(belongs(shape.corners(), shape.level));
+        self.children().iter().map(counts).sum::<i64>() - counts(self)
     }
 
     /// The triangle that this one is half of; its level must not be 0. Which of its ends is the parent's apex is what the
@@ -149,6 +156,7 @@ impl Forecast {
             near: HashMap::new(),
             added: 0,
             removed: 0,
+            change: 0,
         }
     }
 
@@ -162,9 +170,15 @@ impl Forecast {
         self.removed
     }
 
+    /// How many triangles more there would be in the domain, or fewer below zero, as far as counted.
+    pub fn change(&self) -> i64 {
+        self.change
+    }
+
     /// Counts until done or until `visits` triangles were looked at.
     ///
     /// `exceeds` is the rule as it would be, asked by corners and level. It must be monotone, and answer as ever outside the area.
+    /// `belongs` tells of any triangle, by the same, whether it lies in the domain.
     ///
     /// # Errors
     /// When a target is finer than the lattice. The triangle budget is not looked at: the caller compares.
@@ -172,8 +186,10 @@ impl Forecast {
         &mut self,
         mesh: &Mesh,
         exceeds: impl Fn([LatticePoint; 3], u32) -> bool,
+        belongs: impl Fn([LatticePoint; 3], u32) -> bool,
         visits: usize,
     ) -> Result<Progress, RefineError> {
+        let gain = |shape: &Shape| shape.gain(&belongs);
         let max_level = self.max_level;
         let exceeds = |shape: &Shape| shape.level < max_level && exceeds(shape.corners(), shape.level);
         let deepest = mesh.lattice().deepest_level();
@@ -186,14 +202,14 @@ impl Forecast {
                 if shape.level >= deepest {
                     return Err(too_fine(mesh, &shape));
                 }
-                self.bisect(mesh, shape);
+                self.bisect(mesh, shape, gain);
                 self.asked.extend(shape.children());
             } else if self.searching {
                 self.search_on(mesh);
             } else if let Some(shape) = self.put_back.pop() {
-                self.loosen(mesh, &shape, exceeds);
+                self.loosen(mesh, &shape, exceeds, gain);
             } else if let Some(id) = self.loose.pop() {
-                self.loosen(mesh, &Shape::of(mesh, id), exceeds);
+                self.loosen(mesh, &Shape::of(mesh, id), exceeds, gain);
             } else {
                 return Ok(Progress::Done);
             }
@@ -217,7 +233,7 @@ impl Forecast {
 
     /// Notes that a triangle is bisected, and first whatever must be to keep the mesh compatible. Each of the chain is one level
     /// above the one before.
-    fn bisect(&mut self, mesh: &Mesh, shape: Shape) {
+    fn bisect(&mut self, mesh: &Mesh, shape: Shape, gain: impl Fn(&Shape) -> i64) {
         self.chain.push(shape);
         while let Some(&shape) = self.chain.last() {
             let midpoint = shape.midpoint();
@@ -236,11 +252,18 @@ impl Forecast {
             self.chain.pop();
             self.fates.insert(midpoint, Fate::Comes);
             self.added += 1 + usize::from(across.is_some());
+            self.change += gain(&shape) + across.as_ref().map_or(0, &gain);
         }
     }
 
     /// Notes that the newest vertex of a triangle goes, if it can.
-    fn loosen(&mut self, mesh: &Mesh, shape: &Shape, exceeds: impl Fn(&Shape) -> bool) {
+    fn loosen(
+        &mut self,
+        mesh: &Mesh,
+        shape: &Shape,
+        exceeds: impl Fn(&Shape) -> bool,
+        gain: impl Fn(&Shape) -> i64,
+    ) {
         if shape.level == 0 || self.fates.contains_key(&shape.apex) {
             return;
         }
@@ -254,6 +277,7 @@ impl Forecast {
         self.fates.insert(shape.apex, fate);
         if fate == Fate::Goes {
             self.removed += parents().count();
+            self.change -= parents().map(gain).sum::<i64>();
             self.put_back.extend(parents());
         }
     }

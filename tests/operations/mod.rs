@@ -227,12 +227,15 @@ fn impossible(choices: &mut impl Choices) -> Setting {
     }
 }
 
-/// A square, a rectangle, and a domain with a hole and a bite out of its rim.
-pub fn domains() -> [Domain; 3] {
+/// A square, a rectangle, a domain with a hole and a bite out of its rim by a formula, and a slanted one with a hole.
+pub fn domains() -> [Domain; 4] {
+    let outline = vec![dvec2(0.0, 0.1), dvec2(0.9, 0.0), dvec2(1.0, 0.8), dvec2(0.3, 1.0)];
+    let hole = vec![dvec2(0.3, 0.3), dvec2(0.6, 0.35), dvec2(0.5, 0.7)];
     [
         Domain::rectangle(Rect::UNIT),
         Domain::rectangle(Rect::new(DVec2::ZERO, dvec2(1.0, 0.7))),
         Domain { bounds: Rect::UNIT, shape: Shape::Formula(Formula::parse(INSIDES[0]).unwrap()) },
+        Domain::of_polygons(&[vec![outline, hole]]).unwrap(),
     ]
 }
 
@@ -345,13 +348,14 @@ const MOST_OPERATIONS: usize = 48;
 /// A document edited as the bytes say, the follower cut where they say.
 pub fn run_bytes(bytes: &[u8]) {
     let mut choices = Bytes(bytes);
-    let domain = domains()[choices.below(3)].clone();
+    let domain = domains()[choices.below(4)].clone();
     let transfer = Transfer { h_min: SMALL.diameter, ..Settings::default().transfer };
     let mut driver = Driver::new(Settings {
         domain,
         max_triangles: 20 * SMALL.triangles,
         resolution: SMALL.pixels,
         spacing: 0.2,
+        boundary: Boundary::Fitted { diameter: 2.0 * SMALL.diameter },
         transfer,
         ..Settings::default()
     });

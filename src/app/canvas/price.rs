@@ -23,7 +23,7 @@ impl App {
             let keys = input.modifiers.shift || input.modifiers.alt || input.modifiers.command;
             !keys && !input.key_down(Key::Space) && !input.pointer.any_down()
         });
-        let paints = plain && self.tools.has_ring() && self.gesture == Gesture::None;
+        let paints = plain && self.tools.paints() && self.gesture == Gesture::None;
         let hovers = response.hover_pos().is_some() && !self.asks_something();
         self.pointer_world.filter(|_| paints && hovers).map(|at| (self.tools.brush(), at))
     }
