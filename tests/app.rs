@@ -791,7 +791,11 @@ fn the_outline_is_met_in_two_ways_and_the_panel_says_what_that_costs() {
     send(&mut window, Command::OpenExample(Example::Aegean));
     key(&mut window, Modifiers::NONE, Key::D);
     let fitted = window.state().session().mesh().triangle_count();
-    assert!(value_of(&window, "Holes").ends_with("of 65"), "{}", value_of(&window, "Holes"));
+    assert!(
+        value_of(&window, Role::Definition, "Holes").ends_with("of 65"),
+        "{}",
+        value_of(&window, Role::Definition, "Holes")
+    );
     assert!(fitted > 30_000);
     window.get_by_role_and_label(Role::RadioButton, "Report").click();
     window.run();
@@ -1097,6 +1101,58 @@ fn past_the_budget_the_message_says_so_and_undo_brings_the_mesh_back() {
     assert_eq!(window.state().session().mesh().violations(), []);
     key(&mut window, Modifiers::COMMAND, Key::Z);
     assert_eq!(fingerprint(&window), before);
+}
+
+#[test]
+fn a_message_is_dismissed_by_its_cross_and_nothing_is_painted_under_it() {
+    let mut window = window();
+    send(&mut window, Command::CancelUpdate);
+    assert!(!notice(&window).is_empty());
+    let (before, version) = (fingerprint(&window), window.state().session().document().version());
+    window.get_by_label("Dismiss").click();
+    window.run();
+    assert_eq!(notice(&window), "");
+    assert_eq!((fingerprint(&window), window.state().session().document().version()), (before, version));
+    assert_eq!(entries(&window), 0);
+}
+
+#[test]
+fn while_the_mesh_stops_short_of_the_paint_a_message_says_so_and_stays() {
+    let mut window = window();
+    let count = triangles(&window);
+    let whole = fingerprint(&window);
+    set(&mut window, Setting::MaxTriangles(count + 100));
+    stroke(&mut window, FREE, FREE);
+    let standing = notice(&window);
+    assert!(standing.contains("what you painted is kept") && standing.contains("undo"), "{standing}");
+    assert!(window.get_by_role(Role::Alert).accesskit_node().label().is_some_and(|label| label == standing));
+    // Neither Escape nor what works elsewhere takes it away, and there is no cross.
+    key(&mut window, Modifiers::NONE, Key::Escape);
+    set(&mut window, Setting::MaxTriangles(count + 110));
+    assert!(notice(&window).contains("what you painted is kept"), "{}", notice(&window));
+    assert!(window.query_by_label("Dismiss").is_none());
+    assert_eq!(price_tag(&window), None, "a mesh that is behind has no price to tell");
+    assert!(window.query_by_label_contains("Refining").is_none(), "nothing goes on");
+    // A larger budget does, and the work goes on by itself.
+    set(&mut window, Setting::MaxTriangles(Settings::MAX_TRIANGLES));
+    assert_eq!(notice(&window), "");
+    assert!(triangles(&window) > count + 110);
+    // Undo leads back to the small budget; it takes no other entry with it.
+    let entries_before = entries(&window);
+    key(&mut window, Modifiers::COMMAND, Key::Z);
+    assert!(notice(&window).ends_with("the former mesh is shown."), "{}", notice(&window));
+    assert_eq!((entries(&window), settings(&window).max_triangles), (entries_before - 1, count + 110));
+    // The button undoes the second budget, which does not help, and then the stroke, which does.
+    for _ in 0..2 {
+        window.get_by_role_and_label(Role::Alert, &notice(&window));
+        let on_canvas = canvas(&window);
+        let buttons: Vec<_> = window.get_all_by_role_and_label(Role::Button, "Undo").collect();
+        buttons.iter().find(|button| on_canvas.contains_rect(button.rect())).expect("in the banner").click();
+        drop(buttons);
+        window.run();
+    }
+    assert_eq!((notice(&window), fingerprint(&window)), (String::new(), whole));
+    assert_eq!(settings(&window).max_triangles, count + 100);
 }
 
 // ------------------------------------------------------------------------------------------------------- files

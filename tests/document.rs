@@ -351,3 +351,95 @@ fn the_memory_budget_holds_while_one_paints_and_while_the_mesh_is_made_anew() {
     assert_eq!(follower.mesh().fingerprint(), anew.mesh().fingerprint());
     assert!(follower.mesh().triangles().len() > room);
 }
+
+/// A document whose mesh met the triangle budget in the middle of a stroke, with the follower's error.
+fn stopped_at_the_budget() -> (Document, Follower, usize) {
+    let settings = Settings { resolution: 400, ..Settings::default() };
+    let mut document = Document::new(settings, None).unwrap();
+    let mut follower = Follower::new(&mut document).unwrap();
+    let budget = follower.mesh().triangles().len() + 3000;
+    document.set(Setting::MaxTriangles(budget)).unwrap();
+    settle(&mut follower, &mut document);
+    document.begin_stroke(Brush { medium: Medium::Risk, radius: 0.05, hardness: 1.0, strength: 1.0 });
+    document.draw_to(dvec2(0.2, 0.3));
+    document.draw_to(dvec2(0.8, 0.3));
+    document.end_stroke();
+    while follower.advance(&mut document, 997).is_ok() {}
+    assert!((budget - 100..=budget).contains(&follower.mesh().triangles().len()));
+    (document, follower, budget)
+}
+
+fn assert_as_from_scratch(follower: &Follower, document: &Document) {
+    let anew = Follower::new(&mut document.clone()).unwrap();
+    assert_eq!(follower.mesh().fingerprint(), anew.mesh().fingerprint());
+    assert_eq!(follower.stopped(), None);
+}
+
+#[test]
+fn a_mesh_that_met_its_budget_says_so_until_it_is_the_documents_again() {
+    let (mut document, mut follower, budget) = stopped_at_the_budget();
+    let count = follower.mesh().triangles().len();
+    for _ in 0..10 {
+        assert_eq!(
+            follower.advance(&mut document, 997),
+            Ok(Stage::InStep),
+            "it is not tried again and again"
+        );
+        assert!(follower.stopped().unwrap().to_string().contains(&budget.to_string()));
+        assert!(!follower.is_in_step(&document));
+    }
+    assert_eq!((follower.stage(), follower.mesh().triangles().len()), (Stage::InStep, count));
+    // More paint does not help, and says the same.
+    random_stroke(&mut fastrand::Rng::with_seed(5), &mut document);
+    while follower.advance(&mut document, 997).is_ok() {
+        assert!(follower.stopped().is_some());
+    }
+    document.undo();
+    assert!(follower.advance(&mut document, usize::MAX).is_err() || follower.stopped().is_some());
+    assert_eq!(follower.mesh().violations(), []);
+    document.undo();
+    settle(&mut follower, &mut document);
+    assert_as_from_scratch(&follower, &document);
+}
+
+#[test]
+fn work_that_a_budget_stopped_goes_on_when_it_is_raised_and_when_paint_is_erased() {
+    let (mut document, mut follower, budget) = stopped_at_the_budget();
+    follower.take_change();
+    document.set(Setting::MaxTriangles(100 * budget)).unwrap();
+    settle(&mut follower, &mut document);
+    assert!(follower.mesh().triangles().len() > budget);
+    assert_as_from_scratch(&follower, &document);
+    let change = follower.take_change();
+    assert!(matches!(change, Some(MeshChange::Within(_))), "it went on from where it was: {change:?}");
+
+    let (mut document, mut follower, _) = stopped_at_the_budget();
+    document.begin_stroke(Brush { medium: Medium::Eraser, radius: 0.1, hardness: 1.0, strength: 1.0 });
+    document.draw_to(dvec2(0.26, 0.3));
+    document.draw_to(dvec2(0.9, 0.3));
+    document.end_stroke();
+    settle(&mut follower, &mut document);
+    assert!(!document.layers().is_blank());
+    assert_as_from_scratch(&follower, &document);
+}
+
+#[test]
+fn a_setting_changed_there_and_back_makes_no_other_mesh() {
+    let mut document = Example::Threats.document(slope);
+    let mut follower = Follower::new(&mut document).unwrap();
+    follower.take_change();
+    let shape = document.settings().transfer.shape;
+    document.set(Setting::TransferShape(2.0 * shape)).unwrap();
+    for _ in 0..5 {
+        assert_ne!(follower.advance(&mut document, 10_000), Ok(Stage::InStep));
+    }
+    document.begin_stroke(Brush { medium: Medium::Risk, radius: 0.05, hardness: 1.0, strength: 1.0 });
+    document.draw_to(dvec2(0.9, 0.5));
+    document.end_stroke();
+    follower.advance(&mut document, 10_000).unwrap();
+    document.set(Setting::TransferShape(shape)).unwrap();
+    settle(&mut follower, &mut document);
+    let change = follower.take_change();
+    assert!(matches!(change, Some(MeshChange::Within(_))), "only the stroke: {change:?}");
+    assert_as_from_scratch(&follower, &document);
+}

@@ -74,6 +74,8 @@ pub struct App {
     gesture: Gesture,
     /// Where the canvas was in the last frame.
     canvas_rect: egui::Rect,
+    /// What floated over the canvas in the last frame and takes clicks.
+    floats: Vec<egui::Rect>,
     pointer_world: Option<DVec2>,
     last_painted: Option<DVec2>,
     /// Corners so far of the polygon to cut the domain with, in world units.
@@ -116,6 +118,7 @@ impl App {
             reproducible: false,
             gesture: Gesture::None,
             canvas_rect: egui::Rect::NOTHING,
+            floats: Vec::new(),
             pointer_world: None,
             last_painted: None,
             outline: Vec::new(),

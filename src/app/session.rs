@@ -6,8 +6,9 @@ use std::time::{Duration, Instant};
 use glam::DVec2;
 
 use super::readout::{Quantity, Readout};
+use super::widgets::format;
 use crate::document::{Document, FollowError, Follower, MeshChange, Pricer, Setting, Stage};
-use crate::mesh::{Mesh, Progress, Survey, Topology};
+use crate::mesh::{Bytes, Mesh, Progress, RefineError, Survey, Topology};
 use crate::paint::Brush;
 
 /// Pixels or triangles in one slice of work: well below a millisecond.
@@ -29,6 +30,8 @@ pub struct Session {
     pricer: Pricer,
     queried: Option<DVec2>,
     notice: Option<Notice>,
+    /// That the mesh stopped short of the document: shown as long as this is so.
+    standing: Option<Notice>,
     work: Duration,
     last_update: Option<Duration>,
     survey: Surveyed,
@@ -57,6 +60,7 @@ impl Session {
             pricer: Pricer::default(),
             queried: None,
             notice: None,
+            standing: None,
             work: Duration::ZERO,
             last_update: Some(began.elapsed()),
             survey: Surveyed::default(),
@@ -105,7 +109,12 @@ impl Session {
 
     /// The message to be shown.
     pub fn notice(&self) -> Option<&Notice> {
-        self.notice.as_ref()
+        self.notice.as_ref().or(self.standing.as_ref())
+    }
+
+    /// Whether the message to be shown cannot be dismissed: it goes once mesh and document agree.
+    pub fn notice_stands(&self) -> bool {
+        self.notice.is_none() && self.standing.is_some()
     }
 
     /// Shows a message, or none.
@@ -162,6 +171,9 @@ impl Session {
                 }
             }
         };
+        if self.follower.stopped().is_none() {
+            self.standing = None;
+        }
         let changed = self.follower.revision() != revision;
         if left || changed {
             self.work += began.elapsed();
@@ -215,10 +227,43 @@ impl Session {
         self.follower.take_change()
     }
 
+    /// Takes back the setting that made a mesh impossible; where it is paint that did, the mesh stands still, and that is said.
     fn take_back(&mut self, error: &FollowError) {
-        self.report(error);
+        let revision = self.document.revision();
         if self.document.settings() != self.follower.settings() {
             self.document.reject_last();
         }
+        if self.document.revision() != revision {
+            self.report(error);
+        } else {
+            let former = self.document.settings() != self.follower.settings();
+            let text = if former {
+                format!("{error} Until then the former mesh is shown.")
+            } else {
+                standstill(error)
+            };
+            self.standing = Some(Notice { failed: true, text });
+        }
+    }
+}
+
+/// What to say while the mesh does not show all that was painted.
+fn standstill(error: &FollowError) -> String {
+    let kept = "what you painted is kept, but the mesh does not show all of it.";
+    let helps = "in the Mesh panel or the smallest diameter, erase, or undo.";
+    match error {
+        FollowError::Refine(RefineError::TooManyTriangles { limit }) => {
+            let limit = format::count(*limit as u64);
+            format!(
+                "The mesh stops at its limit of {limit} triangles: {kept} Raise the triangle budget {helps}"
+            )
+        }
+        FollowError::Refine(RefineError::TooMuchMemory { memory, .. }) => {
+            let limit = Bytes(memory.bytes);
+            format!(
+                "The mesh stops at its limit of {limit} of memory: {kept} Raise the memory budget {helps}"
+            )
+        }
+        other => format!("{other} Until then {kept}"),
     }
 }

@@ -35,6 +35,8 @@ pub struct Follower {
     job: Option<Job>,
     /// The revision of the document that could not be met: not tried again.
     given_up_on: Option<u64>,
+    /// Why the shown mesh is not the document's, until it is.
+    stopped: Option<FollowError>,
 }
 
 /// What became of the shown mesh.
@@ -100,6 +102,7 @@ impl Follower {
             unread: Vec::new(),
             job: None,
             given_up_on: None,
+            stopped: None,
         })
     }
 
@@ -142,9 +145,9 @@ impl Follower {
     /// What is left to do.
     pub fn stage(&self) -> Stage {
         match &self.job {
-            None if !self.unread.is_empty() || (self.lost_step && self.given_up_on.is_none()) => {
-                Stage::Filling
-            }
+            // What is left is not tried before the document changes.
+            None if self.given_up_on.is_some() => Stage::InStep,
+            None if !self.unread.is_empty() || self.lost_step => Stage::Filling,
             None if self.updater.is_done() => Stage::InStep,
             None => Stage::Refining { triangles: self.mesh.triangles().len() },
             Some(job) => match &job.refining {
@@ -152,6 +155,12 @@ impl Follower {
                 Some(refining) => Stage::Refining { triangles: refining.mesh.triangles().len() },
             },
         }
+    }
+
+    /// Why the shown mesh is not that of the document: a budget was met, or a target that cannot be. It stays until mesh and
+    /// document agree, also while another edit is being tried.
+    pub fn stopped(&self) -> Option<&FollowError> {
+        self.stopped.as_ref()
     }
 
     /// Whether field and mesh are those of the document as it is: nothing to do, and nothing given up.
@@ -189,18 +198,40 @@ impl Follower {
         }
         self.given_up_on = None;
         let result = self.work(document, visits);
-        if result.is_err() {
-            self.give_up(document);
+        match &result {
+            Ok(Stage::InStep) => self.stopped = None,
+            Ok(_) => {}
+            Err(error) => {
+                self.stopped = Some(error.clone());
+                self.give_up(document);
+            }
         }
         result
     }
 
+    /// Takes over settings that the shown mesh obeys as it is, if these are such: those that it was made from, after a change
+    /// there and back, and other budgets that it keeps. What a former budget stopped goes on.
+    fn takes_over(&mut self, wanted: &Settings) -> bool {
+        let (max_triangles, max_memory) = (wanted.max_triangles, wanted.max_memory);
+        let with_budgets = Settings { max_triangles, max_memory, ..self.settings.clone() };
+        let limits = wanted.limits();
+        let fits = self.mesh.triangles().len() <= limits.most_triangles();
+        let obeyed = !self.lost_step && fits && with_budgets == *wanted;
+        if obeyed {
+            self.settings = with_budgets;
+            self.updater.set_limits(limits);
+            self.job = None;
+        }
+        obeyed
+    }
+
     fn work(&mut self, document: &Document, visits: usize) -> Result<Stage, FollowError> {
         let wanted = document.settings();
-        self.take_over_domain(wanted);
-        let outdated = match &self.job {
-            Some(job) => job.settings != *wanted,
-            None => (self.lost_step && self.unread.is_empty()) || self.settings != *wanted,
+        let differs = *wanted != *self.job.as_ref().map_or(&self.settings, |job| &job.settings);
+        let outdated = if differs {
+            !self.takes_over(wanted) && !self.takes_over_domain(wanted)
+        } else {
+            self.job.is_none() && self.lost_step && self.unread.is_empty()
         };
         if outdated {
             let reuse_field = self.reuses_field(wanted) && self.unread.is_empty();
@@ -248,17 +279,17 @@ impl Follower {
         result.map(|_| ())
     }
 
-    /// Takes over a domain of another shape, where the mesh can follow in place or need not.
-    fn take_over_domain(&mut self, wanted: &Settings) {
+    /// Takes over a domain of another shape, if the shown mesh can follow it in place.
+    fn takes_over_domain(&mut self, wanted: &Settings) -> bool {
         let as_wanted = Settings { domain: wanted.domain.clone(), ..self.settings.clone() };
-        if self.job.is_some() || self.lost_step || self.settings == *wanted || as_wanted != *wanted {
-            return;
+        if self.job.is_some() || self.lost_step || as_wanted != *wanted {
+            return false;
         }
         let (before, after) = (&self.settings.domain, &wanted.domain);
-        let (Some(before), Some(after)) = (before.as_region(), after.as_region()) else { return };
+        let (Some(before), Some(after)) = (before.as_region(), after.as_region()) else { return false };
         let fits = matches!(wanted.boundary, Boundary::Fitted { .. }) && wanted.rule == Rule::Area;
         if !fits || before.frame() != after.frame() {
-            return;
+            return false;
         }
         let lattice = *self.mesh.lattice();
         self.domain = DomainOnLattice::new(&wanted.domain, wanted.boundary, &lattice);
@@ -269,6 +300,7 @@ impl Follower {
             }
         }
         self.settings = wanted.clone();
+        true
     }
 
     fn show(&mut self) {

@@ -225,10 +225,12 @@ impl Document {
 
     /// Takes back the last gesture for good, if it changed a setting: it turned out that this cannot be met.
     ///
-    /// Paint stays: whoever painted since then should not lose it.
+    /// Paint stays: whoever painted since then should not lose it. So does all else after an undo, which has led here: the last
+    /// gesture is then another one.
     pub fn reject_last(&mut self) {
         let paints = matches!(self.last_change(), Some(Change::Paint(_)));
-        if self.stroke.is_none() && !paints && self.undo() {
+        let newest = self.version == self.last_version;
+        if self.stroke.is_none() && !paints && newest && self.undo() {
             self.history.forget_undone();
         }
     }

@@ -119,6 +119,12 @@ impl Updater {
         }
     }
 
+    /// From now on keeps to other limits on size. Work that a budget has stopped may go on.
+    pub fn set_limits(&mut self, limits: Limits) {
+        debug_assert!(limits.max_level == self.limits.max_level, "the level cap is part of the rule");
+        self.limits = limits;
+    }
+
     /// Adds a rectangle to the work: the rule may give another answer for triangles that touch it. Must be called before the next
     /// [`Self::run`] after such a change, and may be called while earlier work is under way.
     pub fn add(&mut self, area: LatticeRect) {

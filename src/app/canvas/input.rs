@@ -64,6 +64,8 @@ pub struct Pointer<'a> {
     pub rect: egui::Rect,
     /// What is on it.
     pub camera: &'a mut Camera,
+    /// Where something floats over it that has the clicks to itself, in points.
+    pub covered: &'a [egui::Rect],
     /// The tool in hand.
     pub tools: &'a Tools,
     /// Physical pixels for a point.
@@ -106,6 +108,7 @@ impl Pointer<'_> {
             match *event {
                 Event::PointerButton { pos, button, pressed: true, modifiers }
                     if response.contains_pointer()
+                        && !self.covered.iter().any(|float| float.contains(pos))
                         && *gesture == Gesture::None
                         && self.rect.contains(pos) =>
                 {

@@ -94,9 +94,9 @@ impl App {
         commands: &mut Vec<Command>,
     ) {
         let px_per_point = f64::from(ui.pixels_per_point());
+        let (rect, covered, tools) = (response.rect, &self.floats[..], &self.tools);
         let first_corner = self.outline.first().copied();
-        let tools = &self.tools;
-        let mut pointer = Pointer { rect: response.rect, camera, tools, px_per_point, first_corner };
+        let mut pointer = Pointer { rect, camera, covered, tools, px_per_point, first_corner };
         pointer.follow_events(ui, response, &mut self.gesture, commands);
         let over = response.hover_pos().or(response.interact_pointer_pos());
         self.pointer_world = over.map(|at| pointer.world(at));
@@ -198,6 +198,7 @@ impl App {
     /// Message, progress and hint, over the canvas.
     fn float_over(&mut self, ui: &mut Ui, rect: Rect) {
         let inner = rect.shrink(12.0);
+        self.floats.clear();
         self.show_notice(ui, inner);
         self.show_progress(ui, inner);
         let hints = self.hints.for_tool(self.tools.tool, self.tools.kind);
@@ -213,8 +214,17 @@ impl App {
             Rect::from_center_size(egui::pos2(inner.center().x, inner.top() + 40.0), vec2(width, 80.0));
         let mut child = ui.new_child(egui::UiBuilder::new().max_rect(place));
         let banner = if notice.failed { Banner::error(&notice.text) } else { Banner::info(&notice.text) };
-        if banner.show(&mut child) != BannerAnswer::Open {
-            self.session.set_notice(None);
+        let stands = self.session.notice_stands();
+        let banner = if stands { banner.standing().action("Undo") } else { banner };
+        let answer = banner.show(&mut child);
+        self.floats.push(child.min_rect());
+        match answer {
+            BannerAnswer::Open => {}
+            BannerAnswer::Acted => {
+                self.commands.push(Command::Undo);
+                ui.ctx().request_repaint();
+            }
+            BannerAnswer::Dismissed => self.session.set_notice(None),
         }
     }
 
@@ -231,6 +241,7 @@ impl App {
         };
         let size = vec2(inner.width().min(360.0), 36.0);
         let place = Rect::from_min_size(inner.right_bottom() - size, size);
+        self.floats.push(place);
         ui.painter().rect_filled(place, 8.0, tokens(ui).popup);
         let mut child = ui.new_child(egui::UiBuilder::new().max_rect(place.shrink2(vec2(12.0, 2.0))));
         if progress_row(&mut child, what, done as u64, None) {

@@ -24,7 +24,8 @@ impl App {
             !keys && !input.key_down(Key::Space) && !input.pointer.any_down()
         });
         let paints = plain && self.tools.paints() && self.gesture == Gesture::None;
-        let hovers = response.hover_pos().is_some() && !self.asks_something();
+        let free = |at| !self.floats.iter().any(|float| float.contains(at));
+        let hovers = response.hover_pos().is_some_and(free) && !self.asks_something();
         self.pointer_world.filter(|_| paints && hovers).map(|at| (self.tools.brush(), at))
     }
 

@@ -34,22 +34,29 @@ pub struct Banner<'a> {
     kind: BannerKind,
     text: &'a str,
     action: Option<&'a str>,
+    stands: bool,
 }
 
 impl<'a> Banner<'a> {
     /// Something failed; `text` says what, why and what helps.
     pub fn error(text: &'a str) -> Self {
-        Self { kind: BannerKind::Error, text, action: None }
+        Self { kind: BannerKind::Error, text, action: None, stands: false }
     }
 
     /// Something to know.
     pub fn info(text: &'a str) -> Self {
-        Self { kind: BannerKind::Info, text, action: None }
+        Self { kind: BannerKind::Info, text, action: None, stands: false }
     }
 
     /// A button with what would help.
     pub fn action(mut self, action: &'a str) -> Self {
         self.action = Some(action);
+        self
+    }
+
+    /// Without the cross: it goes when what it says is no longer so.
+    pub fn standing(mut self) -> Self {
+        self.stands = true;
         self
     }
 
@@ -71,7 +78,8 @@ impl<'a> Banner<'a> {
 
     fn contents(&self, ui: &mut Ui, icon: Icon, colour: Color32) -> BannerAnswer {
         let button = self.action.map_or(0.0, |action| action_width(ui, action) + 8.0);
-        let room = ui.available_width() - 28.0 - button - metrics::ROW - 8.0;
+        let cross = if self.stands { 0.0 } else { metrics::ROW };
+        let room = ui.available_width() - 28.0 - button - cross - 8.0;
         let text = ui.painter().layout(self.text.to_owned(), font::body(), tokens(ui).text, room);
         let height = text.size().y.max(metrics::ROW) + 4.0;
         let (id, rect) = ui.allocate_space(vec2(ui.available_width(), height));
@@ -87,7 +95,7 @@ impl<'a> Banner<'a> {
     fn buttons(&self, ui: &mut Ui, rect: Rect) -> BannerAnswer {
         let builder = egui::UiBuilder::new().max_rect(rect).layout(Layout::right_to_left(Align::Center));
         let mut child = ui.new_child(builder);
-        if ToolButton::small(Icon::CLOSE, "Dismiss").show(&mut child).clicked() {
+        if !self.stands && ToolButton::small(Icon::CLOSE, "Dismiss").show(&mut child).clicked() {
             return BannerAnswer::Dismissed;
         }
         match self.action {
