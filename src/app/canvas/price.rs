@@ -36,6 +36,8 @@ impl App {
         let count = self.session.mesh().triangles().len();
         let (text, color) = match (pricer.price(), pricer.progress()) {
             (Some(price), _) => tag(price, count, self.session.document().settings(), t),
+            // Whether there is such a frame depends on the machine's speed.
+            (None, Progress::More) if self.reproducible => return,
             (None, Progress::More) => ("counting …".to_owned(), t.faint),
             (None, Progress::Done) => return,
         };
