@@ -3,7 +3,9 @@
 mod operations;
 
 use glam::{DVec2, dvec2};
-use meshbrush::document::{Base, Document, Example, Follower, Price, Pricer, Setting, Settings, Stage};
+use meshbrush::document::{
+    Base, Document, Example, Follower, MeshChange, Price, Pricer, Setting, Settings, Stage,
+};
 use meshbrush::domain::{Domain, Polygon, Shape, corners};
 use meshbrush::field::{Formula, Rule, VertexRule};
 use meshbrush::geometry::Rect;
@@ -390,7 +392,7 @@ fn a_mesh_that_met_its_budget_says_so_until_it_is_the_documents_again() {
     }
     assert_eq!((follower.stage(), follower.mesh().triangles().len()), (Stage::InStep, count));
     // More paint does not help, and says the same.
-    random_stroke(&mut fastrand::Rng::with_seed(5), &mut document);
+    Operation::stroke(&mut fastrand::Rng::with_seed(5)).apply(&mut document);
     while follower.advance(&mut document, 997).is_ok() {
         assert!(follower.stopped().is_some());
     }
@@ -425,7 +427,7 @@ fn work_that_a_budget_stopped_goes_on_when_it_is_raised_and_when_paint_is_erased
 
 #[test]
 fn a_setting_changed_there_and_back_makes_no_other_mesh() {
-    let mut document = Example::Threats.document(slope);
+    let mut document = Example::Threats.document(slope, sea);
     let mut follower = Follower::new(&mut document).unwrap();
     follower.take_change();
     let shape = document.settings().transfer.shape;
