@@ -1,0 +1,230 @@
+//! A frame while painting: a recorded stroke of two seconds, replayed on a mesh of two million triangles.
+//!
+//! For each frame of 1/60 s the processor's time is measured: *stamp* lays the points that the mouse reported into the painted
+//! layers, *update* brings field and mesh in step, *upload* hands the changed ranges to the graphics driver, here whichever one
+//! there is, and submits them. What the GPU does then, or lavapipe in its place, is waited for and not counted.
+//!
+//! Both strokes are made five times, and each frame counts with the median of its five times, part by part.
+//!
+//! *whole work*: every frame updates until it is in step. *in the window*: it stops at the window's budget, the next one goes on,
+//! and what is left when the stroke ends is counted in frames.
+//!
+//! Without a graphics driver upload is not measured.
+
+use std::time::{Duration, Instant};
+
+use glam::{DVec2, dvec2};
+use meshbrush::document::{Base, Document, Follower, MeshChange, Settings, Stage};
+use meshbrush::field::Formula;
+use meshbrush::paint::{Brush, Medium};
+
+/// As the window has them: `FRAME_BUDGET` in `app/mod.rs` and `SLICE` in `app/session.rs`.
+const FRAME_BUDGET: Duration = Duration::from_millis(7);
+const SLICE: usize = 2048;
+
+const FRAMES: usize = 120;
+/// What a mouse reports in a frame, at 120 a second.
+const POINTS_PER_FRAME: usize = 2;
+/// How often both strokes are made.
+const ROUNDS: usize = 5;
+
+/// The window's own brush on the unit square.
+const BRUSH: Brush = Brush { medium: Medium::Risk, radius: 0.06, hardness: 0.35, strength: 0.8 };
+const ERASER: Brush = Brush { medium: Medium::Eraser, strength: 1.0, ..BRUSH };
+
+/// Where the mouse is after a share of the stroke: most of an eight, 2.4 units long, slow in the bends and quick between.
+fn recorded(share: f64) -> DVec2 {
+    let way = share - 0.05 * (12.0 * share).sin();
+    let angle = 0.4 + 5.6 * way;
+    dvec2(0.5 + 0.36 * angle.cos(), 0.5 + 0.3 * (2.0 * angle).sin())
+}
+
+fn points_of(frame: usize) -> impl Iterator<Item = DVec2> {
+    let last = (FRAMES * POINTS_PER_FRAME - 1) as f64;
+    (0..POINTS_PER_FRAME).map(move |i| recorded((frame * POINTS_PER_FRAME + i) as f64 / last))
+}
+
+/// Fine below a wave, so that the stroke goes over what is fine already and over what is coarse.
+fn document() -> Document {
+    let mut settings = Settings::default();
+    settings.transfer.h_min = 0.0011;
+    let formula = "if(y < 0.45 + 0.1 * sin(7 * x), 0.0011, 0.2)";
+    settings.base = Base::Formula(Formula::parse(formula).expect("a sound formula"));
+    Document::new(settings, None).expect("sound settings")
+}
+
+/// Times of one frame.
+#[derive(Clone, Copy)]
+struct Frame {
+    stamp: Duration,
+    update: Duration,
+    upload: Duration,
+}
+
+/// Document, mesh and what is on the screen.
+struct Bench {
+    document: Document,
+    follower: Follower,
+    screen: screen::Screen,
+}
+
+impl Bench {
+    fn frame(&mut self, points: impl Iterator<Item = DVec2>, budget: Duration) -> (Frame, Stage) {
+        let began = Instant::now();
+        points.for_each(|point| self.document.draw_to(point));
+        let stamped = Instant::now();
+        let stage = self.follow(stamped + budget);
+        let updated = Instant::now();
+        if let Some(change) = self.follower.take_change() {
+            self.screen.show(&self.follower, &change);
+        }
+        let uploaded = Instant::now();
+        self.screen.wait();
+        let times = Frame { stamp: stamped - began, update: updated - stamped, upload: uploaded - updated };
+        (times, stage)
+    }
+
+    /// As `Session::follow` does it.
+    fn follow(&mut self, deadline: Instant) -> Stage {
+        loop {
+            let stage = self.follower.advance(&mut self.document, SLICE).expect("the budget is far");
+            if stage == Stage::InStep || Instant::now() >= deadline {
+                return stage;
+            }
+        }
+    }
+
+    /// The stroke frame by frame, and then as many frames as it takes to be in step.
+    fn stroke(&mut self, brush: Brush, budget: Duration) -> Stroke {
+        let mut stroke = Stroke { frames: Vec::new(), behind: 0 };
+        let mut stage = Stage::InStep;
+        self.document.begin_stroke(brush);
+        for frame in 0..FRAMES {
+            let (times, reached) = self.frame(points_of(frame), budget);
+            stroke.frames.push(times);
+            stage = reached;
+        }
+        self.document.end_stroke();
+        while stage != Stage::InStep {
+            let (times, reached) = self.frame(std::iter::empty(), budget);
+            stroke.frames.push(times);
+            stroke.behind += 1;
+            stage = reached;
+        }
+        stroke
+    }
+
+    fn undo(&mut self) {
+        assert!(self.document.undo());
+        self.frame(std::iter::empty(), Duration::MAX / 4);
+    }
+}
+
+struct Stroke {
+    frames: Vec<Frame>,
+    /// Frames until the mesh was in step once the stroke had ended.
+    behind: usize,
+}
+
+fn report(name: &str, strokes: &[Stroke]) {
+    let behind = strokes.iter().map(|stroke| stroke.behind).max().unwrap_or(0);
+    eprintln!("{name}: {behind} frames at most until in step");
+    eprintln!("            median       99 %      worst");
+    let row = |part: &str, time: fn(&Frame) -> Duration| {
+        let of_frame =
+            |frame: usize| sorted(strokes.iter().map(|stroke| time(&stroke.frames[frame])))[ROUNDS / 2];
+        let times = sorted((0..FRAMES).map(of_frame));
+        let at = |share: f64| 1e3 * times[(share * FRAMES as f64).ceil() as usize - 1].as_secs_f64();
+        eprintln!("  {part:6} {:7.2} ms {:7.2} ms {:7.2} ms", at(0.5), at(0.99), at(1.0));
+    };
+    row("stamp", |frame| frame.stamp);
+    row("update", |frame| frame.update);
+    row("upload", |frame| frame.upload);
+    row("whole", |frame| frame.stamp + frame.update + frame.upload);
+}
+
+fn sorted(times: impl Iterator<Item = Duration>) -> Vec<Duration> {
+    let mut times: Vec<_> = times.collect();
+    times.sort();
+    times
+}
+
+fn main() {
+    let mut document = document();
+    let follower = Follower::new(&mut document).expect("it has a mesh");
+    let mut bench = Bench { document, follower, screen: screen::Screen::open() };
+    bench.frame(std::iter::empty(), FRAME_BUDGET);
+    eprintln!("A mesh of {} triangles", bench.follower.mesh().triangles().len());
+    for (name, budget) in [("whole work", Duration::MAX / 4), ("in the window", FRAME_BUDGET)] {
+        let (mut painted, mut erased) = (Vec::new(), Vec::new());
+        for _ in 0..ROUNDS {
+            painted.push(bench.stroke(BRUSH, budget));
+            erased.push(bench.stroke(ERASER, budget));
+            bench.undo();
+            bench.undo();
+        }
+        report(&format!("{name}, paint"), &painted);
+        report(&format!("{name}, erase"), &erased);
+    }
+}
+
+#[cfg(feature = "gui")]
+mod screen {
+    use super::{Follower, MeshChange};
+    use meshbrush::render::gpu::Offscreen;
+
+    /// The mesh on the GPU.
+    pub struct Screen(Option<Offscreen>);
+
+    impl Screen {
+        pub fn open() -> Self {
+            let offscreen = Offscreen::new();
+            match &offscreen {
+                Ok(offscreen) => eprintln!("Adapter: {}", offscreen.adapter()),
+                Err(e) => eprintln!("Upload is not measured. {e}"),
+            }
+            Self(offscreen.ok())
+        }
+
+        /// As the window does it.
+        pub fn show(&mut self, follower: &Follower, change: &MeshChange) {
+            let Some(offscreen) = &mut self.0 else { return };
+            let (mesh, revision) = (follower.mesh(), follower.revision());
+            let (device, queue) = (offscreen.device().clone(), offscreen.queue().clone());
+            let mirror = offscreen.renderer().mirror_mut();
+            match change {
+                MeshChange::Replaced => mirror.upload(&device, &queue, mesh, revision),
+                MeshChange::Within(changes) => {
+                    let (nodes, triangles) = (&changes.nodes, &changes.triangles);
+                    mirror.write_ranges(&device, &queue, mesh, revision, nodes, triangles)
+                }
+            }
+            .expect("there is room");
+            queue.submit([]);
+        }
+
+        pub fn wait(&self) {
+            if let Some(offscreen) = &self.0 {
+                offscreen.device().poll(wgpu::PollType::wait_indefinitely()).expect("the device is there");
+            }
+        }
+    }
+}
+
+#[cfg(not(feature = "gui"))]
+mod screen {
+    use super::{Follower, MeshChange};
+
+    /// No window, no GPU.
+    pub struct Screen;
+
+    impl Screen {
+        pub fn open() -> Self {
+            Self
+        }
+
+        pub fn show(&mut self, _: &Follower, _: &MeshChange) {}
+
+        pub fn wait(&self) {}
+    }
+}
