@@ -253,8 +253,13 @@ impl Follower {
         if let Some(area) = self.unread.pop() {
             let (now, later) = area.split_after(visits);
             self.unread.extend(later);
-            self.field.update(document.layers().as_paint(), now);
-            self.note_repainted(now);
+            let changed = self.field.update(document.layers().as_paint(), now);
+            match self.settings.rule {
+                Rule::Area => {
+                    changed.iter().for_each(|&area| self.updater.add(self.field.lattice_rect(area)))
+                }
+                Rule::Vertex => self.lost_step = true,
+            }
             return Ok(());
         }
         if self.updater.is_done() {
@@ -317,14 +322,6 @@ impl Follower {
         self.replaced = true;
         self.changes = None;
         (self.lost_step, self.refill) = (false, false);
-    }
-
-    /// The field has changed within `area`; the mesh is to follow.
-    fn note_repainted(&mut self, area: PixelRect) {
-        match self.settings.rule {
-            Rule::Area => self.updater.add(self.field.lattice_rect(area)),
-            Rule::Vertex => self.lost_step = true,
-        }
     }
 
     /// Whether the shown field is made from the same things as `wanted` asks for.

@@ -54,6 +54,8 @@ pub struct TargetField {
 
 /// The level written where no level up to 63 is fine enough. The refinement then ends at the lattice, with an error.
 const BEYOND: u8 = u8::MAX;
+/// Pixels along a side of the squares in which changed levels are told: smaller ones fit better, larger ones are fewer.
+const BLOCK: u32 = 16;
 
 impl TargetField {
     /// A field over the bounds of `lattice`, yet to be filled. Until then it asks for nothing.
@@ -121,23 +123,44 @@ impl TargetField {
     }
 
     /// Takes over what changed in the painted layers within `area`. Rows not yet filled are left to [`Self::fill`].
-    pub fn update(&mut self, paint: Paint, area: PixelRect) {
-        self.refresh(Some(paint), area);
+    ///
+    /// Returns small rectangles that hold all pixels that now ask for another level: only triangles that touch them may get
+    /// another answer by the area rule. The next dab of a stroke covers the last one but for a crescent, and paint over what is
+    /// fine already changes no level at all.
+    pub fn update(&mut self, paint: Paint, area: PixelRect) -> Vec<PixelRect> {
+        self.refresh(Some(paint), area)
     }
 
-    fn refresh(&mut self, paint: Option<Paint>, area: PixelRect) {
+    fn refresh(&mut self, paint: Option<Paint>, area: PixelRect) -> Vec<PixelRect> {
         let area = PixelRect { min: area.min, max: [area.max[0], area.max[1].min(self.filled_rows)] };
-        if area.is_empty() {
-            return;
+        let columns = (area.min[0]..area.max[0]).step_by(BLOCK as usize);
+        let rows = (area.min[1]..area.max[1]).step_by(BLOCK as usize);
+        let mut changed = Vec::new();
+        for min @ [x, y] in rows.flat_map(|y| columns.clone().map(move |x| [x, y])) {
+            let max = [area.max[0].min(x + BLOCK), area.max[1].min(y + BLOCK)];
+            changed.push(self.refresh_block(paint, PixelRect { min, max }));
         }
-        let mut levels = std::mem::replace(&mut self.levels, Pyramid::filled([1, 1], 0));
-        levels.update(area, |x, y| {
+        changed.retain(|block| !block.is_empty());
+        changed
+    }
+
+    /// Refreshes at most [`BLOCK`] × [`BLOCK`] pixels, and returns the bounds of those that ask for another level.
+    fn refresh_block(&mut self, paint: Option<Paint>, block: PixelRect) -> PixelRect {
+        let mut levels = [0; (BLOCK * BLOCK) as usize];
+        let place = |x: u32, y: u32| ((y - block.min[1]) * BLOCK + x - block.min[0]) as usize;
+        let mut changed = PixelRect { min: [0, 0], max: [0, 0] };
+        for (x, y) in block.pixels() {
             let painted = paint.map_or([0.0, f32::INFINITY], |p| [p.risk.get(x, y), p.diameter.get(x, y)]);
             let diameter = self.diameter_with(x, y, painted);
             self.target.set(x, y, diameter as f32);
-            self.level_for(diameter)
-        });
-        self.levels = levels;
+            let level = self.level_for(diameter);
+            levels[place(x, y)] = level;
+            if level != self.levels.get(x, y) {
+                changed = changed.union(&PixelRect { min: [x, y], max: [x + 1, y + 1] });
+            }
+        }
+        self.levels.update(changed, |x, y| levels[place(x, y)]);
+        changed
     }
 
     /// h̄ of a pixel, with so much risk and so small a diameter painted on it.
@@ -205,4 +228,52 @@ impl TargetField {
 pub fn f32_not_below(value: f64) -> f32 {
     let rounded = value as f32;
     if f64::from(rounded) < value { rounded.next_up() } else { rounded }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Rect;
+
+    #[test]
+    fn only_pixels_that_ask_for_another_level_are_told() {
+        let (bounds, size) = (Rect::UNIT, [70, 50]);
+        let lattice = Lattice::covering(bounds, 0.25, 1000).unwrap();
+        let transfer = Transfer { h_min: 0.01, h_max: 0.2, shape: 1.0 };
+        let spec = TargetFieldSpec { sources: vec![Source::Constant(0.05)], transfer, size };
+        let mut field = TargetField::new(spec.clone(), &lattice);
+        let (mut risk, mut diameter) =
+            (Raster::filled(bounds, size, 0.0), Raster::filled(bounds, size, f32::INFINITY));
+        while field.fill(Paint { risk: &risk, diameter: &diameter }, 100).unwrap() == Progress::More {}
+        let mut random = fastrand::Rng::with_seed(14);
+        let mut told = 0;
+        for _ in 0..300 {
+            let min = [random.u32(..70), random.u32(..50)];
+            let max = [random.u32(min[0]..70) + 1, random.u32(min[1]..50) + 1];
+            let area = PixelRect { min, max };
+            // Most of it changes no level: it is coarser than the base, or as it was.
+            for _ in 0..4 {
+                let (x, y) = (random.u32(min[0]..max[0]), random.u32(min[1]..max[1]));
+                risk.set(x, y, random.f32());
+                diameter.set(x, y, 0.3 * random.f32());
+            }
+            let before = field.levels().clone();
+            let changed = field.update(Paint { risk: &risk, diameter: &diameter }, area);
+            let within = |x, y| {
+                changed.iter().any(|r| (r.min[0]..r.max[0]).contains(&x) && (r.min[1]..r.max[1]).contains(&y))
+            };
+            for (x, y) in risk.all().pixels() {
+                assert!(before.get(x, y) == field.levels().get(x, y) || within(x, y), "{x}, {y}");
+            }
+            let mut anew = TargetField::new(spec.clone(), &lattice);
+            anew.fill(Paint { risk: &risk, diameter: &diameter }, usize::MAX).unwrap();
+            assert!(risk.all().pixels().all(|(x, y)| anew.levels().get(x, y) == field.levels().get(x, y)));
+            for rect in &changed {
+                assert!(rect.pixels().any(|(x, y)| before.get(x, y) != field.levels().get(x, y)), "{rect:?}");
+            }
+            assert_eq!(field.update(Paint { risk: &risk, diameter: &diameter }, area), []);
+            told += changed.len();
+        }
+        assert!(told > 300, "{told}");
+    }
 }
