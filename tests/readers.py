@@ -1,0 +1,234 @@
+"""Every export, read back by a reader that is not ours: the same nodes, triangles and levels, and the same area.
+
+Called by tests/run with the program to test: readers.py PROGRAM. Needs numpy, meshio, svg.path and pypng (from Debian), and py2dm and
+triangle (from PyPI).
+"""
+
+import csv
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+from xml.etree import ElementTree
+
+import meshio
+import numpy as np
+import png
+import py2dm
+import svg.path
+import triangle.data
+
+ENDINGS = ["vtu", "msh", "obj", "stl", "node", "2dm", "csv", "svg", "png"]
+TARGET = "0.02 + 0.1*hypot(x - 0.3, y - 0.2)"
+CASES = {
+    "a square": ["--spacing", "0.1"],
+    "cells that are not square": ["--domain", "-3.25,0,4.5,3.3", "--spacing", "1.1"],
+    "a ring": ["--domain", "-1,-1,1,1", "--spacing", "0.1", "--inside", "r < 0.95 and r > 0.35"],
+}
+PICTURE = [640, 400]
+
+
+class Found:
+    """A mesh as a reader hands it over. Levels and boundary edges are None where the format or its reader has none."""
+
+    def __init__(self, nodes, triangles, levels=None, boundary=None, exact=True):
+        self.nodes = np.asarray(nodes, dtype=float)
+        self.triangles = np.asarray(triangles, dtype=int)
+        self.levels = levels if levels is None else np.asarray(levels, dtype=int)
+        self.boundary = boundary if boundary is None else edge_set(boundary)
+        self.tolerance = 1e-12 if exact else 1e-5
+
+    def area(self):
+        a, b, c = (self.nodes[self.triangles[:, corner], :2] for corner in range(3))
+        (bx, by), (cx, cy) = (b - a).T, (c - a).T
+        doubled = bx * cy - by * cx
+        assert (doubled > 0).all(), "a triangle does not run anticlockwise"
+        return doubled.sum() / 2
+
+    def edges(self):
+        """Each edge once, and how many triangles have it."""
+        edges = np.concatenate([self.triangles[:, [0, 1]], self.triangles[:, [1, 2]], self.triangles[:, [2, 0]]])
+        return np.unique(np.sort(edges), axis=0, return_counts=True)
+
+    def boundary_of_triangles(self):
+        distinct, uses = self.edges()
+        return edge_set(distinct[uses == 1])
+
+
+def edge_set(edges):
+    return {tuple(sorted(map(int, edge))) for edge in edges}
+
+
+def read_vtu(path):
+    mesh = meshio.read(path)
+    found = Found(mesh.points, mesh.cells_dict["triangle"], mesh.cell_data_dict["level"]["triangle"])
+    marked = set(np.flatnonzero(mesh.point_data["boundary"]))
+    assert marked == {node for edge in found.boundary_of_triangles() for node in edge}, "marks of the boundary"
+    assert (mesh.point_data["target_diameter"] > 0).all()
+    assert_quantity(found, mesh.point_data["quantity"])
+    return found
+
+
+def read_msh(path):
+    mesh = meshio.read(path)
+    assert sorted(mesh.field_data) == ["boundary", "domain"]
+    for kind, group in [("line", "boundary"), ("triangle", "domain")]:
+        assert (mesh.cell_data_dict["gmsh:physical"][kind] == mesh.field_data[group][0]).all(), group
+    cells, levels = mesh.cells_dict, mesh.cell_data_dict["level"]["triangle"]
+    found = Found(mesh.points, cells["triangle"], levels, cells["line"])
+    assert_quantity(found, mesh.point_data["quantity"])
+    return found
+
+
+def read_obj(path):
+    mesh = meshio.read(path)
+    # A block for each group. meshio drops their names: they come from the file.
+    groups = [line.split("_")[1] for line in path.read_text().splitlines() if line.startswith("g level_")]
+    levels = [int(level) for level, block in zip(groups, mesh.cells, strict=True) for _ in block.data]
+    return Found(mesh.points, np.concatenate([block.data for block in mesh.cells]), levels)
+
+
+def read_stl(path):
+    mesh = meshio.read(path)
+    return Found(mesh.points, mesh.cells_dict["triangle"], exact=False)
+
+
+def read_triangle(path):
+    parts = {ending: path.with_suffix("." + ending).read_text() for ending in ["node", "ele", "neigh", "edge"]}
+    # That reader takes only Voronoi's edges from an .edge file; the segments of a .poly file are written the same.
+    data = triangle.data.loads(poly="0 2 0 1\n" + parts.pop("edge") + "0\n", **parts)
+    edges = data["segments"][data["segment_markers"].ravel() == 1]
+    found = Found(data["vertices"], data["triangles"], data["triangle_attributes"].ravel(), edges)
+    assert set(np.flatnonzero(data["vertex_markers"])) == set(edges.ravel()), "marks of the boundary"
+    assert_quantity(found, data["vertex_attributes"][:, 1])
+    assert edge_set(data["segments"]) == edge_set(found.edges()[0]), "all edges"
+    assert (data["triangle_neighbors"] == -1).sum() == len(edges), "triangles across the edges"
+    return found
+
+
+def read_2dm(path):
+    with py2dm.Reader(str(path)) as mesh:
+        nodes = [node.pos for node in mesh.iter_nodes()]
+        triangles = [[node - 1 for node in element.nodes] for element in mesh.iter_elements()]
+        strings = [[node - 1 for node in string.nodes] for string in mesh.iter_node_strings()]
+    assert all(string[0] == string[-1] for string in strings), "nodestrings are closed"
+    found = Found(nodes, triangles, boundary=[edge for string in strings for edge in zip(string, string[1:])])
+    assert_quantity(found, found.nodes[:, 2])
+    return found
+
+
+def read_csv(path):
+    rows = list(csv.DictReader(path.open()))
+    corners = [[int(row[f"v{corner}"]) for corner in (1, 2, 3)] for row in rows]
+    nodes = np.full((1 + max(max(row) for row in corners), 2), np.nan)
+    for row, ids in zip(rows, corners):
+        for corner, node in enumerate(ids, start=1):
+            nodes[node] = float(row[f"x{corner}"]), float(row[f"y{corner}"])
+    across = [(0, 1), (1, 2), (2, 0)]
+    boundary = [
+        (ids[a], ids[b]) for row, ids in zip(rows, corners) for n, (a, b) in enumerate(across, start=1) if not row[f"n{n}"]
+    ]
+    return Found(nodes, corners, [row["level"] for row in rows], boundary)
+
+
+def read_svg(path, size):
+    root = ElementTree.parse(path).getroot()
+    *_, width, height = map(float, root.get("viewBox").split())
+    scale = np.array(size) / [width, height]
+    places, triangles, levels = {}, [], []
+    for element in root.iter("{http://www.w3.org/2000/svg}path"):
+        if not (element.get("id") or "").startswith("level-"):
+            continue
+        corners = [part.start for part in svg.path.parse_path(element.get("d")) if not isinstance(part, svg.path.Move)]
+        assert len(corners) % 3 == 0
+        for first in range(0, len(corners), 3):
+            a, b, c = corners[first : first + 3]
+            # The page's y grows downwards, and a path may run either way.
+            if ((b - a).conjugate() * (c - a)).imag > 0:
+                b, c = c, b
+            triangles.append([places.setdefault(corner, len(places)) for corner in (a, b, c)])
+            levels.append(element.get("id").removeprefix("level-"))
+    nodes = [[corner.real * scale[0], (height - corner.imag) * scale[1]] for corner in places]
+    return Found(nodes, triangles, levels)
+
+
+def read_png(path):
+    width, height, rows, info = png.Reader(filename=str(path)).read()
+    pixels = np.array([list(row) for row in rows]).reshape(height, width, info["planes"])
+    assert [width, height] == PICTURE
+    assert len(np.unique(pixels.reshape(-1, info["planes"]), axis=0)) > 4, "a picture of one colour"
+
+
+def assert_quantity(found, values):
+    assert np.allclose(values, found.nodes[:, 0] * found.nodes[:, 1], rtol=1e-12, atol=1e-300), "the quantity x*y"
+
+
+def sizes(options):
+    """Width and height of the domain."""
+    if "--domain" not in options:
+        return [1.0, 1.0]
+    x0, y0, x1, y1 = map(float, options[options.index("--domain") + 1].split(","))
+    return [x1 - x0, y1 - y0]
+
+
+def expected_area(summary, options):
+    width, height = sizes(options)
+    if "--inside" not in options:
+        return width * height
+    # Half a cell of the grid, halved at each level.
+    coarse = summary["spacing"] ** 2 / 2
+    return sum(count * coarse / 2**level for level, count in enumerate(summary["levels"]))
+
+
+def check(found, summary, area):
+    assert len(found.nodes) == summary["nodes"], f"{len(found.nodes)} nodes"
+    assert len(np.unique(found.triangles)) == summary["nodes"], "a node belongs to no triangle"
+    assert len(found.triangles) == summary["triangles"], f"{len(found.triangles)} triangles"
+    if found.levels is not None:
+        counts = np.bincount(found.levels).tolist()
+        assert counts == summary["levels"], f"levels {counts}"
+    if found.boundary is not None:
+        assert found.boundary == found.boundary_of_triangles(), "edges of the boundary"
+    assert abs(found.area() / area - 1) < found.tolerance, f"area {found.area()} and not {area}"
+
+
+def check_case(program, folder, options):
+    outputs = [word for ending in ENDINGS for word in ("-o", str(folder / f"m.{ending}"))]
+    picture = ["--size", "x".join(map(str, PICTURE))]
+    command = [program, "mesh", "--json", "--target", TARGET, "--quantity", "x*y", *options, *outputs, *picture]
+    ran = subprocess.run(command, check=True, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
+    summary = json.loads(ran.stdout)
+    area = expected_area(summary, options)
+    readers = {
+        "vtu": read_vtu,
+        "msh": read_msh,
+        "obj": read_obj,
+        "stl": read_stl,
+        "node": read_triangle,
+        "2dm": read_2dm,
+        "csv": read_csv,
+        "svg": lambda path: read_svg(path, sizes(options)),
+    }
+    failures = []
+    for ending, read in readers.items():
+        try:
+            check(read(folder / f"m.{ending}"), summary, area)
+        except Exception as error:  # whatever a reader cannot take is a failure of that format
+            failures.append(f".{ending}: {type(error).__name__}: {error}")
+    read_png(folder / "m.png")
+    return summary, failures
+
+
+def main():
+    broken = False
+    for name, options in CASES.items():
+        with tempfile.TemporaryDirectory() as folder:
+            summary, failures = check_case(sys.argv[1], pathlib.Path(folder), options)
+        print(f"{name}: {summary['triangles']} triangles, {', '.join(ENDINGS)}: {'; '.join(failures) or 'read back'}")
+        broken |= bool(failures)
+    sys.exit(1 if broken else 0)
+
+
+if __name__ == "__main__":
+    main()
