@@ -792,7 +792,7 @@ fn the_outline_is_met_in_two_ways_and_the_panel_says_what_that_costs() {
     key(&mut window, Modifiers::NONE, Key::D);
     let fitted = window.state().session().mesh().triangle_count();
     assert!(
-        value_of(&window, Role::Definition, "Holes").ends_with("of 65"),
+        value_of(&window, Role::Definition, "Holes").ends_with("outline 65"),
         "{}",
         value_of(&window, Role::Definition, "Holes")
     );

@@ -79,7 +79,7 @@ pub fn paint_brush_ring(painter: &Painter, at: Pos2, tools: &Tools, points_per_w
     painter.circle_stroke(at, radius, Stroke::new(3.5, halo));
     painter.circle_stroke(at, radius, Stroke::new(1.5, Color32::WHITE));
     let core = radius * tools.hardness as f32;
-    if core > 3.0 && radius - core > 3.0 {
+    if tools.paints() && core > 3.0 && radius - core > 3.0 {
         painter.circle_stroke(at, core, Stroke::new(2.0, Color32::from_black_alpha(70)));
         painter.circle_stroke(at, core, Stroke::new(1.0, Color32::from_white_alpha(120)));
     }

@@ -88,7 +88,7 @@ impl App {
     fn fitted_ui(&mut self, ui: &mut Ui, diameter: f64) {
         let mut diameter = diameter;
         let extent = self.session.document().settings().domain.bounds.size().max_element();
-        let row = SliderRow::new("At the outline", &mut diameter, 1e-4 * extent..=0.1 * extent).logarithmic();
+        let row = SliderRow::new("At outline", &mut diameter, 1e-4 * extent..=0.1 * extent).logarithmic();
         let help = "Largest diameter of a triangle that the outline passes through. Then what has its middle outside is left out.";
         let response = row.help(help).show(ui);
         if response.changed() {
@@ -107,12 +107,12 @@ impl App {
         let count = |n: usize| format::count(n as u64);
         match self.session.topology() {
             Some(topology) => {
-                value_row(ui, "Parts", &format!("{} of {}", count(topology.parts), count(polygons)));
-                value_row(ui, "Holes", &format!("{} of {}", count(topology.holes), count(holes)));
+                value_row(ui, "Parts", &format!("{}, outline {}", count(topology.parts), count(polygons)));
+                value_row(ui, "Holes", &format!("{}, outline {}", count(topology.holes), count(holes)));
             }
             None => {
-                value_row(ui, "Parts", &format!("of {}", count(polygons)));
-                value_row(ui, "Holes", &format!("of {}", count(holes)));
+                value_row(ui, "Parts", &format!("…, outline {}", count(polygons)));
+                value_row(ui, "Holes", &format!("…, outline {}", count(holes)));
             }
         }
         value_row(ui, "Corners", &count(region.corner_count()));
