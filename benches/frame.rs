@@ -190,17 +190,13 @@ mod screen {
         pub fn show(&mut self, follower: &Follower, change: &MeshChange) {
             let Some(offscreen) = &mut self.0 else { return };
             let (mesh, revision) = (follower.mesh(), follower.revision());
-            let (device, queue) = (offscreen.device().clone(), offscreen.queue().clone());
             let mirror = offscreen.renderer().mirror_mut();
             match change {
-                MeshChange::Replaced => mirror.upload(&device, &queue, mesh, revision),
-                MeshChange::Within(changes) => {
-                    let (nodes, triangles) = (&changes.nodes, &changes.triangles);
-                    mirror.write_ranges(&device, &queue, mesh, revision, nodes, triangles)
-                }
+                MeshChange::Replaced => mirror.upload(mesh, revision),
+                MeshChange::Within(changes) => mirror.write_ranges(mesh, revision, changes),
             }
             .expect("there is room");
-            queue.submit([]);
+            offscreen.queue().submit([]);
         }
 
         pub fn wait(&self) {

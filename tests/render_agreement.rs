@@ -5,8 +5,8 @@
 #![cfg(feature = "gui")]
 
 use glam::{DVec2, dvec2};
-use meshbrush::geometry::{LatticePoint, Rect};
-use meshbrush::mesh::{Limits, Mesh, Progress};
+use meshbrush::geometry::{LatticePoint, LatticeRect, Rect};
+use meshbrush::mesh::{Changes, Element, Limits, Mesh, Progress, Updater};
 use meshbrush::render::gpu::{ChunkLimits, GpuError, Offscreen};
 use meshbrush::render::{Image, software};
 use meshbrush::scene::{Camera, LEVELS, LevelColors, Overlay, Style};
@@ -244,13 +244,11 @@ fn a_mesh_in_many_chunks_looks_the_same() {
     let coarse = Mesh::coarse_grid(Rect::UNIT, 0.05, |_| true, &Limits::default()).unwrap();
     small.show(&coarse, 3).unwrap();
     let former = small.picture(&camera, &style).unwrap();
-    let (device, queue) = (small.device().clone(), small.queue().clone());
     let mirror = small.renderer().mirror_mut();
-    let everything = std::iter::once(0..mesh.triangles().len()).collect::<Vec<_>>();
-    assert!(mirror.write_ranges(&device, &queue, &mesh, 4, &everything, &everything).is_err());
+    assert!(mirror.write_ranges(&mesh, 4, &differences(&coarse, &mesh)).is_err());
     assert_eq!(mirror.shown(), None);
     assert_eq!(small.picture(&camera, &style).unwrap(), former);
-    small.renderer().mirror_mut().write_ranges(&device, &queue, &coarse, 5, &[], &[]).unwrap();
+    small.renderer().mirror_mut().write_ranges(&coarse, 5, &Changes::default()).unwrap();
     assert_eq!(small.renderer().mirror().shown(), Some(5));
     assert_eq!(small.picture(&camera, &style).unwrap(), former);
 }
@@ -263,10 +261,9 @@ fn the_former_mesh_stays_until_the_next_is_whole() {
     let (camera, style) = (whole(&before), Style::dark(colors()));
     gpu.show(&before, 1).unwrap();
     let first = gpu.picture(&camera, &style).unwrap();
-    let (device, queue) = (gpu.device().clone(), gpu.queue().clone());
-    gpu.renderer().mirror_mut().begin(&device, &queue, &after, 2).unwrap();
+    gpu.renderer().mirror_mut().begin(&after, 2).unwrap();
     let mut slices = 0;
-    while gpu.renderer().mirror_mut().upload_some(&queue, &after, 100_000) == Progress::More {
+    while gpu.renderer().mirror_mut().upload_some(&after, 100_000) == Progress::More {
         slices += 1;
         assert_eq!(gpu.renderer().mirror().shown(), Some(1));
         assert_eq!(gpu.renderer().mirror().uploading(), Some(2));
@@ -282,7 +279,6 @@ fn the_former_mesh_stays_until_the_next_is_whole() {
 fn changed_ranges_bring_the_mesh_up_to_date() {
     let Some(gpu) = gpu() else { return };
     let mut gpu = gpu.with_chunks(ChunkLimits { triangles: 900, node_bits: 14 }).unwrap();
-    let (device, queue) = (gpu.device().clone(), gpu.queue().clone());
     let mut mesh = Mesh::coarse_grid(Rect::UNIT, 0.05, |_| true, &Limits::default()).unwrap();
     let (camera, style) = (whole(&mesh), Style::dark(colors()));
     for step in 0..12u64 {
@@ -297,18 +293,79 @@ fn changed_ranges_bring_the_mesh_up_to_date() {
         if step == 11 {
             mesh = Mesh::coarse_grid(Rect::UNIT, 0.05, |_| true, &Limits::default()).unwrap();
         }
-        let nodes = changed(before.nodes(), mesh.nodes());
-        let triangles = changed(before.triangles(), mesh.triangles());
         let mirror = gpu.renderer().mirror_mut();
-        mirror.write_ranges(&device, &queue, &mesh, step, &nodes, &triangles).unwrap();
+        mirror.write_ranges(&mesh, step, &differences(&before, &mesh)).unwrap();
         assert_eq!(mirror.shown(), Some(step));
         let picture = gpu.picture(&camera, &style).unwrap();
         assert_agree(&format!("ranges-{step}"), &picture, &software::draw(&mesh, &camera, &style, None, &[]));
     }
 }
 
+fn differences(before: &Mesh, after: &Mesh) -> Changes {
+    Changes {
+        nodes: changed(before.nodes(), after.nodes()),
+        triangles: changed(before.triangles(), after.triangles()),
+    }
+}
+
 fn changed<T: PartialEq>(before: &[T], after: &[T]) -> Vec<std::ops::Range<usize>> {
     (0..after.len()).filter(|&i| before.get(i) != Some(&after[i])).map(|i| i..i + 1).collect()
+}
+
+/// Level 13 wherever a triangle touches one of the squares, level 7 elsewhere.
+fn exceeds(element: &Element, squares: &[LatticeRect]) -> bool {
+    let fine = squares.iter().any(|square| square.touches(element.corners));
+    element.triangle.level() < if fine { 13 } else { 7 }
+}
+
+#[test]
+fn edits_during_an_upload_do_not_hold_it_up_and_get_there() {
+    let Some(gpu) = gpu() else { return };
+    // Nodes in several buffers, triangles in one, which is exchanged for a larger one on the way.
+    let mut gpu = gpu.with_chunks(ChunkLimits { triangles: 1 << 20, node_bits: 14 }).unwrap();
+    let mut mesh = Mesh::coarse_grid(Rect::UNIT, 0.2, |_| true, &Limits::default()).unwrap();
+    let coarse = mesh.clone();
+    let square = |x, y, half| coarse.lattice().rect_round(&Rect::around(dvec2(x, y), half)).unwrap();
+    let [first, second, third] = [(0.3, 0.3), (0.7, 0.6), (0.3, 0.75)].map(|(x, y)| square(x, y, 0.12));
+    let mut squares = vec![first, second];
+    mesh.refine(&Limits::default(), |element| Ok(exceeds(element, &squares))).unwrap();
+    let mut updater = Updater::new(Limits::default());
+    gpu.show(&coarse, 0).unwrap();
+    gpu.renderer().mirror_mut().begin(&mesh, 1).unwrap();
+    let whole_bytes = size_of_val(mesh.triangles()) + size_of_val(mesh.nodes());
+    let (mut revision, mut lengths) = (1, vec![]);
+    while gpu.renderer().mirror_mut().upload_some(&mesh, whole_bytes / 16) == Progress::More {
+        assert!(revision < 60, "edits hold the upload up: {lengths:?}");
+        // Small edits, one that outgrows the buffers, one that takes away more than is left to send, and one after that.
+        let small =
+            square(0.1 + 0.1 * (revision / 2 % 8) as f64, 0.2 + 0.1 * (revision / 2 % 7) as f64, 0.03);
+        let edited = match revision {
+            8 => third,
+            20 => second,
+            21 => square(0.7, 0.6, 0.1),
+            _ => small,
+        };
+        match squares.iter().position(|square| *square == edited) {
+            Some(place) => _ = squares.remove(place),
+            None => squares.push(edited),
+        }
+        revision += 1;
+        updater.add(edited);
+        while updater.run(&mut mesh, |e| Ok(exceeds(e, &squares)), usize::MAX) != Ok(Progress::Done) {}
+        let Some(changes) = updater.take_changes() else { continue };
+        gpu.renderer().mirror_mut().write_ranges(&mesh, revision, &changes).unwrap();
+        assert_eq!(gpu.renderer().mirror().uploading(), Some(revision));
+        assert_eq!(gpu.renderer().mirror().shown(), Some(0));
+        lengths.push(mesh.triangles().len());
+    }
+    assert_eq!(gpu.renderer().mirror().shown(), Some(revision));
+    assert!(lengths.len() > 10 && !lengths.is_sorted(), "{lengths:?}");
+    let style = Style::dark(colors());
+    let cameras = [1.0, 4.0, 15.0].map(|zoom| whole(&mesh).zoomed(zoom, dvec2(170.0, 120.0)));
+    let patched = cameras.map(|camera| gpu.picture(&camera, &style).unwrap());
+    gpu.show(&mesh, revision + 1).unwrap();
+    let sent_whole = cameras.map(|camera| gpu.picture(&camera, &style).unwrap());
+    assert!(patched == sent_whole, "the mesh that was patched is not the one that was sent whole");
 }
 
 #[test]

@@ -8,7 +8,7 @@ use eframe::wgpu;
 
 use crate::document::{Follower, MeshChange};
 use crate::mesh::Progress;
-use crate::render::gpu::{GpuError, GpuRenderer, emulates_gpu};
+use crate::render::gpu::{GpuError, GpuRenderer, MeshMirror, emulates_gpu};
 use crate::scene::{Camera, Overlay, Style};
 
 /// Bytes of a mesh that travel to the GPU in one frame: about 2 ms.
@@ -29,6 +29,11 @@ pub struct CanvasGpu {
     state: RenderState,
     /// The driver only emulates a GPU: drawing in software and showing the picture is several times as fast.
     in_software: bool,
+    sending: Sending,
+}
+
+/// What of the follower's mesh the GPU still lacks.
+struct Sending {
     /// The mesh on the screen is another one than the follower's: all of it is to be sent.
     behind: bool,
     /// The revision that could not be taken in: not tried again.
@@ -41,14 +46,15 @@ impl CanvasGpu {
     /// # Errors
     /// When it cannot draw a mesh at all.
     pub fn new(state: &RenderState) -> Result<Self, GpuError> {
-        let renderer = GpuRenderer::new(&state.device, state.target_format)?;
+        let renderer = GpuRenderer::new(&state.device, &state.queue, state.target_format)?;
         state.renderer.write().callback_resources.insert(CanvasResources { renderer, failed: None });
         let in_software = match std::env::var(DRAW_VARIABLE).as_deref() {
             Ok("software") => true,
             Ok("gpu") => false,
             _ => emulates_gpu(&state.adapter),
         };
-        Ok(Self { state: state.clone(), in_software, behind: true, refused: None })
+        let sending = Sending { behind: true, refused: None };
+        Ok(Self { state: state.clone(), in_software, sending })
     }
 
     /// Draws in software from now on, whatever the driver.
@@ -73,6 +79,11 @@ impl CanvasGpu {
         let Some(CanvasResources { renderer, failed }) = renderer.callback_resources.get_mut() else {
             return Ok(Progress::Done);
         };
+        // Before anything can fail: a change is told once.
+        let sent = match self.in_software {
+            true => Ok(Progress::Done),
+            false => self.sending.send(renderer.mirror_mut(), follower, change),
+        };
         if let Some(failure) = failed.take() {
             return Err(failure);
         }
@@ -81,26 +92,8 @@ impl CanvasGpu {
         if self.in_software {
             let (mesh, revision) = (follower.mesh(), follower.revision());
             renderer.prepare_in_software(device, queue, mesh, revision, camera, style)?;
-            return Ok(Progress::Done);
         }
-        let revision = follower.revision();
-        match change {
-            Some(MeshChange::Within(changes)) if !self.behind => {
-                let (nodes, triangles) = (&changes.nodes, &changes.triangles);
-                let mirror = renderer.mirror_mut();
-                // After a failure the next mesh travels whole.
-                mirror.write_ranges(device, queue, follower.mesh(), revision, nodes, triangles)?;
-            }
-            Some(_) => self.behind = true,
-            None => {}
-        }
-        if !self.behind || self.refused == Some(revision) {
-            return Ok(Progress::Done);
-        }
-        let progress = upload(renderer, &self.state, follower);
-        self.refused = progress.is_err().then_some(revision);
-        self.behind = progress != Ok(Progress::Done);
-        progress
+        sent
     }
 
     /// The shape that draws the mesh on the canvas.
@@ -110,17 +103,45 @@ impl CanvasGpu {
     }
 }
 
-/// Sends the next part of a mesh that the GPU does not have yet. A mesh that changed in the meantime is sent anew.
-fn upload(
-    renderer: &mut GpuRenderer,
-    state: &RenderState,
-    follower: &Follower,
-) -> Result<Progress, GpuError> {
-    let (mirror, revision) = (renderer.mirror_mut(), follower.revision());
-    if mirror.uploading() != Some(revision) {
-        mirror.begin(&state.device, &state.queue, follower.mesh(), revision)?;
+impl Sending {
+    /// Sends what changed, and the next part of a mesh that the GPU does not have yet.
+    fn send(
+        &mut self,
+        mirror: &mut MeshMirror,
+        follower: &Follower,
+        change: Option<MeshChange>,
+    ) -> Result<Progress, GpuError> {
+        let revision = follower.revision();
+        let sent = self.try_to_send(mirror, follower, change);
+        match sent {
+            Ok(progress) => self.behind &= progress == Progress::More || self.refused == Some(revision),
+            Err(_) => (self.behind, self.refused) = (true, Some(revision)),
+        }
+        sent
     }
-    Ok(mirror.upload_some(&state.queue, follower.mesh(), BYTES_PER_FRAME))
+
+    fn try_to_send(
+        &mut self,
+        mirror: &mut MeshMirror,
+        follower: &Follower,
+        change: Option<MeshChange>,
+    ) -> Result<Progress, GpuError> {
+        let (mesh, revision) = (follower.mesh(), follower.revision());
+        match change {
+            Some(MeshChange::Within(changes)) if !self.behind || mirror.uploading().is_some() => {
+                mirror.write_ranges(mesh, revision, &changes)?;
+            }
+            Some(_) => self.behind = true,
+            None => {}
+        }
+        if !self.behind || self.refused == Some(revision) {
+            return Ok(Progress::Done);
+        }
+        if mirror.uploading() != Some(revision) {
+            mirror.begin(mesh, revision)?;
+        }
+        Ok(mirror.upload_some(mesh, BYTES_PER_FRAME))
+    }
 }
 
 struct CanvasCallback {

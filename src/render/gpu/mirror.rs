@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::GpuError;
 use super::chunks::{ChunkLimits, ChunkedArray, new_buffer};
 use crate::geometry::{Lattice, LatticePoint};
-use crate::mesh::{Mesh, Progress, Triangle};
+use crate::mesh::{Changes, Mesh, Progress, Triangle};
 
 /// Node buffers that a shader reads at once.
 pub const NODE_BUFFERS: usize = 4;
@@ -15,8 +15,11 @@ const SMALL_GAP: usize = 32;
 /// A mesh on the GPU: the arrays of [`Mesh`] as they are, in one buffer or several.
 ///
 /// There are two copies. The *front* is drawn; the *back* takes in another mesh piece by piece, while the front stays on
-/// the screen, and changes places with it when it is whole. Small edits go to the front at once.
+/// the screen, and changes places with it when it is whole. Small edits go to the front at once; while the back takes in a mesh
+/// they are edits of that mesh, and go there.
 pub struct MeshMirror {
+    device: wgpu::Device,
+    queue: wgpu::Queue,
     limits: ChunkLimits,
     layout: wgpu::BindGroupLayout,
     unused_nodes: wgpu::Buffer,
@@ -35,7 +38,7 @@ struct MeshCopy {
     bind_groups: Vec<wgpu::BindGroup>,
 }
 
-/// How far the back has come.
+/// How far the back has come: the revision of the mesh, and how many of its first nodes and triangles are there.
 struct Upload {
     revision: u64,
     nodes: usize,
@@ -43,13 +46,19 @@ struct Upload {
 }
 
 impl MeshMirror {
-    pub(super) fn new(device: &wgpu::Device, limits: ChunkLimits) -> Result<Self, GpuError> {
+    pub(super) fn new(
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        limits: ChunkLimits,
+    ) -> Result<Self, GpuError> {
         let available = device.limits().max_storage_buffers_per_shader_stage;
         let needed = 1 + NODE_BUFFERS as u32;
         if available < needed {
             return Err(GpuError::TooFewStorageBuffers { available, needed });
         }
         Ok(Self {
+            device: device.clone(),
+            queue: queue.clone(),
             limits,
             layout: bind_group_layout(device),
             unused_nodes: new_buffer(device, "no nodes", size_of::<LatticePoint>() as u64)?,
@@ -65,34 +74,28 @@ impl MeshMirror {
     ///
     /// # Errors
     /// When the device cannot hold the mesh. The mesh on the screen stays.
-    pub fn begin(
-        &mut self,
-        device: &wgpu::Device,
-        queue: &wgpu::Queue,
-        mesh: &Mesh,
-        revision: u64,
-    ) -> Result<(), GpuError> {
+    pub fn begin(&mut self, mesh: &Mesh, revision: u64) -> Result<(), GpuError> {
         self.upload = None;
         self.check(mesh)?;
-        self.back.reserve(device, queue, mesh, Kept::NOTHING)?;
-        self.back.bind(device, &self.layout, &self.unused_nodes);
+        self.back.reserve(&self.device, &self.queue, mesh, [0, 0])?;
+        self.back.bind(&self.device, &self.layout, &self.unused_nodes);
         self.back.describe(mesh);
         self.upload = Some(Upload { revision, nodes: 0, triangles: 0 });
         Ok(())
     }
 
-    /// Takes in about `byte_budget` more bytes of the mesh that [`Self::begin`] was called with, which must not have
-    /// changed since. When the last byte is in, the mesh is shown from the next frame on.
-    pub fn upload_some(&mut self, queue: &wgpu::Queue, mesh: &Mesh, byte_budget: usize) -> Progress {
+    /// Takes in about `byte_budget` more bytes of the mesh that [`Self::begin`] was called with; where it has changed since,
+    /// [`Self::write_ranges`] was told. When the last byte is in, the mesh is shown from the next frame on.
+    pub fn upload_some(&mut self, mesh: &Mesh, byte_budget: usize) -> Progress {
         let Some(upload) = &mut self.upload else { return Progress::Done };
         debug_assert_eq!(
             self.back.triangle_count,
             mesh.triangles().len(),
-            "the mesh changed during its upload"
+            "the mesh changed during its upload, and its mirror was not told"
         );
-        let sent = send(queue, &self.back.nodes, mesh.nodes(), &mut upload.nodes, byte_budget);
+        let sent = send(&self.queue, &self.back.nodes, mesh.nodes(), &mut upload.nodes, byte_budget);
         let left = byte_budget.saturating_sub(sent);
-        send(queue, &self.back.triangles, mesh.triangles(), &mut upload.triangles, left);
+        send(&self.queue, &self.back.triangles, mesh.triangles(), &mut upload.triangles, left);
         if upload.nodes < mesh.nodes().len() || upload.triangles < mesh.triangles().len() {
             return Progress::More;
         }
@@ -107,50 +110,59 @@ impl MeshMirror {
     ///
     /// # Errors
     /// As [`Self::begin`].
-    pub fn upload(
-        &mut self,
-        device: &wgpu::Device,
-        queue: &wgpu::Queue,
-        mesh: &Mesh,
-        revision: u64,
-    ) -> Result<(), GpuError> {
-        self.begin(device, queue, mesh, revision)?;
-        self.upload_some(queue, mesh, usize::MAX);
+    pub fn upload(&mut self, mesh: &Mesh, revision: u64) -> Result<(), GpuError> {
+        self.begin(mesh, revision)?;
+        self.upload_some(mesh, usize::MAX);
         Ok(())
     }
 
-    /// Brings the mesh on the screen up to date where only these entries differ from it.
+    /// Takes over that only these entries of a mesh have changed: of the one that is being taken in, or else of the one on the
+    /// screen. Where there is neither, all of it travels.
     ///
-    /// Ranges count entries of the mesh as it is now, ascend, and cover all entries that are new; the mesh may have
-    /// become shorter. A mesh that was half taken in is dropped. Where no mesh is shown yet, all of it travels.
+    /// While a mesh is taken in, what is there of it is written again, and what is not comes in its turn.
     ///
     /// # Errors
-    /// When the device cannot hold the mesh. The former one stays on the screen, but [`Self::shown`] forgets it: the
-    /// next mesh travels as a whole.
-    pub fn write_ranges(
-        &mut self,
-        device: &wgpu::Device,
-        queue: &wgpu::Queue,
-        mesh: &Mesh,
-        revision: u64,
-        nodes: &[Range<usize>],
-        triangles: &[Range<usize>],
-    ) -> Result<(), GpuError> {
-        if self.shown.is_none() {
-            return self.upload(device, queue, mesh, revision);
+    /// When the device cannot hold the mesh. A mesh that was half taken in is dropped. The one on the screen stays, but if it
+    /// was the one that changed, [`Self::shown`] forgets it: the next mesh travels as a whole.
+    pub fn write_ranges(&mut self, mesh: &Mesh, revision: u64, changes: &Changes) -> Result<(), GpuError> {
+        if let Some(upload) = self.upload.take() {
+            self.upload = Some(self.patch_back(upload, mesh, revision, changes)?);
+            return Ok(());
         }
-        self.upload = None;
-        self.shown = None;
+        if self.shown.take().is_none() {
+            return self.upload(mesh, revision);
+        }
         self.check(mesh)?;
-        if self.front.reserve(device, queue, mesh, Kept::EVERYTHING)? {
-            self.front.bind(device, &self.layout, &self.unused_nodes);
+        if self.front.reserve(&self.device, &self.queue, mesh, [usize::MAX; 2])? {
+            self.front.bind(&self.device, &self.layout, &self.unused_nodes);
         }
-        send_ranges(queue, &self.front.nodes, mesh.nodes(), nodes);
-        send_ranges(queue, &self.front.triangles, mesh.triangles(), triangles);
+        send_ranges(&self.queue, &self.front.nodes, mesh.nodes(), &changes.nodes);
+        send_ranges(&self.queue, &self.front.triangles, mesh.triangles(), &changes.triangles);
         self.front.describe(mesh);
         self.shown = Some(revision);
         self.generation += 1;
         Ok(())
+    }
+
+    /// The upload as it goes on with the mesh as it is now.
+    fn patch_back(
+        &mut self,
+        upload: Upload,
+        mesh: &Mesh,
+        revision: u64,
+        changes: &Changes,
+    ) -> Result<Upload, GpuError> {
+        self.check(mesh)?;
+        // What lies behind the end of a mesh that became shorter is there no longer, though it may grow again.
+        let nodes = upload.nodes.min(mesh.nodes().len());
+        let triangles = upload.triangles.min(mesh.triangles().len());
+        if self.back.reserve(&self.device, &self.queue, mesh, [nodes, triangles])? {
+            self.back.bind(&self.device, &self.layout, &self.unused_nodes);
+        }
+        send_ranges(&self.queue, &self.back.nodes, &mesh.nodes()[..nodes], &changes.nodes);
+        send_ranges(&self.queue, &self.back.triangles, &mesh.triangles()[..triangles], &changes.triangles);
+        self.back.describe(mesh);
+        Ok(Upload { revision, nodes, triangles })
     }
 
     /// Revision of the mesh that is drawn, or `None` before the first and after a failure.
@@ -194,15 +206,6 @@ impl MeshMirror {
     }
 }
 
-/// How much of a copy must survive when its buffers are exchanged for larger ones.
-#[derive(Clone, Copy)]
-struct Kept(usize);
-
-impl Kept {
-    const NOTHING: Self = Self(0);
-    const EVERYTHING: Self = Self(usize::MAX);
-}
-
 impl MeshCopy {
     fn new(limits: ChunkLimits) -> Self {
         Self {
@@ -214,15 +217,17 @@ impl MeshCopy {
         }
     }
 
+    /// Makes room for a mesh. So many of the first nodes and triangles survive when buffers are exchanged for larger ones: true
+    /// when some were.
     fn reserve(
         &mut self,
         device: &wgpu::Device,
         queue: &wgpu::Queue,
         mesh: &Mesh,
-        Kept(kept): Kept,
+        [kept_nodes, kept_triangles]: [usize; 2],
     ) -> Result<bool, GpuError> {
-        let nodes = self.nodes.reserve(device, queue, mesh.nodes().len(), kept)?;
-        let triangles = self.triangles.reserve(device, queue, mesh.triangles().len(), kept)?;
+        let nodes = self.nodes.reserve(device, queue, mesh.nodes().len(), kept_nodes)?;
+        let triangles = self.triangles.reserve(device, queue, mesh.triangles().len(), kept_triangles)?;
         Ok(nodes || triangles)
     }
 

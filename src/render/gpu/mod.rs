@@ -120,8 +120,12 @@ impl GpuRenderer {
     ///
     /// # Errors
     /// When the device cannot draw a mesh at all.
-    pub fn new(device: &wgpu::Device, target_format: wgpu::TextureFormat) -> Result<Self, GpuError> {
-        Self::with_chunks(device, target_format, ChunkLimits::of_device(&device.limits()))
+    pub fn new(
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        target_format: wgpu::TextureFormat,
+    ) -> Result<Self, GpuError> {
+        Self::with_chunks(device, queue, target_format, ChunkLimits::of_device(&device.limits()))
     }
 
     /// As [`Self::new`], with buffers of another size than the device allows.
@@ -130,11 +134,12 @@ impl GpuRenderer {
     /// As [`Self::new`].
     pub fn with_chunks(
         device: &wgpu::Device,
+        queue: &wgpu::Queue,
         target_format: wgpu::TextureFormat,
         chunks: ChunkLimits,
     ) -> Result<Self, GpuError> {
         debug_assert!(!target_format.is_srgb(), "colours are sRGB bytes, written as they are");
-        let mirror = MeshMirror::new(device, chunks)?;
+        let mirror = MeshMirror::new(device, queue, chunks)?;
         let picture = MeshPicture::new(device, target_format, &mirror);
         let overlay = OverlayPass::new(device, target_format);
         Ok(Self { mirror, picture, overlay })

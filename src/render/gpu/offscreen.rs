@@ -40,7 +40,7 @@ impl Offscreen {
     pub fn new() -> Result<Self, GpuError> {
         let (device, queue, adapter) = pollster::block_on(open())?;
         let format = wgpu::TextureFormat::Rgba8Unorm;
-        let renderer = GpuRenderer::new(&device, format)?;
+        let renderer = GpuRenderer::new(&device, &queue, format)?;
         Ok(Self { device, queue, adapter, format, renderer })
     }
 
@@ -49,7 +49,7 @@ impl Offscreen {
     /// # Errors
     /// When the device cannot draw a mesh at all.
     pub fn with_chunks(self, chunks: ChunkLimits) -> Result<Self, GpuError> {
-        let renderer = GpuRenderer::with_chunks(&self.device, self.format, chunks)?;
+        let renderer = GpuRenderer::with_chunks(&self.device, &self.queue, self.format, chunks)?;
         Ok(Self { renderer, ..self })
     }
 
@@ -58,7 +58,7 @@ impl Offscreen {
     /// # Errors
     /// As [`Self::with_chunks`].
     pub fn with_format(self, format: wgpu::TextureFormat) -> Result<Self, GpuError> {
-        let renderer = GpuRenderer::new(&self.device, format)?;
+        let renderer = GpuRenderer::new(&self.device, &self.queue, format)?;
         Ok(Self { renderer, format, ..self })
     }
 
@@ -87,7 +87,7 @@ impl Offscreen {
     /// # Errors
     /// When the device cannot hold it.
     pub fn show(&mut self, mesh: &Mesh, revision: u64) -> Result<(), GpuError> {
-        self.renderer.mirror_mut().upload(&self.device, &self.queue, mesh, revision)
+        self.renderer.mirror_mut().upload(mesh, revision)
     }
 
     /// Shows an overlay, or none.
