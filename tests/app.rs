@@ -1186,7 +1186,7 @@ fn wait_for_notice(window: &mut Window) -> String {
 #[test]
 fn an_export_writes_the_file_and_tells() {
     let mut window = window();
-    for ending in ["vtu", "msh"] {
+    for ending in ["vtu", "msh", "svg", "png"] {
         let file = scratch(&format!("app-export.{ending}"));
         let _ = std::fs::remove_file(&file); // absent at the first run
         send(&mut window, Command::Export(file.clone()));

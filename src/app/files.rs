@@ -13,13 +13,15 @@ use super::command::Command;
 use super::readout::target_at;
 use super::session::{Notice, Session};
 use super::theme::{font, tokens};
+use super::view::View;
 use super::widgets::{ActionButton, ButtonKind, TextRow, format};
 use crate::document::{Base, Document, Example, Setting, Settings};
 use crate::domain::{Domain, Polygon};
 use crate::geometry::Rect;
 use crate::io::png::{Behind, decode};
-use crate::io::{self, MeshData, MeshFormat};
+use crate::io::{self, MeshData};
 use crate::raster::Raster;
+use crate::render::export::ExportFormat;
 
 /// Width and height in kilometres of the terrain that comes with the program: 403 × 344 pixels of 3″ at 36.6° N.
 const TERRAIN_KM: DVec2 = DVec2::new(30.0, 31.8);
@@ -75,7 +77,7 @@ impl FileRequest {
         match self {
             Self::OpenImage => "path of a greyscale .png",
             Self::OpenDomain => "path of a .geojson with polygons",
-            Self::Export => "path ending in .vtu .msh .obj .stl .node .2dm .csv",
+            Self::Export => "path ending in .vtu .msh .obj .stl .node .2dm .csv .svg .png",
         }
     }
 
@@ -154,24 +156,26 @@ impl Files {
         });
     }
 
-    /// Writes the mesh on the screen, with h̄ at its nodes.
-    pub fn export(&mut self, path: PathBuf, session: &Session, ctx: &Context) {
-        let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
-        let Some(format) = MeshFormat::from_ending(&ending) else {
-            let endings = MeshFormat::ALL.map(|(ending, _)| format!(".{ending}")).join(" ");
-            let problem = format!("{} has no ending that says what to write; choose one of", path.display());
-            let _ = self.sender.send(failure(format!("{problem} {endings}.")));
-            return;
+    /// Writes the mesh on the screen, with h̄ at its nodes, or a picture of all of it in the colours of `view`.
+    pub fn export(&mut self, path: PathBuf, session: &Session, view: &View, ctx: &Context) {
+        let format = match ExportFormat::of(&path) {
+            Ok(format) => format,
+            Err(error) => {
+                let _ = self.sender.send(failure(format!("{error}.")));
+                return;
+            }
         };
         let (mesh, field) = (session.shared_mesh(), session.follower().field().clone());
         let (layers, rule) = (session.document().layers().clone(), session.follower().settings().rule);
+        let look = view.picture(session.document().settings());
         self.run(ctx, move || {
-            let mesh = mesh.extract();
+            let extract = mesh.extract();
             let at = |node| target_at(node, &field, layers.as_paint(), rule);
-            let target_diameter: Vec<f64> = mesh.world_nodes().map(at).collect();
+            let target_diameter: Vec<f64> =
+                if format.wants_node_data() { extract.world_nodes().map(at).collect() } else { Vec::new() };
             let data = MeshData { target_diameter: &target_diameter, quantities: &[] };
-            let triangles = format::count(mesh.triangles().len() as u64);
-            match format.write(&path, &mesh, &data) {
+            let triangles = format::count(extract.triangles().len() as u64);
+            match format.write(&path, &mesh, &extract, &data, &look) {
                 Ok(files) => told(format!("{triangles} triangles written to {}.", listed(&files))),
                 Err(error) => failure(format!("{} could not be written: {error}.", path.display())),
             }
@@ -248,7 +252,7 @@ impl Files {
                 FileRequest::OpenImage => dialog.add_filter("Pictures", &["png"]).pick_file(),
                 FileRequest::OpenDomain => dialog.add_filter("Polygons", &["geojson", "json"]).pick_file(),
                 FileRequest::Export => dialog
-                    .add_filter("Meshes", &MeshFormat::ALL.map(|(ending, _)| ending))
+                    .add_filter("Meshes and pictures", &ExportFormat::endings().collect::<Vec<_>>())
                     .set_file_name("mesh.vtu")
                     .save_file(),
             };

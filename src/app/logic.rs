@@ -112,7 +112,7 @@ impl App {
     }
 
     fn export(&mut self, path: std::path::PathBuf, ctx: &Context) {
-        self.files.export(path, &self.session, ctx);
+        self.files.export(path, &self.session, &self.view, ctx);
     }
 
     fn begin_stroke(&mut self, point: DVec2) {

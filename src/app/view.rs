@@ -6,6 +6,7 @@ use super::readout::Quantity;
 use crate::colormap::{Colormap, Ground, LevelColors};
 use crate::document::Settings;
 use crate::mesh::level_for_diameter;
+use crate::render::export::Look;
 use crate::scene::{Camera, Style};
 
 /// What is laid over the mesh.
@@ -71,6 +72,17 @@ impl View {
         };
         let shown_levels = self.lone_level.map_or(u64::MAX, |level| 1 << level.min(63));
         Style { edges: self.edges, shown_levels, ..style }.at_density(px_per_point)
+    }
+
+    /// How a picture of the whole mesh looks in a file.
+    pub fn picture(&self, settings: &Settings) -> Look {
+        Look {
+            width: Look::WIDTH,
+            height: None,
+            edges: self.edges,
+            ground: self.ground,
+            level_colors: self.level_colors(settings),
+        }
     }
 
     /// Zooms by `factor` about the middle of the canvas.

@@ -9,7 +9,7 @@ use super::args::MeshArguments;
 use super::build::{Built, build};
 use super::failure::Failure;
 use super::job::{Job, SourceSpec, parse_formula};
-use super::output::{Look, Output, check_place};
+use super::output::{Output, Wanted, check_place};
 use super::summary::Summary;
 use super::terminal::{Terminal, grouped};
 use crate::field::Formula;
@@ -25,7 +25,7 @@ const SHOWN_VIOLATIONS: usize = 20;
 /// With the reason, when the arguments make no sense or the work failed.
 pub fn run(typed: &MeshArguments, out: &mut dyn Write, terminal: &mut Terminal) -> Result<(), Failure> {
     let job = Job::new(&typed.input)?;
-    let look = Look::new(&typed.picture)?;
+    let look = Wanted::new(&typed.picture)?;
     let quantity = typed.quantity.as_deref().map(|text| parse_formula("--quantity", text)).transpose()?;
     let outputs = typed.output.iter().map(|path| Output::new(path)).collect::<Result<Vec<_>, _>>()?;
     for path in &typed.output {
@@ -98,7 +98,7 @@ fn report_violations(
 fn write_files(
     outputs: &[Output],
     built: &Built,
-    look: Look,
+    look: Wanted,
     quantity: Option<&Formula>,
     terminal: &mut Terminal,
 ) -> Result<(), Failure> {

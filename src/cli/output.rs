@@ -1,43 +1,19 @@
-//! Output files: what the ending of a name means, checks before the work, and writing.
+//! Output files: checks before the work, and how pictures look.
 
-use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use super::args::PictureArguments;
 use super::failure::Failure;
-use super::job::ending;
 use crate::colormap::{Colormap, Ground, LevelColors};
-use crate::geometry::Lattice;
-use crate::io::{MeshData, MeshFormat, png, svg, write_file};
+use crate::io::MeshData;
 use crate::mesh::{Extract, Mesh};
-use crate::render::{Image, software};
-use crate::scene::{Camera, Style};
+use crate::render::export::{ExportFormat, LARGEST_PICTURE, Look};
 
 /// A file to be written.
 #[derive(Debug)]
 pub struct Output {
     path: PathBuf,
-    format: Format,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Format {
-    /// The mesh with its data.
-    Mesh(MeshFormat),
-    /// A picture of lines and faces.
-    Svg,
-    /// A picture of pixels.
-    Png,
-}
-
-impl Format {
-    fn from_ending(ending: &str) -> Option<Self> {
-        match ending {
-            "svg" => Some(Self::Svg),
-            "png" => Some(Self::Png),
-            _ => MeshFormat::from_ending(ending).map(Self::Mesh),
-        }
-    }
+    format: ExportFormat,
 }
 
 impl Output {
@@ -46,17 +22,13 @@ impl Output {
     /// # Errors
     /// When the ending is unknown.
     pub fn new(path: &Path) -> Result<Self, Failure> {
-        let Some(format) = Format::from_ending(&ending(path)) else {
-            let meshes = MeshFormat::ALL.map(|(ending, _)| format!(".{ending}")).join(" ");
-            let problem = format!("-o {}: the ending says what to write; choose one of", path.display());
-            return Err(Failure::Usage(format!("{problem} {meshes} .svg .png")));
-        };
+        let format = ExportFormat::of(path).map_err(|error| Failure::Usage(format!("-o {error}")))?;
         Ok(Self { path: path.to_owned(), format })
     }
 
     /// Whether some node data is written.
     pub fn wants_node_data(&self) -> bool {
-        matches!(self.format, Format::Mesh(_))
+        self.format.wants_node_data()
     }
 
     /// Writes the file, or the four files of `.node`, and returns their names. `extract` is that of `mesh`, and `data` belongs
@@ -71,23 +43,9 @@ impl Output {
         data: &MeshData,
         look: &Look,
     ) -> Result<Vec<PathBuf>, Failure> {
-        let path = &self.path;
-        match self.format {
-            Format::Mesh(format) => {
-                return format.write(path, extract, data).map_err(|error| failed(path, error.to_string()));
-            }
-            Format::Svg => write_one(path, |mut out| svg::write(&mut out, extract, &look.for_svg(mesh)))?,
-            Format::Png => {
-                let picture = look.draw(mesh);
-                write_one(path, |mut out| png::write(&mut out, picture.size, &picture.rgba))?;
-            }
-        }
-        Ok(vec![path.clone()])
+        let written = self.format.write(&self.path, mesh, extract, data, look);
+        written.map_err(|error| failed(&self.path, error.to_string()))
     }
-}
-
-fn write_one(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), Failure> {
-    write_file(path, write).map_err(|error| failed(path, error.to_string()))
 }
 
 fn failed(path: &Path, problem: String) -> Failure {
@@ -119,22 +77,18 @@ pub fn check_place(path: &Path, inputs: &[PathBuf]) -> Result<(), Failure> {
     Ok(())
 }
 
-/// How pictures look.
+/// How pictures are to look, before there is a mesh.
 #[derive(Debug)]
-pub struct Look {
+pub struct Wanted {
     width: u32,
     height: Option<u32>,
     edges: bool,
     colormap: Colormap,
     ground: Ground,
-    level_colors: LevelColors,
 }
 
-/// Most pixels along a side of a picture.
-const LARGEST_PICTURE: u32 = 16_384;
-
-impl Look {
-    /// The look that the arguments ask for.
+impl Wanted {
+    /// What the arguments ask for.
     ///
     /// # Errors
     /// When the size or the name of the colour map makes no sense.
@@ -143,45 +97,14 @@ impl Look {
             typed.colormap.parse().map_err(|e| Failure::Usage(format!("--colormap: {e}")))?;
         let ground = if typed.light { Ground::Light } else { Ground::Dark };
         let (width, height) = parse_size(&typed.size)?;
-        let level_colors = LevelColors::new(colormap, ground, 1);
-        Ok(Self { width, height, edges: !typed.no_edges, colormap, ground, level_colors })
+        Ok(Self { width, height, edges: !typed.no_edges, colormap, ground })
     }
 
-    /// The same look, with the colours spread over the levels of a mesh.
-    pub fn for_mesh(self, mesh: &Mesh) -> Self {
+    /// The look, with the colours spread over the levels of a mesh.
+    pub fn for_mesh(self, mesh: &Mesh) -> Look {
+        let Self { width, height, edges, colormap, ground } = self;
         let deepest = mesh.level_counts().len() as u8 - 1;
-        Self { level_colors: LevelColors::new(self.colormap, self.ground, deepest), ..self }
-    }
-
-    /// Width and height in pixels; where no height was given, that of the domain's proportions.
-    fn size(&self, lattice: &Lattice) -> [u32; 2] {
-        let extent = lattice.bounds().size();
-        let in_proportion = || (f64::from(self.width) * extent.y / extent.x).round();
-        let height =
-            self.height.unwrap_or_else(|| in_proportion().clamp(1.0, f64::from(LARGEST_PICTURE)) as u32);
-        [self.width, height]
-    }
-
-    fn draw(&self, mesh: &Mesh) -> Image {
-        let lattice = mesh.lattice();
-        let camera = Camera::fit(lattice, lattice.bounds(), self.size(lattice), 0.0);
-        let colors = *self.level_colors.as_table();
-        let style = match self.ground {
-            Ground::Dark => Style::dark(colors),
-            Ground::Light => Style::light(colors),
-        };
-        let [r, g, b] = self.ground.canvas();
-        let style = Style { edges: self.edges, ground: [r, g, b, 0xff], ..style };
-        software::draw(mesh, &camera, &style, None, &[])
-    }
-
-    fn for_svg(&self, mesh: &Mesh) -> svg::Style<'_> {
-        svg::Style {
-            size: self.size(mesh.lattice()),
-            level_colors: self.level_colors.as_table(),
-            background: self.ground.canvas(),
-            edges: self.edges,
-        }
+        Look { width, height, edges, ground, level_colors: LevelColors::new(colormap, ground, deepest) }
     }
 }
 

@@ -5,6 +5,7 @@
 //! triangle in pixels. All numbers of the rule come from [`LevelPaint`](crate::scene::LevelPaint) and
 //! [`Style`](crate::scene::Style). Fills have no antialiasing: abutting triangles would show bright seams.
 
+pub mod export;
 #[cfg(feature = "gui")]
 pub mod gpu;
 pub mod software;

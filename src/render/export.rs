@@ -1,0 +1,135 @@
+//! A mesh as a file of any kind: with its data, or as a picture of the whole of it.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use super::{Image, software};
+use crate::colormap::{Ground, LevelColors};
+use crate::geometry::Lattice;
+use crate::io::{MeshData, MeshFormat, png, svg, write_file};
+use crate::mesh::{Extract, Mesh};
+use crate::scene::{Camera, Style};
+
+/// Most pixels along a side of a picture.
+pub const LARGEST_PICTURE: u32 = 16_384;
+
+/// What is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ExportFormat {
+    /// The mesh with its data.
+    Mesh(MeshFormat),
+    /// A picture of lines and faces.
+    Svg,
+    /// A picture of pixels.
+    Png,
+}
+
+/// The ending of a name that says nothing.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{}: the ending says what to write; choose one of{}", .0.display(), with_dots())]
+pub struct UnknownEnding(pub PathBuf);
+
+fn with_dots() -> String {
+    ExportFormat::endings().map(|ending| format!(" .{ending}")).collect()
+}
+
+impl ExportFormat {
+    /// The format that the ending of a file's name chooses, in capitals or not.
+    ///
+    /// # Errors
+    /// When the ending is none of [`Self::endings`].
+    pub fn of(path: &Path) -> Result<Self, UnknownEnding> {
+        let ending = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
+        match ending.as_str() {
+            "svg" => Ok(Self::Svg),
+            "png" => Ok(Self::Png),
+            _ => {
+                MeshFormat::from_ending(&ending).map(Self::Mesh).ok_or_else(|| UnknownEnding(path.to_owned()))
+            }
+        }
+    }
+
+    /// All endings, without their dots.
+    pub fn endings() -> impl Iterator<Item = &'static str> {
+        MeshFormat::ALL.into_iter().map(|(ending, _)| ending).chain(["svg", "png"])
+    }
+
+    /// Whether data at the nodes are written.
+    pub fn wants_node_data(self) -> bool {
+        matches!(self, Self::Mesh(_))
+    }
+
+    /// Writes the file, or the four files of `.node`, and returns their names. `extract` is that of `mesh`, and `data` belongs to
+    /// its nodes; a picture needs no data.
+    ///
+    /// # Errors
+    /// When the file system says no, or the format cannot hold the mesh. What was there before is then still there.
+    pub fn write(
+        self,
+        path: &Path,
+        mesh: &Mesh,
+        extract: &Extract,
+        data: &MeshData,
+        look: &Look,
+    ) -> io::Result<Vec<PathBuf>> {
+        match self {
+            Self::Mesh(format) => return format.write(path, extract, data),
+            Self::Svg => {
+                write_file(path, |mut out| svg::write(&mut out, extract, &look.for_svg(mesh.lattice())))?
+            }
+            Self::Png => {
+                let picture = look.draw(mesh);
+                write_file(path, |mut out| png::write(&mut out, picture.size, &picture.rgba))?;
+            }
+        }
+        Ok(vec![path.to_owned()])
+    }
+}
+
+/// How a picture of a whole mesh looks.
+#[derive(Clone, Debug)]
+pub struct Look {
+    /// In pixels, at most [`LARGEST_PICTURE`].
+    pub width: u32,
+    /// In pixels, at most [`LARGEST_PICTURE`]; where none is given, that of the domain's proportions.
+    pub height: Option<u32>,
+    /// Whether edges are drawn.
+    pub edges: bool,
+    /// What is behind the mesh.
+    pub ground: Ground,
+    /// Colour of each level.
+    pub level_colors: LevelColors,
+}
+
+impl Look {
+    /// Width of a picture unless told, in pixels.
+    pub const WIDTH: u32 = 1600;
+
+    fn size(&self, lattice: &Lattice) -> [u32; 2] {
+        let extent = lattice.bounds().size();
+        let in_proportion = || (f64::from(self.width) * extent.y / extent.x).round();
+        let height =
+            self.height.unwrap_or_else(|| in_proportion().clamp(1.0, f64::from(LARGEST_PICTURE)) as u32);
+        [self.width, height]
+    }
+
+    fn draw(&self, mesh: &Mesh) -> Image {
+        let lattice = mesh.lattice();
+        let camera = Camera::fit(lattice, lattice.bounds(), self.size(lattice), 0.0);
+        let colors = *self.level_colors.as_table();
+        let style = match self.ground {
+            Ground::Dark => Style::dark(colors),
+            Ground::Light => Style::light(colors),
+        };
+        software::draw(mesh, &camera, &Style { edges: self.edges, ..style }, None, &[])
+    }
+
+    fn for_svg(&self, lattice: &Lattice) -> svg::Style<'_> {
+        svg::Style {
+            size: self.size(lattice),
+            level_colors: self.level_colors.as_table(),
+            background: self.ground.canvas(),
+            edges: self.edges,
+        }
+    }
+}
