@@ -525,14 +525,17 @@ fn svg_shows_every_triangle_and_every_edge_once() {
         let (mut drawn_edges, mut edges) = (0, HashSet::new());
         for path in file.split("<path ").skip(1) {
             let data = path.split(" d=\"").nth(1).unwrap().split('"').next().unwrap();
-            let lines = path_points(data);
+            let scale_of = |rest: &str| rest.split(')').next().unwrap().parse().unwrap();
+            let enlarged: i64 = path.split("scale(").nth(1).map_or(1, scale_of);
+            let mut lines = path_points(data);
+            lines.iter_mut().flatten().flatten().for_each(|step| *step *= enlarged);
             let Some(id) = path.strip_prefix("id=\"level-") else {
-                drawn_edges += lines.len();
-                edges.extend(lines.into_iter().map(|line| {
+                for line in lines.iter().flat_map(|line| line.windows(2)) {
                     let mut ends = [line[0], line[1]];
                     ends.sort_unstable();
-                    ends
-                }));
+                    edges.insert(ends);
+                    drawn_edges += 1;
+                }
                 continue;
             };
             let level: u32 = id.split('"').next().unwrap().parse().unwrap();

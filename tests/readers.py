@@ -142,8 +142,9 @@ def read_svg(path, size):
             continue
         corners = [part.start for part in svg.path.parse_path(element.get("d")) if not isinstance(part, svg.path.Move)]
         assert len(corners) % 3 == 0
+        enlarged = float((element.get("transform") or "scale(1)").removeprefix("scale(").removesuffix(")"))
         for first in range(0, len(corners), 3):
-            a, b, c = corners[first : first + 3]
+            a, b, c = (enlarged * corner for corner in corners[first : first + 3])
             # The page's y grows downwards, and a path may run either way.
             if ((b - a).conjugate() * (c - a)).imag > 0:
                 b, c = c, b

@@ -77,7 +77,7 @@ impl FileRequest {
         match self {
             Self::OpenImage => "path of a greyscale .png",
             Self::OpenDomain => "path of a .geojson with polygons",
-            Self::Export => "path ending in .vtu .msh .obj .stl .node .2dm .csv .svg .png",
+            Self::Export => "ending in .vtu .msh .obj .stl .node .2dm .csv .svg .png",
         }
     }
 

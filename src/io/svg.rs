@@ -1,7 +1,7 @@
 //! `.svg`: the mesh as a vector drawing, small and exact.
 //!
 //! A path for the triangles of each level and one for their edges, in steps of whole numbers: lattice coordinates, divided by
-//! the power of two that all nodes share. The drawing is exact at any magnification. Edges get thinner with their
+//! the power of two that all nodes of a path share: small steps take few digits. The drawing is exact at any magnification. Edges get thinner with their
 //! triangles, so that a dense region reads as its level and not as black.
 
 use std::io::{self, Write};
@@ -54,12 +54,14 @@ fn write_levels(out: &mut impl Write, mesh: &Extract, page: &Page, style: &Style
     // The mesh is gone through for each level: lists by level would be a second copy of it.
     for (level, _) in mesh.level_counts().into_iter().enumerate().filter(|(_, count)| *count > 0) {
         let [r, g, b, _] = style.level_colors[level.min(63)];
-        write!(out, "<path id=\"level-{level}\" fill=\"#{r:02x}{g:02x}{b:02x}\" d=\"")?;
+        let triangles = mesh.triangles().iter().filter(|triangle| triangle.level() as usize == level);
+        let scale = page.scale_for(mesh, triangles.clone().flat_map(|triangle| triangle.vertices));
+        write!(out, "<path id=\"level-{level}\"{} fill=\"#{r:02x}{g:02x}{b:02x}\" d=\"", Transform(scale))?;
         let mut pen = Pen::default();
-        for triangle in mesh.triangles().iter().filter(|triangle| triangle.level() as usize == level) {
+        for triangle in triangles {
             let [a, b] = triangle.bisection_edge();
             // Along the two legs, and the closing line is the bisection edge: legs are often level or upright, and short.
-            let [a, apex, b] = [a, triangle.apex(), b].map(|node| page.place(mesh, node));
+            let [a, apex, b] = [a, triangle.apex(), b].map(|node| page.place(mesh, node, scale));
             pen.move_to(out, a)?;
             pen.line_to(out, apex)?;
             pen.line_to(out, b)?;
@@ -74,17 +76,22 @@ fn write_levels(out: &mut impl Write, mesh: &Extract, page: &Page, style: &Style
 fn write_edges(out: &mut impl Write, mesh: &Extract, page: &Page, style: &Style) -> io::Result<()> {
     writeln!(
         out,
-        "<g id=\"edges\" fill=\"none\" stroke=\"#000\" stroke-opacity=\"0.5\" stroke-linecap=\"round\">"
+        "<g id=\"edges\" fill=\"none\" stroke=\"#000\" stroke-opacity=\"0.5\" stroke-linecap=\"round\" \
+         stroke-linejoin=\"round\">"
     )?;
     let spacing = mesh.lattice().spacing();
     let px_per_world = f64::from(style.size[0]) / mesh.lattice().bounds().size().x;
     for (level, edges) in edges_by_level(mesh).iter().enumerate().filter(|(_, edges)| !edges.is_empty()) {
         let width = (0.04 * bisection_edge_length(spacing, level as u32) * px_per_world).clamp(0.01, 0.7);
-        write!(out, "<path stroke-width=\"{width:.2}\" vector-effect=\"non-scaling-stroke\" d=\"")?;
+        let scale = page.scale_for(mesh, edges.iter().flat_map(|&(from, to)| [from, to]));
+        let transform = Transform(scale);
+        write!(
+            out,
+            "<path{transform} stroke-width=\"{width:.2}\" vector-effect=\"non-scaling-stroke\" d=\""
+        )?;
         let mut pen = Pen::default();
         for &(from, to) in edges {
-            pen.move_to(out, page.place(mesh, from))?;
-            pen.line_to(out, page.place(mesh, to))?;
+            pen.join(out, [from, to].map(|node| page.place(mesh, node, scale)))?;
         }
         writeln!(out, "\"/>")?;
     }
@@ -122,9 +129,26 @@ impl Page {
         Self { width: x >> shift, height: y >> shift, shift }
     }
 
-    fn place(&self, mesh: &Extract, node: NodeId) -> [i64; 2] {
+    /// How many units of the page, a power of two, all these nodes are multiples of.
+    fn scale_for(&self, mesh: &Extract, nodes: impl Iterator<Item = NodeId>) -> u32 {
+        let bits = nodes.map(|node| mesh.node(node)).fold(0, |bits, node| bits | node.x | node.y);
+        let common = (bits >> self.shift) | self.width | self.height;
+        1 << common.trailing_zeros()
+    }
+
+    /// Where a node is, `scale` units of the page being one.
+    fn place(&self, mesh: &Extract, node: NodeId, scale: u32) -> [i64; 2] {
         let LatticePoint { x, y } = mesh.node(node);
-        [i64::from(x >> self.shift), i64::from(self.height - (y >> self.shift))]
+        [x >> self.shift, self.height - (y >> self.shift)].map(|place| i64::from(place / scale))
+    }
+}
+
+/// The attribute that enlarges a path; nothing where there is nothing to do.
+struct Transform(u32);
+
+impl std::fmt::Display for Transform {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        if self.0 == 1 { Ok(()) } else { write!(f, " transform=\"scale({})\"", self.0) }
     }
 }
 
@@ -153,6 +177,15 @@ impl Pen {
             (0, dy) => write!(out, "v{dy}"),
             (dx, dy) => write!(out, "l{dx}{}", Next(dy)),
         }
+    }
+
+    /// Draws a line between two places, from where the pen is if that is one of them.
+    fn join(&mut self, out: &mut impl Write, ends: [[i64; 2]; 2]) -> io::Result<()> {
+        let [from, to] = if self.at == ends[1] { [ends[1], ends[0]] } else { ends };
+        if !self.moved || self.at != from {
+            self.move_to(out, from)?;
+        }
+        self.line_to(out, to)
     }
 
     /// Draws back to `start`, where the triangle began.
