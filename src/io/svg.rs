@@ -72,7 +72,8 @@ fn write_levels(out: &mut impl Write, mesh: &Extract, page: &Page, style: &Style
     Ok(())
 }
 
-/// All edges once, by the finer of the two triangles that share them. Widths are in pixels, whatever the magnification.
+/// All edges once, by the finer of the two triangles that share them. Widths are chosen in pixels and written
+/// in units of the path: programs do not agree on lines that stay thin in an enlarged path.
 fn write_edges(out: &mut impl Write, mesh: &Extract, page: &Page, style: &Style) -> io::Result<()> {
     writeln!(
         out,
@@ -80,38 +81,33 @@ fn write_edges(out: &mut impl Write, mesh: &Extract, page: &Page, style: &Style)
          stroke-linejoin=\"round\">"
     )?;
     let spacing = mesh.lattice().spacing();
-    let px_per_world = f64::from(style.size[0]) / mesh.lattice().bounds().size().x;
-    for (level, edges) in edges_by_level(mesh).iter().enumerate().filter(|(_, edges)| !edges.is_empty()) {
-        let width = (0.04 * bisection_edge_length(spacing, level as u32) * px_per_world).clamp(0.01, 0.7);
-        let scale = page.scale_for(mesh, edges.iter().flat_map(|&(from, to)| [from, to]));
-        let transform = Transform(scale);
-        write!(
-            out,
-            "<path{transform} stroke-width=\"{width:.2}\" vector-effect=\"non-scaling-stroke\" d=\""
-        )?;
+    let units_per_px = f64::from(page.width) / f64::from(style.size[0]);
+    let units_per_world = f64::from(page.width) / mesh.lattice().bounds().size().x;
+    for (level, _) in mesh.level_counts().into_iter().enumerate().filter(|(_, count)| *count > 0) {
+        let edges = edges(mesh).filter(|edge| edge.0 as usize == level).map(|(_, ends)| ends);
+        let scale = page.scale_for(mesh, edges.clone().flatten());
+        let width = 0.04 * bisection_edge_length(spacing, level as u32) * units_per_world;
+        let width = width.clamp(0.01 * units_per_px, 0.7 * units_per_px) / f64::from(scale);
+        write!(out, "<path{} stroke-width=\"{width:.2e}\" d=\"", Transform(scale))?;
         let mut pen = Pen::default();
-        for &(from, to) in edges {
-            pen.join(out, [from, to].map(|node| page.place(mesh, node, scale)))?;
+        for ends in edges {
+            pen.join(out, ends.map(|node| page.place(mesh, node, scale)))?;
         }
         writeln!(out, "\"/>")?;
     }
     writeln!(out, "</g>")
 }
 
-fn edges_by_level(mesh: &Extract) -> Vec<Vec<(NodeId, NodeId)>> {
-    let mut by_level = vec![Vec::new(); mesh.level_counts().len()];
-    for (index, triangle) in mesh.triangles().iter().enumerate() {
-        for (edge, across) in triangle.edge_nodes().into_iter().zip(triangle.neighbours) {
-            match across.triangle() {
-                Some(other) if other.index() < index => {} // the other triangle has drawn it
-                Some(other) => by_level
-                    [triangle.level().max(mesh.triangles()[other.index()].level()) as usize]
-                    .push(edge),
-                None => by_level[triangle.level() as usize].push(edge),
-            }
-        }
-    }
-    by_level
+/// Every edge, with the level that it is drawn at.
+fn edges<'a>(mesh: &'a Extract) -> impl Iterator<Item = (u32, [NodeId; 2])> + Clone + 'a {
+    mesh.triangles().iter().enumerate().flat_map(move |(index, triangle)| {
+        let edges = triangle.edge_nodes().into_iter().zip(triangle.neighbours);
+        edges.filter_map(move |((from, to), across)| match across.triangle() {
+            Some(other) if other.index() < index => None, // the other triangle has drawn it
+            Some(other) => Some((triangle.level().max(mesh.triangles()[other.index()].level()), [from, to])),
+            None => Some((triangle.level(), [from, to])),
+        })
+    })
 }
 
 /// The lattice as a page: y grows downwards, and the unit is the coarsest that all nodes are multiples of.
