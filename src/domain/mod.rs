@@ -81,11 +81,24 @@ impl Domain {
             return Err(RegionError::TooLarge);
         }
         check_tangle(polygons, &bounds)?;
-        let region = Region::new(polygons, bounds);
+        Self::of_region(Region::new(polygons, bounds))
+    }
+
+    /// The domain whose [`Region::polygons`] these are, in `bounds`, which must be proper. It comes back corner by corner; other
+    /// polygons are taken as by [`Self::of_polygons`].
+    ///
+    /// # Errors
+    /// As [`Self::of_polygons`].
+    pub fn of_stored_polygons(polygons: Vec<Polygon>, bounds: Rect) -> Result<Self, RegionError> {
+        check_tangle(&polygons, &bounds)?;
+        Self::of_region(Region::stored(polygons, bounds))
+    }
+
+    fn of_region(region: Region) -> Result<Self, RegionError> {
         if region.is_empty() {
             return Err(RegionError::NoArea);
         }
-        Ok(Self { bounds, shape: Shape::Region(Arc::new(region)) })
+        Ok(Self { bounds: *region.frame(), shape: Shape::Region(Arc::new(region)) })
     }
 
     /// The polygons, if the domain has some.

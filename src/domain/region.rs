@@ -44,6 +44,31 @@ impl Region {
         Self::cut_to_frame(&grid, &contours)
     }
 
+    /// A region from the polygons of one. Where they are not, what they cover.
+    ///
+    /// Making a region twice moves a corner now and then, where edges nearly touch: so polygons that need no putting right are
+    /// left alone.
+    pub(super) fn stored(polygons: Vec<Polygon>, frame: Rect) -> Self {
+        let stored = Self::of_simple(frame, polygons);
+        let grid = Grid::over(&frame);
+        let covered = Self::cut_to_frame(&grid, &grid.contours_of(&stored)).area();
+        let on_grid = |ring: &Ring| grid.contour(ring).iter().zip(ring).all(|(p, q)| grid.world(p) == *q);
+        let turned = |rings: &Polygon| {
+            !rings.is_empty()
+                && rings.iter().enumerate().all(|(n, ring)| (signed_area(ring) > 0.0) == (n == 0))
+        };
+        let within = |ring: &Ring| ring.len() > 2 && ring.iter().all(|&p| frame.contains(p)) && on_grid(ring);
+        // Overlaps and crossings would count twice in one of the areas.
+        let alike = (stored.area() - covered).abs() <= 1e-6 * covered;
+        let sound = stored.polygons.iter().all(turned) && stored.rings().all(within) && alike;
+        if sound { stored } else { Self::new(&stored.polygons, frame) }
+    }
+
+    fn of_simple(frame: Rect, polygons: Vec<Polygon>) -> Self {
+        let area = polygons.iter().flatten().map(|ring| signed_area(ring)).sum();
+        Self { frame, polygons, area }
+    }
+
     fn cut_to_frame(grid: &Grid, contours: &[Contour]) -> Self {
         grid.region(overlay(contours, &[grid.contour(&corners(&grid.frame))], Rule::BOTH))
     }
@@ -239,8 +264,7 @@ impl Grid {
     fn region(&self, shapes: Vec<Shape>) -> Region {
         let ring = |contour: &Contour| contour.iter().map(|p| self.world(p)).collect();
         let polygons: Vec<Polygon> = shapes.iter().map(|shape| shape.iter().map(ring).collect()).collect();
-        let area = polygons.iter().flatten().map(|ring| signed_area(ring)).sum();
-        Region { frame: self.frame, polygons, area }
+        Region::of_simple(self.frame, polygons)
     }
 
     /// The rectangle round a contour.

@@ -24,6 +24,8 @@ pub enum Place {
     Whole,
     /// A line, counted from one.
     Line(usize),
+    /// A file within the file, and the line there if it is one of text.
+    Part(&'static str, Option<usize>),
 }
 
 impl fmt::Display for Place {
@@ -31,6 +33,8 @@ impl fmt::Display for Place {
         match self {
             Self::Whole => Ok(()),
             Self::Line(line) => write!(f, ", line {line}"),
+            Self::Part(part, None) => write!(f, ", {part} in it"),
+            Self::Part(part, Some(line)) => write!(f, ", line {line} of {part} in it"),
         }
     }
 }
@@ -44,6 +48,9 @@ pub enum Flaw {
     /// The file ends before everything it promises has come.
     #[error("the file ends too early; it seems to be cut off. Copy or export it again.")]
     CutOff,
+    /// What was stored and what is found differ.
+    #[error("the file is damaged: what it holds and its checksum do not agree. Use another copy.")]
+    Damaged,
     /// The decoder of images refuses it.
     #[error("this is not a PNG image that can be read ({0}). Export it again as PNG.")]
     Png(String),
@@ -78,6 +85,12 @@ pub(super) struct PlacedFlaw {
 }
 
 impl PlacedFlaw {
+    /// The flaw as one of a file within the file.
+    pub(super) fn within(self, part: &'static str) -> Self {
+        let line = if let Place::Line(line) = self.place { Some(line) } else { None };
+        Self { place: Place::Part(part, line), flaw: self.flaw }
+    }
+
     pub(super) fn in_file(self, file: &Path) -> ReadError {
         ReadError { file: file.to_owned(), place: self.place, flaw: self.flaw }
     }

@@ -2,7 +2,7 @@
 
 use std::fmt;
 use std::fs::File;
-use std::io::{BufReader, Read};
+use std::io::{self, BufReader, Read, Write};
 use std::path::Path;
 
 use glam::DVec2;
@@ -46,7 +46,8 @@ pub fn from_bytes(bytes: &[u8], name: &Path) -> Result<Vec<Polygon>, ReadError> 
     parse(bytes).map_err(|flaw| flaw.in_file(name))
 }
 
-fn parse(input: impl Read) -> Result<Vec<Polygon>, PlacedFlaw> {
+/// As [`read`], from anything that can be read.
+pub(super) fn parse(input: impl Read) -> Result<Vec<Polygon>, PlacedFlaw> {
     let mut json = serde_json::Deserializer::from_reader(input);
     let object = Object::deserialize(&mut json).map_err(placed)?;
     json.end().map_err(placed)?;
@@ -57,6 +58,26 @@ fn parse(input: impl Read) -> Result<Vec<Polygon>, PlacedFlaw> {
         return Err(Flaw::Syntax(no_polygon(&others)).into());
     }
     Ok(polygons)
+}
+
+/// Writes polygons as one geometry, a ring to a line. What [`read`] makes of it is equal, bit for bit.
+///
+/// # Errors
+/// Those of `out`.
+pub fn write(out: &mut dyn Write, polygons: &[Polygon]) -> io::Result<()> {
+    writeln!(out, "{{\"type\":\"MultiPolygon\",\"coordinates\":[")?;
+    for (i, polygon) in polygons.iter().enumerate() {
+        writeln!(out, "{}[", if i == 0 { "" } else { "," })?;
+        for (j, ring) in polygon.iter().enumerate() {
+            // A ring ends where it began.
+            let closed: Vec<[f64; 2]> = ring.iter().chain(ring.first()).map(|p| p.to_array()).collect();
+            write!(out, "{}", if j == 0 { "" } else { "," })?;
+            serde_json::to_writer(&mut *out, &closed)?;
+            writeln!(out)?;
+        }
+        writeln!(out, "]")?;
+    }
+    writeln!(out, "]}}")
 }
 
 fn no_polygon(others: &[String]) -> String {

@@ -21,6 +21,7 @@ mod number;
 pub mod obj;
 pub mod png;
 pub mod points;
+pub mod project;
 pub mod sms;
 pub mod stl;
 pub mod svg;

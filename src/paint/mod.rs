@@ -10,7 +10,7 @@ use crate::geometry::Rect;
 use crate::raster::Raster;
 
 pub use stroke::{Dab, Stroke};
-pub use tiles::Patch;
+pub use tiles::{Patch, TILE, TilePixels, TilePlace, Tiles, tile_area, tiles_touching};
 
 /// What a brush lays down.
 #[derive(Clone, Copy, Debug, PartialEq)]

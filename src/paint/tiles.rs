@@ -4,10 +4,13 @@ use super::Layers;
 use crate::raster::{PixelRect, Raster};
 
 /// Pixels along the side of a tile.
-pub(super) const TILE: u32 = 64;
+pub const TILE: u32 = 64;
 
 /// Column and row of a tile.
-pub(super) type TilePlace = [u32; 2];
+pub type TilePlace = [u32; 2];
+
+/// Some tiles of the painted layers, by their places.
+pub type Tiles = BTreeMap<TilePlace, TilePixels>;
 
 /// Old pixels of the tiles that a gesture touched: enough to take it back, and then to do it again.
 #[derive(Clone, Debug, Default)]
@@ -16,10 +19,12 @@ pub struct Patch {
 }
 
 /// The pixels of one tile, row by row, cut off at the raster's edge.
-#[derive(Clone, Debug)]
-pub(super) struct TilePixels {
-    pub(super) risk: Box<[f32]>,
-    pub(super) diameter: Box<[f32]>,
+#[derive(Clone, Debug, PartialEq)]
+pub struct TilePixels {
+    /// Risk, 0 to 1.
+    pub risk: Box<[f32]>,
+    /// Target diameter in world units, infinite where nothing is painted.
+    pub diameter: Box<[f32]>,
 }
 
 impl Patch {
@@ -53,19 +58,49 @@ impl Patch {
 impl TilePixels {
     pub(super) fn copied(layers: &Layers, place: TilePlace) -> Self {
         let area = tile_area(place, layers.risk.size());
-        let copy = |raster: &Raster| area.pixels().map(|(x, y)| raster.get(x, y)).collect();
+        let copy = |raster| rows(raster, area).collect::<Vec<_>>().concat().into();
         Self { risk: copy(&layers.risk), diameter: copy(&layers.diameter) }
     }
 }
 
+impl Layers {
+    /// The tiles on which something is painted.
+    pub fn painted_tiles(&self) -> Tiles {
+        let size = self.risk.size();
+        let painted = |&place: &TilePlace| {
+            let area = tile_area(place, size);
+            rows(&self.risk, area).any(|row| row.iter().any(|&risk| risk != 0.0))
+                || rows(&self.diameter, area).any(|row| row.iter().any(|diameter| diameter.is_finite()))
+        };
+        self.tiles(tiles_touching(self.risk.all()).filter(painted))
+    }
+
+    /// The tiles at the given places, painted or not.
+    pub fn tiles(&self, places: impl IntoIterator<Item = TilePlace>) -> Tiles {
+        places.into_iter().map(|place| (place, TilePixels::copied(self, place))).collect()
+    }
+
+    /// Puts tiles in their places.
+    ///
+    /// # Panics
+    /// When one does not fit: its place is beyond the layers, or its count of pixels another.
+    pub fn put_tiles(&mut self, tiles: &Tiles) {
+        for (&place, tile) in tiles {
+            let area = tile_area(place, self.risk.size());
+            put_pixels(&mut self.risk, area, &tile.risk);
+            put_pixels(&mut self.diameter, area, &tile.diameter);
+        }
+    }
+}
+
 /// The pixels of a tile of a raster with the given columns and rows.
-pub(super) fn tile_area(place: TilePlace, size: [u32; 2]) -> PixelRect {
+pub fn tile_area(place: TilePlace, size: [u32; 2]) -> PixelRect {
     let min = place.map(|n| n * TILE);
     PixelRect { min, max: [(min[0] + TILE).min(size[0]), (min[1] + TILE).min(size[1])] }
 }
 
 /// The tiles that a rectangle of pixels touches.
-pub(super) fn tiles_touching(area: PixelRect) -> impl Iterator<Item = TilePlace> {
+pub fn tiles_touching(area: PixelRect) -> impl Iterator<Item = TilePlace> {
     let tiles = PixelRect { min: area.min.map(|n| n / TILE), max: area.max.map(|n| n.div_ceil(TILE)) };
     tiles.pixels().map(|(x, y)| [x, y])
 }
@@ -75,5 +110,20 @@ fn exchange_pixels(raster: &mut Raster, area: PixelRect, kept: &mut [f32]) {
         let current = raster.get(x, y);
         raster.set(x, y, *kept);
         *kept = current;
+    }
+}
+
+/// The pixels of an area, row by row.
+fn rows(raster: &Raster, area: PixelRect) -> impl Iterator<Item = &[f32]> {
+    let columns = area.min[0] as usize..area.max[0] as usize;
+    let rows = raster.values().chunks_exact(raster.size()[0] as usize);
+    let (first, count) = (area.min[1] as usize, (area.max[1] - area.min[1]) as usize);
+    rows.skip(first).take(count).map(move |row| &row[columns.clone()])
+}
+
+fn put_pixels(raster: &mut Raster, area: PixelRect, pixels: &[f32]) {
+    assert_eq!(area.pixels().count(), pixels.len(), "a tile fits its place");
+    for ((x, y), &value) in area.pixels().zip(pixels) {
+        raster.set(x, y, value);
     }
 }

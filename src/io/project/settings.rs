@@ -1,0 +1,259 @@
+//! `settings.json`: everything about a project that a person can read.
+
+use std::sync::Arc;
+
+use glam::DVec2;
+use serde::{Deserialize, Serialize};
+
+use super::super::Flaw;
+use super::super::error::PlacedFlaw;
+use super::{FORMAT, VERSION};
+use crate::document::{Base, Settings};
+use crate::domain::{Boundary, Domain, Polygon, Shape};
+use crate::field::{Formula, Rule, Transfer};
+use crate::geometry::Rect;
+use crate::raster::{MAX_SIDE, Raster};
+
+/// Most triangles that a budget can name: more have no ids.
+const MOST_TRIANGLES: usize = 2_000_000_000;
+
+/// What every version of the format begins with.
+#[derive(Deserialize)]
+struct Head {
+    format: String,
+    version: u64,
+    #[serde(default)]
+    written_by: String,
+}
+
+/// The file as it is; lengths are in world units.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Saved {
+    format: String,
+    version: u64,
+    written_by: String,
+    name: String,
+    domain: SavedDomain,
+    boundary: SavedBoundary,
+    spacing: f64,
+    transfer: SavedTransfer,
+    base: SavedBase,
+    rule: SavedRule,
+    resolution: u32,
+    max_triangles: usize,
+    /// In bytes.
+    max_memory: usize,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SavedDomain {
+    /// x and y of the lower left corner, then of the upper right one.
+    bounds: [f64; 4],
+    shape: SavedShape,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum SavedShape {
+    Whole,
+    Formula(String),
+    /// The polygons stand in a part of their own.
+    Polygons,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum SavedBoundary {
+    Report,
+    #[serde(rename = "fitted_with_diameter")]
+    Fitted(f64),
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SavedTransfer {
+    h_min: f64,
+    h_max: f64,
+    shape: f64,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+enum SavedBase {
+    Constant(f64),
+    Formula(String),
+    /// The pixels stand in a part of their own.
+    RiskImage {
+        name: String,
+        bounds: [f64; 4],
+        columns: u32,
+        rows: u32,
+    },
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum SavedRule {
+    Vertex,
+    Area,
+}
+
+/// What stands in other parts, as far as the settings ask for it.
+pub(super) trait Parts {
+    /// The polygons of the domain.
+    fn polygons(&mut self) -> Result<Vec<Polygon>, PlacedFlaw>;
+    /// The pixels of the base field.
+    fn risks(&mut self, bounds: Rect, size: [u32; 2]) -> Result<Raster, PlacedFlaw>;
+}
+
+impl Saved {
+    pub(super) fn of(settings: &Settings) -> Self {
+        let Transfer { h_min, h_max, shape } = settings.transfer;
+        Self {
+            format: FORMAT.into(),
+            version: VERSION,
+            written_by: concat!("Meshbrush ", env!("CARGO_PKG_VERSION")).into(),
+            name: settings.name.clone(),
+            domain: SavedDomain {
+                bounds: corners(settings.domain.bounds),
+                shape: match &settings.domain.shape {
+                    Shape::Whole => SavedShape::Whole,
+                    Shape::Formula(formula) => SavedShape::Formula(formula.source().into()),
+                    Shape::Region(_) => SavedShape::Polygons,
+                },
+            },
+            boundary: match settings.boundary {
+                Boundary::Report => SavedBoundary::Report,
+                Boundary::Fitted { diameter } => SavedBoundary::Fitted(diameter),
+            },
+            spacing: settings.spacing,
+            transfer: SavedTransfer { h_min, h_max, shape },
+            base: match &settings.base {
+                Base::Constant(diameter) => SavedBase::Constant(*diameter),
+                Base::Formula(formula) => SavedBase::Formula(formula.source().into()),
+                Base::RiskImage { name, raster } => {
+                    let [columns, rows] = raster.size();
+                    SavedBase::RiskImage {
+                        name: name.clone(),
+                        bounds: corners(raster.bounds()),
+                        columns,
+                        rows,
+                    }
+                }
+            },
+            rule: match settings.rule {
+                Rule::Vertex => SavedRule::Vertex,
+                Rule::Area => SavedRule::Area,
+            },
+            resolution: settings.resolution,
+            max_triangles: settings.max_triangles,
+            max_memory: settings.max_memory,
+        }
+    }
+
+    /// Reads the text; what is of a newer version is said to be so.
+    pub(super) fn parse(text: &[u8]) -> Result<Self, PlacedFlaw> {
+        let head: Head = serde_json::from_slice(text).map_err(placed)?;
+        if head.format != FORMAT {
+            return Err(Flaw::Syntax(format!("its format is {:?} and not {FORMAT:?}.", head.format)).into());
+        }
+        if head.version > VERSION {
+            let by = if head.written_by.is_empty() { "a newer program" } else { &head.written_by };
+            return Err(Flaw::Syntax(format!(
+                "the project was written by {by} in version {} of its format, and this program ({}) reads up to version \
+                 {VERSION}. Open it with a newer Meshbrush.",
+                head.version,
+                env!("CARGO_PKG_VERSION"),
+            ))
+            .into());
+        }
+        serde_json::from_slice(text).map_err(placed)
+    }
+
+    /// The settings, checked.
+    pub(super) fn into_settings(self, parts: &mut impl Parts) -> Result<Settings, PlacedFlaw> {
+        if !(2..=MOST_TRIANGLES).contains(&self.max_triangles) {
+            return Err(Flaw::Syntax(format!(
+                "\"max_triangles\" is {}, and a budget lies between 2 and {MOST_TRIANGLES}.",
+                self.max_triangles
+            ))
+            .into());
+        }
+        let bounds = rect("domain", self.domain.bounds)?;
+        let shape = match self.domain.shape {
+            SavedShape::Whole => Shape::Whole,
+            SavedShape::Formula(text) => Shape::Formula(formula("domain", &text)?),
+            SavedShape::Polygons => {
+                Domain::of_stored_polygons(parts.polygons()?, bounds).map_err(sentence)?.shape
+            }
+        };
+        let base = match self.base {
+            SavedBase::Constant(diameter) => Base::Constant(diameter),
+            SavedBase::Formula(text) => Base::Formula(formula("base", &text)?),
+            SavedBase::RiskImage { name, bounds, columns, rows } => {
+                let size = [columns, rows];
+                if size.iter().any(|side| !(1..=MAX_SIDE).contains(side)) {
+                    return Err(Flaw::Size { columns: columns.into(), rows: rows.into() }.into());
+                }
+                let raster = parts.risks(rect("base", bounds)?, size)?;
+                Base::RiskImage { name, raster: Arc::new(raster) }
+            }
+        };
+        let settings = Settings {
+            name: self.name,
+            domain: Domain { bounds, shape },
+            boundary: match self.boundary {
+                SavedBoundary::Report => Boundary::Report,
+                SavedBoundary::Fitted(diameter) => Boundary::Fitted { diameter },
+            },
+            spacing: self.spacing,
+            transfer: Transfer {
+                h_min: self.transfer.h_min,
+                h_max: self.transfer.h_max,
+                shape: self.transfer.shape,
+            },
+            base,
+            rule: match self.rule {
+                SavedRule::Vertex => Rule::Vertex,
+                SavedRule::Area => Rule::Area,
+            },
+            resolution: self.resolution,
+            max_triangles: self.max_triangles,
+            max_memory: self.max_memory,
+        };
+        settings.checked().map_err(sentence)
+    }
+}
+
+fn corners(rect: Rect) -> [f64; 4] {
+    [rect.min.x, rect.min.y, rect.max.x, rect.max.y]
+}
+
+fn rect(of: &str, [x0, y0, x1, y1]: [f64; 4]) -> Result<Rect, PlacedFlaw> {
+    let rect = Rect::new(DVec2::new(x0, y0), DVec2::new(x1, y1));
+    if rect.is_proper() && rect.size().is_finite() {
+        return Ok(rect);
+    }
+    Err(Flaw::Syntax(format!(
+        "the bounds {x0}, {y0}, {x1}, {y1} of \"{of}\" are no rectangle: the first corner is the lower left one."
+    ))
+    .into())
+}
+
+fn formula(of: &str, text: &str) -> Result<Formula, PlacedFlaw> {
+    Formula::parse(text)
+        .map_err(|mistake| Flaw::Syntax(format!("the formula of \"{of}\" cannot be used. {mistake}")).into())
+}
+
+fn sentence(error: impl std::fmt::Display) -> PlacedFlaw {
+    Flaw::Syntax(error.to_string()).into()
+}
+
+/// What serde_json says, at its line.
+fn placed(error: serde_json::Error) -> PlacedFlaw {
+    let text = error.to_string();
+    let problem = text.split(" at line ").next().unwrap_or(&text);
+    Flaw::Syntax(format!("these settings cannot be read: {problem}.")).at(error.line().max(1))
+}

@@ -1,0 +1,371 @@
+//! Projects: what is saved is what is opened, and no damage goes unnoticed.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use glam::dvec2;
+use meshbrush::document::{Base, Document, Example, Follower, Settings};
+use meshbrush::domain::{Boundary, Domain, Shape};
+use meshbrush::field::{Formula, Rule, Transfer};
+use meshbrush::geometry::Rect;
+use meshbrush::io::project::{self, Project};
+use meshbrush::paint::{Brush, Medium};
+use meshbrush::raster::Raster;
+
+const NAME: &str = "test.meshbrush";
+
+fn formula(text: &str) -> Formula {
+    Formula::parse(text).unwrap()
+}
+
+fn bytes_of(project: &Project) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    project::write(&mut bytes, project).unwrap();
+    bytes
+}
+
+fn opened(bytes: &[u8]) -> Result<Project, String> {
+    project::from_bytes(bytes, Path::new(NAME)).map_err(|error| error.to_string())
+}
+
+fn scribble(document: &mut Document, random: &mut fastrand::Rng) {
+    let Rect { min, max } = document.settings().domain.bounds;
+    let extent = (max - min).max_element();
+    let h_min = document.settings().transfer.h_min;
+    for medium in [Medium::Risk, Medium::Diameter(h_min), Medium::Eraser, Medium::Risk] {
+        let radius = extent * (0.01 + 0.1 * random.f64());
+        document.begin_stroke(Brush { medium, radius, hardness: random.f64(), strength: random.f64() });
+        for _ in 0..3 {
+            document.draw_to(min + (max - min) * dvec2(random.f64(), random.f64()));
+        }
+        document.end_stroke();
+    }
+}
+
+/// Outlines with holes, crossing themselves and each other, at places where coordinates have many digits.
+fn polygons(random: &mut fastrand::Rng) -> Domain {
+    let corner = dvec2(1e6 * random.f64(), -1e3 * random.f64());
+    let extent = 10f64.powf(4.0 * random.f64() - 1.0);
+    let mut ring =
+        |count| (0..count).map(|_| corner + extent * dvec2(random.f64(), random.f64())).collect::<Vec<_>>();
+    let polygons = vec![vec![ring(7), ring(4)], vec![ring(3)], vec![ring(12)]];
+    Domain::of_polygons(&polygons).unwrap()
+}
+
+/// Documents with everything that can be saved.
+fn documents() -> Vec<Document> {
+    let mut random = fastrand::Rng::with_seed(7);
+    let plain = Settings::default();
+    let mut all = vec![
+        Example::Threats.document(|| unreachable!()),
+        Example::Diamond.document(|| unreachable!()),
+        Document::new(plain.clone(), None).unwrap(),
+    ];
+    for _ in 0..40 {
+        let domain = polygons(&mut random);
+        let extent = domain.bounds.size().max_element();
+        let settings = Settings {
+            name: "Küste \"\\ \u{1f30a}".into(),
+            boundary: Boundary::Fitted { diameter: extent / (20.0 + random.f64()) },
+            spacing: extent / (3.0 + random.f64()),
+            transfer: Transfer { h_min: extent / 700.3, h_max: extent / 3.7, shape: 0.1 + random.f64() },
+            base: Base::Constant(extent * random.f64().max(1e-3)),
+            resolution: 100 + random.u32(0..200),
+            max_triangles: 123_457,
+            domain,
+            ..plain.clone()
+        };
+        all.push(Document::new(settings, None).unwrap());
+    }
+    let size = [37, 21];
+    let risks = (0..size[0] * size[1]).map(|_| random.f32()).collect();
+    let raster = Raster::from_values(Rect::new(dvec2(-0.3, 0.1), dvec2(0.7, 1.0 / 3.0)), size, risks);
+    let picture = Settings {
+        domain: Domain {
+            bounds: Rect::new(dvec2(-1.0, 0.1), dvec2(1.0, 0.7)),
+            shape: Shape::Formula(formula("r < 0.9")),
+        },
+        boundary: Boundary::Report,
+        base: Base::RiskImage { name: "slope.png".into(), raster: Arc::new(raster) },
+        rule: Rule::Area,
+        resolution: 1024,
+        ..plain.clone()
+    };
+    all.push(Document::new(picture, None).unwrap());
+    let base = Base::Formula(formula("0.02 + 0.1*hypot(x - 0.5, y - 0.5)"));
+    all.push(Document::new(Settings { base, rule: Rule::Vertex, ..plain }, None).unwrap());
+    for document in all.iter_mut().skip(3) {
+        scribble(document, &mut random);
+    }
+    all
+}
+
+#[test]
+fn what_is_saved_is_what_is_opened_and_saved_again_it_has_the_same_bytes() {
+    for document in documents() {
+        let project = Project::of(&document);
+        let bytes = bytes_of(&project);
+        let back = opened(&bytes).unwrap();
+        assert!(back == project, "{}", document.settings().name);
+        let again = back.into_document().unwrap();
+        assert_eq!(again.settings(), document.settings());
+        assert!(again.layers() == document.layers());
+        assert!(again.history().is_empty());
+        assert!(bytes_of(&Project::of(&again)) == bytes);
+    }
+}
+
+#[test]
+fn polygons_come_back_corner_by_corner() {
+    let mut random = fastrand::Rng::with_seed(23);
+    for _ in 0..1000 {
+        let domain = polygons(&mut random);
+        let again = Domain::of_stored_polygons(domain.region().unwrap().polygons().to_vec(), domain.bounds);
+        assert_eq!(again.as_ref(), Ok(&domain));
+    }
+    // What is no region's is put right: a square twice, and a square that runs the wrong way.
+    let square = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(|(x, y)| dvec2(x, y)).to_vec();
+    let clockwise: Vec<_> = square.iter().rev().copied().collect();
+    for polygons in [vec![vec![square.clone()], vec![square]], vec![vec![clockwise]]] {
+        let domain = Domain::of_stored_polygons(polygons, Rect::UNIT).unwrap();
+        assert_eq!(domain.region().unwrap().area(), 1.0);
+        assert_eq!(domain.region().unwrap().polygons().len(), 1);
+    }
+}
+
+#[test]
+fn an_opened_project_has_the_mesh_that_it_was_saved_with() {
+    for mut document in documents().into_iter().skip(1).step_by(14) {
+        let mut back = opened(&bytes_of(&Project::of(&document))).unwrap().into_document().unwrap();
+        let [before, after] =
+            [&mut document, &mut back].map(|d| Follower::new(d).unwrap().mesh().fingerprint());
+        assert_eq!(before, after);
+    }
+}
+
+#[test]
+fn settings_are_text_for_a_person_and_any_tool_unpacks_them() {
+    let folder = folder("unzip");
+    let file = folder.join(NAME);
+    let document = &documents()[3];
+    fs::write(&file, bytes_of(&Project::of(document))).unwrap();
+    let script = "import sys, zipfile, json\nz = zipfile.ZipFile(sys.argv[1])\nassert z.testzip() is None\n\
+                  print(z.namelist(), json.loads(z.read('settings.json'))['max_triangles'], \
+                  json.loads(z.read('domain.geojson'))['type'])";
+    let python = std::process::Command::new("python3").args(["-c", script]).arg(&file).output();
+    let Ok(python) = python else { return }; // no Python on this machine
+    let said = String::from_utf8_lossy(&python.stdout);
+    let expected = "['settings.json', 'domain.geojson', 'paint.tiles'] 123457 MultiPolygon";
+    assert_eq!(said.trim(), expected, "{}", String::from_utf8_lossy(&python.stderr));
+}
+
+/// A small document that has every part.
+fn small() -> Project {
+    let square = vec![vec![dvec2(0.0, 0.0), dvec2(1.0, 0.1), dvec2(0.3, 1.0)]];
+    let raster = Raster::from_values(Rect::UNIT, [2, 2], vec![0.0, 0.25, 0.5, 1.0]);
+    let settings = Settings {
+        domain: Domain::of_polygons(&[square]).unwrap(),
+        base: Base::RiskImage { name: "a.png".into(), raster: Arc::new(raster) },
+        resolution: 16,
+        ..Settings::default()
+    };
+    let mut document = Document::new(settings, None).unwrap();
+    scribble(&mut document, &mut fastrand::Rng::with_seed(3));
+    Project::of(&document)
+}
+
+#[test]
+fn every_cut_is_told() {
+    let bytes = bytes_of(&small());
+    for length in 0..bytes.len() {
+        let error = opened(&bytes[..length]).err().unwrap_or_else(|| panic!("cut at {length}"));
+        assert!(error.starts_with(NAME) && error.ends_with('.'), "{error}");
+    }
+}
+
+#[test]
+fn a_flipped_bit_is_told_or_harms_nothing() {
+    let project = small();
+    let bytes = bytes_of(&project);
+    let mut told = 0;
+    for place in 0..bytes.len() {
+        for bit in 0..8 {
+            let mut damaged = bytes.clone();
+            damaged[place] ^= 1 << bit;
+            match opened(&damaged) {
+                Ok(opened) => assert!(opened == project, "bit {bit} of byte {place}"),
+                Err(_) => told += 1,
+            }
+        }
+    }
+    assert!(told > 6 * bytes.len(), "{told} of {}", 8 * bytes.len());
+}
+
+#[test]
+fn garbage_is_told() {
+    let bytes = bytes_of(&small());
+    let mut random = fastrand::Rng::with_seed(11);
+    for _ in 0..20_000 {
+        let mut damaged = bytes.clone();
+        for _ in 0..random.usize(1..20) {
+            let place = random.usize(0..damaged.len());
+            match random.u8(0..4) {
+                0 => damaged[place] = random.u8(..),
+                1 => drop(damaged.remove(place)),
+                2 => damaged.insert(place, random.u8(..)),
+                _ => damaged[place] = [0, 0xff, 0x7f, 0x80][random.usize(0..4)],
+            }
+        }
+        let _ = opened(&damaged);
+    }
+}
+
+/// The project with its settings changed as text, in an archive whose checksums are right.
+fn retold(change: impl Fn(&str) -> String) -> Vec<u8> {
+    let bytes = bytes_of(&small());
+    let parts = unpacked(&bytes);
+    packed(parts.into_iter().map(|(name, content)| match name.as_str() {
+        "settings.json" => (name, change(str::from_utf8(&content).unwrap()).into_bytes()),
+        _ => (name, content),
+    }))
+}
+
+/// Parts of an archive as the program writes it, by the local headers alone.
+fn unpacked(mut bytes: &[u8]) -> Vec<(String, Vec<u8>)> {
+    let mut parts = Vec::new();
+    while bytes.starts_with(b"PK\x03\x04") {
+        let word = |at: usize| u32::from_le_bytes(bytes[at..at + 4].try_into().unwrap()) as usize;
+        let (packed, name) = (word(18), word(26) & 0xffff);
+        let content = &bytes[30 + name..][..packed];
+        let mut unpacked = Vec::new();
+        std::io::Read::read_to_end(&mut flate2::read::DeflateDecoder::new(content), &mut unpacked).unwrap();
+        parts.push((String::from_utf8(bytes[30..30 + name].to_vec()).unwrap(), unpacked));
+        bytes = &bytes[30 + name + packed..];
+    }
+    parts
+}
+
+/// An archive of stored parts.
+fn packed(parts: impl IntoIterator<Item = (String, Vec<u8>)>) -> Vec<u8> {
+    let (mut out, mut directory, mut count) = (Vec::new(), Vec::new(), 0u16);
+    for (name, content) in parts {
+        let start = out.len() as u32;
+        let size = (content.len() as u32).to_le_bytes();
+        let crc = crc32fast::hash(&content).to_le_bytes();
+        let common =
+            [&[20, 0, 0, 0, 0, 0, 0, 0, 0, 0][..], &crc, &size, &size, &[name.len() as u8, 0, 0, 0]].concat();
+        out.extend([b"PK\x03\x04", &common[..], name.as_bytes(), &content].concat());
+        directory.extend(
+            [b"PK\x01\x02\x14\0", &common[..], &[0; 10], &start.to_le_bytes(), name.as_bytes()].concat(),
+        );
+        count += 1;
+    }
+    let (size, start) = (directory.len() as u32, out.len() as u32);
+    out.extend(directory);
+    out.extend([&b"PK\x05\x06\0\0\0\0"[..], &count.to_le_bytes(), &count.to_le_bytes()].concat());
+    out.extend([&size.to_le_bytes()[..], &start.to_le_bytes(), &[0, 0]].concat());
+    out
+}
+
+fn told(bytes: &[u8], words: &[&str]) {
+    let Err(error) = opened(bytes) else { panic!("no word about {words:?}") };
+    for word in words {
+        assert!(error.contains(word), "{word} in: {error}");
+    }
+}
+
+#[test]
+fn what_other_tools_pack_again_is_opened() {
+    assert!(opened(&retold(str::to_owned)).unwrap() == small());
+}
+
+#[test]
+fn a_newer_version_is_named() {
+    let newer = retold(|text| {
+        let newer = text.replace("\"version\": 1", "\"version\": 7, \"seasons\": [1, 2]");
+        newer.replace(concat!("Meshbrush ", env!("CARGO_PKG_VERSION")), "Meshbrush 9.9")
+    });
+    told(&newer, &[NAME, "settings.json", "Meshbrush 9.9", "version 7", "up to version 1"]);
+}
+
+#[test]
+fn settings_that_cannot_be_are_told_with_their_place() {
+    let cases: &[(&str, &str, &[&str])] = &[
+        ("\"version\": 1", "\"version\": 1, \"seasons\": 4", &["line 3", "seasons"]),
+        ("\"spacing\"", "\"spacing\": 1e999, \"spacings\"", &["settings.json"]),
+        ("\"columns\": 2", "\"columns\": 100000", &["100000 × 2", "8192"]),
+        ("\"columns\": 2", "\"columns\": 8192", &["base.risk", "checksum"]),
+        ("\"columns\": 2", "\"columns\": 1", &["base.risk", "at most 8"]),
+        ("\"resolution\": 16", "\"resolution\": 4000000000", &["4000000000", "2048"]),
+        ("\"resolution\": 16", "\"resolution\": 2048", &["paint.tiles"]),
+        ("\"max_triangles\": ", "\"max_triangles\": 999", &["max_triangles"]),
+        ("\"shape\": 1.0", "\"shape\": -1.0", &["shape -1"]),
+        ("Meshbrush project", "Somebody's project", &["Somebody"]),
+        ("\"area\"", "\"aera\"", &["aera"]),
+        ("\"spacing\": 0.0", "\"spacing\": 0.000000000", &["coarse"]),
+    ];
+    for (from, to, words) in cases {
+        told(
+            &retold(|text| {
+                assert!(text.contains(from), "{from}: {text}");
+                text.replacen(from, to, 1)
+            }),
+            words,
+        );
+    }
+    told(&retold(|_| "{".repeat(100_000)), &["line 1"]);
+    told(&retold(|_| String::new()), &["settings.json"]);
+}
+
+#[test]
+fn sizes_that_are_announced_take_no_memory() {
+    let bytes = bytes_of(&small());
+    let directory = bytes.windows(4).rposition(|four| four == b"PK\x01\x02").unwrap();
+    // The paint announces 3 GB.
+    let mut bomb = bytes.clone();
+    bomb[directory + 24..directory + 28].copy_from_slice(&3_000_000_000u32.to_le_bytes());
+    told(&bomb, &["paint.tiles", "3000000000"]);
+    // The settings are 64 MB of blanks, packed in 64 kB.
+    let mut blanks = flate2::write::DeflateEncoder::new(Vec::new(), flate2::Compression::best());
+    std::io::Write::write_all(&mut blanks, &vec![b' '; 64 << 20]).unwrap();
+    let mut bomb = packed([("settings.json".to_owned(), blanks.finish().unwrap())]);
+    let at = bomb.windows(4).position(|four| four == b"PK\x01\x02").unwrap();
+    bomb[at + 10] = 8;
+    for declared in [64 << 20, 1000u32] {
+        bomb[at + 24..at + 28].copy_from_slice(&declared.to_le_bytes());
+        told(&bomb, &["settings.json"]);
+    }
+}
+
+#[test]
+fn files_that_are_none_are_told() {
+    told(b"", &["empty"]);
+    told(b"PK", &["no Meshbrush project"]);
+    told(&[0x89, b'P', b'N', b'G'], &["no Meshbrush project"]);
+    told(&packed([("readme.txt".to_owned(), b"hello".to_vec())]), &["no settings.json"]);
+    let error = project::read(&folder("none").join("absent.meshbrush")).unwrap_err().to_string();
+    assert!(error.contains("absent.meshbrush"), "{error}");
+    assert!(project::read(Path::new("/dev/zero")).is_err());
+}
+
+#[test]
+fn paint_that_nobody_painted_is_told() {
+    let mut parts = unpacked(&bytes_of(&small()));
+    let (_, paint) = parts.last_mut().unwrap();
+    let sound = paint.clone();
+    for (place, value) in [(0, 1), (2, 9), (4, 200), (5, 0x7f), (5, 0xbf)] {
+        let (_, paint) = parts.last_mut().unwrap();
+        paint.copy_from_slice(&sound);
+        paint[place] = value;
+        told(&packed(parts.clone()), &["paint.tiles", "not written by Meshbrush"]);
+    }
+    parts.last_mut().unwrap().1.push(0);
+    told(&packed(parts.clone()), &["paint.tiles"]);
+}
+
+fn folder(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("project").join(name);
+    fs::create_dir_all(&folder).unwrap();
+    folder
+}
