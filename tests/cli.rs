@@ -461,3 +461,16 @@ fn help_and_version_are_results() {
 fn a_build_without_a_window_says_so() {
     assert_fails(&Folder::new("window"), "", 2, "built without its window");
 }
+
+#[test]
+fn shells_complete_the_options() {
+    let folder = Folder::new("completions");
+    for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
+        let ran = folder.run(&format!("completions {shell}"));
+        assert_eq!(ran.status, 0, "{}", ran.err);
+        for word in ["meshbrush", "max-triangles", "project"] {
+            assert!(ran.out.contains(word), "{shell}: no {word}");
+        }
+    }
+    assert_eq!(folder.run("completions dos").status, 2);
+}

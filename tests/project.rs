@@ -2,6 +2,7 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::process::Command;
 use std::sync::Arc;
 
 use glam::dvec2;
@@ -58,8 +59,8 @@ fn documents() -> Vec<Document> {
     let mut random = fastrand::Rng::with_seed(7);
     let plain = Settings::default();
     let mut all = vec![
-        Example::Threats.document(|| unreachable!()),
-        Example::Diamond.document(|| unreachable!()),
+        Example::Threats.document(|| unreachable!(), || unreachable!()),
+        Example::Diamond.document(|| unreachable!(), || unreachable!()),
         Document::new(plain.clone(), None).unwrap(),
     ];
     for _ in 0..40 {
@@ -144,6 +145,42 @@ fn an_opened_project_has_the_mesh_that_it_was_saved_with() {
     }
 }
 
+/// What `meshbrush mesh --json` answers.
+fn meshed(arguments: &[&str]) -> Result<serde_json::Value, String> {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_meshbrush"));
+    let output = command.args(["mesh", "--json"]).args(arguments).output().unwrap();
+    let text = |bytes| String::from_utf8(bytes).unwrap();
+    if output.status.success() {
+        Ok(serde_json::from_str(&text(output.stdout)).unwrap())
+    } else {
+        Err(format!("{:?} {}", output.status.code().unwrap(), text(output.stderr)))
+    }
+}
+
+#[test]
+fn the_command_line_makes_the_mesh_that_the_window_shows() {
+    let file = folder("cli").join(NAME);
+    let path = file.to_str().unwrap();
+    let mut rules = Vec::new();
+    for mut document in documents().into_iter().skip(1).step_by(14).chain(documents().into_iter().last()) {
+        fs::write(&file, bytes_of(&Project::of(&document))).unwrap();
+        let summary = meshed(&["--checks", "--project", path]).unwrap();
+        let follower = Follower::new(&mut document).unwrap();
+        assert_eq!(summary["hash"], follower.mesh().fingerprint().to_string());
+        assert_eq!((&summary["violations"], &summary["capped"]), (&0.into(), &0.into()));
+        rules.push(summary["rule"].as_str().unwrap().to_owned());
+    }
+    assert!(rules.iter().any(|rule| rule == "vertex") && rules.iter().any(|rule| rule == "area"));
+    // Its budget is the project's unless another is asked for, and every other option belongs to the project.
+    let refused = meshed(&["--project", path, "--max-triangles", "100"]).unwrap_err();
+    assert!(refused.starts_with("1 ") && refused.contains("100"), "{refused}");
+    let refused = meshed(&["--project", path, "--spacing", "1"]).unwrap_err();
+    assert!(refused.starts_with("2 ") && refused.contains("--spacing"), "{refused}");
+    fs::write(&file, &fs::read(&file).unwrap()[..100]).unwrap();
+    let refused = meshed(&["--project", path]).unwrap_err();
+    assert!(refused.starts_with("1 ") && refused.contains("cut off"), "{refused}");
+}
+
 #[test]
 fn settings_are_text_for_a_person_and_any_tool_unpacks_them() {
     let folder = folder("unzip");
@@ -153,7 +190,7 @@ fn settings_are_text_for_a_person_and_any_tool_unpacks_them() {
     let script = "import sys, zipfile, json\nz = zipfile.ZipFile(sys.argv[1])\nassert z.testzip() is None\n\
                   print(z.namelist(), json.loads(z.read('settings.json'))['max_triangles'], \
                   json.loads(z.read('domain.geojson'))['type'])";
-    let python = std::process::Command::new("python3").args(["-c", script]).arg(&file).output();
+    let python = Command::new("python3").args(["-c", script]).arg(&file).output();
     let Ok(python) = python else { return }; // no Python on this machine
     let said = String::from_utf8_lossy(&python.stdout);
     let expected = "['settings.json', 'domain.geojson', 'paint.tiles'] 123457 MultiPolygon";

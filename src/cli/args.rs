@@ -25,6 +25,10 @@ pub enum Command {
     /// Build a mesh and find the triangle round each of a list of points
     #[command(after_help = LOCATE_EXAMPLES)]
     Locate(LocateArguments),
+    /// Print what makes a shell complete the program's options
+    ///
+    /// For bash: meshbrush completions bash > ~/.local/share/bash-completion/completions/meshbrush
+    Completions(CompletionsArguments),
     /// Write the pictures of the window that the documentation shows
     ///
     /// They are painted without a display, by the program's own commands.
@@ -36,6 +40,7 @@ const MESH_EXAMPLES: &str = "\
 Examples:
   meshbrush mesh --domain -10,-10,10,10 --spacing 1 --target 'if(abs(x)+abs(y)<8, 0.25, 20)' -o mesh.vtu
   meshbrush mesh --domain 0,0,4,3 --risk-raster risk.png --h-min 0.01 --h-max 0.5 -o mesh.msh -o mesh.png
+  meshbrush mesh --project coast.meshbrush -o mesh.vtu
   meshbrush mesh --inside 'r < 1' --domain -1,-1,1,1 --target '0.02 + 0.1*r' --json";
 
 const LOCATE_EXAMPLES: &str = "\
@@ -46,6 +51,14 @@ Example:
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Domain and target diameter")]
 pub struct InputArguments {
+    /// A project saved in the window (.meshbrush), in place of all other options on domain and target
+    ///
+    /// The mesh is the one that the window shows, with the same fingerprint.
+    #[arg(long, value_name = "FILE", conflicts_with_all = [
+        "domain", "inside", "region", "boundary", "boundary_diameter", "spacing", "target", "risk", "target_raster",
+        "risk_raster", "h_min", "h_max", "transfer_shape", "rule", "resolution"])]
+    pub project: Option<PathBuf>,
+
     /// Lower left and upper right corner of the domain [default: 0,0,1,1, or where the .asc rasters lie]
     #[arg(long, value_name = "X0,Y0,X1,Y1", allow_hyphen_values = true)]
     pub domain: Option<String>,
@@ -121,9 +134,9 @@ pub struct InputArguments {
     #[arg(long, value_name = "N")]
     pub resolution: Option<u32>,
 
-    /// Most triangles allowed
-    #[arg(long, value_name = "N", default_value_t = 50_000_000)]
-    pub max_triangles: usize,
+    /// Most triangles allowed [default: those of the project, else 50000000]
+    #[arg(long, value_name = "N")]
+    pub max_triangles: Option<usize>,
 
     /// Most memory allowed for the mesh, as in 500MB or 2GB: 46 bytes a triangle [default: what --max-triangles take]
     #[arg(long, value_name = "SIZE", allow_hyphen_values = true)]
@@ -218,6 +231,13 @@ pub struct LocateArguments {
     /// Interpolate this formula in x and y from the vertices, instead of the target diameter
     #[arg(long, value_name = "EXPR", allow_hyphen_values = true, help_heading = "Points")]
     pub quantity: Option<String>,
+}
+
+/// `meshbrush completions`.
+#[derive(Debug, Args)]
+pub struct CompletionsArguments {
+    /// The shell
+    pub shell: clap_complete::Shell,
 }
 
 /// `meshbrush screenshots`.

@@ -1,5 +1,6 @@
 //! Refines a coarse mesh until the job's rule holds everywhere.
 
+use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -10,10 +11,14 @@ use super::job::Job;
 use super::sources::Start;
 use super::terminal::{Terminal, grouped};
 use crate::domain::{DomainOnLattice, Region};
-use crate::field::{Rule, Source, TargetField, TargetFieldSpec, Transfer, VertexRule, smallest_target};
+use crate::field::{
+    Paint, Rule, Source, TargetField, TargetFieldSpec, Transfer, VertexRule, smallest_target,
+};
+use crate::io;
 use crate::mesh::{
     CoarseError, Element, Extract, InvalidTarget, Limits, Mesh, Progress, Refiner, TriangleId,
 };
+use crate::paint::Layers;
 
 /// Triangles asked about, or pixels evaluated, between two looks at the clock.
 const SLICE: usize = 1 << 18;
@@ -26,6 +31,8 @@ pub struct Built {
     pub domain: DomainOnLattice,
     /// Its polygons, if it has some.
     pub region: Option<Arc<Region>>,
+    /// Which points of a triangle count.
+    pub rule: Rule,
     /// Its target diameter.
     pub target: Target,
     /// Time spent on refinement alone.
@@ -44,6 +51,13 @@ pub enum Target {
         field: Box<TargetField>,
         /// h̄ where no source asks for anything, in world units.
         unasked: f64,
+    },
+    /// What a document asks for, at nodes.
+    OfDocument {
+        /// Its sources.
+        field: Box<TargetField>,
+        /// Its paint.
+        layers: Box<Layers>,
     },
 }
 
@@ -73,6 +87,7 @@ impl Target {
             Self::ByArea { field, unasked } => {
                 field.at(point).filter(|asked| asked.is_finite()).unwrap_or(*unasked)
             }
+            Self::OfDocument { field, layers } => field.target_at_node(layers.as_paint(), point),
         }
     }
 
@@ -84,7 +99,7 @@ impl Target {
     /// Columns and rows of the pixels, if the rule goes by pixels.
     pub fn resolution(&self) -> Option<[u32; 2]> {
         match self {
-            Self::ByVertex(_) => None,
+            Self::ByVertex(_) | Self::OfDocument { .. } => None,
             Self::ByArea { field, .. } => Some(field.spec().size),
         }
     }
@@ -99,8 +114,8 @@ impl Target {
         domain: &DomainOnLattice,
     ) -> Result<Vec<TriangleId>, InvalidTarget> {
         match self {
-            Self::ByVertex(target) => {
-                let mut rule = VertexRule::new(|p| target.at(p));
+            Self::ByVertex(_) | Self::OfDocument { .. } => {
+                let mut rule = VertexRule::new(|p| self.at(p));
                 mesh.unsatisfied(|element| domain.exceeds(element, |element| rule.exceeds(element)))
             }
             Self::ByArea { field, .. } => {
@@ -115,6 +130,9 @@ impl Target {
 /// # Errors
 /// When a file is of no use, the target is impossible somewhere, or a limit is reached.
 pub fn build(job: &Job, terminal: &mut Terminal) -> Result<Built, Failure> {
+    if let Some(path) = &job.project {
+        return build_project(path, job, terminal);
+    }
     let start = Start::new(job)?;
     for warning in &start.warnings {
         terminal.say(&format!("meshbrush: note: {warning}"));
@@ -129,30 +147,78 @@ pub fn build(job: &Job, terminal: &mut Terminal) -> Result<Built, Failure> {
             (Target::ByVertex(target), refined)
         }
         Rule::Area => {
-            let field = fill(TargetFieldSpec { sources, transfer, size }, &mesh, terminal)?;
+            let field = fill(TargetFieldSpec { sources, transfer, size }, None, &mesh, terminal)?;
             let exceeds = |element: &Element| domain.exceeds(element, |element| Ok(field.exceeds(element)));
             let refined = refine(&mut mesh, &job.limits, exceeds, terminal);
             (Target::ByArea { field: Box::new(field), unasked }, refined)
         }
     };
-    terminal.clear();
     let (refinement, capped) = refined?;
-    if domain.is_fitted() {
-        mesh.sort_out(0..mesh.triangles().len(), |element| domain.excludes(element));
-        if mesh.triangle_count() == 0 {
-            return Err(CoarseError::EmptyDomain { spacing: mesh.lattice().spacing() }.into());
-        }
-    }
-    Ok(Built { mesh, domain, region, target, refinement, capped })
+    Built { mesh, domain, region, rule: job.rule, target, refinement, capped }.sorted_out(terminal)
 }
 
-fn fill(spec: TargetFieldSpec, mesh: &Mesh, terminal: &mut Terminal) -> Result<TargetField, Failure> {
+/// Does with a saved document what the window does with an open one.
+fn build_project(path: &Path, job: &Job, terminal: &mut Terminal) -> Result<Built, Failure> {
+    let document = io::project::read(path)?;
+    let settings = document.settings();
+    let max_triangles = job.asked_budget.unwrap_or(settings.max_triangles);
+    let limits = Limits { max_triangles, ..job.limits };
+    let domain = settings.domain_on_lattice().map_err(CoarseError::from)?;
+    let admits = |node| domain.admits(node);
+    let mut mesh = Mesh::coarse_grid(settings.domain.bounds, settings.spacing, admits, &limits)?;
+    let paint = document.layers().as_paint();
+    let field = fill(settings.field_spec(), Some(paint), &mesh, terminal)?;
+    let (target, refined) = match settings.rule {
+        Rule::Vertex => {
+            let mut rule = VertexRule::new(|p| field.target_at_node(paint, p));
+            let exceeds = |element: &Element| domain.exceeds(element, |element| rule.exceeds(element));
+            let refined = refine(&mut mesh, &limits, exceeds, terminal);
+            let layers = Box::new(document.layers().clone());
+            (Target::OfDocument { field: Box::new(field), layers }, refined)
+        }
+        Rule::Area => {
+            let exceeds = |element: &Element| domain.exceeds(element, |element| Ok(field.exceeds(element)));
+            let refined = refine(&mut mesh, &limits, exceeds, terminal);
+            (Target::ByArea { field: Box::new(field), unasked: settings.transfer.h_max }, refined)
+        }
+    };
+    let (refinement, capped) = refined?;
+    let region = settings.domain.region().cloned();
+    Built { mesh, domain, region, rule: settings.rule, target, refinement, capped }.sorted_out(terminal)
+}
+
+impl Built {
+    /// The refined mesh without what lies outside the domain.
+    fn sorted_out(mut self, terminal: &mut Terminal) -> Result<Self, Failure> {
+        terminal.clear();
+        let Self { mesh, domain, .. } = &mut self;
+        if domain.is_fitted() {
+            mesh.sort_out(0..mesh.triangles().len(), |element| domain.excludes(element));
+            if mesh.triangle_count() == 0 {
+                return Err(CoarseError::EmptyDomain { spacing: mesh.lattice().spacing() }.into());
+            }
+        }
+        Ok(self)
+    }
+}
+
+/// Samples the sources, and paint where there is some.
+fn fill(
+    spec: TargetFieldSpec,
+    paint: Option<Paint>,
+    mesh: &Mesh,
+    terminal: &mut Terminal,
+) -> Result<TargetField, Failure> {
     let start = Instant::now();
     let pixels = spec.size[0] as usize * spec.size[1] as usize;
     let mut field = TargetField::new(spec, mesh.lattice());
     let mut done = 0;
+    let mut fill_slice = || match paint {
+        Some(paint) => field.fill(paint, SLICE),
+        None => field.fill_unpainted(SLICE),
+    };
     // Every slice fills at least one row: this ends.
-    while field.fill_unpainted(SLICE)? == Progress::More {
+    while fill_slice()? == Progress::More {
         done += SLICE;
         terminal.progress(start, || format!("{} of {} pixels", grouped(done.min(pixels)), grouped(pixels)));
     }

@@ -15,6 +15,10 @@ use crate::raster::MAX_SIDE;
 /// A mesh to be made.
 #[derive(Debug)]
 pub struct Job {
+    /// A saved document, which says everything but the limits.
+    pub project: Option<PathBuf>,
+    /// The budget of triangles, if one was asked for.
+    pub asked_budget: Option<usize>,
     /// `None` for wherever the rasters lie, or the unit square.
     pub domain: Option<Rect>,
     /// The domain is where this is not 0.
@@ -83,6 +87,8 @@ pub enum Meaning {
     Risk,
 }
 
+/// Most triangles when nobody says how many.
+const USUAL_BUDGET: usize = 50_000_000;
 /// More triangles than this have no ids.
 const MOST_TRIANGLES: usize = 2_000_000_000;
 
@@ -95,6 +101,8 @@ impl Job {
         let sources = sources(typed)?;
         let by_pixels = sources.iter().any(|source| matches!(source, SourceSpec::Raster(_)));
         let job = Self {
+            project: typed.project.clone(),
+            asked_budget: typed.max_triangles,
             domain: typed.domain.as_deref().map(parse_domain).transpose()?,
             inside: typed.inside.as_deref().map(|text| parse_formula("--inside", text)).transpose()?,
             region: typed.region.clone(),
@@ -227,7 +235,7 @@ fn resolution(pixels: u32) -> Result<u32, Failure> {
 }
 
 fn limits(typed: &InputArguments) -> Result<Limits, Failure> {
-    let max_triangles = typed.max_triangles;
+    let max_triangles = typed.max_triangles.unwrap_or(USUAL_BUDGET);
     if !(2..=MOST_TRIANGLES).contains(&max_triangles) {
         let problem = format!("--max-triangles {max_triangles}: choose from 2 to {MOST_TRIANGLES}");
         return Err(Failure::Usage(format!("{problem}. A triangle takes 38 bytes of memory.")));

@@ -34,7 +34,7 @@ pub fn run(typed: &MeshArguments, out: &mut dyn Write, terminal: &mut Terminal) 
     let built = build(&job, terminal)?;
     let violations =
         if typed.checks { Some(report_violations(&built, job.limits.max_level, terminal)?) } else { None };
-    let summary = Summary::of(&built, job.rule, violations);
+    let summary = Summary::of(&built, violations);
     if !typed.json {
         terminal.say(&summary.for_people());
     }
@@ -58,7 +58,7 @@ pub fn input_files(job: &Job) -> Vec<PathBuf> {
         SourceSpec::Raster(raster) => Some(raster.path.clone()),
         _ => None,
     };
-    job.sources.iter().filter_map(path).chain(job.region.clone()).collect()
+    job.sources.iter().filter_map(path).chain(job.region.clone()).chain(job.project.clone()).collect()
 }
 
 /// Says when triangles are coarser than asked for, because of the level cap.

@@ -15,11 +15,11 @@ mod summary;
 mod terminal;
 
 use std::ffi::OsString;
-use std::io;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use clap::Parser;
+use clap::{CommandFactory, Parser};
 
 use args::{Arguments, Command};
 use failure::Failure;
@@ -61,6 +61,11 @@ fn run_command(arguments: Arguments, window: Option<Window>, terminal: &mut Term
     match (arguments.command, window) {
         (Some(Command::Mesh(typed)), _) => mesh::run(&typed, &mut out, terminal),
         (Some(Command::Locate(typed)), _) => locate::run(&typed, &mut out, terminal),
+        (Some(Command::Completions(typed)), _) => {
+            let mut script = Vec::new();
+            clap_complete::generate(typed.shell, &mut Arguments::command(), "meshbrush", &mut script);
+            out.write_all(&script).and_then(|()| out.flush()).map_err(Failure::Print)
+        }
         #[cfg(feature = "gui")]
         (Some(Command::Screenshots(typed)), window) => {
             let Some(window) = window else { return Err(without_window()) };

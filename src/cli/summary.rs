@@ -78,8 +78,8 @@ impl Outline {
 }
 
 impl Summary {
-    /// The figures of a mesh made by `rule`.
-    pub fn of(built: &Built, rule: Rule, violations: Option<usize>) -> Self {
+    /// The figures of a mesh.
+    pub fn of(built: &Built, violations: Option<usize>) -> Self {
         let mesh = &built.mesh;
         let levels = mesh.level_counts();
         let topology = built.region.as_ref().map(|_| mesh.topology());
@@ -96,7 +96,7 @@ impl Summary {
             hash: mesh.fingerprint().to_string(),
             seconds: built.refinement.as_secs_f64(),
             spacing: mesh.lattice().spacing(),
-            rule: if rule == Rule::Vertex { "vertex" } else { "area" },
+            rule: if built.rule == Rule::Vertex { "vertex" } else { "area" },
             resolution: built.target.resolution(),
             capped: built.capped,
             violations,
