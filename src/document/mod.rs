@@ -1,6 +1,7 @@
 //! What the user edits: settings and paint, with every edit's inverse. Field and mesh are derived from it by a
 //! [`Follower`] and never saved.
 
+mod edits;
 mod examples;
 mod follower;
 mod history;
@@ -11,6 +12,7 @@ mod settings;
 
 use glam::DVec2;
 
+pub use edits::Edits;
 pub use examples::Example;
 pub use follower::{FollowError, Follower, MeshChange, Stage};
 pub use history::History;
@@ -32,6 +34,7 @@ pub struct Document {
     /// A settings gesture still going on: its title. Further changes with that title join it.
     open_gesture: Option<&'static str>,
     repainted: Repainted,
+    edits: Edits,
     revision: u64,
     version: u64,
     /// The highest version so far.
@@ -67,6 +70,7 @@ impl Document {
             stroke: None,
             open_gesture: None,
             repainted: Repainted::Everything,
+            edits: Edits::Everything,
             revision: 0,
             version: 0,
             last_version: 0,
@@ -183,6 +187,7 @@ impl Document {
             }
         } else {
             let old = std::mem::replace(&mut self.settings, settings);
+            self.edits = Edits::Everything;
             if !joins {
                 self.enter(title, Change::Settings(Box::new(old)));
             }
@@ -246,6 +251,16 @@ impl Document {
         std::mem::replace(&mut self.repainted, Repainted::Within(Vec::new()))
     }
 
+    /// Whether a stroke, or a gesture with a setting, is still going on.
+    pub fn is_in_gesture(&self) -> bool {
+        self.stroke.is_some() || self.open_gesture.is_some()
+    }
+
+    /// What was edited since this was last asked, a stroke under way included.
+    pub fn take_edits(&mut self) -> Edits {
+        std::mem::take(&mut self.edits)
+    }
+
     fn exchange(&mut self, entry: &mut Entry) {
         std::mem::swap(&mut entry.version, &mut self.version);
         match &mut entry.change {
@@ -255,6 +270,7 @@ impl Document {
             }
             Change::Settings(settings) => {
                 std::mem::swap(&mut **settings, &mut self.settings);
+                self.edits = Edits::Everything;
                 self.revision += 1;
             }
             Change::Everything(both) => {
@@ -297,14 +313,18 @@ impl Document {
     }
 
     fn note_repainted(&mut self, areas: impl IntoIterator<Item = PixelRect>) {
-        if let Repainted::Within(earlier) = &mut self.repainted {
-            earlier.extend(areas.into_iter().filter(|area| !area.is_empty()));
+        for area in areas.into_iter().filter(|area| !area.is_empty()) {
+            self.edits.add(area);
+            if let Repainted::Within(earlier) = &mut self.repainted {
+                earlier.push(area);
+            }
         }
         self.revision += 1;
     }
 
     fn note_replaced(&mut self) {
         self.repainted = Repainted::Everything;
+        self.edits = Edits::Everything;
         self.revision += 1;
     }
 }

@@ -15,6 +15,7 @@ pub mod csv;
 mod error;
 mod mesh_file;
 pub mod geojson;
+pub mod journal;
 pub mod msh;
 pub mod node;
 mod number;

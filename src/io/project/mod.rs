@@ -140,14 +140,32 @@ fn parse(bytes: &[u8]) -> Result<Project, PlacedFlaw> {
         super::Place::Part(..) => flaw,
         _ => flaw.within(SETTINGS),
     })?;
-    let size = settings.raster_size();
-    let unpacking = part(&archive, PAINT)?.unpack(pixels::most_tile_bytes(size));
-    let tiles = unpacking.and_then(|mut unpacking| {
-        let tiles = pixels::read_tiles(&mut unpacking, size)?;
-        unpacking.finish()?;
-        Ok(tiles)
-    });
-    Ok(Project { settings, tiles: tiles.map_err(|flaw| in_part(flaw, PAINT))? })
+    part(&archive, PAINT)?;
+    let tiles = read_tiles(bytes, settings.raster_size()).map_err(|flaw| in_part(flaw, PAINT))?;
+    Ok(Project { settings, tiles })
+}
+
+/// Writes nothing but tiles, blank ones too.
+///
+/// # Errors
+/// Those of `out`.
+pub(super) fn write_tiles(out: &mut dyn Write, tiles: &Tiles) -> io::Result<()> {
+    let mut archive = ArchiveWriter::new(out);
+    archive.add(PAINT, |out| pixels::write_tiles(out, tiles))?;
+    archive.finish()
+}
+
+/// Reads tiles of layers with the given columns and rows.
+///
+/// # Errors
+/// When they are damaged, or do not fit.
+pub(super) fn read_tiles(bytes: &[u8], size: [u32; 2]) -> Result<Tiles, Flaw> {
+    let archive = Archive::open(bytes)?;
+    let part = archive.part(PAINT).ok_or(Flaw::Damaged)?;
+    let mut unpacking = part.unpack(pixels::most_tile_bytes(size))?;
+    let tiles = pixels::read_tiles(&mut unpacking, size)?;
+    unpacking.finish()?;
+    Ok(tiles)
 }
 
 fn part<'b, 'a>(archive: &'b Archive<'a>, name: &'static str) -> Result<&'b Part<'a>, PlacedFlaw> {

@@ -1,0 +1,343 @@
+//! `.journal`: unsaved work, kept gesture by gesture for the case that the program ends without a word.
+//!
+//! Eight bytes of magic, then records: kind (1 byte), seconds since 1970 (8), length of the content (4), CRC-32 of all these and
+//! the content (4), content; numbers little-endian. The first record is a whole project with the file that it belongs to; then
+//! come the tiles of each gesture, and now and then a mark that nothing is unsaved. What follows the first record that is not
+//! whole is passed over: the program ended while it wrote.
+//!
+//! Whoever writes a journal holds a lock on it, which the operating system lets go when the program ends, however it ends. So a
+//! journal without a lock is one that was left behind.
+
+use std::fs::{self, File};
+use std::io::{self, Read, Write};
+use std::path::{Path, PathBuf};
+
+use super::project::{self, Project};
+use crate::paint::Tiles;
+
+const MAGIC: &[u8; 8] = b"MBJOUR01";
+const HEAD: usize = 17;
+const ENDING: &str = "journal";
+/// Largest journal read: the largest project and as much again.
+const MOST_BYTES: u64 = 1 << 30;
+/// Growth after which a journal is better begun anew.
+const MOST_GROWTH: u64 = 64 << 20;
+
+const WHOLE: u8 = 1;
+const TILES: u8 = 2;
+const CLEAN: u8 = 3;
+
+/// A journal being written.
+#[derive(Debug)]
+pub struct Journal {
+    file: File,
+    path: PathBuf,
+    grown: u64,
+}
+
+impl Journal {
+    /// Begins a journal in a folder, which is made where it is not there. It is whole, on the disk and locked when this returns.
+    ///
+    /// `home` is the file that the project belongs to; `time` in seconds since 1970.
+    ///
+    /// # Errors
+    /// Those of the file system.
+    pub fn begin(folder: &Path, project: &Project, home: Option<&Path>, time: u64) -> io::Result<Self> {
+        fs::create_dir_all(folder)?;
+        let (file, part) = new_file(folder)?;
+        // Nobody looks at it before it has its name, and by then it is locked.
+        file.try_lock().map_err(io::Error::other)?;
+        let path = part.with_extension(ENDING);
+        let mut journal = Self { file, path, grown: 0 };
+        let begun = || -> io::Result<()> {
+            let mut content = home_bytes(home);
+            project::write(&mut content, project)?;
+            journal.file.write_all(MAGIC)?;
+            journal.append(WHOLE, time, &content)?;
+            journal.sync()?;
+            fs::rename(&part, &journal.path)
+        };
+        if let Err(error) = { begun }() {
+            let _ = fs::remove_file(&part); // the first error is the one to report
+            return Err(error);
+        }
+        journal.grown = 0;
+        Ok(journal)
+    }
+
+    /// Adds tiles as they are after a gesture.
+    ///
+    /// # Errors
+    /// Those of the file system.
+    pub fn add_tiles(&mut self, tiles: &Tiles, time: u64) -> io::Result<()> {
+        let mut content = Vec::new();
+        project::write_tiles(&mut content, tiles)?;
+        self.append(TILES, time, &content)
+    }
+
+    /// Notes that nothing is unsaved now, and which file the project belongs to.
+    ///
+    /// # Errors
+    /// Those of the file system.
+    pub fn mark_clean(&mut self, home: Option<&Path>, time: u64) -> io::Result<()> {
+        self.append(CLEAN, time, &home_bytes(home))
+    }
+
+    /// Waits until all that was added is on the disk.
+    ///
+    /// # Errors
+    /// Those of the file system.
+    pub fn sync(&self) -> io::Result<()> {
+        self.file.sync_data()
+    }
+
+    /// Whether so much was added that a new journal would be smaller.
+    pub fn is_long(&self) -> bool {
+        self.grown > MOST_GROWTH
+    }
+
+    /// Takes the journal away.
+    ///
+    /// # Errors
+    /// Those of the file system.
+    pub fn remove(self) -> io::Result<()> {
+        fs::remove_file(&self.path)
+    }
+
+    fn append(&mut self, kind: u8, time: u64, content: &[u8]) -> io::Result<()> {
+        let length = u32::try_from(content.len()).map_err(io::Error::other)?;
+        let mut record = vec![kind];
+        record.extend(time.to_le_bytes());
+        record.extend(length.to_le_bytes());
+        record.extend(checksum(&record, content).to_le_bytes());
+        record.extend(content);
+        self.grown += record.len() as u64;
+        // In one call: what was written when the program is killed is in the system's hands.
+        self.file.write_all(&record)
+    }
+}
+
+/// A file that is not there yet, under a name that no other process takes.
+fn new_file(folder: &Path) -> io::Result<(File, PathBuf)> {
+    let mut n = 0;
+    loop {
+        let path = folder.join(format!("{}-{n}.part", std::process::id()));
+        n += 1;
+        if path.with_extension(ENDING).exists() {
+            continue;
+        }
+        match File::options().write(true).create_new(true).open(&path) {
+            Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
+            opened => return Ok((opened?, path)),
+        }
+    }
+}
+
+fn checksum(head: &[u8], content: &[u8]) -> u32 {
+    let mut crc = crc32fast::Hasher::new();
+    crc.update(head);
+    crc.update(content);
+    crc.finalize()
+}
+
+/// The length of a path and the path, as UTF-8; a path that is none is left out.
+fn home_bytes(home: Option<&Path>) -> Vec<u8> {
+    let text = home.and_then(Path::to_str).unwrap_or_default();
+    [&(text.len() as u32).to_le_bytes(), text.as_bytes()].concat()
+}
+
+/// Work that a program left behind. It stays locked as long as this is kept.
+#[derive(Debug)]
+pub struct Abandoned {
+    /// The document as it was after the last whole gesture.
+    pub project: Project,
+    /// The file that it belongs to, if it was ever saved.
+    pub home: Option<PathBuf>,
+    /// When that gesture ended, in seconds since 1970.
+    pub time: u64,
+    path: PathBuf,
+    _lock: File,
+}
+
+impl Abandoned {
+    /// Takes the journal away: what it kept is lost, or kept elsewhere.
+    ///
+    /// # Errors
+    /// Those of the file system.
+    pub fn remove(self) -> io::Result<()> {
+        fs::remove_file(&self.path)
+    }
+}
+
+/// The unsaved work in a folder that no running program holds. Journals in which nothing is unsaved are removed; what cannot be
+/// read is passed over and left there.
+pub fn abandoned(folder: &Path) -> Vec<Abandoned> {
+    let Ok(entries) = fs::read_dir(folder) else { return Vec::new() };
+    let mut paths: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
+    paths.retain(|path| path.extension().is_some_and(|ending| ending == ENDING));
+    paths.sort();
+    paths.into_iter().filter_map(taken_over).collect()
+}
+
+fn taken_over(path: PathBuf) -> Option<Abandoned> {
+    let file = File::open(&path).ok()?;
+    file.try_lock().ok()?;
+    let mut bytes = Vec::new();
+    (&file).take(MOST_BYTES).read_to_end(&mut bytes).ok()?;
+    let kept = Kept::parse(&bytes)?;
+    if kept.clean {
+        let _ = fs::remove_file(&path); // another start will try again
+        return None;
+    }
+    let Kept { project, home, time, .. } = kept;
+    Some(Abandoned { project, home, time, path, _lock: file })
+}
+
+/// What a journal says at its end.
+struct Kept {
+    project: Project,
+    home: Option<PathBuf>,
+    time: u64,
+    clean: bool,
+}
+
+impl Kept {
+    /// `None` when not even the first record is whole.
+    fn parse(bytes: &[u8]) -> Option<Self> {
+        let mut rest = bytes.strip_prefix(MAGIC)?;
+        let (kind, time, content) = next_record(&mut rest)?;
+        let (home, content) = split_home(content).filter(|_| kind == WHOLE)?;
+        let project = project::from_bytes(content, Path::new("journal")).ok()?;
+        let size = project.settings.raster_size();
+        let mut kept = Self { project, home, time, clean: false };
+        while let Some((kind, time, content)) = next_record(&mut rest) {
+            match kind {
+                TILES => {
+                    let Ok(tiles) = project::read_tiles(content, size) else { break };
+                    kept.project.tiles.extend(tiles);
+                    kept.clean = false;
+                }
+                CLEAN => {
+                    let Some((home, _)) = split_home(content) else { break };
+                    kept.home = home;
+                    kept.clean = true;
+                }
+                _ => break,
+            }
+            kept.time = time;
+        }
+        Some(kept)
+    }
+}
+
+/// Kind, time and content of the next record, if it is whole.
+fn next_record<'a>(rest: &mut &'a [u8]) -> Option<(u8, u64, &'a [u8])> {
+    let (head, after) = rest.split_first_chunk::<HEAD>()?;
+    let [kind, middle @ .., _, _, _, _] = head;
+    let (time, length) = middle.split_at(8);
+    let time = u64::from_le_bytes(time.try_into().ok()?);
+    let length = u32::from_le_bytes(length.try_into().ok()?) as usize;
+    let content = after.get(..length)?;
+    if checksum(&head[..HEAD - 4], content).to_le_bytes() != head[HEAD - 4..] {
+        return None;
+    }
+    *rest = &after[length..];
+    Some((*kind, time, content))
+}
+
+fn split_home(content: &[u8]) -> Option<(Option<PathBuf>, &[u8])> {
+    let (length, rest) = content.split_first_chunk()?;
+    let (home, rest) = rest.split_at_checked(u32::from_le_bytes(*length) as usize)?;
+    let home = str::from_utf8(home).ok()?;
+    Some(((!home.is_empty()).then(|| home.into()), rest))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::document::{Document, Edits, Example};
+    use crate::paint::{Brush, Medium};
+    use glam::dvec2;
+
+    fn folder(name: &str) -> PathBuf {
+        let folder = std::env::temp_dir().join(format!("meshbrush-journal-{}-{name}", std::process::id()));
+        let _ = fs::remove_dir_all(&folder);
+        folder
+    }
+
+    fn example() -> Document {
+        let mut document = Example::Threats.document(|| unreachable!());
+        document.take_edits();
+        document
+    }
+
+    /// Paints or erases, and returns the tiles that it touched.
+    fn gesture(document: &mut Document, n: u32) -> Tiles {
+        let medium = if n % 3 == 2 { Medium::Eraser } else { Medium::Diameter(0.01) };
+        document.begin_stroke(Brush { medium, radius: 0.05, hardness: 0.5, strength: 0.7 });
+        let at = f64::from(n) * 0.618 % 1.0;
+        document.draw_to(dvec2(at, 0.3));
+        document.draw_to(dvec2(0.5, at));
+        document.end_stroke();
+        let Edits::Tiles(places) = document.take_edits() else { panic!("strokes change paint alone") };
+        assert!(!places.is_empty());
+        document.layers().tiles(places)
+    }
+
+    #[test]
+    fn what_was_whole_at_any_cut_is_kept() {
+        let folder = folder("cuts");
+        let mut document = example();
+        let mut journal = Journal::begin(&folder, &Project::of(&document), None, 100).unwrap();
+        let mut versions =
+            vec![(fs::metadata(&journal.path).unwrap().len() as usize, document.layers().clone())];
+        for n in 0..12 {
+            journal.add_tiles(&gesture(&mut document, n), 101 + u64::from(n)).unwrap();
+            versions.push((fs::metadata(&journal.path).unwrap().len() as usize, document.layers().clone()));
+        }
+        let bytes = fs::read(&journal.path).unwrap();
+        for cut in (0..bytes.len())
+            .step_by(bytes.len() / 23)
+            .chain(versions.iter().flat_map(|&(end, _)| [end - 1, end]))
+        {
+            let whole = versions.partition_point(|&(end, _)| end <= cut);
+            match Kept::parse(&bytes[..cut]) {
+                None => assert_eq!(whole, 0, "cut at {cut}"),
+                Some(kept) => {
+                    assert_eq!((kept.time, kept.clean), (99 + whole as u64, false));
+                    let kept = kept.project.into_document().unwrap();
+                    assert!(*kept.layers() == versions[whole - 1].1, "cut at {cut}");
+                }
+            }
+        }
+        let mut damaged = bytes.clone();
+        damaged[versions[4].0 + 40] ^= 4;
+        assert_eq!(Kept::parse(&damaged).unwrap().time, 104);
+        fs::remove_dir_all(folder).unwrap();
+    }
+
+    #[test]
+    fn only_what_nobody_holds_and_is_unsaved_is_offered() {
+        let folder = folder("offered");
+        let mut document = example();
+        let home = Path::new("/tmp/threats.meshbrush");
+        let mut journal = Journal::begin(&folder, &Project::of(&document), None, 1).unwrap();
+        assert!(abandoned(&folder).is_empty(), "it is held");
+        journal.mark_clean(Some(home), 2).unwrap();
+        journal.add_tiles(&gesture(&mut document, 0), 3).unwrap();
+        drop(journal);
+        let found = abandoned(&folder);
+        assert_eq!((found.len(), found[0].time, found[0].home.as_deref()), (1, 3, Some(home)));
+        assert!(abandoned(&folder).is_empty(), "another window was offered it");
+        drop(found);
+        assert_eq!(abandoned(&folder).len(), 1, "and may be again");
+        abandoned(&folder).pop().unwrap().remove().unwrap();
+
+        let mut journal = Journal::begin(&folder, &Project::of(&document), None, 1).unwrap();
+        journal.mark_clean(None, 2).unwrap();
+        drop(journal);
+        assert!(abandoned(&folder).is_empty());
+        assert_eq!(fs::read_dir(&folder).unwrap().count(), 0, "nothing unsaved: it is removed");
+        fs::remove_dir_all(folder).unwrap();
+    }
+}
