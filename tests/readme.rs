@@ -19,8 +19,9 @@ fn blocks(language: &str) -> impl Iterator<Item = &'static str> {
 fn every_command_works_as_typed() {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("readme-{}", std::process::id()));
     std::fs::create_dir_all(folder.join("assets")).unwrap();
-    let picture = Path::new("assets/jacksboro_slope.png");
-    std::fs::copy(Path::new(env!("CARGO_MANIFEST_DIR")).join(picture), folder.join(picture)).unwrap();
+    for input in ["assets/jacksboro_slope.png", "assets/aegean_sea.geojson"] {
+        std::fs::copy(Path::new(env!("CARGO_MANIFEST_DIR")).join(input), folder.join(input)).unwrap();
+    }
     let programs = Path::new(PROGRAM).parent().unwrap();
     let path = format!("{}:{}", programs.display(), std::env::var("PATH").unwrap());
     let mut commands = 0;
@@ -38,8 +39,8 @@ fn every_command_works_as_typed() {
         let summary: serde_json::Value = serde_json::from_str(&printed).unwrap();
         assert_eq!(summary["violations"], 0);
     }
-    assert_eq!(commands, 4, "the commands were found");
-    for file in ["diamond.vtu", "terrain.msh", "terrain.png", "found.csv"] {
+    assert_eq!(commands, 5, "the commands were found");
+    for file in ["diamond.vtu", "terrain.msh", "terrain.png", "sea.2dm", "found.csv"] {
         assert!(folder.join(file).metadata().unwrap().len() > 100, "{file}");
     }
     std::fs::remove_dir_all(folder).unwrap();

@@ -10,7 +10,7 @@ use glam::{DVec2, dvec2};
 use super::SMALLEST_SIZE;
 use super::WINDOW_SIZE;
 use super::command::Command;
-use super::tools::{PaintKind, Tool};
+use super::tools::{DomainShape, PaintKind, Tool};
 use crate::document::{Base, Example, Setting};
 use crate::field::{Formula, Rule};
 use crate::io;
@@ -24,11 +24,12 @@ struct Scene {
     act: fn(&mut OffscreenWindow),
 }
 
-const SCENES: [Scene; 8] = [
+const SCENES: [Scene; 9] = [
     scene("window", window),
     scene("query", query),
     scene("diamond", diamond),
     scene("terrain", terrain),
+    scene("aegean", aegean),
     scene("light", light),
     scene("deep", deep),
     scene("palette", palette),
@@ -89,6 +90,14 @@ fn terrain(window: &mut OffscreenWindow) {
     window.send(Command::Use(Tool::Query));
     look_at(window, dvec2(20.2, 19.8), 5.0);
     window.send(Command::Query(dvec2(22.1, 19.2)));
+}
+
+/// A sea fitted to its coast, about to be cut.
+fn aegean(window: &mut OffscreenWindow) {
+    window.send(Command::OpenExample(Example::Aegean));
+    window.send(Command::DomainShape(DomainShape::Brush));
+    window.send(Command::BrushRadius(0.2));
+    point_at(window, dvec2(25.25, 38.1));
 }
 
 /// The first example in the light theme.
