@@ -11,19 +11,29 @@ use crate::document::Example;
 
 /// Every named command, in menu order, as it stands now.
 pub fn catalog(app: &App) -> Vec<Entry> {
-    [file(), edit(app), tool(app), view(app), examples(), help()].concat()
+    [file(app), edit(app), tool(app), view(app), examples(), help()].concat()
 }
 
-fn file() -> Vec<Entry> {
+fn file(app: &App) -> Vec<Entry> {
     use Menu::File;
-    vec![
+    let mut entries = vec![
         Entry::new(File, "New", Command::New).ctrl(Key::N),
-        Entry::new(File, "Open picture as risk…", Command::AskForImage).ctrl(Key::O),
+        Entry::new(File, "Open…", Command::AskToOpen).ctrl(Key::O),
+        Entry::new(File, "Save", Command::Save).ctrl(Key::S),
+        Entry::new(File, "Save as…", Command::AskWhereToSave)
+            .keys(Modifiers::COMMAND | Modifiers::SHIFT, Key::S),
+        Entry::new(File, "Open picture as risk…", Command::AskForImage).group(),
         Entry::new(File, "Open domain…", Command::AskForDomain)
             .keys(Modifiers::COMMAND | Modifiers::SHIFT, Key::O),
         Entry::new(File, "Export mesh…", Command::AskForExport).ctrl(Key::E),
-        Entry::new(File, "Quit", Command::Quit).ctrl(Key::Q).group(),
-    ]
+    ];
+    for (i, path) in app.project.recent().iter().enumerate() {
+        let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
+        let entry = Entry::new(File, format!("Open recent {name}"), Command::Open(path.clone()));
+        entries.push(if i == 0 { entry.group() } else { entry });
+    }
+    entries.push(Entry::new(File, "Quit", Command::Quit).ctrl(Key::Q).group());
+    entries
 }
 
 fn edit(app: &App) -> Vec<Entry> {

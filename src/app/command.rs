@@ -19,6 +19,20 @@ pub enum Command {
     New,
     /// One of the documents that come with the program.
     OpenExample(Example),
+    /// Asks for a file to open.
+    AskToOpen,
+    /// Opens a file; the ending says what it is.
+    Open(PathBuf),
+    /// Opens a project in place of the document.
+    OpenProject(PathBuf),
+    /// Saves the document to its file, or asks where.
+    Save,
+    /// Asks where to save it.
+    AskWhereToSave,
+    /// Saves it to a file, and asks before another one is replaced.
+    SaveAs(PathBuf),
+    /// Saves it to a file.
+    SaveTo(PathBuf),
     /// Asks for a picture to take as risk.
     AskForImage,
     /// Takes a greyscale picture as the base field's risk.

@@ -19,6 +19,7 @@ use crate::document::{Base, Document, Example, Setting, Settings};
 use crate::domain::{Domain, Polygon};
 use crate::geometry::Rect;
 use crate::io::png::{Behind, decode};
+use crate::io::project::ENDING;
 use crate::io::{self, MeshData};
 use crate::raster::Raster;
 use crate::render::export::ExportFormat;
@@ -49,6 +50,10 @@ pub fn example(example: Example) -> Document {
 /// What a file is asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FileRequest {
+    /// Any file that can be opened.
+    Open,
+    /// Where to save the document.
+    Save,
     /// A picture to take as risk.
     OpenImage,
     /// Polygons to mesh.
@@ -60,6 +65,8 @@ pub enum FileRequest {
 impl FileRequest {
     fn title(self) -> &'static str {
         match self {
+            Self::Open => "Open",
+            Self::Save => "Save project",
             Self::OpenImage => "Open picture as risk",
             Self::OpenDomain => "Open domain",
             Self::Export => "Export mesh",
@@ -68,13 +75,16 @@ impl FileRequest {
 
     fn verb(self) -> &'static str {
         match self {
-            Self::OpenImage | Self::OpenDomain => "Open",
+            Self::Open | Self::OpenImage | Self::OpenDomain => "Open",
+            Self::Save => "Save",
             Self::Export => "Export",
         }
     }
 
     fn hint(self) -> &'static str {
         match self {
+            Self::Open => "path of a .meshbrush, a .geojson or a greyscale .png",
+            Self::Save => "path ending in .meshbrush",
             Self::OpenImage => "path of a greyscale .png",
             Self::OpenDomain => "path of a .geojson with polygons",
             Self::Export => "ending in .vtu .msh .obj .stl .node .2dm .csv .svg .png",
@@ -83,6 +93,8 @@ impl FileRequest {
 
     fn command(self, path: PathBuf) -> Command {
         match self {
+            Self::Open => Command::Open(path),
+            Self::Save => Command::SaveAs(path),
             Self::OpenImage => Command::OpenImage(path),
             Self::OpenDomain => Command::OpenDomain(path),
             Self::Export => Command::Export(path),
@@ -188,7 +200,11 @@ impl Files {
             match outcome {
                 Outcome::Chosen(request, path) => {
                     self.asking = None;
-                    commands.push(request.command(path));
+                    // The desktop's own dialog has asked already.
+                    commands.push(match request {
+                        FileRequest::Save => Command::SaveTo(path),
+                        _ => request.command(path),
+                    });
                 }
                 Outcome::Image(base) => {
                     commands.extend([Command::Set(Setting::Base(base)), Command::EndGesture])
@@ -249,6 +265,13 @@ impl Files {
         thread::spawn(move || {
             let dialog = rfd::FileDialog::new().set_title(request.title());
             let path = match request {
+                FileRequest::Open => dialog
+                    .add_filter("Projects, domains, pictures", &[ENDING, "geojson", "json", "png"])
+                    .pick_file(),
+                FileRequest::Save => dialog
+                    .add_filter("Projects", &[ENDING])
+                    .set_file_name(format!("mesh.{ENDING}"))
+                    .save_file(),
                 FileRequest::OpenImage => dialog.add_filter("Pictures", &["png"]).pick_file(),
                 FileRequest::OpenDomain => dialog.add_filter("Polygons", &["geojson", "json"]).pick_file(),
                 FileRequest::Export => dialog

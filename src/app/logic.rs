@@ -18,9 +18,17 @@ use crate::mesh::TriangleId;
 impl App {
     /// Carries out one command.
     pub fn execute(&mut self, command: Command, ctx: &Context) {
+        let Some(command) = self.asked_before_leaving(command) else { return };
         match command {
             Command::New => self.open("new document", new_document()),
             Command::OpenExample(example) => self.open_example(example),
+            Command::AskToOpen => self.files.ask(FileRequest::Open),
+            Command::Open(path) => self.open_file(path),
+            Command::OpenProject(path) => self.open_project(path, ctx),
+            Command::Save => self.save(ctx),
+            Command::AskWhereToSave => self.files.ask(FileRequest::Save),
+            Command::SaveAs(path) => self.save_as(path, ctx),
+            Command::SaveTo(path) => self.save_to(path, ctx),
             Command::AskForImage => self.files.ask(FileRequest::OpenImage),
             Command::OpenImage(path) => self.files.load_image(path, self.session.document().settings(), ctx),
             Command::NewWith(settings) => self.new_with(*settings),
@@ -75,9 +83,14 @@ impl App {
         }
     }
 
-    pub(super) fn open(&mut self, title: &'static str, document: Document) {
+    fn open(&mut self, title: &'static str, document: Document) {
+        self.show_document(title, document);
+        self.project.belongs_to(None, self.session.document().version(), true);
+    }
+
+    /// Puts another document in the place of the present one, and fits brush and view to it.
+    pub(super) fn show_document(&mut self, title: &'static str, document: Document) {
         self.session.document_mut().replace_with(title, document);
-        self.unedited.push(self.session.document().version());
         self.session.query(None);
         self.session.set_notice(None);
         let settings = self.session.document().settings();

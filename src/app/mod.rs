@@ -9,9 +9,11 @@ mod catalog;
 pub mod command;
 mod files;
 mod hints;
+mod journal;
 mod keys;
 mod logic;
 mod panels;
+mod project;
 mod screenshots;
 pub mod readout;
 pub mod session;
@@ -44,6 +46,8 @@ use crate::domain::Boundary;
 use crate::mesh::TriangleId;
 use crate::render::gpu::device_descriptor;
 
+/// Names the program to the desktop, and its folder there.
+const APP_ID: &str = "meshbrush";
 /// Most of a frame's time that goes into bringing the mesh up to date.
 const FRAME_BUDGET: Duration = Duration::from_millis(7);
 /// Size of the window at first, in points.
@@ -54,8 +58,9 @@ const SMALLEST_SIZE: [f32; 2] = [900.0, 600.0];
 /// The program in its window.
 pub struct App {
     session: Session,
-    /// The versions of the document that were opened and not edited since.
-    unedited: Vec<u64>,
+    project: project::ProjectFile,
+    /// Only where the window is a real one.
+    journal: Option<journal::JournalKeeper>,
     tools: Tools,
     view: View,
     theme: ThemePreference,
@@ -101,7 +106,8 @@ impl App {
         let tools = Tools::for_domain(extent, settings.transfer.h_min);
         let gpu = render_state.map(CanvasGpu::new).transpose().map_err(|error| error.to_string())?;
         Ok(Self {
-            unedited: vec![session.document().version()],
+            project: project::ProjectFile::new(session.document().version()),
+            journal: None,
             session,
             tools,
             view: View::default(),
@@ -125,6 +131,15 @@ impl App {
             last_fitted: None,
             hovered_neighbour: None,
         })
+    }
+
+    /// Remembers from run to run what a person would miss: recent files, and work that was not saved.
+    fn keep_in(&mut self, cc: &eframe::CreationContext<'_>) {
+        if let Some(storage) = cc.storage {
+            self.project.remember(storage);
+        }
+        let folder = eframe::storage_dir(APP_ID).map(|folder| folder.join("journals"));
+        self.journal = folder.map(|folder| journal::JournalKeeper::new(folder, &cc.egui_ctx));
     }
 
     /// From now on shows the same on every machine: no times, and the mesh drawn in software.
@@ -157,13 +172,17 @@ impl App {
 
     /// Whether a dialog is open, which takes the keys.
     fn asks_something(&self) -> bool {
-        self.palette.is_open() || self.about || self.files.is_asking()
+        let restoring = self.journal.as_ref().is_some_and(|keeper| keeper.is_asking());
+        self.palette.is_open()
+            || self.about
+            || self.files.is_asking()
+            || self.project.is_asking()
+            || restoring
     }
 
     fn title(&self) -> String {
-        let document = self.session.document();
-        let edited = if self.unedited.contains(&document.version()) { "" } else { " — edited" };
-        format!("{}{edited}", document.settings().name)
+        let edited = if self.is_edited() { " — edited" } else { "" };
+        format!("{}{edited}", self.document_name())
     }
 
     fn palette_ui(&mut self, ctx: &Context) {
@@ -211,11 +230,14 @@ impl App {
         let ctx = ui.ctx().clone();
         self.view.ground = if ctx.theme() == Theme::Dark { Ground::Dark } else { Ground::Light };
         self.follow_keys(&ctx);
+        self.recovery_ui(&ctx);
+        self.project_ui(&ctx);
         self.files.update(&ctx, &mut self.session, &mut self.commands);
         self.palette_ui(&ctx);
         self.about_ui(&ctx);
         self.panels_ui(ui);
         egui::CentralPanel::default().frame(Frame::NONE).show(ui, |ui| self.canvas_ui(ui));
+        self.follow_journal();
     }
 }
 
@@ -224,20 +246,32 @@ impl eframe::App for App {
         self.show(ui);
     }
 
+    fn save(&mut self, storage: &mut dyn eframe::Storage) {
+        self.project.store(storage);
+    }
+
+    fn on_exit(&mut self) {
+        // Where the desktop takes the window away, nobody was asked.
+        let remove = self.may_leave();
+        if let Some(keeper) = &mut self.journal {
+            keeper.end(remove);
+        }
+    }
+
     fn raw_input_hook(&mut self, ctx: &Context, raw_input: &mut egui::RawInput) {
         self.catch_tab(ctx, raw_input);
     }
 }
 
-/// Opens the window, on a greyscale picture as risk or on the first example, and stays in it until it is closed.
+/// Opens the window, on a file or on the first example, and stays in it until it is closed.
 ///
 /// # Errors
 /// A sentence, when there is no display or no usable graphics driver.
-pub fn run(picture: Option<PathBuf>) -> Result<(), String> {
+pub fn run(file: Option<PathBuf>) -> Result<(), String> {
     let mut options = eframe::NativeOptions {
         viewport: egui::ViewportBuilder::default()
             .with_title("Meshbrush")
-            .with_app_id("meshbrush")
+            .with_app_id(APP_ID)
             .with_icon(window_icon())
             .with_inner_size(WINDOW_SIZE)
             .with_min_inner_size(vec2(SMALLEST_SIZE[0], SMALLEST_SIZE[1])),
@@ -248,10 +282,11 @@ pub fn run(picture: Option<PathBuf>) -> Result<(), String> {
     }
     let create = |cc: &eframe::CreationContext<'_>| -> Result<Box<dyn eframe::App>, _> {
         let mut app = App::new(&cc.egui_ctx, cc.wgpu_render_state.as_ref())?;
-        app.commands.extend(picture.map(Command::OpenImage));
+        app.commands.extend(file.map(Command::Open));
+        app.keep_in(cc);
         Ok(Box::new(app))
     };
-    eframe::run_native("meshbrush", options, Box::new(create)).map_err(failure_to_open)
+    eframe::run_native(APP_ID, options, Box::new(create)).map_err(failure_to_open)
 }
 
 fn window_icon() -> egui::IconData {

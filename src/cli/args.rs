@@ -10,8 +10,8 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 #[derive(Debug, Parser)]
 #[command(name = "meshbrush", version, args_conflicts_with_subcommands = true, max_term_width = 100)]
 pub struct Arguments {
-    /// Greyscale picture (.png) to open in the window as risk
-    pub picture: Option<PathBuf>,
+    /// File to open in the window: a project (.meshbrush), a domain (.geojson), or a greyscale picture as risk (.png)
+    pub file: Option<PathBuf>,
     #[command(subcommand)]
     pub command: Option<Command>,
 }

@@ -29,7 +29,7 @@ pub use terminal::grouped;
 
 /// What the command line can ask of the window. Errors are sentences.
 pub struct Window {
-    /// Opens it, on a picture or the first example, and returns when it is closed.
+    /// Opens it, on a file or the first example, and returns when it is closed.
     pub open: fn(Option<PathBuf>) -> Result<(), String>,
     /// Writes pictures of it into a folder, without a display, and returns the files.
     pub write_screenshots: fn(&Path) -> Result<Vec<PathBuf>, String>,
@@ -76,7 +76,7 @@ fn run_command(arguments: Arguments, window: Option<Window>, terminal: &mut Term
         }
         (None, Some(window)) => {
             drop(out);
-            (window.open)(arguments.picture).map_err(Failure::Work)
+            (window.open)(arguments.file).map_err(Failure::Work)
         }
         (None, None) => Err(without_window()),
     }

@@ -10,6 +10,11 @@ pub fn make_folder(path: &Path) -> io::Result<()> {
     fs::create_dir_all(path)
 }
 
+/// Whether there is something at a place.
+pub fn exists(path: &Path) -> bool {
+    path.exists()
+}
+
 /// Writes a file as a whole or not at all.
 ///
 /// The content goes to a temporary file in the same folder, which then takes the place of `path`: whatever was there stays

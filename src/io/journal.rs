@@ -266,7 +266,7 @@ mod tests {
     }
 
     fn example() -> Document {
-        let mut document = Example::Threats.document(|| unreachable!());
+        let mut document = Example::Threats.document(|| unreachable!(), || unreachable!());
         document.take_edits();
         document
     }

@@ -1,0 +1,243 @@
+//! Saving, opening and the questions before something would be lost, in the window, by role and label.
+#![cfg(feature = "gui")]
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use eframe::egui::{self, Key, Modifiers, vec2};
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable as _;
+use glam::dvec2;
+use meshbrush::app::App;
+use meshbrush::app::command::Command;
+use meshbrush::document::{Document, Example, Stage};
+use meshbrush::io::project::{self, Project};
+use meshbrush::mesh::Fingerprint;
+
+type Window = Harness<'static, App>;
+
+const EDITED: &str = "Radar threats — edited";
+
+fn window() -> Window {
+    let mut window = Harness::builder()
+        .with_size(vec2(1440.0, 900.0))
+        .with_max_steps(4000)
+        .build_eframe(|cc| App::new(&cc.egui_ctx, None).unwrap());
+    window.run();
+    window
+}
+
+fn folder(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("app-project").join(name);
+    let _ = fs::remove_dir_all(&folder); // absent at the first run
+    fs::create_dir_all(&folder).unwrap();
+    folder
+}
+
+fn send(window: &mut Window, command: Command) {
+    window.state_mut().send(command);
+    window.run();
+}
+
+fn key(window: &mut Window, modifiers: Modifiers, key: Key) {
+    window.key_press_modifiers(modifiers, key);
+    window.run();
+}
+
+fn press(window: &mut Window, button: &str) {
+    window.get_by_label(button).click();
+    window.run();
+}
+
+fn paint(window: &mut Window, at: f64) {
+    send(window, Command::BeginStroke(dvec2(at, 0.5)));
+    send(window, Command::DrawTo(dvec2(at, 0.6)));
+    send(window, Command::EndStroke);
+}
+
+fn document(window: &Window) -> &Document {
+    window.state().session().document()
+}
+
+/// Waits for work off the window's thread.
+fn wait(window: &mut Window, what: &str, done: impl Fn(&Window) -> bool) {
+    let start = Instant::now();
+    while !done(window) || window.state().session().stage() != Stage::InStep {
+        assert!(start.elapsed() < Duration::from_secs(30), "waited for {what}");
+        std::thread::sleep(Duration::from_millis(5));
+        window.run();
+    }
+}
+
+fn shows(window: &Window, label: &str) -> bool {
+    window.query_by_label(label).is_some()
+}
+
+fn fingerprint(window: &Window) -> Fingerprint {
+    window.state().session().mesh().fingerprint()
+}
+
+#[test]
+fn what_is_saved_by_key_is_opened_with_the_same_mesh() {
+    let file = folder("save").join("threats");
+    let mut window = window();
+    paint(&mut window, 0.9);
+    assert!(shows(&window, EDITED));
+    key(&mut window, Modifiers::COMMAND, Key::S);
+    assert!(shows(&window, "Save project"), "a new document has no file yet");
+    window.get_by_label("Path").type_text(file.to_str().unwrap());
+    window.run();
+    press(&mut window, "Save");
+    // The ending is added.
+    let saved = file.with_extension("meshbrush");
+    wait(&mut window, "saving", |window| shows(window, "threats"));
+    assert!(project::read(&saved).unwrap().layers() == document(&window).layers());
+
+    let (before, bytes) = (fingerprint(&window), fs::read(&saved).unwrap());
+    paint(&mut window, 0.8);
+    assert!(shows(&window, "threats — edited") && fingerprint(&window) != before);
+    send(&mut window, Command::Undo);
+    assert!(shows(&window, "threats"), "undone to what is saved");
+    send(&mut window, Command::Redo);
+    key(&mut window, Modifiers::COMMAND, Key::S);
+    wait(&mut window, "saving again", |window| shows(window, "threats"));
+    assert!(fs::read(&saved).unwrap() != bytes);
+
+    fs::write(&saved, &bytes).unwrap();
+    send(&mut window, Command::Open(saved.clone()));
+    wait(&mut window, "opening", |window| document(window).history().is_empty());
+    assert_eq!(fingerprint(&window), before);
+    assert!(shows(&window, "threats"));
+}
+
+#[test]
+fn edits_after_the_start_of_saving_stay_unsaved() {
+    let file = folder("during").join("a.meshbrush");
+    let mut window = window();
+    send(&mut window, Command::BeginStroke(dvec2(0.9, 0.5)));
+    send(&mut window, Command::SaveTo(file.clone()));
+    let saved = document(&window).layers().clone();
+    paint(&mut window, 0.8);
+    wait(&mut window, "saving", |window| shows(window, "a — edited"));
+    assert!(*project::read(&file).unwrap().layers() == saved);
+    assert!(saved != *document(&window).layers());
+}
+
+#[test]
+fn unsaved_edits_are_asked_about() {
+    let file = folder("asked").join("b.meshbrush");
+    let question = "Save changes to “Radar threats”?";
+    for leave in [Command::New, Command::OpenExample(Example::Diamond), Command::Quit] {
+        let mut window = window();
+        send(&mut window, leave.clone());
+        assert!(!shows(&window, question), "nothing is unsaved");
+        send(&mut window, Command::OpenExample(Example::Threats));
+        paint(&mut window, 0.9);
+        let before = document(&window).version();
+        send(&mut window, leave.clone());
+        assert!(shows(&window, question), "{leave:?}");
+        press(&mut window, "Cancel");
+        assert_eq!(document(&window).version(), before);
+        send(&mut window, leave.clone());
+        press(&mut window, "Do not save");
+        assert!(!shows(&window, question));
+        assert_eq!(document(&window).version() == before, leave == Command::Quit);
+    }
+    // Saved first, and then left.
+    let mut window = window();
+    send(&mut window, Command::SaveTo(file.clone()));
+    wait(&mut window, "saving", |window| shows(window, "b"));
+    paint(&mut window, 0.9);
+    let painted = document(&window).layers().clone();
+    send(&mut window, Command::New);
+    press(&mut window, "Save");
+    wait(&mut window, "saving and leaving", |window| document(window).layers().is_blank());
+    assert!(*project::read(&file).unwrap().layers() == painted);
+    // A new document has no file: nothing is written over.
+    paint(&mut window, 0.5);
+    key(&mut window, Modifiers::COMMAND, Key::S);
+    assert!(shows(&window, "Save project"));
+}
+
+#[test]
+fn a_file_that_is_there_is_not_replaced_without_a_question() {
+    let file = folder("replace").join("c.meshbrush");
+    fs::write(&file, "somebody's").unwrap();
+    let mut window = window();
+    send(&mut window, Command::SaveAs(file.clone()));
+    press(&mut window, "Cancel");
+    assert_eq!(fs::read(&file).unwrap(), b"somebody's");
+    send(&mut window, Command::SaveAs(file.clone()));
+    press(&mut window, "Replace");
+    wait(&mut window, "saving", |window| shows(window, "c"));
+    assert!(project::read(&file).is_ok());
+}
+
+#[test]
+fn what_cannot_be_opened_or_saved_is_told_and_changes_nothing() {
+    let folder = folder("bad");
+    let mut sound = Vec::new();
+    project::write(
+        &mut sound,
+        &Project::of(&Example::Threats.document(|| unreachable!(), || unreachable!())),
+    )
+    .unwrap();
+    let bad: [(&str, &[u8], &str); 4] = [
+        ("cut.meshbrush", &sound[..sound.len() / 2], "cut off"),
+        ("empty.meshbrush", b"", "empty"),
+        ("text.txt", b"hello", ".meshbrush"),
+        ("picture.meshbrush", b"\x89PNG", "no Meshbrush project"),
+    ];
+    let mut window = window();
+    let version = document(&window).version();
+    for (name, bytes, word) in bad {
+        let file = folder.join(name);
+        fs::write(&file, bytes).unwrap();
+        send(&mut window, Command::Open(file));
+        let told = |window: &Window| window.state().session().notice().map(|notice| notice.text.clone());
+        wait(&mut window, name, |window| told(window).is_some_and(|text| text.contains(name)));
+        let text = told(&window).unwrap();
+        assert!(text.contains(word), "{text}");
+    }
+    assert_eq!(document(&window).version(), version);
+    paint(&mut window, 0.9);
+    send(&mut window, Command::SaveTo(folder.join("no-such-folder").join("d.meshbrush")));
+    let failed = |window: &Window| window.state().session().notice().is_some_and(|notice| notice.failed);
+    wait(&mut window, "the failure", failed);
+    assert!(shows(&window, EDITED), "it is not saved");
+}
+
+/// A file as the desktop hands it over.
+#[derive(Debug)]
+struct Dropped(PathBuf);
+
+impl egui::DroppedFile for Dropped {
+    fn path(&self) -> &Path {
+        &self.0
+    }
+
+    fn bytes(&self) -> Result<Vec<u8>, String> {
+        unreachable!("files are opened by their path")
+    }
+}
+
+#[test]
+fn files_can_be_dropped_and_recent_ones_are_in_the_menu() {
+    let file = folder("recent").join("dropped.meshbrush");
+    let mut bytes = Vec::new();
+    project::write(
+        &mut bytes,
+        &Project::of(&Example::Diamond.document(|| unreachable!(), || unreachable!())),
+    )
+    .unwrap();
+    fs::write(&file, bytes).unwrap();
+    let mut window = window();
+    window.input_mut().dropped_files.push(Arc::new(Dropped(file)));
+    window.run();
+    wait(&mut window, "opening", |window| shows(window, "dropped"));
+    assert_eq!(window.state().session().mesh().triangle_count(), 9560);
+    press(&mut window, "File");
+    assert!(shows(&window, "Open recent dropped.meshbrush"));
+}
