@@ -29,6 +29,7 @@ const LEVEL_0: ([u8; 3], u8) = ([0x1d, 0x21, 0x2b], 3);
 const BRUSH_KEY: &str = "b";
 const QUERY_KEY: &str = "q";
 const UNDO_KEYS: &str = "ctrl+z";
+const NEW_KEYS: &str = "ctrl+n";
 const QUIT_KEYS: &str = "ctrl+q";
 /// Places in the domain, as fractions from its upper left corner. The first example leaves them free of paint.
 const STROKE: [(f64, f64); 2] = [(0.84, 0.50), (0.96, 0.56)];
@@ -120,6 +121,58 @@ fn paint_query_and_undo(name: &str, draw: &str) {
     assert!(!program.said().contains("panicked"), "{}", program.said());
 }
 
+/// `MESHBRUSH_KILLS=20 cargo test --test window -- --ignored killed --nocapture` says more about more of them.
+#[test]
+#[ignore = "needs a virtual display: sh tests/run starts one"]
+fn killed_at_a_random_moment_it_loses_no_more_than_the_stroke_under_way() {
+    let kills = std::env::var("MESHBRUSH_KILLS").map_or(2, |kills| kills.parse().expect("a count"));
+    let scratch = Scratch::new("killed");
+    let display = Display::start(&scratch);
+    let variables = [("DISPLAY", display.name.as_str())];
+    let journals = scratch.path("meshbrush/journals");
+    let mut random = fastrand::Rng::new();
+    let mut all_lost = Vec::new();
+    for _ in 0..kills {
+        let _ = fs::remove_dir_all(&journals); // absent at the first run
+        let mut program = Program::start(&scratch, &variables);
+        program.wait_for_window(&display);
+        display.xdotool(&["key", NEW_KEYS]);
+        display.point_at(RESTING_PLACE);
+        let domain = display.settled_picture(&scratch, "1-blank").domain();
+        let moment = Duration::from_millis(random.u64(50..1800));
+        let done = display.paint_until_killed(&mut program, &domain, moment);
+        drop(program);
+
+        let mut program = Program::start(&scratch, &variables);
+        program.wait_for_window(&display);
+        display.settled_picture(&scratch, "2-offered");
+        display.xdotool(&["key", "Return"]);
+        let restored = display.settled_picture(&scratch, "3-restored");
+        let is_there = |n: &usize| {
+            let (x, y) = domain.at(dab(*n)[0]);
+            restored.count(&Area { x: x - 4..x + 4, y: y - 4..y + 4 }, Rgb::is_refined) > 40
+        };
+        let there = (0..DABS).filter(is_there).count();
+        let lost = done.saturating_sub(there);
+        println!("killed after {moment:?}: {done} strokes ended, {there} came back");
+        assert!(lost <= 1, "killed after {moment:?}: {there} of {done} strokes came back");
+        assert!((0..there).all(|n| is_there(&n)), "those that came back are the first");
+        let kept = fs::read_dir(&journals).map_or(0, Iterator::count);
+        assert!(kept <= 1, "what was restored is kept once");
+        all_lost.push(lost);
+    }
+    println!("{kills} kills, lost each time: {all_lost:?}");
+}
+
+/// Strokes that are painted before the program is killed, and where the n-th begins and ends.
+const DABS: usize = 16;
+
+fn dab(n: usize) -> [(f64, f64); 2] {
+    let (column, row) = ((n % 4) as f64, (n / 4) as f64);
+    let (x, y) = (0.14 + 0.24 * column, 0.14 + 0.24 * row);
+    [(x, y), (x + 0.03, y)]
+}
+
 #[test]
 fn without_a_display_it_says_so_in_one_sentence() {
     let scratch = Scratch::new("no-display");
@@ -201,11 +254,11 @@ impl Program {
 
     /// Waits until the window is there and the keyboard goes to it: without a window manager nobody else sees to that.
     fn wait_for_window(&mut self, display: &Display) {
-        let window = wait_for("a window named Meshbrush…", || {
+        let window = wait_for("a window named … Meshbrush", || {
             if let Some(status) = self.child.try_wait().expect("the program is our child") {
                 panic!("the program ended with {status} before it had a window: {}", self.said());
             }
-            let found = display.try_xdotool(&["search", "--onlyvisible", "--name", "^Meshbrush"])?;
+            let found = display.try_xdotool(&["search", "--onlyvisible", "--name", "Meshbrush$"])?;
             found.lines().next().map(str::to_owned)
         });
         wait_for("the keyboard to go to the window", || {
@@ -286,6 +339,35 @@ impl Display {
             self.xdotool(&["mousemove_relative", "--", &step(from.0, to.0), &step(from.1, to.1)]);
         }
         self.xdotool(&["mouseup", "1"]);
+    }
+
+    /// Paints one stroke after the other until the program is killed, and returns how many had ended by then.
+    fn paint_until_killed(&self, program: &mut Program, domain: &Area, moment: Duration) -> usize {
+        let start = Instant::now();
+        let child = &mut program.child;
+        std::thread::scope(|scope| {
+            let painter = scope.spawn(|| {
+                let mut ends = Vec::new();
+                for [from, to] in (0..DABS).map(dab) {
+                    let [from, to] =
+                        [from, to].map(|at| domain.at(at)).map(|(x, y)| [x.to_string(), y.to_string()]);
+                    let press = ["mousemove", &from[0], &from[1], "mousedown", "1", "sleep", "0.02"];
+                    let release = ["mousemove", &to[0], &to[1], "sleep", "0.02", "mouseup", "1"];
+                    if self.try_xdotool(&[&press[..], &release].concat()).is_none() {
+                        break;
+                    }
+                    ends.push(start.elapsed());
+                    sleep(Duration::from_millis(30));
+                }
+                ends
+            });
+            sleep(moment.saturating_sub(start.elapsed()));
+            child.kill().expect("it still runs");
+            child.wait().expect("it is our child");
+            let killed = start.elapsed();
+            let ends = painter.join().expect("painting does not fail");
+            ends.into_iter().filter(|&end| end < killed).count()
+        })
     }
 
     /// The screen once it has not changed for a while, kept as `name`.png.
