@@ -3,7 +3,7 @@
 use eframe::egui::{Key, Modifiers, ThemePreference};
 
 use super::App;
-use super::command::{Command, Entry, Menu};
+use super::command::{Command, DomainCommand, Entry, Menu};
 use super::tools::{DomainShape, PaintKind, Tool};
 use super::view::FieldOverlay;
 use crate::colormap::Colormap;
@@ -84,20 +84,23 @@ fn tool(app: &App) -> Vec<Entry> {
     ];
     let shape = |title: &str, shape| {
         let taken = tools.tool == Tool::Domain && tools.domain_shape == shape;
-        Entry::new(InTool, title, Command::DomainShape(shape)).checked(taken)
+        Entry::new(InTool, title, Command::Domain(DomainCommand::Shape(shape))).checked(taken)
     };
     entries.extend([
         shape("Cut domain with the brush", DomainShape::Brush).group(),
         shape("Cut domain with a rectangle", DomainShape::Rectangle),
         shape("Cut domain with a polygon", DomainShape::Polygon),
         shape("Draw the frame of the domain", DomainShape::Frame),
-        Entry::new(InTool, "Add to the domain", Command::DomainAdds(!tools.domain_adds))
+        Entry::new(InTool, "Add to the domain", Command::Domain(DomainCommand::Adds(!tools.domain_adds)))
             .key(Key::X)
             .checked(tools.domain_adds),
     ]);
     let drawing = !app.outline.is_empty();
     if drawing {
-        entries.push(Entry::new(InTool, "Close the polygon", Command::CloseOutline).key(Key::Enter));
+        entries.push(
+            Entry::new(InTool, "Close the polygon", Command::Domain(DomainCommand::CloseOutline))
+                .key(Key::Enter),
+        );
     }
     for (i, key) in DIGITS.into_iter().enumerate() {
         let percent = 10 * (i + 1);

@@ -96,18 +96,8 @@ pub enum Command {
     /// Asks about a triangle.
     QueryTriangle(TriangleId),
 
-    /// Adds a shape to the domain (`true`) or takes it away. Goes on until [`Command::EndGesture`].
-    Reshape(Stencil, bool),
-    /// Sets the next corner of the polygon to cut the domain with, in world units.
-    AddCorner(DVec2),
-    /// Closes that polygon and cuts.
-    CloseOutline,
-    /// What the domain tool cuts with.
-    DomainShape(DomainShape),
-    /// Whether it adds or takes away.
-    DomainAdds(bool),
-    /// Makes the rectangle between two points, in world units, the domain's.
-    Frame(DVec2, DVec2),
+    /// Cuts the domain, or chooses what with.
+    Domain(DomainCommand),
 
     /// Shows the whole domain.
     Fit,
@@ -129,6 +119,23 @@ pub enum Command {
     Palette,
     /// Shows what the program is.
     About,
+}
+
+/// What the domain tool does.
+#[derive(Clone, Debug, PartialEq)]
+pub enum DomainCommand {
+    /// Adds a shape to the domain (`true`) or takes it away. Goes on until [`Command::EndGesture`].
+    Reshape(Stencil, bool),
+    /// Sets the next corner of the polygon to cut the domain with, in world units.
+    AddCorner(DVec2),
+    /// Closes that polygon and cuts.
+    CloseOutline,
+    /// What the domain tool cuts with.
+    Shape(DomainShape),
+    /// Whether it adds or takes away.
+    Adds(bool),
+    /// Makes the rectangle between two points, in world units, the domain's.
+    Frame(DVec2, DVec2),
 }
 
 /// The menu that an entry is in.

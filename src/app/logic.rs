@@ -8,11 +8,9 @@ use super::canvas::Gesture;
 use super::command::Command;
 use super::files::FileRequest;
 use super::readout::{Quantity, value_at};
-use super::tools::{DomainShape, PaintKind, Tool, Tools};
+use super::tools::{PaintKind, Tool, Tools};
 use super::view::FieldOverlay;
-use crate::document::{Document, Example, Setting, Settings};
-use crate::domain::Stencil;
-use crate::geometry::Rect;
+use crate::document::{Document, Example, Settings};
 use crate::mesh::TriangleId;
 
 impl App {
@@ -63,12 +61,7 @@ impl App {
             Command::Query(point) => self.query(point),
             Command::QueryTriangle(id) => self.query_triangle(id),
 
-            Command::Reshape(stencil, adds) => self.reshape(&stencil, adds),
-            Command::AddCorner(corner) => self.outline.push(corner),
-            Command::CloseOutline => self.close_outline(),
-            Command::DomainShape(shape) => self.take_domain_shape(shape),
-            Command::DomainAdds(adds) => self.tools.domain_adds = adds,
-            Command::Frame(a, b) => self.frame(a, b),
+            Command::Domain(command) => self.execute_on_domain(command),
 
             Command::Fit => self.view.camera = None,
             Command::LookAt(point) => self.view.look_at(point),
@@ -206,39 +199,9 @@ impl App {
         self.hints.did(Tool::Query);
     }
 
-    fn take_tool(&mut self, tool: Tool) {
+    pub(super) fn take_tool(&mut self, tool: Tool) {
         self.tools.tool = tool;
         self.outline.clear();
-    }
-
-    fn take_domain_shape(&mut self, shape: DomainShape) {
-        self.take_tool(Tool::Domain);
-        self.tools.domain_shape = shape;
-    }
-
-    fn reshape(&mut self, stencil: &Stencil, adds: bool) {
-        match self.session.document().settings().domain.reshaped(stencil, adds) {
-            Some(domain) => self.session.set(Setting::Domain(domain)),
-            None => self.session.report(
-                "The domain is given by a formula, and a formula has no outline to cut. Empty the row \"Domain where\" to start \
-                 from the whole rectangle.",
-            ),
-        }
-        self.hints.did(Tool::Domain);
-    }
-
-    fn close_outline(&mut self) {
-        let ring = std::mem::take(&mut self.outline);
-        if ring.len() >= 3 {
-            self.reshape(&Stencil::Ring(ring), self.tools.domain_adds);
-            self.session.document_mut().end_gesture();
-        }
-    }
-
-    fn frame(&mut self, a: DVec2, b: DVec2) {
-        self.session.set(Setting::Bounds(Rect::new(a.min(b), a.max(b))));
-        self.session.document_mut().end_gesture();
-        self.hints.did(Tool::Domain);
     }
 
     /// The key of an overlay that is shown takes it away.

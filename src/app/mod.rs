@@ -7,6 +7,7 @@ mod busy;
 mod canvas;
 mod catalog;
 pub mod command;
+mod cutting;
 mod files;
 mod hints;
 mod journal;

@@ -3,7 +3,7 @@
 use eframe::egui::{self, Event, Key, Modifiers, PointerButton, Pos2, Response, Ui};
 use glam::{DVec2, dvec2};
 
-use super::super::command::Command;
+use super::super::command::{Command, DomainCommand};
 use super::super::tools::{DomainShape, Tool, Tools};
 use crate::domain::{Stencil, corners};
 use crate::geometry::Rect;
@@ -176,7 +176,7 @@ impl Pointer<'_> {
         let adds = self.tools.domain_adds != modifiers.alt;
         match self.tools.domain_shape {
             DomainShape::Brush => {
-                commands.push(Command::Reshape(self.brush_along(vec![point]), adds));
+                commands.push(Command::Domain(DomainCommand::Reshape(self.brush_along(vec![point]), adds)));
                 Gesture::Cutting { last: point, adds }
             }
             DomainShape::Rectangle => Gesture::Framing { from: pos, to: pos, adds: Some(adds) },
@@ -186,7 +186,9 @@ impl Pointer<'_> {
                     let px = self.camera.screen_from_world(first).distance(self.px(pos));
                     px < CLOSING_POINTS * self.px_per_point
                 });
-                commands.push(if closes { Command::CloseOutline } else { Command::AddCorner(point) });
+                let command =
+                    if closes { DomainCommand::CloseOutline } else { DomainCommand::AddCorner(point) };
+                commands.push(Command::Domain(command));
                 Gesture::None
             }
         }
@@ -198,10 +200,13 @@ impl Pointer<'_> {
 
     /// Cuts from where the brush was to where it is; all that it does in one frame is cut at once.
     fn cut_to(&self, point: DVec2, last: &mut DVec2, adds: bool, commands: &mut Vec<Command>) {
-        if let Some(Command::Reshape(Stencil::Stroke { path, .. }, _)) = commands.last_mut() {
+        if let Some(Command::Domain(DomainCommand::Reshape(Stencil::Stroke { path, .. }, _))) =
+            commands.last_mut()
+        {
             path.push(point);
         } else if point != *last {
-            commands.push(Command::Reshape(self.brush_along(vec![*last, point]), adds));
+            commands
+                .push(Command::Domain(DomainCommand::Reshape(self.brush_along(vec![*last, point]), adds)));
         }
         *last = point;
     }
@@ -279,10 +284,10 @@ fn give_up(gesture: &mut Gesture, commands: &mut Vec<Command>) {
 /// What a rectangle between two corners does to the domain.
 fn framed(a: DVec2, b: DVec2, adds: Option<bool>) -> Vec<Command> {
     match adds {
-        None => vec![Command::Frame(a, b)],
+        None => vec![Command::Domain(DomainCommand::Frame(a, b))],
         Some(adds) => {
             let ring = corners(&Rect::spanning(a, b));
-            vec![Command::Reshape(Stencil::Ring(ring), adds), Command::EndGesture]
+            vec![Command::Domain(DomainCommand::Reshape(Stencil::Ring(ring), adds)), Command::EndGesture]
         }
     }
 }

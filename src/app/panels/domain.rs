@@ -1,7 +1,7 @@
 use eframe::egui::{RichText, Ui};
 
 use super::super::App;
-use super::super::command::Command;
+use super::super::command::{Command, DomainCommand};
 use super::super::theme::{font, tokens};
 use super::super::tools::{DomainShape, Tool};
 use super::super::widgets::{ActionButton, NumberRow, Section, SliderRow, format, segmented, value_row};
@@ -38,7 +38,7 @@ impl App {
             (DomainShape::Frame, "Frame"),
         ];
         if segmented(ui, "What cuts the domain", &mut shape, &choices).changed() {
-            self.commands.push(Command::DomainShape(shape));
+            self.commands.push(Command::Domain(DomainCommand::Shape(shape)));
         }
         ui.add_space(4.0);
         if shape == DomainShape::Frame {
@@ -48,7 +48,7 @@ impl App {
         let mut adds = self.tools.domain_adds;
         let choices = [(false, "Take away"), (true, "Add")];
         if segmented(ui, "Add or take away", &mut adds, &choices).changed() {
-            self.commands.push(Command::DomainAdds(adds));
+            self.commands.push(Command::Domain(DomainCommand::Adds(adds)));
         }
         ui.add_space(4.0);
         if shape == DomainShape::Brush {

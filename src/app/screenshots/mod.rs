@@ -9,7 +9,7 @@ use glam::{DVec2, dvec2};
 
 use super::SMALLEST_SIZE;
 use super::WINDOW_SIZE;
-use super::command::Command;
+use super::command::{Command, DomainCommand};
 use super::tools::{DomainShape, PaintKind, Tool};
 use crate::document::{Base, Example, Setting};
 use crate::field::{Formula, Rule};
@@ -95,7 +95,7 @@ fn terrain(window: &mut OffscreenWindow) {
 /// A sea fitted to its coast, about to be cut.
 fn aegean(window: &mut OffscreenWindow) {
     window.send(Command::OpenExample(Example::Aegean));
-    window.send(Command::DomainShape(DomainShape::Brush));
+    window.send(Command::Domain(DomainCommand::Shape(DomainShape::Brush)));
     window.send(Command::BrushRadius(0.2));
     point_at(window, dvec2(25.25, 38.1));
 }
