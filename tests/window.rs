@@ -154,14 +154,14 @@ fn killed_at_a_random_moment_it_loses_no_more_than_the_stroke_under_way() {
         };
         let there = (0..DABS).filter(is_there).count();
         let lost = done.saturating_sub(there);
-        println!("killed after {moment:?}: {done} strokes ended, {there} came back");
+        eprintln!("killed after {moment:?}: {done} strokes ended, {there} came back");
         assert!(lost <= 1, "killed after {moment:?}: {there} of {done} strokes came back");
         assert!((0..there).all(|n| is_there(&n)), "those that came back are the first");
         let kept = fs::read_dir(&journals).map_or(0, Iterator::count);
         assert!(kept <= 1, "what was restored is kept once");
         all_lost.push(lost);
     }
-    println!("{kills} kills, lost each time: {all_lost:?}");
+    eprintln!("{kills} kills, lost each time: {all_lost:?}");
 }
 
 /// Strokes that are painted before the program is killed, and where the n-th begins and ends.

@@ -175,7 +175,7 @@ impl RegionOnLattice {
                 State::Inside => return !inside,
                 State::Cut => {}
             }
-            let left = 3 * ((square - row_start) as i64) << self.smallest_bits();
+            let left = (3 * (square - row_start) as i64) << self.smallest_bits();
             // Each crossing is counted in the one square where it lies: right of its left rim, up to its right rim.
             let left = if square == row_start { i64::MIN } else { left };
             let crossings = self.edges_in(square).filter(|edge| edge.crosses_between(left, right, thrice));
@@ -244,7 +244,7 @@ impl RegionOnLattice {
         let left = if column == 0 { i64::MIN } else { 3 * (i64::from(column) << bits) };
         let right = if column + 1 == columns { i64::MAX } else { 3 * (i64::from(column + 1) << bits) };
         // Half a side up, in thirds of a step: no corner lies at that height where the side is one step.
-        let height = (3 * (2 * i64::from(row) + 1) << bits) / 2;
+        let height = ((3 * (2 * i64::from(row) + 1)) << bits) / 2;
         let square = row as usize * columns as usize + column as usize;
         self.edges_in(square).filter(|edge| edge.crosses_between(left, right, [i64::MAX, height])).count()
     }
