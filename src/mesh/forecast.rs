@@ -23,11 +23,15 @@ use crate::geometry::{Lattice, LatticePoint, LatticeRect};
 /// use meshbrush::geometry::Rect;
 /// use meshbrush::mesh::{Forecast, Limits, Mesh, Progress};
 ///
-/// let mesh = Mesh::coarse_grid(Rect::UNIT, 0.5, |_| true, &Limits::default())?;
+/// let mut mesh = Mesh::coarse_grid(Rect::UNIT, 0.5, |_| true, &Limits::default())?;
 /// let square = mesh.lattice().rect_round(&Rect::around(glam::dvec2(0.3, 0.4), 0.1)).unwrap();
 /// let mut forecast = Forecast::new(&mesh, square, &Limits::default());
-/// let progress = forecast.run(&mesh, |corners, level| level < 2 && square.touches(corners), |_, _| true, usize::MAX)?;
-/// assert_eq!((progress, forecast.change()), (Progress::Done, 8));
+/// let exceeds = |corners, level| level < 2 && square.touches(corners);
+/// assert_eq!(forecast.run(&mesh, exceeds, |_, _| true, usize::MAX)?, Progress::Done);
+///
+/// let before = mesh.triangles().len() as i64;
+/// mesh.refine(&Limits::default(), |element| Ok(exceeds(element.corners, element.triangle.level())))?;
+/// assert_eq!(before + forecast.change(), mesh.triangles().len() as i64);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug)]
