@@ -20,6 +20,8 @@ pub struct RegionOnLattice {
     /// The tree, root first: side lengths halve from one entry to the next.
     layers: Vec<Layer>,
     edges: Vec<Edge>,
+    /// For each smallest square whether its left rim lies inside, half way up.
+    inside_at_left: Vec<bool>,
     /// For each smallest square the end of its part of `edges_of_square`.
     ends: Vec<u32>,
     edges_of_square: Vec<u32>,
@@ -80,6 +82,7 @@ impl RegionOnLattice {
             root_bits,
             layers: Vec::new(),
             edges,
+            inside_at_left: Vec::new(),
             ends: Vec::new(),
             edges_of_square: Vec::new(),
         };
@@ -161,31 +164,30 @@ impl RegionOnLattice {
         })
     }
 
-    /// Whether a point lies inside, given by three times its coordinates: by the squares and edges to its left.
+    /// Whether a point lies inside, given by three times its coordinates: by the edges between it and the middle of the left rim
+    /// of its square, first across and then up or down.
     fn is_inside(&self, thrice: [i64; 2]) -> bool {
-        let layer = self.smallest();
-        let point = thrice.map(|c| c.div_euclid(3));
-        let mut square = self.square_of(point);
-        let row_start = square - square % layer.columns as usize;
-        let mut inside = false;
-        let mut right = i64::MAX;
-        loop {
-            match layer.states[square] {
-                State::Outside => return inside,
-                State::Inside => return !inside,
-                State::Cut => {}
-            }
-            let left = (3 * (square - row_start) as i64) << self.smallest_bits();
-            // Each crossing is counted in the one square where it lies: right of its left rim, up to its right rim.
-            let left = if square == row_start { i64::MIN } else { left };
-            let crossings = self.edges_in(square).filter(|edge| edge.crosses_between(left, right, thrice));
-            inside ^= crossings.count() % 2 == 1;
-            if square == row_start {
-                return inside;
-            }
-            right = left;
-            square -= 1;
+        let square = self.square_of(thrice.map(|c| c.div_euclid(3)));
+        match self.smallest().states[square] {
+            State::Outside => return false,
+            State::Inside => return true,
+            State::Cut => {}
         }
+        let [left, height] = self.middle_of_left_rim(square);
+        let between = self.edges_in(square).filter(|edge| {
+            edge.crosses_between(left, i64::MAX, [thrice[0], height])
+                != edge.crosses_beside(thrice[0], height, thrice[1])
+        });
+        self.inside_at_left[square] ^ (between.count() % 2 == 1)
+    }
+
+    /// Where the state of a smallest square is known from, in thirds of a step.
+    fn middle_of_left_rim(&self, square: usize) -> [i64; 2] {
+        let (bits, columns) = (self.smallest_bits(), self.smallest().columns as usize);
+        let (column, row) = ((square % columns) as i64, (square / columns) as i64);
+        // Left of the grid there are no edges.
+        let left = if column == 0 { i64::MIN } else { 3 * (column << bits) };
+        [left, middle_of_row(row, bits)]
     }
 
     fn sort_edges_into_squares(&mut self, halvings: u32) {
@@ -216,6 +218,7 @@ impl RegionOnLattice {
             let mut inside = false;
             for column in 0..columns {
                 let square = row as usize * columns as usize + column as usize;
+                self.inside_at_left.push(inside);
                 let state = match (self.edges_in(square).next().is_some(), inside) {
                     (true, _) => State::Cut,
                     (false, true) => State::Inside,
@@ -243,8 +246,7 @@ impl RegionOnLattice {
         let bits = self.root_bits - halvings;
         let left = if column == 0 { i64::MIN } else { 3 * (i64::from(column) << bits) };
         let right = if column + 1 == columns { i64::MAX } else { 3 * (i64::from(column + 1) << bits) };
-        // Half a side up, in thirds of a step: no corner lies at that height where the side is one step.
-        let height = ((3 * (2 * i64::from(row) + 1)) << bits) / 2;
+        let height = middle_of_row(i64::from(row), bits);
         let square = row as usize * columns as usize + column as usize;
         self.edges_in(square).filter(|edge| edge.crosses_between(left, right, [i64::MAX, height])).count()
     }
@@ -362,6 +364,22 @@ impl Edge {
         is_left_of(px) && is_left_of(right) && (left == i64::MIN || !is_left_of(left))
     }
 
+    /// Whether the edge crosses the vertical line just left of `px` between two heights. Everything in thirds of a lattice step;
+    /// heights are a hair above what they say, less than the line is left of `px`, as [`Self::crosses_between`] has it.
+    fn crosses_beside(&self, px: i64, from: i64, to: i64) -> bool {
+        let [[ax, ay], [bx, by]] = self.ends.map(|end| end.map(|c| 3 * c));
+        if (ax < px) == (bx < px) {
+            return false;
+        }
+        // The line through the edge meets px at y = ay + (px − ax) (by − ay) / (bx − ax).
+        let (run, rise) = (i128::from(bx - ax), i128::from(by - ay));
+        let is_above = |height: i64| {
+            let offset = (i128::from(px - ax) * rise - i128::from(height - ay) * run) * run.signum();
+            offset > 0 || (offset == 0 && rise * run < 0)
+        };
+        is_above(from) != is_above(to)
+    }
+
     /// Calls `touched` for every square of a grid that the edge has a point in common with, rim included.
     fn squares_touched(&self, counts: [u32; 2], bits: u32, mut touched: impl FnMut(usize)) {
         let [[ax, ay], [bx, by]] = self.ends;
@@ -395,6 +413,11 @@ impl Edge {
         let ((l0, h0), (l1, h1)) = (at(bottom), at(top));
         (l0.min(l1), h0.max(h1))
     }
+}
+
+/// Half a side up in a row of squares, in thirds of a step: no corner lies at that height where the side is one step.
+fn middle_of_row(row: i64, bits: u32) -> i64 {
+    (3 * (2 * row + 1) << bits) / 2
 }
 
 fn thrice_centroid(corners: [LatticePoint; 3]) -> [i64; 2] {
