@@ -86,6 +86,20 @@ pub enum GridError {
         /// Most coarse triangles allowed.
         limit: usize,
     },
+    /// The domain is so narrow that cells as wide as it is make too many along the other side.
+    #[error(
+        "A domain of {} × {} is too narrow: cells nearly as long as wide would make about {triangles:.3e} triangles to start \
+         with, and the limit is {limit}. Choose a wider domain.",
+        size.x, size.y
+    )]
+    TooNarrow {
+        /// Width and height of the domain.
+        size: DVec2,
+        /// Coarse triangles that it asks for.
+        triangles: f64,
+        /// Most coarse triangles allowed.
+        limit: usize,
+    },
     /// The domain is so far from the origin, or so large, that f64 cannot tell its nodes apart.
     #[error(
         "The coarse spacing {spacing} is too small for coordinates near {reach:e}: neighbouring nodes \
@@ -127,6 +141,17 @@ impl Lattice {
             return Err(GridError::TooManyCells { spacing, triangles, limit: max_triangles });
         }
         let cells = cells_per_side(size, spacing);
+        let (fewest, triangles) = (triangles, 2.0 * cells[0] * cells[1]);
+        if triangles > max_triangles as f64 || cells[0].max(cells[1]) > f64::from(1u32 << (LATTICE_BITS - 1))
+        {
+            // A few more than the fewest come from rounding both sides to whole cells.
+            return Err(if triangles < 4.0 * fewest {
+                GridError::TooManyCells { spacing, triangles, limit: max_triangles }
+            } else {
+                GridError::TooNarrow { size, triangles, limit: max_triangles }
+            });
+        }
+        let cells = cells.map(|n| n as u32);
         let cell = size / DVec2::new(f64::from(cells[0]), f64::from(cells[1]));
         let reach = bounds.min.abs().max(bounds.max.abs()).max_element();
         let halvings = halvings_within(cells, cell, reach);
@@ -243,7 +268,7 @@ fn lattice_coordinate(min: f64, max: f64, step: f64, extent: u32, world: f64) ->
 
 /// Cells along x and y: at least ⌈side / spacing⌉ each (Eq. A4), with the smallest counts that make the
 /// cells square to within 5 %.
-fn cells_per_side(size: DVec2, spacing: f64) -> [u32; 2] {
+fn cells_per_side(size: DVec2, spacing: f64) -> [f64; 2] {
     let wide = size.x >= size.y;
     let (long, short) = if wide { (size.x, size.y) } else { (size.y, size.x) };
     let fewest_long = (long / spacing).ceil().max(1.0);
@@ -262,7 +287,7 @@ fn cells_per_side(size: DVec2, spacing: f64) -> [u32; 2] {
             break;
         }
     }
-    let (long_cells, short_cells) = (best.1 as u32, best.2 as u32);
+    let (_, long_cells, short_cells) = best;
     if wide { [long_cells, short_cells] } else { [short_cells, long_cells] }
 }
 
@@ -334,6 +359,13 @@ mod tests {
         }
         assert!(matches!(Lattice::covering(Rect::UNIT, 1e-300, 10), Err(GridError::TooManyCells { .. })));
         assert!(matches!(Lattice::covering(Rect::UNIT, 1e-5, 10), Err(GridError::TooManyCells { .. })));
+        // One row of cells as narrow as the domain is a grid, but only within the budget.
+        let narrow =
+            |width: f64| Lattice::covering(Rect::new(DVec2::ZERO, dvec2(width, 1e-3)), width / 5.0, 1000);
+        assert_eq!(narrow(0.4).unwrap().cells(), [400, 1]);
+        for width in [1.0, 1e3, 1e9, 1e300] {
+            assert!(matches!(narrow(width), Err(GridError::TooNarrow { .. })), "{width}");
+        }
         let far = Rect::new(dvec2(1e16, 0.0), dvec2(1e16 + 8.0, 8.0));
         assert!(matches!(Lattice::covering(far, 1.0, 1000), Err(GridError::TooFarFromOrigin { .. })));
     }
