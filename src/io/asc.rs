@@ -26,6 +26,14 @@ pub fn read(path: &Path) -> Result<Raster, ReadError> {
     read.map_err(|flaw| flaw.in_file(path))
 }
 
+/// As [`read`], from bytes.
+///
+/// # Errors
+/// As [`read`]; the file is then called as given.
+pub fn from_bytes(bytes: &[u8], name: &Path) -> Result<Raster, ReadError> {
+    parse(bytes).map_err(|flaw| flaw.in_file(name))
+}
+
 fn parse(source: impl BufRead) -> Result<Raster, PlacedFlaw> {
     let mut words = Words { source, line: 1 };
     let (header, first_value) = Header::parse(&mut words)?;
@@ -42,7 +50,7 @@ fn parse(source: impl BufRead) -> Result<Raster, PlacedFlaw> {
             return Err(Flaw::Syntax(problem + "; check ncols and nrows.").at(words.line));
         }
         let value = number(&word, words.line)?;
-        values.push(if Some(value) == no_data { f32::NAN } else { value as f32 });
+        values.push(if Some(value) == no_data { f32::NAN } else { single(value, words.line)? });
         next = words.next()?;
     }
     if values.len() < count {
@@ -140,6 +148,18 @@ fn number(word: &str, line: usize) -> Result<f64, PlacedFlaw> {
         .ok_or_else(|| Flaw::Syntax(format!("`{word}` stands where a number is expected.")).at(line))
 }
 
+/// A value as a raster keeps it.
+fn single(value: f64, line: usize) -> Result<f32, PlacedFlaw> {
+    let single = value as f32;
+    if single.is_finite() {
+        return Ok(single);
+    }
+    let problem =
+        format!("the value {value:e} is too large: a raster has single precision, up to {:.1e}", f32::MAX);
+    Err(Flaw::Syntax(problem + ". Where no value is meant, name it with NODATA_value in the header.")
+        .at(line))
+}
+
 /// Words between white space, with the line that the last one stands in.
 struct Words<R> {
     source: R,
@@ -224,6 +244,7 @@ mod tests {
             (format!("{header}1 2\n3 x"), ", line 7: `x` stands where a number"),
             (format!("{header}1 2\n3 NaN"), ", line 7: `NaN` stands where a number"),
             (format!("{header}1 2\n3 4\n5"), ", line 8: there are more values"),
+            (format!("{header}1 2\n3 -9e99"), ", line 7: the value -9e99 is too large"),
             ("1".repeat(10_000), ", line 1: `11111111111111111111…` is not text"),
         ] {
             let message = parsed(&text).unwrap_err();

@@ -52,6 +52,10 @@ pub fn decode(source: impl BufRead + Seek, bounds: Rect, behind: Behind) -> Resu
         return Err(Flaw::Size { columns: size[0].into(), rows: size[1].into() });
     }
     let mut reader = decoder.read_info()?;
+    // The decoder takes three bytes a colour for granted.
+    if reader.info().palette.as_ref().is_some_and(|palette| palette.len() % 3 != 0) {
+        return Err(Flaw::Png("its palette is no list of colours".into()));
+    }
     let mut bytes = vec![0; reader.output_buffer_size().ok_or(DecodingError::LimitsExceeded)?];
     let frame = reader.next_frame(&mut bytes)?;
     if [frame.width, frame.height] != size {
@@ -193,6 +197,18 @@ mod tests {
         file[29..33].copy_from_slice(&crc.to_be_bytes());
         let refused = decode(Cursor::new(&file), Rect::UNIT, Behind::Black).unwrap_err();
         assert!(matches!(refused, Flaw::Size { columns: 100_000, rows: 100_000 }), "{refused}");
+    }
+
+    #[test]
+    fn a_palette_that_ends_within_a_colour_is_refused() {
+        let mut file = encoded(ColorType::Indexed, BitDepth::Two, [3, 1], &[0b0001_1000]);
+        // From nine bytes of colours the last is taken out.
+        let at = file.windows(4).position(|name| name == b"PLTE").unwrap();
+        file[at - 1] = 8;
+        let crc = crc32(&file[at..at + 12]);
+        file.splice(at + 12..at + 17, crc.to_be_bytes());
+        let refused = decode(Cursor::new(&file), Rect::UNIT, Behind::Black).unwrap_err();
+        assert!(refused.to_string().contains("palette"), "{refused}");
     }
 
     fn crc32(bytes: &[u8]) -> u32 {

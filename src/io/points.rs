@@ -24,6 +24,14 @@ pub fn read(path: &Path) -> Result<Vec<DVec2>, ReadError> {
     read.map_err(|flaw| flaw.in_file(path))
 }
 
+/// As [`read`], from bytes.
+///
+/// # Errors
+/// As [`read`]; the file is then called as given.
+pub fn from_bytes(bytes: &[u8], name: &Path) -> Result<Vec<DVec2>, ReadError> {
+    parse(bytes).map_err(|flaw| flaw.in_file(name))
+}
+
 fn parse(source: impl BufRead) -> Result<Vec<DVec2>, PlacedFlaw> {
     let mut lines = Lines { source, number: 0 };
     let Some(header) = lines.next_line()? else {

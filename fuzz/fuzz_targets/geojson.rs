@@ -1,0 +1,43 @@
+//! A file of polygons, and meshes of what they cover.
+
+#![no_main]
+
+use std::path::Path;
+
+use meshbrush::domain::{Boundary, Domain, DomainOnLattice};
+use meshbrush::geometry::Lattice;
+use meshbrush::io::geojson;
+use meshbrush::mesh::{Limits, Mesh};
+
+/// Small: a fuzzer wants many files a second.
+const MOST_TRIANGLES: usize = 3000;
+
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
+    let Ok(polygons) = geojson::from_bytes(bytes, Path::new("fuzz.geojson")) else { return };
+    let Ok(domain) = Domain::of_polygons(&polygons) else { return };
+    let region = domain.region().expect("polygons make a region");
+    assert!(region.area() > 0.0 && region.edges().flatten().all(|p| domain.bounds.contains(p)));
+    let spacing = domain.bounds.size().max_element() / 5.0;
+    for boundary in [Boundary::Report, Boundary::usual(spacing)] {
+        check_mesh(&domain, boundary, spacing);
+    }
+});
+
+fn check_mesh(domain: &Domain, boundary: Boundary, spacing: f64) {
+    let limits = Limits { max_triangles: MOST_TRIANGLES, ..Limits::default() };
+    let Ok(lattice) = Lattice::covering(domain.bounds, spacing, MOST_TRIANGLES) else { return };
+    let laid = DomainOnLattice::new(domain, boundary, &lattice);
+    let Ok(mut mesh) = Mesh::coarse_grid(domain.bounds, spacing, |node| laid.admits(node), &limits) else {
+        return;
+    };
+    // Where the budget ends it, the mesh must be whole all the same.
+    let refined = mesh.refine(&limits, |element| laid.exceeds(element, |_| Ok(false)));
+    mesh.sort_out(0..mesh.triangles().len(), |element| laid.excludes(element));
+    assert_eq!(mesh.violations(), []);
+    if refined.is_ok() {
+        assert_eq!(mesh.unsatisfied(|element| laid.exceeds(element, |_| Ok(false))), Ok(vec![]));
+    }
+    let topology = mesh.topology();
+    assert_eq!(topology.nodes, mesh.extract().nodes().len());
+    assert_eq!(topology.parts == 0, mesh.triangle_count() == 0);
+}

@@ -1,0 +1,17 @@
+//! An image as a raster.
+
+#![no_main]
+
+use std::io::Cursor;
+
+use meshbrush::geometry::Rect;
+use meshbrush::io::png::{Behind, decode};
+
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
+    for behind in [Behind::Black, Behind::White] {
+        let Ok(raster) = decode(Cursor::new(bytes), Rect::UNIT, behind) else { return };
+        let [columns, rows] = raster.size();
+        assert_eq!(raster.values().len(), columns as usize * rows as usize);
+        assert!(raster.values().iter().all(|value| (0.0..=1.0).contains(value)));
+    }
+});

@@ -1,0 +1,14 @@
+//! A table of points.
+
+#![no_main]
+
+use std::path::Path;
+
+use meshbrush::io::points;
+
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
+    if let Err(error) = points::from_bytes(bytes, Path::new("fuzz.csv")) {
+        let sentence = error.to_string();
+        assert!(sentence.starts_with("fuzz.csv") && sentence.len() < 1000, "{sentence}");
+    }
+});
