@@ -291,7 +291,7 @@ fn every_fitted_mesh_is_the_one_that_brute_force_finds() {
 fn fine(p: DVec2) -> Option<[i128; 2]> {
     let scaled = p * 2f64.powi(60);
     (scaled == scaled.floor() && scaled.abs().max_element() < 1e28)
-        .then(|| [scaled.x as i128, scaled.y as i128])
+        .then_some([scaled.x as i128, scaled.y as i128])
 }
 
 /// Which edges of a triangle the point lies on; `None` where it lies outside.

@@ -417,7 +417,7 @@ impl Edge {
 
 /// Half a side up in a row of squares, in thirds of a step: no corner lies at that height where the side is one step.
 fn middle_of_row(row: i64, bits: u32) -> i64 {
-    (3 * (2 * row + 1) << bits) / 2
+    ((3 * (2 * row + 1)) << bits) / 2
 }
 
 fn thrice_centroid(corners: [LatticePoint; 3]) -> [i64; 2] {
