@@ -207,6 +207,14 @@ fn what_cannot_be_opened_or_saved_is_told_and_changes_nothing() {
     let failed = |window: &Window| window.state().session().notice().is_some_and(|notice| notice.failed);
     wait(&mut window, "the failure", failed);
     assert!(shows(&window, EDITED), "it is not saved");
+    // Edits that were given up for a file which cannot be opened are asked about again.
+    send(&mut window, Command::Open(folder.join("cut.meshbrush")));
+    press(&mut window, "Do not save");
+    let told =
+        |window: &Window| window.state().session().notice().is_some_and(|n| n.text.contains("cut off"));
+    wait(&mut window, "the failure", told);
+    send(&mut window, Command::Quit);
+    assert!(shows(&window, "Save changes to “Radar threats”?"));
 }
 
 /// A file as the desktop hands it over.

@@ -4,9 +4,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::Arc;
+use std::time::Instant;
 
 use glam::dvec2;
-use meshbrush::document::{Base, Document, Example, Follower, Settings};
+use meshbrush::document::{Base, Document, Example, Follower, Settings, Stage};
 use meshbrush::domain::{Boundary, Domain, Shape};
 use meshbrush::field::{Formula, Rule, Transfer};
 use meshbrush::geometry::Rect;
@@ -143,6 +144,48 @@ fn an_opened_project_has_the_mesh_that_it_was_saved_with() {
             [&mut document, &mut back].map(|d| Follower::new(d).unwrap().mesh().fingerprint());
         assert_eq!(before, after);
     }
+}
+
+/// `cargo test --release --test project -- --ignored --nocapture`
+#[test]
+#[ignore = "takes a minute in a debug build, and is there for its figures"]
+fn a_painted_mesh_of_two_million_triangles_is_saved_and_opened() {
+    let transfer = Transfer { h_min: 4e-4, h_max: 0.05, shape: 1.0 };
+    let settings = Settings { resolution: 2048, transfer, spacing: 0.05, ..Settings::default() };
+    let mut document = Document::new(settings, None).unwrap();
+    let mut random = fastrand::Rng::with_seed(1);
+    let mut follower = Follower::new(&mut document).unwrap();
+    while follower.mesh().triangle_count() < 2_000_000 {
+        let [radius, hardness, strength] =
+            [0.02 + 0.04 * random.f64(), random.f64(), 0.3 + 0.5 * random.f64()];
+        document.begin_stroke(Brush { medium: Medium::Risk, radius, hardness, strength });
+        (0..3).for_each(|_| document.draw_to(dvec2(random.f64(), random.f64())));
+        document.end_stroke();
+        while follower.advance(&mut document, 1 << 20).unwrap() != Stage::InStep {}
+    }
+    let file = folder("large").join(NAME);
+    let began = Instant::now();
+    let project = Project::of(&document);
+    let copied = began.elapsed();
+    fs::write(&file, bytes_of(&project)).unwrap();
+    let written = began.elapsed();
+    let began = Instant::now();
+    let mut back = project::read(&file).unwrap();
+    let opened = began.elapsed();
+    let again = Follower::new(&mut back).unwrap();
+    eprintln!(
+        "{} triangles, {} tiles; copied in {copied:.1?}, saved in {written:.1?}: {} bytes; opened in {opened:.1?}, meshed after \
+         {:.1?}; fingerprints {} and {}",
+        follower.mesh().triangle_count(),
+        project.tiles.len(),
+        fs::metadata(&file).unwrap().len(),
+        began.elapsed(),
+        follower.mesh().fingerprint(),
+        again.mesh().fingerprint(),
+    );
+    assert_eq!(follower.mesh().fingerprint(), again.mesh().fingerprint());
+    let summary = meshed(&["--project", file.to_str().unwrap()]).unwrap();
+    assert_eq!(summary["hash"], again.mesh().fingerprint().to_string());
 }
 
 /// What `meshbrush mesh --json` answers.

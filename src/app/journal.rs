@@ -11,7 +11,7 @@ use eframe::egui::Context;
 
 use super::App;
 use super::widgets::{Answer, ConfirmDialog};
-use crate::document::Edits;
+use crate::document::{Edits, Settings};
 use crate::io::journal::{self, Abandoned};
 use crate::io::project::Project;
 use crate::paint::Tiles;
@@ -22,6 +22,8 @@ enum Entry {
     Whole(Box<Project>, Option<PathBuf>),
     /// Tiles as they are after a gesture.
     Tiles(Tiles),
+    /// Settings as they are after one.
+    Settings(Box<Settings>),
     /// Nothing is unsaved.
     Clean(Option<PathBuf>),
     /// What was taken over need not be kept any longer.
@@ -50,17 +52,27 @@ impl JournalKeeper {
         let (problem_sender, problems) = channel();
         let (found_sender, found) = channel();
         let wants_whole = Arc::new(AtomicBool::new(false));
-        let (wants, ctx) = (wants_whole.clone(), ctx.clone());
-        let thread = thread::spawn(move || {
-            for left in journal::abandoned(&folder) {
+        let (wants, place, window) = (wants_whole.clone(), folder.clone(), ctx.clone());
+        thread::spawn(move || {
+            for left in journal::abandoned(&place) {
+                // The window may have closed in the meantime.
                 let _ = found_sender.send(left);
             }
-            ctx.request_repaint();
-            if let Err(problem) = keep(&folder, &entries, &wants) {
-                // The window may have closed in the meantime.
+            window.request_repaint();
+        });
+        let window = ctx.clone();
+        let tell = move |result: std::io::Result<()>| {
+            if let Err(problem) = result {
                 let _ = problem_sender.send(problem.to_string());
-                ctx.request_repaint();
+                window.request_repaint();
             }
+        };
+        let thread = thread::spawn(move || {
+            let (disk, written) = channel();
+            let also_tell = tell.clone();
+            let waiting = thread::spawn(move || also_tell(wait_for_disk(&written)));
+            tell(keep(&folder, &entries, &wants, disk));
+            let _ = waiting.join(); // nothing is left to be done about a panic there
         });
         Self { sender, thread: Some(thread), found, problems, wants_whole, offered: None, broken: false }
     }
@@ -84,33 +96,64 @@ impl JournalKeeper {
     }
 }
 
-/// Writes entries as they come, until the end.
-fn keep(folder: &Path, entries: &Receiver<Entry>, wants_whole: &AtomicBool) -> std::io::Result<()> {
+/// Writes entries as they come, until the end. It never waits for the disk: what is handed to the system outlives the program.
+fn keep(
+    folder: &Path,
+    entries: &Receiver<Entry>,
+    wants_whole: &AtomicBool,
+    disk: Sender<ToDisk>,
+) -> std::io::Result<()> {
     let mut journal: Option<journal::Journal> = None;
-    while let Ok(first) = entries.recv() {
-        // All that waits is handed to the system before the disk is waited for.
-        for entry in std::iter::once(first).chain(std::iter::from_fn(|| entries.try_recv().ok())) {
-            match (entry, &mut journal) {
-                (Entry::Whole(project, home), _) => {
-                    let new = journal::Journal::begin(folder, &project, home.as_deref(), now())?;
-                    if let Some(old) = journal.replace(new) {
-                        old.remove()?;
-                    }
-                    wants_whole.store(false, Ordering::Relaxed);
-                }
-                (Entry::Tiles(tiles), Some(journal)) => {
-                    journal.add_tiles(&tiles, now())?;
-                    wants_whole.store(journal.is_long(), Ordering::Relaxed);
-                }
-                (Entry::Clean(home), Some(journal)) => journal.mark_clean(home.as_deref(), now())?,
-                (Entry::Tiles(_) | Entry::Clean(_), None) => {}
-                (Entry::Forget(left), _) => left.remove()?,
-                (Entry::End { remove: false }, _) => return Ok(()),
-                (Entry::End { remove: true }, _) => return journal.map_or(Ok(()), journal::Journal::remove),
+    while let Ok(entry) = entries.recv() {
+        let mut outdated = None;
+        match (entry, &mut journal) {
+            (Entry::Whole(project, home), _) => {
+                let new = journal::Journal::begin(folder, &project, home.as_deref(), now())?;
+                outdated = journal.replace(new).map(Outdated::Own);
             }
+            (Entry::Tiles(tiles), Some(journal)) => journal.add_tiles(&tiles, now())?,
+            (Entry::Settings(settings), Some(journal)) => journal.add_settings(*settings, now())?,
+            (Entry::Clean(home), Some(journal)) => journal.mark_clean(home.as_deref(), now())?,
+            (Entry::Tiles(_) | Entry::Settings(_) | Entry::Clean(_), None) => {}
+            (Entry::Forget(left), _) => outdated = Some(Outdated::Left(left)),
+            (Entry::End { remove: false }, _) => return Ok(()),
+            (Entry::End { remove: true }, _) => return journal.map_or(Ok(()), journal::Journal::remove),
         }
-        if let Some(journal) = &journal {
-            journal.sync()?;
+        wants_whole.store(journal.as_ref().is_some_and(journal::Journal::is_long), Ordering::Relaxed);
+        let syncing = journal.as_ref().map(journal::Journal::syncing).transpose()?;
+        // A thread that ended has said why.
+        let _ = disk.send(ToDisk { syncing, outdated });
+    }
+    Ok(())
+}
+
+/// A journal that has come so far, and what may go once it is on the disk.
+struct ToDisk {
+    syncing: Option<journal::Syncing>,
+    outdated: Option<Outdated>,
+}
+
+enum Outdated {
+    Own(journal::Journal),
+    Left(Box<Abandoned>),
+}
+
+/// Waits for the disk: once for all that has come in the meantime.
+fn wait_for_disk(written: &Receiver<ToDisk>) -> std::io::Result<()> {
+    while let Ok(first) = written.recv() {
+        let (mut syncing, mut outdated) = (None, Vec::new());
+        for item in std::iter::once(first).chain(std::iter::from_fn(|| written.try_recv().ok())) {
+            syncing = item.syncing.or(syncing);
+            outdated.extend(item.outdated);
+        }
+        if let Some(syncing) = syncing {
+            syncing.wait()?;
+        }
+        for outdated in outdated {
+            match outdated {
+                Outdated::Own(journal) => journal.remove()?,
+                Outdated::Left(left) => left.remove()?,
+            }
         }
     }
     Ok(())
@@ -139,13 +182,16 @@ impl App {
         if edits.is_empty() {
             return;
         }
-        match edits {
-            Edits::Tiles(places) if !keeper.wants_whole.load(Ordering::Relaxed) => {
-                keeper.enter(Entry::Tiles(document.layers().tiles(places)));
+        let Edits { settings, layers, tiles } = edits;
+        if layers || keeper.wants_whole.load(Ordering::Relaxed) {
+            let home = self.project.path().map(Path::to_owned);
+            keeper.enter(Entry::Whole(Box::new(Project::of(document)), home));
+        } else {
+            if !tiles.is_empty() {
+                keeper.enter(Entry::Tiles(document.layers().tiles(tiles)));
             }
-            _ => {
-                let home = self.project.path().map(Path::to_owned);
-                keeper.enter(Entry::Whole(Box::new(Project::of(document)), home));
+            if settings {
+                keeper.enter(Entry::Settings(Box::new(document.settings().clone())));
             }
         }
         if !edited {

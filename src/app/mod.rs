@@ -49,6 +49,8 @@ use crate::render::gpu::device_descriptor;
 
 /// Names the program to the desktop, and its folder there.
 const APP_ID: &str = "meshbrush";
+/// Name under which the window's own storage keeps the theme.
+const THEME_KEY: &str = "theme";
 /// Most of a frame's time that goes into bringing the mesh up to date.
 const FRAME_BUDGET: Duration = Duration::from_millis(7);
 /// Size of the window at first, in points.
@@ -138,6 +140,8 @@ impl App {
     fn keep_in(&mut self, cc: &eframe::CreationContext<'_>) {
         if let Some(storage) = cc.storage {
             self.project.remember(storage);
+            self.theme = eframe::get_value(storage, THEME_KEY).unwrap_or(self.theme);
+            cc.egui_ctx.set_theme(self.theme);
         }
         let folder = eframe::storage_dir(APP_ID).map(|folder| folder.join("journals"));
         self.journal = folder.map(|folder| journal::JournalKeeper::new(folder, &cc.egui_ctx));
@@ -249,6 +253,7 @@ impl eframe::App for App {
 
     fn save(&mut self, storage: &mut dyn eframe::Storage) {
         self.project.store(storage);
+        eframe::set_value(storage, THEME_KEY, &self.theme);
     }
 
     fn on_exit(&mut self) {

@@ -26,7 +26,8 @@ enum Outcome {
     Saved(PathBuf, u64),
     /// Saving failed; the sentence says why.
     NotSaved(String),
-    Failed(String),
+    /// Opening failed.
+    NotOpened(String),
 }
 
 /// The document's file, and what of the document is saved.
@@ -252,7 +253,7 @@ impl App {
         self.project.opening = Some(self.session.document().version());
         self.project.run(ctx, move || match io::project::read(&path) {
             Ok(document) => Outcome::Opened(path, Box::new(document)),
-            Err(error) => Outcome::Failed(error.to_string()),
+            Err(error) => Outcome::NotOpened(error.to_string()),
         });
     }
 
@@ -305,7 +306,11 @@ impl App {
                     self.project.after_saving = None;
                     self.session.report(problem);
                 }
-                Outcome::Failed(problem) => self.session.report(problem),
+                Outcome::NotOpened(problem) => {
+                    // The edits are still here: they are asked about again.
+                    self.project.given_up = None;
+                    self.session.report(problem);
+                }
             }
         }
     }

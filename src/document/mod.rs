@@ -70,7 +70,7 @@ impl Document {
             stroke: None,
             open_gesture: None,
             repainted: Repainted::Everything,
-            edits: Edits::Everything,
+            edits: Edits::everything(),
             revision: 0,
             version: 0,
             last_version: 0,
@@ -187,7 +187,7 @@ impl Document {
             }
         } else {
             let old = std::mem::replace(&mut self.settings, settings);
-            self.edits = Edits::Everything;
+            self.edits.settings = true;
             if !joins {
                 self.enter(title, Change::Settings(Box::new(old)));
             }
@@ -270,7 +270,7 @@ impl Document {
             }
             Change::Settings(settings) => {
                 std::mem::swap(&mut **settings, &mut self.settings);
-                self.edits = Edits::Everything;
+                self.edits.settings = true;
                 self.revision += 1;
             }
             Change::Everything(both) => {
@@ -324,7 +324,7 @@ impl Document {
 
     fn note_replaced(&mut self) {
         self.repainted = Repainted::Everything;
-        self.edits = Edits::Everything;
+        self.edits = Edits::everything();
         self.revision += 1;
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! Eight bytes of magic, then records: kind (1 byte), seconds since 1970 (8), length of the content (4), CRC-32 of all these and
 //! the content (4), content; numbers little-endian. The first record is a whole project with the file that it belongs to; then
-//! come the tiles of each gesture, and now and then a mark that nothing is unsaved. What follows the first record that is not
+//! come the tiles and the settings that each gesture changed, and now and then a mark that nothing is unsaved. What follows the first record that is not
 //! whole is passed over: the program ended while it wrote.
 //!
 //! Whoever writes a journal holds a lock on it, which the operating system lets go when the program ends, however it ends. So a
@@ -13,6 +13,7 @@ use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 
 use super::project::{self, Project};
+use crate::document::Settings;
 use crate::paint::Tiles;
 
 const MAGIC: &[u8; 8] = b"MBJOUR01";
@@ -26,6 +27,7 @@ const MOST_GROWTH: u64 = 64 << 20;
 const WHOLE: u8 = 1;
 const TILES: u8 = 2;
 const CLEAN: u8 = 3;
+const SETTINGS: u8 = 4;
 
 /// A journal being written.
 #[derive(Debug)]
@@ -36,7 +38,8 @@ pub struct Journal {
 }
 
 impl Journal {
-    /// Begins a journal in a folder, which is made where it is not there. It is whole, on the disk and locked when this returns.
+    /// Begins a journal in a folder, which is made where it is not there. It is whole and locked when this returns, and on the
+    /// disk after [`Syncing::wait`].
     ///
     /// `home` is the file that the project belongs to; `time` in seconds since 1970.
     ///
@@ -49,15 +52,14 @@ impl Journal {
         file.try_lock().map_err(io::Error::other)?;
         let path = part.with_extension(ENDING);
         let mut journal = Self { file, path, grown: 0 };
-        let begun = || -> io::Result<()> {
+        let mut begin = || -> io::Result<()> {
             let mut content = home_bytes(home);
             project::write(&mut content, project)?;
             journal.file.write_all(MAGIC)?;
             journal.append(WHOLE, time, &content)?;
-            journal.sync()?;
             fs::rename(&part, &journal.path)
         };
-        if let Err(error) = { begun }() {
+        if let Err(error) = begin() {
             let _ = fs::remove_file(&part); // the first error is the one to report
             return Err(error);
         }
@@ -75,6 +77,16 @@ impl Journal {
         self.append(TILES, time, &content)
     }
 
+    /// Adds settings as they are after a gesture that left the size of the layers alone.
+    ///
+    /// # Errors
+    /// Those of the file system.
+    pub fn add_settings(&mut self, settings: Settings, time: u64) -> io::Result<()> {
+        let mut content = Vec::new();
+        project::write(&mut content, &Project { settings, tiles: Tiles::new() })?;
+        self.append(SETTINGS, time, &content)
+    }
+
     /// Notes that nothing is unsaved now, and which file the project belongs to.
     ///
     /// # Errors
@@ -83,12 +95,12 @@ impl Journal {
         self.append(CLEAN, time, &home_bytes(home))
     }
 
-    /// Waits until all that was added is on the disk.
+    /// To wait for the disk elsewhere, while the journal goes on.
     ///
     /// # Errors
     /// Those of the file system.
-    pub fn sync(&self) -> io::Result<()> {
-        self.file.sync_data()
+    pub fn syncing(&self) -> io::Result<Syncing> {
+        self.file.try_clone().map(Syncing)
     }
 
     /// Whether so much was added that a new journal would be smaller.
@@ -114,6 +126,20 @@ impl Journal {
         self.grown += record.len() as u64;
         // In one call: what was written when the program is killed is in the system's hands.
         self.file.write_all(&record)
+    }
+}
+
+/// A journal on its way to the disk.
+#[derive(Debug)]
+pub struct Syncing(File);
+
+impl Syncing {
+    /// Waits until all that was added so far is on the disk: seconds, where that is busy.
+    ///
+    /// # Errors
+    /// Those of the file system.
+    pub fn wait(&self) -> io::Result<()> {
+        self.0.sync_data()
     }
 }
 
@@ -217,6 +243,14 @@ impl Kept {
                     kept.project.tiles.extend(tiles);
                     kept.clean = false;
                 }
+                SETTINGS => {
+                    let Ok(new) = project::from_bytes(content, Path::new("journal")) else { break };
+                    if new.settings.raster_size() != size {
+                        break;
+                    }
+                    kept.project.settings = new.settings;
+                    kept.clean = false;
+                }
                 CLEAN => {
                     let Some((home, _)) = split_home(content) else { break };
                     kept.home = home;
@@ -255,7 +289,7 @@ fn split_home(content: &[u8]) -> Option<(Option<PathBuf>, &[u8])> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::document::{Document, Edits, Example};
+    use crate::document::{Document, Edits, Example, Setting};
     use crate::paint::{Brush, Medium};
     use glam::dvec2;
 
@@ -279,9 +313,9 @@ mod tests {
         document.draw_to(dvec2(at, 0.3));
         document.draw_to(dvec2(0.5, at));
         document.end_stroke();
-        let Edits::Tiles(places) = document.take_edits() else { panic!("strokes change paint alone") };
-        assert!(!places.is_empty());
-        document.layers().tiles(places)
+        let Edits { settings, layers, tiles } = document.take_edits();
+        assert!(!settings && !layers && !tiles.is_empty(), "strokes change paint alone");
+        document.layers().tiles(tiles)
     }
 
     #[test]
@@ -313,6 +347,25 @@ mod tests {
         let mut damaged = bytes.clone();
         damaged[versions[4].0 + 40] ^= 4;
         assert_eq!(Kept::parse(&damaged).unwrap().time, 104);
+        fs::remove_dir_all(folder).unwrap();
+    }
+
+    #[test]
+    fn settings_are_kept_beside_the_paint() {
+        let folder = folder("settings");
+        let mut document = example();
+        let mut journal = Journal::begin(&folder, &Project::of(&document), None, 1).unwrap();
+        journal.add_tiles(&gesture(&mut document, 0), 2).unwrap();
+        document.set(Setting::SmallestDiameter(0.0123)).unwrap();
+        let Edits { settings, layers, tiles } = document.take_edits();
+        assert!(settings && !layers && tiles.is_empty());
+        journal.add_settings(document.settings().clone(), 3).unwrap();
+        drop(journal);
+        let kept = abandoned(&folder).pop().unwrap().project.into_document().unwrap();
+        assert_eq!(kept.settings(), document.settings());
+        assert!(kept.layers() == document.layers());
+        document.set(Setting::Resolution(32)).unwrap();
+        assert!(document.take_edits().layers, "every pixel is another one");
         fs::remove_dir_all(folder).unwrap();
     }
 
