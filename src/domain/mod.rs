@@ -1,5 +1,6 @@
 //! Ω, the domain: a rectangle, or the part of it that a formula or polygons say; and how the mesh meets its boundary.
 
+mod edge;
 mod fit;
 mod on_lattice;
 mod region;
@@ -51,6 +52,15 @@ pub enum RegionError {
          Check that the points come in the order of the outline."
     )]
     Tangled,
+    /// Too many edges are too long.
+    #[error(
+        "Of the polygons' {edges} edges so many reach across so much of the width that they cannot be worked with. Simplify the \
+         outline first, or cut it into pieces."
+    )]
+    Sprawling {
+        /// Edges of all rings.
+        edges: usize,
+    },
 }
 
 /// Which part of a rectangle is meant.

@@ -3,6 +3,7 @@
 use glam::DVec2;
 
 use super::Region;
+use super::edge::{Corners, Edge};
 use crate::geometry::{Lattice, LatticePoint, LatticeRect};
 
 /// A region with its corners moved to the nearest points of a mesh's lattice, and a tree of squares to find its edges by.
@@ -13,7 +14,7 @@ use crate::geometry::{Lattice, LatticePoint, LatticeRect};
 /// Edges along the sides of the grid are no *boundary*: the mesh ends there anyway.
 #[derive(Clone, Debug)]
 pub struct RegionOnLattice {
-    /// Squares along x and y at the root, one for each coarse cell.
+    /// Squares along x and y at the root, one for each coarse cell or for several.
     cells: [u32; 2],
     /// Binary logarithm of the side of a root square, in lattice steps.
     root_bits: u32,
@@ -41,21 +42,20 @@ enum State {
     Cut,
 }
 
-/// An edge of the region.
-#[derive(Clone, Copy, Debug)]
-struct Edge {
-    ends: [[i64; 2]; 2],
-    /// Whether it lies along a side of the grid.
-    on_frame: bool,
-}
-
 /// The smallest squares number about this many for each edge, within bounds.
 const SQUARES_PER_EDGE: usize = 4;
 const MOST_SQUARES: usize = 1 << 20;
+/// Most places of edges in squares, about.
+const MOST_ENTRIES: u64 = 1 << 26;
 
 impl RegionOnLattice {
     /// Lays the region on the lattice of a mesh.
     pub fn new(region: &Region, lattice: &Lattice) -> Self {
+        Self::within(region, lattice, MOST_ENTRIES)
+    }
+
+    /// As [`Self::new`], with about so many places of edges in squares at most.
+    fn within(region: &Region, lattice: &Lattice, most_entries: u64) -> Self {
         let extent = lattice.extent();
         let place = |p: DVec2| {
             let p = lattice.nearest(p);
@@ -76,6 +76,15 @@ impl RegionOnLattice {
         let mut halvings = 0;
         while halvings < root_bits && (roots << (2 * (halvings + 1))) <= wanted {
             halvings += 1;
+        }
+        // Long edges pass through many squares, perhaps through more than there is room for even at the root.
+        let length: u64 = edges.iter().map(Edge::length).sum();
+        while halvings > 0 && length >> (root_bits - halvings) > most_entries {
+            halvings -= 1;
+        }
+        let (mut cells, mut root_bits) = (cells, root_bits);
+        while length >> root_bits > most_entries && cells != [1, 1] {
+            (cells, root_bits) = (cells.map(|n| n.div_ceil(2)), root_bits + 1);
         }
         let mut new = Self {
             cells,
@@ -193,21 +202,23 @@ impl RegionOnLattice {
     fn sort_edges_into_squares(&mut self, halvings: u32) {
         let [columns, rows] = self.cells.map(|n| n << halvings);
         let bits = self.root_bits - halvings;
-        let mut pairs: Vec<(u32, u32)> = Vec::with_capacity(2 * self.edges.len());
+        let mut ends = vec![0; columns as usize * rows as usize];
+        for edge in &self.edges {
+            edge.squares_touched([columns, rows], bits, |square| ends[square] += 1);
+        }
+        let mut count = 0;
+        for end in &mut ends {
+            // For now, where its part begins.
+            count += std::mem::replace(end, count);
+        }
+        let mut edges_of_square = vec![0; count as usize];
         for (n, edge) in self.edges.iter().enumerate() {
-            edge.squares_touched([columns, rows], bits, |square| pairs.push((square as u32, n as u32)));
+            edge.squares_touched([columns, rows], bits, |square| {
+                edges_of_square[ends[square] as usize] = n as u32;
+                ends[square] += 1;
+            });
         }
-        pairs.sort_unstable();
-        self.ends = vec![0; columns as usize * rows as usize];
-        for &(square, _) in &pairs {
-            self.ends[square as usize] += 1;
-        }
-        let mut end = 0;
-        for count in &mut self.ends {
-            end += *count;
-            *count = end;
-        }
-        self.edges_of_square = pairs.into_iter().map(|(_, edge)| edge).collect();
+        (self.ends, self.edges_of_square) = (ends, edges_of_square);
     }
 
     /// Finds the state of every square: of the smallest along the middle of each row, of the others from those.
@@ -300,118 +311,6 @@ impl Layer {
         let above = first + self.columns as usize;
         let [a, b, c, d] = [first, first + 1, above, above + 1].map(|n| self.states[n]);
         if a == b && b == c && c == d { a } else { State::Cut }
-    }
-}
-
-/// A triangle of a mesh, with its extents along x, y, x + y and x − y: across the directions that its sides can have.
-struct Corners {
-    places: [[i64; 2]; 3],
-    extents: [[i64; 2]; 4],
-}
-
-impl Corners {
-    fn of(corners: [LatticePoint; 3]) -> Self {
-        let places = corners.map(|p| [i64::from(p.x), i64::from(p.y)]);
-        let along = |measure: fn([i64; 2]) -> i64| {
-            let [a, b, c] = places.map(measure);
-            [a.min(b).min(c), a.max(b).max(c)]
-        };
-        let extents = [along(|p| p[0]), along(|p| p[1]), along(|p| p[0] + p[1]), along(|p| p[0] - p[1])];
-        Self { places, extents }
-    }
-}
-
-impl Edge {
-    /// Whether the edge has a point in common with a closed triangle: no line along a side of the triangle, nor one along the
-    /// edge, separates them.
-    fn touches(&self, triangle: &Corners) -> bool {
-        let [[ax, ay], [bx, by]] = self.ends;
-        let apart = |[low, high]: [i64; 2], a: i64, b: i64| a.max(b) < low || a.min(b) > high;
-        let [x, y, sum, difference] = triangle.extents;
-        if apart(x, ax, bx)
-            || apart(y, ay, by)
-            || apart(sum, ax + ay, bx + by)
-            || apart(difference, ax - ay, bx - by)
-        {
-            return false;
-        }
-        // Lattice coordinates stay below 2^31, so the products fit.
-        let sides = triangle.places.map(|[px, py]| (bx - ax) * (py - ay) - (by - ay) * (px - ax));
-        !(sides.iter().all(|&s| s > 0) || sides.iter().all(|&s| s < 0))
-    }
-
-    /// Whether a lattice point lies on the edge.
-    fn holds(&self, [px, py]: [i64; 2]) -> bool {
-        let [[ax, ay], [bx, by]] = self.ends;
-        let between = |a: i64, b: i64, p: i64| a.min(b) <= p && p <= a.max(b);
-        between(ax, bx, px) && between(ay, by, py) && (bx - ax) * (py - ay) == (by - ay) * (px - ax)
-    }
-
-    /// Whether the edge crosses the horizontal line through a point, left of the point, and from `left` on up to but without
-    /// `right`. Everything in thirds of a lattice step. An end at the line counts as below it.
-    fn crosses_between(&self, left: i64, right: i64, [px, py]: [i64; 2]) -> bool {
-        let [[ax, ay], [bx, by]] = self.ends.map(|end| end.map(|c| 3 * c));
-        if (ay <= py) == (by <= py) {
-            return false;
-        }
-        // The crossing lies at x = ax + (py − ay) (bx − ax) / (by − ay).
-        let (rise, run) = (i128::from(by - ay), i128::from(bx - ax));
-        let is_left_of = |limit: i64| {
-            let limit_run = i128::from(limit) - i128::from(ax);
-            let (crossing, bound) = (i128::from(py - ay) * run, limit_run * rise);
-            if rise > 0 { crossing < bound } else { crossing > bound }
-        };
-        is_left_of(px) && is_left_of(right) && (left == i64::MIN || !is_left_of(left))
-    }
-
-    /// Whether the edge crosses the vertical line just left of `px` between two heights. Everything in thirds of a lattice step;
-    /// heights are a hair above what they say, less than the line is left of `px`, as [`Self::crosses_between`] has it.
-    fn crosses_beside(&self, px: i64, from: i64, to: i64) -> bool {
-        let [[ax, ay], [bx, by]] = self.ends.map(|end| end.map(|c| 3 * c));
-        if (ax < px) == (bx < px) {
-            return false;
-        }
-        // The line through the edge meets px at y = ay + (px − ax) (by − ay) / (bx − ax).
-        let (run, rise) = (i128::from(bx - ax), i128::from(by - ay));
-        let is_above = |height: i64| {
-            let offset = (i128::from(px - ax) * rise - i128::from(height - ay) * run) * run.signum();
-            offset > 0 || (offset == 0 && rise * run < 0)
-        };
-        is_above(from) != is_above(to)
-    }
-
-    /// Calls `touched` for every square of a grid that the edge has a point in common with, rim included.
-    fn squares_touched(&self, counts: [u32; 2], bits: u32, mut touched: impl FnMut(usize)) {
-        let [[ax, ay], [bx, by]] = self.ends;
-        let (low, high) = ([ax.min(bx), ay.min(by)], [ax.max(bx), ay.max(by)]);
-        let first = |c: i64| ((c - 1) >> bits).max(0);
-        let last = |c: i64, count: u32| (c >> bits).min(i64::from(count) - 1);
-        for row in first(low[1])..=last(high[1], counts[1]) {
-            let (bottom, top) = (row << bits, (row + 1) << bits);
-            // The part of the edge at these heights, and the columns round it.
-            let (from, to) = self.columns_between(bottom, top);
-            for column in first(from.max(low[0]))..=last(to.min(high[0]), counts[0]) {
-                touched(row as usize * counts[0] as usize + column as usize);
-            }
-        }
-    }
-
-    /// The least and the greatest x of the part of the edge between two heights, rounded outwards.
-    fn columns_between(&self, bottom: i64, top: i64) -> (i64, i64) {
-        let [[ax, ay], [bx, by]] = self.ends;
-        if ay == by {
-            return (ax.min(bx), ax.max(bx));
-        }
-        let at = |height: i64| {
-            let height = height.clamp(ay.min(by), ay.max(by));
-            let (run, rise) = (i128::from(bx - ax) * i128::from(height - ay), i128::from(by - ay));
-            let floor = run.div_euclid(rise);
-            let exact = run.rem_euclid(rise) == 0;
-            // A negative divisor rounds up instead of down: a step either way holds the point.
-            (ax + floor as i64 - i64::from(!exact), ax + floor as i64 + i64::from(!exact))
-        };
-        let ((l0, h0), (l1, h1)) = (at(bottom), at(top));
-        (l0.min(l1), h0.max(h1))
     }
 }
 
@@ -508,7 +407,8 @@ mod tests {
                 mesh.refine_triangle(TriangleId::from_index(random.usize(..mesh.triangles().len())));
             }
             let lattice = *mesh.lattice();
-            let sorted = RegionOnLattice::new(&region, &lattice);
+            // At times so little room that squares are larger than coarse cells.
+            let sorted = RegionOnLattice::within(&region, &lattice, 1 << random.u32(0..12));
             let all = 0..mesh.triangles().len();
             mesh.sort_out(all, |element| {
                 let touched = cut_by_brute_force(&region, &lattice, element.corners);

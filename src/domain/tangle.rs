@@ -11,12 +11,11 @@ pub const MOST_CORNERS: usize = 1_000_000;
 /// How often the edges of a domain's polygons may cross.
 pub const MOST_CROSSINGS: usize = 200_000;
 
-/// Most squares along a side of the grid that edges are sorted into.
-const MOST_SQUARES: f64 = 1024.0;
-/// Most entries of squares and edges: a comb whose teeth all pass through all squares of a column stays below.
-const MOST_ENTRIES: usize = 64_000_000;
-/// Most pairs of edges that are looked at; where so many lie in one square without crossing, an overlay is no more work.
-const MOST_PAIRS: usize = 400_000_000;
+/// Squares that edges are sorted into number one for each edge at most, and along a side so many that about this many entries of
+/// squares and edges come of it: the teeth of a comb get few rows and many columns.
+const MOST_ENTRIES: f64 = 8e6;
+/// Most pairs of edges that are looked at. Where more lie in the same squares every k-th is, and a crossing counts k times.
+const MOST_PAIRS: usize = 100_000_000;
 
 /// Refuses polygons that are too many or too tangled to be overlaid.
 pub(super) fn check_tangle(polygons: &[Polygon], bounds: &Rect) -> Result<(), RegionError> {
@@ -24,40 +23,59 @@ pub(super) fn check_tangle(polygons: &[Polygon], bounds: &Rect) -> Result<(), Re
     if corners > MOST_CORNERS {
         return Err(RegionError::TooManyCorners { corners });
     }
-    let edges: Vec<[DVec2; 2]> = polygons.iter().flatten().flat_map(|ring| edges_of(ring)).collect();
-    let squares = (corners as f64).sqrt().ceil().clamp(1.0, MOST_SQUARES);
-    let mut entries = sorted_into_squares(&edges, bounds, squares).ok_or(RegionError::Tangled)?;
+    // To the unit square.
+    let place = |p: DVec2| (p - bounds.min) / bounds.size();
+    let edges: Vec<[DVec2; 2]> =
+        polygons.iter().flatten().flat_map(|ring| edges_of(ring)).map(|ends| ends.map(place)).collect();
+    let mut entries = sorted_into_squares(&edges, squares_for(&edges));
     entries.sort_unstable();
-    let (mut crossings, mut pairs) = (0, 0);
-    for square in entries.chunk_by(|a, b| a.0 == b.0) {
+    let squares = || entries.chunk_by(|a, b| a.0 == b.0);
+    let pairs: usize = squares().map(|square| square.len() * (square.len() - 1) / 2).sum();
+    let step = pairs.div_ceil(MOST_PAIRS).max(1);
+    let mut crossings = 0;
+    for square in squares() {
         for (n, &(_, a)) in square.iter().enumerate() {
-            pairs += n;
-            crossings +=
-                square[..n].iter().filter(|&&(_, b)| cross(edges[a as usize], edges[b as usize])).count();
+            let others = square[..n].iter().skip(n % step).step_by(step);
+            crossings += step * others.filter(|&&(_, b)| cross(edges[a as usize], edges[b as usize])).count();
             if crossings > MOST_CROSSINGS {
                 return Err(RegionError::Tangled);
             }
-            if pairs > MOST_PAIRS {
-                return Ok(());
-            }
         }
     }
+    // The overlay takes 72 bytes for each column that an edge passes through, of as many columns as the root of the edges.
+    let width: f64 = edges.iter().map(|[from, to]| (to.x - from.x).abs()).sum();
+    if width * (edges.len() as f64).sqrt() > MOST_ENTRIES {
+        return Err(RegionError::Sprawling { edges: edges.len() });
+    }
     Ok(())
+}
+
+/// Columns and rows of squares over the unit square.
+fn squares_for(edges: &[[DVec2; 2]]) -> [f64; 2] {
+    let length: DVec2 = edges.iter().map(|[from, to]| (*to - *from).abs()).sum();
+    let count = edges.len() as f64;
+    let most = DVec2::splat(MOST_ENTRIES) / length.max(DVec2::splat(1e-9));
+    let side = |most: f64, wanted: f64| most.min(wanted).floor().max(1.0);
+    if length.x > length.y {
+        let columns = side(most.x, count.sqrt());
+        [columns, side(most.y, count / columns)]
+    } else {
+        let rows = side(most.y, count.sqrt());
+        [side(most.x, count / rows), rows]
+    }
 }
 
 fn edges_of(ring: &[DVec2]) -> impl Iterator<Item = [DVec2; 2]> {
     ring.iter().zip(ring.iter().skip(1).chain(ring.first())).map(|(&from, &to)| [from, to])
 }
 
-/// Each edge with the numbers of the squares round it, column by column; `None` where there are too many.
-fn sorted_into_squares(edges: &[[DVec2; 2]], bounds: &Rect, squares: f64) -> Option<Vec<(u32, u32)>> {
+/// Each edge with the numbers of the squares round it, column by column.
+fn sorted_into_squares(edges: &[[DVec2; 2]], [columns, rows]: [f64; 2]) -> Vec<(u32, u32)> {
     let mut entries = Vec::new();
-    let scale = DVec2::splat(squares) / bounds.size();
-    for (n, &[from, to]) in edges.iter().enumerate() {
-        let [from, to] = [from, to].map(|p| (p - bounds.min) * scale);
+    for (n, edge) in edges.iter().enumerate() {
+        let [from, to] = edge.map(|p| p * DVec2::new(columns, rows));
         let [left, right] = if from.x <= to.x { [from, to] } else { [to, from] };
-        let last = squares - 1.0;
-        let column = |x: f64| x.floor().clamp(0.0, last);
+        let column = |x: f64| x.floor().clamp(0.0, columns - 1.0);
         let (first, end) = (column(left.x), column(right.x));
         for column in first as u32..=end as u32 {
             // The part of the edge in this column, a little beyond its ends.
@@ -68,16 +86,13 @@ fn sorted_into_squares(edges: &[[DVec2; 2]], bounds: &Rect, squares: f64) -> Opt
             let steep = end == first;
             let (a, b) =
                 if steep { (left.y, right.y) } else { (at(f64::from(column)), at(f64::from(column) + 1.0)) };
-            let row = |y: f64| y.floor().clamp(0.0, last) as u32;
+            let row = |y: f64| y.floor().clamp(0.0, rows - 1.0) as u32;
             for row in row(a.min(b) - 1e-6)..=row(a.max(b) + 1e-6) {
-                entries.push((row * squares as u32 + column, n as u32));
+                entries.push((row * columns as u32 + column, n as u32));
             }
         }
-        if entries.len() > MOST_ENTRIES {
-            return None;
-        }
     }
-    Some(entries)
+    entries
 }
 
 /// Whether two edges cross at a point inside both. To rounding: this is a measure, and decides no geometry.
@@ -106,6 +121,14 @@ mod tests {
             radius * dvec2(libm::cos(round(k)), libm::sin(round(k)))
         };
         assert!(Domain::of_polygons(&[vec![(0..400_000).map(coast).collect()]]).is_ok());
+        let tooth = |k: usize| [dvec2(k as f64, 1.0), dvec2(k as f64 + 0.5, 9000.0)];
+        let comb = |teeth: usize| -> Vec<DVec2> {
+            (0..teeth).flat_map(tooth).chain([dvec2(teeth as f64, 0.0), DVec2::ZERO]).collect()
+        };
+        assert!(Domain::of_polygons(&[vec![comb(100_000)]]).is_ok(), "long edges that never cross");
+        let lying = comb(100_000).iter().map(|p| dvec2(p.y, p.x)).collect();
+        let error = Domain::of_polygons(&[vec![lying]]).unwrap_err();
+        assert_eq!(error, RegionError::Sprawling { edges: 200_002 });
         let too_many = vec![vec![DVec2::ZERO; MOST_CORNERS], vec![DVec2::ONE]];
         let error = Domain::of_polygons(&[too_many]).unwrap_err();
         assert_eq!(error, RegionError::TooManyCorners { corners: MOST_CORNERS + 1 });
