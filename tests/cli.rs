@@ -263,6 +263,162 @@ fn points_are_found_and_values_interpolated() {
     assert_eq!(values[4], "0.125");
 }
 
+/// A square of side 4 with a square hole of side 2 that runs the same way round.
+const FRAME: &str = r#"{"type": "Feature", "geometry": {"type": "Polygon", "coordinates":
+    [[[0, 0], [4, 0], [4, 4], [0, 4], [0, 0]], [[1, 1], [3, 1], [3, 3], [1, 3], [1, 1]]]}}"#;
+
+#[test]
+fn a_region_is_meshed_as_its_boundary_asks() {
+    let folder = Folder::new("region");
+    folder.file("frame.geojson", FRAME);
+    let shape = |summary: &Value| {
+        ["region_area", "region_holes", "area", "holes", "parts"].map(|key| summary[key].as_f64().unwrap())
+    };
+    let fitted = folder.json("--region frame.geojson --spacing 1 --checks");
+    assert_eq!(shape(&fitted), [12.0, 1.0, 12.0, 1.0, 1.0]);
+    // The usual diameter is that of level 7.
+    assert_eq!((&fitted["max_level"], &fitted["violations"]), (&7.into(), &0.into()));
+    assert_eq!(folder.json("--region frame.geojson --spacing 1 --boundary fitted")["hash"], fitted["hash"]);
+    let coarser = folder.json("--region frame.geojson --spacing 1 --boundary-diameter 0.5 --checks");
+    assert_eq!((&coarser["max_level"], &coarser["violations"]), (&3.into(), &0.into()));
+    // By the report the corners of the hole are cut: half a cell each.
+    let report = folder.json("--region frame.geojson --spacing 1 --boundary report --checks");
+    assert_eq!(shape(&report), [12.0, 1.0, 13.0, 1.0, 1.0]);
+    assert_eq!((&report["triangles"], &report["max_level"]), (&26.into(), &0.into()));
+    // Sizes from a field and the outline go together; what lies in the hole asks for nothing.
+    let target = "--target 'if(max(abs(x - 2), abs(y - 2)) < 0.5, 0.001, 1)'";
+    assert_eq!(folder.json(&format!("--region frame.geojson --spacing 1 {target}"))["max_level"], 7);
+    let ran = folder.run("mesh --region frame.geojson --spacing 1");
+    assert!(
+        ran.err.contains("area 12, 0.000 % more than the polygons' 12; 1 holes of 1, 1 part"),
+        "{}",
+        ran.err
+    );
+    assert!(folder.json("--spacing 1")["region_area"].is_null(), "there is no outline to compare with");
+}
+
+#[test]
+fn points_in_a_region_are_found_in_the_triangles_of_its_files() {
+    let folder = Folder::new("region-points");
+    folder.file("frame.geojson", FRAME);
+    // On the outer side, on the hole's side and its corner, inside, in the hole, beyond.
+    folder.file("points.csv", "x,y\n4,2.3\n3,2.5\n1,1\n0.3,2.9\n3.9,3.8\n2,2\n5,5\n");
+    let input = "--region frame.geojson --spacing 1";
+    assert_eq!(folder.run(&format!("mesh {input} -o m.node")).status, 0);
+    let rows = |text: &str| -> Vec<Vec<f64>> {
+        let numbers = |line: &str| line.split_whitespace().map(|word| word.parse().unwrap()).collect();
+        text.lines().skip(1).map(numbers).collect()
+    };
+    let (nodes, elements) = (rows(&folder.read("m.node")), rows(&folder.read("m.ele")));
+    let ran = folder.run(&format!("locate {input} --points points.csv"));
+    assert_eq!(ran.status, 0, "{}", ran.err);
+    let found: Vec<Vec<&str>> = ran.out.lines().skip(1).map(|line| line.split(',').collect()).collect();
+    let wheres: Vec<&str> = found.iter().map(|row| row[2]).collect();
+    assert_eq!(wheres[2..3], ["vertex"]);
+    assert_eq!(wheres[5..], ["hole", "outside"]);
+    for row in &found[..5] {
+        let number = |column: usize| row[column].parse::<f64>().unwrap();
+        let element = &elements[number(3) as usize];
+        assert_eq!(element[0], number(3));
+        let (mut corners, mut listed) = ([5, 6, 7].map(number), [1, 2, 3].map(|i| element[i]));
+        corners.sort_by(f64::total_cmp);
+        listed.sort_by(f64::total_cmp);
+        assert_eq!((corners, number(4)), (listed, element[4]), "its vertices and level");
+        let mut place = [0.0; 2];
+        for (corner, zeta) in [(5, 8), (6, 9), (7, 10)] {
+            let node = &nodes[number(corner) as usize];
+            (0..2).for_each(|i| place[i] += number(zeta) * node[1 + i]);
+        }
+        assert!((place[0] - number(0)).abs() < 1e-12 && (place[1] - number(1)).abs() < 1e-12, "{row:?}");
+    }
+}
+
+#[test]
+fn bad_regions_are_explained() {
+    let folder = Folder::new("bad-regions");
+    folder.file("frame.geojson", FRAME);
+    let polygon = |rings: &str| format!(r#"{{"type":"Polygon","coordinates":{rings}}}"#);
+    folder.file("empty.geojson", "");
+    folder.file("cut.geojson", &FRAME[..120]);
+    folder.file("text.geojson", "first line\n");
+    folder.file("infinite.geojson", polygon("[[[0,0],[1,0],\n[1e999,1]]]"));
+    folder.file("nan.geojson", polygon("[[[0,0],[1,0],\n\n[NaN,1]]]"));
+    folder.file("deep.geojson", polygon(&"[".repeat(100_000)));
+    let points = r#"{"type":"FeatureCollection","features":[{"type":"Feature","geometry":{"type":"Point","coordinates":[1,2]}}]}"#;
+    folder.file("points.geojson", points);
+    folder.file("line.geojson", polygon("[[[0,0],[1,1],[2,2]]]"));
+    folder.file("narrow.geojson", polygon("[[[0,0],[1e12,0],[0,1e-3]]]"));
+    folder.file("vast.geojson", polygon("[[[-1.7e308,-1.7e308],[1.7e308,0],[0,1.7e308]]]"));
+    folder.file("mixed.geojson", polygon("[[[0,0],[1,0],[0,[1,2]]]]"));
+    for (arguments, status, sentence) in [
+        ("--region none.geojson", 1, "none.geojson: cannot be read"),
+        ("--region empty.geojson", 1, "empty.geojson, line 1: the file ends too early"),
+        ("--region cut.geojson", 1, "cut.geojson, line 2: the file ends too early"),
+        ("--region text.geojson", 1, "text.geojson, line 1: this is no GeoJSON that can be read"),
+        (
+            "--region infinite.geojson",
+            1,
+            "infinite.geojson, line 2: this is no GeoJSON that can be read: number out of range",
+        ),
+        ("--region nan.geojson", 1, "nan.geojson, line 3: this is no GeoJSON"),
+        (
+            "--region deep.geojson",
+            1,
+            "deep.geojson, line 1: this is no GeoJSON that can be read: recursion limit exceeded",
+        ),
+        (
+            "--region points.geojson",
+            1,
+            "points.geojson: a domain needs a Polygon or a MultiPolygon, and it has Point",
+        ),
+        ("--region line.geojson", 1, "line.geojson: The polygons cover no area"),
+        ("--region narrow.geojson", 1, "is too narrow"),
+        ("--region vast.geojson", 1, "vast.geojson: The polygons reach too far"),
+        (
+            "--region mixed.geojson",
+            1,
+            "mixed.geojson, line 1: this is no GeoJSON that can be read: numbers and lists",
+        ),
+        ("--region .", 1, ".: cannot be read"),
+        ("--region frame.geojson --domain 0,0,1,1", 2, "cannot be used with '--domain"),
+        ("--region frame.geojson --inside x", 2, "cannot be used with '--inside"),
+        (
+            "--boundary-diameter 0.1",
+            2,
+            "--boundary-diameter 0.1: it is for the outline of a domain from a file. Name that with --region",
+        ),
+        ("--boundary-diameter 0.1 --inside 'x < 1'", 2, "Name that with --region, or leave it out."),
+        (
+            "--region frame.geojson --boundary report --boundary-diameter 0.1",
+            2,
+            "Take --boundary fitted, or leave it out.",
+        ),
+        (
+            "--region frame.geojson --boundary-diameter 0",
+            2,
+            "--boundary-diameter 0: a length must be positive",
+        ),
+        (
+            "--region frame.geojson --boundary-diameter NaN",
+            2,
+            "--boundary-diameter NaN: a length must be positive",
+        ),
+        ("--region frame.geojson --boundary-diameter 1e-300", 1, "nodes would leave the lattice"),
+        (
+            "--region frame.geojson --boundary-diameter 0.001 --max-triangles 1000",
+            1,
+            "more than 1000 triangles",
+        ),
+        ("--region frame.geojson --boundary nearly", 2, "invalid value 'nearly'"),
+        ("--region frame.geojson -o frame.geojson", 2, "frame.geojson"),
+    ] {
+        let before = folder.names();
+        assert_fails(&folder, &format!("mesh {arguments}"), status, sentence);
+        assert_eq!(folder.names(), before, "{arguments}");
+        assert_eq!(folder.read("frame.geojson"), FRAME, "{arguments}");
+    }
+}
+
 #[test]
 fn a_level_cap_is_kept_and_said() {
     let folder = Folder::new("cap");

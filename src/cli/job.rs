@@ -126,12 +126,26 @@ impl Job {
             limits: limits(typed)?,
         };
         job.check_bounds()?;
+        job.check_boundary()?;
         Ok(job)
     }
 
     /// Whether some source needs both ends of the scale from --h-min to --h-max.
     pub fn uses_scale(&self) -> bool {
         self.sources.iter().any(SourceSpec::uses_scale)
+    }
+
+    /// The diameter at the outline means something only where there is one to fit.
+    fn check_boundary(&self) -> Result<(), Failure> {
+        let Some(diameter) = self.boundary_diameter else { return Ok(()) };
+        let problem = if self.region.is_none() {
+            "it is for the outline of a domain from a file. Name that with --region, or leave it out"
+        } else if !self.fitted {
+            "with --boundary report nothing is refined along the outline. Take --boundary fitted, or leave it out"
+        } else {
+            return Ok(());
+        };
+        Err(Failure::Usage(format!("--boundary-diameter {diameter}: {problem}.")))
     }
 
     fn check_bounds(&self) -> Result<(), Failure> {
