@@ -113,10 +113,42 @@ struct Object {
     coordinates: Option<Coordinates>,
     #[serde(default)]
     geometry: Option<Box<Self>>,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "objects_of_use")]
     geometries: Vec<Self>,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "objects_of_use")]
     features: Vec<Self>,
+}
+
+impl Object {
+    fn is_of_use(&self) -> bool {
+        let mut inner = self.geometry.as_deref().into_iter().chain(&self.geometries).chain(&self.features);
+        self.kind.ends_with("Polygon") || inner.any(Self::is_of_use)
+    }
+}
+
+/// The objects of a list that have polygons, and the first of the others, to be named: a file may have millions of points.
+fn objects_of_use<'de, D: Deserializer<'de>>(json: D) -> Result<Vec<Object>, D::Error> {
+    json.deserialize_seq(Objects)
+}
+
+struct Objects;
+
+impl<'de> Visitor<'de> for Objects {
+    type Value = Vec<Object>;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str("a list of features or geometries")
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Vec<Object>, A::Error> {
+        let mut objects: Vec<Object> = Vec::new();
+        while let Some(object) = list.next_element::<Object>()? {
+            if objects.is_empty() || object.is_of_use() {
+                objects.push(object);
+            }
+        }
+        Ok(objects)
+    }
 }
 
 /// Ends when the nesting does, which the parser bounds.

@@ -1,0 +1,176 @@
+//! Files that are cut, empty, immense or made to hurt: each is a result or a sentence, and neither a panic nor all memory.
+
+use std::fmt::Write;
+use std::io::Cursor;
+use std::path::Path;
+
+use meshbrush::domain::{Domain, RegionError};
+use meshbrush::field::Formula;
+use meshbrush::geometry::Rect;
+use meshbrush::io::png::{Behind, decode};
+use meshbrush::io::{asc, geojson, points};
+
+const NAME: &str = "the file";
+
+/// What a reader says to a file, without what it reads.
+type Reader = fn(&[u8]) -> Result<(), String>;
+
+fn read_geojson(bytes: &[u8]) -> Result<(), String> {
+    let polygons = geojson::from_bytes(bytes, Path::new(NAME)).map_err(|error| error.to_string())?;
+    Domain::of_polygons(&polygons).map(drop).map_err(|error| format!("{NAME}: {error}"))
+}
+
+fn read_asc(bytes: &[u8]) -> Result<(), String> {
+    asc::from_bytes(bytes, Path::new(NAME)).map(drop).map_err(|error| error.to_string())
+}
+
+fn read_points(bytes: &[u8]) -> Result<(), String> {
+    points::from_bytes(bytes, Path::new(NAME)).map(drop).map_err(|error| error.to_string())
+}
+
+fn read_png(bytes: &[u8]) -> Result<(), String> {
+    decode(Cursor::new(bytes), Rect::UNIT, Behind::Black).map(drop).map_err(|flaw| format!("{NAME}: {flaw}"))
+}
+
+fn read_formula(bytes: &[u8]) -> Result<(), String> {
+    let Ok(text) = std::str::from_utf8(bytes) else { return Ok(()) };
+    let formula = Formula::parse(text).map_err(|mistake| format!("{NAME}: {mistake}"))?;
+    let _ = formula.eval(0.5, -0.5);
+    Ok(())
+}
+
+const GEOJSON: &str = r#"{"type":"FeatureCollection","features":[{"type":"Feature","properties":{"a":[1,{"b":null}]},
+"geometry":{"type":"MultiPolygon","coordinates":[[[[0,0],[4,0,9],[4e0,4],[0,0]],[[1,1],[2,1],[2,1.5]]]]}}]}"#;
+
+/// A small valid file of each kind with its reader.
+fn samples() -> Vec<(Vec<u8>, Reader)> {
+    let mut png = Vec::new();
+    let mut encoder = png::Encoder::new(&mut png, 5, 4);
+    encoder.set_color(png::ColorType::Indexed);
+    encoder.set_palette(vec![0, 0, 0, 9, 9, 9, 255, 255, 255]);
+    encoder.set_trns(vec![255, 0]);
+    encoder.write_header().unwrap().write_image_data(&[0, 1, 2, 1, 0].repeat(4)).unwrap();
+    let asc =
+        "ncols 3\nnrows 2\nxllcorner 10\nyllcenter -4\ncellsize 2\nnodata_value -9\n1 2,5 3e0\n4 -9 6\n";
+    vec![
+        (GEOJSON.into(), read_geojson),
+        (asc.into(), read_asc),
+        ("name,\"Y\", X \n\"a, \"\"b\"\"\",\"2\", 1\n,inf,-2e3\n".into(), read_points),
+        (png, read_png),
+        ("if(abs(x)+θ <= 8 and not y, hypot(x, 2^-y), max(1e-3, r))".into(), read_formula),
+    ]
+}
+
+fn assert_sentence(said: Result<(), String>) {
+    if let Err(sentence) = said {
+        assert!(sentence.starts_with(NAME), "{sentence}");
+        assert!(sentence.ends_with('.') && sentence.len() < 400, "{sentence}");
+    }
+}
+
+#[test]
+fn every_prefix_is_a_result_or_a_sentence() {
+    for (file, read) in samples() {
+        assert_eq!(read(&file), Ok(()));
+        (0..file.len()).for_each(|end| assert_sentence(read(&file[..end])));
+        assert!(read(&[]).is_err() && read(&file[..file.len() / 2]).is_err());
+    }
+}
+
+#[test]
+fn every_changed_byte_is_a_result_or_a_sentence() {
+    for (file, read) in samples() {
+        let mut changed = file.clone();
+        for at in 0..file.len() {
+            for byte in [0, b'0', b'9', b'-', b'e', b'"', b'[', b'}', b' ', b'\n', 0x7f, 0xff, file[at] ^ 1] {
+                changed[at] = byte;
+                assert_sentence(read(&changed));
+            }
+            changed[at] = file[at];
+        }
+    }
+}
+
+fn polygon(rings: &str) -> String {
+    format!(r#"{{"type":"Polygon","coordinates":{rings}}}"#)
+}
+
+fn said(file: &str) -> String {
+    read_geojson(file.as_bytes()).unwrap_err()
+}
+
+#[test]
+fn immense_outlines_are_refused_before_they_take_memory() {
+    let many = polygon(&format!("[[{}[0,0]]]", "[1,2],".repeat(10_000_000)));
+    assert!(
+        said(&many).contains("more than 1000000 corners, which is the limit. Simplify the outline first")
+    );
+    // Not one polygon with too many corners, but too many polygons.
+    let mut parts = String::from(r#"{"type":"GeometryCollection","geometries":["#);
+    for k in 0..350_000 {
+        write!(parts, "{},", polygon(&format!("[[[{k},0],[{k},1],[{k}.5,1]]]"))).unwrap();
+    }
+    parts.replace_range(parts.len() - 1.., "]}");
+    assert!(said(&parts).contains("have 1050000 corners, and at most 1000000"));
+    let point = r#"{"type":"Feature","geometry":{"type":"Point","coordinates":[1,2]}},"#;
+    let points =
+        format!(r#"{{"type":"FeatureCollection","features":[{}{{"type":"x"}}]}}"#, point.repeat(300_000));
+    assert!(said(&points).contains("and it has Point. Export the area"));
+    assert!(said(&polygon(&"[".repeat(1_000_000))).contains("line 1: "));
+    let nested = r#"{"type":"GeometryCollection","geometries":["#.repeat(100_000);
+    assert!(said(&nested).contains("recursion limit exceeded"));
+}
+
+#[test]
+fn an_odd_outline_covers_what_an_even_odd_rule_says() {
+    let area = |rings: &str| {
+        let polygons = geojson::from_bytes(polygon(rings).as_bytes(), Path::new(NAME)).unwrap();
+        // Corners lie on a fine grid, not always just where they were.
+        Domain::of_polygons(&polygons).map(|domain| (domain.region().unwrap().area() * 1e5).round() / 1e5)
+    };
+    // Either way round, closed or not, with a hole that runs like its ring.
+    assert_eq!(area("[[[0,0],[4,0],[4,4],[0,4],[0,0]]]"), Ok(16.0));
+    assert_eq!(area("[[[0,4],[4,4],[4,0],[0,0]]]"), Ok(16.0));
+    assert_eq!(area("[[[0,0],[4,0],[4,4],[0,4]],[[1,1],[3,1],[3,3],[1,3]]]"), Ok(12.0));
+    // Rings that touch at a corner and along an edge; a hole twice; a spike; points that come twice.
+    assert_eq!(area("[[[0,0],[4,0],[4,4],[0,4]],[[0,0],[2,1],[1,2]],[[4,1],[4,3],[3,2]]]"), Ok(13.5));
+    assert_eq!(area("[[[0,0],[4,0],[4,4],[0,4]],[[1,1],[3,1],[3,3]],[[1,1],[3,1],[3,3]]]"), Ok(16.0));
+    assert_eq!(area("[[[0,0],[4,0],[4,4],[2,4],[2,4],[2,6],[2,4],[0,4]]]"), Ok(16.0));
+    // A figure of eight covers both lobes.
+    assert_eq!(area("[[[0,0],[4,4],[4,0],[0,4]]]"), Ok(8.0));
+    // Coordinates in the millions with details of a metre.
+    let far = area(
+        "[[[4321000,5210000],[4321004,5210000],[4321004,5210003],[4321000,5210003]],[[4321001,5210001],[4321002,5210001],[4321001,5210002]]]",
+    );
+    assert_eq!(far, Ok(11.5));
+    assert_eq!(area("[[[7,7],[7,7],[7,7]]]"), Err(RegionError::NoArea));
+    assert_eq!(area("[[[-1e308,0],[1e308,0],[0,1]]]"), Err(RegionError::TooLarge));
+}
+
+#[test]
+fn a_picture_that_swells_is_refused_or_stays_within_its_size() {
+    // Megabytes of rows in a small file, for an image of one pixel: what is too much is not unpacked.
+    let mut file = Vec::new();
+    let mut encoder = png::Encoder::new(&mut file, 8000, 8000);
+    encoder.set_color(png::ColorType::Grayscale);
+    encoder.set_depth(png::BitDepth::One);
+    encoder.write_header().unwrap().write_image_data(&vec![0; 8_000_000]).unwrap();
+    assert!(file.len() < 30_000, "{} bytes", file.len());
+    let crc = |bytes: &[u8]| {
+        !bytes.iter().fold(!0u32, |crc, &byte| {
+            (0..8).fold(crc ^ u32::from(byte), |crc, _| (crc >> 1) ^ (0xedb8_8320 & (crc & 1).wrapping_neg()))
+        })
+    };
+    let with_size = |side: u32| {
+        let mut file = file.clone();
+        file[16..20].copy_from_slice(&side.to_be_bytes());
+        file[20..24].copy_from_slice(&side.to_be_bytes());
+        let sum = crc(&file[12..29]);
+        file[29..33].copy_from_slice(&sum.to_be_bytes());
+        decode(Cursor::new(file), Rect::UNIT, Behind::Black).map(|raster| raster.size())
+    };
+    assert_eq!(with_size(1).ok(), Some([1, 1]));
+    assert!(with_size(8192).is_err(), "rows are missing");
+    assert!(with_size(8193).unwrap_err().to_string().contains("8193 × 8193 pixels cannot be taken"));
+    assert!(with_size(u32::MAX >> 1).is_err() && with_size(0).is_err());
+}
