@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread::{self, JoinHandle};
-use std::time::{SystemTime, UNIX_EPOCH};
+use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
 use eframe::egui::Context;
 
@@ -138,11 +138,19 @@ enum Outdated {
     Left(Box<Abandoned>),
 }
 
+/// How long nothing must have been written before the disk is waited for: the system lets nobody write to a file in that time, and the
+/// next gesture would be lost if the program were killed.
+const QUIET: Duration = Duration::from_secs(1);
+/// How long it is put off at most.
+const LONGEST_DELAY: Duration = Duration::from_secs(30);
+
 /// Waits for the disk: once for all that has come in the meantime.
 fn wait_for_disk(written: &Receiver<ToDisk>) -> std::io::Result<()> {
     while let Ok(first) = written.recv() {
+        let start = Instant::now();
         let (mut syncing, mut outdated) = (None, Vec::new());
-        for item in std::iter::once(first).chain(std::iter::from_fn(|| written.try_recv().ok())) {
+        let more = || if start.elapsed() < LONGEST_DELAY { written.recv_timeout(QUIET).ok() } else { None };
+        for item in std::iter::once(first).chain(std::iter::from_fn(more)) {
             syncing = item.syncing.or(syncing);
             outdated.extend(item.outdated);
         }
