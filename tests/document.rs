@@ -6,7 +6,7 @@ use glam::{DVec2, dvec2};
 use meshbrush::document::{
     Base, Document, Example, Follower, MeshChange, Price, Pricer, Setting, Settings, Stage,
 };
-use meshbrush::domain::{Domain, Polygon, Shape, corners};
+use meshbrush::domain::{Domain, Polygon, Shape, Stencil, corners};
 use meshbrush::field::{Formula, Rule, VertexRule};
 use meshbrush::geometry::Rect;
 use meshbrush::mesh::Progress;
@@ -443,5 +443,52 @@ fn a_setting_changed_there_and_back_makes_no_other_mesh() {
     settle(&mut follower, &mut document);
     let change = follower.take_change();
     assert!(matches!(change, Some(MeshChange::Within(_))), "only the stroke: {change:?}");
+    assert_as_from_scratch(&follower, &document);
+}
+
+#[test]
+fn a_large_outline_is_followed_in_slices_and_cuts_made_meanwhile_join() {
+    const VISITS: usize = 2048;
+    let corner = |k: u32| {
+        let angle = f64::from(k) / 60_000.0 * std::f64::consts::TAU;
+        (0.4 + 0.05 * (37.0 * angle).sin()) * dvec2(angle.cos(), angle.sin())
+    };
+    let coast = Domain::of_polygons(&[vec![(0..60_000).map(corner).collect()]]).unwrap();
+    let mut document = Document::new(Settings::for_domain("coast".into(), coast), None).unwrap();
+    let mut follower = Follower::new(&mut document).unwrap();
+    let cut = |document: &mut Document, at: DVec2| {
+        let dab = Stencil::Stroke { path: vec![at], radius: 0.05 };
+        let domain = document.settings().domain.reshaped(&dab, false).unwrap();
+        document.set(Setting::Domain(domain)).unwrap();
+        document.end_gesture();
+    };
+    let mut outlining = 0;
+    cut(&mut document, dvec2(0.4, 0.0));
+    while follower.advance(&mut document, VISITS).unwrap() == Stage::Outlining {
+        outlining += 1;
+        match outlining {
+            20 => cut(&mut document, dvec2(-0.4, 0.0)),
+            40 => cut(&mut document, dvec2(0.0, 0.4)),
+            _ => {}
+        }
+    }
+    // Twice, each with 60,000 edges to compare, to lay and to sort into squares: the cuts in the middle are one.
+    assert!(outlining > 2 * 4 * 60_000 / VISITS, "{outlining} slices");
+    settle(&mut follower, &mut document);
+    assert_as_from_scratch(&follower, &document);
+
+    // A setting in the middle of a cut, and the cut undone in the middle of it.
+    cut(&mut document, dvec2(0.0, -0.4));
+    assert_eq!(follower.advance(&mut document, VISITS), Ok(Stage::Outlining));
+    document.set(Setting::SmallestDiameter(0.01)).unwrap();
+    assert_eq!(follower.advance(&mut document, VISITS), Ok(Stage::Outlining));
+    settle(&mut follower, &mut document);
+    assert_as_from_scratch(&follower, &document);
+    document.undo();
+    settle(&mut follower, &mut document);
+    document.undo();
+    assert_eq!(follower.advance(&mut document, VISITS), Ok(Stage::Outlining));
+    document.redo();
+    assert_eq!(follower.advance(&mut document, VISITS), Ok(Stage::InStep));
     assert_as_from_scratch(&follower, &document);
 }

@@ -1,8 +1,9 @@
 use std::sync::Arc;
 
+use super::cut::Cut;
 use super::job::{Finished, Job};
 use super::{Document, Repainted, Settings};
-use crate::domain::{Boundary, DomainOnLattice};
+use crate::domain::DomainOnLattice;
 use crate::field::{Rule, TargetField};
 use crate::mesh::{Changes, CoarseError, Element, InvalidTarget, Mesh, Progress, RefineError, Updater};
 use crate::raster::PixelRect;
@@ -33,6 +34,8 @@ pub struct Follower {
     /// What was painted and is not yet in the field.
     unread: Vec<PixelRect>,
     job: Option<Job>,
+    /// Another outline, on its way to the shown mesh.
+    cut: Option<Cut>,
     /// The revision of the document that could not be met: not tried again.
     given_up_on: Option<u64>,
     /// Why the shown mesh is not the document's, until it is.
@@ -53,6 +56,8 @@ pub enum MeshChange {
 pub enum Stage {
     /// Not at all.
     InStep,
+    /// The outline of the domain is being laid on the lattice.
+    Outlining,
     /// The field is being sampled.
     Filling,
     /// The mesh is being refined; so far it has this many triangles.
@@ -83,7 +88,7 @@ impl Follower {
     /// When the document has no mesh.
     pub fn new(document: &mut Document) -> Result<Self, FollowError> {
         document.take_repainted();
-        let mut job = Job::new(document.settings(), false)?;
+        let mut job = Job::new(document.settings(), false, None)?;
         while job.advance(document, None, usize::MAX)? == Progress::More {}
         let Finished { settings, domain, field, mesh } = job.finished();
         let field = field.expect("the first job fills a field of its own");
@@ -101,6 +106,7 @@ impl Follower {
             refill: false,
             unread: Vec::new(),
             job: None,
+            cut: None,
             given_up_on: None,
             stopped: None,
         })
@@ -147,13 +153,11 @@ impl Follower {
         match &self.job {
             // What is left is not tried before the document changes.
             None if self.given_up_on.is_some() => Stage::InStep,
+            None if self.cut.is_some() => Stage::Outlining,
             None if !self.unread.is_empty() || self.lost_step => Stage::Filling,
             None if self.updater.is_done() => Stage::InStep,
             None => Stage::Refining { triangles: self.mesh.triangles().len() },
-            Some(job) => match &job.refining {
-                None => Stage::Filling,
-                Some(refining) => Stage::Refining { triangles: refining.mesh.triangles().len() },
-            },
+            Some(job) => job.stage(),
         }
     }
 
@@ -181,7 +185,7 @@ impl Follower {
     }
 
     fn give_up(&mut self, document: &Document) {
-        self.job = None;
+        (self.job, self.cut) = (None, None);
         self.given_up_on = Some(document.revision());
     }
 
@@ -228,22 +232,27 @@ impl Follower {
     fn work(&mut self, document: &Document, visits: usize) -> Result<Stage, FollowError> {
         let wanted = document.settings();
         let differs = *wanted != *self.job.as_ref().map_or(&self.settings, |job| &job.settings);
+        let cuts = differs && self.follows_domain(wanted);
+        if !cuts {
+            self.cut = None;
+        }
         let outdated = if differs {
-            !self.takes_over(wanted) && !self.takes_over_domain(wanted)
+            !cuts && !self.takes_over(wanted)
         } else {
             self.job.is_none() && self.lost_step && self.unread.is_empty()
         };
         if outdated {
             let reuse_field = self.reuses_field(wanted) && self.unread.is_empty();
-            self.job = Some(Job::new(wanted, reuse_field)?);
+            self.job = Some(Job::new(wanted, reuse_field, self.laid_domain(wanted))?);
         }
-        match &mut self.job {
-            Some(job) => {
+        match (&mut self.job, self.cut.take()) {
+            (Some(job), _) => {
                 if job.advance(document, Some(&self.field), visits)? == Progress::Done {
                     self.show();
                 }
             }
-            None => self.update(document, visits)?,
+            (None, Some(cut)) => self.cut(cut, wanted, visits),
+            (None, None) => self.update(document, visits)?,
         }
         Ok(self.stage())
     }
@@ -284,28 +293,31 @@ impl Follower {
         result.map(|_| ())
     }
 
-    /// Takes over a domain of another shape, if the shown mesh can follow it in place.
-    fn takes_over_domain(&mut self, wanted: &Settings) -> bool {
-        let as_wanted = Settings { domain: wanted.domain.clone(), ..self.settings.clone() };
-        if self.job.is_some() || self.lost_step || as_wanted != *wanted {
+    /// Begins to take over a domain of another outline, if the shown mesh can follow it in place. A cut that has begun goes on to its
+    /// end: what came since is the next one.
+    fn follows_domain(&mut self, wanted: &Settings) -> bool {
+        if self.job.is_some() || self.lost_step || !Cut::is_possible(&self.settings, wanted) {
             return false;
         }
-        let (before, after) = (&self.settings.domain, &wanted.domain);
-        let (Some(before), Some(after)) = (before.as_region(), after.as_region()) else { return false };
-        let fits = matches!(wanted.boundary, Boundary::Fitted { .. }) && wanted.rule == Rule::Area;
-        if !fits || before.frame() != after.frame() {
-            return false;
+        if self.cut.is_none() {
+            self.cut = Cut::begin(&self.settings, wanted, self.mesh.lattice());
         }
-        let lattice = *self.mesh.lattice();
-        self.domain = DomainOnLattice::new(&wanted.domain, wanted.boundary, &lattice);
-        for area in before.areas_changed(&after) {
-            if let Some(rect) = lattice.rect_round(&area) {
-                // Corners are moved to the nearest lattice point.
-                self.updater.add_and_tell(rect.expanded(1, lattice.extent()));
-            }
-        }
-        self.settings = wanted.clone();
         true
+    }
+
+    /// One slice of a cut; at its end the mesh begins to follow, and the cut that came since begins.
+    fn cut(&mut self, mut cut: Cut, wanted: &Settings, visits: usize) {
+        if cut.advance(visits) == Progress::More {
+            self.cut = Some(cut);
+            return;
+        }
+        self.settings = cut.settings.clone();
+        let (domain, areas) = cut.finished();
+        self.domain = domain;
+        areas.into_iter().for_each(|area| self.updater.add_and_tell(area));
+        if self.settings != *wanted {
+            self.follows_domain(wanted);
+        }
     }
 
     fn show(&mut self) {
@@ -331,6 +343,13 @@ impl Follower {
             && wanted.lattice().as_ref() == Ok(self.mesh.lattice())
     }
 
+    /// The wanted domain on the lattice, where the shown mesh has it.
+    fn laid_domain(&self, wanted: &Settings) -> Option<DomainOnLattice> {
+        let same =
+            wanted.domain == self.settings.domain && wanted.lattice().as_ref() == Ok(self.mesh.lattice());
+        same.then(|| self.domain.with_boundary(wanted.boundary))
+    }
+
     fn take_over_paint(&mut self, document: &mut Document) {
         match document.take_repainted() {
             Repainted::Within(areas) => {
@@ -340,7 +359,7 @@ impl Follower {
                 self.unread.extend(areas);
             }
             Repainted::Everything => {
-                self.job = None;
+                (self.job, self.cut) = (None, None);
                 self.unread.clear();
                 self.lost_step = true;
                 self.refill = true;

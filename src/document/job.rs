@@ -1,8 +1,8 @@
 //! A mesh in the making, beside the one that is shown.
 
-use super::follower::FollowError;
+use super::follower::{FollowError, Stage};
 use super::{Document, Settings};
-use crate::domain::DomainOnLattice;
+use crate::domain::{DomainLaying, DomainOnLattice};
 use crate::field::{Rule, TargetField, VertexRule};
 use crate::mesh::{CoarseError, Element, Mesh, Progress, RefineError, Refiner};
 use crate::raster::PixelRect;
@@ -11,10 +11,12 @@ use crate::raster::PixelRect;
 #[derive(Clone, Debug)]
 pub(super) struct Job {
     pub(super) settings: Settings,
-    domain: DomainOnLattice,
+    /// The domain on its way to the lattice, at first, where that of the shown mesh does not serve.
+    laying: Option<DomainLaying>,
+    domain: Option<DomainOnLattice>,
     /// A field in the making, where that of the shown mesh does not serve.
     field: Option<TargetField>,
-    pub(super) refining: Option<Refining>,
+    refining: Option<Refining>,
     /// What was painted since the work began: field and mesh are updated there once they are shown.
     pub(super) repainted: Vec<PixelRect>,
 }
@@ -28,8 +30,8 @@ pub(super) struct Finished {
 }
 
 #[derive(Clone, Debug)]
-pub(super) struct Refining {
-    pub(super) mesh: Mesh,
+struct Refining {
+    mesh: Mesh,
     refiner: Refiner,
     refined: bool,
     /// How many triangles were asked whether they lie outside.
@@ -39,42 +41,68 @@ pub(super) struct Refining {
 }
 
 impl Job {
-    /// `reuse_field`: the field of the shown mesh serves.
-    pub(super) fn new(settings: &Settings, reuse_field: bool) -> Result<Self, FollowError> {
+    /// `reuse_field`: the field of the shown mesh serves. So does its domain on the lattice, where it is given.
+    pub(super) fn new(
+        settings: &Settings,
+        reuse_field: bool,
+        domain: Option<DomainOnLattice>,
+    ) -> Result<Self, FollowError> {
         let lattice = settings.lattice().map_err(CoarseError::from)?;
-        let domain = DomainOnLattice::new(&settings.domain, settings.boundary, &lattice);
+        let laying =
+            domain.is_none().then(|| DomainLaying::new(&settings.domain, settings.boundary, &lattice));
         let field = (!reuse_field).then(|| TargetField::new(settings.field_spec(), &lattice));
-        let refining = if field.is_none() { Some(Refining::new(settings, &domain)?) } else { None };
-        Ok(Self { settings: settings.clone(), domain, field, refining, repainted: Vec::new() })
+        Ok(Self { settings: settings.clone(), laying, domain, field, refining: None, repainted: Vec::new() })
     }
 
-    /// One slice of filling, refining or sorting out what lies outside.
+    /// What is being done.
+    pub(super) fn stage(&self) -> Stage {
+        match &self.refining {
+            _ if self.laying.is_some() => Stage::Outlining,
+            None => Stage::Filling,
+            Some(refining) => Stage::Refining { triangles: refining.mesh.triangles().len() },
+        }
+    }
+
+    /// One slice of laying the domain, filling, refining or sorting out what lies outside.
     pub(super) fn advance(
         &mut self,
         document: &Document,
         shown: Option<&TargetField>,
         visits: usize,
     ) -> Result<Progress, FollowError> {
+        if let Some(mut laying) = self.laying.take() {
+            match laying.advance(visits) {
+                Progress::More => self.laying = Some(laying),
+                Progress::Done => self.domain = Some(laying.finished()),
+            }
+            return Ok(Progress::More);
+        }
+        let domain = self.domain.as_ref().expect("it is laid before anything else");
         let Some(refining) = &mut self.refining else {
-            let field = self.field.as_mut().expect("a job without a field of its own starts refining");
-            if field.fill(document.layers().as_paint(), visits)? == Progress::Done {
-                self.refining = Some(Refining::new(&self.settings, &self.domain)?);
+            let filled = match &mut self.field {
+                Some(field) => field.fill(document.layers().as_paint(), visits)?,
+                None => Progress::Done,
+            };
+            if filled == Progress::Done {
+                self.refining = Some(Refining::new(&self.settings, domain)?);
             }
             return Ok(Progress::More);
         };
         let field =
             self.field.as_ref().or(shown).expect("a job without a field of its own reuses the shown one");
         if !refining.refined {
-            let progress = refining.refine(&self.domain, field, document, self.settings.rule, visits)?;
+            let progress = refining.refine(domain, field, document, self.settings.rule, visits)?;
             refining.refined = progress == Progress::Done;
             return Ok(Progress::More);
         }
-        Ok(refining.sort_out(&self.domain, visits))
+        Ok(refining.sort_out(domain, visits))
     }
 
     pub(super) fn finished(self) -> Finished {
-        let Self { settings, domain, field, refining, .. } = self;
-        Finished { settings, domain, field, mesh: refining.expect("a job is done when refining is").mesh }
+        let Self { settings, domain: Some(domain), field, refining: Some(refining), .. } = self else {
+            unreachable!("a job is done when refining is");
+        };
+        Finished { settings, domain, field, mesh: refining.mesh }
     }
 }
 

@@ -1,6 +1,7 @@
 //! What the user edits: settings and paint, with every edit's inverse. Field and mesh are derived from it by a
 //! [`Follower`] and never saved.
 
+mod cut;
 mod edits;
 mod examples;
 mod follower;

@@ -1,11 +1,14 @@
 //! How a mesh meets the boundary of its domain.
 
+use std::sync::Arc;
+
 use glam::DVec2;
 
-use super::{Domain, RegionOnLattice, Shape};
+use super::laying::RegionLaying;
+use super::{Domain, RegionOnLattice};
 use crate::field::Formula;
 use crate::geometry::{Lattice, LatticePoint, Rect};
-use crate::mesh::{Element, bisection_edge_length, level_for_diameter};
+use crate::mesh::{Element, Progress, bisection_edge_length, level_for_diameter};
 
 /// How the mesh meets the boundary of a region.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,13 +29,44 @@ impl Boundary {
     }
 }
 
+/// A domain on its way to a [`DomainOnLattice`], in slices.
+#[derive(Clone, Debug)]
+pub struct DomainLaying {
+    /// All but the region.
+    laid: DomainOnLattice,
+    boundary: Boundary,
+    region: Option<RegionLaying>,
+}
+
+impl DomainLaying {
+    /// Begins to lay a domain on a lattice that covers its bounds.
+    pub fn new(domain: &Domain, boundary: Boundary, lattice: &Lattice) -> Self {
+        let formula = domain.formula().cloned();
+        let laid =
+            DomainOnLattice { bounds: domain.bounds, lattice: *lattice, formula, region: None, fitted: None };
+        let region = domain.region().map(|region| RegionLaying::new(region, lattice));
+        Self { laid, boundary, region }
+    }
+
+    /// About so many edges of the outline.
+    pub fn advance(&mut self, visits: usize) -> Progress {
+        self.region.as_mut().map_or(Progress::Done, |region| region.advance(visits))
+    }
+
+    /// The domain, laid; what is left to do is done at once.
+    pub fn finished(self) -> DomainOnLattice {
+        let region = self.region.map(|region| Arc::new(region.finished()));
+        DomainOnLattice { region, ..self.laid }.with_boundary(self.boundary)
+    }
+}
+
 /// A domain laid on the lattice of a mesh: what the coarse grid, the refinement rule and [`Mesh::sort_out`](crate::mesh::Mesh::sort_out) ask.
 #[derive(Clone, Debug)]
 pub struct DomainOnLattice {
     bounds: Rect,
     lattice: Lattice,
     formula: Option<Formula>,
-    region: Option<RegionOnLattice>,
+    region: Option<Arc<RegionOnLattice>>,
     /// The level at the boundary, where that is met by refinement.
     fitted: Option<u32>,
 }
@@ -40,18 +74,18 @@ pub struct DomainOnLattice {
 impl DomainOnLattice {
     /// Lays a domain on a lattice that covers its bounds. Only a region can be fitted; a formula is met as in the report.
     pub fn new(domain: &Domain, boundary: Boundary, lattice: &Lattice) -> Self {
-        let (formula, region) = match &domain.shape {
-            Shape::Whole => (None, None),
-            Shape::Formula(formula) => (Some(formula.clone()), None),
-            Shape::Region(region) => (None, Some(RegionOnLattice::new(region, lattice))),
-        };
+        DomainLaying::new(domain, boundary, lattice).finished()
+    }
+
+    /// The same domain on the same lattice, with its boundary met in another way.
+    pub fn with_boundary(&self, boundary: Boundary) -> Self {
         let fitted = match boundary {
-            Boundary::Fitted { diameter } if region.is_some() => {
-                Some(level_for_diameter(lattice.spacing(), diameter).unwrap_or(u32::MAX))
+            Boundary::Fitted { diameter } if self.region.is_some() => {
+                Some(level_for_diameter(self.lattice.spacing(), diameter).unwrap_or(u32::MAX))
             }
             _ => None,
         };
-        Self { bounds: domain.bounds, lattice: *lattice, formula, region, fitted }
+        Self { fitted, ..self.clone() }
     }
 
     /// Whether the boundary is met by refinement, and triangles outside are to be sorted out at the end.

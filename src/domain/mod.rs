@@ -1,7 +1,9 @@
 //! Ω, the domain: a rectangle, or the part of it that a formula or polygons say; and how the mesh meets its boundary.
 
+mod comparison;
 mod edge;
 mod fit;
+mod laying;
 mod on_lattice;
 mod region;
 mod stencil;
@@ -12,7 +14,8 @@ use std::sync::Arc;
 use crate::field::Formula;
 use crate::geometry::Rect;
 
-pub use fit::{Boundary, DomainOnLattice};
+pub use comparison::RegionComparison;
+pub use fit::{Boundary, DomainLaying, DomainOnLattice};
 pub use on_lattice::RegionOnLattice;
 pub use region::{Polygon, Region, Ring, corners, signed_area};
 pub use stencil::Stencil;

@@ -1,9 +1,10 @@
 //! A region as the mesh asks about it: exactly, in lattice coordinates.
 
-use glam::DVec2;
+use std::sync::Arc;
 
 use super::Region;
 use super::edge::{Corners, Edge};
+use super::laying::RegionLaying;
 use crate::geometry::{Lattice, LatticePoint, LatticeRect};
 
 /// A region with its corners moved to the nearest points of a mesh's lattice, and a tree of squares to find its edges by.
@@ -15,89 +16,50 @@ use crate::geometry::{Lattice, LatticePoint, LatticeRect};
 #[derive(Clone, Debug)]
 pub struct RegionOnLattice {
     /// Squares along x and y at the root, one for each coarse cell or for several.
-    cells: [u32; 2],
+    pub(super) cells: [u32; 2],
     /// Binary logarithm of the side of a root square, in lattice steps.
-    root_bits: u32,
+    pub(super) root_bits: u32,
     /// The tree, root first: side lengths halve from one entry to the next.
-    layers: Vec<Layer>,
-    edges: Vec<Edge>,
+    pub(super) layers: Vec<Layer>,
+    pub(super) edges: Vec<Edge>,
     /// For each smallest square whether its left rim lies inside, half way up.
-    inside_at_left: Vec<bool>,
+    pub(super) inside_at_left: Vec<bool>,
     /// For each smallest square the end of its part of `edges_of_square`.
-    ends: Vec<u32>,
-    edges_of_square: Vec<u32>,
+    pub(super) ends: Vec<u32>,
+    pub(super) edges_of_square: Vec<u32>,
 }
 
 /// Squares of one size, row by row from below.
 #[derive(Clone, Debug)]
-struct Layer {
-    columns: u32,
-    states: Vec<State>,
+pub(super) struct Layer {
+    pub(super) columns: u32,
+    pub(super) states: Vec<State>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum State {
+pub(super) enum State {
     Outside,
     Inside,
     Cut,
 }
 
-/// The smallest squares number about this many for each edge, within bounds.
-const SQUARES_PER_EDGE: usize = 4;
-const MOST_SQUARES: usize = 1 << 20;
-/// Most places of edges in squares, about.
-const MOST_ENTRIES: u64 = 1 << 26;
-
 impl RegionOnLattice {
     /// Lays the region on the lattice of a mesh.
-    pub fn new(region: &Region, lattice: &Lattice) -> Self {
-        Self::within(region, lattice, MOST_ENTRIES)
+    pub fn new(region: &Arc<Region>, lattice: &Lattice) -> Self {
+        RegionLaying::new(region, lattice).finished()
     }
 
-    /// As [`Self::new`], with about so many places of edges in squares at most.
-    fn within(region: &Region, lattice: &Lattice, most_entries: u64) -> Self {
-        let extent = lattice.extent();
-        let place = |p: DVec2| {
-            let p = lattice.nearest(p);
-            [i64::from(p.x), i64::from(p.y)]
-        };
-        let sides = [[0, i64::from(extent.x)], [0, i64::from(extent.y)]];
-        let on_side =
-            |[a, b]: [[i64; 2]; 2], axis: usize| a[axis] == b[axis] && sides[axis].contains(&a[axis]);
-        let edges: Vec<Edge> = region
-            .edges()
-            .map(|edge| edge.map(place))
-            .filter(|[from, to]| from != to)
-            .map(|ends| Edge { ends, on_frame: on_side(ends, 0) || on_side(ends, 1) })
-            .collect();
-        let (cells, root_bits) = (lattice.cells(), lattice.halvings());
-        let wanted = (SQUARES_PER_EDGE * edges.len()).clamp(1 << 12, MOST_SQUARES);
-        let roots = cells[0] as usize * cells[1] as usize;
-        let mut halvings = 0;
-        while halvings < root_bits && (roots << (2 * (halvings + 1))) <= wanted {
-            halvings += 1;
-        }
-        // Long edges pass through many squares, perhaps through more than there is room for even at the root.
-        let length: u64 = edges.iter().map(Edge::length).sum();
-        while halvings > 0 && length >> (root_bits - halvings) > most_entries {
-            halvings -= 1;
-        }
-        let (mut cells, mut root_bits) = (cells, root_bits);
-        while length >> root_bits > most_entries && cells != [1, 1] {
-            (cells, root_bits) = (cells.map(|n| n.div_ceil(2)), root_bits + 1);
-        }
-        let mut new = Self {
-            cells,
-            root_bits,
+    /// The grid, before any edge is laid on it.
+    pub(super) fn without_edges(lattice: &Lattice) -> Self {
+        Self {
+            cells: lattice.cells(),
+            root_bits: lattice.halvings(),
             layers: Vec::new(),
-            edges,
+            edges: Vec::new(),
             inside_at_left: Vec::new(),
             ends: Vec::new(),
             edges_of_square: Vec::new(),
-        };
-        new.sort_edges_into_squares(halvings);
-        new.fill_squares(halvings);
-        new
+        }
     }
 
     /// Whether a point of the closed region lies at a lattice point.
@@ -199,69 +161,6 @@ impl RegionOnLattice {
         [left, middle_of_row(row, bits)]
     }
 
-    fn sort_edges_into_squares(&mut self, halvings: u32) {
-        let [columns, rows] = self.cells.map(|n| n << halvings);
-        let bits = self.root_bits - halvings;
-        let mut ends = vec![0; columns as usize * rows as usize];
-        for edge in &self.edges {
-            edge.squares_touched([columns, rows], bits, |square| ends[square] += 1);
-        }
-        let mut count = 0;
-        for end in &mut ends {
-            // For now, where its part begins.
-            count += std::mem::replace(end, count);
-        }
-        let mut edges_of_square = vec![0; count as usize];
-        for (n, edge) in self.edges.iter().enumerate() {
-            edge.squares_touched([columns, rows], bits, |square| {
-                edges_of_square[ends[square] as usize] = n as u32;
-                ends[square] += 1;
-            });
-        }
-        (self.ends, self.edges_of_square) = (ends, edges_of_square);
-    }
-
-    /// Finds the state of every square: of the smallest along the middle of each row, of the others from those.
-    fn fill_squares(&mut self, halvings: u32) {
-        let [columns, rows] = self.cells.map(|n| n << halvings);
-        let mut states = Vec::with_capacity(columns as usize * rows as usize);
-        for row in 0..rows {
-            let mut inside = false;
-            for column in 0..columns {
-                let square = row as usize * columns as usize + column as usize;
-                self.inside_at_left.push(inside);
-                let state = match (self.edges_in(square).next().is_some(), inside) {
-                    (true, _) => State::Cut,
-                    (false, true) => State::Inside,
-                    (false, false) => State::Outside,
-                };
-                if state == State::Cut {
-                    inside ^= self.crossings_of_middle(column, row, columns, halvings) % 2 == 1;
-                }
-                states.push(state);
-            }
-        }
-        self.layers = vec![Layer { columns, states }];
-        for depth in (0..halvings).rev() {
-            let columns = self.cells[0] << depth;
-            let rows = self.cells[1] << depth;
-            let finer = &self.layers[0];
-            let states = (0..rows).flat_map(|row| (0..columns).map(move |column| [column, row]));
-            let layer = Layer { columns, states: states.map(|square| finer.joined(square)).collect() };
-            self.layers.insert(0, layer);
-        }
-    }
-
-    /// How many edges cross the middle line of a smallest square, each counted in one square of the row.
-    fn crossings_of_middle(&self, column: u32, row: u32, columns: u32, halvings: u32) -> usize {
-        let bits = self.root_bits - halvings;
-        let left = if column == 0 { i64::MIN } else { 3 * (i64::from(column) << bits) };
-        let right = if column + 1 == columns { i64::MAX } else { 3 * (i64::from(column + 1) << bits) };
-        let height = middle_of_row(i64::from(row), bits);
-        let square = row as usize * columns as usize + column as usize;
-        self.edges_in(square).filter(|edge| edge.crosses_between(left, right, [i64::MAX, height])).count()
-    }
-
     fn smallest(&self) -> &Layer {
         self.layers.last().expect("there is a root")
     }
@@ -270,7 +169,7 @@ impl RegionOnLattice {
         self.root_bits - (self.layers.len() as u32 - 1)
     }
 
-    fn edges_in(&self, square: usize) -> impl Iterator<Item = &Edge> {
+    pub(super) fn edges_in(&self, square: usize) -> impl Iterator<Item = &Edge> {
         let start = if square == 0 { 0 } else { self.ends[square - 1] as usize };
         self.edges_of_square[start..self.ends[square] as usize].iter().map(|&n| &self.edges[n as usize])
     }
@@ -306,7 +205,7 @@ enum Meeting {
 
 impl Layer {
     /// The state of four squares together.
-    fn joined(&self, [column, row]: [u32; 2]) -> State {
+    pub(super) fn joined(&self, [column, row]: [u32; 2]) -> State {
         let first = (2 * row * self.columns + 2 * column) as usize;
         let above = first + self.columns as usize;
         let [a, b, c, d] = [first, first + 1, above, above + 1].map(|n| self.states[n]);
@@ -315,7 +214,7 @@ impl Layer {
 }
 
 /// Half a side up in a row of squares, in thirds of a step: no corner lies at that height where the side is one step.
-fn middle_of_row(row: i64, bits: u32) -> i64 {
+pub(super) fn middle_of_row(row: i64, bits: u32) -> i64 {
     ((3 * (2 * row + 1)) << bits) / 2
 }
 
@@ -326,12 +225,12 @@ fn thrice_centroid(corners: [LatticePoint; 3]) -> [i64; 2] {
 
 #[cfg(test)]
 mod tests {
-    use glam::dvec2;
+    use glam::{DVec2, dvec2};
 
     use super::*;
     use crate::domain::{Polygon, Ring};
     use crate::geometry::Rect;
-    use crate::mesh::{Limits, Mesh, TriangleId};
+    use crate::mesh::{Limits, Mesh, Progress, TriangleId};
 
     /// A star with a hole, with corners on and off the lattice, and a strip along the left side of the frame.
     fn region(random: &mut fastrand::Rng) -> Region {
@@ -401,14 +300,17 @@ mod tests {
         let mut random = fastrand::Rng::with_seed(11);
         let (mut cut, mut inside, mut outside, mut on_edge) = (0, 0, 0, 0);
         for _ in 0..60 {
-            let region = region(&mut random);
+            let region = Arc::new(region(&mut random));
             let mut mesh = Mesh::coarse_grid(Rect::UNIT, 0.34, |_| true, &Limits::default()).unwrap();
             for _ in 0..150 {
                 mesh.refine_triangle(TriangleId::from_index(random.usize(..mesh.triangles().len())));
             }
             let lattice = *mesh.lattice();
             // At times so little room that squares are larger than coarse cells.
-            let sorted = RegionOnLattice::within(&region, &lattice, 1 << random.u32(0..12));
+            let most = 1 << random.u32(0..12);
+            let mut laying = RegionLaying::within(&region, &lattice, most);
+            while laying.advance(random.usize(1..300)) == Progress::More {}
+            let sorted = laying.finished();
             let all = 0..mesh.triangles().len();
             mesh.sort_out(all, |element| {
                 let touched = cut_by_brute_force(&region, &lattice, element.corners);
@@ -442,7 +344,7 @@ mod tests {
 
     #[test]
     fn sides_of_the_frame_are_no_boundary() {
-        let whole = Region::new(&[vec![crate::domain::corners(&Rect::UNIT)]], Rect::UNIT);
+        let whole = Arc::new(Region::new(&[vec![crate::domain::corners(&Rect::UNIT)]], Rect::UNIT));
         let mut mesh = Mesh::coarse_grid(Rect::UNIT, 0.25, |_| true, &Limits::default()).unwrap();
         let sorted = RegionOnLattice::new(&whole, mesh.lattice());
         mesh.sort_out(0..32, |element| {

@@ -236,6 +236,7 @@ impl App {
         }
         let (what, done) = match stage {
             Stage::Refining { triangles } => ("Refining", triangles),
+            Stage::Outlining => ("Laying the outline", 0),
             Stage::Filling => ("Sampling the field", 0),
             Stage::InStep => return,
         };

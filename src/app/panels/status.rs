@@ -91,6 +91,7 @@ impl App {
             Stage::InStep => {
                 self.session.last_update().map_or(NONE.into(), |time| format::time(time.as_secs_f64()))
             }
+            Stage::Outlining => "outlining".into(),
             Stage::Filling => "sampling".into(),
             Stage::Refining { triangles } => format::count(triangles as u64),
         }

@@ -1,0 +1,230 @@
+//! A region being laid on the lattice of a mesh, in slices.
+
+use std::sync::Arc;
+
+use glam::DVec2;
+
+use super::Region;
+use super::edge::Edge;
+use super::on_lattice::{Layer, RegionOnLattice, State, middle_of_row};
+use super::region::EdgeCursor;
+use crate::geometry::Lattice;
+use crate::mesh::Progress;
+
+/// The smallest squares number about this many for each edge, within bounds.
+const SQUARES_PER_EDGE: usize = 4;
+const MOST_SQUARES: usize = 1 << 20;
+/// Most places of edges in squares, about.
+const MOST_ENTRIES: u64 = 1 << 26;
+
+/// A region on its way to a [`RegionOnLattice`].
+#[derive(Clone, Debug)]
+pub(super) struct RegionLaying {
+    region: Arc<Region>,
+    lattice: Lattice,
+    most_entries: u64,
+    /// How far all edges go along x and y together, in lattice steps.
+    length: u64,
+    /// How often the root squares are halved.
+    halvings: u32,
+    laid: RegionOnLattice,
+    step: Step,
+}
+
+/// What is being done.
+#[derive(Clone, Copy, Debug)]
+enum Step {
+    /// Corners are moved to the nearest lattice points.
+    Moving(EdgeCursor),
+    /// The squares that each edge touches are counted, this edge next.
+    Counting(usize),
+    /// Each edge is put into its squares, this one next.
+    Sorting(usize),
+    /// The smallest squares find their states, this row next.
+    Filling(u32),
+    Done,
+}
+
+impl RegionLaying {
+    pub(super) fn new(region: &Arc<Region>, lattice: &Lattice) -> Self {
+        Self::within(region, lattice, MOST_ENTRIES)
+    }
+
+    /// As [`Self::new`], with about so many places of edges in squares at most.
+    pub(super) fn within(region: &Arc<Region>, lattice: &Lattice, most_entries: u64) -> Self {
+        Self {
+            region: region.clone(),
+            lattice: *lattice,
+            most_entries,
+            length: 0,
+            halvings: 0,
+            laid: RegionOnLattice::without_edges(lattice),
+            step: Step::Moving(EdgeCursor::default()),
+        }
+    }
+
+    /// About so many edges or squares.
+    pub(super) fn advance(&mut self, visits: usize) -> Progress {
+        self.step = match self.step {
+            Step::Moving(cursor) => self.move_corners(cursor, visits),
+            Step::Counting(first) => self.count_squares(first, visits),
+            Step::Sorting(first) => self.sort_edges(first, visits),
+            Step::Filling(first) => self.fill_rows(first, visits),
+            Step::Done => Step::Done,
+        };
+        if matches!(self.step, Step::Done) { Progress::Done } else { Progress::More }
+    }
+
+    /// The region, laid.
+    pub(super) fn finished(mut self) -> RegionOnLattice {
+        while self.advance(usize::MAX) == Progress::More {}
+        self.laid
+    }
+
+    fn move_corners(&mut self, mut cursor: EdgeCursor, visits: usize) -> Step {
+        let extent = self.lattice.extent();
+        let place = |p: DVec2| {
+            let p = self.lattice.nearest(p);
+            [i64::from(p.x), i64::from(p.y)]
+        };
+        let sides = [[0, i64::from(extent.x)], [0, i64::from(extent.y)]];
+        let on_side =
+            |[a, b]: [[i64; 2]; 2], axis: usize| a[axis] == b[axis] && sides[axis].contains(&a[axis]);
+        for _ in 0..visits {
+            let Some(edge) = cursor.next(&self.region) else {
+                self.choose_squares();
+                return Step::Counting(0);
+            };
+            let ends = edge.map(place);
+            if ends[0] != ends[1] {
+                let edge = Edge { ends, on_frame: on_side(ends, 0) || on_side(ends, 1) };
+                self.length += edge.length();
+                self.laid.edges.push(edge);
+            }
+        }
+        Step::Moving(cursor)
+    }
+
+    /// How large the squares are at the root of the tree, and how small they get.
+    fn choose_squares(&mut self) {
+        let Self { laid, length, most_entries, .. } = self;
+        let (cells, root_bits) = (self.lattice.cells(), self.lattice.halvings());
+        let wanted = (SQUARES_PER_EDGE * laid.edges.len()).clamp(1 << 12, MOST_SQUARES);
+        let roots = cells[0] as usize * cells[1] as usize;
+        let mut halvings = 0;
+        while halvings < root_bits && (roots << (2 * (halvings + 1))) <= wanted {
+            halvings += 1;
+        }
+        // Long edges pass through many squares, perhaps through more than there is room for even at the root.
+        while halvings > 0 && *length >> (root_bits - halvings) > *most_entries {
+            halvings -= 1;
+        }
+        (laid.cells, laid.root_bits) = (cells, root_bits);
+        while *length >> laid.root_bits > *most_entries && laid.cells != [1, 1] {
+            (laid.cells, laid.root_bits) = (laid.cells.map(|n| n.div_ceil(2)), laid.root_bits + 1);
+        }
+        self.halvings = halvings;
+        let [columns, rows] = self.counts();
+        self.laid.ends = vec![0; columns as usize * rows as usize];
+    }
+
+    /// Columns and rows of the smallest squares.
+    fn counts(&self) -> [u32; 2] {
+        self.laid.cells.map(|n| n << self.halvings)
+    }
+
+    /// Binary logarithm of their side in lattice steps.
+    fn bits(&self) -> u32 {
+        self.laid.root_bits - self.halvings
+    }
+
+    fn count_squares(&mut self, first: usize, visits: usize) -> Step {
+        let (counts, bits) = (self.counts(), self.bits());
+        let RegionOnLattice { edges, ends, .. } = &mut self.laid;
+        let end = first.saturating_add(visits).min(edges.len());
+        for edge in &edges[first..end] {
+            edge.squares_touched(counts, bits, |square| ends[square] += 1);
+        }
+        if end < edges.len() {
+            return Step::Counting(end);
+        }
+        let mut count = 0;
+        for end in ends.iter_mut() {
+            // For now, where its part begins.
+            count += std::mem::replace(end, count);
+        }
+        self.laid.edges_of_square = vec![0; count as usize];
+        Step::Sorting(0)
+    }
+
+    fn sort_edges(&mut self, first: usize, visits: usize) -> Step {
+        let (counts, bits) = (self.counts(), self.bits());
+        let RegionOnLattice { edges, ends, edges_of_square, .. } = &mut self.laid;
+        let end = first.saturating_add(visits).min(edges.len());
+        for (n, edge) in edges.iter().enumerate().take(end).skip(first) {
+            edge.squares_touched(counts, bits, |square| {
+                edges_of_square[ends[square] as usize] = n as u32;
+                ends[square] += 1;
+            });
+        }
+        if end < edges.len() {
+            return Step::Sorting(end);
+        }
+        self.laid.layers = vec![Layer { columns: counts[0], states: Vec::with_capacity(ends.len()) }];
+        Step::Filling(0)
+    }
+
+    /// Finds the states of the smallest squares along the middle of each row, and at the end those of the others from them.
+    fn fill_rows(&mut self, first: u32, visits: usize) -> Step {
+        let [columns, rows] = self.counts();
+        let at_once = (visits / columns as usize).clamp(1, rows as usize) as u32;
+        let end = first.saturating_add(at_once).min(rows);
+        for row in first..end {
+            self.fill_row(row);
+        }
+        if end < rows {
+            return Step::Filling(end);
+        }
+        self.join_squares();
+        Step::Done
+    }
+
+    fn fill_row(&mut self, row: u32) {
+        let [columns, _] = self.counts();
+        let mut inside = false;
+        for column in 0..columns {
+            let square = row as usize * columns as usize + column as usize;
+            self.laid.inside_at_left.push(inside);
+            let state = match (self.laid.edges_in(square).next().is_some(), inside) {
+                (true, _) => State::Cut,
+                (false, true) => State::Inside,
+                (false, false) => State::Outside,
+            };
+            if state == State::Cut {
+                inside ^= self.crossings_of_middle(column, row) % 2 == 1;
+            }
+            self.laid.layers[0].states.push(state);
+        }
+    }
+
+    /// How many edges cross the middle line of a smallest square, each counted in one square of the row.
+    fn crossings_of_middle(&self, column: u32, row: u32) -> usize {
+        let ([columns, _], bits) = (self.counts(), self.bits());
+        let left = if column == 0 { i64::MIN } else { 3 * (i64::from(column) << bits) };
+        let right = if column + 1 == columns { i64::MAX } else { 3 * (i64::from(column + 1) << bits) };
+        let height = middle_of_row(i64::from(row), bits);
+        let square = row as usize * columns as usize + column as usize;
+        let crossing = |edge: &&Edge| edge.crosses_between(left, right, [i64::MAX, height]);
+        self.laid.edges_in(square).filter(crossing).count()
+    }
+
+    fn join_squares(&mut self) {
+        for depth in (0..self.halvings).rev() {
+            let [columns, rows] = self.laid.cells.map(|n| n << depth);
+            let finer = &self.laid.layers[0];
+            let squares = (0..rows).flat_map(|row| (0..columns).map(move |column| [column, row]));
+            let layer = Layer { columns, states: squares.map(|square| finer.joined(square)).collect() };
+            self.laid.layers.insert(0, layer);
+        }
+    }
+}
