@@ -12,13 +12,13 @@ use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use glam::{DVec2, dvec2};
-use meshbrush::app::command::Command;
+use meshbrush::app::command::{Command, DomainCommand};
 use meshbrush::app::tools::{PaintKind, Tool};
 use meshbrush::app::view::FieldOverlay;
 use meshbrush::app::{App, CANVAS_NAME};
 use meshbrush::colormap::Ground;
 use meshbrush::document::{Base, Document, Example, Follower, Setting, Settings, Stage};
-use meshbrush::domain::{Domain, Shape};
+use meshbrush::domain::{Domain, Shape, Stencil};
 use meshbrush::field::{Formula, Rule};
 use meshbrush::mesh::{Fingerprint, Location, TriangleId};
 
@@ -783,6 +783,69 @@ fn the_domain_is_cut_with_brush_rectangle_and_polygon_and_each_is_one_entry() {
     key(&mut window, Modifiers::COMMAND, Key::Z);
     assert_eq!(fingerprint(&window), before);
     assert_eq!(window.state().session().mesh().violations(), []);
+}
+
+/// A window on a round island with so many corners that a cut takes many frames, with the domain tool in hand.
+fn window_on_a_long_coast() -> Window {
+    const CORNERS: u32 = 200_000;
+    let corner = |k: u32| {
+        let angle = f64::from(k) / f64::from(CORNERS) * std::f64::consts::TAU;
+        (0.4 + 0.01 * (99.0 * angle).sin()) * dvec2(angle.cos(), angle.sin())
+    };
+    let coast = Domain::of_polygons(&[vec![(0..CORNERS).map(corner).collect()]]).unwrap();
+    let mut window = window();
+    send(&mut window, Command::NewWith(Box::new(Settings::for_domain("coast".into(), coast))));
+    key(&mut window, Modifiers::NONE, Key::D);
+    window
+}
+
+/// Cuts along a line, and does not wait for it.
+fn begin_to_cut(window: &mut Window, path: &[DVec2]) {
+    let stencil = Stencil::Stroke { path: path.to_vec(), radius: 0.05 };
+    window.state_mut().send(Command::Domain(DomainCommand::Reshape(stencil, false)));
+    window.step();
+}
+
+#[test]
+fn a_long_coast_is_cut_while_the_window_goes_on() {
+    let mut window = window_on_a_long_coast();
+    let (before, whole, entries_before) = (fingerprint(&window), area(&window), entries(&window));
+    let [a, b, c] = [dvec2(-0.2, 0.0), DVec2::ZERO, dvec2(0.2, 0.0)];
+    begin_to_cut(&mut window, &[a]);
+    assert!(window.state().is_cutting(), "a frame does not wait for it");
+    begin_to_cut(&mut window, &[a, b]);
+    begin_to_cut(&mut window, &[b, c]);
+    send(&mut window, Command::EndGesture);
+    assert!(!window.state().is_cutting());
+    let swept = 0.4 * 0.1 + std::f64::consts::PI * 0.05 * 0.05;
+    assert!((whole - area(&window) - swept).abs() < 0.002, "{}", whole - area(&window));
+    assert_eq!(entries(&window), entries_before + 1, "one gesture");
+    key(&mut window, Modifiers::COMMAND, Key::Z);
+    assert_eq!(fingerprint(&window), before);
+}
+
+#[test]
+fn a_cut_under_way_is_given_up_by_undo_by_escape_and_by_another_domain() {
+    let mut window = window_on_a_long_coast();
+    let (before, entries_before) = (fingerprint(&window), entries(&window));
+    let give_up: [fn(&mut Window); 3] = [
+        |window| key(window, Modifiers::COMMAND, Key::Z),
+        |window| key(window, Modifiers::NONE, Key::Escape),
+        |window| window.state_mut().execute(Command::CancelUpdate, &egui::Context::default()),
+    ];
+    for give_up in give_up {
+        begin_to_cut(&mut window, &[DVec2::ZERO]);
+        assert!(window.state().is_cutting());
+        give_up(&mut window);
+        assert!(!window.state().is_cutting());
+        window.run();
+        assert_eq!((fingerprint(&window), entries(&window)), (before, entries_before));
+    }
+    begin_to_cut(&mut window, &[DVec2::ZERO]);
+    let bounds = settings(&window).domain.bounds;
+    set(&mut window, Setting::Domain(Domain::rectangle(bounds)));
+    window.run();
+    assert!(!window.state().is_cutting() && settings(&window).domain.region().is_none());
 }
 
 #[test]

@@ -10,6 +10,7 @@ use super::view::FieldOverlay;
 use crate::colormap::Colormap;
 use crate::document::{Example, Setting, Settings};
 use crate::domain::Stencil;
+use crate::geometry::Rect;
 use crate::mesh::TriangleId;
 
 /// One thing to do.
@@ -134,8 +135,8 @@ pub enum DomainCommand {
     Shape(DomainShape),
     /// Whether it adds or takes away.
     Adds(bool),
-    /// Makes the rectangle between two points, in world units, the domain's.
-    Frame(DVec2, DVec2),
+    /// Makes a rectangle, in world units, the domain's.
+    Frame(Rect),
 }
 
 /// The menu that an entry is in.

@@ -1,23 +1,125 @@
-//! What the domain tool does.
+//! What the domain tool does. An outline is cut off the window's thread: one of many corners takes longer than a frame.
 
-use glam::DVec2;
+use std::collections::VecDeque;
+use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use eframe::egui::Context;
 
 use super::App;
 use super::command::DomainCommand;
 use super::tools::{DomainShape, Tool};
 use crate::document::Setting;
-use crate::domain::Stencil;
+use crate::domain::{Domain, Stencil};
 use crate::geometry::Rect;
+
+/// How long a frame waits for a cut: those of small outlines are seen in the frame that they were made in.
+const PATIENCE: Duration = Duration::from_millis(3);
+
+/// One edit of the outline.
+#[derive(Clone, Debug, PartialEq)]
+enum Cut {
+    /// Adds a shape (`true`), or takes it away.
+    Reshape(Stencil, bool),
+    /// Another rectangle for the coarse grid, in world units.
+    Frame(Rect),
+}
+
+impl Cut {
+    /// What it makes of a domain that has an outline.
+    fn of(&self, domain: &Domain) -> Option<Domain> {
+        match self {
+            Self::Reshape(stencil, adds) => domain.reshaped(stencil, *adds),
+            Self::Frame(bounds) => Some(domain.with_bounds(*bounds)),
+        }
+    }
+
+    /// Takes in the next one, where both are made by one stroke of the brush.
+    fn join(&mut self, next: &Self) -> bool {
+        let (Self::Reshape(stencil, adds), Self::Reshape(next, next_adds)) = (self, next) else {
+            return false;
+        };
+        *adds == *next_adds && stencil.join(next)
+    }
+}
+
+/// What is to happen to the domain, in this order.
+#[derive(Debug)]
+enum Step {
+    Cut(Cut),
+    /// The gesture ends: what follows is an entry of its own.
+    EndGesture,
+}
+
+/// A cut being made.
+struct UnderWay {
+    cut: Cut,
+    /// What is cut.
+    domain: Domain,
+    result: Receiver<Option<Domain>>,
+}
+
+/// Edits of the outline on their way to the document.
+#[derive(Default)]
+pub struct Cutter {
+    waiting: VecDeque<Step>,
+    under_way: Option<UnderWay>,
+}
+
+impl Cutter {
+    /// Whether all edits have come to the document.
+    pub fn is_idle(&self) -> bool {
+        self.waiting.is_empty() && self.under_way.is_none()
+    }
+
+    /// The shapes that are not cut yet.
+    pub fn stencils(&self) -> impl Iterator<Item = &Stencil> {
+        let waiting = self.waiting.iter().filter_map(|step| match step {
+            Step::Cut(cut) => Some(cut),
+            Step::EndGesture => None,
+        });
+        self.under_way.iter().map(|work| &work.cut).chain(waiting).filter_map(|cut| match cut {
+            Cut::Reshape(stencil, _) => Some(stencil),
+            Cut::Frame(_) => None,
+        })
+    }
+
+    /// Gives up all that has not come to the document.
+    pub fn give_up(&mut self) {
+        *self = Self::default();
+    }
+
+    fn push(&mut self, cut: Cut) {
+        if let Some(Step::Cut(last)) = self.waiting.back_mut()
+            && last.join(&cut)
+        {
+            return;
+        }
+        self.waiting.push_back(Step::Cut(cut));
+    }
+
+    fn begin(&mut self, cut: Cut, domain: &Domain, ctx: &Context) {
+        let (sender, result) = channel();
+        let (theirs, before, ctx) = (cut.clone(), domain.clone(), ctx.clone());
+        thread::spawn(move || {
+            // Nobody waits for what was given up.
+            let _ = sender.send(theirs.of(&before));
+            ctx.request_repaint();
+        });
+        self.under_way = Some(UnderWay { cut, domain: domain.clone(), result });
+    }
+}
 
 impl App {
     pub(super) fn execute_on_domain(&mut self, command: DomainCommand) {
         match command {
-            DomainCommand::Reshape(stencil, adds) => self.reshape(&stencil, adds),
+            DomainCommand::Reshape(stencil, adds) => self.reshape(stencil, adds),
             DomainCommand::AddCorner(corner) => self.outline.push(corner),
             DomainCommand::CloseOutline => self.close_outline(),
             DomainCommand::Shape(shape) => self.take_domain_shape(shape),
             DomainCommand::Adds(adds) => self.tools.domain_adds = adds,
-            DomainCommand::Frame(a, b) => self.frame(a, b),
+            DomainCommand::Frame(bounds) => self.frame(bounds),
         }
     }
 
@@ -26,13 +128,14 @@ impl App {
         self.tools.domain_shape = shape;
     }
 
-    fn reshape(&mut self, stencil: &Stencil, adds: bool) {
-        match self.session.document().settings().domain.reshaped(stencil, adds) {
-            Some(domain) => self.session.set(Setting::Domain(domain)),
-            None => self.session.report(
+    fn reshape(&mut self, stencil: Stencil, adds: bool) {
+        if self.session.document().settings().domain.formula().is_some() {
+            self.session.report(
                 "The domain is given by a formula, and a formula has no outline to cut. Empty the row \"Domain where\" to start \
                  from the whole rectangle.",
-            ),
+            );
+        } else {
+            self.cutter.push(Cut::Reshape(stencil, adds));
         }
         self.hints.did(Tool::Domain);
     }
@@ -40,14 +143,66 @@ impl App {
     fn close_outline(&mut self) {
         let ring = std::mem::take(&mut self.outline);
         if ring.len() >= 3 {
-            self.reshape(&Stencil::Ring(ring), self.tools.domain_adds);
-            self.session.document_mut().end_gesture();
+            self.reshape(Stencil::Ring(ring), self.tools.domain_adds);
+            self.end_gesture();
         }
     }
 
-    fn frame(&mut self, a: DVec2, b: DVec2) {
-        self.session.set(Setting::Bounds(Rect::new(a.min(b), a.max(b))));
-        self.session.document_mut().end_gesture();
+    fn frame(&mut self, bounds: Rect) {
+        if self.session.document().settings().domain.region().is_some() {
+            self.cutter.push(Cut::Frame(bounds));
+        } else {
+            self.session.set(Setting::Bounds(bounds));
+        }
+        self.end_gesture();
         self.hints.did(Tool::Domain);
+    }
+
+    /// Ends a gesture with a setting, after the cuts that belong to it.
+    pub(super) fn end_gesture(&mut self) {
+        if self.cutter.is_idle() {
+            self.session.document_mut().end_gesture();
+        } else {
+            self.cutter.waiting.push_back(Step::EndGesture);
+        }
+    }
+
+    /// Gives up the cuts that have not come to the document, and tells whether the present gesture consists of nothing else.
+    pub(super) fn give_up_cuts(&mut self) -> bool {
+        let nothing_else = !self.cutter.is_idle() && !self.session.document().is_in_gesture();
+        self.cutter.give_up();
+        nothing_else
+    }
+
+    /// Takes in the cuts that are made, begins those that wait, and tells whether one is left.
+    pub(super) fn follow_cuts(&mut self, ctx: &Context) -> bool {
+        let deadline = Instant::now() + PATIENCE;
+        loop {
+            if let Some(work) = &self.cutter.under_way {
+                let patience = deadline.saturating_duration_since(Instant::now());
+                match work.result.recv_timeout(patience) {
+                    Err(RecvTimeoutError::Timeout) => return true,
+                    result => self.take_in_cut(result.ok().flatten()),
+                }
+            }
+            match self.cutter.waiting.pop_front() {
+                None => return false,
+                Some(Step::EndGesture) => self.session.document_mut().end_gesture(),
+                Some(Step::Cut(cut)) => {
+                    self.cutter.begin(cut, &self.session.document().settings().domain, ctx);
+                }
+            }
+        }
+    }
+
+    /// Puts a cut domain in the place of the one that it was cut from. Where that is another one by now, the cuts are given up.
+    fn take_in_cut(&mut self, cut: Option<Domain>) {
+        let Some(work) = self.cutter.under_way.take() else { return };
+        match cut {
+            Some(domain) if self.session.document().settings().domain == work.domain => {
+                self.session.set(Setting::Domain(domain));
+            }
+            _ => self.cutter.give_up(),
+        }
     }
 }

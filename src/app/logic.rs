@@ -36,12 +36,12 @@ impl App {
             Command::Export(path) => self.export(path, ctx),
             Command::Quit => ctx.send_viewport_cmd(ViewportCommand::Close),
 
-            Command::Undo => self.travel(Document::undo),
-            Command::Redo => self.travel(Document::redo),
+            Command::Undo => self.undo(),
+            Command::Redo => self.redo(),
             Command::ClearPaint => self.session.document_mut().clear_paint(),
             Command::Set(setting) => self.session.set(setting),
-            Command::EndGesture => self.session.document_mut().end_gesture(),
-            Command::CancelUpdate => self.session.cancel_update(),
+            Command::EndGesture => self.end_gesture(),
+            Command::CancelUpdate => self.cancel_work(),
 
             Command::BeginStroke(point) => self.begin_stroke(point),
             Command::DrawTo(point) => self.draw_to(point),
@@ -83,6 +83,7 @@ impl App {
 
     /// Puts another document in the place of the present one, and fits brush and view to it.
     pub(super) fn show_document(&mut self, title: &'static str, document: Document) {
+        self.cutter.give_up();
         self.session.document_mut().replace_with(title, document);
         self.session.query(None);
         self.session.set_notice(None);
@@ -92,6 +93,27 @@ impl App {
         self.tools.radius = fitting.radius;
         self.tools.diameter = fitting.diameter;
         self.view.camera = None;
+    }
+
+    /// Gives up cuts that are being made, or else the update of the mesh.
+    pub(super) fn cancel_work(&mut self) {
+        if self.cutter.is_idle() {
+            self.session.cancel_update();
+        } else {
+            self.cutter.give_up();
+        }
+    }
+
+    /// Takes the last gesture back; one that has not come to the document is given up.
+    fn undo(&mut self) {
+        if !self.give_up_cuts() {
+            self.travel(Document::undo);
+        }
+    }
+
+    fn redo(&mut self) {
+        self.give_up_cuts();
+        self.travel(Document::redo);
     }
 
     /// Undoes or redoes. Where that brings another domain, the brush keeps its share of it.
@@ -144,6 +166,8 @@ impl App {
     fn escape(&mut self) {
         if self.session.document().stroke().is_some() {
             self.session.document_mut().cancel_stroke();
+        } else if !self.cutter.is_idle() {
+            self.cutter.give_up();
         } else if matches!(self.gesture, Gesture::Framing { .. }) || !self.outline.is_empty() {
             self.gesture = Gesture::None;
             self.outline.clear();

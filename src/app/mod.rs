@@ -88,6 +88,8 @@ pub struct App {
     last_painted: Option<DVec2>,
     /// Corners so far of the polygon to cut the domain with, in world units.
     outline: Vec<DVec2>,
+    /// Cuts of the domain that are being made.
+    cutter: cutting::Cutter,
     /// How the outline was met before the report's way was chosen.
     last_fitted: Option<Boundary>,
     hovered_neighbour: Option<TriangleId>,
@@ -131,6 +133,7 @@ impl App {
             pointer_world: None,
             last_painted: None,
             outline: Vec::new(),
+            cutter: cutting::Cutter::default(),
             last_fitted: None,
             hovered_neighbour: None,
         })
@@ -163,6 +166,11 @@ impl App {
     /// The tool in hand and the brush, for tests.
     pub fn tools(&self) -> &Tools {
         &self.tools
+    }
+
+    /// Whether the outline is being cut, for tests.
+    pub fn is_cutting(&self) -> bool {
+        !self.cutter.is_idle()
     }
 
     /// What is shown and how, for tests.

@@ -150,7 +150,9 @@ impl App {
     /// Whether something would be lost if the document went now.
     pub(super) fn is_edited(&self) -> bool {
         let document = self.session.document();
-        document.stroke().is_some() || !self.project.unedited.contains(&document.version())
+        document.stroke().is_some()
+            || !self.cutter.is_idle()
+            || !self.project.unedited.contains(&document.version())
     }
 
     pub(super) fn may_leave(&self) -> bool {

@@ -25,6 +25,19 @@ pub enum Stencil {
 const DISC_CORNERS: usize = 48;
 
 impl Stencil {
+    /// Goes on as `next` does, where both are strokes with the same brush, one from where the other ends; tells whether that is so.
+    pub fn join(&mut self, next: &Self) -> bool {
+        match (self, next) {
+            (Self::Stroke { path, radius }, Self::Stroke { path: further, radius: same })
+                if radius == same && path.last() == further.first() =>
+            {
+                path.extend_from_slice(&further[1..]);
+                true
+            }
+            _ => false,
+        }
+    }
+
     /// Rings that together enclose the shape, all anticlockwise but a [`Self::Ring`], which runs as it does.
     pub fn rings(&self) -> Vec<Ring> {
         match self {

@@ -284,7 +284,7 @@ fn give_up(gesture: &mut Gesture, commands: &mut Vec<Command>) {
 /// What a rectangle between two corners does to the domain.
 fn framed(a: DVec2, b: DVec2, adds: Option<bool>) -> Vec<Command> {
     match adds {
-        None => vec![Command::Domain(DomainCommand::Frame(a, b))],
+        None => vec![Command::Domain(DomainCommand::Frame(Rect::spanning(a, b)))],
         Some(adds) => {
             let ring = corners(&Rect::spanning(a, b));
             vec![Command::Domain(DomainCommand::Reshape(Stencil::Ring(ring), adds)), Command::EndGesture]

@@ -117,6 +117,19 @@ pub fn paint_outline(painter: &Painter, corners: impl Iterator<Item = Pos2>) {
     }
 }
 
+/// What a brush of some radius in points has swept over.
+pub fn paint_swept(painter: &Painter, path: &[Pos2], radius: f32) {
+    let color = Color32::from_white_alpha(70);
+    match path {
+        [point] => {
+            painter.circle_filled(*point, radius, color);
+        }
+        _ => {
+            painter.add(Shape::line(path.to_vec(), Stroke::new(2.0 * radius, color)));
+        }
+    }
+}
+
 /// A polygon whose corners are still being set: the next edge follows the pointer, and the first corner closes it.
 pub fn paint_open_polygon(painter: &Painter, corners: &[Pos2], pointer: Option<Pos2>) {
     let Some(&first) = corners.first() else { return };

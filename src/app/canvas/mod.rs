@@ -24,6 +24,7 @@ use super::tools::Tool;
 use super::widgets::{Banner, BannerAnswer, hint_pill, progress_row};
 use super::{App, FRAME_BUDGET};
 use crate::document::Stage;
+use crate::domain::Stencil;
 use crate::geometry::Rect as WorldRect;
 use crate::mesh::Progress;
 use crate::scene::{Camera, Highlights};
@@ -56,8 +57,9 @@ impl App {
             self.execute(command, ui.ctx());
         }
         let deadline = Instant::now() + FRAME_BUDGET;
+        let cuts = self.follow_cuts(ui.ctx());
         let follows = self.session.follow(deadline);
-        if self.session.price_dab(self.hovered_dab(ui, &response), deadline) || follows {
+        if self.session.price_dab(self.hovered_dab(ui, &response), deadline) || follows || cuts {
             ui.ctx().request_repaint();
         }
         // Commands may have moved the view or changed the grid.
@@ -170,8 +172,23 @@ impl App {
                 marks::paint_outline(painter, ring.iter().map(|&corner| at(corner)));
             }
         }
+        for stencil in self.cutter.stencils() {
+            self.paint_stencil(painter, stencil, at);
+        }
         let corners: Vec<egui::Pos2> = self.outline.iter().map(|&corner| at(corner)).collect();
         marks::paint_open_polygon(painter, &corners, pointer);
+    }
+
+    /// A shape that is not cut yet.
+    fn paint_stencil(&self, painter: &egui::Painter, stencil: &Stencil, at: &impl Fn(DVec2) -> egui::Pos2) {
+        match stencil {
+            Stencil::Ring(ring) => marks::paint_outline(painter, ring.iter().map(|&corner| at(corner))),
+            Stencil::Stroke { path, radius } => {
+                let points: Vec<egui::Pos2> = path.iter().map(|&point| at(point)).collect();
+                let rim = at(path[0] + DVec2::new(*radius, 0.0));
+                marks::paint_swept(painter, &points, points[0].distance(rim));
+            }
+        }
     }
 
     /// The ring of the brush, and with Shift held the line that a click would paint from `last`.
@@ -231,10 +248,12 @@ impl App {
     /// A thin bar, once work has taken longer than a moment.
     fn show_progress(&mut self, ui: &mut Ui, inner: Rect) {
         let stage = self.session.stage();
-        if !self.busy.is_long(stage != Stage::InStep) {
+        let cuts = !self.cutter.is_idle();
+        if !self.busy.is_long(cuts || stage != Stage::InStep) {
             return;
         }
         let (what, done) = match stage {
+            _ if cuts => ("Cutting the outline", 0),
             Stage::Refining { triangles } => ("Refining", triangles),
             Stage::Outlining => ("Laying the outline", 0),
             Stage::Filling => ("Sampling the field", 0),
@@ -246,7 +265,7 @@ impl App {
         ui.painter().rect_filled(place, 8.0, tokens(ui).popup);
         let mut child = ui.new_child(egui::UiBuilder::new().max_rect(place.shrink2(vec2(12.0, 2.0))));
         if progress_row(&mut child, what, done as u64, None) {
-            self.session.cancel_update();
+            self.cancel_work();
         }
     }
 

@@ -149,7 +149,7 @@ impl App {
         if changed {
             let [left, bottom, right, top] = edges;
             let bounds = Rect::new(glam::dvec2(left, bottom), glam::dvec2(right, top));
-            self.commands.extend([Command::Set(Setting::Bounds(bounds)), Command::EndGesture]);
+            self.commands.push(Command::Domain(DomainCommand::Frame(bounds)));
         }
     }
 }

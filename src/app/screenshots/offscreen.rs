@@ -69,7 +69,9 @@ impl OffscreenWindow {
         while quiet < SETTLING_FRAMES {
             self.frame();
             let session = self.app.session();
-            let rests = session.stage() == Stage::InStep && session.pricer().progress() == Progress::Done;
+            let rests = session.stage() == Stage::InStep
+                && session.pricer().progress() == Progress::Done
+                && !self.app.is_cutting();
             quiet = if rests { quiet + 1 } else { 0 };
         }
     }
