@@ -492,3 +492,41 @@ fn a_large_outline_is_followed_in_slices_and_cuts_made_meanwhile_join() {
     assert_eq!(follower.advance(&mut document, VISITS), Ok(Stage::InStep));
     assert_as_from_scratch(&follower, &document);
 }
+
+#[test]
+fn a_stroke_drawn_in_slices_is_one_entry_once_lifted_and_others_wait_for_it() {
+    let blank = || Document::new(Settings::default(), None).unwrap();
+    let brush = Brush { medium: Medium::Risk, radius: 0.3, hardness: 0.5, strength: 0.8 };
+    let way = [dvec2(0.2, 0.3), dvec2(0.8, 0.6)];
+    let lead = |document: &mut Document| {
+        document.begin_stroke(brush);
+        way.iter().for_each(|&point| document.lead_to(point));
+    };
+    let mut at_once = blank();
+    at_once.begin_stroke(brush);
+    way.iter().for_each(|&point| at_once.draw_to(point));
+    at_once.end_stroke();
+
+    let mut document = blank();
+    lead(&mut document);
+    document.lift();
+    assert!(document.stroke().is_some() && document.layers().is_blank());
+    let slices = (1..).find(|_| document.draw_on(1000) == Progress::Done).unwrap();
+    assert!(slices > 50, "{slices}");
+    assert_eq!((document.stroke().is_none(), document.history().len()), (true, 1));
+    assert_eq!(document.layers(), at_once.layers());
+
+    // Where it is not drawn yet, what comes next finds it drawn; taken back, nothing of it is left.
+    let mut document = blank();
+    lead(&mut document);
+    document.draw_on(1000);
+    document.set(Setting::Spacing(0.11)).unwrap();
+    assert_eq!((document.history().len(), document.layers()), (2, at_once.layers()));
+    let mut document = blank();
+    lead(&mut document);
+    document.draw_on(1000);
+    document.lift();
+    assert!(document.undo() && document.stroke().is_none());
+    assert!(document.layers().is_blank() && document.is_drawn());
+    assert_eq!(document.draw_on(1000), Progress::Done);
+}

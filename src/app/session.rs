@@ -153,7 +153,7 @@ impl Session {
         self.queried.map(|point| Readout::at(point, &self.document, &self.follower, quantity))
     }
 
-    /// Brings field and mesh nearer to the document until `deadline`, and tells whether work is left.
+    /// Draws the stroke under way, and brings field and mesh nearer to the document until `deadline`; tells whether work is left.
     ///
     /// What turns out to be impossible is reported. A setting that caused it is taken back; paint stays, to be undone or
     /// thinned out by whoever painted it.
@@ -161,6 +161,9 @@ impl Session {
         let began = Instant::now();
         let revision = self.follower.revision();
         let left = loop {
+            if self.document.draw_on(SLICE) == Progress::More && Instant::now() < deadline {
+                continue;
+            }
             match self.follower.advance(&mut self.document, SLICE) {
                 Ok(Stage::InStep) => break false,
                 Ok(_) if Instant::now() >= deadline => break true,
@@ -174,6 +177,7 @@ impl Session {
         if self.follower.stopped().is_none() {
             self.standing = None;
         }
+        let left = left || !self.document.is_drawn();
         let changed = self.follower.revision() != revision;
         if left || changed {
             self.work += began.elapsed();

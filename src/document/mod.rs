@@ -21,6 +21,7 @@ pub use pricer::{Price, Pricer};
 pub use setting::Setting;
 pub use settings::{Base, LEAST_MEMORY, MAX_COARSE_TRIANGLES, RESOLUTIONS, Settings, SettingsError};
 
+use crate::mesh::Progress;
 use crate::paint::{Brush, Layers, Stroke};
 use crate::raster::PixelRect;
 use history::{Change, Entry};
@@ -32,6 +33,8 @@ pub struct Document {
     layers: Layers,
     history: History,
     stroke: Option<Stroke>,
+    /// Whether the stroke under way ends where it leads by now.
+    lifted: bool,
     /// A settings gesture still going on: its title. Further changes with that title join it.
     open_gesture: Option<&'static str>,
     repainted: Repainted,
@@ -69,6 +72,7 @@ impl Document {
             layers,
             history: History::default(),
             stroke: None,
+            lifted: false,
             open_gesture: None,
             repainted: Repainted::Everything,
             edits: Edits::everything(),
@@ -113,18 +117,54 @@ impl Document {
         self.end_stroke();
         self.end_gesture();
         self.stroke = Some(Stroke::new(brush, self.settings.transfer.h_max));
+        self.lifted = false;
     }
 
     /// Draws the stroke under way on to a point in world units.
     pub fn draw_to(&mut self, point: DVec2) {
+        self.lead_to(point);
+        while self.draw_on(usize::MAX) == Progress::More {}
+    }
+
+    /// Leads the stroke under way on to a point in world units; [`Self::draw_on`] then draws it.
+    pub fn lead_to(&mut self, point: DVec2) {
         if let Some(stroke) = &mut self.stroke {
-            let area = stroke.draw_to(&mut self.layers, point);
-            self.note_repainted([area]);
+            stroke.lead_to(&self.layers, point);
         }
     }
 
-    /// Lifts the brush: the stroke becomes one entry of the history.
+    /// Draws at most one straight piece of the way on which the stroke under way was led, and about `pixels` of it. A stroke that was
+    /// lifted ends with the last.
+    pub fn draw_on(&mut self, pixels: usize) -> Progress {
+        let Some(stroke) = &mut self.stroke else { return Progress::Done };
+        let area = stroke.advance(&mut self.layers, pixels);
+        let progress = if stroke.is_laid_down() { Progress::Done } else { Progress::More };
+        if let Some(area) = area {
+            self.note_repainted([area]);
+        }
+        if self.lifted && progress == Progress::Done {
+            self.end_stroke();
+        }
+        progress
+    }
+
+    /// Whether the stroke under way, if there is one, is drawn as far as it was led.
+    pub fn is_drawn(&self) -> bool {
+        self.stroke.as_ref().is_none_or(Stroke::is_laid_down)
+    }
+
+    /// Lifts the brush: the stroke ends once it is drawn as far as it was led.
+    pub fn lift(&mut self) {
+        self.lifted = true;
+        if self.is_drawn() {
+            self.end_stroke();
+        }
+    }
+
+    /// Ends the stroke under way, drawn as far as it was led: it becomes one entry of the history.
     pub fn end_stroke(&mut self) {
+        self.lifted = false;
+        while self.draw_on(usize::MAX) == Progress::More {}
         if let Some(stroke) = self.stroke.take() {
             let title = match stroke.brush().medium {
                 crate::paint::Medium::Eraser => "erase",

@@ -61,12 +61,12 @@ impl TargetField {
     /// A field over the bounds of `lattice`, yet to be filled. Until then it asks for nothing.
     pub fn new(spec: TargetFieldSpec, lattice: &Lattice) -> Self {
         let (bounds, size) = (lattice.bounds(), spec.size);
-        let h_max = spec.transfer.h_max as f32;
         Self {
             table: TransferTable::new(&spec.transfer),
             lattice: *lattice,
-            base: Raster::filled(bounds, size, f32::INFINITY),
-            target: Raster::filled(bounds, size, h_max),
+            // Zeros cost nothing until they are written over, slice by slice.
+            base: Raster::filled(bounds, size, 0.0),
+            target: Raster::filled(bounds, size, 0.0),
             levels: Pyramid::filled(size, 0),
             on_lattice: RasterOnLattice::new(lattice, size),
             diameter_of_level: std::array::from_fn(|l| bisection_edge_length(lattice.spacing(), l as u32)),
@@ -112,8 +112,9 @@ impl TargetField {
         let slice_rows = (pixels / columns as usize).clamp(1, rows as usize) as u32;
         let last = (first + slice_rows).min(rows);
         let slice = PixelRect { min: [0, first], max: [columns, last] };
+        let pixel_center = self.base.pixel_centers();
         for (x, y) in slice.pixels() {
-            let point = self.base.pixel_center(x, y);
+            let point = pixel_center(x, y);
             let value = smallest_target(&self.spec.sources, point, &self.table)?;
             self.base.set(x, y, f32_not_below(value));
         }

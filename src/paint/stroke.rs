@@ -1,8 +1,8 @@
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, VecDeque};
 
 use glam::DVec2;
 
-use super::tiles::{TilePixels, TilePlace, tile_area, tiles_touching};
+use super::tiles::{TILE, TilePixels, TilePlace, tile_area, tiles_touching};
 use super::{Brush, Layers, Medium, Patch, distance_to_segment};
 use crate::field::f32_not_below;
 use crate::geometry::Rect;
@@ -17,8 +17,22 @@ pub struct Stroke {
     brush: Brush,
     /// Where a painted diameter grades to at the rim, in world units.
     h_max: f64,
+    /// Where the brush was led to last, in world units.
     last: Option<DVec2>,
+    /// The way that is not laid down yet.
+    pending: VecDeque<Segment>,
     touched: BTreeMap<TilePlace, Touched>,
+}
+
+/// A straight piece of a stroke's way.
+#[derive(Clone, Debug)]
+struct Segment {
+    /// Its ends, in world units.
+    ends: [DVec2; 2],
+    /// The pixels that it may change.
+    area: PixelRect,
+    /// The tiles there that it reaches and that are still to be done.
+    tiles: Vec<TilePlace>,
 }
 
 #[derive(Clone, Debug)]
@@ -30,7 +44,7 @@ struct Touched {
 impl Stroke {
     /// A stroke that has touched nothing yet. `h_max` is the largest target diameter, in world units.
     pub fn new(brush: Brush, h_max: f64) -> Self {
-        Self { brush, h_max, last: None, touched: BTreeMap::new() }
+        Self { brush, h_max, last: None, pending: VecDeque::new(), touched: BTreeMap::new() }
     }
 
     /// The brush in use.
@@ -38,26 +52,35 @@ impl Stroke {
         &self.brush
     }
 
-    /// Where the stroke has got to, in world units.
-    pub fn last(&self) -> Option<DVec2> {
-        self.last
+    /// Leads the brush on to `point` in world units; [`Self::advance`] lays down what it does on the way. A point that is not finite
+    /// is passed over.
+    pub fn lead_to(&mut self, layers: &Layers, point: DVec2) {
+        if point.is_finite() {
+            let from = self.last.replace(point).unwrap_or(point);
+            self.pending.push_back(Segment::new([from, point], self.brush.on(layers).radius, layers));
+        }
     }
 
-    /// Draws the brush on to `point` in world units, and returns the pixels that may have changed. A point that is not
-    /// finite is passed over.
-    pub fn draw_to(&mut self, layers: &mut Layers, point: DVec2) -> PixelRect {
-        if !point.is_finite() {
-            return PixelRect { min: [0, 0], max: [0, 0] };
-        }
-        let from = self.last.replace(point).unwrap_or(point);
+    /// Lays down about `pixels` of what is left of the way, and returns those that may have changed; `None` once nothing is left.
+    pub fn advance(&mut self, layers: &mut Layers, pixels: usize) -> Option<PixelRect> {
+        let mut segment = self.pending.pop_front()?;
+        let [from, to] = segment.ends;
         let brush = self.brush.on(layers);
-        let area = layers.risk.pixels_touching(&Rect::spanning(from, point).expanded(brush.radius));
-        for place in tiles_touching(area) {
-            self.stamp_tile(layers, place, area, |pixel| {
-                brush.coverage(distance_to_segment(pixel, from, point))
+        let mut changed = PixelRect { min: [0, 0], max: [0, 0] };
+        for _ in 0..pixels.div_ceil((TILE * TILE) as usize) {
+            let Some(place) = segment.tiles.pop() else { return Some(changed) };
+            let stamped = self.stamp_tile(layers, place, segment.area, |pixel| {
+                brush.coverage(distance_to_segment(pixel, from, to))
             });
+            changed = changed.union(&stamped);
         }
-        area
+        self.pending.push_front(segment);
+        Some(changed)
+    }
+
+    /// Whether all of the way is laid down.
+    pub fn is_laid_down(&self) -> bool {
+        self.pending.is_empty()
     }
 
     /// The old pixels of all that the stroke touched.
@@ -71,7 +94,7 @@ impl Stroke {
         place: TilePlace,
         area: PixelRect,
         coverage_at: impl Fn(DVec2) -> f64,
-    ) {
+    ) -> PixelRect {
         let tile = tile_area(place, layers.risk.size());
         let touched = self.touched.entry(place).or_insert_with(|| {
             let before = TilePixels::copied(layers, place);
@@ -83,8 +106,9 @@ impl Stroke {
             min: [tile.min[0].max(area.min[0]), tile.min[1].max(area.min[1])],
             max: [tile.max[0].min(area.max[0]), tile.max[1].min(area.max[1])],
         };
+        let pixel_center = layers.risk.pixel_centers();
         for (x, y) in common.pixels() {
-            let coverage = coverage_at(layers.risk.pixel_center(x, y)) as f32;
+            let coverage = coverage_at(pixel_center(x, y)) as f32;
             let i = (y - tile.min[1]) as usize * columns + (x - tile.min[0]) as usize;
             if coverage > touched.coverage[i] {
                 touched.coverage[i] = coverage;
@@ -95,6 +119,24 @@ impl Stroke {
                 layers.diameter.set(x, y, diameter);
             }
         }
+        common
+    }
+}
+
+impl Segment {
+    fn new(ends: [DVec2; 2], radius: f64, layers: &Layers) -> Self {
+        let [from, to] = ends;
+        let area = layers.risk.pixels_touching(&Rect::spanning(from, to).expanded(radius));
+        let (size, pixel) = (layers.risk.size(), layers.risk.pixel_size());
+        let reaches = |&place: &TilePlace| {
+            let PixelRect { min, max } = tile_area(place, size);
+            let [low, high] = [min, max].map(|[x, y]| DVec2::new(x.into(), y.into()) * pixel);
+            let (middle, half_diagonal) = (0.5 * (low + high), 0.5 * (high - low).length());
+            let distance = distance_to_segment(layers.risk.bounds().min + middle, from, to);
+            // Rounding does not matter: the rim of the brush does nothing.
+            distance <= radius + half_diagonal
+        };
+        Self { ends, area, tiles: tiles_touching(area).filter(reaches).collect() }
     }
 }
 
@@ -162,9 +204,8 @@ mod tests {
 
     fn painted(layers: &mut Layers, brush: Brush, points: &[DVec2]) -> Patch {
         let mut stroke = Stroke::new(brush, 0.5);
-        points.iter().for_each(|&p| {
-            stroke.draw_to(layers, p);
-        });
+        points.iter().for_each(|&p| stroke.lead_to(layers, p));
+        while stroke.advance(layers, usize::MAX).is_some() {}
         stroke.finish()
     }
 
@@ -188,6 +229,30 @@ mod tests {
             patch.exchange(&mut layers);
         }
         assert_eq!(layers, blank);
+    }
+
+    #[test]
+    fn a_stroke_drawn_in_slices_is_the_same_and_leaves_distant_tiles_alone() {
+        let points = [dvec2(0.1, 0.1), dvec2(0.9, 0.9), dvec2(0.9, 0.95)];
+        let brush = Brush { radius: 0.02, ..RISK };
+        let size = [1000, 900];
+        let (mut whole, mut sliced) = (Layers::blank(Rect::UNIT, size), Layers::blank(Rect::UNIT, size));
+        painted(&mut whole, brush, &points);
+        let mut stroke = Stroke::new(brush, 0.5);
+        points.iter().for_each(|&p| stroke.lead_to(&sliced, p));
+        let mut slices = 0;
+        while !stroke.is_laid_down() {
+            let before = sliced.clone();
+            let area = stroke.advance(&mut sliced, 1).expect("something is left");
+            assert!(area.max[0] - area.min[0] <= TILE && area.max[1] - area.min[1] <= TILE);
+            let differ = |&(x, y): &(u32, u32)| before.risk.get(x, y) != sliced.risk.get(x, y);
+            assert!(sliced.risk.all().pixels().filter(differ).all(|(x, y)| area.contains(x, y)));
+            slices += 1;
+        }
+        assert_eq!(stroke.advance(&mut sliced, 1), None);
+        assert_eq!(sliced, whole);
+        let tiles = stroke.touched.len();
+        assert!(slices >= tiles && (20..70).contains(&tiles), "{tiles} of 240 tiles in {slices} slices");
     }
 
     #[test]

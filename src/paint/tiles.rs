@@ -58,7 +58,7 @@ impl Patch {
 impl TilePixels {
     pub(super) fn copied(layers: &Layers, place: TilePlace) -> Self {
         let area = tile_area(place, layers.risk.size());
-        let copy = |raster| rows(raster, area).collect::<Vec<_>>().concat().into();
+        let copy = |raster: &Raster| raster.rows(area).collect::<Vec<_>>().concat().into();
         Self { risk: copy(&layers.risk), diameter: copy(&layers.diameter) }
     }
 }
@@ -69,8 +69,8 @@ impl Layers {
         let size = self.risk.size();
         let painted = |&place: &TilePlace| {
             let area = tile_area(place, size);
-            rows(&self.risk, area).any(|row| row.iter().any(|&risk| risk != 0.0))
-                || rows(&self.diameter, area).any(|row| row.iter().any(|diameter| diameter.is_finite()))
+            self.risk.rows(area).any(|row| row.iter().any(|&risk| risk != 0.0))
+                || self.diameter.rows(area).any(|row| row.iter().any(|diameter| diameter.is_finite()))
         };
         self.tiles(tiles_touching(self.risk.all()).filter(painted))
     }
@@ -106,24 +106,16 @@ pub fn tiles_touching(area: PixelRect) -> impl Iterator<Item = TilePlace> {
 }
 
 fn exchange_pixels(raster: &mut Raster, area: PixelRect, kept: &mut [f32]) {
-    for ((x, y), kept) in area.pixels().zip(kept) {
-        let current = raster.get(x, y);
-        raster.set(x, y, *kept);
-        *kept = current;
+    let columns = area.max[0] - area.min[0];
+    for (row, kept) in raster.rows_mut(area).zip(kept.chunks_exact_mut(columns as usize)) {
+        row.swap_with_slice(kept);
     }
-}
-
-/// The pixels of an area, row by row.
-fn rows(raster: &Raster, area: PixelRect) -> impl Iterator<Item = &[f32]> {
-    let columns = area.min[0] as usize..area.max[0] as usize;
-    let rows = raster.values().chunks_exact(raster.size()[0] as usize);
-    let (first, count) = (area.min[1] as usize, (area.max[1] - area.min[1]) as usize);
-    rows.skip(first).take(count).map(move |row| &row[columns.clone()])
 }
 
 fn put_pixels(raster: &mut Raster, area: PixelRect, pixels: &[f32]) {
     assert_eq!(area.pixels().count(), pixels.len(), "a tile fits its place");
-    for ((x, y), &value) in area.pixels().zip(pixels) {
-        raster.set(x, y, value);
+    let columns = area.max[0] - area.min[0];
+    for (row, pixels) in raster.rows_mut(area).zip(pixels.chunks_exact(columns as usize)) {
+        row.copy_from_slice(pixels);
     }
 }

@@ -104,6 +104,28 @@ impl<T: Copy> Raster<T> {
         &self.values
     }
 
+    /// The values of an area, row by row from the lowest.
+    ///
+    /// # Panics
+    /// When the area reaches beyond the raster.
+    pub fn rows(&self, area: PixelRect) -> impl Iterator<Item = &[T]> {
+        let [first, last] = [area.min[1], area.max[1]].map(|y| y as usize * self.size[0] as usize);
+        let columns = area.min[0] as usize..area.max[0] as usize;
+        self.values[first..last].chunks_exact(self.size[0] as usize).map(move |row| &row[columns.clone()])
+    }
+
+    /// As [`Self::rows`], to be changed.
+    ///
+    /// # Panics
+    /// As [`Self::rows`].
+    pub fn rows_mut(&mut self, area: PixelRect) -> impl Iterator<Item = &mut [T]> {
+        let [first, last] = [area.min[1], area.max[1]].map(|y| y as usize * self.size[0] as usize);
+        let columns = area.min[0] as usize..area.max[0] as usize;
+        self.values[first..last]
+            .chunks_exact_mut(self.size[0] as usize)
+            .map(move |row| &mut row[columns.clone()])
+    }
+
     /// Every pixel.
     pub fn all(&self) -> PixelRect {
         PixelRect { min: [0, 0], max: self.size }
@@ -135,7 +157,14 @@ impl<T: Copy> Raster<T> {
     /// The middle of a pixel in world units.
     #[inline]
     pub fn pixel_center(&self, x: u32, y: u32) -> DVec2 {
-        self.bounds.min + DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5) * self.pixel_size()
+        self.pixel_centers()(x, y)
+    }
+
+    /// [`Self::pixel_center`] for many pixels.
+    #[inline]
+    pub fn pixel_centers(&self) -> impl Fn(u32, u32) -> DVec2 + use<T> {
+        let (min, pixel) = (self.bounds.min, self.pixel_size());
+        move |x, y| min + DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5) * pixel
     }
 
     /// Columns and rows, as real numbers, of a point in world units.
