@@ -399,6 +399,36 @@ fn settings_that_cannot_be_are_told_with_their_place() {
 }
 
 #[test]
+fn a_sentence_stays_short_whatever_the_file_says() {
+    let long = "m".repeat(100_000);
+    for [from, to] in [
+        ["Meshbrush project", &long],
+        ["\"version\": 1", &format!("\"version\": 7, \"{long}\": 1")],
+        ["\"written_by\": \"Mesh", &format!("\"written_by\": \"{long}")],
+        ["\"spacing\"", &format!("\"{long}\"")],
+        ["\"area\"", &format!("\"{long}\"")],
+    ] {
+        let bytes = retold(|text| {
+            assert!(text.contains(from), "{from}: {text}");
+            text.replacen(from, to, 1).replacen(
+                "\"version\": 1",
+                "\"version\": 7",
+                usize::from(from.contains("written")),
+            )
+        });
+        let error = opened(&bytes).unwrap_err();
+        assert!(
+            error.starts_with(NAME) && error.ends_with('.') && error.len() < 1000,
+            "{} bytes",
+            error.len()
+        );
+    }
+    let parts = [("settings.json", "{}"), (&long[..200], ""), (&long[..200], "")];
+    let twice = packed(parts.map(|(name, content)| (name.to_owned(), content.into())));
+    assert!(opened(&twice).unwrap_err().len() < 200);
+}
+
+#[test]
 fn sizes_that_are_announced_take_no_memory() {
     let bytes = bytes_of(&small());
     let directory = bytes.windows(4).rposition(|four| four == b"PK\x01\x02").unwrap();

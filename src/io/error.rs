@@ -101,3 +101,10 @@ impl<F: Into<Flaw>> From<F> for PlacedFlaw {
         Self { place: Place::Whole, flaw: flaw.into() }
     }
 }
+
+/// At most so many characters of what stands in a file, which may be a whole file long.
+pub(super) fn shown(most: usize, text: &str) -> String {
+    let start: String = text.chars().take(most).collect();
+    let more = if text.chars().nth(most).is_some() { "…" } else { "" };
+    format!("{}{more}", start.escape_debug())
+}

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use glam::DVec2;
 
-use super::error::PlacedFlaw;
+use super::error::{PlacedFlaw, shown};
 use super::{Flaw, ReadError};
 
 /// Longest line taken, in bytes. Keeps a file without line breaks from filling the memory.
@@ -41,8 +41,10 @@ fn parse(source: impl BufRead) -> Result<Vec<DVec2>, PlacedFlaw> {
     };
     let place = |name| header.iter().position(|field| field.eq_ignore_ascii_case(name));
     let (Some(x), Some(y)) = (place("x"), place("y")) else {
-        let problem =
-            format!("the header is `{}`, and it must name the columns x and y.", shown(&header.join(",")));
+        let problem = format!(
+            "the header is `{}`, and it must name the columns x and y.",
+            shown(40, &header.join(","))
+        );
         return Err(Flaw::Syntax(problem).at(lines.number));
     };
     let mut points = Vec::new();
@@ -58,14 +60,7 @@ fn coordinate(field: Option<&String>, name: &str) -> Result<f64, Flaw> {
     let Some(text) = field.filter(|text| !text.is_empty()) else {
         return Err(Flaw::Syntax(format!("there is no {name}.")));
     };
-    text.parse().map_err(|_| Flaw::Syntax(format!("{name} is `{}`, which is not a number.", shown(text))))
-}
-
-/// At most 40 characters of what stands in a file.
-fn shown(text: &str) -> String {
-    let start: String = text.chars().take(40).collect();
-    let more = if text.chars().nth(40).is_some() { "…" } else { "" };
-    format!("{}{more}", start.escape_debug())
+    text.parse().map_err(|_| Flaw::Syntax(format!("{name} is `{}`, which is not a number.", shown(40, text))))
 }
 
 struct Lines<R> {

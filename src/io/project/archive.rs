@@ -12,6 +12,7 @@ use flate2::read::DeflateDecoder;
 use flate2::write::DeflateEncoder;
 
 use super::super::Flaw;
+use super::super::error::shown;
 
 const LOCAL: u32 = u32::from_le_bytes(*b"PK\x03\x04");
 const CENTRAL: u32 = u32::from_le_bytes(*b"PK\x01\x02");
@@ -63,7 +64,7 @@ impl<'a> Archive<'a> {
         for _ in 0..count {
             let (name, part, after) = entry(bytes, rest, start)?;
             if parts.iter().any(|(other, _)| *other == name) {
-                return Err(Flaw::Syntax(format!("there are two parts called {name}.")));
+                return Err(Flaw::Syntax(format!("there are two parts called {}.", shown(40, name))));
             }
             parts.push((name, part));
             rest = after;
@@ -175,7 +176,8 @@ fn entry<'a>(
     let text = str::from_utf8(name).map_err(|_| Flaw::Damaged)?;
     if flags & 1 != 0 || !matches!(method, 0 | DEFLATED) || [packed, size].contains(&u32::MAX) {
         return Err(Flaw::Syntax(format!(
-            "{text:?} in it is encrypted or packed in a way that projects do not use. Unpack it and pack it plainly."
+            "\"{}\" in it is encrypted or packed in a way that projects do not use. Unpack it and pack it plainly.",
+            shown(40, text)
         )));
     }
     let local = bytes.get(start..end).ok_or(Flaw::Damaged)?;

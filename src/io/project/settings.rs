@@ -6,7 +6,7 @@ use glam::DVec2;
 use serde::{Deserialize, Serialize};
 
 use super::super::Flaw;
-use super::super::error::PlacedFlaw;
+use super::super::error::{PlacedFlaw, shown};
 use super::{FORMAT, VERSION};
 use crate::document::{Base, Settings};
 use crate::domain::{Boundary, Domain, Polygon, Shape};
@@ -157,10 +157,18 @@ impl Saved {
     pub(super) fn parse(text: &[u8]) -> Result<Self, PlacedFlaw> {
         let head: Head = serde_json::from_slice(text).map_err(placed)?;
         if head.format != FORMAT {
-            return Err(Flaw::Syntax(format!("its format is {:?} and not {FORMAT:?}.", head.format)).into());
+            return Err(Flaw::Syntax(format!(
+                "its format is \"{}\" and not {FORMAT:?}.",
+                shown(40, &head.format)
+            ))
+            .into());
         }
         if head.version > VERSION {
-            let by = if head.written_by.is_empty() { "a newer program" } else { &head.written_by };
+            let by = if head.written_by.is_empty() {
+                "a newer program".into()
+            } else {
+                shown(40, &head.written_by)
+            };
             return Err(Flaw::Syntax(format!(
                 "the project was written by {by} in version {} of its format, and this program ({}) reads up to version \
                  {VERSION}. Open it with a newer Meshbrush.",
@@ -255,5 +263,7 @@ fn sentence(error: impl std::fmt::Display) -> PlacedFlaw {
 fn placed(error: serde_json::Error) -> PlacedFlaw {
     let text = error.to_string();
     let problem = text.split(" at line ").next().unwrap_or(&text);
+    // It repeats names and values of the file, however long.
+    let problem: String = problem.chars().take(300).collect();
     Flaw::Syntax(format!("these settings cannot be read: {problem}.")).at(error.line().max(1))
 }
