@@ -4,12 +4,14 @@
 //! `tests/document.rs`.
 
 use std::ops::Range;
+use std::path::Path;
 
 use glam::{DVec2, dvec2};
 use meshbrush::document::{Base, Document, FollowError, Follower, MeshChange, Setting, Settings, Stage};
 use meshbrush::domain::{Boundary, Domain, Shape, Stencil, corners};
 use meshbrush::field::{Formula, Rule, Transfer};
 use meshbrush::geometry::{LatticePoint, Rect};
+use meshbrush::io::project::{self, Project};
 use meshbrush::mesh::Triangle;
 use meshbrush::paint::{Brush, Medium};
 
@@ -79,11 +81,13 @@ pub enum Operation {
     EndGesture,
     /// The work under way is given up.
     CancelUpdate,
+    /// The project is saved and opened, and the opened document goes on, without history.
+    Reopen,
 }
 
 impl Operation {
     pub fn choose(choices: &mut impl Choices, scale: Scale) -> Self {
-        match choices.below(36) {
+        match choices.below(37) {
             0..14 => Self::stroke(choices),
             14 => Self::Begin(brush(choices), point(choices)),
             15 => Self::Draw(point(choices)),
@@ -96,6 +100,7 @@ impl Operation {
                 1 => Self::CancelUpdate,
                 _ => Self::EndGesture,
             },
+            36 => Self::Reopen,
             24..28 => Self::Cut(stencil(choices), choices.below(3) == 0),
             _ => Self::Set(setting(choices, scale)),
         }
@@ -138,8 +143,21 @@ impl Operation {
             }
             Self::EndGesture => document.end_gesture(),
             Self::CancelUpdate => {}
+            Self::Reopen => *document = reopened(document),
         }
     }
+}
+
+/// The document as it comes back from a file.
+fn reopened(document: &Document) -> Document {
+    let mut bytes = Vec::new();
+    project::write(&mut bytes, &Project::of(document)).unwrap();
+    let project = project::from_bytes(&bytes, Path::new("edits.meshbrush")).unwrap();
+    let opened = project.into_document().unwrap();
+    assert_eq!(opened.settings(), document.settings());
+    assert!(opened.layers() == document.layers(), "paint was lost");
+    assert!(!opened.clone().undo(), "history is not saved");
+    opened
 }
 
 fn brush(choices: &mut impl Choices) -> Brush {
@@ -266,7 +284,26 @@ impl Driver {
             self.follower.cancel(&self.document);
             self.given_up = Some(self.document.revision());
         }
-        operation.apply(&mut self.document);
+        match operation {
+            Operation::Reopen => self.reopen(),
+            operation => operation.apply(&mut self.document),
+        }
+    }
+
+    /// Saves, opens and goes on as the window does: with another follower, whose mesh must be the one at rest before.
+    fn reopen(&mut self) {
+        self.settle();
+        let mut opened = self.document.clone();
+        Operation::Reopen.apply(&mut opened);
+        let follower = Follower::new(&mut opened);
+        assert_eq!(follower.is_ok(), Follower::new(&mut self.document.clone()).is_ok());
+        // Where paint cannot be met there is no mesh to open with.
+        let Ok(follower) = follower else { return };
+        if self.given_up != Some(self.document.revision()) {
+            assert_eq!(follower.mesh().fingerprint(), self.follower.mesh().fingerprint());
+        }
+        (self.document, self.follower, self.given_up) = (opened, follower, None);
+        self.check_stop();
     }
 
     /// One slice of work, and what must hold wherever the work stops.
