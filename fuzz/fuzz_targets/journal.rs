@@ -1,0 +1,59 @@
+//! A journal that was left behind: bytes as they are, and records with right checksums around changed parts of projects.
+
+#![no_main]
+
+mod packing;
+
+use std::fs;
+
+use meshbrush::io::journal;
+use packing::{SAMPLE, change, hold, packed};
+
+const MAGIC: &[u8] = b"MBJOUR01";
+
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
+    let Some((&way, bytes)) = bytes.split_first() else { return };
+    let content = match way % 2 {
+        0 => [MAGIC, bytes].concat(),
+        _ => records(bytes),
+    };
+    let folder = std::env::temp_dir().join(format!("meshbrush-fuzz-{}", std::process::id()));
+    fs::create_dir_all(&folder).unwrap();
+    let file = folder.join("1-0.journal");
+    fs::write(&file, &content).unwrap();
+    let found = journal::abandoned(&folder);
+    assert!(found.len() <= 1);
+    found.into_iter().for_each(|abandoned| hold(abandoned.project));
+    let _ = fs::remove_file(&file); // one in which nothing is unsaved is gone already
+});
+
+/// A journal with a whole sample and records after it: each is a kind, a length, and the edits of its parts or its bytes.
+fn records(mut bytes: &[u8]) -> Vec<u8> {
+    let mut journal = MAGIC.to_vec();
+    append(&mut journal, 1, 0, &[&[0; 4][..], &packed(&SAMPLE)].concat());
+    for time in 1..=8 {
+        let Some((&[kind, length], rest)) = bytes.split_first_chunk() else { break };
+        let (edits, rest) = rest.split_at(usize::from(length).min(rest.len()));
+        let mut parts = SAMPLE.clone();
+        match kind % 6 {
+            // Tiles alone, at times with parts that have no business there.
+            2 => drop(parts.drain(..parts.len() - 1)),
+            3 => {
+                append(&mut journal, 3, time, edits);
+                bytes = rest;
+                continue;
+            }
+            _ => {}
+        }
+        change(&mut parts, edits);
+        append(&mut journal, kind % 6, time, &packed(&parts));
+        bytes = rest;
+    }
+    journal
+}
+
+fn append(journal: &mut Vec<u8>, kind: u8, time: u64, content: &[u8]) {
+    let head = [&[kind][..], &time.to_le_bytes(), &(content.len() as u32).to_le_bytes()].concat();
+    let checksum = crc32fast::hash(&[&head, content].concat());
+    journal.extend([&head, &checksum.to_le_bytes()[..], content].concat());
+}
