@@ -290,7 +290,7 @@ fn a_region_is_meshed_as_its_boundary_asks() {
     assert_eq!(folder.json(&format!("--region frame.geojson --spacing 1 {target}"))["max_level"], 7);
     let ran = folder.run("mesh --region frame.geojson --spacing 1");
     assert!(
-        ran.err.contains("area 12, 0.000 % more than the polygons' 12; 1 holes of 1, 1 part"),
+        ran.err.contains("area 12, 0.000 % more than the polygons' 12; 1 of 1 holes, 1 part"),
         "{}",
         ran.err
     );
@@ -320,10 +320,12 @@ fn points_in_a_region_are_found_in_the_triangles_of_its_files() {
         let number = |column: usize| row[column].parse::<f64>().unwrap();
         let element = &elements[number(3) as usize];
         assert_eq!(element[0], number(3));
-        let (mut corners, mut listed) = ([5, 6, 7].map(number), [1, 2, 3].map(|i| element[i]));
-        corners.sort_by(f64::total_cmp);
-        listed.sort_by(f64::total_cmp);
-        assert_eq!((corners, number(4)), (listed, element[4]), "its vertices and level");
+        let (corners, listed) = ([5, 6, 7].map(number), [1, 2, 3].map(|i| element[i]));
+        assert_eq!(
+            (corners, number(4)),
+            (listed, element[4]),
+            "its vertices, in the file's order, and level"
+        );
         let mut place = [0.0; 2];
         for (corner, zeta) in [(5, 8), (6, 9), (7, 10)] {
             let node = &nodes[number(corner) as usize];
@@ -403,11 +405,15 @@ fn bad_regions_are_explained() {
             2,
             "--boundary-diameter NaN: a length must be positive",
         ),
-        ("--region frame.geojson --boundary-diameter 1e-300", 1, "nodes would leave the lattice"),
+        (
+            "--region frame.geojson --boundary-diameter 1e-300",
+            1,
+            "--boundary-diameter 1e-300: below 8.429e-9 (level 50) nodes would leave the lattice.",
+        ),
         (
             "--region frame.geojson --boundary-diameter 0.001 --max-triangles 1000",
             1,
-            "more than 1000 triangles",
+            "more than 1,000 triangles",
         ),
         ("--region frame.geojson --boundary nearly", 2, "invalid value 'nearly'"),
         ("--region frame.geojson -o frame.geojson", 2, "frame.geojson"),
@@ -471,10 +477,10 @@ fn impossible_targets_fail_with_their_place() {
         ("--risk 0/0 --h-min 0.01", "The target diameter is NaN at x = "),
         ("--target 1/0 --rule area", "The target diameter is inf at x = "),
         ("--target 1e-300 --rule area", "nodes would leave the lattice"),
-        ("--target 0.001 --max-triangles 1000", "more than 1000 triangles, which is the limit"),
+        ("--target 0.001 --max-triangles 1000", "more than 1,000 triangles, which is the limit"),
         (
             "--target 0.001 --max-memory 1MB",
-            "more than 21739 triangles, and 1 MB of memory, which is the limit",
+            "more than 21,739 triangles, and 1 MB of memory, which is the limit",
         ),
         (
             "--target 0.001 --max-memory 1MB --max-triangles 900",
@@ -497,8 +503,8 @@ fn wrong_arguments_are_explained() {
         ("mesh --spacing -1", 2, "--spacing -1: a length"),
         ("mesh --spacing NaN", 2, "--spacing NaN: a length"),
         ("mesh --spacing inf", 2, "--spacing inf: a length"),
-        ("mesh --spacing 1e-9", 1, "the limit is 50000000"),
-        ("mesh --spacing 1e-300", 1, "the limit is 50000000"),
+        ("mesh --spacing 1e-9", 1, "the limit is 50,000,000"),
+        ("mesh --spacing 1e-300", 1, "the limit is 50,000,000"),
         ("mesh --spacing 3mm", 2, "invalid value '3mm'"),
         ("mesh --domain 1,0,0,1", 2, "X0 less than X1"),
         ("mesh --domain 0,0,0,1", 2, "X0 less than X1"),
@@ -512,6 +518,7 @@ fn wrong_arguments_are_explained() {
         ("mesh --risk x --h-min 2 --h-max 1", 2, "exchange them"),
         ("mesh --risk x --h-min 0.1 --transfer-shape 0", 2, "The shape 0 of the transfer curve"),
         ("mesh --risk x --h-min -0.1", 2, "--h-min -0.1: a length"),
+        ("mesh --resolution 9000", 2, "from 1 to 8,192 pixels"),
         ("mesh --inside 0", 1, "No coarse triangle lies in the domain"),
         ("mesh --max-triangles 0", 2, "--max-triangles 0: choose from"),
         ("mesh --max-memory 2", 2, "--max-memory 2: give a size with its unit, such as 500MB or 2GB."),
@@ -559,16 +566,20 @@ fn bad_files_are_named_with_the_rule_they_break() {
     folder.file("metres.asc", "ncols 1\nnrows 1\nxllcorner 0\nyllcorner 0\ncellsize 1\n483\n");
     folder.file("points.csv", "x,y\n1,2\n1,east\n");
     fs::create_dir(folder.0.join("folder.vtu")).unwrap();
+    fs::create_dir(folder.0.join("taken.neigh")).unwrap();
+    folder.file("edited.edge", "a project by another name");
     for (arguments, status, sentence) in [
         ("mesh --h-min 0.1 --risk-raster none.png", 1, "none.png: cannot be read"),
         ("mesh --h-min 0.1 --risk-raster short.png", 1, "short.png: the file ends too early"),
         ("mesh --h-min 0.1 --risk-raster text.png", 1, "text.png: this is not a PNG image"),
         ("mesh --h-min 0.1 --risk-raster empty.png", 1, "empty.png: "),
-        ("mesh --h-min 0.1 --risk-raster bomb.png", 1, "100000 × 100000 pixels cannot be taken"),
+        ("mesh --h-min 0.1 --risk-raster bomb.png", 1, "100,000 × 100,000 pixels cannot be taken"),
         ("mesh --target-raster short.asc", 1, "short.asc, line 7: the file ends too early"),
         ("mesh --h-min 0.1 --risk-raster metres.asc", 1, "metres.asc: the risk is 483 at x = 0.5, y = 0.5"),
         ("mesh --target-raster short.png", 2, "need --h-min"),
-        ("mesh -o folder.vtu", 1, "a folder has this name"),
+        ("mesh -o folder.vtu", 1, "folder.vtu cannot be written: a folder has this name"),
+        ("mesh -o taken.node", 1, "taken.neigh cannot be written: a folder has this name"),
+        ("mesh --project edited.edge -o edited.node", 2, "edited.edge is an input file"),
         ("locate --points points.csv", 1, "points.csv, line 3: y is `east`, which is not a number."),
         ("locate --points points.csv -o points.csv", 2, "points.csv is an input file"),
     ] {

@@ -23,6 +23,9 @@ pub enum Command {
     #[command(after_help = MESH_EXAMPLES)]
     Mesh(MeshArguments),
     /// Build a mesh and find the triangle round each of a list of points
+    ///
+    /// Numbers of triangles and vertices, and the order of the vertices (anticlockwise, first the ends of the bisection edge), are those
+    /// of the .node and .ele files that `mesh` writes from the same options.
     #[command(after_help = LOCATE_EXAMPLES)]
     Locate(LocateArguments),
     /// Print what makes a shell complete the program's options

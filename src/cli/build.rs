@@ -9,11 +9,12 @@ use glam::DVec2;
 use super::failure::Failure;
 use super::job::Job;
 use super::sources::Start;
-use super::terminal::{Terminal, grouped};
+use super::terminal::Terminal;
 use crate::domain::{DomainOnLattice, Region};
 use crate::field::{
     Paint, Rule, Source, TargetField, TargetFieldSpec, Transfer, VertexRule, smallest_target,
 };
+use crate::geometry::Grouped;
 use crate::io;
 use crate::mesh::{
     CoarseError, Element, Extract, InvalidTarget, Limits, Mesh, Progress, Refiner, TriangleId,
@@ -220,7 +221,7 @@ fn fill(
     // Every slice fills at least one row: this ends.
     while fill_slice()? == Progress::More {
         done += SLICE;
-        terminal.progress(start, || format!("{} of {} pixels", grouped(done.min(pixels)), grouped(pixels)));
+        terminal.progress(start, || format!("{} of {} pixels", Grouped(done.min(pixels)), Grouped(pixels)));
     }
     Ok(field)
 }
@@ -235,7 +236,7 @@ fn refine(
     let start = Instant::now();
     let mut refiner = Refiner::new(mesh, *limits);
     while refiner.run(mesh, &mut exceeds, SLICE)? == Progress::More {
-        terminal.progress(start, || format!("{} triangles", grouped(mesh.triangles().len())));
+        terminal.progress(start, || format!("{} triangles", Grouped(mesh.triangles().len())));
     }
     Ok((start.elapsed(), refiner.capped()))
 }

@@ -8,7 +8,7 @@ use super::args::{BoundaryArgument, InputArguments, RuleArgument};
 use super::failure::Failure;
 use crate::document::LEAST_MEMORY;
 use crate::field::{Formula, Rule, Transfer};
-use crate::geometry::Rect;
+use crate::geometry::{Grouped, Rect};
 use crate::mesh::{Limits, MemoryLimit};
 use crate::raster::MAX_SIDE;
 
@@ -244,14 +244,18 @@ fn resolution(pixels: u32) -> Result<u32, Failure> {
     if (1..=MAX_SIDE).contains(&pixels) {
         Ok(pixels)
     } else {
-        Err(Failure::Usage(format!("--resolution {pixels}: choose from 1 to {MAX_SIDE} pixels.")))
+        Err(Failure::Usage(format!(
+            "--resolution {pixels}: choose from 1 to {} pixels.",
+            Grouped(MAX_SIDE as usize)
+        )))
     }
 }
 
 fn limits(typed: &InputArguments) -> Result<Limits, Failure> {
     let max_triangles = typed.max_triangles.unwrap_or(USUAL_BUDGET);
     if !(2..=MOST_TRIANGLES).contains(&max_triangles) {
-        let problem = format!("--max-triangles {max_triangles}: choose from 2 to {MOST_TRIANGLES}");
+        let problem =
+            format!("--max-triangles {max_triangles}: choose from 2 to {}", Grouped(MOST_TRIANGLES));
         return Err(Failure::Usage(format!("{problem}. A triangle takes 38 bytes of memory.")));
     }
     let bytes = typed.max_memory.as_deref().map(memory).transpose()?;

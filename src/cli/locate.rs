@@ -13,7 +13,7 @@ use super::output::check_place;
 use super::terminal::Terminal;
 use crate::field::Formula;
 use crate::io::{Number, points, write_file};
-use crate::mesh::{Extract, Location, Locator, Mesh, TriangleId, barycentric, interpolate};
+use crate::mesh::{Cell, Extract, Location, Locator, Mesh, NodeId, TriangleId, barycentric, interpolate};
 
 const HEADER: &str = "x,y,where,triangle,level,v1,v2,v3,zeta1,zeta2,zeta3,value";
 
@@ -75,22 +75,18 @@ impl Answers<'_> {
         Ok(())
     }
 
-    /// The columns from `triangle` on. Vertices stand in the triangle's order, ζ likewise.
+    /// The columns from `triangle` on. Vertices stand as files have them, ζ likewise: whoever joins the row with a file's has each
+    /// ζ at its corner.
     fn write_triangle(&self, point: DVec2, id: TriangleId, out: &mut dyn Write) -> io::Result<()> {
-        let triangle = self.mesh.triangle(id);
         let place = self.extract.place_of(id).expect("a point is found in triangles of the domain only");
-        let [a, b, c] = self.extract.triangles()[place.index()].vertices.map(|v| v.index());
+        let Cell { corners, level, .. } = self.extract.cell(place);
+        let nodes = corners.map(NodeId::from_index);
         let at = self.mesh.lattice().lattice_from_world(point);
-        let zeta = barycentric(self.mesh.corners(id), at);
-        let value = interpolate(zeta, self.mesh.world_corners(id).map(|corner| self.value_at(corner)));
+        let zeta = barycentric(nodes.map(|node| self.extract.node(node)), at);
+        let value = interpolate(zeta, nodes.map(|node| self.value_at(self.extract.world(node))));
+        let [a, b, c] = corners;
         let [zeta1, zeta2, zeta3] = zeta.map(Number);
-        writeln!(
-            out,
-            ",{},{},{a},{b},{c},{zeta1},{zeta2},{zeta3},{}",
-            place.index(),
-            triangle.level(),
-            Number(value)
-        )
+        writeln!(out, ",{},{},{a},{b},{c},{zeta1},{zeta2},{zeta3},{}", place.index(), level, Number(value))
     }
 
     fn value_at(&self, node: DVec2) -> f64 {

@@ -9,10 +9,11 @@ use super::args::MeshArguments;
 use super::build::{Built, build};
 use super::failure::Failure;
 use super::job::{Job, SourceSpec, parse_formula};
-use super::output::{Output, Wanted, check_place};
+use super::output::{Output, Wanted};
 use super::summary::Summary;
-use super::terminal::{Terminal, grouped};
+use super::terminal::Terminal;
 use crate::field::Formula;
+use crate::geometry::Grouped;
 use crate::io::{MeshData, Quantity};
 use crate::mesh::{Extract, TriangleId};
 
@@ -28,9 +29,8 @@ pub fn run(typed: &MeshArguments, out: &mut dyn Write, terminal: &mut Terminal) 
     let look = Wanted::new(&typed.picture)?;
     let quantity = typed.quantity.as_deref().map(|text| parse_formula("--quantity", text)).transpose()?;
     let outputs = typed.output.iter().map(|path| Output::new(path)).collect::<Result<Vec<_>, _>>()?;
-    for path in &typed.output {
-        check_place(path, &input_files(&job))?;
-    }
+    let inputs = input_files(&job);
+    outputs.iter().try_for_each(|output| output.check_places(&inputs))?;
     let built = build(&job, terminal)?;
     let violations =
         if typed.checks { Some(report_violations(&built, job.limits.max_level, terminal)?) } else { None };
@@ -46,7 +46,8 @@ pub fn run(typed: &MeshArguments, out: &mut dyn Write, terminal: &mut Terminal) 
     }
     match violations {
         Some(broken) if broken > 0 => Err(Failure::Work(format!(
-            "The mesh breaks {broken} rules. Please report this, with the command."
+            "The mesh breaks {} rules. Please report this, with the command.",
+            Grouped(broken)
         ))),
         _ => Ok(()),
     }
@@ -64,7 +65,7 @@ pub fn input_files(job: &Job) -> Vec<PathBuf> {
 /// Says when triangles are coarser than asked for, because of the level cap.
 pub fn note_capped(built: &Built, terminal: &mut Terminal) {
     if built.capped > 0 {
-        let count = grouped(built.capped);
+        let count = Grouped(built.capped);
         terminal
             .say(&format!("meshbrush: note: --max-level left {count} triangles coarser than their target."));
     }
@@ -85,7 +86,7 @@ fn report_violations(
     let too_coarse =
         built.target.unsatisfied(&built.mesh, &built.domain)?.iter().filter(|id| below_cap(id)).count();
     if too_coarse > 0 {
-        let count = grouped(too_coarse);
+        let count = Grouped(too_coarse);
         terminal.say(&format!("check: {count} triangles exceed their target diameter (Eq. 14)"));
     }
     let count = broken.len() + too_coarse;

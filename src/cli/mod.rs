@@ -25,8 +25,6 @@ use args::{Arguments, Command};
 use failure::Failure;
 use terminal::Terminal;
 
-pub use terminal::grouped;
-
 /// What the command line can ask of the window. Errors are sentences.
 pub struct Window {
     /// Opens it, on a file or the first example, and returns when it is closed.

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use super::args::PictureArguments;
 use super::failure::Failure;
 use crate::colormap::{Colormap, Ground, LevelColors};
+use crate::geometry::Grouped;
 use crate::io::MeshData;
 use crate::mesh::{Extract, Mesh};
 use crate::render::export::{ExportFormat, LARGEST_PICTURE, Look};
@@ -24,6 +25,14 @@ impl Output {
     pub fn new(path: &Path) -> Result<Self, Failure> {
         let format = ExportFormat::of(path).map_err(|error| Failure::Usage(format!("-o {error}")))?;
         Ok(Self { path: path.to_owned(), format })
+    }
+
+    /// Finds out before the work whether its files can be put there at all.
+    ///
+    /// # Errors
+    /// Those of [`check_place`], for each of its files.
+    pub fn check_places(&self, inputs: &[PathBuf]) -> Result<(), Failure> {
+        self.format.files(&self.path).iter().try_for_each(|file| check_place(file, inputs))
     }
 
     /// Whether some node data is written.
@@ -116,6 +125,6 @@ fn parse_size(text: &str) -> Result<(u32, Option<u32>), Failure> {
     };
     parsed.ok_or_else(|| {
         let problem = format!("--size {text}: write a width, or width x height, as in 1600 or 1600x900");
-        Failure::Usage(format!("{problem}; each from 1 to {LARGEST_PICTURE} pixels."))
+        Failure::Usage(format!("{problem}; each from 1 to {} pixels.", Grouped(LARGEST_PICTURE as usize)))
     })
 }

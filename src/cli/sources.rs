@@ -8,7 +8,7 @@ use crate::domain::{Boundary, Domain, DomainOnLattice, Region, Shape};
 use crate::field::{Source, Transfer, f32_not_below};
 use crate::geometry::{Lattice, Rect};
 use crate::io;
-use crate::mesh::{CoarseError, Mesh};
+use crate::mesh::{CoarseError, Mesh, bisection_edge_length};
 use crate::raster::{MAX_SIDE, Raster};
 
 /// Pixels along the longer side of the domain when nobody says how many.
@@ -103,11 +103,24 @@ fn coarse_mesh(job: &Job, domain: &Domain) -> Result<(DomainOnLattice, Mesh), Fa
     let boundary = match (job.fitted, job.boundary_diameter) {
         (false, _) => Boundary::Report,
         (true, None) => Boundary::usual(spacing),
-        (true, Some(diameter)) => Boundary::Fitted { diameter },
+        (true, Some(diameter)) => Boundary::Fitted { diameter: resolvable(diameter, &lattice)? },
     };
     let domain = DomainOnLattice::new(domain, boundary, &lattice);
     let mesh = Mesh::coarse_grid(bounds, spacing, |node| domain.admits(node), &job.limits)?;
     Ok((domain, mesh))
+}
+
+/// A diameter at the outline that the lattice can resolve. Every outline would ask for it, so there is no need to try.
+fn resolvable(diameter: f64, lattice: &Lattice) -> Result<f64, Failure> {
+    let level = lattice.deepest_level();
+    let smallest = bisection_edge_length(lattice.spacing(), level);
+    if diameter >= smallest {
+        return Ok(diameter);
+    }
+    Err(Failure::Work(format!(
+        "--boundary-diameter {diameter:e}: below {smallest:.3e} (level {level}) nodes would leave the lattice. Raise it, or mesh a \
+         smaller domain."
+    )))
 }
 
 /// With no bounds given, formulas and lengths are taken as they are: the ends are then out of reach.

@@ -3,9 +3,9 @@
 use serde::Serialize;
 
 use super::build::Built;
-use super::terminal::grouped;
 use crate::domain::Region;
 use crate::field::Rule;
+use crate::geometry::Grouped;
 use crate::mesh::Topology;
 
 /// The figures of a mesh; its JSON is the answer of `--json`.
@@ -68,11 +68,13 @@ impl Outline {
         let word = if gained < 0.0 { "less" } else { "more" };
         let percent = 100.0 * gained.abs() / self.region_area;
         let Self { region_area, region_holes, holes, parts } = self;
-        let parts = if *parts == 1 { "1 part".into() } else { format!("{} parts", grouped(*parts)) };
+        let parts = if *parts == 1 { "1 part".into() } else { format!("{} parts", Grouped(*parts)) };
         format!(
-            "area {}, {percent:.3} % {word} than the polygons' {}; {holes} holes of {region_holes}, {parts}\n",
+            "area {}, {percent:.3} % {word} than the polygons' {}; {} of {} holes, {parts}\n",
             short(area),
             short(*region_area),
+            Grouped(*holes),
+            Grouped(*region_holes),
         )
     }
 }
@@ -113,8 +115,8 @@ impl Summary {
         };
         let mut text = format!(
             "{} triangles, {} nodes, levels 0 to {}, refined in {}\ncoarse spacing {}, {seen}\n\n",
-            grouped(self.triangles),
-            grouped(self.nodes),
+            Grouped(self.triangles),
+            Grouped(self.nodes),
             self.max_level,
             duration(self.seconds),
             self.spacing,
@@ -124,7 +126,7 @@ impl Summary {
         }
         text += &format!("{:>5}  {:>12}  {:>13}\n", "level", "diameter", "triangles");
         for (level, (&count, diameter)) in self.levels.iter().zip(&self.diameters).enumerate() {
-            text += &format!("{level:>5}  {:>12}  {:>13}\n", short(*diameter), grouped(count));
+            text += &format!("{level:>5}  {:>12}  {:>13}\n", short(*diameter), Grouped(count));
         }
         text
     }

@@ -42,22 +42,3 @@ impl Terminal {
         }
     }
 }
-
-/// A count with its digits in groups of three.
-///
-/// ```
-/// # use meshbrush::cli::grouped;
-/// assert_eq!(grouped(2_113_944), "2,113,944");
-/// assert_eq!(grouped(721), "721");
-/// ```
-pub fn grouped(count: usize) -> String {
-    let digits = count.to_string();
-    let mut text = String::with_capacity(digits.len() * 4 / 3);
-    for (place, digit) in digits.chars().enumerate() {
-        if place > 0 && (digits.len() - place).is_multiple_of(3) {
-            text.push(',');
-        }
-        text.push(digit);
-    }
-    text
-}

@@ -2,7 +2,7 @@ use std::sync::Arc;
 
 use crate::domain::{Boundary, Domain, DomainOnLattice};
 use crate::field::{Formula, Rule, Source, TargetFieldSpec, Transfer, TransferError, checked_target};
-use crate::geometry::{GridError, Lattice};
+use crate::geometry::{GridError, Grouped, Lattice};
 use crate::mesh::{Bytes, Limits, MemoryLimit};
 use crate::raster::{MAX_SIDE, Raster};
 
@@ -87,7 +87,8 @@ pub enum SettingsError {
     },
     /// The raster would be empty or too large.
     #[error(
-        "A field of {resolution} pixels cannot be made: choose between {least} and {most} along the longer side."
+        "A field of {} pixels cannot be made: choose between {} and {} along the longer side.",
+        Grouped(*resolution as usize), Grouped(*least as usize), Grouped(*most as usize)
     )]
     Resolution {
         /// As given.

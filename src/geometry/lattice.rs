@@ -1,7 +1,7 @@
 use bytemuck::{Pod, Zeroable};
 use glam::DVec2;
 
-use super::Rect;
+use super::{Grouped, Rect};
 
 /// Lattice coordinates stay at or below 2 to this power, so that differences fit an `i32` on the GPU.
 pub const LATTICE_BITS: u32 = 30;
@@ -76,7 +76,8 @@ pub enum GridError {
     /// More coarse triangles than the budget allows.
     #[error(
         "A coarse spacing of {spacing} would start with about {triangles:.3e} triangles, and the \
-         limit is {limit}. Choose a larger spacing, and let the brush refine where detail matters."
+         limit is {}. Choose a larger spacing, and let the brush refine where detail matters.",
+        Grouped(*limit)
     )]
     TooManyCells {
         /// The spacing as given.
@@ -89,8 +90,8 @@ pub enum GridError {
     /// The domain is so narrow that cells as wide as it is make too many along the other side.
     #[error(
         "A domain of {} × {} is too narrow: cells nearly as long as wide would make about {triangles:.3e} triangles to start \
-         with, and the limit is {limit}. Choose a wider domain.",
-        size.x, size.y
+         with, and the limit is {}. Choose a wider domain.",
+        size.x, size.y, Grouped(*limit)
     )]
     TooNarrow {
         /// Width and height of the domain.

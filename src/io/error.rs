@@ -2,6 +2,7 @@ use std::fmt;
 use std::io;
 use std::path::{Path, PathBuf};
 
+use crate::geometry::Grouped;
 use crate::raster::MAX_SIDE;
 
 /// Why a file could not be used: which file, where in it, and what is wrong there.
@@ -56,8 +57,9 @@ pub enum Flaw {
     Png(String),
     /// A raster that would take too much memory.
     #[error(
-        "{columns} × {rows} pixels cannot be taken: a raster has 1 to {MAX_SIDE} pixels along each side. \
-         Scale it first."
+        "{} × {} pixels cannot be taken: a raster has 1 to {} pixels along each side. Scale it \
+         first.",
+        Grouped(*columns as usize), Grouped(*rows as usize), Grouped(MAX_SIDE as usize)
     )]
     Size {
         /// Columns that the file announces.

@@ -11,6 +11,7 @@ use serde::de::{DeserializeSeed, Deserializer, Error, SeqAccess, Visitor};
 
 use super::error::{Flaw, PlacedFlaw, ReadError};
 use crate::domain::{MOST_CORNERS, Polygon};
+use crate::geometry::Grouped;
 
 /// Largest file read.
 const MOST_BYTES: u64 = 256 << 20;
@@ -318,7 +319,8 @@ impl Coordinates {
         if self.positions.len() > MOST_CORNERS {
             let help = "Simplify the outline first, to the detail that the mesh is to have";
             return Err(format!(
-                "a polygon has more than {MOST_CORNERS} corners, which is the limit. {help}"
+                "a polygon has more than {} corners, which is the limit. {help}",
+                Grouped(MOST_CORNERS)
             ));
         }
         Ok(())

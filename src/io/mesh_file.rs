@@ -40,7 +40,15 @@ impl MeshFormat {
         Self::ALL.iter().find(|(known, _)| *known == ending).map(|&(_, format)| format)
     }
 
-    /// Writes a mesh, and returns the names of the files written.
+    /// The files that are written where `path` is asked for, `path` first.
+    pub fn files(self, path: &Path) -> Vec<PathBuf> {
+        let beside: &[&str] = if self == Self::Node { &["ele", "neigh", "edge"] } else { &[] };
+        std::iter::once(path.to_owned())
+            .chain(beside.iter().map(|ending| path.with_extension(ending)))
+            .collect()
+    }
+
+    /// Writes a mesh, and returns the names of the files written: [`Self::files`].
     ///
     /// # Errors
     /// When the file system says no. What was there before is then still there; of Triangle's four files, those not yet
@@ -53,17 +61,14 @@ impl MeshFormat {
             Self::Stl => write_file(path, |mut out| stl::write(&mut out, mesh, data))?,
             Self::Sms => write_file(path, |mut out| sms::write(&mut out, mesh, data))?,
             Self::Csv => write_file(path, |mut out| csv::write(&mut out, mesh, data))?,
-            Self::Node => return write_node_files(path, mesh, data),
+            Self::Node => {
+                write_file(path, |mut out| node::write(&mut out, mesh, data))?;
+                let beside = |ending| path.with_extension(ending);
+                write_file(&beside("ele"), |mut out| node::write_elements(&mut out, mesh))?;
+                write_file(&beside("neigh"), |mut out| node::write_neighbours(&mut out, mesh))?;
+                write_file(&beside("edge"), |mut out| node::write_edges(&mut out, mesh))?;
+            }
         }
-        Ok(vec![path.to_owned()])
+        Ok(self.files(path))
     }
-}
-
-fn write_node_files(path: &Path, mesh: &Extract, data: &MeshData) -> io::Result<Vec<PathBuf>> {
-    let [elements, neighbours, edges] = ["ele", "neigh", "edge"].map(|ending| path.with_extension(ending));
-    write_file(path, |mut out| node::write(&mut out, mesh, data))?;
-    write_file(&elements, |mut out| node::write_elements(&mut out, mesh))?;
-    write_file(&neighbours, |mut out| node::write_neighbours(&mut out, mesh))?;
-    write_file(&edges, |mut out| node::write_edges(&mut out, mesh))?;
-    Ok(vec![path.to_owned(), elements, neighbours, edges])
 }

@@ -28,6 +28,18 @@ pub struct Cell {
     pub level: u32,
 }
 
+impl Cell {
+    fn of(triangle: &Triangle) -> Self {
+        let [bisection, second, third] = triangle.neighbours.map(|n| n.triangle().map(TriangleId::index));
+        Self {
+            corners: triangle.edge_nodes().map(|(from, _)| from.index()),
+            // The bisection edge joins the first two corners, so its neighbour is opposite the last.
+            opposite: [second, third, bisection],
+            level: triangle.level(),
+        }
+    }
+}
+
 /// An edge, as others want it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Edge {
@@ -149,15 +161,15 @@ impl Extract<'_> {
 
     /// All triangles, as others want them.
     pub fn cells(&self) -> impl ExactSizeIterator<Item = Cell> + Clone + '_ {
-        self.triangles.iter().map(|triangle| {
-            let [bisection, second, third] = triangle.neighbours.map(|n| n.triangle().map(TriangleId::index));
-            Cell {
-                corners: triangle.edge_nodes().map(|(from, _)| from.index()),
-                // The bisection edge joins the first two corners, so its neighbour is opposite the last.
-                opposite: [second, third, bisection],
-                level: triangle.level(),
-            }
-        })
+        self.triangles.iter().map(Cell::of)
+    }
+
+    /// A triangle of [`Self::triangles`], as others want it.
+    ///
+    /// # Panics
+    /// When there is no such triangle.
+    pub fn cell(&self, id: TriangleId) -> Cell {
+        Cell::of(&self.triangles[id.index()])
     }
 
     /// Every edge once, in the order of the triangles.

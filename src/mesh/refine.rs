@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use super::{Bytes, DEEPEST_LEVEL, MemoryLimit, Mesh, Triangle, TriangleId, bisection_edge_length, memory};
-use crate::geometry::{Lattice, LatticePoint};
+use crate::geometry::{Grouped, Lattice, LatticePoint};
 
 /// Most triangles of any mesh, whatever its budget: ids above are taken for marks.
 const MOST_TRIANGLES: usize = (1 << 31) - 1;
@@ -102,8 +102,9 @@ pub enum RefineError {
     InvalidTarget(#[from] InvalidTarget),
     /// The next call would pass the triangle budget.
     #[error(
-        "The mesh needs more than {limit} triangles, which is the limit. Raise the smallest diameter, paint less, \
-         or raise the limit."
+        "The mesh needs more than {} triangles, which is the limit. Raise the smallest diameter, paint less, or raise the \
+         limit.",
+        Grouped(*limit)
     )]
     TooManyTriangles {
         /// [`Limits::max_triangles`].
@@ -111,9 +112,9 @@ pub enum RefineError {
     },
     /// The next call would pass the memory budget.
     #[error(
-        "The mesh needs more than {limit} triangles, and {} of memory, which is the limit, has room for no more. Raise the \
+        "The mesh needs more than {} triangles, and {} of memory, which is the limit, has room for no more. Raise the \
          smallest diameter, paint less, or raise the limit.",
-        Bytes(memory.bytes)
+        Grouped(*limit), Bytes(memory.bytes)
     )]
     TooMuchMemory {
         /// The triangles that there is room for.
@@ -123,7 +124,7 @@ pub enum RefineError {
     },
     /// The target is smaller than the lattice can resolve.
     #[error(
-        "The target diameter near x = {}, y = {} is too small: below {smallest:e} (level {level}) nodes would leave the \
+        "The target diameter near x = {}, y = {} is too small: below {smallest:.3e} (level {level}) nodes would leave the \
          lattice. Raise the smallest diameter, or mesh a smaller domain.",
         at.x, at.y
     )]

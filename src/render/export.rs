@@ -59,6 +59,14 @@ impl ExportFormat {
         matches!(self, Self::Mesh(_))
     }
 
+    /// The files that are written where `path` is asked for, `path` first.
+    pub fn files(self, path: &Path) -> Vec<PathBuf> {
+        match self {
+            Self::Mesh(format) => format.files(path),
+            Self::Svg | Self::Png => vec![path.to_owned()],
+        }
+    }
+
     /// Writes the file, or the four files of `.node`, and returns their names. `extract` is that of `mesh`, and `data` belongs to
     /// its nodes; a picture needs no data.
     ///

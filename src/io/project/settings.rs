@@ -11,7 +11,7 @@ use super::{FORMAT, VERSION};
 use crate::document::{Base, Settings};
 use crate::domain::{Boundary, Domain, Polygon, Shape};
 use crate::field::{Formula, Rule, Transfer};
-use crate::geometry::Rect;
+use crate::geometry::{Grouped, Rect};
 use crate::raster::{MAX_SIDE, Raster};
 
 /// Most triangles that a budget can name: more have no ids.
@@ -184,8 +184,9 @@ impl Saved {
     pub(super) fn into_settings(self, parts: &mut impl Parts) -> Result<Settings, PlacedFlaw> {
         if !(2..=MOST_TRIANGLES).contains(&self.max_triangles) {
             return Err(Flaw::Syntax(format!(
-                "\"max_triangles\" is {}, and a budget lies between 2 and {MOST_TRIANGLES}.",
-                self.max_triangles
+                "\"max_triangles\" is {}, and a budget lies between 2 and {}.",
+                Grouped(self.max_triangles),
+                Grouped(MOST_TRIANGLES)
             ))
             .into());
         }

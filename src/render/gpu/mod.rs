@@ -17,7 +17,8 @@ pub use offscreen::{Offscreen, offscreen, read_back};
 
 use self::overlay_pass::OverlayPass;
 use self::picture::MeshPicture;
-use crate::mesh::Mesh;
+use crate::geometry::Grouped;
+use crate::mesh::{Bytes, Mesh};
 use crate::scene::{Camera, Overlay, Style};
 
 /// What cannot be drawn with the graphics driver at hand.
@@ -52,8 +53,9 @@ pub enum GpuError {
     },
     /// The nodes do not fit the buffers that a shader can read at once.
     #[error(
-        "The mesh has {nodes} nodes, and this graphics driver can show {limit}. Raise the smallest diameter or paint \
-         less; the command line can draw and export the mesh as it is."
+        "The mesh has {} nodes, and this graphics driver can show {}. Raise the smallest diameter or paint \
+         less; the command line can draw and export the mesh as it is.",
+        Grouped(*nodes), Grouped(*limit)
     )]
     TooManyNodes {
         /// Nodes of the mesh.
@@ -63,8 +65,9 @@ pub enum GpuError {
     },
     /// The graphics memory is used up.
     #[error(
-        "The graphics memory is used up: {bytes} more bytes for the mesh were refused. Raise the smallest diameter or \
-         paint less, or close other programs that draw."
+        "The graphics memory is used up: {} more for the mesh were refused. Raise the smallest diameter or \
+         paint less, or close other programs that draw.",
+        Bytes(*bytes as usize)
     )]
     OutOfMemory {
         /// Bytes that were asked for.
