@@ -362,6 +362,34 @@ fn a_click_shows_the_triangle_and_each_chip_goes_to_its_neighbour() {
 }
 
 #[test]
+fn the_inspector_counts_as_files_do() {
+    let mut window = window_of(TALL);
+    send(&mut window, Command::OpenExample(Example::Aegean));
+    send(&mut window, Command::Use(Tool::Query));
+    send(&mut window, Command::Query(dvec2(25.25, 38.1)));
+    window.run();
+    let mesh = window.state().session().mesh();
+    let (id, extract) = (selected(&window).expect("a triangle of the sea"), mesh.extract());
+    let place = extract.place_of(id).unwrap();
+    assert_ne!(place, id, "triangles on land come before it");
+    let shown = |number: usize| meshbrush::app::widgets::format::count(number as u64);
+    let title = format!("Triangle {}", shown(place.index()));
+    window.get_by_role_and_label(Role::Button, &title);
+    for (i, (node, subscript)) in
+        extract.triangles()[place.index()].vertices.iter().zip(["₁", "₂", "₃"]).enumerate()
+    {
+        let row = value_of(&window, Role::Definition, &format!("v{subscript} · {}", shown(node.index())));
+        let corner = mesh.world_corners(id)[i];
+        assert!(row.starts_with(&format!("{:.2}", corner.x)), "{row} at {corner}");
+    }
+    let across = mesh.neighbours_in_domain(id).map(|n| n.triangle().unwrap());
+    let chips = across.map(|id| shown(extract.place_of(id).unwrap().index()));
+    for (name, number) in ["Bisection neighbour", "Second neighbour", "Third neighbour"].iter().zip(chips) {
+        assert_eq!(value_of(&window, Role::Button, name), number, "{name}");
+    }
+}
+
+#[test]
 fn a_click_outside_the_domain_says_so() {
     let mut window = window();
     key(&mut window, Modifiers::NONE, Key::Q);

@@ -8,7 +8,7 @@ use glam::DVec2;
 use super::readout::{Quantity, Readout};
 use super::widgets::format;
 use crate::document::{Document, FollowError, Follower, MeshChange, Pricer, Setting, Stage};
-use crate::mesh::{Bytes, Mesh, Progress, RefineError, Survey, Topology};
+use crate::mesh::{Bytes, Mesh, NodeId, Numbering, Progress, RefineError, Survey, Topology, TriangleId};
 use crate::paint::Brush;
 
 /// Pixels or triangles in one slice of work: well below a millisecond.
@@ -37,13 +37,13 @@ pub struct Session {
     survey: Surveyed,
 }
 
-/// The shape of the mesh, as far as it is known.
+/// The shape of the mesh, and the numbers in its files, as far as they are known.
 #[derive(Default)]
 struct Surveyed {
     /// The revision of the mesh that the rest is about.
     revision: Option<u64>,
     under_way: Option<Survey>,
-    topology: Option<Topology>,
+    found: Option<(Topology, Numbering)>,
 }
 
 impl Session {
@@ -190,16 +190,34 @@ impl Session {
 
     /// Nodes, parts and holes of the mesh on the screen, where some triangles lie outside; `None` until they are counted.
     pub fn topology(&self) -> Option<Topology> {
-        self.survey.topology.filter(|_| self.survey.revision == Some(self.follower.revision()))
+        self.found().map(|(topology, _)| *topology)
     }
 
-    /// Counts parts and holes until `deadline`, where the mesh is at rest and has them; tells whether work is left.
+    /// The number that a triangle has in files; `None` until it is counted, and for one outside.
+    pub fn triangle_number(&self, id: TriangleId) -> Option<usize> {
+        let numbered = |(_, numbering): &(Topology, Numbering)| numbering.triangle(id);
+        if self.mesh().outside_count() == 0 { Some(id) } else { self.found().and_then(numbered) }
+            .map(TriangleId::index)
+    }
+
+    /// The number that a node has in files; `None` until it is counted, and for one outside.
+    pub fn node_number(&self, id: NodeId) -> Option<usize> {
+        let numbered = |(_, numbering): &(Topology, Numbering)| numbering.node(id);
+        if self.mesh().outside_count() == 0 { Some(id) } else { self.found().and_then(numbered) }
+            .map(NodeId::index)
+    }
+
+    fn found(&self) -> Option<&(Topology, Numbering)> {
+        self.survey.found.as_ref().filter(|_| self.survey.revision == Some(self.follower.revision()))
+    }
+
+    /// Counts parts, holes and numbers until `deadline`, where the mesh is at rest and has them; tells whether work is left.
     fn survey(&mut self, deadline: Instant) -> bool {
         let mesh = self.follower.mesh();
         let revision = Some(self.follower.revision());
         if self.survey.revision != revision {
             let under_way = (mesh.outside_count() > 0).then(|| Survey::new(mesh));
-            self.survey = Surveyed { revision, under_way, topology: None };
+            self.survey = Surveyed { revision, under_way, found: None };
         }
         let Some(survey) = &mut self.survey.under_way else { return false };
         while survey.advance(mesh, SLICE) == Progress::More {
@@ -207,7 +225,7 @@ impl Session {
                 return true;
             }
         }
-        self.survey.topology = Some(survey.topology(mesh));
+        self.survey.found = Some((survey.topology(mesh), survey.numbering()));
         self.survey.under_way = None;
         false
     }

@@ -1,5 +1,6 @@
-//! What kind of shape a mesh has: how many parts, how many holes.
+//! What kind of shape a mesh has: how many parts, how many holes; and what numbers its triangles have in files.
 
+use super::numbering::{Numbering, Ranks};
 use super::{Mesh, Progress};
 
 /// The shape of a mesh's domain, as the triangles show it.
@@ -13,11 +14,12 @@ pub struct Topology {
     pub holes: usize,
 }
 
-/// Finds the [`Topology`] of a mesh, in slices. The mesh must stay as it is meanwhile.
+/// Finds the [`Topology`] and the [`Numbering`] of a mesh, in slices. The mesh must stay as it is meanwhile.
 #[derive(Clone, Debug)]
 pub struct Survey {
     by_edge: Forest,
     by_corner: Forest,
+    belongs: Ranks,
     has_node: Vec<bool>,
     next: usize,
     boundary_edges: usize,
@@ -29,6 +31,7 @@ impl Survey {
         Self {
             by_edge: Forest::new(mesh.triangles.len()),
             by_corner: Forest::new(mesh.nodes.len()),
+            belongs: Ranks::default(),
             has_node: vec![false; mesh.nodes.len()],
             next: 0,
             boundary_edges: 0,
@@ -40,6 +43,7 @@ impl Survey {
         let end = self.next.saturating_add(visits).min(mesh.triangles.len());
         for index in self.next..end {
             let triangle = &mesh.triangles[index];
+            self.belongs.push(!triangle.is_outside());
             if triangle.is_outside() {
                 continue;
             }
@@ -60,7 +64,12 @@ impl Survey {
         if end == mesh.triangles.len() { Progress::Done } else { Progress::More }
     }
 
-    /// The answer, once done.
+    /// The numbers in files, once done.
+    pub fn numbering(&self) -> Numbering {
+        Numbering { triangles: self.belongs.clone(), nodes: self.has_node.iter().copied().collect() }
+    }
+
+    /// The shape, once done.
     pub fn topology(&self, mesh: &Mesh) -> Topology {
         let belongs = |&index: &usize| !mesh.triangles[index].is_outside();
         let parts = (0..mesh.triangles.len()).filter(belongs).filter(|&n| self.by_edge.is_root(n)).count();
@@ -121,7 +130,7 @@ mod tests {
 
     use super::*;
     use crate::geometry::Rect;
-    use crate::mesh::Limits;
+    use crate::mesh::{Limits, NodeId, TriangleId};
 
     /// A square of 10 × 10 cells without what lies within `radius` (along either axis) of a place.
     fn without(places: &[(DVec2, f64)]) -> Mesh {
@@ -159,5 +168,25 @@ mod tests {
         let mut survey = Survey::new(&mesh);
         while survey.advance(&mesh, 7) == Progress::More {}
         assert_eq!(survey.topology(&mesh), mesh.topology());
+        let (numbering, whole) = (survey.numbering(), mesh.numbering());
+        let ids = || (0..mesh.triangles().len()).map(TriangleId::from_index);
+        assert!(ids().all(|id| numbering.triangle(id) == whole.triangle(id)));
+    }
+
+    #[test]
+    fn numbers_are_those_of_the_extract() {
+        for places in
+            [vec![], vec![(dvec2(0.5, 0.5), 0.2)], vec![(dvec2(0.1, 0.1), 0.2), (dvec2(0.9, 0.5), 0.1)]]
+        {
+            let mesh = without(&places);
+            let (numbering, extract) = (mesh.numbering(), mesh.extract());
+            for id in (0..mesh.triangles().len()).map(TriangleId::from_index) {
+                assert_eq!(numbering.triangle(id), extract.place_of(id), "{id:?}");
+            }
+            let ids = (0..mesh.nodes().len()).map(NodeId::from_index);
+            let numbered: Vec<_> = ids.filter_map(|id| Some((numbering.node(id)?, mesh.node(id)))).collect();
+            let listed = extract.nodes().iter().enumerate().map(|(n, &node)| (NodeId::from_index(n), node));
+            assert!(listed.eq(numbered), "nodes without {places:?}");
+        }
     }
 }

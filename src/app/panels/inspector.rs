@@ -11,7 +11,7 @@ impl App {
     pub(super) fn inspector_ui(&mut self, ui: &mut Ui) {
         let readout = self.session.readout(self.view.quantity);
         let title = match readout.as_ref().and_then(|readout| readout.location.triangle()) {
-            Some(id) => format!("Triangle {}", format::count(id.index() as u64)),
+            Some(id) => format!("Triangle {}", number(self.session.triangle_number(id))),
             None => "Triangle".to_owned(),
         };
         Section::new(&title).id("inspector").show(ui, |ui| match readout {
@@ -41,7 +41,8 @@ impl App {
         let step = self.view.camera.map_or(1e-4, |camera| 1.0 / camera.px_per_world());
         let place =
             |p: glam::DVec2| format!("{} {}", format::coordinate(p.x, step), format::coordinate(p.y, step));
-        value_row(ui, "Level · orientation", &format!("{} · {orientation}", triangle.level));
+        let turn = value_row(ui, "Level · orientation", &format!("{} · {orientation}", triangle.level));
+        turn.on_hover_text("Which way v₁ v₂ v₃ run, as bisection left them. In files all run anticlockwise.");
         value_row(ui, "Diameter", &format::length(triangle.diameter));
         value_row(ui, "Point", &place(point));
         if let Some(on) = where_on(location) {
@@ -53,7 +54,7 @@ impl App {
         self.quantity_ui(ui, triangle);
         ui.add_space(4.0);
         for (i, (node, corner)) in triangle.vertices.iter().enumerate() {
-            let label = format!("v{} · {}", ["₁", "₂", "₃"][i], format::count(node.index() as u64));
+            let label = format!("v{} · {}", ["₁", "₂", "₃"][i], number(self.session.node_number(*node)));
             value_row(ui, &label, &place(*corner));
         }
     }
@@ -72,7 +73,7 @@ impl App {
 
     fn neighbour_chip(&mut self, ui: &mut Ui, i: usize, neighbour: Neighbour, colour: eframe::egui::Color32) {
         let name = ["Bisection neighbour", "Second neighbour", "Third neighbour"][i];
-        let text = neighbour.triangle().map_or("edge".into(), |id| format::count(id.index() as u64));
+        let text = neighbour.triangle().map_or("edge".into(), |id| number(self.session.triangle_number(id)));
         let response = Chip::new(colour, &text, name).enabled(neighbour.triangle().is_some()).show(ui);
         if let Some(id) = neighbour.triangle() {
             if response.clicked() {
@@ -97,6 +98,11 @@ impl App {
             format!("{} ({sign}{})", number(triangle.exact), format::significant(difference.abs(), 2));
         value_row(ui, "True (difference)", &exact);
     }
+}
+
+/// A number as files have it; a sign of more to come until it is counted.
+fn number(number: Option<usize>) -> String {
+    number.map_or("…".into(), |number| format::count(number as u64))
 }
 
 fn where_on(location: Location) -> Option<&'static str> {

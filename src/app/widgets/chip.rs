@@ -37,7 +37,10 @@ impl<'a> Chip<'a> {
         let sense = if self.enabled { Sense::click() } else { Sense::hover() };
         let (rect, response) = ui.allocate_exact_size(size, sense);
         let enabled = self.enabled && ui.is_enabled();
-        response.widget_info(|| WidgetInfo::labeled(Role::Button, enabled, self.name));
+        response.widget_info(|| WidgetInfo {
+            current_text_value: Some(self.text.to_owned()),
+            ..WidgetInfo::labeled(Role::Button, enabled, self.name)
+        });
         self.paint(ui, rect, &response);
         paint::at_left(ui, rect.with_min_x(rect.left() + 22.0), label);
         if self.enabled {
