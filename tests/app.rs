@@ -489,6 +489,16 @@ fn space_and_middle_drag_pan_and_home_fits() {
 }
 
 #[test]
+fn the_hint_covers_nothing_of_a_fitted_domain() {
+    for size in [vec2(900.0, 600.0), vec2(1440.0, 900.0)] {
+        let window = window_of(size);
+        let hint = window.get_by_label_contains("Drag to paint risk").rect();
+        let rim = on_screen(&window, dvec2(0.5, 0.0));
+        assert!(rim.y < hint.top() && hint.bottom() < canvas(&window).bottom(), "{rim} behind {hint}");
+    }
+}
+
+#[test]
 fn tab_hides_the_panels_and_brings_them_back() {
     let mut window = window();
     let narrow = canvas(&window);

@@ -180,6 +180,16 @@ impl Triangle {
         }
     }
 
+    /// For each vertex whether nothing lies across the edge opposite to it.
+    #[inline]
+    pub fn boundary_opposite(&self) -> [bool; 3] {
+        let mut boundary = [false; 3];
+        for ((from, to), across) in self.edges().into_iter().zip(self.neighbours) {
+            boundary[3 - from - to] = across == Neighbour::BOUNDARY;
+        }
+        boundary
+    }
+
     /// [`Self::edges`] as pairs of nodes.
     #[inline]
     pub const fn edge_nodes(&self) -> [(NodeId, NodeId); 3] {

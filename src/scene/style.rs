@@ -67,6 +67,12 @@ impl Style {
         self.edge_width_px / 2.0 + 0.5
     }
 
+    /// By how much less than from the middle of an edge it counts from the boundary, in pixels: nobody draws the other half of the
+    /// line there, so the triangle draws both.
+    pub fn rim_px(&self) -> f32 {
+        self.edge_width_px / 2.0
+    }
+
     /// Whether a level is shown in full.
     pub fn shows(&self, level: u32) -> bool {
         self.shown_levels >> level & 1 == 1

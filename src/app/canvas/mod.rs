@@ -16,7 +16,7 @@ pub use input::Gesture;
 pub use marks::NUMBER_DISC;
 pub use overlay::OverlayColors;
 
-use glam::DVec2;
+use glam::{DVec2, dvec2};
 
 use super::command::Command;
 use super::theme::tokens;
@@ -32,6 +32,8 @@ use input::Pointer;
 
 /// Free room round the domain when it is fitted, in points.
 const FIT_MARGIN: f64 = 24.0;
+/// More of it below, where hints are, in points.
+const HINT_ROOM: f64 = 32.0;
 /// Name by which tests and screen readers find the canvas.
 pub const CANVAS_NAME: &str = "Mesh canvas";
 
@@ -84,7 +86,13 @@ impl App {
             Some(camera) if camera.lattice().bounds() == bounds => {
                 camera.resized(size_px).on_lattice(lattice)
             }
-            _ => Camera::fit(lattice, bounds, size_px, FIT_MARGIN * f64::from(px_per_point)),
+            _ => {
+                let [margin, below] =
+                    [FIT_MARGIN, HINT_ROOM].map(|points| (points * f64::from(px_per_point)).round());
+                let above_hint = [size_px[0], size_px[1].saturating_sub(below as u32)];
+                let fitted = Camera::fit(lattice, bounds, above_hint, margin);
+                fitted.resized(size_px).panned(dvec2(0.0, -0.5 * below))
+            }
         }
     }
 

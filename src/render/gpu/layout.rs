@@ -44,7 +44,7 @@ pub(super) struct MeshView {
     edge_reach_px: f32,
     seam_slack_px: f32,
     node_chunk_bits: u32,
-    unused: u32,
+    rim_px: f32,
     levels: [Level; LEVELS],
 }
 
@@ -59,7 +59,7 @@ impl MeshView {
             edge_reach_px: style.edge_reach_px(),
             seam_slack_px: SEAM_SLACK_PX,
             node_chunk_bits,
-            unused: 0,
+            rim_px: style.rim_px(),
             levels: LevelPaint::all(camera, style).map(Level::from),
         }
     }

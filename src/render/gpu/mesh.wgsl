@@ -21,7 +21,7 @@ struct View {
     edge_reach_px: f32,
     seam_slack_px: f32,
     node_chunk_bits: u32,
-    unused: u32,
+    rim_px: f32,
     levels: array<Level, 64>,
 }
 
@@ -46,7 +46,12 @@ struct Corner {
     @location(0) inside_px: vec3<f32>,
     @location(1) @interpolate(flat) fill: vec3<f32>,
     @location(2) @interpolate(flat) edge: vec4<f32>,
+    // What to take from each distance, so that an edge at the boundary is drawn whole.
+    @location(3) @interpolate(flat) rims_px: vec3<f32>,
 }
+
+// No neighbour.
+const BOUNDARY: u32 = 0xffffffffu;
 
 @vertex
 fn vs_main(@builtin(vertex_index) index: u32) -> Corner {
@@ -70,6 +75,7 @@ fn vs_main(@builtin(vertex_index) index: u32) -> Corner {
     out.inside_px = placed.inside_px;
     out.fill = level.fill;
     out.edge = vec4(level.edge, level.edge_alpha);
+    out.rims_px = rims(entry, level_number);
     return out;
 }
 
@@ -101,6 +107,23 @@ fn inside_at_corner(corner: u32, level: u32, apex_height_px: f32, base_height_px
         select(0.0, height, corner == 1u),
         select(0.0, height, corner == 2u),
     );
+}
+
+// Half the width of a line for each edge where nobody draws the other half, by the corner opposite.
+fn rims(entry: u32, level: u32) -> vec3<f32> {
+    let odd = level & 1u;
+    let apex = 1u + odd;
+    // Neighbours are anticlockwise, the one across the bisection edge first.
+    let second = select(2u - 2u * odd, odd, triangles[entry].orientation == 0u);
+    var out = vec3(0.0);
+    out[apex] = rim_towards(triangles[entry].neighbours[0]);
+    out[second] = rim_towards(triangles[entry].neighbours[1]);
+    out[3u - apex - second] = rim_towards(triangles[entry].neighbours[2]);
+    return out;
+}
+
+fn rim_towards(neighbour: u32) -> f32 {
+    return select(0.0, view.rim_px, neighbour == BOUNDARY);
 }
 
 // A corner of one triangle over the whole canvas, from which the fragment shader cuts the huge triangle; nowhere, where
@@ -147,6 +170,8 @@ fn fs_main(in: Corner) -> @location(0) vec4<f32> {
     if inside_px < -view.seam_slack_px {
         discard;
     }
-    let share = clamp(view.edge_reach_px - inside_px, 0.0, 1.0) * in.edge.a;
+    let from_edge = in.inside_px - in.rims_px;
+    let nearest_px = min(from_edge.x, min(from_edge.y, from_edge.z));
+    let share = clamp(view.edge_reach_px - nearest_px, 0.0, 1.0) * in.edge.a;
     return vec4(mix(in.fill, in.edge.rgb, share), 1.0);
 }

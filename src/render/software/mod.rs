@@ -40,10 +40,12 @@ fn draw_triangles(image: &mut Image, mesh: &Mesh, camera: &Camera, style: &Style
     for triangle in mesh.triangles().iter().filter(|t| !t.is_outside()) {
         let level = triangle.level() as usize;
         if paints[level].leg_px < HUGE_LEG_PX {
-            canvas.fill_snapped(triangle.vertices.map(|v| snapped[v.index()]), &brushes[level]);
+            let corners = triangle.vertices.map(|v| snapped[v.index()]);
+            canvas.fill_snapped(corners, triangle.boundary_opposite(), &brushes[level]);
         } else {
             let corners = triangle.vertices.map(|v| mesh.node(v));
-            canvas.fill_by_lines(&inward_lines(corners, camera), &brushes[level]);
+            let lines = inward_lines(corners, camera);
+            canvas.fill_by_lines(&lines, triangle.boundary_opposite(), &brushes[level]);
         }
     }
 }
@@ -167,6 +169,23 @@ mod tests {
                 let px = dvec2((i % 103) as f64 + 0.5, (i / 103) as f64 + 0.5);
                 let inside = Rect::UNIT.contains(camera.world_from_screen(px));
                 assert_eq!(pixel, if inside { [40, 90, 120, 255] } else { style.ground }, "{px}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_rim_of_the_domain_is_drawn_on_every_side() {
+        let mesh = mesh();
+        let style = Style::dark(colors());
+        for margin in [0.0, 0.25, 0.5, 0.75] {
+            let camera = Camera::fit(mesh.lattice(), Rect::UNIT, [101, 101], margin);
+            let image = draw(&mesh, &camera, &style, None, &[]);
+            // Off the corners and the edges within, where the rim alone darkens the fill of 40.
+            let inward = |n: u32| [[n, 10], [100 - n, 90], [10, n], [90, 100 - n]];
+            for (outermost, next) in inward(0).into_iter().zip(inward(1)) {
+                let red = |[x, y]: [u32; 2]| image.pixel(x, y)[0];
+                let rim = [red(outermost), red(next)].into_iter().filter(|&red| red >= 20).min();
+                assert!(rim.is_some_and(|red| red <= 30), "margin {margin}, at {outermost:?}: {rim:?}");
             }
         }
     }

@@ -23,6 +23,7 @@ pub(super) struct Brush {
     fill_and_step: [[f32; 2]; 3],
     edge_alpha: f32,
     edge_reach_px: f32,
+    rim_px: f32,
 }
 
 impl Brush {
@@ -37,7 +38,14 @@ impl Brush {
             fill_and_step,
             edge_alpha: paint.edge_alpha,
             edge_reach_px: style.edge_reach_px(),
+            rim_px: style.rim_px(),
         }
+    }
+
+    /// What to take from the distances to the three edges, so that those at the boundary are drawn whole.
+    #[inline]
+    fn rims(&self, at_boundary: [bool; 3]) -> [f32; 3] {
+        at_boundary.map(|boundary| if boundary { self.rim_px } else { 0.0 })
     }
 
     /// The colour of a pixel whose centre is `distance_px` inside the nearest edge.
@@ -95,9 +103,10 @@ impl<'a> Canvas<'a> {
         Self { width, height, pixels: image.pixels_mut() }
     }
 
-    /// Fills the pixels whose centres lie in a triangle of less than 2¹⁴ px, given by [`snapped`] corners.
+    /// Fills the pixels whose centres lie in a triangle of less than 2¹⁴ px, given by [`snapped`] corners. The edges opposite to
+    /// some of them may be `at_boundary`.
     #[inline]
-    pub(super) fn fill_snapped(&mut self, [a, b, c]: [[i32; 2]; 3], brush: &Brush) {
+    pub(super) fn fill_snapped(&mut self, [a, b, c]: [[i32; 2]; 3], at_boundary: [bool; 3], brush: &Brush) {
         let columns = pixels_between(a[0].min(b[0]).min(c[0]), a[0].max(b[0]).max(c[0]), self.width);
         let rows = pixels_between(a[1].min(b[1]).min(c[1]), a[1].max(b[1]).max(c[1]), self.height);
         if columns.is_empty() || rows.is_empty() {
@@ -105,19 +114,25 @@ impl<'a> Canvas<'a> {
         }
         let turn =
             i64::from(b[0] - a[0]) * i64::from(c[1] - a[1]) - i64::from(b[1] - a[1]) * i64::from(c[0] - a[0]);
-        let (b, c) = if turn < 0 { (c, b) } else { (b, c) };
+        let [opposite_a, opposite_b, opposite_c] = brush.rims(at_boundary);
+        let (b, c, rims) = if turn < 0 {
+            (c, b, [opposite_b, opposite_a, opposite_c])
+        } else {
+            (b, c, [opposite_c, opposite_a, opposite_b])
+        };
         let mut edges =
             [(a, b), (b, c), (c, a)].map(|(p, q)| EdgeFunction::new(p, q, columns.start, rows.start));
         for row in rows {
             let start = (row * self.width) as usize;
             let line = &mut self.pixels[start..start + self.width as usize];
-            fill_row(&mut line[columns.start as usize..columns.end as usize], edges, brush);
+            fill_row(&mut line[columns.start as usize..columns.end as usize], edges, rims, brush);
             edges.iter_mut().for_each(|edge| edge.value += edge.per_row);
         }
     }
 
     /// Fills the pixels whose centres lie on the positive side of three lines.
-    pub(super) fn fill_by_lines(&mut self, lines: &[Line; 3], brush: &Brush) {
+    pub(super) fn fill_by_lines(&mut self, lines: &[Line; 3], at_boundary: [bool; 3], brush: &Brush) {
+        let rims = brush.rims(at_boundary);
         let least = -f64::from(SEAM_SLACK_PX);
         let corner = dvec2(f64::from(self.width), f64::from(self.height));
         for line in lines {
@@ -129,13 +144,20 @@ impl<'a> Canvas<'a> {
         for row in 0..self.height {
             for column in 0..self.width {
                 let px = dvec2(f64::from(column) + 0.5, f64::from(row) + 0.5);
-                let inside = lines.iter().map(|l| l.normal.dot(px) + l.offset).fold(f64::MAX, f64::min);
-                if inside >= least {
-                    self.pixels[(row * self.width + column) as usize] = brush.color(inside as f32);
+                let distances = lines.each_ref().map(|l| l.normal.dot(px) + l.offset);
+                if distances.iter().all(|&distance| distance >= least) {
+                    let color = brush.color(nearest(distances.map(|d| d as f32), rims));
+                    self.pixels[(row * self.width + column) as usize] = color;
                 }
             }
         }
     }
+}
+
+/// The distance to the nearest edge, after `rims` are taken away.
+#[inline]
+fn nearest(distances: [f32; 3], rims: [f32; 3]) -> f32 {
+    (distances[0] - rims[0]).min(distances[1] - rims[1]).min(distances[2] - rims[2])
 }
 
 /// The pixels below `limit` whose centres lie from `low` to `high`, both on the grid of corners.
@@ -147,7 +169,7 @@ fn pixels_between(low: i32, high: i32, limit: i32) -> std::ops::Range<i32> {
 }
 
 #[inline]
-fn fill_row(pixels: &mut [[u8; 4]], mut edges: [EdgeFunction; 3], brush: &Brush) {
+fn fill_row(pixels: &mut [[u8; 4]], mut edges: [EdgeFunction; 3], rims: [f32; 3], brush: &Brush) {
     for pixel in pixels {
         let inside = edges.iter().all(|edge| edge.value + edge.bias >= 0);
         if inside {
@@ -155,7 +177,7 @@ fn fill_row(pixels: &mut [[u8; 4]], mut edges: [EdgeFunction; 3], brush: &Brush)
                 brush.fill
             } else {
                 let distances = edges.map(|edge| edge.value as f32 * edge.px_per_unit);
-                brush.color(distances[0].min(distances[1]).min(distances[2]))
+                brush.color(nearest(distances, rims))
             };
         }
         edges.iter_mut().for_each(|edge| edge.value += edge.per_column);
