@@ -893,16 +893,16 @@ fn the_outline_is_met_in_two_ways_and_the_panel_says_what_that_costs() {
     key(&mut window, Modifiers::NONE, Key::D);
     let fitted = window.state().session().mesh().triangle_count();
     assert!(
-        value_of(&window, Role::Definition, "Holes").ends_with("outline 65"),
+        value_of(&window, Role::Definition, "Holes").ends_with(" (outline 65)"),
         "{}",
         value_of(&window, Role::Definition, "Holes")
     );
     assert!(fitted > 30_000);
-    window.get_by_role_and_label(Role::RadioButton, "Report").click();
+    window.get_by_role_and_label(Role::RadioButton, "As in the report").click();
     window.run();
     assert!(window.state().session().mesh().triangle_count() < 1000);
     assert_eq!(window.state().session().mesh().outside_count(), 0);
-    window.get_by_role_and_label(Role::RadioButton, "Fitted").click();
+    window.get_by_role_and_label(Role::RadioButton, "Fitted to outline").click();
     window.run();
     assert_eq!(window.state().session().mesh().triangle_count(), fitted);
     window.get_by_label("Whole rectangle").click();
@@ -1300,7 +1300,31 @@ fn an_export_writes_the_file_and_tells() {
     assert!(wait_for_notice(&mut window).contains(".vtu"));
     send(&mut window, Command::Escape);
     send(&mut window, Command::Export(scratch("no such folder/mesh.vtu")));
-    assert!(wait_for_notice(&mut window).contains("could not be written"));
+    assert!(wait_for_notice(&mut window).contains("could not be written: there is no folder"));
+    stroke(&mut window, dvec2(0.1, 0.1), dvec2(0.2, 0.1));
+    assert!(notice(&window).contains("no folder"), "what failed stays");
+}
+
+#[test]
+fn an_export_asks_before_it_replaces_any_of_its_files() {
+    let mut window = window();
+    let [nodes, elements] = ["node", "ele"].map(|ending| scratch(&format!("app-replace.{ending}")));
+    let _ = std::fs::remove_file(&nodes); // absent at the first run
+    std::fs::write(&elements, "of another mesh").unwrap();
+    let button = |window: &mut Window, label: &str| {
+        window.get_by_role_and_label(Role::Button, label).click();
+        window.run();
+    };
+    send(&mut window, Command::ExportAs(nodes.clone()));
+    button(&mut window, "Cancel");
+    assert_eq!((notice(&window).as_str(), nodes.exists()), ("", false));
+    send(&mut window, Command::ExportAs(nodes.clone()));
+    assert!(window.query_by_label_contains("app-replace.ele?").is_some(), "the one that is there");
+    button(&mut window, "Replace");
+    assert!(wait_for_notice(&mut window).contains("triangles written to"));
+    assert!(nodes.exists() && std::fs::read_to_string(&elements).unwrap() != "of another mesh");
+    stroke(&mut window, dvec2(0.1, 0.1), dvec2(0.2, 0.1));
+    assert_eq!(notice(&window), "", "news go once work goes on");
 }
 
 #[test]

@@ -46,6 +46,8 @@ pub enum Command {
     OpenDomain(PathBuf),
     /// Asks where to write the mesh.
     AskForExport,
+    /// Writes the mesh to a file, and asks before another one is replaced.
+    ExportAs(PathBuf),
     /// Writes the mesh; the ending chooses the format.
     Export(PathBuf),
     /// Ends the program.

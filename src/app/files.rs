@@ -6,15 +6,14 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread;
 
-use eframe::egui::{self, Context, Id, Key, Modal};
+use eframe::egui::{self, Context, Key};
 use glam::DVec2;
 
 use super::command::Command;
 use super::readout::target_at;
 use super::session::{Notice, Session};
-use super::theme::{font, tokens};
 use super::view::View;
-use super::widgets::{ActionButton, ButtonKind, TextRow, format};
+use super::widgets::{ActionButton, ButtonKind, TextRow, dialog, dialog_title, format};
 use crate::document::{Base, Document, Example, Setting, Settings};
 use crate::domain::{Domain, Polygon};
 use crate::geometry::Rect;
@@ -97,7 +96,7 @@ impl FileRequest {
             Self::Save => Command::SaveAs(path),
             Self::OpenImage => Command::OpenImage(path),
             Self::OpenDomain => Command::OpenDomain(path),
-            Self::Export => Command::Export(path),
+            Self::Export => Command::ExportAs(path),
         }
     }
 }
@@ -180,6 +179,13 @@ impl Files {
         let (mesh, field) = (session.shared_mesh(), session.follower().field().clone());
         let (layers, rule) = (session.document().layers().clone(), session.follower().settings().rule);
         let look = view.picture(session.document().settings());
+        let blocked = |file: &PathBuf| {
+            Some(format!("{} could not be written: {}.", file.display(), io::obstacle(file)?))
+        };
+        if let Some(problem) = format.files(&path).iter().find_map(blocked) {
+            let _ = self.sender.send(failure(problem));
+            return;
+        }
         self.run(ctx, move || {
             let extract = mesh.extract();
             let at = |node| target_at(node, &field, layers.as_paint(), rule);
@@ -203,6 +209,12 @@ impl Files {
                     // The desktop's own dialog has asked already.
                     commands.push(match request {
                         FileRequest::Save => Command::SaveTo(path),
+                        // About the files beside it, it knew nothing.
+                        FileRequest::Export
+                            if ExportFormat::of(&path).is_ok_and(|f| f.files(&path).len() == 1) =>
+                        {
+                            Command::Export(path)
+                        }
                         _ => request.command(path),
                     });
                 }
@@ -223,10 +235,9 @@ impl Files {
     }
 
     fn question_ui(&mut self, ctx: &Context, request: FileRequest, path: &mut String) -> Answer {
-        let shown = Modal::new(Id::unique("path")).show(ctx, |ui| {
+        let shown = dialog(ctx, "path", |ui| {
             ui.set_width(440.0);
-            let title = egui::RichText::new(request.title()).font(font::strong()).color(tokens(ui).value);
-            ui.label(title);
+            dialog_title(ui, request.title());
             ui.add_space(8.0);
             let field = TextRow::formula("Path", path).hint(request.hint()).show(ui);
             if !field.lost_focus() && path.is_empty() {
@@ -308,7 +319,8 @@ fn told(text: String) -> Outcome {
     Outcome::Told(Notice { failed: false, text })
 }
 
-fn listed(files: &[PathBuf]) -> String {
+/// Names of files, one after the other.
+pub fn listed(files: &[PathBuf]) -> String {
     files.iter().map(|file| file.display().to_string()).collect::<Vec<_>>().join(", ")
 }
 

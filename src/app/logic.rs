@@ -33,6 +33,7 @@ impl App {
             Command::AskForDomain => self.files.ask(FileRequest::OpenDomain),
             Command::OpenDomain(path) => self.files.load_domain(path, ctx),
             Command::AskForExport => self.files.ask(FileRequest::Export),
+            Command::ExportAs(path) => self.export_as(path, ctx),
             Command::Export(path) => self.export(path, ctx),
             Command::Quit => ctx.send_viewport_cmd(ViewportCommand::Close),
 
@@ -60,7 +61,6 @@ impl App {
 
             Command::Query(point) => self.query(point),
             Command::QueryTriangle(id) => self.query_triangle(id),
-
             Command::Domain(command) => self.execute_on_domain(command),
 
             Command::Fit => self.view.camera = None,
@@ -144,6 +144,7 @@ impl App {
     }
 
     fn begin_stroke(&mut self, point: DVec2) {
+        self.session.put_news_away();
         let brush = self.tools.brush();
         let document = self.session.document_mut();
         document.begin_stroke(brush);

@@ -219,9 +219,9 @@ impl App {
         if !self.about {
             return;
         }
-        let shown = egui::Modal::new(egui::Id::unique("about")).show(ctx, |ui| {
+        let shown = widgets::dialog(ctx, "about", |ui| {
             ui.set_width(380.0);
-            ui.heading("Meshbrush");
+            widgets::dialog_title(ui, "Meshbrush");
             ui.label(concat!("Version ", env!("CARGO_PKG_VERSION")));
             ui.add_space(8.0);
             ui.label(

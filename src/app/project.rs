@@ -8,12 +8,13 @@ use eframe::egui::{Context, ViewportCommand};
 
 use super::App;
 use super::command::Command;
-use super::files::FileRequest;
+use super::files::{FileRequest, listed};
 use super::session::Notice;
 use super::widgets::{Answer, ConfirmDialog};
 use crate::document::Document;
 use crate::io;
 use crate::io::project::{ENDING, Project};
+use crate::render::export::ExportFormat;
 
 /// Most files that are remembered.
 const MOST_RECENT: usize = 8;
@@ -44,8 +45,8 @@ pub struct ProjectFile {
     after_saving: Option<Command>,
     /// The version that may be lost: somebody said so.
     given_up: Option<u64>,
-    /// A file that is there already, while it is asked whether it is to be replaced.
-    replacing: Option<PathBuf>,
+    /// Files that are there already, while it is asked whether they are to be replaced, and the command that does it.
+    replacing: Option<(Vec<PathBuf>, Command)>,
     saving: bool,
     /// Where to save once more when the present saving is done.
     save_again: Option<PathBuf>,
@@ -231,14 +232,20 @@ impl App {
     }
 
     fn replacing_ui(&mut self, ctx: &Context) {
-        let Some(path) = self.project.replacing.clone() else { return };
-        let question = format!("Replace {}?", path.display());
-        let dialog =
-            ConfirmDialog::new(&question, "What is in the file now will be lost.", "Replace").danger();
-        let Some(answer) = dialog.show(ctx) else { return };
+        let Some((files, command)) = self.project.replacing.clone() else { return };
+        let (question, body) = match &files[..] {
+            [file] => {
+                (format!("Replace {}?", file.display()), "What is in the file now will be lost.".into())
+            }
+            _ => (
+                format!("Replace {} files?", files.len()),
+                format!("What is in {} now will be lost.", listed(&files)),
+            ),
+        };
+        let Some(answer) = ConfirmDialog::new(&question, &body, "Replace").danger().show(ctx) else { return };
         self.project.replacing = None;
         if answer == Answer::Confirmed {
-            self.save_to(path, ctx);
+            self.execute(command, ctx);
         }
     }
 
@@ -271,9 +278,20 @@ impl App {
     pub(super) fn save_as(&mut self, path: PathBuf, ctx: &Context) {
         let path = with_ending(path);
         if io::exists(&path) && self.project.path() != Some(&path) {
-            self.project.replacing = Some(path);
+            self.project.replacing = Some((vec![path.clone()], Command::SaveTo(path)));
         } else {
             self.save_to(path, ctx);
+        }
+    }
+
+    /// Exports to a file that somebody typed: not over others without a question.
+    pub(super) fn export_as(&mut self, path: PathBuf, ctx: &Context) {
+        let files = ExportFormat::of(&path).map_or(Vec::new(), |format| format.files(&path));
+        let there: Vec<PathBuf> = files.into_iter().filter(|file| io::exists(file)).collect();
+        if there.is_empty() || there.iter().any(|file| io::obstacle(file).is_some()) {
+            self.execute(Command::Export(path), ctx);
+        } else {
+            self.project.replacing = Some((there, Command::Export(path)));
         }
     }
 
@@ -290,7 +308,9 @@ impl App {
         document.end_gesture();
         let (project, version) = (Project::of(document), document.version());
         self.project.run(ctx, move || {
-            match io::write_file(&path, |mut out| io::project::write(&mut out, &project)) {
+            let write = || io::write_file(&path, |mut out| io::project::write(&mut out, &project));
+            let written = io::obstacle(&path).map_or_else(|| write().map_err(|error| error.to_string()), Err);
+            match written {
                 Ok(()) => Outcome::Saved(path, version),
                 Err(error) => Outcome::NotSaved(format!("{} could not be saved: {error}.", path.display())),
             }

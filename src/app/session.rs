@@ -122,6 +122,11 @@ impl Session {
         self.notice = notice;
     }
 
+    /// Takes away what was only to be known; what failed stays until it is dismissed.
+    pub fn put_news_away(&mut self) {
+        self.notice.take_if(|notice| !notice.failed);
+    }
+
     /// Shows a failure.
     pub fn report(&mut self, failure: impl std::fmt::Display) {
         self.notice = Some(Notice { failed: true, text: failure.to_string() });

@@ -6,7 +6,7 @@ use super::args::PictureArguments;
 use super::failure::Failure;
 use crate::colormap::{Colormap, Ground, LevelColors};
 use crate::geometry::Grouped;
-use crate::io::MeshData;
+use crate::io::{MeshData, obstacle};
 use crate::mesh::{Extract, Mesh};
 use crate::render::export::{ExportFormat, LARGEST_PICTURE, Look};
 
@@ -66,15 +66,8 @@ fn failed(path: &Path, problem: String) -> Failure {
 /// # Errors
 /// When its folder does not exist, it is a folder itself, or it is one of the input files.
 pub fn check_place(path: &Path, inputs: &[PathBuf]) -> Result<(), Failure> {
-    let folder = match path.parent() {
-        Some(folder) if !folder.as_os_str().is_empty() => folder,
-        _ => Path::new("."),
-    };
-    if !folder.is_dir() {
-        return Err(failed(path, format!("there is no folder {}", folder.display())));
-    }
-    if path.is_dir() {
-        return Err(failed(path, "a folder has this name".to_owned()));
+    if let Some(obstacle) = obstacle(path) {
+        return Err(failed(path, obstacle));
     }
     let same = |input: &PathBuf| match (input.canonicalize(), path.canonicalize()) {
         (Ok(input), Ok(output)) => input == output,

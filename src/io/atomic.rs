@@ -15,6 +15,15 @@ pub fn exists(path: &Path) -> bool {
     path.exists()
 }
 
+/// Why no file can be put at a place whatever is written there, as the end of a sentence; `None` where one may try.
+pub fn obstacle(path: &Path) -> Option<String> {
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    if !folder.is_dir() {
+        return Some(format!("there is no folder {}", folder.display()));
+    }
+    path.is_dir().then(|| "a folder has this name".to_owned())
+}
+
 /// Writes a file as a whole or not at all.
 ///
 /// The content goes to a temporary file in the same folder, which then takes the place of `path`: whatever was there stays

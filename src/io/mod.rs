@@ -28,7 +28,7 @@ pub mod stl;
 pub mod svg;
 pub mod vtu;
 
-pub use atomic::{exists, make_folder, write_file};
+pub use atomic::{exists, make_folder, obstacle, write_file};
 pub use error::{Flaw, Place, ReadError};
 pub use mesh_file::MeshFormat;
 pub use number::Number;

@@ -70,7 +70,7 @@ impl App {
             Boundary::Report => self.last_fitted.unwrap_or(Boundary::usual(spacing)),
         };
         let mut chosen = boundary;
-        let choices = [(fitted, "Fitted"), (Boundary::Report, "Report")];
+        let choices = [(fitted, "Fitted to outline"), (Boundary::Report, "As in the report")];
         if segmented(ui, "How the outline is met", &mut chosen, &choices).changed() {
             self.last_fitted = Some(fitted);
             self.commands.extend([Command::Set(Setting::Boundary(chosen)), Command::EndGesture]);
@@ -102,19 +102,17 @@ impl App {
         let (area, wanted) = (self.session.mesh().area(), region.area());
         let percent = 100.0 * (area - wanted) / wanted;
         let word = if percent < 0.0 { "less" } else { "more" };
-        value_row(ui, "Area", &format!("{} % {word}", format::significant(percent.abs(), 3)));
+        let area = format!("{} % {word}", format::digits(percent.abs(), 2));
+        value_row(ui, "Area", &area).on_hover_text("Area of the mesh against that of the outline");
         let (polygons, holes) = (region.polygons().len(), region.hole_count());
         let count = |n: usize| format::count(n as u64);
-        match self.session.topology() {
-            Some(topology) => {
-                value_row(ui, "Parts", &format!("{}, outline {}", count(topology.parts), count(polygons)));
-                value_row(ui, "Holes", &format!("{}, outline {}", count(topology.holes), count(holes)));
-            }
-            None => {
-                value_row(ui, "Parts", &format!("…, outline {}", count(polygons)));
-                value_row(ui, "Holes", &format!("…, outline {}", count(holes)));
-            }
-        }
+        let topology = self.session.topology();
+        let found = |n: Option<usize>| n.map_or("…".into(), count);
+        let parts = format!("{} (outline {})", found(topology.map(|t| t.parts)), count(polygons));
+        value_row(ui, "Parts", &parts)
+            .on_hover_text("Parts of the mesh that edges join, and polygons of the outline");
+        let holes = format!("{} (outline {})", found(topology.map(|t| t.holes)), count(holes));
+        value_row(ui, "Holes", &holes).on_hover_text("Holes of the mesh, and holes of the outline");
         value_row(ui, "Corners", &count(region.corner_count()));
         ui.add_space(4.0);
     }

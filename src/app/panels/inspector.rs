@@ -93,7 +93,11 @@ impl App {
         value_row(ui, "At v₁ v₂ v₃", &format!("{a} {b} {c}"));
         value_row(ui, "Interpolated", &number(triangle.interpolated));
         let difference = triangle.interpolated - triangle.exact;
-        let sign = if difference < 0.0 { "−" } else { "+" };
+        let sign = match difference {
+            d if d < 0.0 => "−",
+            d if d > 0.0 => "+",
+            _ => "",
+        };
         let exact =
             format!("{} ({sign}{})", number(triangle.exact), format::significant(difference.abs(), 2));
         value_row(ui, "True (difference)", &exact);

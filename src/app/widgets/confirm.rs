@@ -16,6 +16,19 @@ pub enum Answer {
     Cancelled,
 }
 
+/// What must be answered or closed first, over the dimmed window: every dialog has this ground.
+pub fn dialog<R>(ctx: &Context, name: &str, contents: impl FnOnce(&mut Ui) -> R) -> egui::ModalResponse<R> {
+    let frame = Frame::popup(&ctx.global_style()).inner_margin(Margin::same(20));
+    let modal = egui::Modal::new(Id::unique(name)).frame(frame).backdrop_color(tokens_of(ctx).scrim);
+    modal.show(ctx, contents)
+}
+
+/// The title of a [`dialog`].
+pub fn dialog_title(ui: &mut Ui, title: &str) {
+    let font = egui::FontId { size: 15.0, ..font::strong() };
+    ui.label(RichText::new(title).font(font).color(tokens(ui).value));
+}
+
 /// A question over the window. Show it in every frame until it is answered.
 ///
 /// Enter takes the button that has the focus: at first the main one, or Cancel where something would be destroyed.
@@ -55,11 +68,7 @@ impl<'a> ConfirmDialog<'a> {
 
     /// Shows the dialog and answers how it was answered in this frame.
     pub fn show(self, ctx: &Context) -> Option<Answer> {
-        let style = ctx.global_style();
-        let frame = Frame::popup(&style).inner_margin(Margin::same(20));
-        let modal =
-            egui::Modal::new(Id::unique("confirm dialog")).frame(frame).backdrop_color(tokens_of(ctx).scrim);
-        let shown = modal.show(ctx, |ui| self.contents(ui));
+        let shown = dialog(ctx, "confirm dialog", |ui| self.contents(ui));
         let closed = shown.should_close().then_some(Answer::Cancelled);
         shown.inner.or(closed)
     }
@@ -67,9 +76,7 @@ impl<'a> ConfirmDialog<'a> {
     fn contents(&self, ui: &mut Ui) -> Option<Answer> {
         let t = tokens(ui);
         ui.set_width(380.0);
-        ui.label(
-            RichText::new(self.title).font(egui::FontId { size: 15.0, ..font::strong() }).color(t.value),
-        );
+        dialog_title(ui, self.title);
         ui.add_space(4.0);
         ui.label(RichText::new(self.body).color(t.label));
         ui.add_space(16.0);

@@ -31,7 +31,7 @@ mod value_row;
 
 pub use banner::{Banner, BannerAnswer, BannerKind};
 pub use chip::{Chip, chips};
-pub use confirm::{Answer, ConfirmDialog};
+pub use confirm::{Answer, ConfirmDialog, dialog, dialog_title};
 pub use dropdown::dropdown_row;
 pub use empty::empty_state;
 pub use float::{Hint, floating_tag, hint_pill, tag_size};
