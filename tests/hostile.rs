@@ -103,7 +103,7 @@ fn said(file: &str) -> String {
 fn immense_outlines_are_refused_before_they_take_memory() {
     let many = polygon(&format!("[[{}[0,0]]]", "[1,2],".repeat(10_000_000)));
     assert!(
-        said(&many).contains("more than 1000000 corners, which is the limit. Simplify the outline first")
+        said(&many).contains("more than 1,000,000 corners, which is the limit. Simplify the outline first")
     );
     // Not one polygon with too many corners, but too many polygons.
     let mut parts = String::from(r#"{"type":"GeometryCollection","geometries":["#);
@@ -171,6 +171,6 @@ fn a_picture_that_swells_is_refused_or_stays_within_its_size() {
     };
     assert_eq!(with_size(1).ok(), Some([1, 1]));
     assert!(with_size(8192).is_err(), "rows are missing");
-    assert!(with_size(8193).unwrap_err().to_string().contains("8193 × 8193 pixels cannot be taken"));
+    assert!(with_size(8193).unwrap_err().to_string().contains("8,193 × 8,193 pixels cannot be taken"));
     assert!(with_size(u32::MAX >> 1).is_err() && with_size(0).is_err());
 }

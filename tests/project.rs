@@ -374,10 +374,10 @@ fn settings_that_cannot_be_are_told_with_their_place() {
     let cases: &[(&str, &str, &[&str])] = &[
         ("\"version\": 1", "\"version\": 1, \"seasons\": 4", &["line 3", "seasons"]),
         ("\"spacing\"", "\"spacing\": 1e999, \"spacings\"", &["settings.json"]),
-        ("\"columns\": 2", "\"columns\": 100000", &["100000 × 2", "8192"]),
+        ("\"columns\": 2", "\"columns\": 100000", &["100,000 × 2", "8,192"]),
         ("\"columns\": 2", "\"columns\": 8192", &["base.risk", "checksum"]),
         ("\"columns\": 2", "\"columns\": 1", &["base.risk", "at most 8"]),
-        ("\"resolution\": 16", "\"resolution\": 4000000000", &["4000000000", "2048"]),
+        ("\"resolution\": 16", "\"resolution\": 4000000000", &["4,000,000,000", "2,048"]),
         ("\"resolution\": 16", "\"resolution\": 2048", &["paint.tiles"]),
         ("\"max_triangles\": ", "\"max_triangles\": 999", &["max_triangles"]),
         ("\"shape\": 1.0", "\"shape\": -1.0", &["shape -1"]),
