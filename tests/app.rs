@@ -1154,13 +1154,13 @@ fn a_price_past_the_budget_says_so() {
 fn the_budgets_are_typed_in_the_panel_and_what_is_too_small_is_told() {
     let mut window = window_of(TALL);
     open_section(&mut window, "Mesh");
-    type_into(&mut window, "Memory budget", "0.5");
+    type_into(&mut window, "Max memory", "0.5");
     assert_eq!(settings(&window).max_memory, 500_000_000);
-    type_into(&mut window, "Triangle budget", "1.5");
+    type_into(&mut window, "Max triangles", "1.5");
     assert_eq!(settings(&window).max_triangles, 1_500_000);
     let count = triangles(&window);
     // Room for fewer triangles than there are.
-    type_into(&mut window, "Memory budget", "0.001");
+    type_into(&mut window, "Max memory", "0.001");
     assert!(notice(&window).contains("1 MB of memory"), "{}", notice(&window));
     assert_eq!((settings(&window).max_memory, triangles(&window)), (500_000_000, count));
     set(&mut window, Setting::MaxMemory(86 * (count + 100)));
@@ -1309,7 +1309,9 @@ fn an_export_writes_the_file_and_tells() {
 fn an_export_asks_before_it_replaces_any_of_its_files() {
     let mut window = window();
     let [nodes, elements] = ["node", "ele"].map(|ending| scratch(&format!("app-replace.{ending}")));
-    let _ = std::fs::remove_file(&nodes); // absent at the first run
+    for ending in ["node", "neigh", "edge"] {
+        let _ = std::fs::remove_file(nodes.with_extension(ending)); // absent at the first run
+    }
     std::fs::write(&elements, "of another mesh").unwrap();
     let button = |window: &mut Window, label: &str| {
         window.get_by_role_and_label(Role::Button, label).click();
@@ -1494,14 +1496,14 @@ fn pixel(picture: &Picture, at: Pos2) -> [u8; 3] {
     picture.rgba[start..start + 3].try_into().unwrap()
 }
 
-fn is_colourful([r, g, b]: [u8; 3]) -> bool {
+fn is_colorful([r, g, b]: [u8; 3]) -> bool {
     r.max(g).max(b) - r.min(g).min(b) > 40
 }
 
 /// How many pixels within `radius` points of `middle` are coloured as a refined level.
-fn colourful(image: &Picture, middle: Pos2, radius: i32) -> usize {
+fn colorful(image: &Picture, middle: Pos2, radius: i32) -> usize {
     let offsets = (-radius..=radius).flat_map(|y| (-radius..=radius).map(move |x| vec2(x as f32, y as f32)));
-    offsets.filter(|offset| is_colourful(pixel(image, middle + *offset))).count()
+    offsets.filter(|offset| is_colorful(pixel(image, middle + *offset))).count()
 }
 
 #[test]
@@ -1511,17 +1513,17 @@ fn a_stroke_is_seen_on_the_canvas_and_gone_after_undo() {
     window.hover_at(RESTING_PLACE);
     window.run();
     let empty = picture(&mut window);
-    assert_eq!(colourful(&empty, at, 20), 0);
+    assert_eq!(colorful(&empty, at, 20), 0);
     stroke(&mut window, FREE, FREE);
     window.hover_at(RESTING_PLACE);
     window.run();
     let painted = picture(&mut window);
-    assert!(colourful(&painted, at, 20) > 1000);
+    assert!(colorful(&painted, at, 20) > 1000);
     let hovered = window.state().view().clone();
     key(&mut window, Modifiers::COMMAND, Key::Z);
     window.run();
     let undone = picture(&mut window);
-    assert_eq!(colourful(&undone, at, 20), 0);
+    assert_eq!(colorful(&undone, at, 20), 0);
     assert_eq!(hovered.camera, window.state().view().camera);
 }
 

@@ -72,8 +72,8 @@ fn rgb(hex: u32) -> Color32 {
 fn level_rows(ui: &Ui, count: u32) -> Vec<LevelRow> {
     let row = |level: u32| {
         let i = (level as usize * 10) / (count.max(2) as usize - 1);
-        let colour = if level == 0 { theme::tokens(ui).level_zero } else { rgb(VIRIDIS[i.max(1)]) };
-        LevelRow { level, colour, count: COUNTS[i], diameter: 0.1 / f64::from(level).exp2().sqrt() }
+        let color = if level == 0 { theme::tokens(ui).level_zero } else { rgb(VIRIDIS[i.max(1)]) };
+        LevelRow { level, color, count: COUNTS[i], diameter: 0.1 / f64::from(level).exp2().sqrt() }
     };
     (0..count).map(row).collect()
 }
@@ -160,7 +160,7 @@ fn tools(ui: &mut Ui, state: &mut State) {
                 state.clicks.push(name.into());
             }
         }
-        for icon in [Icon::UNDO, Icon::REDO, Icon::FIT, Icon::COPY, Icon::DELETE, Icon::FOLDER, Icon::ADD] {
+        for icon in [Icon::UNDO, Icon::REDO, Icon::FIT] {
             ToolButton::small(icon, &format!("{icon:?}")).show(ui);
         }
     });
@@ -169,10 +169,10 @@ fn tools(ui: &mut Ui, state: &mut State) {
 fn messages(ui: &mut Ui, state: &mut State) {
     tools(ui, state);
     ui.add_space(8.0);
-    if progress_row(ui, "Refining", 12_000, Some(37_987)) {
+    if progress_row(ui, "Refining", "1,126,079 triangles") {
         state.clicks.push("cancel".into());
     }
-    progress_row(ui, "Coarsening", 912, None);
+    progress_row(ui, "Sampling the field", "");
     ui.add_space(8.0);
     let text = "The stroke needs 4,120,000 triangles; the budget is 2,000,000. The mesh is as it was.";
     match Banner::error(text).action("Raise the budget").show(ui) {

@@ -111,10 +111,27 @@ pub fn paint_outline(painter: &Painter, corners: impl Iterator<Item = Pos2>) {
             line.push(corner);
         }
     }
-    if Rect::from_points(&line).intersects(painter.clip_rect()) {
-        painter.add(Shape::closed_line(line.clone(), Stroke::new(2.5, Color32::from_black_alpha(110))));
-        painter.add(Shape::closed_line(line, Stroke::new(1.0, Color32::WHITE)));
+    if line.len() < 2 || !Rect::from_points(&line).intersects(painter.clip_rect()) {
+        return;
     }
+    let pieces = between_spikes(&line);
+    for stroke in [Stroke::new(2.5, Color32::from_black_alpha(110)), Stroke::new(1.0, Color32::WHITE)] {
+        painter.extend(pieces.iter().map(|piece| Shape::line(piece.clone(), stroke)));
+    }
+}
+
+/// A ring, cut where it turns back: a line drawn through there would end in a spike far beyond the corner.
+fn between_spikes(ring: &[Pos2]) -> Vec<Vec<Pos2>> {
+    let mut pieces = vec![vec![ring[0]]];
+    for (i, &corner) in ring.iter().enumerate().skip(1).chain([(0, &ring[0])]) {
+        pieces.last_mut().expect("never empty").push(corner);
+        let next = ring[(i + 1) % ring.len()];
+        let before = ring[(i + ring.len() - 1) % ring.len()];
+        if (corner - before).normalized().dot((next - corner).normalized()) < -0.5 && i != 0 {
+            pieces.push(vec![corner]);
+        }
+    }
+    pieces
 }
 
 /// What a brush of some radius in points has swept over.

@@ -21,7 +21,7 @@ use glam::{DVec2, dvec2};
 use super::command::Command;
 use super::theme::tokens;
 use super::tools::Tool;
-use super::widgets::{Banner, BannerAnswer, hint_pill, progress_row};
+use super::widgets::{Banner, BannerAnswer, format, hint_pill, paint_floating, progress_row};
 use super::{App, FRAME_BUDGET};
 use crate::document::Stage;
 use crate::domain::Stencil;
@@ -109,7 +109,12 @@ impl App {
         let mut pointer = Pointer { rect, camera, covered, tools, px_per_point, first_corner };
         pointer.follow_events(ui, response, &mut self.gesture, commands);
         let over = response.hover_pos().or(response.interact_pointer_pos());
+        let before = self.pointer_world;
         self.pointer_world = over.map(|at| pointer.world(at));
+        if self.pointer_world != before {
+            // The status bar of this frame was drawn before.
+            ui.ctx().request_repaint();
+        }
         if response.contains_pointer() || self.gesture != Gesture::None {
             ui.ctx().set_cursor_icon(self.cursor(ui));
         }
@@ -261,18 +266,22 @@ impl App {
             return;
         }
         let (what, done) = match stage {
-            _ if cuts => ("Cutting the outline", 0),
-            Stage::Refining { triangles } => ("Refining", triangles),
-            Stage::Outlining => ("Laying the outline", 0),
-            Stage::Filling => ("Sampling the field", 0),
+            _ if cuts => ("Cutting the outline", String::new()),
+            Stage::Refining { triangles } => {
+                ("Refining", format!("{} triangles", format::count(triangles as u64)))
+            }
+            Stage::Outlining => ("Laying the outline", String::new()),
+            Stage::Filling => ("Sampling the field", String::new()),
             Stage::InStep => return,
         };
-        let size = vec2(inner.width().min(360.0), 36.0);
+        let size = vec2(inner.width().min(360.0), 32.0);
         let place = Rect::from_min_size(inner.right_bottom() - size, size);
         self.floats.push(place);
-        ui.painter().rect_filled(place, 8.0, tokens(ui).popup);
-        let mut child = ui.new_child(egui::UiBuilder::new().max_rect(place.shrink2(vec2(12.0, 2.0))));
-        if progress_row(&mut child, what, done as u64, None) {
+        paint_floating(ui, place);
+        let row =
+            place.with_min_x(place.left() + 12.0).with_max_x(place.right() - 4.0).shrink2(vec2(0.0, 4.0));
+        let mut child = ui.new_child(egui::UiBuilder::new().max_rect(row));
+        if progress_row(&mut child, what, &done) {
             self.cancel_work();
         }
     }

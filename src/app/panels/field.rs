@@ -83,7 +83,7 @@ impl App {
     fn constant_ui(&mut self, ui: &mut Ui, base: &Base) {
         let h_max = self.session.document().settings().transfer.h_max;
         let mut value = if let Base::Constant(value) = base { *value } else { h_max };
-        let help = "Target diameter where nothing is painted.";
+        let help = "Target diameter where nothing is painted; h_min and h_max bound it.";
         let response = NumberRow::new("Diameter", &mut value).help(help).show(ui);
         if response.changed() {
             self.set_whole(Setting::Base(Base::Constant(value)));
@@ -127,7 +127,11 @@ impl App {
     pub(super) fn inside_ui(&mut self, ui: &mut Ui) {
         let domain = &self.session.document().settings().domain;
         let (bounds, current) = (domain.bounds, domain.formula().cloned());
-        let hint = "the whole rectangle; or x^2 + y^2 < 1";
+        let hint = if domain.region().is_some() {
+            "in the polygons; or x^2 + y^2 < 1"
+        } else {
+            "everywhere; or x^2 + y^2 < 1"
+        };
         if let Some(inside) = formula_row(ui, "Domain where", hint, &mut self.field_texts.inside, current) {
             let shape = inside.map_or(Shape::Whole, Shape::Formula);
             self.set_whole(Setting::Domain(Domain { bounds, shape }));

@@ -61,20 +61,20 @@ impl App {
 
     /// The three neighbours as chips in their colours on the canvas; a click goes there.
     fn neighbours_ui(&mut self, ui: &mut Ui, triangle: &TriangleReadout) {
-        let colours = tokens(ui).neighbours;
+        let colors = tokens(ui).neighbours;
         ui.add_space(4.0);
         chips(ui, |ui| {
             for (i, neighbour) in triangle.neighbours.iter().enumerate() {
-                self.neighbour_chip(ui, i, *neighbour, colours[i]);
+                self.neighbour_chip(ui, i, *neighbour, colors[i]);
             }
         });
         ui.add_space(4.0);
     }
 
-    fn neighbour_chip(&mut self, ui: &mut Ui, i: usize, neighbour: Neighbour, colour: eframe::egui::Color32) {
+    fn neighbour_chip(&mut self, ui: &mut Ui, i: usize, neighbour: Neighbour, color: eframe::egui::Color32) {
         let name = ["Bisection neighbour", "Second neighbour", "Third neighbour"][i];
         let text = neighbour.triangle().map_or("edge".into(), |id| number(self.session.triangle_number(id)));
-        let response = Chip::new(colour, &text, name).enabled(neighbour.triangle().is_some()).show(ui);
+        let response = Chip::new(color, &text, name).enabled(neighbour.triangle().is_some()).show(ui);
         if let Some(id) = neighbour.triangle() {
             if response.clicked() {
                 self.commands.push(Command::QueryTriangle(id));
@@ -120,9 +120,9 @@ fn where_on(location: Location) -> Option<&'static str> {
 
 fn nowhere_ui(ui: &mut Ui, readout: &Readout) {
     let text = match readout.location {
-        Location::InHole => "The point lies in a hole of the domain, or beyond it: no triangle is there.",
+        Location::InHole => "The point lies in a hole of the domain, or beyond its outline.",
         Location::Invalid => "The point is not a number.",
-        _ => "The point lies outside the domain: no triangle is there.",
+        _ => "The point lies outside the domain.",
     };
     empty_state(ui, Icon::QUERY, "No triangle here", text, None);
 }

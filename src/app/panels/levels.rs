@@ -34,7 +34,7 @@ impl App {
         let [r, g, b, _] = colors.of(level as u8);
         LevelRow {
             level: level as u32,
-            colour: Color32::from_rgb(r, g, b),
+            color: Color32::from_rgb(r, g, b),
             count: self.session.level_counts().get(level).copied().unwrap_or(0) as u64,
             diameter: self.session.mesh().diameter(level as u32),
         }

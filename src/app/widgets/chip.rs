@@ -10,16 +10,16 @@ use crate::app::theme::{font, metrics, tokens};
 /// A chip: a coloured dot and a text, on which one may click.
 #[must_use = "call `show`"]
 pub struct Chip<'a> {
-    colour: Color32,
+    color: Color32,
     text: &'a str,
     name: &'a str,
     enabled: bool,
 }
 
 impl<'a> Chip<'a> {
-    /// A chip with a dot in `colour`; `name` tells the tooltip, tests and screen readers what a click does.
-    pub fn new(colour: Color32, text: &'a str, name: &'a str) -> Self {
-        Self { colour, text, name, enabled: true }
+    /// A chip with a dot in `color`; `name` tells the tooltip, tests and screen readers what a click does.
+    pub fn new(color: Color32, text: &'a str, name: &'a str) -> Self {
+        Self { color, text, name, enabled: true }
     }
 
     /// Whether it can be clicked; a neighbour that is the boundary cannot.
@@ -52,11 +52,11 @@ impl<'a> Chip<'a> {
     fn paint(&self, ui: &Ui, rect: Rect, response: &Response) {
         let t = tokens(ui);
         let lit = self.enabled && response.hovered();
-        let (fill, edge) = if lit { (t.hover, self.colour) } else { (t.well, t.line) };
+        let (fill, edge) = if lit { (t.hover, self.color) } else { (t.well, t.line) };
         ui.painter().rect(rect, metrics::RADIUS_CONTROL, fill, Stroke::new(1.0, edge), StrokeKind::Inside);
         let dot = Rect::from_center_size(pos2(rect.left() + 13.0, rect.center().y), vec2(8.0, 8.0));
         let opacity = if self.enabled { 1.0 } else { 0.4 };
-        ui.painter().rect_filled(dot, 2.0, self.colour.gamma_multiply(opacity));
+        ui.painter().rect_filled(dot, 2.0, self.color.gamma_multiply(opacity));
         paint::focus_ring(ui, response, rect, metrics::RADIUS_CONTROL);
     }
 }

@@ -24,7 +24,7 @@ pub fn floating_tag(
     let rect = within(align.anchor_size(anchor, size), bounds).round_to_pixels(ui.pixels_per_point());
     let response = ui.interact(rect, ui.scope_id().with("floating tag"), Sense::hover());
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, text));
-    paint_ground(ui, rect);
+    paint_floating(ui, rect);
     paint::at_centre(ui, rect, galley);
     response
 }
@@ -54,7 +54,11 @@ pub fn hint_pill(ui: &Ui, anchor: Pos2, align: Align2, bounds: Rect, hints: &[Hi
     let rect = within(align.anchor_size(anchor, size), bounds).round_to_pixels(ui.pixels_per_point());
     let response = ui.interact(rect, ui.scope_id().with("hint pill"), Sense::hover());
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, spoken(shown)));
-    paint_ground(ui, rect);
+    if ui.rect_contains_pointer(rect) {
+        // Whoever works there wants to see the mesh.
+        return response;
+    }
+    paint_floating(ui, rect);
     let mut at = pos2(rect.left() + 12.0, rect.center().y);
     for (i, hint) in shown.iter().enumerate() {
         at.x += paint_piece(ui, at, hint);
@@ -76,7 +80,8 @@ fn gap_after(hint: &Hint<'_>) -> f32 {
     if matches!(hint, Hint::Text(_)) { SEPARATION } else { GAP }
 }
 
-fn paint_ground(ui: &Ui, rect: Rect) {
+/// The ground of whatever floats over the canvas.
+pub fn paint_floating(ui: &Ui, rect: Rect) {
     let t = tokens(ui);
     let edge = Stroke::new(1.0, t.edge);
     ui.painter().add(t.tag_shadow().as_shape(rect, metrics::RADIUS_TAG));

@@ -37,14 +37,6 @@ impl Icon {
     pub const INFO: Self = Self(material::ICON_INFO.codepoint);
     /// Search.
     pub const SEARCH: Self = Self(material::ICON_SEARCH.codepoint);
-    /// Add one.
-    pub const ADD: Self = Self(material::ICON_ADD.codepoint);
-    /// Remove one.
-    pub const DELETE: Self = Self(material::ICON_DELETE.codepoint);
-    /// A file or folder.
-    pub const FOLDER: Self = Self(material::ICON_FOLDER_OPEN.codepoint);
-    /// Copy to the clipboard.
-    pub const COPY: Self = Self(material::ICON_CONTENT_COPY.codepoint);
 
     /// The text that draws it, in the family [`crate::app::theme::font::ICONS`].
     pub const fn glyph(self) -> &'static str {

@@ -20,7 +20,7 @@ pub struct LevelRow {
     /// The level, from 0.
     pub level: u32,
     /// The level's colour on the canvas.
-    pub colour: Color32,
+    pub color: Color32,
     /// How many triangles have it.
     pub count: u64,
     /// The diameter of its triangles in world units.
@@ -157,18 +157,18 @@ impl Layout {
         let thickness = (rect.height() - 6.0).clamp(8.0, 11.0);
         let middle = pos2(left + width / 2.0, rect.center().y);
         let bar = Rect::from_center_size(middle, vec2(width, thickness));
-        let edge = edge_of(ui, row.colour).gamma_multiply(opacity);
-        let fill = row.colour.gamma_multiply(opacity);
+        let edge = edge_of(ui, row.color).gamma_multiply(opacity);
+        let fill = row.color.gamma_multiply(opacity);
         ui.painter().rect(bar, 2.0, fill, Stroke::new(1.0, edge), StrokeKind::Inside);
         bar.right()
     }
 }
 
 /// An outline for bars that are hard to tell from the panel: level 0 is close to it on purpose.
-fn edge_of(ui: &Ui, colour: Color32) -> Color32 {
+fn edge_of(ui: &Ui, color: Color32) -> Color32 {
     let t = tokens(ui);
     let far = |a: u8, b: u8| a.abs_diff(b) > 40;
     let p = t.panel;
-    let distinct = far(colour.r(), p.r()) || far(colour.g(), p.g()) || far(colour.b(), p.b());
+    let distinct = far(color.r(), p.r()) || far(color.g(), p.g()) || far(color.b(), p.b());
     if distinct { Color32::TRANSPARENT } else { t.panel.lerp_to_gamma(t.faint, 0.45) }
 }

@@ -34,7 +34,7 @@ pub use chip::{Chip, chips};
 pub use confirm::{Answer, ConfirmDialog, dialog, dialog_title};
 pub use dropdown::dropdown_row;
 pub use empty::empty_state;
-pub use float::{Hint, floating_tag, hint_pill, tag_size};
+pub use float::{Hint, floating_tag, hint_pill, paint_floating, tag_size};
 pub use fuzzy::{Match, fuzzy_match};
 pub use icon::Icon;
 pub use levels::{LevelLegend, LevelRow, LevelsResponse};
