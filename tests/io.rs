@@ -7,7 +7,7 @@ use flate2::read::ZlibDecoder;
 use glam::{DVec2, dvec2};
 use meshbrush::colormap::{Colormap, Ground, LevelColors};
 use meshbrush::geometry::Rect;
-use meshbrush::io::{MeshData, Quantity, csv, msh, node, obj, sms, stl, svg, vtu};
+use meshbrush::io::{MeshData, NodeValues, csv, msh, node, obj, sms, stl, svg, vtu};
 use meshbrush::mesh::{Extract, Limits, Mesh, NodeId};
 
 /// A mesh as a reader finds it.
@@ -26,7 +26,7 @@ struct Found {
 struct Sample {
     mesh: Mesh,
     targets: Vec<f64>,
-    quantities: Vec<Quantity>,
+    quantities: Vec<NodeValues>,
 }
 
 impl Sample {
@@ -38,7 +38,8 @@ impl Sample {
         mesh.refine(&limits, |e| Ok(e.world_corners().iter().any(|&p| e.diameter() > target(p)))).unwrap();
         let nodes = || (0..mesh.nodes().len()).map(|n| mesh.world(NodeId::from_index(n)));
         let targets = nodes().map(target).collect();
-        let height = Quantity { name: "height".into(), values: nodes().map(|p| p.x * 1e-9 - p.y).collect() };
+        let height =
+            NodeValues { name: "height".into(), values: nodes().map(|p| p.x * 1e-9 - p.y).collect() };
         Self { targets, quantities: vec![height], mesh }
     }
 

@@ -9,7 +9,7 @@ use meshbrush::geometry::{LatticePoint, LatticeRect, Rect};
 use meshbrush::mesh::{Changes, Element, Limits, Mesh, Progress, Updater};
 use meshbrush::render::gpu::{ChunkLimits, GpuError, Offscreen};
 use meshbrush::render::{Image, software};
-use meshbrush::scene::{Camera, LEVELS, LevelColors, Overlay, Style};
+use meshbrush::scene::{Camera, ColorTable, LEVELS, Overlay, Style};
 
 const SIZE: [u32; 2] = [400, 300];
 
@@ -26,7 +26,7 @@ fn gpu() -> Option<Offscreen> {
 }
 
 /// Level 0 dark, then from violet to yellow: near enough to the program's own colours to judge pictures by.
-fn colors() -> LevelColors {
+fn colors() -> ColorTable {
     const STOPS: [[f32; 3]; 5] =
         [[70., 40., 120.], [59., 82., 139.], [33., 145., 140.], [94., 201., 98.], [253., 231., 37.]];
     std::array::from_fn(|level| {
@@ -202,26 +202,6 @@ fn an_overlay_and_a_level_filter_agree() {
         let expected = software::draw(&mesh, &camera, &style, Some(&overlay), &[]);
         assert_agree(&format!("overlay-{zoom}"), &picture, &expected);
     }
-}
-
-#[test]
-fn only_changed_rows_of_an_overlay_travel() {
-    let Some(mut gpu) = gpu() else { return };
-    let mesh = graded();
-    let camera = whole(&mesh);
-    let style = Style::dark(colors());
-    gpu.show(&mesh, 1).unwrap();
-    let before = vec![[0, 0, 0, 0]; 16 * 16];
-    let mut after = before.clone();
-    after[5 * 16..7 * 16].fill([255, 0, 0, 255]);
-    let clear =
-        Overlay { bounds: Rect::UNIT, columns: 16, rows: 16, rgba: &before, opacity: 1.0, revision: 1 };
-    gpu.show_overlay(Some(&clear)).unwrap();
-    let changed = Overlay { rgba: &after, revision: 2, ..clear };
-    let (device, queue) = (gpu.device().clone(), gpu.queue().clone());
-    gpu.renderer().set_overlay_rows(&device, &queue, &changed, 5..7).unwrap();
-    let picture = gpu.picture(&camera, &style).unwrap();
-    assert_agree("rows", &picture, &software::draw(&mesh, &camera, &style, Some(&changed), &[]));
 }
 
 #[test]

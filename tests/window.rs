@@ -445,8 +445,8 @@ struct Rgb([u8; 3]);
 
 impl Rgb {
     fn is_level_0(self) -> bool {
-        let (colour, tolerance) = LEVEL_0;
-        self.0.iter().zip(colour).all(|(&a, b)| a.abs_diff(b) <= tolerance)
+        let (color, tolerance) = LEVEL_0;
+        self.0.iter().zip(color).all(|(&a, b)| a.abs_diff(b) <= tolerance)
     }
 
     /// Any level's colour from 1 on, darkened by an edge or not: all are colourful, while level 0 and the ground are grey.
@@ -481,14 +481,14 @@ impl Picture {
         let word =
             |i: usize| u32::from_be_bytes(bytes[4 * i..][..4].try_into().expect("four bytes")) as usize;
         let [header, version, width, height] = [word(0), word(1), word(4), word(5)];
-        let [order, bits, row, colours] = [word(7), word(11), word(12), word(19)];
+        let [order, bits, row, colors] = [word(7), word(11), word(12), word(19)];
         let masks = [word(14), word(15), word(16)];
         assert_eq!(
             (version, bits, masks),
             (7, 32, [0xff0000, 0xff00, 0xff]),
             "Xvfb was asked for true colour"
         );
-        let rows = bytes[header + 12 * colours..].chunks(row).take(height);
+        let rows = bytes[header + 12 * colors..].chunks(row).take(height);
         let pixels = rows.flat_map(|row| row[..4 * width].as_chunks().0);
         let rgb = pixels.flat_map(|&[a, b, c, d]| if order == 0 { [c, b, a] } else { [b, c, d] }).collect();
         Self { width, rgb }

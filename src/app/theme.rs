@@ -367,12 +367,12 @@ mod tests {
     use crate::colormap::{Colormap, LevelColors};
 
     /// Relative luminance as WCAG 2 defines it.
-    fn luminance(colour: Color32) -> f64 {
+    fn luminance(color: Color32) -> f64 {
         let linear = |byte: u8| {
             let c = f64::from(byte) / 255.0;
             if c <= 0.04045 { c / 12.92 } else { ((c + 0.055) / 1.055).powf(2.4) }
         };
-        0.2126 * linear(colour.r()) + 0.7152 * linear(colour.g()) + 0.0722 * linear(colour.b())
+        0.2126 * linear(color.r()) + 0.7152 * linear(color.g()) + 0.0722 * linear(color.b())
     }
 
     fn contrast(a: Color32, b: Color32) -> f64 {
@@ -405,7 +405,7 @@ mod tests {
     }
 
     #[test]
-    fn coloured_text_stands_out_from_its_ground() {
+    fn colored_text_stands_out_from_its_ground() {
         for t in both() {
             readable("on selected", t, t.on_selected, t.selected);
             readable("on danger", t, t.on_selected, t.danger_fill);

@@ -14,7 +14,7 @@ use super::summary::Summary;
 use super::terminal::Terminal;
 use crate::field::Formula;
 use crate::geometry::Grouped;
-use crate::io::{MeshData, Quantity};
+use crate::io::{MeshData, NodeValues};
 use crate::mesh::{Extract, TriangleId};
 
 /// Broken invariants that are printed one by one; the others are counted.
@@ -120,7 +120,7 @@ fn write_files(
     Ok(())
 }
 
-fn evaluated(formula: &Formula, mesh: &Extract) -> Result<Quantity, Failure> {
+fn evaluated(formula: &Formula, mesh: &Extract) -> Result<NodeValues, Failure> {
     let value = |p: DVec2| {
         let value = formula.eval(p.x, p.y);
         if value.is_finite() {
@@ -133,5 +133,5 @@ fn evaluated(formula: &Formula, mesh: &Extract) -> Result<Quantity, Failure> {
         }
     };
     let values = mesh.world_nodes().map(value).collect::<Result<_, _>>()?;
-    Ok(Quantity { name: "quantity".to_owned(), values })
+    Ok(NodeValues { name: "quantity".to_owned(), values })
 }

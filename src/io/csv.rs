@@ -6,7 +6,7 @@
 
 use std::io::{self, Write};
 
-use super::{MeshData, Number, Quantity};
+use super::{MeshData, NodeValues, Number};
 use crate::mesh::{Extract, NodeId};
 
 const HEADER: &str = "triangle,level,v1,v2,v3,n1,n2,n3,x1,y1,x2,y2,x3,y3,target1,target2,target3";
@@ -17,7 +17,7 @@ const HEADER: &str = "triangle,level,v1,v2,v3,n1,n2,n3,x1,y1,x2,y2,x3,y3,target1
 /// Those of `out`.
 pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Result<()> {
     write!(out, "{HEADER}")?;
-    for Quantity { name, .. } in data.quantities {
+    for NodeValues { name, .. } in data.quantities {
         write!(out, ",{name}1,{name}2,{name}3")?;
     }
     writeln!(out)?;

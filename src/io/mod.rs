@@ -39,12 +39,12 @@ pub struct MeshData<'a> {
     /// h̄ at each node, in world units.
     pub target_diameter: &'a [f64],
     /// Further values at the nodes.
-    pub quantities: &'a [Quantity],
+    pub quantities: &'a [NodeValues],
 }
 
 /// A value at each node, with the name that it has in files.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Quantity {
+pub struct NodeValues {
     /// Letters, digits and underscores.
     pub name: String,
     /// One value for each node.

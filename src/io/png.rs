@@ -200,7 +200,7 @@ mod tests {
     }
 
     #[test]
-    fn a_palette_that_ends_within_a_colour_is_refused() {
+    fn a_palette_that_ends_within_a_color_is_refused() {
         let mut file = encoded(ColorType::Indexed, BitDepth::Two, [3, 1], &[0b0001_1000]);
         // From nine bytes of colours the last is taken out.
         let at = file.windows(4).position(|name| name == b"PLTE").unwrap();

@@ -12,4 +12,4 @@ mod style;
 pub use camera::Camera;
 pub use highlight::{Highlights, Outline, highlight_outlines};
 pub use overlay::{Overlay, TexelMap};
-pub use style::{LEVELS, LevelColors, LevelPaint, Style};
+pub use style::{ColorTable, LEVELS, LevelPaint, Style};

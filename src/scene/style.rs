@@ -5,7 +5,7 @@ use crate::colormap::Ground;
 pub const LEVELS: usize = 64;
 
 /// The colour of each level, from 0: red, green, blue as sRGB bytes. The fourth byte is not used, fills are opaque.
-pub type LevelColors = [[u8; 4]; LEVELS];
+pub type ColorTable = [[u8; 4]; LEVELS];
 
 fn opaque([r, g, b]: [u8; 3]) -> [u8; 4] {
     [r, g, b, 0xff]
@@ -15,7 +15,7 @@ fn opaque([r, g, b]: [u8; 3]) -> [u8; 4] {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Style {
     /// Fill by level.
-    pub level_colors: LevelColors,
+    pub level_colors: ColorTable,
     /// What shows where there is no mesh: the colour of the canvas.
     pub ground: [u8; 4],
     /// Whether edges are drawn.
@@ -37,7 +37,7 @@ const RECEDED_EDGE: f32 = 0.5;
 
 impl Style {
     /// The look on a dark ground.
-    pub fn dark(level_colors: LevelColors) -> Self {
+    pub fn dark(level_colors: ColorTable) -> Self {
         Self {
             level_colors,
             ground: opaque(Ground::Dark.canvas()),
@@ -50,7 +50,7 @@ impl Style {
     }
 
     /// The look on a light ground.
-    pub fn light(level_colors: LevelColors) -> Self {
+    pub fn light(level_colors: ColorTable) -> Self {
         Self { ground: opaque(Ground::Light.canvas()), edge_shade: 0.72, ..Self::dark(level_colors) }
     }
 

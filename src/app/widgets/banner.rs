@@ -63,20 +63,20 @@ impl<'a> Banner<'a> {
     /// Shows the banner over the full width; its height follows the text.
     pub fn show(self, ui: &mut Ui) -> BannerAnswer {
         let t = tokens(ui);
-        let (icon, colour) = match self.kind {
+        let (icon, color) = match self.kind {
             BannerKind::Error => (Icon::ERROR, t.danger),
             BannerKind::Info => (Icon::INFO, t.accent),
         };
         let frame = egui::Frame::new()
             .fill(t.popup)
-            .stroke(Stroke::new(1.0, t.line.lerp_to_gamma(colour, 0.35)))
+            .stroke(Stroke::new(1.0, t.line.lerp_to_gamma(color, 0.35)))
             .corner_radius(metrics::RADIUS_PANEL)
             .shadow(t.tag_shadow())
             .inner_margin(Margin { left: 12, right: 6, top: 6, bottom: 6 });
-        frame.show(ui, |ui| self.contents(ui, icon, colour)).inner
+        frame.show(ui, |ui| self.contents(ui, icon, color)).inner
     }
 
-    fn contents(&self, ui: &mut Ui, icon: Icon, colour: Color32) -> BannerAnswer {
+    fn contents(&self, ui: &mut Ui, icon: Icon, color: Color32) -> BannerAnswer {
         let button = self.action.map_or(0.0, |action| action_width(ui, action) + 8.0);
         let cross = if self.stands { 0.0 } else { metrics::ROW };
         let room = ui.available_width() - 28.0 - button - cross - 8.0;
@@ -86,9 +86,9 @@ impl<'a> Banner<'a> {
         let response = ui.interact(rect, id, Sense::hover());
         response.widget_info(|| WidgetInfo::labeled(Role::Alert, true, self.text));
         let first_line = Rect::from_min_size(rect.min, vec2(20.0, height.min(metrics::ROW + 4.0)));
-        paint::at_left(ui, first_line, paint::line(ui, icon.glyph(), font::icon(18.0), colour));
+        paint::at_left(ui, first_line, paint::line(ui, icon.glyph(), font::icon(18.0), color));
         let corner = pos2(rect.left() + 28.0, rect.center().y - text.size().y / 2.0);
-        ui.painter().galley(corner.round(), text, colour);
+        ui.painter().galley(corner.round(), text, color);
         self.buttons(ui, rect)
     }
 

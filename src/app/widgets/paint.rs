@@ -9,21 +9,21 @@ use egui::text::{LayoutJob, TextFormat, TextWrapping};
 use crate::app::theme::{font, metrics, tokens};
 
 /// One line of text.
-pub(super) fn line(ui: &Ui, text: &str, font: FontId, colour: Color32) -> Arc<Galley> {
-    ui.painter().layout_no_wrap(text.to_owned(), font, colour)
+pub(super) fn line(ui: &Ui, text: &str, font: FontId, color: Color32) -> Arc<Galley> {
+    ui.painter().layout_no_wrap(text.to_owned(), font, color)
 }
 
 /// One line of text, ended by `…` where it exceeds `width` points.
-pub(super) fn elided(ui: &Ui, text: &str, font: FontId, colour: Color32, width: f32) -> Arc<Galley> {
-    let mut job = LayoutJob::simple_singleline(text.to_owned(), font, colour);
+pub(super) fn elided(ui: &Ui, text: &str, font: FontId, color: Color32, width: f32) -> Arc<Galley> {
+    let mut job = LayoutJob::simple_singleline(text.to_owned(), font, color);
     job.wrap = TextWrapping::truncate_at_width(width);
     ui.painter().layout_job(job)
 }
 
 /// A title in small capitals: upper case, semi-bold, slightly spaced.
-pub(super) fn small_caps(ui: &Ui, text: &str, colour: Color32, width: f32) -> Arc<Galley> {
+pub(super) fn small_caps(ui: &Ui, text: &str, color: Color32, width: f32) -> Arc<Galley> {
     let format =
-        TextFormat { font_id: font::title(), extra_letter_spacing: 0.6, color: colour, ..Default::default() };
+        TextFormat { font_id: font::title(), extra_letter_spacing: 0.6, color, ..Default::default() };
     let mut job = LayoutJob::single_section(text.to_uppercase(), format);
     job.wrap = TextWrapping::truncate_at_width(width);
     ui.painter().layout_job(job)

@@ -131,13 +131,13 @@ fn paint_caret(ui: &Ui, tip: Pos2, pointed: bool) {
 }
 
 fn message(ui: &mut Ui, field: Rect, text: &str) {
-    let colour = tokens(ui).danger;
-    let galley = ui.painter().layout(text.to_owned(), font::caption(), colour, field.width() - 8.0);
+    let color = tokens(ui).danger;
+    let galley = ui.painter().layout(text.to_owned(), font::caption(), color, field.width() - 8.0);
     let height = (galley.size().y + 6.0).max(metrics::ROW - 4.0);
     let (id, rect) = ui.allocate_space(vec2(ui.available_width(), height));
     let response = ui.interact(rect, id, Sense::hover());
     response.widget_info(|| WidgetInfo::labeled(Role::Alert, true, text));
-    ui.painter().galley(pos2(field.left() + 8.0, rect.top() + 4.0), galley, colour);
+    ui.painter().galley(pos2(field.left() + 8.0, rect.top() + 4.0), galley, color);
 }
 
 #[cfg(test)]

@@ -400,10 +400,10 @@ impl Plot {
 }
 
 /// The area between a curve and the line `bottom`, fading downwards.
-fn area_under(points: &[Pos2], bottom: f32, colour: Color32) -> Shape {
+fn area_under(points: &[Pos2], bottom: f32, color: Color32) -> Shape {
     let mut mesh = Mesh::default();
     for (i, point) in points.iter().enumerate() {
-        mesh.colored_vertex(*point, colour);
+        mesh.colored_vertex(*point, color);
         mesh.colored_vertex(pos2(point.x, bottom), Color32::TRANSPARENT);
         if i > 0 {
             let last = 2 * i as u32;

@@ -171,20 +171,6 @@ impl GpuRenderer {
         self.overlay.set(device, queue, overlay)
     }
 
-    /// As [`Self::set_overlay`] where only the given rows, counted from the lowest, differ from the revision shown.
-    ///
-    /// # Errors
-    /// As [`Self::set_overlay`].
-    pub fn set_overlay_rows(
-        &mut self,
-        device: &wgpu::Device,
-        queue: &wgpu::Queue,
-        overlay: &Overlay,
-        rows: std::ops::Range<u32>,
-    ) -> Result<(), GpuError> {
-        self.overlay.set_rows(device, queue, overlay, rows)
-    }
-
     /// Draws the picture of the mesh with `encoder` if the mesh, the camera or the style changed, and readies
     /// [`Self::paint`].
     ///

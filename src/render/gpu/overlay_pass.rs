@@ -1,7 +1,5 @@
 //! The raster above the mesh.
 
-use std::ops::Range;
-
 use super::GpuError;
 use super::layout::OverlayView;
 use super::mesh_pass::{full_pipeline, new_texture, texel_entry, uniform_buffer, uniform_entry};
@@ -58,27 +56,21 @@ impl OverlayPass {
             self.raster = None;
             return Ok(());
         };
-        let stale = self.fitting(overlay).is_none_or(|raster| raster.revision != overlay.revision);
-        let rows = if stale { 0..overlay.rows } else { 0..0 };
-        self.set_rows(device, queue, overlay, rows)
-    }
-
-    pub(super) fn set_rows(
-        &mut self,
-        device: &wgpu::Device,
-        queue: &wgpu::Queue,
-        overlay: &Overlay,
-        rows: Range<u32>,
-    ) -> Result<(), GpuError> {
         if overlay.columns == 0 || overlay.rows == 0 {
             self.raster = None;
             return Ok(());
         }
-        let (mut raster, rows) = match self.fitting(overlay) {
-            Some(_) => (self.raster.take().expect("it was found to fit"), rows),
-            None => (self.new_raster(device, overlay)?, 0..overlay.rows),
-        };
-        write_rows(queue, &raster.texture, overlay, rows);
+        let (mut raster, stale) =
+            match self.raster.take().filter(|raster| raster.size() == [overlay.columns, overlay.rows]) {
+                Some(raster) => {
+                    let stale = raster.revision != overlay.revision;
+                    (raster, stale)
+                }
+                None => (self.new_raster(device, overlay)?, true),
+            };
+        if stale {
+            write(queue, &raster.texture, overlay);
+        }
         (raster.bounds, raster.opacity, raster.revision) =
             (overlay.bounds, overlay.opacity, overlay.revision);
         self.raster = Some(raster);
@@ -106,10 +98,6 @@ impl OverlayPass {
         pass.draw(0..3, 0..1);
     }
 
-    fn fitting(&self, overlay: &Overlay) -> Option<&Raster> {
-        self.raster.as_ref().filter(|raster| raster.size() == [overlay.columns, overlay.rows])
-    }
-
     fn new_raster(&self, device: &wgpu::Device, overlay: &Overlay) -> Result<Raster, GpuError> {
         let size = [overlay.columns, overlay.rows];
         let limit = device.limits().max_texture_dimension_2d;
@@ -132,26 +120,21 @@ impl OverlayPass {
     }
 }
 
-fn write_rows(queue: &wgpu::Queue, texture: &wgpu::Texture, overlay: &Overlay, rows: Range<u32>) {
-    let rows = rows.start.min(overlay.rows)..rows.end.min(overlay.rows);
-    if rows.is_empty() {
-        return;
-    }
-    let columns = overlay.columns as usize;
-    let colors = &overlay.rgba[rows.start as usize * columns..rows.end as usize * columns];
+fn write(queue: &wgpu::Queue, texture: &wgpu::Texture, overlay: &Overlay) {
+    let count = overlay.columns as usize * overlay.rows as usize;
     queue.write_texture(
         wgpu::TexelCopyTextureInfo {
             texture,
             mip_level: 0,
-            origin: wgpu::Origin3d { x: 0, y: rows.start, z: 0 },
+            origin: wgpu::Origin3d::ZERO,
             aspect: wgpu::TextureAspect::All,
         },
-        bytemuck::cast_slice(colors),
+        bytemuck::cast_slice(&overlay.rgba[..count]),
         wgpu::TexelCopyBufferLayout {
             offset: 0,
             bytes_per_row: Some(4 * overlay.columns),
             rows_per_image: None,
         },
-        wgpu::Extent3d { width: overlay.columns, height: rows.end - rows.start, depth_or_array_layers: 1 },
+        wgpu::Extent3d { width: overlay.columns, height: overlay.rows, depth_or_array_layers: 1 },
     );
 }

@@ -146,10 +146,10 @@ mod tests {
     use super::*;
     use crate::geometry::Rect;
     use crate::mesh::Limits;
-    use crate::scene::{LEVELS, LevelColors};
+    use crate::scene::{ColorTable, LEVELS};
     use glam::dvec2;
 
-    fn colors() -> LevelColors {
+    fn colors() -> ColorTable {
         std::array::from_fn(|level| [40 + 3 * level as u8, 90, 120, 255])
     }
 
