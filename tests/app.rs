@@ -1154,13 +1154,13 @@ fn a_price_past_the_budget_says_so() {
 fn the_budgets_are_typed_in_the_panel_and_what_is_too_small_is_told() {
     let mut window = window_of(TALL);
     open_section(&mut window, "Mesh");
-    type_into(&mut window, "Max memory", "0.5");
+    type_into(&mut window, "Memory budget", "0.5");
     assert_eq!(settings(&window).max_memory, 500_000_000);
-    type_into(&mut window, "Max triangles", "1.5");
+    type_into(&mut window, "Triangle budget", "1.5");
     assert_eq!(settings(&window).max_triangles, 1_500_000);
     let count = triangles(&window);
     // Room for fewer triangles than there are.
-    type_into(&mut window, "Max memory", "0.001");
+    type_into(&mut window, "Memory budget", "0.001");
     assert!(notice(&window).contains("1 MB of memory"), "{}", notice(&window));
     assert_eq!((settings(&window).max_memory, triangles(&window)), (500_000_000, count));
     set(&mut window, Setting::MaxMemory(86 * (count + 100)));
@@ -1387,6 +1387,18 @@ fn the_former_mesh_is_shown_until_the_new_one_is_whole() {
     assert!(frames > 5, "so much work is spread over more than {frames} frames");
     assert!(triangles(&window) > 1_500_000, "{}", triangles(&window));
     assert_eq!(window.state().session().follower().revision(), generation + 1);
+}
+
+#[test]
+fn in_a_small_window_nothing_covers_the_button_that_cancels() {
+    let mut window = window_of(vec2(900.0, 600.0));
+    window.state_mut().send(Command::Set(Setting::SmallestDiameter(1e-4)));
+    let patience = Instant::now() + Duration::from_secs(20);
+    while window.query_by_label("Cancel").is_none() {
+        assert!(Instant::now() < patience, "no progress was shown");
+        window.step();
+    }
+    assert!(window.query_by_label_contains("Drag to paint risk").is_none(), "the hint makes room");
 }
 
 #[test]

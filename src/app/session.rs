@@ -281,11 +281,15 @@ fn standstill(error: &FollowError) -> String {
     match error {
         FollowError::Refine(RefineError::TooManyTriangles { limit }) => {
             let limit = format::count(*limit as u64);
-            format!("The mesh stops at its limit of {limit} triangles: {kept} Raise Max triangles {helps}")
+            format!(
+                "The mesh stops at its limit of {limit} triangles: {kept} Raise the triangle budget {helps}"
+            )
         }
         FollowError::Refine(RefineError::TooMuchMemory { memory, .. }) => {
             let limit = Bytes(memory.bytes);
-            format!("The mesh stops at its limit of {limit} of memory: {kept} Raise Max memory {helps}")
+            format!(
+                "The mesh stops at its limit of {limit} of memory: {kept} Raise the memory budget {helps}"
+            )
         }
         other => format!("{other} Until then {kept}"),
     }

@@ -230,9 +230,10 @@ impl App {
         let inner = rect.shrink(12.0);
         self.floats.clear();
         self.show_notice(ui, inner);
-        self.show_progress(ui, inner);
+        let works = self.show_progress(ui, inner);
         let hints = self.hints.for_tool(self.tools.tool, self.tools.kind);
-        if !hints.is_empty() && self.session.notice().is_none() {
+        // In a small window there is no room for both below.
+        if !hints.is_empty() && !works && self.session.notice().is_none() {
             hint_pill(ui, inner.left_bottom(), Align2::LEFT_BOTTOM, inner, hints);
         }
     }
@@ -258,12 +259,12 @@ impl App {
         }
     }
 
-    /// A thin bar, once work has taken longer than a moment.
-    fn show_progress(&mut self, ui: &mut Ui, inner: Rect) {
+    /// How far work is, once it has taken longer than a moment; tells whether that is shown.
+    fn show_progress(&mut self, ui: &mut Ui, inner: Rect) -> bool {
         let stage = self.session.stage();
         let cuts = !self.cutter.is_idle();
         if !self.busy.is_long(cuts || stage != Stage::InStep) {
-            return;
+            return false;
         }
         let (what, done) = match stage {
             _ if cuts => ("Cutting the outline", String::new()),
@@ -272,7 +273,7 @@ impl App {
             }
             Stage::Outlining => ("Laying the outline", String::new()),
             Stage::Filling => ("Sampling the field", String::new()),
-            Stage::InStep => return,
+            Stage::InStep => return false,
         };
         let size = vec2(inner.width().min(360.0), 32.0);
         let place = Rect::from_min_size(inner.right_bottom() - size, size);
@@ -284,6 +285,7 @@ impl App {
         if progress_row(&mut child, what, &done) {
             self.cancel_work();
         }
+        true
     }
 
     /// Where a point of the world is on the screen, once there was a frame.

@@ -58,15 +58,15 @@ impl App {
         let mut millions = settings.max_triangles as f64 / MILLION;
         let mut gigabytes = settings.max_memory as f64 / BILLION;
         let help = "Most triangles, in millions. A stroke that would need more stops there; a setting is taken back.";
-        let row = NumberRow::new("Max triangles", &mut millions).range(0.001..=100.0).unit("M").help(help);
+        let row = NumberRow::new("Triangle budget", &mut millions).range(0.001..=100.0).unit("M").help(help);
         if row.show(ui).changed() {
             let max_triangles = (millions * MILLION).round() as usize;
             self.commands.extend([Command::Set(Setting::MaxTriangles(max_triangles)), Command::EndGesture]);
         }
         let help = "Most memory, in gigabytes, for the mesh and for the next one while that is made beside it: 86 bytes \
-                    a triangle. The smaller of the two counts.";
+                    a triangle. The smaller of the two budgets counts.";
         let least = LEAST_MEMORY as f64 / BILLION;
-        let row = NumberRow::new("Max memory", &mut gigabytes).range(least..=1000.0).unit("GB").help(help);
+        let row = NumberRow::new("Memory budget", &mut gigabytes).range(least..=1000.0).unit("GB").help(help);
         if row.show(ui).changed() {
             let max_memory = (gigabytes * BILLION).round() as usize;
             self.commands.extend([Command::Set(Setting::MaxMemory(max_memory)), Command::EndGesture]);

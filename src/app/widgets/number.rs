@@ -180,7 +180,7 @@ impl<'a> NumberRow<'a> {
     /// Shows the row.
     pub fn show(self, ui: &mut Ui) -> Response {
         let row = paint::row(ui);
-        let columns = paint::Columns::of(row);
+        let columns = paint::Columns::of(row).with_room_for(ui, self.label);
         paint::label(ui, columns.label, self.label, self.help);
         let (shown, exact) = (with_unit(&self.text(), self.unit), self.exact());
         let cell = NumberCell {

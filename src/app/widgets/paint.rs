@@ -85,6 +85,22 @@ impl Columns {
     }
 }
 
+impl Columns {
+    /// The same where the name is longer than its column: the control leaves it some room, by whole steps of the grid.
+    pub fn with_room_for(self, ui: &Ui, name: &str) -> Self {
+        let name = line(ui, name, font::body(), Color32::PLACEHOLDER).size().x;
+        let missing = (name - self.label.width()).clamp(0.0, self.middle.width() / 2.0);
+        let by = (missing / metrics::GRID).ceil() * metrics::GRID;
+        let longer = |rect: Rect| rect.with_min_x(rect.left() + by);
+        Self {
+            label: self.label.with_max_x(self.label.right() + by),
+            middle: longer(self.middle),
+            rest: longer(self.rest),
+            ..self
+        }
+    }
+}
+
 /// Takes a row of a panel's full width.
 pub(super) fn row(ui: &mut Ui) -> Rect {
     ui.allocate_space(vec2(ui.available_width(), metrics::ROW)).1
