@@ -570,6 +570,26 @@ fn letters_take_tools_in_hand() {
 }
 
 #[test]
+fn a_tool_taken_in_hand_brings_its_section_into_view() {
+    let mut window = window_of(vec2(900.0, 600.0));
+    let panel = canvas(&window).right_center() + vec2(100.0, 0.0);
+    window.event(Event::PointerMoved(panel));
+    window.event(Event::MouseWheel {
+        unit: egui::MouseWheelUnit::Point,
+        delta: vec2(0.0, -2000.0),
+        modifiers: Modifiers::NONE,
+        phase: egui::TouchPhase::Move,
+        source: egui::MouseWheelSource::Wheel,
+    });
+    window.run();
+    let top = canvas(&window).top();
+    let section = |window: &Window, name: &str| window.get_by_role_and_label(Role::Button, name).rect().top();
+    assert!(section(&window, "Risk to diameter") < top, "scrolled away");
+    key(&mut window, Modifiers::NONE, Key::Q);
+    assert!(section(&window, "Triangle") >= top);
+}
+
+#[test]
 fn brackets_and_digits_set_the_brush() {
     let mut window = window();
     let before = window.state().tools().clone();

@@ -37,7 +37,7 @@ use catalog::catalog;
 use command::Command;
 pub use screenshots::write as write_screenshots;
 use session::Session;
-use tools::Tools;
+use tools::{Tool, Tools};
 use view::View;
 use widgets::{CommandPalette, PaletteItem};
 
@@ -75,6 +75,8 @@ pub struct App {
     hints: hints::Hints,
     busy: busy::Busy,
     field_texts: panels::FieldTexts,
+    /// The tool whose section stood first in the last frame.
+    panel_of: Tool,
     about: bool,
     /// Whether everything that differs from run to run is left out: pictures are to be the same every time.
     reproducible: bool,
@@ -125,6 +127,7 @@ impl App {
             hints: hints::Hints::default(),
             busy: busy::Busy::default(),
             field_texts: panels::FieldTexts::default(),
+            panel_of: Tool::Brush,
             about: false,
             reproducible: false,
             gesture: Gesture::None,

@@ -54,7 +54,12 @@ impl App {
 
     fn side_ui(&mut self, ui: &mut Ui) {
         let margin = Margin::symmetric(metrics::PANEL_MARGIN as i8, 0);
-        ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        let mut area = ScrollArea::vertical().auto_shrink(false);
+        if std::mem::replace(&mut self.panel_of, self.tools.tool) != self.tools.tool {
+            // What belongs to the new tool stands first: it is to be seen.
+            area = area.vertical_scroll_offset(0.0);
+        }
+        area.show(ui, |ui| {
             Frame::new().inner_margin(margin).show(ui, |ui| self.sections_ui(ui));
         });
     }
