@@ -716,6 +716,27 @@ fn the_palette_finds_and_runs_a_command() {
 }
 
 #[test]
+fn a_long_menu_scrolls_in_a_small_window() {
+    let mut window = window_of(vec2(900.0, 600.0));
+    open_menu(&mut window, "Tool");
+    let bottom = |window: &Window| {
+        let last = window.query_all_by_label_contains("Strength 100 %").next();
+        last.map_or(f32::INFINITY, |entry| entry.rect().bottom())
+    };
+    assert!(bottom(&window) > 600.0);
+    window.event(Event::PointerMoved(pos2(240.0, 300.0)));
+    window.event(Event::MouseWheel {
+        unit: egui::MouseWheelUnit::Point,
+        delta: vec2(0.0, -2000.0),
+        modifiers: Modifiers::NONE,
+        phase: egui::TouchPhase::Move,
+        source: egui::MouseWheelSource::Wheel,
+    });
+    window.run();
+    assert!(bottom(&window) < 600.0, "{}", bottom(&window));
+}
+
+#[test]
 fn every_command_is_in_a_menu_and_every_menu_entry_in_the_palette() {
     let mut window = window();
     key(&mut window, Modifiers::COMMAND, Key::P);

@@ -1,9 +1,12 @@
-use eframe::egui::{self, Align, Button, Layout, MenuBar, RichText, Ui};
+use eframe::egui::{self, Align, Button, Layout, MenuBar, RichText, ScrollArea, Ui};
 
 use super::super::App;
 use super::super::catalog::catalog;
 use super::super::command::{Entry, Menu};
-use super::super::theme::{font, tokens};
+use super::super::theme::{font, metrics, tokens};
+
+/// Height that is not a menu's: the bar, and its own margins.
+const ROOM_ROUND_MENU: f32 = metrics::MENU_BAR + 16.0;
 
 impl App {
     pub(super) fn menu_ui(&mut self, ui: &mut Ui) {
@@ -14,9 +17,13 @@ impl App {
             for (menu, name) in Menu::ALL {
                 ui.menu_button(name, |ui| {
                     ui.set_min_width(220.0);
-                    for entry in entries.iter().filter(|entry| entry.menu == menu) {
-                        self.menu_entry(ui, entry);
-                    }
+                    // In a small window a long menu scrolls.
+                    let room = ui.ctx().content_rect().height() - ROOM_ROUND_MENU;
+                    ScrollArea::vertical().max_height(room).min_scrolled_height(room).show(ui, |ui| {
+                        for entry in entries.iter().filter(|entry| entry.menu == menu) {
+                            self.menu_entry(ui, entry);
+                        }
+                    });
                 });
             }
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
