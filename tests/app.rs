@@ -920,6 +920,17 @@ fn a_cut_under_way_is_given_up_by_undo_by_escape_and_by_another_domain() {
         window.run();
         assert_eq!((fingerprint(&window), entries(&window)), (before, entries_before));
     }
+    press(&mut window, DVec2::ZERO, Modifiers::NONE);
+    move_to(&mut window, dvec2(0.1, 0.0));
+    assert_ne!(fingerprint(&window), before);
+    key(&mut window, Modifiers::NONE, Key::Escape);
+    release(&mut window, dvec2(0.1, 0.0));
+    assert_eq!(
+        (fingerprint(&window), entries(&window)),
+        (before, entries_before),
+        "nor is half a stroke left"
+    );
+
     begin_to_cut(&mut window, &[DVec2::ZERO]);
     let bounds = settings(&window).domain.bounds;
     set(&mut window, Setting::Domain(Domain::rectangle(bounds)));

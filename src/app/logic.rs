@@ -167,8 +167,12 @@ impl App {
     fn escape(&mut self) {
         if self.session.document().stroke().is_some() {
             self.session.document_mut().cancel_stroke();
-        } else if !self.cutter.is_idle() {
+        } else if matches!(self.gesture, Gesture::Cutting { .. }) || !self.cutter.is_idle() {
+            self.gesture = Gesture::None;
             self.cutter.give_up();
+            if self.session.document().is_in_gesture() {
+                self.session.document_mut().undo();
+            }
         } else if matches!(self.gesture, Gesture::Framing { .. }) || !self.outline.is_empty() {
             self.gesture = Gesture::None;
             self.outline.clear();

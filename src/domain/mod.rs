@@ -12,7 +12,7 @@ mod tangle;
 use std::sync::Arc;
 
 use crate::field::Formula;
-use crate::geometry::Rect;
+use crate::geometry::{Grouped, Rect};
 
 pub use comparison::RegionComparison;
 pub use fit::{Boundary, DomainLaying, DomainOnLattice};
@@ -42,8 +42,9 @@ pub enum RegionError {
     TooLarge,
     /// More corners than can be worked with.
     #[error(
-        "The polygons have {corners} corners, and at most {MOST_CORNERS} can be worked with. Simplify the outline first, to the \
-         detail that the mesh is to have."
+        "The polygons have {} corners, and at most {} can be worked with. Simplify the outline first, to the detail that the \
+         mesh is to have.",
+        Grouped(*corners), Grouped(MOST_CORNERS)
     )]
     TooManyCorners {
         /// Corners of all rings.
@@ -51,14 +52,16 @@ pub enum RegionError {
     },
     /// Edges cross all over.
     #[error(
-        "The rings cross themselves or each other more than {MOST_CROSSINGS} times, so that nobody could say what they enclose. \
-         Check that the points come in the order of the outline."
+        "The rings cross themselves or each other more than {} times, so that nobody could say what they enclose. Check that \
+         the points come in the order of the outline.",
+        Grouped(MOST_CROSSINGS)
     )]
     Tangled,
     /// Too many edges are too long.
     #[error(
-        "Of the polygons' {edges} edges so many reach across so much of the width that they cannot be worked with. Simplify the \
-         outline first, or cut it into pieces."
+        "Of the polygons' {} edges so many reach across so much of the width that they cannot be worked with. Simplify the \
+         outline first, or cut it into pieces.",
+        Grouped(*edges)
     )]
     Sprawling {
         /// Edges of all rings.
