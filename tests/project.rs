@@ -423,6 +423,23 @@ fn a_sentence_stays_short_whatever_the_file_says() {
             error.len()
         );
     }
+    // From the fuzzer: numbers of three hundred digits. A few others of the kind.
+    for [from, to] in [
+        ["0.0,\n      0.0,", "1e300,\n      1e299,"],
+        ["\"spacing\": ", "\"spacing\": -1e300"],
+        ["\"h_min\": ", "\"h_min\": 1e300"],
+        ["\"fitted_with_diameter\": ", "\"fitted_with_diameter\": -1e300"],
+    ] {
+        let bytes = retold(|text| {
+            assert!(text.contains(from), "{from}: {text}");
+            let (before, after) = text.split_once(from).expect("just seen");
+            let rest = if from.ends_with(": ") { &after[after.find([',', '\n']).unwrap()..] } else { after };
+            format!("{before}{to}{rest}")
+        });
+        let project = project::from_bytes(&bytes, Path::new(NAME)).map_err(|error| error.to_string());
+        let error = project.and_then(|project| project.into_document()).unwrap_err();
+        assert!(error.contains("1e300") && error.ends_with('.') && error.len() < 300, "{error}");
+    }
     let parts = [("settings.json", "{}"), (&long[..200], ""), (&long[..200], "")];
     let twice = packed(parts.map(|(name, content)| (name.to_owned(), content.into())));
     assert!(opened(&twice).unwrap_err().len() < 200);

@@ -2,7 +2,7 @@ use std::sync::Arc;
 
 use crate::domain::{Boundary, Domain, DomainOnLattice};
 use crate::field::{Formula, Rule, Source, TargetFieldSpec, Transfer, TransferError, checked_target};
-use crate::geometry::{GridError, Grouped, Lattice};
+use crate::geometry::{GridError, Grouped, Lattice, Number};
 use crate::mesh::{Bytes, Limits, MemoryLimit};
 use crate::raster::{MAX_SIDE, Raster};
 
@@ -71,13 +71,13 @@ pub enum SettingsError {
     #[error(transparent)]
     Transfer(#[from] TransferError),
     /// So is the diameter at the boundary.
-    #[error("A diameter of {0} at the boundary cannot be met: it must be positive and finite.")]
+    #[error("A diameter of {} at the boundary cannot be met: it must be positive and finite.", Number(*.0))]
     BoundaryDiameter(f64),
     /// Nothing is left of the domain.
     #[error("Nothing would be left of the domain: keep some of it.")]
     EmptyDomain,
     /// The constant is no length.
-    #[error("A target diameter of {0} cannot be met: it must be positive and finite.")]
+    #[error("A target diameter of {} cannot be met: it must be positive and finite.", Number(*.0))]
     Constant(f64),
     /// There would be room for next to nothing.
     #[error("A memory budget of {} cannot be kept: choose {} at least.", Bytes(*bytes), Bytes(LEAST_MEMORY))]

@@ -1,3 +1,5 @@
+use crate::geometry::Number;
+
 /// How risk becomes a target diameter: from `h_max` at risk 0 down to `h_min` at risk 1, on a logarithmic scale.
 ///
 /// `shape` bends the curve: at 1 equal steps of risk divide the diameter by equal factors; above 1 only high risk
@@ -16,7 +18,7 @@ pub struct Transfer {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum TransferError {
     /// A diameter is not a positive, finite length.
-    #[error("The {name} diameter {value} is not a length: it must be positive and finite.")]
+    #[error("The {name} diameter {} is not a length: it must be positive and finite.", Number(*value))]
     Diameter {
         /// "smallest" or "largest".
         name: &'static str,
@@ -24,7 +26,7 @@ pub enum TransferError {
         value: f64,
     },
     /// The diameters are the wrong way round.
-    #[error("The smallest diameter {h_min} is above the largest, {h_max}: exchange them.")]
+    #[error("The smallest diameter {} is above the largest, {}: exchange them.", Number(*h_min), Number(*h_max))]
     Reversed {
         /// As given.
         h_min: f64,
@@ -32,7 +34,7 @@ pub enum TransferError {
         h_max: f64,
     },
     /// The exponent is not usable.
-    #[error("The shape {0} of the transfer curve must lie between 0.05 and 20; 1 is even.")]
+    #[error("The shape {} of the transfer curve must lie between 0.05 and 20; 1 is even.", Number(*.0))]
     Shape(f64),
 }
 

@@ -1,7 +1,7 @@
 use bytemuck::{Pod, Zeroable};
 use glam::DVec2;
 
-use super::{Grouped, Rect};
+use super::{Grouped, Number, Rect};
 
 /// Lattice coordinates stay at or below 2 to this power, so that differences fit an `i32` on the GPU.
 pub const LATTICE_BITS: u32 = 30;
@@ -58,7 +58,7 @@ pub enum GridError {
     #[error(
         "The domain {}, {} to {}, {} is not a rectangle: every corner must be a finite number and \
          the second corner must lie right of and above the first.",
-        bounds.min.x, bounds.min.y, bounds.max.x, bounds.max.y
+        Number(bounds.min.x), Number(bounds.min.y), Number(bounds.max.x), Number(bounds.max.y)
     )]
     NotARectangle {
         /// The rectangle as given.
@@ -66,8 +66,9 @@ pub enum GridError {
     },
     /// The spacing is zero, negative, NaN or infinite.
     #[error(
-        "A coarse spacing of {spacing} makes no grid: it must be a positive, finite length. \
-         A twentieth of the domain's width is a good start."
+        "A coarse spacing of {} makes no grid: it must be a positive, finite length. \
+         A twentieth of the domain's width is a good start.",
+        Number(*spacing)
     )]
     Spacing {
         /// The spacing as given.
@@ -75,9 +76,9 @@ pub enum GridError {
     },
     /// More coarse triangles than the budget allows.
     #[error(
-        "A coarse spacing of {spacing} would start with about {triangles:.3e} triangles, and the \
+        "A coarse spacing of {} would start with about {triangles:.3e} triangles, and the \
          limit is {}. Choose a larger spacing, and let the brush refine where detail matters.",
-        Grouped(*limit)
+        Number(*spacing), Grouped(*limit)
     )]
     TooManyCells {
         /// The spacing as given.
@@ -91,7 +92,7 @@ pub enum GridError {
     #[error(
         "A domain of {} × {} is too narrow: cells nearly as long as wide would make about {triangles:.3e} triangles to start \
          with, and the limit is {}. Choose a wider domain.",
-        size.x, size.y, Grouped(*limit)
+        Number(size.x), Number(size.y), Grouped(*limit)
     )]
     TooNarrow {
         /// Width and height of the domain.
@@ -103,8 +104,9 @@ pub enum GridError {
     },
     /// The domain is so far from the origin, or so large, that f64 cannot tell its nodes apart.
     #[error(
-        "The coarse spacing {spacing} is too small for coordinates near {reach:e}: neighbouring nodes \
-         would have the same coordinates. Move the domain nearer to the origin or choose a larger spacing."
+        "The coarse spacing {} is too small for coordinates near {reach:e}: neighbouring nodes \
+         would have the same coordinates. Move the domain nearer to the origin or choose a larger spacing.",
+        Number(*spacing)
     )]
     TooFarFromOrigin {
         /// The spacing as given.

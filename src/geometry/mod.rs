@@ -4,11 +4,13 @@
 mod grouped;
 mod lattice;
 mod lattice_rect;
+mod number;
 mod predicates;
 mod rect;
 
 pub use grouped::Grouped;
 pub use lattice::{GridError, LATTICE_BITS, Lattice, LatticePoint};
 pub use lattice_rect::LatticeRect;
+pub use number::Number;
 pub use predicates::{Side, exact_sum_sign, side_of_edge};
 pub use rect::Rect;

@@ -18,7 +18,6 @@ pub mod geojson;
 pub mod journal;
 pub mod msh;
 pub mod node;
-mod number;
 pub mod obj;
 pub mod png;
 pub mod points;
@@ -28,10 +27,10 @@ pub mod stl;
 pub mod svg;
 pub mod vtu;
 
+pub use crate::geometry::Number;
 pub use atomic::{exists, make_folder, obstacle, write_file};
 pub use error::{Flaw, Place, ReadError};
 pub use mesh_file::MeshFormat;
-pub use number::Number;
 
 /// What is written beside the mesh itself. The level of each triangle comes from the mesh.
 #[derive(Clone, Copy, Debug)]

@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use super::triangle::Kind;
 use super::{KindCounts, Limits, Mesh, Neighbour, NodeId, Orientation, Triangle, TriangleId};
-use crate::geometry::{GridError, Lattice, LatticePoint, Rect};
+use crate::geometry::{GridError, Lattice, LatticePoint, Number, Rect};
 
 /// Why no coarse triangulation could be made.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -14,8 +14,9 @@ pub enum CoarseError {
     Grid(#[from] GridError),
     /// No coarse triangle has all three nodes in the domain.
     #[error(
-        "No coarse triangle lies in the domain: with a coarse spacing of {spacing} not one triangle has all three \
-         corners inside. Choose a smaller spacing."
+        "No coarse triangle lies in the domain: with a coarse spacing of {} not one triangle has all three \
+         corners inside. Choose a smaller spacing.",
+        Number(*spacing)
     )]
     EmptyDomain {
         /// The spacing that was asked for, in world units.

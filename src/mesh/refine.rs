@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use super::{Bytes, DEEPEST_LEVEL, MemoryLimit, Mesh, Triangle, TriangleId, bisection_edge_length, memory};
-use crate::geometry::{Grouped, Lattice, LatticePoint};
+use crate::geometry::{Grouped, Lattice, LatticePoint, Number};
 
 /// Most triangles of any mesh, whatever its budget: ids above are taken for marks.
 const MOST_TRIANGLES: usize = (1 << 31) - 1;
@@ -84,8 +84,8 @@ impl Element<'_> {
 /// A rule met a target diameter that no mesh can satisfy, or that is no number.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[error(
-    "The target diameter is {value} at x = {}, y = {}: it must be a positive number everywhere in the domain.",
-    at.x, at.y
+    "The target diameter is {} at x = {}, y = {}: it must be a positive number everywhere in the domain.",
+    Number(*value), Number(at.x), Number(at.y)
 )]
 pub struct InvalidTarget {
     /// Where, in world coordinates.
@@ -126,7 +126,7 @@ pub enum RefineError {
     #[error(
         "The target diameter near x = {}, y = {} is too small: below {smallest:.3e} (level {level}) nodes would leave the \
          lattice. Raise the smallest diameter, or mesh a smaller domain.",
-        at.x, at.y
+        Number(at.x), Number(at.y)
     )]
     TooFine {
         /// A vertex of the triangle that could not be bisected, in world coordinates.

@@ -11,7 +11,7 @@ use super::{FORMAT, VERSION};
 use crate::document::{Base, Settings};
 use crate::domain::{Boundary, Domain, Polygon, Shape};
 use crate::field::{Formula, Rule, Transfer};
-use crate::geometry::{Grouped, Rect};
+use crate::geometry::{Grouped, Number, Rect};
 use crate::raster::{MAX_SIDE, Raster};
 
 /// Most triangles that a budget can name: more have no ids.
@@ -245,6 +245,7 @@ fn rect(of: &str, [x0, y0, x1, y1]: [f64; 4]) -> Result<Rect, PlacedFlaw> {
     if rect.is_proper() && rect.size().is_finite() {
         return Ok(rect);
     }
+    let [x0, y0, x1, y1] = [x0, y0, x1, y1].map(Number);
     Err(Flaw::Syntax(format!(
         "the bounds {x0}, {y0}, {x1}, {y1} of \"{of}\" are no rectangle: the first corner is the lower left one."
     ))
