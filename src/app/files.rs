@@ -193,7 +193,7 @@ impl Files {
                 if format.wants_node_data() { extract.world_nodes().map(at).collect() } else { Vec::new() };
             let data = MeshData { target_diameter: &target_diameter, quantities: &[] };
             let triangles = format::count(extract.triangles().len() as u64);
-            match format.write(&path, &mesh, &extract, &data, &look) {
+            match format.write(&path, &mesh, &extract, &data, &look, &io::Meter::default()) {
                 Ok(files) => told(format!("{triangles} triangles written to {}.", listed(&files))),
                 Err(error) => failure(format!("{} could not be written: {error}.", path.display())),
             }

@@ -6,7 +6,7 @@ use super::args::PictureArguments;
 use super::failure::Failure;
 use crate::colormap::{Colormap, Ground, LevelColors};
 use crate::geometry::Grouped;
-use crate::io::{MeshData, obstacle};
+use crate::io::{MeshData, Meter, obstacle};
 use crate::mesh::{Extract, Mesh};
 use crate::render::export::{ExportFormat, LARGEST_PICTURE, Look};
 
@@ -52,7 +52,7 @@ impl Output {
         data: &MeshData,
         look: &Look,
     ) -> Result<Vec<PathBuf>, Failure> {
-        let written = self.format.write(&self.path, mesh, extract, data, look);
+        let written = self.format.write(&self.path, mesh, extract, data, look, &Meter::default());
         written.map_err(|error| failed(&self.path, error.to_string()))
     }
 }

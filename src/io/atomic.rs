@@ -1,6 +1,9 @@
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use super::Meter;
 
 /// Makes a folder, and those that it lies in, where they are not there yet.
 ///
@@ -33,26 +36,86 @@ pub fn obstacle(path: &Path) -> Option<String> {
 /// # Errors
 /// Those of the file system and of `write`. The temporary file is then removed.
 pub fn write_file(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
-    // A link stays a link: what it points to is replaced.
-    let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
-    let before = fs::metadata(&target).ok();
-    if before.as_ref().is_some_and(|m| !m.is_file() && !m.is_dir()) {
-        return filled(File::options().write(true).open(&target)?, write).map(drop);
-    }
-    let temporary = beside(&target)?;
-    let file = File::options().write(true).create_new(true).open(&temporary)?;
-    let done = filled(file, write).and_then(|file| {
+    write_file_metered(path, &Meter::default(), write)
+}
+
+/// As [`write_file`], but ends without a trace when the meter was cancelled before the file takes its place. What `write` writes is not
+/// counted here: it knows better when it is done.
+///
+/// # Errors
+/// As [`write_file`], and when the work was cancelled.
+pub fn write_file_metered(
+    path: &Path,
+    meter: &Meter,
+    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> io::Result<()> {
+    put_in_place([Draft::write(path, meter, write)?], meter)
+}
+
+/// Puts files that belong together in their places, all of them or, if the work was cancelled, none.
+///
+/// # Errors
+/// When the work was cancelled, and those of the file system. Where these come between two files, the former are already in their places.
+pub(super) fn put_in_place(drafts: impl IntoIterator<Item = Draft>, meter: &Meter) -> io::Result<()> {
+    let drafts: Vec<Draft> = drafts.into_iter().collect();
+    meter.check()?;
+    drafts.into_iter().try_for_each(Draft::put_in_place)
+}
+
+/// A file that is written, but not yet in its place. It is removed if it never gets there.
+pub(super) struct Draft {
+    target: PathBuf,
+    /// `None` where something other than a file was written directly.
+    temporary: Option<PathBuf>,
+}
+
+impl Draft {
+    /// Writes what is to become the file at `path`, onto the disk.
+    ///
+    /// # Errors
+    /// Those of the file system and of `write`, and when the work was cancelled.
+    pub fn write(
+        path: &Path,
+        meter: &Meter,
+        write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    ) -> io::Result<Self> {
+        // A link stays a link: what it points to is replaced.
+        let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+        let before = fs::metadata(&target).ok();
+        if before.as_ref().is_some_and(|m| !m.is_file() && !m.is_dir()) {
+            filled(File::options().write(true).open(&target)?, write)?;
+            return Ok(Self { target, temporary: None });
+        }
+        let temporary = beside(&target)?;
+        let file = File::options().write(true).create_new(true).open(&temporary)?;
+        // From here on the temporary file goes with the draft.
+        let draft = Self { target, temporary: Some(temporary) };
+        let file = filled(file, write)?;
         if let Some(before) = before {
             file.set_permissions(before.permissions())?;
         }
+        // The disk can take seconds.
+        meter.check()?;
         file.sync_all()?;
-        fs::rename(&temporary, &target)
-    });
-    if done.is_err() {
-        // The first error is the one to report.
-        let _ = fs::remove_file(&temporary);
+        Ok(draft)
     }
-    done
+
+    fn put_in_place(mut self) -> io::Result<()> {
+        if let Some(temporary) = &self.temporary {
+            fs::rename(temporary, &self.target)?;
+        }
+        self.temporary = None;
+        Ok(())
+    }
+}
+
+impl Drop for Draft {
+    fn drop(&mut self) {
+        if let Some(temporary) = &self.temporary {
+            // The first error is the one to report.
+            let _ = fs::remove_file(temporary);
+        }
+    }
 }
 
 fn filled(file: File, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<File> {
@@ -61,12 +124,14 @@ fn filled(file: File, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> i
     out.into_inner().map_err(io::IntoInnerError::into_error)
 }
 
-/// A name in the same folder that two runs of the program do not share.
+/// A name in the same folder that neither two runs of the program nor two writes of one share.
 fn beside(target: &Path) -> io::Result<PathBuf> {
+    static WRITES: AtomicU64 = AtomicU64::new(0);
     let name = target.file_name().ok_or_else(|| io::Error::other("that is not the name of a file"))?;
+    let (run, write) = (std::process::id(), WRITES.fetch_add(1, Ordering::Relaxed));
     let mut hidden = std::ffi::OsString::from(".");
     hidden.push(name);
-    hidden.push(format!(".{}.part", std::process::id()));
+    hidden.push(format!(".{run}-{write}.part"));
     Ok(target.with_file_name(hidden))
 }
 
@@ -96,6 +161,47 @@ mod tests {
         assert_eq!(failed.unwrap_err().to_string(), "the disk is full");
         assert_eq!(fs::read_to_string(&path).unwrap(), "old");
         assert_eq!(names(&folder), ["mesh.csv"]);
+        fs::remove_dir_all(folder).unwrap();
+    }
+
+    #[test]
+    fn a_write_that_is_cancelled_at_any_point_leaves_the_old_file_and_nothing_else() {
+        let folder = folder("cancelled");
+        let path = folder.join("mesh.csv");
+        fs::write(&path, "old").unwrap();
+        for at in 0..3 {
+            let meter = Meter::default();
+            let cancelled = write_file_metered(&path, &meter, |out| {
+                let mut out = meter.count(out);
+                for step in 0..3 {
+                    if step == at {
+                        meter.cancel();
+                    }
+                    out.write_all(&[b'x'; 1 << 16])?;
+                }
+                Ok(())
+            });
+            assert_eq!(cancelled.unwrap_err().to_string(), "it was cancelled");
+            assert_eq!(fs::read_to_string(&path).unwrap(), "old");
+            assert_eq!(names(&folder), ["mesh.csv"]);
+        }
+        fs::remove_dir_all(folder).unwrap();
+    }
+
+    #[test]
+    fn files_that_belong_together_take_their_places_together() {
+        let folder = folder("together");
+        let paths = ["a", "b"].map(|name| folder.join(name));
+        let meter = Meter::default();
+        let drafts = || paths.each_ref().map(|path| Draft::write(path, &meter, |out| out.write_all(b"new")));
+        put_in_place(drafts().map(Result::unwrap), &meter).unwrap();
+        assert!(paths.iter().all(|path| fs::read(path).unwrap() == b"new"));
+        paths.iter().for_each(|path| fs::write(path, "old").unwrap());
+        let written = drafts().map(Result::unwrap);
+        meter.cancel();
+        assert!(put_in_place(written, &meter).is_err());
+        assert!(paths.iter().all(|path| fs::read(path).unwrap() == b"old"));
+        assert_eq!(names(&folder).len(), 2);
         fs::remove_dir_all(folder).unwrap();
     }
 

@@ -2,6 +2,7 @@ use std::fmt;
 use std::io;
 use std::path::{Path, PathBuf};
 
+use super::Cancelled;
 use crate::geometry::Grouped;
 use crate::raster::MAX_SIDE;
 
@@ -76,6 +77,12 @@ impl Flaw {
     /// The flaw, at a line counted from one.
     pub(super) fn at(self, line: usize) -> PlacedFlaw {
         PlacedFlaw { place: Place::Line(line), flaw: self }
+    }
+}
+
+impl From<Cancelled> for Flaw {
+    fn from(cancelled: Cancelled) -> Self {
+        Self::Io(cancelled.into())
     }
 }
 

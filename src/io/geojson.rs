@@ -9,6 +9,7 @@ use glam::DVec2;
 use serde::Deserialize;
 use serde::de::{DeserializeSeed, Deserializer, Error, SeqAccess, Visitor};
 
+use super::Meter;
 use super::error::{Flaw, PlacedFlaw, ReadError};
 use crate::domain::{MOST_CORNERS, Polygon};
 use crate::geometry::Grouped;
@@ -23,6 +24,14 @@ const MOST_BYTES: u64 = 256 << 20;
 /// # Errors
 /// When the file cannot be read, is no GeoJSON, has no polygon, or more corners than a domain can have.
 pub fn read(path: &Path) -> Result<Vec<Polygon>, ReadError> {
+    read_metered(path, &Meter::default())
+}
+
+/// As [`read`], with the bytes of the file counted.
+///
+/// # Errors
+/// As [`read`], and when the work was cancelled.
+pub fn read_metered(path: &Path, meter: &Meter) -> Result<Vec<Polygon>, ReadError> {
     let open = || -> Result<File, PlacedFlaw> {
         let file = File::open(path)?;
         let bytes = file.metadata()?.len();
@@ -34,9 +43,15 @@ pub fn read(path: &Path) -> Result<Vec<Polygon>, ReadError> {
             ))
             .into());
         }
+        meter.expect(bytes);
         Ok(file)
     };
-    open().and_then(|file| parse(BufReader::new(file.take(MOST_BYTES)))).map_err(|flaw| flaw.in_file(path))
+    let read = open().and_then(|file| {
+        let polygons = parse(BufReader::new(meter.count(file.take(MOST_BYTES))))?;
+        meter.check()?;
+        Ok(polygons)
+    });
+    read.map_err(|flaw| flaw.in_file(path))
 }
 
 /// As [`read`], from bytes.

@@ -1,7 +1,8 @@
-use std::io;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use super::{MeshData, csv, msh, node, obj, sms, stl, vtu, write_file};
+use super::atomic::{Draft, put_in_place};
+use super::{Counted, MeshData, Meter, csv, msh, node, obj, sms, stl, vtu, write_file_metered};
 use crate::mesh::Extract;
 
 /// A format that carries a mesh with its data.
@@ -48,27 +49,48 @@ impl MeshFormat {
             .collect()
     }
 
-    /// Writes a mesh, and returns the names of the files written: [`Self::files`].
+    /// Writes a mesh, and returns the names of the files written: [`Self::files`]. The meter knows how much there is in all only for `.vtu`
+    /// and `.stl`.
     ///
     /// # Errors
-    /// When the file system says no. What was there before is then still there; of Triangle's four files, those not yet
-    /// written.
-    pub fn write(self, path: &Path, mesh: &Extract, data: &MeshData) -> io::Result<Vec<PathBuf>> {
+    /// When the file system says no, or the work was cancelled. What was there before is then still there, unless the file
+    /// system says no between two of Triangle's four files.
+    pub fn write(
+        self,
+        path: &Path,
+        mesh: &Extract,
+        data: &MeshData,
+        meter: &Meter,
+    ) -> io::Result<Vec<PathBuf>> {
+        let file = |write: &dyn Fn(&mut Counted<&mut dyn Write>) -> io::Result<()>| {
+            write_file_metered(path, meter, |out| write(&mut meter.count(out)))
+        };
         match self {
-            Self::Vtu => write_file(path, |mut out| vtu::write(&mut out, mesh, data))?,
-            Self::Msh => write_file(path, |mut out| msh::write(&mut out, mesh, data))?,
-            Self::Obj => write_file(path, |mut out| obj::write(&mut out, mesh, data))?,
-            Self::Stl => write_file(path, |mut out| stl::write(&mut out, mesh, data))?,
-            Self::Sms => write_file(path, |mut out| sms::write(&mut out, mesh, data))?,
-            Self::Csv => write_file(path, |mut out| csv::write(&mut out, mesh, data))?,
-            Self::Node => {
-                write_file(path, |mut out| node::write(&mut out, mesh, data))?;
-                let beside = |ending| path.with_extension(ending);
-                write_file(&beside("ele"), |mut out| node::write_elements(&mut out, mesh))?;
-                write_file(&beside("neigh"), |mut out| node::write_neighbours(&mut out, mesh))?;
-                write_file(&beside("edge"), |mut out| node::write_edges(&mut out, mesh))?;
+            Self::Vtu => {
+                write_file_metered(path, meter, |mut out| vtu::write_metered(&mut out, mesh, data, meter))?
             }
+            Self::Msh => file(&|out| msh::write(out, mesh, data))?,
+            Self::Obj => file(&|out| obj::write(out, mesh, data))?,
+            Self::Stl => {
+                meter.expect(stl::bytes(mesh));
+                file(&|out| stl::write(out, mesh, data))?;
+            }
+            Self::Sms => file(&|out| sms::write(out, mesh, data))?,
+            Self::Csv => file(&|out| csv::write(out, mesh, data))?,
+            Self::Node => write_node_files(&self.files(path), mesh, data, meter)?,
         }
         Ok(self.files(path))
     }
+}
+
+/// Triangle's four files. None takes its place before all are written: they would not fit each other.
+fn write_node_files(files: &[PathBuf], mesh: &Extract, data: &MeshData, meter: &Meter) -> io::Result<()> {
+    let [nodes, elements, neighbours, edges] = files else { unreachable!("there are four of them") };
+    let drafts = [
+        Draft::write(nodes, meter, |out| node::write(&mut meter.count(out), mesh, data))?,
+        Draft::write(elements, meter, |out| node::write_elements(&mut meter.count(out), mesh))?,
+        Draft::write(neighbours, meter, |out| node::write_neighbours(&mut meter.count(out), mesh))?,
+        Draft::write(edges, meter, |out| node::write_edges(&mut meter.count(out), mesh))?,
+    ];
+    put_in_place(drafts, meter)
 }

@@ -6,6 +6,9 @@
 //! - a triangle's vertices run anticlockwise, the first two being the ends of its bisection edge;
 //! - coordinates and h̄ are in world units; numbers are the shortest that read back as the same f64;
 //! - counting starts at zero, except in `.msh`, `.obj` and `.2dm`, where the format starts at one.
+//!
+//! What can take longer than a frame has a form that takes a [`Meter`], `_metered` where there is a plain one too: it counts, and it
+//! fails with [`Cancelled`] once the meter was cancelled.
 
 pub mod asc;
 mod atomic;
@@ -14,6 +17,7 @@ mod boundary;
 pub mod csv;
 mod error;
 mod mesh_file;
+mod meter;
 pub mod geojson;
 pub mod journal;
 pub mod msh;
@@ -28,9 +32,10 @@ pub mod svg;
 pub mod vtu;
 
 pub use crate::geometry::Number;
-pub use atomic::{exists, make_folder, obstacle, write_file};
+pub use atomic::{exists, make_folder, obstacle, write_file, write_file_metered};
 pub use error::{Flaw, Place, ReadError};
 pub use mesh_file::MeshFormat;
+pub use meter::{Cancelled, Counted, Meter};
 
 /// What is written beside the mesh itself. The level of each triangle comes from the mesh.
 #[derive(Clone, Copy, Debug)]

@@ -9,7 +9,7 @@ use png::{
 };
 
 use super::error::PlacedFlaw;
-use super::{Flaw, ReadError};
+use super::{Flaw, Meter, ReadError};
 use crate::geometry::Rect;
 use crate::raster::{MAX_SIDE, Raster};
 
@@ -32,9 +32,18 @@ pub enum Behind {
 /// When the file cannot be read, is not a PNG image, is cut off, or has more than [`MAX_SIDE`] pixels along a side. The
 /// size is checked before memory is taken.
 pub fn read(path: &Path, bounds: Rect, behind: Behind) -> Result<Raster, ReadError> {
-    let decoded = File::open(path)
-        .map_err(PlacedFlaw::from)
-        .and_then(|file| Ok(decode(BufReader::new(file), bounds, behind)?));
+    read_metered(path, bounds, behind, &Meter::default())
+}
+
+/// As [`read`], with the bytes of the file counted.
+///
+/// # Errors
+/// As [`read`], and when the work was cancelled.
+pub fn read_metered(path: &Path, bounds: Rect, behind: Behind, meter: &Meter) -> Result<Raster, ReadError> {
+    let decoded = File::open(path).map_err(PlacedFlaw::from).and_then(|file| {
+        meter.expect(file.metadata()?.len());
+        Ok(decode(BufReader::new(meter.count(file)), bounds, behind)?)
+    });
     decoded.map_err(|flaw| flaw.in_file(path))
 }
 

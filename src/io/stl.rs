@@ -11,6 +11,15 @@ use crate::mesh::{Extract, NodeId};
 /// Must not begin with "solid": programs take that for the text form.
 const TITLE: &[u8] = b"Meshbrush";
 
+/// Bytes of the title and the count, and of a triangle.
+const HEAD: u64 = 84;
+const TRIANGLE: u64 = 50;
+
+/// How many bytes the file of a mesh has.
+pub fn bytes(mesh: &Extract) -> u64 {
+    HEAD + TRIANGLE * mesh.triangles().len() as u64
+}
+
 /// Writes the triangles, in the mesh's order, each anticlockwise.
 ///
 /// # Errors

@@ -8,8 +8,8 @@
 
 use std::io::{self, Write};
 
-use super::MeshData;
 use super::blocks::{BLOCK, Blocks};
+use super::{MeshData, Meter};
 use crate::mesh::Extract;
 
 /// VTK's number for a triangle.
@@ -41,9 +41,9 @@ impl<'a> Array<'a> {
     }
 
     /// Compresses the array, and keeps the sizes alone.
-    fn measure(&mut self) -> io::Result<()> {
+    fn measure(&mut self, meter: &Meter) -> io::Result<()> {
         let mut sizes = Vec::new();
-        self.compress(|block| {
+        self.compress(meter, |block| {
             sizes.push(block.len() as u64);
             Ok(())
         })?;
@@ -51,8 +51,8 @@ impl<'a> Array<'a> {
         Ok(())
     }
 
-    fn compress(&self, take: impl FnMut(&[u8]) -> io::Result<()>) -> io::Result<()> {
-        let mut blocks = Blocks::new(take);
+    fn compress(&self, meter: &Meter, take: impl FnMut(&[u8]) -> io::Result<()>) -> io::Result<()> {
+        let mut blocks = Blocks::new(meter, take);
         (self.write)(&mut blocks)?;
         blocks.finish()
     }
@@ -80,9 +80,9 @@ impl<'a> Array<'a> {
         )
     }
 
-    fn append(&self, out: &mut impl Write) -> io::Result<()> {
+    fn append(&self, out: &mut impl Write, meter: &Meter) -> io::Result<()> {
         self.table().try_for_each(|size| out.write_all(&size.to_le_bytes()))?;
-        self.compress(|block| out.write_all(block))
+        self.compress(meter, |block| out.write_all(block))
     }
 }
 
@@ -91,6 +91,14 @@ impl<'a> Array<'a> {
 /// # Errors
 /// Those of `out`.
 pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Result<()> {
+    write_metered(out, mesh, data, &Meter::default())
+}
+
+/// As [`write()`]; counted are the bytes of the arrays before compression, in each of the two passes.
+///
+/// # Errors
+/// As [`write()`], and when the work was cancelled.
+pub fn write_metered(out: &mut impl Write, mesh: &Extract, data: &MeshData, meter: &Meter) -> io::Result<()> {
     let on_boundary = mesh.on_boundary();
     let mut sections = [
         ("PointData", point_data(data, &on_boundary)),
@@ -98,9 +106,11 @@ pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Resul
         ("Points", vec![points(mesh)]),
         ("Cells", topology(mesh)),
     ];
-    sections.iter_mut().flat_map(|(_, arrays)| arrays).try_for_each(Array::measure)?;
+    let bytes: usize = sections.iter().flat_map(|(_, arrays)| arrays).map(|array| array.bytes).sum();
+    meter.expect(2 * bytes as u64);
+    sections.iter_mut().flat_map(|(_, arrays)| arrays).try_for_each(|array| array.measure(meter))?;
     write_header(out, mesh, &sections)?;
-    sections.iter().flat_map(|(_, arrays)| arrays).try_for_each(|array| array.append(out))?;
+    sections.iter().flat_map(|(_, arrays)| arrays).try_for_each(|array| array.append(out, meter))?;
     writeln!(out, "\n  </AppendedData>\n</VTKFile>")
 }
 

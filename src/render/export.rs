@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use super::{Image, software};
 use crate::colormap::{Ground, LevelColors};
 use crate::geometry::Lattice;
-use crate::io::{MeshData, MeshFormat, png, svg, write_file};
+use crate::io::{MeshData, MeshFormat, Meter, png, svg, write_file_metered};
 use crate::mesh::{Extract, Mesh};
 use crate::scene::{Camera, Style};
 
@@ -71,7 +71,7 @@ impl ExportFormat {
     /// its nodes; a picture needs no data.
     ///
     /// # Errors
-    /// When the file system says no, or the format cannot hold the mesh. What was there before is then still there.
+    /// When the file system says no, the format cannot hold the mesh, or the meter was cancelled. What was there before is then still there.
     pub fn write(
         self,
         path: &Path,
@@ -79,15 +79,20 @@ impl ExportFormat {
         extract: &Extract,
         data: &MeshData,
         look: &Look,
+        meter: &Meter,
     ) -> io::Result<Vec<PathBuf>> {
         match self {
-            Self::Mesh(format) => return format.write(path, extract, data),
+            Self::Mesh(format) => return format.write(path, extract, data, meter),
             Self::Svg => {
-                write_file(path, |mut out| svg::write(&mut out, extract, &look.for_svg(mesh.lattice())))?
+                let style = look.for_svg(mesh.lattice());
+                write_file_metered(path, meter, |out| svg::write(&mut meter.count(out), extract, &style))?;
             }
             Self::Png => {
                 let picture = look.draw(mesh);
-                write_file(path, |mut out| png::write(&mut out, picture.size, &picture.rgba))?;
+                meter.check()?;
+                let write =
+                    |out: &mut dyn io::Write| png::write(&mut meter.count(out), picture.size, &picture.rgba);
+                write_file_metered(path, meter, write)?;
             }
         }
         Ok(vec![path.to_owned()])

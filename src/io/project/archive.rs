@@ -11,8 +11,8 @@ use flate2::Compression;
 use flate2::read::DeflateDecoder;
 use flate2::write::DeflateEncoder;
 
-use super::super::Flaw;
 use super::super::error::shown;
+use super::super::{Flaw, Meter};
 
 const LOCAL: u32 = u32::from_le_bytes(*b"PK\x03\x04");
 const CENTRAL: u32 = u32::from_le_bytes(*b"PK\x01\x02");
@@ -79,20 +79,22 @@ impl<'a> Archive<'a> {
 }
 
 impl<'a> Part<'a> {
-    /// The part's bytes, as they are unpacked. Memory is taken for what is read and not for what is declared.
+    /// The part's bytes, as they are unpacked; counted are those of the file. Memory is taken for what is read and not for what is
+    /// declared.
     ///
     /// # Errors
     /// When it declares more than `most` bytes.
-    pub fn unpack(&self, most: u64) -> Result<Unpacking<'a>, Flaw> {
+    pub fn unpack(&self, most: u64, meter: &Meter) -> Result<Unpacking<'a>, Flaw> {
         if self.size > most {
             return Err(Flaw::Syntax(format!(
                 "{} bytes are announced, and at most {most} can belong here.",
                 self.size
             )));
         }
+        let packed = meter.count(self.packed);
         let bytes: Box<dyn Read + 'a> = match self.method {
-            DEFLATED => Box::new(DeflateDecoder::new(self.packed)),
-            _ => Box::new(self.packed),
+            DEFLATED => Box::new(DeflateDecoder::new(packed)),
+            _ => Box::new(packed),
         };
         Ok(Unpacking { bytes, left: self.size, crc: Hasher::new(), expected: self.crc })
     }
@@ -101,8 +103,8 @@ impl<'a> Part<'a> {
     ///
     /// # Errors
     /// As [`Self::unpack`], and when the bytes are damaged.
-    pub fn bytes(&self, most: u64) -> Result<Vec<u8>, Flaw> {
-        let mut unpacking = self.unpack(most)?;
+    pub fn bytes(&self, most: u64, meter: &Meter) -> Result<Vec<u8>, Flaw> {
+        let mut unpacking = self.unpack(most, meter)?;
         let mut bytes = Vec::new();
         unpacking.read_to_end(&mut bytes).map_err(|_| Flaw::Damaged)?;
         unpacking.finish()?;
@@ -212,17 +214,18 @@ impl<W: Write> ArchiveWriter<W> {
         Self { out, written: 0, directory: Vec::new(), count: 0 }
     }
 
-    /// Adds a part.
+    /// Adds a part; counted are its bytes before they are packed.
     ///
     /// # Errors
-    /// Those of the output and of `write`, and when the archive would pass 4 GiB.
+    /// Those of the output and of `write`, when the archive would pass 4 GiB, and when the work was cancelled.
     pub fn add(
         &mut self,
         name: &str,
+        meter: &Meter,
         write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
     ) -> io::Result<()> {
         let mut packing = Packing::new();
-        write(&mut packing)?;
+        write(&mut meter.count(&mut packing))?;
         let (packed, size, crc) = packing.finish()?;
         let (packed_size, size) = (small(packed.len() as u64)?, small(size)?);
         // From "version needed" to "length of extra fields": alike in both headers. Bit 11: the name is UTF-8.

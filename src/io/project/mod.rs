@@ -25,7 +25,7 @@ use std::io::{self, Read, Write};
 use std::path::Path;
 
 use super::error::{Flaw, PlacedFlaw, ReadError};
-use super::geojson;
+use super::{Meter, geojson};
 use crate::document::{Base, Document, Settings};
 use crate::domain::Polygon;
 use crate::geometry::Rect;
@@ -88,9 +88,19 @@ impl Project {
 /// When the file cannot be read, is no project, is cut off or damaged, was written by a newer program, or holds what no document
 /// can have.
 pub fn read(path: &Path) -> Result<Document, ReadError> {
+    read_metered(path, &Meter::default())
+}
+
+/// As [`read`]; the bytes of the file are counted when they are read, and again when they are unpacked.
+///
+/// # Errors
+/// As [`read`], and when the work was cancelled.
+pub fn read_metered(path: &Path, meter: &Meter) -> Result<Document, ReadError> {
     let bytes = || -> Result<Vec<u8>, PlacedFlaw> {
         let mut bytes = Vec::new();
-        File::open(path)?.take(MOST_BYTES + 1).read_to_end(&mut bytes)?;
+        let file = File::open(path)?;
+        meter.expect(2 * file.metadata()?.len());
+        meter.count(file.take(MOST_BYTES + 1)).read_to_end(&mut bytes)?;
         if bytes.len() as u64 > MOST_BYTES {
             let limit = MOST_BYTES >> 20;
             return Err(
@@ -99,7 +109,12 @@ pub fn read(path: &Path) -> Result<Document, ReadError> {
         }
         Ok(bytes)
     };
-    let project = bytes().and_then(|bytes| parse(&bytes)).map_err(|flaw| flaw.in_file(path))?;
+    let project = bytes().and_then(|bytes| {
+        let project = parse(&bytes, meter)?;
+        meter.check()?;
+        Ok(project)
+    });
+    let project = project.map_err(|flaw| flaw.in_file(path))?;
     project.into_document().map_err(|problem| PlacedFlaw::from(Flaw::Syntax(problem)).in_file(path))
 }
 
@@ -108,7 +123,7 @@ pub fn read(path: &Path) -> Result<Document, ReadError> {
 /// # Errors
 /// As [`read`].
 pub fn from_bytes(bytes: &[u8], name: &Path) -> Result<Project, ReadError> {
-    parse(bytes).map_err(|flaw| flaw.in_file(name))
+    parse(bytes, &Meter::default()).map_err(|flaw| flaw.in_file(name))
 }
 
 /// Writes a project.
@@ -116,32 +131,68 @@ pub fn from_bytes(bytes: &[u8], name: &Path) -> Result<Project, ReadError> {
 /// # Errors
 /// Those of `out`.
 pub fn write(out: &mut dyn Write, project: &Project) -> io::Result<()> {
+    write_parts(out, &parts(project), &Meter::default())
+}
+
+/// As [`write()`]; counted are the bytes before they are packed.
+///
+/// # Errors
+/// As [`write()`], and when the work was cancelled.
+pub fn write_metered(out: &mut dyn Write, project: &Project, meter: &Meter) -> io::Result<()> {
+    let parts = parts(project);
+    // Packing takes far longer than to see how much there is to pack.
+    let size = Meter::default();
+    for (_, write) in &parts {
+        write(&mut size.count(io::sink()))?;
+        meter.check()?;
+    }
+    meter.expect(size.done());
+    write_parts(out, &parts, meter)
+}
+
+/// A part of the archive: its name, and how its bytes are written.
+type ToWrite<'a> = (&'static str, Box<dyn Fn(&mut dyn Write) -> io::Result<()> + 'a>);
+
+fn parts(project: &Project) -> Vec<ToWrite<'_>> {
     let Project { settings, tiles } = project;
-    let mut archive = ArchiveWriter::new(out);
-    archive.add(SETTINGS, |out| {
-        serde_json::to_writer_pretty(&mut *out, &Saved::of(settings))?;
-        writeln!(out)
-    })?;
+    let mut parts: Vec<ToWrite> = vec![(
+        SETTINGS,
+        Box::new(|out| {
+            serde_json::to_writer_pretty(&mut *out, &Saved::of(settings))?;
+            writeln!(out)
+        }),
+    )];
     if let Some(region) = settings.domain.region() {
-        archive.add(DOMAIN, |out| geojson::write(out, region.polygons()))?;
+        parts.push((DOMAIN, Box::new(|out| geojson::write(out, region.polygons()))));
     }
     if let Base::RiskImage { raster, .. } = &settings.base {
-        archive.add(BASE, |out| pixels::write_raster(out, raster))?;
+        parts.push((BASE, Box::new(|out| pixels::write_raster(out, raster))));
     }
-    archive.add(PAINT, |out| pixels::write_tiles(out, tiles))?;
+    parts.push((PAINT, Box::new(|out| pixels::write_tiles(out, tiles))));
+    parts
+}
+
+fn write_parts(out: &mut dyn Write, parts: &[ToWrite], meter: &Meter) -> io::Result<()> {
+    let mut archive = ArchiveWriter::new(out);
+    for (name, write) in parts {
+        archive.add(name, meter, write)?;
+    }
     archive.finish()
 }
 
-fn parse(bytes: &[u8]) -> Result<Project, PlacedFlaw> {
+fn parse(bytes: &[u8], meter: &Meter) -> Result<Project, PlacedFlaw> {
     let archive = Archive::open(bytes)?;
-    let text = part(&archive, SETTINGS)?.bytes(MOST_SETTINGS).map_err(|flaw| in_part(flaw, SETTINGS))?;
+    let text = part(&archive, SETTINGS)?.bytes(MOST_SETTINGS, meter);
+    let text = text.map_err(|flaw| in_part(flaw, SETTINGS))?;
     let saved = Saved::parse(&text).map_err(|flaw| flaw.within(SETTINGS))?;
-    let settings = saved.into_settings(&mut Packed(&archive)).map_err(|flaw| match flaw.place {
-        super::Place::Part(..) => flaw,
-        _ => flaw.within(SETTINGS),
-    })?;
+    let settings =
+        saved.into_settings(&mut Packed { archive: &archive, meter }).map_err(|flaw| match flaw.place {
+            super::Place::Part(..) => flaw,
+            _ => flaw.within(SETTINGS),
+        })?;
     part(&archive, PAINT)?;
-    let tiles = read_tiles(bytes, settings.raster_size()).map_err(|flaw| in_part(flaw, PAINT))?;
+    let tiles =
+        unpacked_tiles(&archive, settings.raster_size(), meter).map_err(|flaw| in_part(flaw, PAINT))?;
     Ok(Project { settings, tiles })
 }
 
@@ -150,9 +201,8 @@ fn parse(bytes: &[u8]) -> Result<Project, PlacedFlaw> {
 /// # Errors
 /// Those of `out`.
 pub(super) fn write_tiles(out: &mut dyn Write, tiles: &Tiles) -> io::Result<()> {
-    let mut archive = ArchiveWriter::new(out);
-    archive.add(PAINT, |out| pixels::write_tiles(out, tiles))?;
-    archive.finish()
+    let tiles: ToWrite = (PAINT, Box::new(|out| pixels::write_tiles(out, tiles)));
+    write_parts(out, &[tiles], &Meter::default())
 }
 
 /// Reads tiles of layers with the given columns and rows.
@@ -160,9 +210,12 @@ pub(super) fn write_tiles(out: &mut dyn Write, tiles: &Tiles) -> io::Result<()> 
 /// # Errors
 /// When they are damaged, or do not fit.
 pub(super) fn read_tiles(bytes: &[u8], size: [u32; 2]) -> Result<Tiles, Flaw> {
-    let archive = Archive::open(bytes)?;
+    unpacked_tiles(&Archive::open(bytes)?, size, &Meter::default())
+}
+
+fn unpacked_tiles(archive: &Archive, size: [u32; 2], meter: &Meter) -> Result<Tiles, Flaw> {
     let part = archive.part(PAINT).ok_or(Flaw::Damaged)?;
-    let mut unpacking = part.unpack(pixels::most_tile_bytes(size))?;
+    let mut unpacking = part.unpack(pixels::most_tile_bytes(size), meter)?;
     let tiles = pixels::read_tiles(&mut unpacking, size)?;
     unpacking.finish()?;
     Ok(tiles)
@@ -178,17 +231,21 @@ fn in_part(flaw: Flaw, part: &'static str) -> PlacedFlaw {
 }
 
 /// The parts that settings ask for.
-struct Packed<'b, 'a>(&'b Archive<'a>);
+struct Packed<'b, 'a> {
+    archive: &'b Archive<'a>,
+    meter: &'b Meter,
+}
 
 impl Parts for Packed<'_, '_> {
     fn polygons(&mut self) -> Result<Vec<Polygon>, PlacedFlaw> {
-        let text = part(self.0, DOMAIN)?.bytes(MOST_POLYGONS).map_err(|flaw| in_part(flaw, DOMAIN))?;
+        let text = part(self.archive, DOMAIN)?.bytes(MOST_POLYGONS, self.meter);
+        let text = text.map_err(|flaw| in_part(flaw, DOMAIN))?;
         geojson::parse(&text[..]).map_err(|flaw| flaw.within(DOMAIN))
     }
 
     fn risks(&mut self, bounds: Rect, size: [u32; 2]) -> Result<Raster, PlacedFlaw> {
         let bytes = 4 * u64::from(size[0]) * u64::from(size[1]);
-        let raster = part(self.0, BASE)?.unpack(bytes).and_then(|mut unpacking| {
+        let raster = part(self.archive, BASE)?.unpack(bytes, self.meter).and_then(|mut unpacking| {
             let raster = pixels::read_risks(&mut unpacking, bounds, size)?;
             unpacking.finish()?;
             Ok(raster)

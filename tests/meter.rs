@@ -1,0 +1,188 @@
+//! Files being read and written tell how far they are, and leave everything as it was when that is cancelled.
+
+use std::fs;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use meshbrush::document::{Base, Example};
+use meshbrush::geometry::Rect;
+use meshbrush::io::png::{Behind, read_metered as read_png};
+use meshbrush::io::project::{self, Project};
+use meshbrush::io::{MeshData, MeshFormat, Meter, geojson, stl, vtu, write_file_metered};
+use meshbrush::mesh::{Limits, Mesh};
+use meshbrush::raster::Raster;
+
+const CANCELLED: &str = "it was cancelled";
+
+fn folder(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("meter").join(name);
+    let _ = fs::remove_dir_all(&folder); // absent at the first run
+    fs::create_dir_all(&folder).unwrap();
+    folder
+}
+
+fn files(folder: &Path) -> Vec<(String, Vec<u8>)> {
+    let entry = |entry: io::Result<fs::DirEntry>| {
+        let entry = entry.unwrap();
+        (entry.file_name().into_string().unwrap(), fs::read(entry.path()).unwrap())
+    };
+    let mut files: Vec<_> = fs::read_dir(folder).unwrap().map(entry).collect();
+    files.sort();
+    files
+}
+
+/// A mesh of so many triangles that every format takes several blocks.
+fn mesh() -> (Mesh, Vec<f64>) {
+    let limits = Limits::default();
+    let mut mesh = Mesh::coarse_grid(Rect::UNIT, 0.05, |_| true, &limits).unwrap();
+    mesh.refine(&limits, |element| Ok(element.diameter() > 0.01)).unwrap();
+    let targets = vec![0.01; mesh.nodes().len()];
+    (mesh, targets)
+}
+
+fn data(targets: &[f64]) -> MeshData<'_> {
+    MeshData { target_diameter: targets, quantities: &[] }
+}
+
+/// A project with a picture, polygons and paint, and more of each than a block.
+fn large_project() -> Project {
+    let sea = fs::read(concat!(env!("CARGO_MANIFEST_DIR"), "/assets/aegean_sea.geojson")).unwrap();
+    let sea = geojson::from_bytes(&sea, Path::new("sea")).unwrap();
+    let mut project = Project::of(&Example::Aegean.document(|| unreachable!(), || sea.clone()));
+    let values = (0..500 * 400).map(|n| (n % 997) as f32 / 997.0).collect();
+    let raster = Arc::new(Raster::from_values(Rect::UNIT, [500, 400], values));
+    project.settings.base = Base::RiskImage { name: "noise.png".into(), raster };
+    project
+}
+
+/// An output that cancels the meter when it has taken so many bytes.
+struct Cancelling<'a, W> {
+    inner: W,
+    meter: &'a Meter,
+    after: usize,
+}
+
+impl<W: Write> Write for Cancelling<'_, W> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let written = self.inner.write(bytes)?;
+        self.after = self.after.saturating_sub(written);
+        if self.after == 0 {
+            self.meter.cancel();
+        }
+        Ok(written)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.inner.flush()
+    }
+}
+
+#[test]
+fn a_meter_that_knows_how_much_there_is_ends_there() {
+    let folder = folder("whole");
+    let (mesh, targets) = mesh();
+    for (ending, format) in MeshFormat::ALL {
+        let meter = Meter::default();
+        let written = format.write(
+            &folder.join("mesh").with_extension(ending),
+            &mesh.extract(),
+            &data(&targets),
+            &meter,
+        );
+        let bytes: u64 = written.unwrap().iter().map(|path| fs::metadata(path).unwrap().len()).sum();
+        match format {
+            MeshFormat::Vtu => assert_eq!(meter.total(), Some(meter.done())),
+            MeshFormat::Stl => assert_eq!((meter.done(), meter.total()), (bytes, Some(bytes))),
+            _ => assert_eq!((meter.done(), meter.total()), (bytes, None), "{ending}"),
+        }
+        assert!(meter.done() > 1 << 17, "{ending}: {}", meter.done());
+    }
+    assert_eq!(stl::bytes(&mesh.extract()), fs::metadata(folder.join("mesh.stl")).unwrap().len());
+
+    let (file, meter) = (folder.join("a.meshbrush"), Meter::default());
+    write_file_metered(&file, &meter, |out| project::write_metered(out, &large_project(), &meter)).unwrap();
+    assert_eq!(meter.total(), Some(meter.done()));
+    assert!(meter.done() > 500 * 400 * 4, "the picture is in it");
+    let meter = Meter::default();
+    project::read_metered(&file, &meter).unwrap();
+    let (done, total) = (meter.done(), meter.total().unwrap());
+    assert_eq!(total, 2 * fs::metadata(&file).unwrap().len());
+    // Names and sizes of the parts are not unpacked.
+    assert!(done < total && total - done < 1000, "{done} of {total}");
+
+    let meter = Meter::default();
+    geojson::read_metered(Path::new("assets/aegean_sea.geojson"), &meter).unwrap();
+    assert_eq!(meter.total(), Some(meter.done()));
+    let meter = Meter::default();
+    read_png(Path::new("assets/jacksboro_slope.png"), Rect::UNIT, Behind::Black, &meter).unwrap();
+    assert_eq!(meter.total(), Some(meter.done()));
+}
+
+#[test]
+fn a_cancelled_read_says_so() {
+    let folder = folder("read");
+    let file = folder.join("a.meshbrush");
+    write_file_metered(&file, &Meter::default(), |out| project::write(out, &large_project())).unwrap();
+    let meter = Meter::default();
+    meter.cancel();
+    let bad = [
+        geojson::read_metered(Path::new("assets/aegean_sea.geojson"), &meter).err(),
+        read_png(Path::new("assets/jacksboro_slope.png"), Rect::UNIT, Behind::Black, &meter).err(),
+        project::read_metered(&file, &meter).err(),
+    ];
+    for error in bad {
+        let error = error.expect("it was cancelled").to_string();
+        assert!(error.contains(CANCELLED), "{error}");
+    }
+}
+
+#[test]
+fn a_cancelled_export_leaves_what_was_there() {
+    let folder = folder("export");
+    let (mesh, targets) = mesh();
+    let mesh = mesh.extract();
+    for name in ["vtu", "msh", "obj", "stl", "node", "ele", "neigh", "edge", "2dm", "csv"] {
+        fs::write(folder.join("mesh").with_extension(name), format!("the former {name}")).unwrap();
+    }
+    let before = files(&folder);
+    for (ending, format) in MeshFormat::ALL {
+        let meter = Meter::default();
+        meter.cancel();
+        let path = folder.join("mesh").with_extension(ending);
+        let error = format.write(&path, &mesh, &data(&targets), &meter).unwrap_err();
+        assert_eq!(error.to_string(), CANCELLED);
+        assert_eq!(files(&folder), before, "{ending}");
+    }
+    // In the middle of the second pass.
+    let meter = Meter::default();
+    let path = folder.join("mesh.vtu");
+    let error = write_file_metered(&path, &meter, |out| {
+        let mut out = Cancelling { inner: out, meter: &meter, after: 5000 };
+        vtu::write_metered(&mut out, &mesh, &data(&targets), &meter)
+    });
+    assert_eq!(error.unwrap_err().to_string(), CANCELLED);
+    assert!(meter.done() > meter.total().unwrap() / 2 && meter.done() < meter.total().unwrap());
+    assert_eq!(files(&folder), before);
+}
+
+#[test]
+fn a_cancelled_save_leaves_what_was_there() {
+    let folder = folder("save");
+    let file = folder.join("a.meshbrush");
+    let project = large_project();
+    fs::write(&file, "the former project").unwrap();
+    let before = files(&folder);
+    // Before the first part, and between two of them.
+    for after in [0, 1] {
+        let meter = Meter::default();
+        if after == 0 {
+            meter.cancel();
+        }
+        let error = write_file_metered(&file, &meter, |out| {
+            project::write_metered(&mut Cancelling { inner: out, meter: &meter, after }, &project, &meter)
+        });
+        assert_eq!(error.unwrap_err().to_string(), CANCELLED);
+        assert_eq!(files(&folder), before);
+    }
+}
