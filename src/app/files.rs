@@ -1,4 +1,4 @@
-//! Files: asked for by a dialog, read and written off the window's thread.
+//! Files: asked for by a dialog, read and exported.
 
 use std::io::Cursor;
 use std::path::{Path, PathBuf};
@@ -9,22 +9,26 @@ use std::thread;
 use eframe::egui::{self, Context, Key};
 use glam::DVec2;
 
+use super::App;
+use super::background::{Aim, Finish, cancelled, name_of, not_read, not_written, told};
 use super::command::Command;
 use super::readout::target_at;
-use super::session::{Notice, Session};
-use super::view::View;
 use super::widgets::{ActionButton, ButtonKind, TextRow, dialog, dialog_title, format};
 use crate::document::{Base, Document, Example, Setting, Settings};
 use crate::domain::{Domain, Polygon};
 use crate::geometry::Rect;
 use crate::io::png::{Behind, decode};
 use crate::io::project::ENDING;
-use crate::io::{self, MeshData};
+use crate::io::{self, Cancelled, MeshData, Meter};
+use crate::mesh::Extract;
 use crate::raster::Raster;
 use crate::render::export::ExportFormat;
 
 /// Width and height in kilometres of the terrain that comes with the program: 403 × 344 pixels of 3″ at 36.6° N.
 const TERRAIN_KM: DVec2 = DVec2::new(30.0, 31.8);
+
+/// Nodes whose h̄ is looked up between two looks at the meter: some milliseconds' worth.
+const NODES_BETWEEN_LOOKS: usize = 1 << 16;
 
 /// The slope of a real terrain as risk.
 pub fn terrain_slope() -> Raster {
@@ -101,22 +105,11 @@ impl FileRequest {
     }
 }
 
-/// What came of work off the thread.
-enum Outcome {
-    /// Somebody chose a path.
-    Chosen(FileRequest, PathBuf),
-    /// A picture was read.
-    Image(Base),
-    /// A domain was read, and settings that suit it made.
-    Domain(Box<Settings>),
-    /// Something to tell.
-    Told(Notice),
-}
-
-/// Files being asked for, read and written.
+/// Files being asked for.
 pub struct Files {
-    sender: Sender<Outcome>,
-    receiver: Receiver<Outcome>,
+    /// Paths that somebody chose in the desktop's own dialog.
+    sender: Sender<(FileRequest, PathBuf)>,
+    receiver: Receiver<(FileRequest, PathBuf)>,
     /// The question on the screen, and the path typed so far.
     asking: Option<(FileRequest, String)>,
 }
@@ -139,91 +132,21 @@ impl Files {
         self.asking.is_some()
     }
 
-    /// Reads a picture and makes it the base field's risk.
-    pub fn load_image(&mut self, path: PathBuf, settings: &Settings, ctx: &Context) {
-        let bounds = settings.domain.bounds;
-        self.run(ctx, move || match io::png::read(&path, bounds, Behind::Black) {
-            Ok(raster) => {
-                Outcome::Image(Base::RiskImage { name: file_name(&path), raster: Arc::new(raster) })
-            }
-            Err(error) => failure(error),
-        });
-    }
-
-    /// Reads polygons, and makes a document of them.
-    pub fn load_domain(&mut self, path: PathBuf, ctx: &Context) {
-        self.run(ctx, move || {
-            let read = io::geojson::read(&path).map_err(|error| error.to_string());
-            let settings: Result<_, String> = read.and_then(|polygons| {
-                let domain =
-                    Domain::of_polygons(&polygons).map_err(|e| format!("{}: {e}", path.display()))?;
-                let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-                Ok(Settings::for_domain(name, domain))
+    /// Takes in what was chosen, and shows the question for a path.
+    pub fn update(&mut self, ctx: &Context, commands: &mut Vec<Command>) {
+        while let Ok((request, path)) = self.receiver.try_recv() {
+            self.asking = None;
+            // The desktop's own dialog has asked already.
+            commands.push(match request {
+                FileRequest::Save => Command::SaveTo(path),
+                // About the files beside it, it knew nothing.
+                FileRequest::Export
+                    if ExportFormat::of(&path).is_ok_and(|format| format.files(&path).len() == 1) =>
+                {
+                    Command::Export(path)
+                }
+                _ => request.command(path),
             });
-            match settings {
-                Ok(settings) => Outcome::Domain(Box::new(settings)),
-                Err(error) => failure(error),
-            }
-        });
-    }
-
-    /// Writes the mesh on the screen, with h̄ at its nodes, or a picture of all of it in the colours of `view`.
-    pub fn export(&mut self, path: PathBuf, session: &Session, view: &View, ctx: &Context) {
-        let format = match ExportFormat::of(&path) {
-            Ok(format) => format,
-            Err(error) => {
-                let _ = self.sender.send(failure(format!("{error}.")));
-                return;
-            }
-        };
-        let (mesh, field) = (session.shared_mesh(), session.follower().field().clone());
-        let (layers, rule) = (session.document().layers().clone(), session.follower().settings().rule);
-        let look = view.picture(session.document().settings());
-        let blocked = |file: &PathBuf| {
-            Some(format!("{} could not be written: {}.", file.display(), io::obstacle(file)?))
-        };
-        if let Some(problem) = format.files(&path).iter().find_map(blocked) {
-            let _ = self.sender.send(failure(problem));
-            return;
-        }
-        self.run(ctx, move || {
-            let extract = mesh.extract();
-            let at = |node| target_at(node, &field, layers.as_paint(), rule);
-            let target_diameter: Vec<f64> =
-                if format.wants_node_data() { extract.world_nodes().map(at).collect() } else { Vec::new() };
-            let data = MeshData { target_diameter: &target_diameter, quantities: &[] };
-            let triangles = format::count(extract.triangles().len() as u64);
-            match format.write(&path, &mesh, &extract, &data, &look, &io::Meter::default()) {
-                Ok(files) => told(format!("{triangles} triangles written to {}.", listed(&files))),
-                Err(error) => failure(format!("{} could not be written: {error}.", path.display())),
-            }
-        });
-    }
-
-    /// Takes in what came of earlier work, and shows the question for a path.
-    pub fn update(&mut self, ctx: &Context, session: &mut Session, commands: &mut Vec<Command>) {
-        while let Ok(outcome) = self.receiver.try_recv() {
-            match outcome {
-                Outcome::Chosen(request, path) => {
-                    self.asking = None;
-                    // The desktop's own dialog has asked already.
-                    commands.push(match request {
-                        FileRequest::Save => Command::SaveTo(path),
-                        // About the files beside it, it knew nothing.
-                        FileRequest::Export
-                            if ExportFormat::of(&path).is_ok_and(|f| f.files(&path).len() == 1) =>
-                        {
-                            Command::Export(path)
-                        }
-                        _ => request.command(path),
-                    });
-                }
-                Outcome::Image(base) => {
-                    commands.extend([Command::Set(Setting::Base(base)), Command::EndGesture])
-                }
-                Outcome::Domain(settings) => commands.push(Command::NewWith(settings)),
-                Outcome::Told(notice) => session.set_notice(Some(notice)),
-            }
         }
         if let Some((request, mut path)) = self.asking.take() {
             match self.question_ui(ctx, request, &mut path) {
@@ -292,19 +215,99 @@ impl Files {
             };
             if let Some(path) = path {
                 // The window may have closed in the meantime.
-                let _ = sender.send(Outcome::Chosen(request, path));
+                let _ = sender.send((request, path));
             }
             ctx.request_repaint();
         });
     }
+}
 
-    fn run(&self, ctx: &Context, work: impl FnOnce() -> Outcome + Send + 'static) {
-        let (sender, ctx) = (self.sender.clone(), ctx.clone());
-        thread::spawn(move || {
-            let _ = sender.send(work());
-            ctx.request_repaint();
+impl App {
+    /// Reads a picture and makes it the base field's risk.
+    pub(super) fn load_image(&mut self, path: PathBuf) {
+        let bounds = self.session.document().settings().domain.bounds;
+        let file = path.clone();
+        self.background.start(Aim::Read, &path, move |meter| {
+            match io::png::read_metered(&file, bounds, Behind::Black, meter) {
+                Ok(raster) => {
+                    let base = Base::RiskImage { name: name_of(&file), raster: Arc::new(raster) };
+                    commanded([Command::Set(Setting::Base(base)), Command::EndGesture])
+                }
+                Err(error) => not_read(error),
+            }
         });
     }
+
+    /// Reads polygons, and makes a document of them.
+    pub(super) fn load_domain(&mut self, path: PathBuf) {
+        let file = path.clone();
+        self.background.start(Aim::Read, &path, move |meter| match domain_of(&file, meter) {
+            Ok(settings) => commanded([Command::NewWith(Box::new(settings))]),
+            Err(problem) => not_read(problem),
+        });
+    }
+
+    /// Writes the mesh on the screen, with h̄ at its nodes, or a picture of all of it in the colours of the view.
+    pub(super) fn export(&mut self, path: PathBuf) {
+        let format = match ExportFormat::of(&path) {
+            Ok(format) => format,
+            Err(error) => return self.session.report(format!("{error}.")),
+        };
+        let blocked = |file: &PathBuf| {
+            Some(format!("{} could not be written: {}.", file.display(), io::obstacle(file)?))
+        };
+        if let Some(problem) = format.files(&path).iter().find_map(blocked) {
+            return self.session.report(problem);
+        }
+        let session = &self.session;
+        let (mesh, field) = (session.shared_mesh(), session.follower().field().clone());
+        let (layers, rule) = (session.document().layers().clone(), session.follower().settings().rule);
+        let look = self.view.picture(session.document().settings());
+        let file = path.clone();
+        self.background.start(Aim::Export, &path, move |meter| {
+            let write = || -> std::io::Result<Vec<PathBuf>> {
+                let extract = mesh.extract();
+                let target_diameter = if format.wants_node_data() {
+                    at_nodes(&extract, meter, |node| target_at(node, &field, layers.as_paint(), rule))?
+                } else {
+                    Vec::new()
+                };
+                let data = MeshData { target_diameter: &target_diameter, quantities: &[] };
+                format.write(&file, &mesh, &extract, &data, &look, meter)
+            };
+            let triangles = format::count(mesh.triangle_count() as u64);
+            match write() {
+                Ok(files) => told(format!("{triangles} triangles written to {}.", listed(&files))),
+                Err(_) if meter.is_cancelled() => told(cancelled(Aim::Export, &file)),
+                Err(error) => not_written(format!("{} could not be written: {error}.", file.display())),
+            }
+        });
+    }
+}
+
+/// The settings of a new document on the polygons of a file.
+fn domain_of(path: &Path, meter: &Meter) -> Result<Settings, String> {
+    let polygons = io::geojson::read_metered(path, meter).map_err(|error| error.to_string())?;
+    let domain = Domain::of_polygons(&polygons).map_err(|error| format!("{}: {error}", path.display()))?;
+    let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    Ok(Settings::for_domain(name, domain))
+}
+
+/// A value at each node, as long as nobody cancels that.
+fn at_nodes(extract: &Extract, meter: &Meter, value: impl Fn(DVec2) -> f64) -> Result<Vec<f64>, Cancelled> {
+    let mut values = Vec::with_capacity(extract.nodes().len());
+    for (n, node) in extract.world_nodes().enumerate() {
+        if n.is_multiple_of(NODES_BETWEEN_LOOKS) {
+            meter.check()?;
+        }
+        values.push(value(node));
+    }
+    Ok(values)
+}
+
+/// Sends commands.
+fn commanded(commands: impl IntoIterator<Item = Command> + Send + 'static) -> Finish {
+    Box::new(|app| app.commands.extend(commands))
 }
 
 /// How the question for a path stands.
@@ -315,19 +318,7 @@ enum Answer {
     Dropped,
 }
 
-fn told(text: String) -> Outcome {
-    Outcome::Told(Notice { failed: false, text })
-}
-
 /// Names of files, one after the other.
 pub fn listed(files: &[PathBuf]) -> String {
     files.iter().map(|file| file.display().to_string()).collect::<Vec<_>>().join(", ")
-}
-
-fn failure(error: impl std::fmt::Display) -> Outcome {
-    Outcome::Told(Notice { failed: true, text: error.to_string() })
-}
-
-fn file_name(path: &Path) -> String {
-    path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
 }

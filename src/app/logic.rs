@@ -22,19 +22,19 @@ impl App {
             Command::OpenExample(example) => self.open_example(example),
             Command::AskToOpen => self.files.ask(FileRequest::Open),
             Command::Open(path) => self.open_file(path),
-            Command::OpenProject(path) => self.open_project(path, ctx),
-            Command::Save => self.save(ctx),
+            Command::OpenProject(path) => self.open_project(path),
+            Command::Save => self.save(),
             Command::AskWhereToSave => self.files.ask(FileRequest::Save),
-            Command::SaveAs(path) => self.save_as(path, ctx),
-            Command::SaveTo(path) => self.save_to(path, ctx),
+            Command::SaveAs(path) => self.save_as(path),
+            Command::SaveTo(path) => self.save_to(path),
             Command::AskForImage => self.files.ask(FileRequest::OpenImage),
-            Command::OpenImage(path) => self.files.load_image(path, self.session.document().settings(), ctx),
+            Command::OpenImage(path) => self.load_image(path),
             Command::NewWith(settings) => self.new_with(*settings),
             Command::AskForDomain => self.files.ask(FileRequest::OpenDomain),
-            Command::OpenDomain(path) => self.files.load_domain(path, ctx),
+            Command::OpenDomain(path) => self.load_domain(path),
             Command::AskForExport => self.files.ask(FileRequest::Export),
             Command::ExportAs(path) => self.export_as(path, ctx),
-            Command::Export(path) => self.export(path, ctx),
+            Command::Export(path) => self.export(path),
             Command::Quit => ctx.send_viewport_cmd(ViewportCommand::Close),
 
             Command::Undo => self.undo(),
@@ -42,7 +42,7 @@ impl App {
             Command::ClearPaint => self.session.document_mut().clear_paint(),
             Command::Set(setting) => self.session.set(setting),
             Command::EndGesture => self.end_gesture(),
-            Command::CancelUpdate => self.cancel_work(),
+            Command::CancelUpdate => self.cancel_update(),
 
             Command::BeginStroke(point) => self.begin_stroke(point),
             Command::DrawTo(point) => self.draw_to(point),
@@ -96,7 +96,7 @@ impl App {
     }
 
     /// Gives up cuts that are being made, or else the update of the mesh.
-    pub(super) fn cancel_work(&mut self) {
+    pub(super) fn cancel_update(&mut self) {
         if self.cutter.is_idle() {
             self.session.cancel_update();
         } else {
@@ -137,10 +137,6 @@ impl App {
 
     fn open_example(&mut self, example: Example) {
         self.open("example", super::files::example(example));
-    }
-
-    fn export(&mut self, path: std::path::PathBuf, ctx: &Context) {
-        self.files.export(path, &self.session, &self.view, ctx);
     }
 
     fn begin_stroke(&mut self, point: DVec2) {

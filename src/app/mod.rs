@@ -3,6 +3,7 @@
 //! The app holds a few small structs: the [`Session`] (document and mesh), the [`Tools`], the [`View`], and what lasts no
 //! longer than a gesture. Panels read them and send [`Command`]s; `logic` carries these out.
 
+mod background;
 mod busy;
 mod canvas;
 mod catalog;
@@ -71,6 +72,7 @@ pub struct App {
     gpu: Option<CanvasGpu>,
     overlay_colors: OverlayColors,
     files: files::Files,
+    background: background::Background,
     palette: CommandPalette,
     hints: hints::Hints,
     busy: busy::Busy,
@@ -123,6 +125,7 @@ impl App {
             gpu,
             overlay_colors: OverlayColors::default(),
             files: files::Files::default(),
+            background: background::Background::new(ctx),
             palette: CommandPalette::default(),
             hints: hints::Hints::default(),
             busy: busy::Busy::default(),
@@ -247,13 +250,15 @@ impl App {
         self.view.ground = if ctx.theme() == Theme::Dark { Ground::Dark } else { Ground::Light };
         self.follow_keys(&ctx);
         self.recovery_ui(&ctx);
+        self.take_in_background();
         self.project_ui(&ctx);
-        self.files.update(&ctx, &mut self.session, &mut self.commands);
+        self.files.update(&ctx, &mut self.commands);
         self.palette_ui(&ctx);
         self.about_ui(&ctx);
         self.panels_ui(ui);
         egui::CentralPanel::default().frame(Frame::NONE).show(ui, |ui| self.canvas_ui(ui));
         self.follow_journal();
+        self.background.keep_awake();
     }
 }
 
@@ -268,6 +273,7 @@ impl eframe::App for App {
     }
 
     fn on_exit(&mut self) {
+        self.wait_for_writing();
         // Where the desktop takes the window away, nobody was asked.
         let remove = self.may_leave();
         if let Some(keeper) = &mut self.journal {

@@ -1,12 +1,12 @@
 //! The file that the document belongs to: opening it, saving it, and asking before something would be lost.
 
+use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::sync::mpsc::{Receiver, Sender, channel};
-use std::thread;
 
 use eframe::egui::{Context, ViewportCommand};
 
 use super::App;
+use super::background::{Aim, cancelled, not_read};
 use super::command::Command;
 use super::files::{FileRequest, listed};
 use super::session::Notice;
@@ -21,20 +21,8 @@ const MOST_RECENT: usize = 8;
 /// Names under which the window's own storage keeps things.
 const RECENT_KEY: &str = "recent files";
 
-/// What came of work off the thread.
-enum Outcome {
-    Opened(PathBuf, Box<Document>),
-    Saved(PathBuf, u64),
-    /// Saving failed; the sentence says why.
-    NotSaved(String),
-    /// Opening failed.
-    NotOpened(String),
-}
-
 /// The document's file, and what of the document is saved.
 pub struct ProjectFile {
-    sender: Sender<Outcome>,
-    receiver: Receiver<Outcome>,
     path: Option<PathBuf>,
     /// The versions of the document that were opened, or saved last.
     unedited: Vec<u64>,
@@ -47,21 +35,17 @@ pub struct ProjectFile {
     given_up: Option<u64>,
     /// Files that are there already, while it is asked whether they are to be replaced, and the command that does it.
     replacing: Option<(Vec<PathBuf>, Command)>,
-    saving: bool,
     /// Where to save once more when the present saving is done.
     save_again: Option<PathBuf>,
-    /// The version over which a file is being opened.
-    opening: Option<u64>,
+    /// The window closes once everything is written.
+    closing: bool,
     window_title: String,
 }
 
 impl ProjectFile {
     /// No file; `version` of the document was opened.
     pub fn new(version: u64) -> Self {
-        let (sender, receiver) = channel();
         Self {
-            sender,
-            receiver,
             path: None,
             unedited: vec![version],
             recent: Vec::new(),
@@ -69,9 +53,8 @@ impl ProjectFile {
             after_saving: None,
             given_up: None,
             replacing: None,
-            saving: false,
             save_again: None,
-            opening: None,
+            closing: false,
             window_title: String::new(),
         }
     }
@@ -120,13 +103,27 @@ impl ProjectFile {
         self.path = path;
     }
 
-    fn run(&self, ctx: &Context, work: impl FnOnce() -> Outcome + Send + 'static) {
-        let (sender, ctx) = (self.sender.clone(), ctx.clone());
-        thread::spawn(move || {
-            // The window may have closed in the meantime.
-            let _ = sender.send(work());
-            ctx.request_repaint();
-        });
+    /// Whether the window, or the document, is left once something is written.
+    pub fn is_leaving(&self) -> bool {
+        self.closing || self.after_saving.is_some()
+    }
+
+    /// Edits that were given up are asked about again.
+    pub(super) fn keep_edits(&mut self) {
+        self.given_up = None;
+    }
+
+    /// Forgets that anybody wanted to leave: something went wrong on the way.
+    pub(super) fn stay(&mut self) {
+        self.keep_edits();
+        self.after_saving = None;
+        self.closing = false;
+    }
+
+    /// Forgets what was to come after saving, too.
+    pub(super) fn give_saving_up(&mut self) {
+        self.stay();
+        self.save_again = None;
     }
 }
 
@@ -156,6 +153,12 @@ impl App {
             || !self.project.unedited.contains(&document.version())
     }
 
+    /// Whether the document is being saved as it is now.
+    fn is_being_saved(&self) -> bool {
+        let document = self.session.document();
+        document.stroke().is_none() && self.background.saves_version(document.version())
+    }
+
     pub(super) fn may_leave(&self) -> bool {
         !self.is_edited() || self.project.given_up == Some(self.session.document().version())
     }
@@ -171,7 +174,12 @@ impl App {
                 | Command::Quit
         );
         if leaves && !self.may_leave() {
-            self.project.leaving = Some(command);
+            if self.is_being_saved() {
+                self.say_when_it_closes(&command);
+                self.project.after_saving = Some(command);
+            } else {
+                self.project.leaving = Some(command);
+            }
             return None;
         }
         Some(command)
@@ -187,14 +195,10 @@ impl App {
 
     /// Everything about files that goes on from frame to frame.
     pub(super) fn project_ui(&mut self, ctx: &Context) {
-        self.take_in_project_work();
         let dropped = ctx.input(|input| input.raw.dropped_files.clone());
         self.commands.extend(dropped.iter().map(|file| Command::Open(file.path().to_owned())));
-        if ctx.input(|input| input.viewport().close_requested()) && !self.may_leave() {
-            ctx.send_viewport_cmd(ViewportCommand::CancelClose);
-            self.project.leaving = Some(Command::Quit);
-        }
-        if !self.project.saving && !self.files.is_asking() && self.project.replacing.is_none() {
+        self.close_once_written(ctx);
+        if !self.background.saves() && !self.files.is_asking() && self.project.replacing.is_none() {
             // Nobody saved after all.
             self.project.after_saving = None;
         }
@@ -205,6 +209,31 @@ impl App {
         if title != self.project.window_title {
             ctx.send_viewport_cmd(ViewportCommand::Title(title.clone()));
             self.project.window_title = title;
+        }
+    }
+
+    /// Keeps the window open until nothing would be lost with it.
+    fn close_once_written(&mut self, ctx: &Context) {
+        let writes = self.background.being_written().next().is_some();
+        if !ctx.input(|input| input.viewport().close_requested()) {
+            if self.project.closing && !writes {
+                self.project.closing = false;
+                self.commands.push(Command::Quit);
+            }
+        } else if !self.may_leave() || writes {
+            ctx.send_viewport_cmd(ViewportCommand::CancelClose);
+            if let Some(quit) = self.asked_before_leaving(Command::Quit) {
+                self.say_when_it_closes(&quit);
+                self.project.closing = true;
+            }
+        }
+    }
+
+    fn say_when_it_closes(&mut self, command: &Command) {
+        if *command == Command::Quit {
+            let names = self.background.being_written().collect::<Vec<_>>().join(", ");
+            let text = format!("Meshbrush closes as soon as this is written: {names}.");
+            self.session.set_notice(Some(Notice { failed: false, text }));
         }
     }
 
@@ -219,7 +248,7 @@ impl App {
         self.project.leaving = None;
         match answer {
             Answer::Confirmed => {
-                self.save(ctx);
+                self.save();
                 self.project.after_saving = Some(command);
             }
             Answer::Alternative => {
@@ -258,29 +287,29 @@ impl App {
     }
 
     /// Reads a project; it is shown once it is read.
-    pub(super) fn open_project(&mut self, path: PathBuf, ctx: &Context) {
-        self.project.opening = Some(self.session.document().version());
-        self.project.run(ctx, move || match io::project::read(&path) {
-            Ok(document) => Outcome::Opened(path, Box::new(document)),
-            Err(error) => Outcome::NotOpened(error.to_string()),
+    pub(super) fn open_project(&mut self, path: PathBuf) {
+        let (file, over) = (path.clone(), self.session.document().version());
+        self.background.start(Aim::Read, &path, move |meter| match io::project::read_metered(&file, meter) {
+            Ok(document) => Box::new(move |app| app.show_project(file, document, over)),
+            Err(error) => not_read(error),
         });
     }
 
     /// Saves to the document's file, or asks where.
-    pub(super) fn save(&mut self, ctx: &Context) {
+    pub(super) fn save(&mut self) {
         match self.project.path.clone() {
-            Some(path) => self.save_to(path, ctx),
+            Some(path) => self.save_to(path),
             None => self.files.ask(FileRequest::Save),
         }
     }
 
     /// Saves to a file that somebody typed: not over another one without a question.
-    pub(super) fn save_as(&mut self, path: PathBuf, ctx: &Context) {
+    pub(super) fn save_as(&mut self, path: PathBuf) {
         let path = with_ending(path);
         if io::exists(&path) && self.project.path() != Some(&path) {
             self.project.replacing = Some((vec![path.clone()], Command::SaveTo(path)));
         } else {
-            self.save_to(path, ctx);
+            self.save_to(path);
         }
     }
 
@@ -296,49 +325,39 @@ impl App {
     }
 
     /// Saves the document as it is now, while painting goes on.
-    pub(super) fn save_to(&mut self, path: PathBuf, ctx: &Context) {
+    pub(super) fn save_to(&mut self, path: PathBuf) {
         let path = with_ending(path);
-        if self.project.saving {
+        if self.background.saves() {
             self.project.save_again = Some(path);
             return;
         }
-        self.project.saving = true;
         let document = self.session.document_mut();
         document.end_stroke();
         document.end_gesture();
         let (project, version) = (Project::of(document), document.version());
-        self.project.run(ctx, move || {
-            let write = || io::write_file(&path, |mut out| io::project::write(&mut out, &project));
-            let written = io::obstacle(&path).map_or_else(|| write().map_err(|error| error.to_string()), Err);
-            match written {
-                Ok(()) => Outcome::Saved(path, version),
-                Err(error) => Outcome::NotSaved(format!("{} could not be saved: {error}.", path.display())),
+        let (aim, file) = (Aim::Save(version), path.clone());
+        self.background.start(aim, &path, move |meter| {
+            let write = |out: &mut dyn Write| io::project::write_metered(out, &project, meter);
+            if let Some(obstacle) = io::obstacle(&file) {
+                let problem = format!("{} could not be saved: {obstacle}.", file.display());
+                return Box::new(move |app| app.note_not_saved(problem));
+            }
+            match io::write_file_metered(&file, meter, write) {
+                Ok(()) => Box::new(move |app| app.note_saved(file, version)),
+                Err(_) if meter.is_cancelled() => {
+                    let text = cancelled(aim, &file);
+                    Box::new(move |app| app.note_cancelled(text))
+                }
+                Err(error) => {
+                    let problem = format!("{} could not be saved: {error}.", file.display());
+                    Box::new(move |app| app.note_not_saved(problem))
+                }
             }
         });
     }
 
-    fn take_in_project_work(&mut self) {
-        while let Ok(outcome) = self.project.receiver.try_recv() {
-            match outcome {
-                Outcome::Opened(path, document) => self.show_project(path, *document),
-                Outcome::Saved(path, version) => self.note_saved(path, version),
-                Outcome::NotSaved(problem) => {
-                    self.project.saving = false;
-                    self.project.save_again = None;
-                    self.project.after_saving = None;
-                    self.session.report(problem);
-                }
-                Outcome::NotOpened(problem) => {
-                    // The edits are still here: they are asked about again.
-                    self.project.given_up = None;
-                    self.session.report(problem);
-                }
-            }
-        }
-    }
-
-    fn show_project(&mut self, path: PathBuf, document: Document) {
-        if self.project.opening.take() != Some(self.session.document().version()) {
+    fn show_project(&mut self, path: PathBuf, document: Document, over: u64) {
+        if over != self.session.document().version() {
             let problem = "was not opened, as the document was edited in the meantime. Open it again.";
             self.session.report(format!("{} {problem}", path.display()));
             return;
@@ -350,16 +369,31 @@ impl App {
     }
 
     fn note_saved(&mut self, path: PathBuf, version: u64) {
-        self.project.saving = false;
         let text = format!("Saved to {}.", path.display());
         self.project.belongs_to(Some(path), version, true);
         self.session.set_notice(Some(Notice { failed: false, text }));
         self.note_clean();
-        if let Some(path) = self.project.save_again.take() {
-            self.commands.push(Command::SaveTo(path));
-        } else {
+        self.save_again();
+        if !self.background.saves() {
             // Edits made since are asked about again.
             self.commands.extend(self.project.after_saving.take());
+        }
+    }
+
+    fn note_cancelled(&mut self, text: String) {
+        self.session.set_notice(Some(Notice { failed: false, text }));
+        // Asked for after the cancelling.
+        self.save_again();
+    }
+
+    fn note_not_saved(&mut self, problem: String) {
+        self.project.give_saving_up();
+        self.session.report(problem);
+    }
+
+    fn save_again(&mut self) {
+        if let Some(path) = self.project.save_again.take() {
+            self.save_to(path);
         }
     }
 }

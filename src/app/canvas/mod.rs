@@ -18,10 +18,11 @@ pub use overlay::OverlayColors;
 
 use glam::{DVec2, dvec2};
 
+use super::background::Row;
 use super::command::Command;
 use super::theme::tokens;
 use super::tools::Tool;
-use super::widgets::{Banner, BannerAnswer, format, hint_pill, paint_floating, progress_row};
+use super::widgets::{Banner, BannerAnswer, bytes_row, format, hint_pill, paint_floating, progress_row};
 use super::{App, FRAME_BUDGET};
 use crate::document::Stage;
 use crate::domain::Stencil;
@@ -259,33 +260,50 @@ impl App {
         }
     }
 
-    /// How far work is, once it has taken longer than a moment; tells whether that is shown.
+    /// How far each work is, once it has taken longer than a moment: that on the mesh lowest, then that on files. Tells whether any is
+    /// shown.
     fn show_progress(&mut self, ui: &mut Ui, inner: Rect) -> bool {
-        let stage = self.session.stage();
-        let cuts = !self.cutter.is_idle();
-        if !self.busy.is_long(cuts || stage != Stage::InStep) {
-            return false;
-        }
-        let (what, done) = match stage {
-            _ if cuts => ("Cutting the outline", String::new()),
-            Stage::Refining { triangles } => {
-                ("Refining", format!("{} triangles", format::count(triangles as u64)))
-            }
-            Stage::Outlining => ("Laying the outline", String::new()),
-            Stage::Filling => ("Sampling the field", String::new()),
-            Stage::InStep => return false,
-        };
         let size = vec2(inner.width().min(360.0), 32.0);
-        let place = Rect::from_min_size(inner.right_bottom() - size, size);
+        let first = Rect::from_min_size(inner.right_bottom() - size, size);
+        let mut place = first;
+        let above = |place: Rect| place.translate(vec2(0.0, -size.y - 8.0));
+        let on_mesh = self.work_on_mesh();
+        let long = self.busy.is_long(on_mesh.is_some());
+        if let Some((what, done)) = on_mesh.filter(|_| long) {
+            if progress_row(&mut self.card(ui, place), what, &done) {
+                self.cancel_update();
+            }
+            place = above(place);
+        }
+        for Row { id, what, meter } in self.background.rows(self.project.is_leaving()) {
+            if bytes_row(&mut self.card(ui, place), &what, meter.done(), meter.total()) {
+                self.cancel_work(id);
+            }
+            place = above(place);
+        }
+        place != first
+    }
+
+    /// What is being done to bring the mesh up to date, and how far it is.
+    fn work_on_mesh(&self) -> Option<(&'static str, String)> {
+        match self.session.stage() {
+            _ if !self.cutter.is_idle() => Some(("Cutting the outline", String::new())),
+            Stage::Refining { triangles } => {
+                Some(("Refining", format!("{} triangles", format::count(triangles as u64))))
+            }
+            Stage::Outlining => Some(("Laying the outline", String::new())),
+            Stage::Filling => Some(("Sampling the field", String::new())),
+            Stage::InStep => None,
+        }
+    }
+
+    /// A ground over the canvas for a row of widgets, which takes the clicks there.
+    fn card(&mut self, ui: &mut Ui, place: Rect) -> Ui {
         self.floats.push(place);
         paint_floating(ui, place);
         let row =
             place.with_min_x(place.left() + 12.0).with_max_x(place.right() - 4.0).shrink2(vec2(0.0, 4.0));
-        let mut child = ui.new_child(egui::UiBuilder::new().max_rect(row));
-        if progress_row(&mut child, what, &done) {
-            self.cancel_work();
-        }
-        true
+        ui.new_child(egui::UiBuilder::new().max_rect(row))
     }
 
     /// Where a point of the world is on the screen, once there was a frame.

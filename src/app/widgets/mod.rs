@@ -40,7 +40,7 @@ pub use icon::Icon;
 pub use levels::{LevelLegend, LevelRow, LevelsResponse};
 pub use number::NumberRow;
 pub use palette::{CommandPalette, PaletteItem};
-pub use progress::progress_row;
+pub use progress::{bytes_row, progress_row};
 pub use section::{Section, SectionResponse};
 pub use segmented::segmented;
 pub use slider::SliderRow;

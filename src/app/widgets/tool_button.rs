@@ -87,13 +87,20 @@ pub enum ButtonKind {
 #[must_use = "add it to a `Ui`"]
 pub struct ActionButton<'a> {
     text: &'a str,
+    name: &'a str,
     kind: ButtonKind,
 }
 
 impl<'a> ActionButton<'a> {
     /// A quiet button.
     pub fn new(text: &'a str) -> Self {
-        Self { text, kind: ButtonKind::Quiet }
+        Self { text, name: text, kind: ButtonKind::Quiet }
+    }
+
+    /// What it is called where the word alone does not tell it from others.
+    pub fn named(mut self, name: &'a str) -> Self {
+        self.name = name;
+        self
     }
 
     /// How much it asks for attention.
@@ -110,7 +117,7 @@ impl egui::Widget for ActionButton<'_> {
         let text = paint::line(ui, self.text, font::body(), ink);
         let size = vec2(text.size().x.ceil() + 24.0, metrics::ROW + 4.0);
         let (rect, response) = ui.allocate_exact_size(size, Sense::click());
-        response.widget_info(|| WidgetInfo::labeled(Role::Button, ui.is_enabled(), self.text));
+        response.widget_info(|| WidgetInfo::labeled(Role::Button, ui.is_enabled(), self.name));
         let (rest, lit) = match self.kind {
             ButtonKind::Main => (t.selected, t.selected.lerp_to_gamma(t.value, 0.12)),
             ButtonKind::Danger => (t.danger_fill, t.danger_fill.lerp_to_gamma(Color32::BLACK, 0.15)),

@@ -1,0 +1,336 @@
+//! Files being read and written beside the window: their progress, cancelling them, and closing the window before they are done.
+//!
+//! Pipes make it slow: whoever reads or writes one waits for the test.
+#![cfg(all(feature = "gui", unix))]
+
+use std::fs::{self, File};
+use std::io::{ErrorKind, Read, Write};
+use std::path::{Path, PathBuf};
+use std::process;
+use std::time::{Duration, Instant};
+
+use eframe::egui::accesskit::Role;
+use eframe::egui::{ViewportCommand, ViewportEvent, ViewportId, vec2};
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable as _;
+use glam::dvec2;
+use meshbrush::app::App;
+use meshbrush::app::command::Command;
+use meshbrush::document::Document;
+use meshbrush::io::project;
+
+type Window = Harness<'static, App>;
+
+const EDITED: &str = "Radar threats — edited";
+const QUESTION: &str = "Save changes to “Radar threats”?";
+
+fn window() -> Window {
+    let mut window = Harness::builder()
+        .with_size(vec2(1440.0, 900.0))
+        .with_max_steps(4000)
+        .build_eframe(|cc| App::new(&cc.egui_ctx, None).unwrap());
+    window.run();
+    window
+}
+
+fn folder(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("app-background").join(name);
+    let _ = fs::remove_dir_all(&folder); // absent at the first run
+    fs::create_dir_all(&folder).unwrap();
+    folder
+}
+
+fn pipe(path: PathBuf) -> PathBuf {
+    assert!(process::Command::new("mkfifo").arg(&path).status().unwrap().success());
+    path
+}
+
+/// Opens a pipe for writing, which waits until the window reads it.
+fn writer(pipe: &Path) -> File {
+    File::options().write(true).open(pipe).unwrap()
+}
+
+fn send(window: &mut Window, command: Command) {
+    window.state_mut().send(command);
+    window.run();
+}
+
+fn paint(window: &mut Window, at: f64) {
+    send(window, Command::BeginStroke(dvec2(at, 0.5)));
+    send(window, Command::DrawTo(dvec2(at, 0.6)));
+    send(window, Command::EndStroke);
+}
+
+fn document(window: &Window) -> &Document {
+    window.state().session().document()
+}
+
+fn told(window: &Window) -> String {
+    window.state().session().notice().map(|notice| notice.text.clone()).unwrap_or_default()
+}
+
+fn shows(window: &Window, label: &str) -> bool {
+    window.query_by_label(label).is_some()
+}
+
+/// Whether there is a bar with that name.
+fn has_bar(window: &Window, what: &str) -> bool {
+    window.query_by_role_and_label(Role::ProgressIndicator, what).is_some()
+}
+
+fn wait(window: &mut Window, what: &str, done: impl Fn(&Window) -> bool) {
+    let start = Instant::now();
+    while !done(window) {
+        assert!(start.elapsed() < Duration::from_secs(30), "waited for {what}; told: {}", told(window));
+        std::thread::sleep(Duration::from_millis(5));
+        window.run();
+    }
+}
+
+fn cancel(window: &mut Window, what: &str) {
+    window.get_by_role_and_label(Role::Button, &format!("Cancel: {what}")).click();
+    window.run();
+}
+
+/// What the last frame asked of the desktop.
+fn asked(window: &Window) -> &[ViewportCommand] {
+    &window.output().viewport_output[&ViewportId::ROOT].commands
+}
+
+fn pause_before_next_frame(window: &Window) -> Duration {
+    window.output().viewport_output[&ViewportId::ROOT].repaint_delay
+}
+
+/// Clicks the cross of the window, and returns whether the window stays.
+fn close(window: &mut Window) -> bool {
+    let viewport = window.input_mut().viewports.get_mut(&ViewportId::ROOT).unwrap();
+    viewport.events.push(ViewportEvent::Close);
+    window.step();
+    asked(window).contains(&ViewportCommand::CancelClose)
+}
+
+/// Runs frames until the window is over; fails if it does not close.
+fn wait_for_close(window: &mut Window) {
+    let start = Instant::now();
+    while !asked(window).contains(&ViewportCommand::Close) {
+        assert!(start.elapsed() < Duration::from_secs(30), "it stays open; told: {}", told(window));
+        std::thread::sleep(Duration::from_millis(2));
+        window.step();
+    }
+    assert!(!close(window), "nothing is left that would be lost");
+}
+
+fn read_all(pipe: &Path) -> Vec<u8> {
+    fs::read(pipe).unwrap()
+}
+
+fn names(folder: &Path) -> Vec<String> {
+    let mut names: Vec<String> = fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
+    names.sort();
+    names
+}
+
+#[test]
+fn a_read_shows_how_far_it_is_and_cancelled_it_changes_nothing() {
+    let file = pipe(folder("read").join("coast.geojson"));
+    let mut window = window();
+    send(&mut window, Command::OpenDomain(file.clone()));
+    let mut coast = writer(&file);
+    write!(coast, "{{\"type\": \"Polygon\", \"coordinates\": [[[0, 0], [1, 0]").unwrap();
+    assert!(!has_bar(&window, "Reading coast.geojson"), "not for a moment");
+    wait(&mut window, "the bar", |window| has_bar(window, "Reading coast.geojson"));
+    let pause = pause_before_next_frame(&window);
+    assert!((Duration::from_millis(50)..Duration::from_secs(1)).contains(&pause), "{pause:?}");
+    // The window goes on meanwhile.
+    paint(&mut window, 0.9);
+    let version = document(&window).version();
+
+    cancel(&mut window, "Reading coast.geojson");
+    assert!(told(&window).contains("Reading coast.geojson was cancelled"), "{}", told(&window));
+    assert!(!has_bar(&window, "Reading coast.geojson"));
+    assert_eq!(pause_before_next_frame(&window), Duration::MAX, "the window rests");
+    // Nobody reads on.
+    let mut bytes = 0;
+    let end = loop {
+        bytes += 1 << 12;
+        match coast.write_all(&[b' '; 1 << 12]) {
+            Ok(()) => assert!(bytes < 1 << 24, "it is read on and on"),
+            Err(error) => break error,
+        }
+    };
+    assert_eq!(end.kind(), ErrorKind::BrokenPipe);
+    for _ in 0..20 {
+        std::thread::sleep(Duration::from_millis(5));
+        window.run();
+    }
+    assert_eq!(document(&window).version(), version);
+    assert!(shows(&window, EDITED) && told(&window).contains("was cancelled"));
+}
+
+#[test]
+fn a_read_that_is_left_alone_is_opened() {
+    let file = pipe(folder("whole").join("coast.geojson"));
+    let mut window = window();
+    send(&mut window, Command::OpenDomain(file.clone()));
+    let mut coast = writer(&file);
+    wait(&mut window, "the bar", |window| has_bar(window, "Reading coast.geojson"));
+    write!(coast, "{{\"type\": \"Polygon\", \"coordinates\": [[[0, 0], [1, 0], [0, 1], [0, 0]]]}}").unwrap();
+    drop(coast);
+    wait(&mut window, "opening", |window| shows(window, "coast"));
+    assert!(!has_bar(&window, "Reading coast.geojson"));
+}
+
+#[test]
+fn edits_given_up_for_a_file_are_asked_about_again_when_that_is_cancelled() {
+    let file = pipe(folder("given-up").join("coast.geojson"));
+    let mut window = window();
+    paint(&mut window, 0.9);
+    send(&mut window, Command::OpenDomain(file.clone()));
+    window.get_by_label("Do not save").click();
+    window.run();
+    let coast = writer(&file);
+    wait(&mut window, "the bar", |window| has_bar(window, "Reading coast.geojson"));
+    cancel(&mut window, "Reading coast.geojson");
+    drop(coast);
+    send(&mut window, Command::Quit);
+    assert!(shows(&window, QUESTION));
+}
+
+#[test]
+fn a_cancelled_export_leaves_the_former_files() {
+    let folder = folder("export");
+    for ending in ["node", "ele", "neigh"] {
+        fs::write(folder.join("mesh").with_extension(ending), format!("the former {ending}")).unwrap();
+    }
+    let last = pipe(folder.join("mesh.edge"));
+    let before = names(&folder);
+    let mut window = window();
+    send(&mut window, Command::Export(folder.join("mesh.node")));
+    wait(&mut window, "the bar", |window| has_bar(window, "Writing mesh.node"));
+    // Three of the four files are written, or being so.
+    cancel(&mut window, "Writing mesh.node");
+    assert!(has_bar(&window, "Cancelling mesh.node"), "the pipe is not closed yet");
+    read_all(&last);
+    wait(&mut window, "the notice", |window| !told(window).is_empty());
+    assert_eq!(told(&window), "Writing mesh.node was cancelled. The file that was there is as it was.");
+    assert!(!has_bar(&window, "Cancelling mesh.node"));
+    assert_eq!(names(&folder), before);
+    for ending in ["node", "ele", "neigh"] {
+        let file = fs::read_to_string(folder.join("mesh").with_extension(ending)).unwrap();
+        assert_eq!(file, format!("the former {ending}"));
+    }
+}
+
+#[test]
+fn a_window_that_is_closed_while_the_document_is_saved_closes_when_it_is() {
+    for by_key in [false, true] {
+        let file = pipe(folder(&format!("save-{by_key}")).join("a.meshbrush"));
+        let mut window = window();
+        paint(&mut window, 0.9);
+        let painted = document(&window).layers().clone();
+        send(&mut window, Command::SaveTo(file.clone()));
+        if by_key {
+            send(&mut window, Command::Quit);
+        } else {
+            assert!(close(&mut window), "the file is not written yet");
+            window.run();
+        }
+        assert!(!shows(&window, QUESTION), "it is being saved");
+        assert!(has_bar(&window, "Saving a.meshbrush"), "at once, as somebody waits for it");
+        assert!(told(&window).contains("closes as soon as") && told(&window).contains("a.meshbrush"));
+        assert!(close(&mut window), "not even when told twice");
+        let saved = std::thread::spawn(move || read_all(&file));
+        wait_for_close(&mut window);
+        let saved = project::from_bytes(&saved.join().unwrap(), Path::new("a")).unwrap();
+        assert!(*saved.into_document().unwrap().layers() == painted);
+    }
+}
+
+#[test]
+fn edits_made_while_the_document_is_saved_are_asked_about_before_the_window_closes() {
+    let file = pipe(folder("edited").join("a.meshbrush"));
+    let mut window = window();
+    paint(&mut window, 0.9);
+    send(&mut window, Command::SaveTo(file.clone()));
+    assert!(close(&mut window));
+    window.run();
+    paint(&mut window, 0.8);
+    let saved = std::thread::spawn(move || read_all(&file));
+    wait(&mut window, "the question", |window| shows(window, "Save changes to “a”?"));
+    assert!(!saved.join().unwrap().is_empty());
+}
+
+#[test]
+fn a_cancelled_save_leaves_the_document_unsaved_and_the_window_open() {
+    let file = pipe(folder("cancelled").join("a.meshbrush"));
+    let mut window = window();
+    paint(&mut window, 0.9);
+    send(&mut window, Command::SaveTo(file.clone()));
+    assert!(close(&mut window));
+    window.run();
+    cancel(&mut window, "Saving a.meshbrush");
+    let saved = std::thread::spawn(move || read_all(&file));
+    wait(&mut window, "the notice", |window| told(window).contains("Saving a.meshbrush was cancelled"));
+    assert!(shows(&window, EDITED));
+    assert!(project::from_bytes(&saved.join().unwrap(), Path::new("a")).is_err());
+    assert!(close(&mut window), "it is asked first");
+    window.run();
+    assert!(shows(&window, QUESTION));
+}
+
+#[test]
+fn what_is_saved_again_after_cancelling_is_saved() {
+    let folder = folder("again");
+    let (slow, file) = (pipe(folder.join("slow.meshbrush")), folder.join("a.meshbrush"));
+    let mut window = window();
+    paint(&mut window, 0.9);
+    send(&mut window, Command::SaveTo(slow.clone()));
+    wait(&mut window, "the bar", |window| has_bar(window, "Saving slow.meshbrush"));
+    cancel(&mut window, "Saving slow.meshbrush");
+    send(&mut window, Command::SaveTo(file.clone()));
+    let reader = std::thread::spawn(move || read_all(&slow));
+    wait(&mut window, "saving", |window| shows(window, "a"));
+    assert!(project::read(&file).is_ok());
+    reader.join().unwrap();
+}
+
+#[test]
+fn a_window_that_is_closed_during_an_export_waits_for_it_or_until_it_is_cancelled() {
+    for cancelled in [false, true] {
+        let file = pipe(folder(&format!("closing-{cancelled}")).join("mesh.csv"));
+        let mut window = window();
+        send(&mut window, Command::Export(file.clone()));
+        assert!(close(&mut window), "the file is not written yet");
+        window.run();
+        assert!(has_bar(&window, "Writing mesh.csv") && told(&window).contains("mesh.csv"));
+        if cancelled {
+            // Nobody reads the pipe: the window need not wait until somebody does.
+            window.get_by_role_and_label(Role::Button, "Cancel: Writing mesh.csv").click();
+            wait_for_close(&mut window);
+            read_all(&file);
+        } else {
+            let written = std::thread::spawn(move || read_all(&file));
+            wait_for_close(&mut window);
+            assert!(written.join().unwrap().starts_with(b"triangle,level"));
+        }
+    }
+}
+
+#[test]
+fn an_export_that_fails_keeps_the_window_open_to_say_so() {
+    let file = pipe(folder("failing").join("mesh.csv"));
+    let mut window = window();
+    send(&mut window, Command::Export(file.clone()));
+    assert!(close(&mut window));
+    window.run();
+    // Somebody reads a little of it and goes away.
+    File::open(&file).unwrap().read_exact(&mut [0; 10]).unwrap();
+    wait(&mut window, "the failure", |window| told(window).contains("could not be written"));
+    for _ in 0..10 {
+        window.step();
+        assert!(!asked(&window).contains(&ViewportCommand::Close));
+    }
+}
