@@ -298,6 +298,29 @@ fn what_is_saved_again_after_cancelling_is_saved() {
 }
 
 #[test]
+fn what_is_saved_while_the_document_is_saved_is_saved_next_and_then_it_is_left() {
+    let file = folder("next").join("a.meshbrush");
+    let mut window = window();
+    send(&mut window, Command::SaveTo(file.clone()));
+    wait(&mut window, "saving", |window| shows(window, "a"));
+    fs::remove_file(&file).unwrap();
+    let file = pipe(file);
+    paint(&mut window, 0.9);
+    send(&mut window, Command::Save);
+    paint(&mut window, 0.8);
+    send(&mut window, Command::New);
+    // What is being saved lacks the last stroke.
+    window.get_by_label("Save").click();
+    window.run();
+    assert!(!document(&window).layers().is_blank());
+    // Open for writing too, so that it does not end between the two.
+    let mut drain = File::options().read(true).write(true).open(&file).unwrap();
+    std::thread::spawn(move || std::io::copy(&mut drain, &mut std::io::sink()));
+    wait(&mut window, "the new document", |window| document(window).layers().is_blank());
+    assert!(told(&window).is_empty(), "{}", told(&window));
+}
+
+#[test]
 fn a_window_that_is_closed_during_an_export_waits_for_it_or_until_it_is_cancelled() {
     for cancelled in [false, true] {
         let file = pipe(folder(&format!("closing-{cancelled}")).join("mesh.csv"));

@@ -5,7 +5,7 @@ use eframe::egui;
 use egui::accesskit::Role;
 use egui::{Align2, Color32, Theme, Ui, vec2};
 use egui_kittest::Harness;
-use egui_kittest::kittest::Queryable as _;
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use meshbrush::app::theme;
 use meshbrush::app::widgets::*;
 
@@ -517,6 +517,25 @@ fn chips_levels_tools_and_cancel_answer_clicks() {
     harness.drop_at(cancel);
     harness.run();
     assert_eq!(harness.state().clicks, ["neighbour 2", "level 9", "Eraser", "cancel"]);
+}
+
+#[test]
+fn bytes_are_told_as_a_share_where_it_is_known_how_many_there_are() {
+    let mut harness = Harness::builder().with_size(vec2(360.0, 100.0)).build_ui(|ui| {
+        theme::install(ui.ctx());
+        bytes_row(ui, "Reading coast.geojson", 125_000_000, Some(250_000_000));
+        bytes_row(ui, "Writing mesh.obj", 1_234_567, None);
+    });
+    harness.run();
+    let share = |what| {
+        let bar = harness.get_by_role_and_label(Role::ProgressIndicator, what);
+        bar.accesskit_node().numeric_value()
+    };
+    assert_eq!(share("Reading coast.geojson"), Some(0.5));
+    assert_eq!(share("Writing mesh.obj"), Some(0.0));
+    for name in ["Cancel: Reading coast.geojson", "Cancel: Writing mesh.obj"] {
+        harness.get_by_role_and_label(Role::Button, name);
+    }
 }
 
 #[test]
