@@ -472,7 +472,7 @@ fn impossible_targets_fail_with_their_place() {
         ("--target 'if(x < 0.5, 0.1, 0/0)'", "The target diameter is NaN at x = 0."),
         ("--target 1/0", "The target diameter is inf at x = "),
         ("--target 1e-300", "nodes would leave the lattice"),
-        ("--target 1 --target -x", "The target diameter is -"),
+        ("--target 1 --target -x", "The target diameter is 0 at x = 0"),
         ("--target -1 --h-min 0.1", "The target diameter is -1 at x = "),
         ("--risk 0/0 --h-min 0.01", "The target diameter is NaN at x = "),
         ("--target 1/0 --rule area", "The target diameter is inf at x = "),
