@@ -137,7 +137,7 @@ impl Region {
     }
 }
 
-/// Where one has come to in the edges of a region.
+/// A place between the edges of a region, or before or behind all of them.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct EdgeCursor {
     polygon: usize,
@@ -146,7 +146,7 @@ pub(super) struct EdgeCursor {
 }
 
 impl EdgeCursor {
-    /// The next edge of the region, with the region to the left.
+    /// Moves on over an edge of the region, and returns it with the region to the left.
     pub(super) fn next(&mut self, region: &Region) -> Option<[DVec2; 2]> {
         loop {
             let rings = region.polygons.get(self.polygon)?;
@@ -160,6 +160,26 @@ impl EdgeCursor {
             }
             (self.ring, self.corner) = (self.ring + 1, 0);
         }
+    }
+
+    /// How many edges of the present ring are still to come.
+    pub(super) fn left_in_ring(&self, region: &Region) -> usize {
+        self.ring_of(region).map_or(0, |ring| ring.len() - self.corner)
+    }
+
+    /// The place behind all of these.
+    pub(super) fn behind_ring(&self, region: &Region) -> Self {
+        Self { corner: self.corner + self.left_in_ring(region), ..*self }
+    }
+
+    /// One of these, the next one being number 0.
+    pub(super) fn edge_in_ring(&self, region: &Region, number: usize) -> [DVec2; 2] {
+        let ring = self.ring_of(region).expect("there is an edge, so there is a ring");
+        [ring[self.corner + number], ring[(self.corner + number + 1) % ring.len()]]
+    }
+
+    fn ring_of<'a>(&self, region: &'a Region) -> Option<&'a Ring> {
+        region.polygons.get(self.polygon)?.get(self.ring)
     }
 }
 
