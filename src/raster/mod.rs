@@ -193,14 +193,21 @@ impl<T: Copy> Raster<T> {
         // Column and row of a pixel do not depend on each other: each is looked up once.
         let column_under = |x| self.pixel_under(new.pixel_center(x, 0), 0);
         let row_under = |y| self.pixel_under(new.pixel_center(0, y), 1);
-        let columns: Vec<_> = (0..size[0]).map(column_under).collect();
         let rows: Vec<_> = (0..size[1]).map(row_under).collect();
-        for (to, from) in new.values.chunks_exact_mut(size[0] as usize).zip(rows) {
-            let Some(row) = from else { continue };
-            let from = &self.values[row as usize * self.size[0] as usize..][..self.size[0] as usize];
-            for (value, column) in to.iter_mut().zip(&columns) {
-                *value = column.map_or(outside, |column| from[column as usize]);
+        // Those within this raster follow each other.
+        let left = (0..size[0]).take_while(|&x| column_under(x).is_none()).count();
+        let columns: Vec<u32> = (left as u32..size[0]).map_while(column_under).collect();
+        let (old_width, width) = (self.size[0] as usize, size[0] as usize);
+        for (y, row) in rows.iter().enumerate() {
+            let Some(row) = *row else { continue };
+            let (done, rest) = new.values.split_at_mut(y * width);
+            let to = &mut rest[left..left + columns.len()];
+            if y > 0 && rows[y - 1] == Some(row) {
+                to.copy_from_slice(&done[(y - 1) * width + left..][..columns.len()]);
+                continue;
             }
+            let from = &self.values[row as usize * old_width..][..old_width];
+            to.iter_mut().zip(&columns).for_each(|(value, &column)| *value = from[column as usize]);
         }
         new
     }
@@ -209,5 +216,34 @@ impl<T: Copy> Raster<T> {
     fn pixel_under(&self, point: DVec2, axis: usize) -> Option<u32> {
         let inside = (self.bounds.min[axis]..=self.bounds.max[axis]).contains(&point[axis]);
         inside.then(|| (self.pixel_from_world(point)[axis] as u32).min(self.size[axis] - 1))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::dvec2;
+
+    use super::*;
+
+    #[test]
+    fn each_new_pixel_takes_the_value_under_its_middle() {
+        let mut random = fastrand::Rng::with_seed(9);
+        let (mut inside, mut outside) = (0, 0);
+        for _ in 0..300 {
+            let size = [0, 0].map(|_| random.u32(1..40));
+            let values = (0..size[0] * size[1]).map(|_| random.u32(..)).collect();
+            let raster = Raster::from_values(Rect::new(DVec2::ZERO, dvec2(3.0, 2.0)), size, values);
+            let corner = dvec2(random.f64() * 5.0 - 1.5, random.f64() * 4.0 - 1.5);
+            let sides = dvec2(0.1 + 4.0 * random.f64(), 0.1 + 4.0 * random.f64());
+            let bounds =
+                if random.u8(..4) == 0 { raster.bounds() } else { Rect::new(corner, corner + sides) };
+            let new = raster.resampled(bounds, [0, 0].map(|_| random.u32(1..90)), 7);
+            for (x, y) in new.all().pixels() {
+                let under = raster.sample(new.pixel_center(x, y));
+                assert_eq!(new.get(x, y), under.unwrap_or(7));
+                *(if under.is_some() { &mut inside } else { &mut outside }) += 1;
+            }
+        }
+        assert!(inside > 50_000 && outside > 50_000, "{inside} {outside}");
     }
 }

@@ -109,6 +109,13 @@ impl Camera {
         self.screen(self.lattice.lattice_from_world(p) - self.center)
     }
 
+    /// [`Self::screen_from_world`] for a great many points: quick, and to within rounding of world coordinates.
+    pub fn screen_map(&self) -> impl Fn(DVec2) -> DVec2 + use<> {
+        let (world, middle) = (self.world_from_lattice(self.center), self.half_size_px());
+        let scale = dvec2(self.px_per_world, -self.px_per_world);
+        move |p| middle + (p - world) * scale
+    }
+
     /// Lattice coordinates of a pixel position, as real numbers; may lie off the grid.
     pub fn lattice_from_screen(&self, px: DVec2) -> DVec2 {
         self.center + self.steps_from_px(px - self.half_size_px())
@@ -227,6 +234,16 @@ mod tests {
         }
         let moved = camera.screen_from_lattice(node) - before;
         assert!(moved.distance(dvec2(1000.0, -1000.0)) < 0.05, "{moved}");
+    }
+
+    #[test]
+    fn many_points_are_where_each_is() {
+        let camera =
+            camera(Rect::new(dvec2(3.0, -2.0), dvec2(7.0, 1.1)), 0.31).zoomed(900.0, dvec2(310.0, 120.0));
+        let quick = camera.screen_map();
+        for p in [dvec2(3.0, -2.0), dvec2(5.1, 0.3), camera.world_from_screen(dvec2(3.0, 5.0))] {
+            assert!(quick(p).distance(camera.screen_from_world(p)) < 1e-6, "{p}");
+        }
     }
 
     #[test]

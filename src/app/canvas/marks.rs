@@ -105,31 +105,34 @@ const SHORTEST_PIECE: f32 = 0.7;
 
 /// A ring of the domain's outline, thin and light on a dark halo.
 pub fn paint_outline(painter: &Painter, corners: impl Iterator<Item = Pos2>) {
-    let mut line: Vec<Pos2> = Vec::new();
+    let mut ring: Vec<Pos2> = Vec::new();
     for corner in corners {
-        if line.last().is_none_or(|last| last.distance(corner) >= SHORTEST_PIECE) {
-            line.push(corner);
+        if ring.last().is_none_or(|last| last.distance_sq(corner) >= SHORTEST_PIECE * SHORTEST_PIECE) {
+            ring.push(corner);
         }
     }
-    if line.len() < 2 || !Rect::from_points(&line).intersects(painter.clip_rect()) {
-        return;
-    }
-    let pieces = between_spikes(&line);
+    let pieces = visible_pieces(&ring, painter.clip_rect().expand(3.0));
     for stroke in [Stroke::new(2.5, Color32::from_black_alpha(110)), Stroke::new(1.0, Color32::WHITE)] {
         painter.extend(pieces.iter().map(|piece| Shape::line(piece.clone(), stroke)));
     }
 }
 
-/// A ring, cut where it turns back: a line drawn through there would end in a spike far beyond the corner.
-fn between_spikes(ring: &[Pos2]) -> Vec<Vec<Pos2>> {
-    let mut pieces = vec![vec![ring[0]]];
-    for (i, &corner) in ring.iter().enumerate().skip(1).chain([(0, &ring[0])]) {
-        pieces.last_mut().expect("never empty").push(corner);
-        let next = ring[(i + 1) % ring.len()];
-        let before = ring[(i + ring.len() - 1) % ring.len()];
-        if (corner - before).normalized().dot((next - corner).normalized()) < -0.5 && i != 0 {
-            pieces.push(vec![corner]);
+/// What of a ring passes near a view. It is cut where it turns back: a line drawn through there would end in a spike far beyond the
+/// corner.
+fn visible_pieces(ring: &[Pos2], view: Rect) -> Vec<Vec<Pos2>> {
+    let mut pieces: Vec<Vec<Pos2>> = Vec::new();
+    let mut goes_on = false;
+    for (i, &from) in ring.iter().enumerate() {
+        let [to, next] = [i + 1, i + 2].map(|i| ring[i % ring.len()]);
+        if !Rect::from_two_pos(from, to).intersects(view) {
+            goes_on = false;
+            continue;
         }
+        match pieces.last_mut() {
+            Some(piece) if goes_on => piece.push(to),
+            _ => pieces.push(vec![from, to]),
+        }
+        goes_on = (to - from).normalized().dot((next - to).normalized()) > -0.5;
     }
     pieces
 }

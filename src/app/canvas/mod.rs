@@ -163,6 +163,8 @@ impl App {
             marks::paint_point(&painter, at(readout.point));
         }
         if self.tools.tool == Tool::Domain {
+            let screen = camera.screen_map();
+            let at = |world| marks::point_from_px(rect, screen(world), px_per_point);
             self.paint_outlines(&painter, &at, response.hover_pos());
         }
         if let Gesture::Framing { from, to, .. } = self.gesture {
