@@ -3,6 +3,8 @@
 //! Pipes make it slow: whoever reads or writes one waits for the test.
 #![cfg(all(feature = "gui", unix))]
 
+mod headless;
+
 use std::fs::{self, File};
 use std::io::{ErrorKind, Read, Write};
 use std::path::{Path, PathBuf};
@@ -10,34 +12,18 @@ use std::process;
 use std::time::{Duration, Instant};
 
 use eframe::egui::accesskit::Role;
-use eframe::egui::{ViewportCommand, ViewportEvent, ViewportId, vec2};
-use egui_kittest::Harness;
+use eframe::egui::{ViewportCommand, ViewportEvent, ViewportId};
 use egui_kittest::kittest::Queryable as _;
 use glam::dvec2;
-use meshbrush::app::App;
+use headless::{EDITED, Window, window};
 use meshbrush::app::command::Command;
 use meshbrush::document::Document;
 use meshbrush::io::project;
 
-type Window = Harness<'static, App>;
-
-const EDITED: &str = "Radar threats — edited";
 const QUESTION: &str = "Save changes to “Radar threats”?";
 
-fn window() -> Window {
-    let mut window = Harness::builder()
-        .with_size(vec2(1440.0, 900.0))
-        .with_max_steps(4000)
-        .build_eframe(|cc| App::new(&cc.egui_ctx, None).unwrap());
-    window.run();
-    window
-}
-
 fn folder(name: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("app-background").join(name);
-    let _ = fs::remove_dir_all(&folder); // absent at the first run
-    fs::create_dir_all(&folder).unwrap();
-    folder
+    headless::folder("app-background", name)
 }
 
 fn pipe(path: PathBuf) -> PathBuf {

@@ -1,39 +1,24 @@
 //! Saving, opening and the questions before something would be lost, in the window, by role and label.
 #![cfg(feature = "gui")]
 
+mod headless;
+
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use eframe::egui::{self, Key, Modifiers, vec2};
-use egui_kittest::Harness;
+use eframe::egui::{self, Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
 use glam::dvec2;
-use meshbrush::app::App;
+use headless::{EDITED, Window, window};
 use meshbrush::app::command::Command;
 use meshbrush::document::{Document, Example, Stage};
 use meshbrush::io::project::{self, Project};
 use meshbrush::mesh::Fingerprint;
 
-type Window = Harness<'static, App>;
-
-const EDITED: &str = "Radar threats — edited";
-
-fn window() -> Window {
-    let mut window = Harness::builder()
-        .with_size(vec2(1440.0, 900.0))
-        .with_max_steps(4000)
-        .build_eframe(|cc| App::new(&cc.egui_ctx, None).unwrap());
-    window.run();
-    window
-}
-
 fn folder(name: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("app-project").join(name);
-    let _ = fs::remove_dir_all(&folder); // absent at the first run
-    fs::create_dir_all(&folder).unwrap();
-    folder
+    headless::folder("app-project", name)
 }
 
 fn send(window: &mut Window, command: Command) {

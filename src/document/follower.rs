@@ -2,10 +2,11 @@ use std::sync::Arc;
 
 use super::cut::Cut;
 use super::job::{Finished, Job};
+use super::stage::{FollowError, Stage};
 use super::{Document, Repainted, Settings};
 use crate::domain::DomainOnLattice;
 use crate::field::{Rule, TargetField};
-use crate::mesh::{Changes, CoarseError, Element, InvalidTarget, Mesh, Progress, RefineError, Updater};
+use crate::mesh::{Changes, Element, Mesh, Progress, RefineError, Updater};
 use crate::raster::PixelRect;
 
 /// Keeps field and mesh in step with a document, in slices.
@@ -49,36 +50,6 @@ pub enum MeshChange {
     Replaced,
     /// These entries changed.
     Within(Changes),
-}
-
-/// How far a [`Follower`] is behind its document.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Stage {
-    /// Not at all.
-    InStep,
-    /// The outline of the domain is being laid on the lattice.
-    Outlining,
-    /// The field is being sampled.
-    Filling,
-    /// The mesh is being refined; so far it has this many triangles.
-    Refining {
-        /// Triangles so far.
-        triangles: usize,
-    },
-}
-
-/// Why no mesh could be made of a document. The former mesh is still shown.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum FollowError {
-    /// The coarse grid is impossible, or empty.
-    #[error(transparent)]
-    Coarse(#[from] CoarseError),
-    /// h̄ is no length somewhere.
-    #[error(transparent)]
-    InvalidTarget(#[from] InvalidTarget),
-    /// A limit was reached.
-    #[error(transparent)]
-    Refine(#[from] RefineError),
 }
 
 impl Follower {

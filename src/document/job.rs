@@ -1,6 +1,6 @@
 //! A mesh in the making, beside the one that is shown.
 
-use super::follower::{FollowError, Stage};
+use super::stage::{FollowError, Stage};
 use super::{Document, Settings};
 use crate::domain::{DomainLaying, DomainOnLattice};
 use crate::field::{Rule, TargetField, VertexRule};

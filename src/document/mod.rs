@@ -10,16 +10,18 @@ mod job;
 mod pricer;
 mod setting;
 mod settings;
+mod stage;
 
 use glam::DVec2;
 
 pub use edits::Edits;
 pub use examples::Example;
-pub use follower::{FollowError, Follower, MeshChange, Stage};
+pub use follower::{Follower, MeshChange};
 pub use history::History;
 pub use pricer::{Price, Pricer};
 pub use setting::Setting;
 pub use settings::{Base, LEAST_MEMORY, MAX_COARSE_TRIANGLES, RESOLUTIONS, Settings, SettingsError};
+pub use stage::{FollowError, Stage};
 
 use crate::mesh::Progress;
 use crate::paint::{Brush, Layers, Stroke};

@@ -1,10 +1,6 @@
 //! A region as the mesh asks about it: exactly, in lattice coordinates.
 
-use std::sync::Arc;
-
-use super::Region;
 use super::edge::{Corners, Edge};
-use super::laying::RegionLaying;
 use crate::geometry::{Lattice, LatticePoint, LatticeRect};
 
 /// A region with its corners moved to the nearest points of a mesh's lattice, and a tree of squares to find its edges by.
@@ -44,11 +40,6 @@ pub(super) enum State {
 }
 
 impl RegionOnLattice {
-    /// Lays the region on the lattice of a mesh.
-    pub fn new(region: &Arc<Region>, lattice: &Lattice) -> Self {
-        RegionLaying::new(region, lattice).finished()
-    }
-
     /// The grid, before any edge is laid on it.
     pub(super) fn without_edges(lattice: &Lattice) -> Self {
         Self {
@@ -225,10 +216,13 @@ fn thrice_centroid(corners: [LatticePoint; 3]) -> [i64; 2] {
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Arc;
+
     use glam::{DVec2, dvec2};
 
     use super::*;
-    use crate::domain::{Polygon, Ring};
+    use crate::domain::laying::RegionLaying;
+    use crate::domain::{Polygon, Region, Ring};
     use crate::geometry::Rect;
     use crate::mesh::{Limits, Mesh, Progress, TriangleId};
 
@@ -346,7 +340,7 @@ mod tests {
     fn sides_of_the_frame_are_no_boundary() {
         let whole = Arc::new(Region::new(&[vec![crate::domain::corners(&Rect::UNIT)]], Rect::UNIT));
         let mut mesh = Mesh::coarse_grid(Rect::UNIT, 0.25, |_| true, &Limits::default()).unwrap();
-        let sorted = RegionOnLattice::new(&whole, mesh.lattice());
+        let sorted = RegionLaying::new(&whole, mesh.lattice()).finished();
         mesh.sort_out(0..32, |element| {
             assert!(
                 !sorted.cuts(element.corners, element.triangle.level())
