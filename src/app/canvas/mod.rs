@@ -265,7 +265,7 @@ impl App {
     /// How far each work is, once it has taken longer than a moment: that on the mesh lowest, then that on files. Tells whether any is
     /// shown.
     fn show_progress(&mut self, ui: &mut Ui, inner: Rect) -> bool {
-        let size = vec2(inner.width().min(360.0), 32.0);
+        let size = vec2(inner.width().min(360.0), 36.0);
         let first = Rect::from_min_size(inner.right_bottom() - size, size);
         let mut place = first;
         let above = |place: Rect| place.translate(vec2(0.0, -size.y - 8.0));

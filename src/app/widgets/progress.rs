@@ -25,7 +25,8 @@ pub fn bytes_row(ui: &mut Ui, what: &str, done: u64, total: Option<u64>) -> bool
 }
 
 fn row(ui: &mut Ui, what: &str, done: &str, share: Option<f64>, cancel: &str) -> bool {
-    let (id, row) = ui.allocate_space(vec2(ui.available_width(), metrics::ROW));
+    // As high as its button.
+    let (id, row) = ui.allocate_space(vec2(ui.available_width(), metrics::ROW + 4.0));
     let button = row.with_min_x(row.right() - 70.0);
     let left = row.with_max_x(button.left() - 12.0);
     let response = ui.interact(left, id, Sense::hover());
