@@ -122,6 +122,7 @@ fn undo_to_the_start_and_redo_to_the_end_are_exact() {
             4 => document.set(Setting::LargestDiameter(0.19 - 0.005 * f64::from(i))).unwrap(),
             _ => Operation::stroke(&mut random).apply(&mut document),
         }
+        document.end_stroke();
         document.end_gesture();
     }
     let end = (document.settings().clone(), document.layers().clone());
@@ -393,6 +394,7 @@ fn a_mesh_that_met_its_budget_says_so_until_it_is_the_documents_again() {
     assert_eq!((follower.stage(), follower.mesh().triangles().len()), (Stage::InStep, count));
     // More paint does not help, and says the same.
     Operation::stroke(&mut fastrand::Rng::with_seed(5)).apply(&mut document);
+    document.end_stroke();
     while follower.advance(&mut document, 997).is_ok() {
         assert!(follower.stopped().is_some());
     }

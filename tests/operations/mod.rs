@@ -12,7 +12,7 @@ use meshbrush::domain::{Boundary, Domain, Shape, Stencil, corners};
 use meshbrush::field::{Formula, Rule, Transfer};
 use meshbrush::geometry::{LatticePoint, Rect};
 use meshbrush::io::project::{self, Project};
-use meshbrush::mesh::Triangle;
+use meshbrush::mesh::{Progress, Triangle};
 use meshbrush::paint::{Brush, Medium};
 
 /// Where operations come from: random numbers, or the bytes of a fuzzer.
@@ -117,15 +117,15 @@ impl Operation {
         match self {
             Self::Stroke(brush, points) => {
                 document.begin_stroke(brush);
-                points.into_iter().for_each(|point| document.draw_to(point));
-                document.end_stroke();
+                points.into_iter().for_each(|point| document.lead_to(point));
+                document.lift();
             }
             Self::Begin(brush, point) => {
                 document.begin_stroke(brush);
-                document.draw_to(point);
+                document.lead_to(point);
             }
-            Self::Draw(point) => document.draw_to(point),
-            Self::End => document.end_stroke(),
+            Self::Draw(point) => document.lead_to(point),
+            Self::End => document.lift(),
             Self::CancelStroke => document.cancel_stroke(),
             Self::Undo => _ = document.undo(),
             Self::Redo => _ = document.redo(),
@@ -312,8 +312,11 @@ impl Driver {
         self.check_stop();
     }
 
-    /// One slice of work. True at rest.
+    /// One slice of work, as in the window: of the stroke under way, or of what follows from it. True at rest.
     fn work(&mut self, visits: usize) -> bool {
+        if self.document.draw_on(visits) == Progress::More {
+            return false;
+        }
         let stage = self.follower.advance(&mut self.document, visits).unwrap_or_else(|error| {
             self.refused(&error);
             Stage::Filling
