@@ -141,6 +141,9 @@ impl App {
 
     fn begin_stroke(&mut self, point: DVec2) {
         self.session.put_news_away();
+        // What the last one did is kept before the next begins: they may come in one frame.
+        self.session.document_mut().end_stroke();
+        self.follow_journal();
         let brush = self.tools.brush();
         let document = self.session.document_mut();
         document.begin_stroke(brush);
