@@ -920,6 +920,18 @@ fn a_cut_under_way_is_given_up_by_undo_by_escape_and_by_another_domain() {
         window.run();
         assert_eq!((fingerprint(&window), entries(&window)), (before, entries_before));
     }
+    // Half of a stroke is cut, and the brush lifted: what is left is given up, and the half is an entry of its own.
+    begin_to_cut(&mut window, &[DVec2::ZERO]);
+    window.run();
+    assert!(window.state().session().document().is_in_gesture());
+    begin_to_cut(&mut window, &[DVec2::ZERO, dvec2(0.1, 0.0)]);
+    window.state_mut().execute(Command::EndGesture, &egui::Context::default());
+    window.state_mut().execute(Command::CancelUpdate, &egui::Context::default());
+    assert!(!window.state().session().document().is_in_gesture(), "the journal would wait for its end");
+    assert_eq!(entries(&window), entries_before + 1);
+    key(&mut window, Modifiers::COMMAND, Key::Z);
+    assert_eq!((fingerprint(&window), entries(&window)), (before, entries_before));
+
     press(&mut window, DVec2::ZERO, Modifiers::NONE);
     move_to(&mut window, dvec2(0.1, 0.0));
     assert_ne!(fingerprint(&window), before);

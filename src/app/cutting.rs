@@ -85,11 +85,6 @@ impl Cutter {
         })
     }
 
-    /// Gives up all that has not come to the document.
-    pub fn give_up(&mut self) {
-        *self = Self::default();
-    }
-
     fn push(&mut self, cut: Cut) {
         if let Some(Step::Cut(last)) = self.waiting.back_mut()
             && last.join(&cut)
@@ -170,7 +165,11 @@ impl App {
     /// Gives up the cuts that have not come to the document, and tells whether the present gesture consists of nothing else.
     pub(super) fn give_up_cuts(&mut self) -> bool {
         let nothing_else = !self.cutter.is_idle() && !self.session.document().is_in_gesture();
-        self.cutter.give_up();
+        let cutter = std::mem::take(&mut self.cutter);
+        if cutter.waiting.iter().any(|step| matches!(step, Step::EndGesture)) {
+            // The brush was lifted: what is cut already is an entry of its own.
+            self.session.document_mut().end_gesture();
+        }
         nothing_else
     }
 
@@ -202,7 +201,9 @@ impl App {
             Some(domain) if self.session.document().settings().domain == work.domain => {
                 self.session.set(Setting::Domain(domain));
             }
-            _ => self.cutter.give_up(),
+            _ => {
+                self.give_up_cuts();
+            }
         }
     }
 }

@@ -83,7 +83,7 @@ impl App {
 
     /// Puts another document in the place of the present one, and fits brush and view to it.
     pub(super) fn show_document(&mut self, title: &'static str, document: Document) {
-        self.cutter.give_up();
+        self.give_up_cuts();
         self.session.document_mut().replace_with(title, document);
         self.session.query(None);
         self.session.set_notice(None);
@@ -100,7 +100,7 @@ impl App {
         if self.cutter.is_idle() {
             self.session.cancel_update();
         } else {
-            self.cutter.give_up();
+            self.give_up_cuts();
         }
     }
 
@@ -168,8 +168,9 @@ impl App {
             self.session.document_mut().cancel_stroke();
         } else if matches!(self.gesture, Gesture::Cutting { .. }) || !self.cutter.is_idle() {
             self.gesture = Gesture::None;
-            self.cutter.give_up();
-            if self.session.document().is_in_gesture() {
+            let begun = self.session.document().is_in_gesture();
+            self.give_up_cuts();
+            if begun {
                 self.session.document_mut().undo();
             }
         } else if matches!(self.gesture, Gesture::Framing { .. }) || !self.outline.is_empty() {
