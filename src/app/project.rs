@@ -338,10 +338,6 @@ impl App {
         let (aim, file) = (Aim::Save(version), path.clone());
         self.background.start(aim, &path, move |meter| {
             let write = |out: &mut dyn Write| io::project::write_metered(out, &project, meter);
-            if let Some(obstacle) = io::obstacle(&file) {
-                let problem = format!("{} could not be saved: {obstacle}.", file.display());
-                return Box::new(move |app| app.note_not_saved(problem));
-            }
             match io::write_file_metered(&file, meter, write) {
                 Ok(()) => Box::new(move |app| app.note_saved(file, version)),
                 Err(_) if meter.is_cancelled() => {

@@ -79,6 +79,9 @@ impl Draft {
         meter: &Meter,
         write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
     ) -> io::Result<Self> {
+        if let Some(obstacle) = obstacle(path) {
+            return Err(io::Error::other(obstacle));
+        }
         // A link stays a link: what it points to is replaced.
         let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
         let before = fs::metadata(&target).ok();
