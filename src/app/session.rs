@@ -200,16 +200,21 @@ impl Session {
 
     /// The number that a triangle has in files; `None` until it is counted, and for one outside.
     pub fn triangle_number(&self, id: TriangleId) -> Option<usize> {
-        let numbered = |(_, numbering): &(Topology, Numbering)| numbering.triangle(id);
-        if self.mesh().outside_count() == 0 { Some(id) } else { self.found().and_then(numbered) }
-            .map(TriangleId::index)
+        self.in_files(id, Numbering::triangle).map(TriangleId::index)
     }
 
     /// The number that a node has in files; `None` until it is counted, and for one outside.
     pub fn node_number(&self, id: NodeId) -> Option<usize> {
-        let numbered = |(_, numbering): &(Topology, Numbering)| numbering.node(id);
-        if self.mesh().outside_count() == 0 { Some(id) } else { self.found().and_then(numbered) }
-            .map(NodeId::index)
+        self.in_files(id, Numbering::node).map(NodeId::index)
+    }
+
+    /// Where everything is in the domain, files have the ids of the mesh.
+    fn in_files<I>(&self, id: I, number: fn(&Numbering, I) -> Option<I>) -> Option<I> {
+        if self.mesh().outside_count() == 0 {
+            return Some(id);
+        }
+        let (_, numbering) = self.found()?;
+        number(numbering, id)
     }
 
     fn found(&self) -> Option<&(Topology, Numbering)> {

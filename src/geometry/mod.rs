@@ -8,7 +8,7 @@ mod number;
 mod predicates;
 mod rect;
 
-pub use grouped::Grouped;
+pub use grouped::{Grouped, group_digits};
 pub use lattice::{GridError, LATTICE_BITS, Lattice, LatticePoint};
 pub use lattice_rect::LatticeRect;
 pub use number::Number;

@@ -1,4 +1,4 @@
-use super::{Mesh, NodeId, TriangleId};
+use super::{NodeId, TriangleId};
 
 /// The numbers that triangles and nodes have in an [`Extract`](super::Extract), and so in files, without making one.
 ///
@@ -59,14 +59,5 @@ impl FromIterator<bool> for Ranks {
         let mut ranks = Self::default();
         answers.into_iter().for_each(|answer| ranks.push(answer));
         ranks
-    }
-}
-
-impl Mesh {
-    /// The numbers that triangles and nodes have in [`Self::extract`], in one go; [`Survey`](super::Survey) finds them in slices.
-    pub fn numbering(&self) -> Numbering {
-        let mut survey = super::Survey::new(self);
-        survey.advance(self, usize::MAX);
-        survey.numbering()
     }
 }

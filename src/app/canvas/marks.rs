@@ -1,10 +1,12 @@
 //! What is drawn over the mesh: the brush ring, highlighted triangles and their numbers.
 
 use eframe::egui::{Align2, Color32, Painter, Pos2, Rect, Shape, Stroke, StrokeKind, pos2, vec2};
+use glam::DVec2;
 
 use super::super::theme::font;
 use super::super::tools::Tools;
 use crate::colormap::Ground;
+use crate::domain::Stencil;
 use crate::mesh::{Mesh, TriangleId};
 use crate::scene::{Camera, Highlights, Outline, highlight_outlines};
 
@@ -137,17 +139,19 @@ fn visible_pieces(ring: &[Pos2], view: Rect) -> Vec<Vec<Pos2>> {
     pieces
 }
 
-/// What a brush of some radius in points has swept over.
-pub fn paint_swept(painter: &Painter, path: &[Pos2], radius: f32) {
+/// A shape that is not cut yet: an outline, or what the brush has swept over.
+pub fn paint_stencil(painter: &Painter, stencil: &Stencil, at: &impl Fn(DVec2) -> Pos2) {
+    let (path, radius) = match stencil {
+        Stencil::Ring(ring) => return paint_outline(painter, ring.iter().map(|&corner| at(corner))),
+        Stencil::Stroke { path, radius } => (path, *radius),
+    };
+    let points: Vec<Pos2> = path.iter().map(|&point| at(point)).collect();
+    let radius = points[0].distance(at(path[0] + DVec2::new(radius, 0.0)));
     let color = Color32::from_white_alpha(70);
-    match path {
-        [point] => {
-            painter.circle_filled(*point, radius, color);
-        }
-        _ => {
-            painter.add(Shape::line(path.to_vec(), Stroke::new(2.0 * radius, color)));
-        }
-    }
+    match points[..] {
+        [point] => painter.circle_filled(point, radius, color),
+        _ => painter.add(Shape::line(points, Stroke::new(2.0 * radius, color))),
+    };
 }
 
 /// A polygon whose corners are still being set: the next edge follows the pointer, and the first corner closes it.
@@ -170,6 +174,6 @@ pub fn paint_frame(painter: &Painter, frame: Rect) {
 }
 
 /// Where a canvas pixel is, in points.
-pub fn point_from_px(rect: Rect, px: glam::DVec2, px_per_point: f32) -> Pos2 {
+pub fn point_from_px(rect: Rect, px: DVec2, px_per_point: f32) -> Pos2 {
     pos2(rect.min.x + px.x as f32 / px_per_point, rect.min.y + px.y as f32 / px_per_point)
 }

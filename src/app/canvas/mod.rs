@@ -25,7 +25,6 @@ use super::tools::Tool;
 use super::widgets::{Banner, BannerAnswer, bytes_row, format, hint_pill, paint_floating, progress_row};
 use super::{App, FRAME_BUDGET};
 use crate::document::Stage;
-use crate::domain::Stencil;
 use crate::geometry::Rect as WorldRect;
 use crate::mesh::Progress;
 use crate::scene::{Camera, Highlights};
@@ -189,22 +188,10 @@ impl App {
             }
         }
         for stencil in self.cutter.stencils() {
-            self.paint_stencil(painter, stencil, at);
+            marks::paint_stencil(painter, stencil, at);
         }
         let corners: Vec<egui::Pos2> = self.outline.iter().map(|&corner| at(corner)).collect();
         marks::paint_open_polygon(painter, &corners, pointer);
-    }
-
-    /// A shape that is not cut yet.
-    fn paint_stencil(&self, painter: &egui::Painter, stencil: &Stencil, at: &impl Fn(DVec2) -> egui::Pos2) {
-        match stencil {
-            Stencil::Ring(ring) => marks::paint_outline(painter, ring.iter().map(|&corner| at(corner))),
-            Stencil::Stroke { path, radius } => {
-                let points: Vec<egui::Pos2> = path.iter().map(|&point| at(point)).collect();
-                let rim = at(path[0] + DVec2::new(*radius, 0.0));
-                marks::paint_swept(painter, &points, points[0].distance(rim));
-            }
-        }
     }
 
     /// The ring of the brush, and with Shift held the line that a click would paint from `last`.

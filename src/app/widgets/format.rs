@@ -3,9 +3,11 @@
 //! Digits are grouped by thousands with commas, the minus sign is `−`, and there are just enough digits. Numbers that
 //! change while one looks at them keep their number of decimals ([`fixed`], [`significant`]), so nothing jumps.
 
+use crate::geometry::group_digits;
+
 /// A count, grouped by thousands: `37,987`.
 pub fn count(value: u64) -> String {
-    group(&value.to_string())
+    group_digits(&value.to_string())
 }
 
 /// A change of a count, with its sign: `+2,418`, `−12`, `0`.
@@ -26,7 +28,7 @@ pub fn fixed(value: f64, decimals: usize) -> String {
     let digits = format!("{:.decimals$}", value.abs());
     let negative = value < 0.0 && digits.bytes().any(|byte| (b'1'..=b'9').contains(&byte));
     let (whole, rest) = digits.split_at(digits.find('.').unwrap_or(digits.len()));
-    format!("{}{}{rest}", if negative { "−" } else { "" }, group(whole))
+    format!("{}{}{rest}", if negative { "−" } else { "" }, group_digits(whole))
 }
 
 /// `value` with exactly `digits` significant digits, trailing zeros kept: `0.0640`, `1,230`, `1.20e-7`.
@@ -128,17 +130,6 @@ fn groups_thousands(text: &str) -> bool {
     let mut groups = whole.split(',');
     let first = groups.next().unwrap_or_default();
     (1..=3).contains(&first.len()) && !first.starts_with('0') && groups.all(|group| group.len() == 3)
-}
-
-fn group(digits: &str) -> String {
-    let mut grouped = String::with_capacity(digits.len() + digits.len() / 3);
-    for (i, digit) in digits.char_indices() {
-        if i > 0 && (digits.len() - i).is_multiple_of(3) {
-            grouped.push(',');
-        }
-        grouped.push(digit);
-    }
-    grouped
 }
 
 fn not_finite(value: f64) -> String {
