@@ -573,15 +573,7 @@ fn letters_take_tools_in_hand() {
 fn a_tool_taken_in_hand_brings_its_section_into_view() {
     let mut window = window_of(vec2(900.0, 600.0));
     let panel = canvas(&window).right_center() + vec2(100.0, 0.0);
-    window.event(Event::PointerMoved(panel));
-    window.event(Event::MouseWheel {
-        unit: egui::MouseWheelUnit::Point,
-        delta: vec2(0.0, -2000.0),
-        modifiers: Modifiers::NONE,
-        phase: egui::TouchPhase::Move,
-        source: egui::MouseWheelSource::Wheel,
-    });
-    window.run();
+    wheel(&mut window, panel, -2000.0);
     let top = canvas(&window).top();
     let section = |window: &Window, name: &str| window.get_by_role_and_label(Role::Button, name).rect().top();
     assert!(section(&window, "Risk to diameter") < top, "scrolled away");
@@ -724,15 +716,7 @@ fn a_long_menu_scrolls_in_a_small_window() {
         last.map_or(f32::INFINITY, |entry| entry.rect().bottom())
     };
     assert!(bottom(&window) > 600.0);
-    window.event(Event::PointerMoved(pos2(240.0, 300.0)));
-    window.event(Event::MouseWheel {
-        unit: egui::MouseWheelUnit::Point,
-        delta: vec2(0.0, -2000.0),
-        modifiers: Modifiers::NONE,
-        phase: egui::TouchPhase::Move,
-        source: egui::MouseWheelSource::Wheel,
-    });
-    window.run();
+    wheel(&mut window, pos2(240.0, 300.0), -2000.0);
     assert!(bottom(&window) < 600.0, "{}", bottom(&window));
 }
 

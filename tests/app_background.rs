@@ -14,10 +14,8 @@ use std::time::{Duration, Instant};
 use eframe::egui::accesskit::Role;
 use eframe::egui::{ViewportCommand, ViewportEvent, ViewportId};
 use egui_kittest::kittest::Queryable as _;
-use glam::dvec2;
-use headless::{EDITED, Window, window};
+use headless::{EDITED, Window, document, paint, send, window};
 use meshbrush::app::command::Command;
-use meshbrush::document::Document;
 use meshbrush::io::project;
 
 const QUESTION: &str = "Save changes to “Radar threats”?";
@@ -34,21 +32,6 @@ fn pipe(path: PathBuf) -> PathBuf {
 /// Opens a pipe for writing, which waits until the window reads it.
 fn writer(pipe: &Path) -> File {
     File::options().write(true).open(pipe).unwrap()
-}
-
-fn send(window: &mut Window, command: Command) {
-    window.state_mut().send(command);
-    window.run();
-}
-
-fn paint(window: &mut Window, at: f64) {
-    send(window, Command::BeginStroke(dvec2(at, 0.5)));
-    send(window, Command::DrawTo(dvec2(at, 0.6)));
-    send(window, Command::EndStroke);
-}
-
-fn document(window: &Window) -> &Document {
-    window.state().session().document()
 }
 
 fn told(window: &Window) -> String {

@@ -11,19 +11,14 @@ use std::time::{Duration, Instant};
 use eframe::egui::{self, Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
 use glam::dvec2;
-use headless::{EDITED, Window, window};
+use headless::{EDITED, Window, document, paint, send, window};
 use meshbrush::app::command::Command;
-use meshbrush::document::{Document, Example, Stage};
+use meshbrush::document::{Example, Stage};
 use meshbrush::io::project::{self, Project};
 use meshbrush::mesh::Fingerprint;
 
 fn folder(name: &str) -> PathBuf {
     headless::folder("app-project", name)
-}
-
-fn send(window: &mut Window, command: Command) {
-    window.state_mut().send(command);
-    window.run();
 }
 
 fn key(window: &mut Window, modifiers: Modifiers, key: Key) {
@@ -34,16 +29,6 @@ fn key(window: &mut Window, modifiers: Modifiers, key: Key) {
 fn press(window: &mut Window, button: &str) {
     window.get_by_label(button).click();
     window.run();
-}
-
-fn paint(window: &mut Window, at: f64) {
-    send(window, Command::BeginStroke(dvec2(at, 0.5)));
-    send(window, Command::DrawTo(dvec2(at, 0.6)));
-    send(window, Command::EndStroke);
-}
-
-fn document(window: &Window) -> &Document {
-    window.state().session().document()
 }
 
 /// Waits for work off the window's thread.

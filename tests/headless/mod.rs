@@ -5,7 +5,10 @@ use std::path::{Path, PathBuf};
 
 use eframe::egui::vec2;
 use egui_kittest::Harness;
+use glam::dvec2;
 use meshbrush::app::App;
+use meshbrush::app::command::Command;
+use meshbrush::document::Document;
 
 pub type Window = Harness<'static, App>;
 
@@ -27,4 +30,20 @@ pub fn folder(of: &str, name: &str) -> PathBuf {
     let _ = fs::remove_dir_all(&folder); // absent at the first run
     fs::create_dir_all(&folder).unwrap();
     folder
+}
+
+pub fn send(window: &mut Window, command: Command) {
+    window.state_mut().send(command);
+    window.run();
+}
+
+/// A short stroke upwards at an x of the unit square.
+pub fn paint(window: &mut Window, at: f64) {
+    send(window, Command::BeginStroke(dvec2(at, 0.5)));
+    send(window, Command::DrawTo(dvec2(at, 0.6)));
+    send(window, Command::EndStroke);
+}
+
+pub fn document(window: &Window) -> &Document {
+    window.state().session().document()
 }
