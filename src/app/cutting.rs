@@ -15,7 +15,7 @@ use crate::domain::{Domain, Stencil};
 use crate::geometry::Rect;
 
 /// How long a frame waits for a cut: those of small outlines are seen in the frame that they were made in.
-const PATIENCE: Duration = Duration::from_millis(3);
+pub const PATIENCE: Duration = Duration::from_millis(3);
 
 /// One edit of the outline.
 #[derive(Clone, Debug, PartialEq)]
@@ -174,8 +174,8 @@ impl App {
     }
 
     /// Takes in the cuts that are made, begins those that wait, and tells whether one is left.
-    pub(super) fn follow_cuts(&mut self, ctx: &Context) -> bool {
-        let deadline = Instant::now() + PATIENCE;
+    pub(super) fn follow_cuts(&mut self, ctx: &Context, patience: Duration) -> bool {
+        let deadline = Instant::now() + patience;
         loop {
             if let Some(work) = &self.cutter.under_way {
                 let patience = deadline.saturating_duration_since(Instant::now());

@@ -54,6 +54,8 @@ const APP_ID: &str = "meshbrush";
 const THEME_KEY: &str = "theme";
 /// Most of a frame's time that goes into bringing the mesh up to date.
 const FRAME_BUDGET: Duration = Duration::from_millis(7);
+/// As much as the work takes, for pictures that are to be the same every time.
+const ALL_THE_TIME: Duration = Duration::from_secs(3600);
 /// Size of the window at first, in points.
 const WINDOW_SIZE: [f32; 2] = [1440.0, 900.0];
 /// Size below which the panels no longer fit, in points.

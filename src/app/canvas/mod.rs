@@ -20,10 +20,11 @@ use glam::{DVec2, dvec2};
 
 use super::background::Row;
 use super::command::Command;
+use super::cutting::PATIENCE;
 use super::theme::tokens;
 use super::tools::Tool;
 use super::widgets::{Banner, BannerAnswer, bytes_row, format, hint_pill, paint_floating, progress_row};
-use super::{App, FRAME_BUDGET};
+use super::{ALL_THE_TIME, App, FRAME_BUDGET};
 use crate::document::Stage;
 use crate::geometry::Rect as WorldRect;
 use crate::mesh::Progress;
@@ -58,8 +59,10 @@ impl App {
         for command in commands {
             self.execute(command, ui.ctx());
         }
-        let deadline = Instant::now() + FRAME_BUDGET;
-        let cuts = self.follow_cuts(ui.ctx());
+        // What is shown on the way would depend on the machine's speed.
+        let [budget, patience] = if self.reproducible { [ALL_THE_TIME; 2] } else { [FRAME_BUDGET, PATIENCE] };
+        let deadline = Instant::now() + budget;
+        let cuts = self.follow_cuts(ui.ctx(), patience);
         let follows = self.session.follow(deadline);
         if self.session.price_dab(self.hovered_dab(ui, &response), deadline) || follows || cuts {
             ui.ctx().request_repaint();
