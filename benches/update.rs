@@ -14,7 +14,7 @@ use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, BenchmarkId, Criterion, SamplingMode, Throughput};
 use meshbrush::geometry::{LatticePoint, LatticeRect, Rect};
 use meshbrush::mesh::{Element, Forecast, InvalidTarget, Limits, Mesh, Progress, Refiner, Updater};
-use meshbrush::raster::{PixelRect, Pyramid, RasterOnLattice};
+use meshbrush::raster::{MaxMipmap, PixelRect, RasterOnLattice};
 
 /// Pixels along a side of the field.
 const SIDE: u32 = 2048;
@@ -29,7 +29,7 @@ const PLACES: [[u32; 2]; 8] =
 struct Scene {
     coarse: Mesh,
     mesh: Mesh,
-    levels: Pyramid<u8>,
+    levels: MaxMipmap<u8>,
     on_lattice: RasterOnLattice,
 }
 
@@ -38,7 +38,7 @@ impl Scene {
     fn new(level: u8, rows: u32) -> Self {
         let coarse =
             Mesh::coarse_grid(Rect::UNIT, 1.0 / 16.0, |_| true, &Limits::default()).expect("a square");
-        let mut levels = Pyramid::filled([SIDE; 2], 0);
+        let mut levels = MaxMipmap::filled([SIDE; 2], 0);
         levels.update(PixelRect { min: [SIDE / 2 + 1, 0], max: [SIDE, rows] }, |_, _| level);
         // One pixel as fine as any in all meshes: the rule has a way out where nothing is finer than a triangle.
         levels.update(PixelRect { min: [SIDE - 1; 2], max: [SIDE; 2] }, |_, _| 16);
@@ -76,7 +76,7 @@ impl Scene {
 }
 
 /// The area rule.
-fn rule(levels: &Pyramid<u8>, on: RasterOnLattice) -> impl Fn(&Element) -> Result<bool, InvalidTarget> {
+fn rule(levels: &MaxMipmap<u8>, on: RasterOnLattice) -> impl Fn(&Element) -> Result<bool, InvalidTarget> {
     move |element| Ok(on.any_above(levels, element.corners, element.triangle.level() as u8))
 }
 

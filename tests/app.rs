@@ -18,8 +18,8 @@ use meshbrush::app::view::FieldOverlay;
 use meshbrush::app::{App, CANVAS_NAME};
 use meshbrush::colormap::Ground;
 use meshbrush::document::{Base, Document, Example, Follower, Setting, Settings, Stage};
-use meshbrush::domain::{Domain, Shape, Stencil};
-use meshbrush::field::{Formula, Rule};
+use meshbrush::domain::{CutShape, Domain, DomainShape};
+use meshbrush::field::{Formula, RefinementRule};
 use meshbrush::mesh::{Fingerprint, Location, TriangleId};
 
 type Window = Harness<'static, App>;
@@ -818,7 +818,7 @@ fn the_domain_is_cut_with_brush_rectangle_and_polygon_and_each_is_one_entry() {
     assert!((area(&window) - (1.0 - cut)).abs() < 0.005, "{} {cut}", area(&window));
     assert_eq!(entries(&window), 1);
     assert_eq!(window.state().session().topology().unwrap().holes, 1);
-    assert_eq!(window.state().session().mesh().locate(dvec2(0.45, 0.6)), Location::InHole);
+    assert_eq!(window.state().session().mesh().locate(dvec2(0.45, 0.6)), Location::OutsideDomain);
     let brushed = fingerprint(&window);
 
     window.get_by_role_and_label(Role::RadioButton, "Rectangle").click();
@@ -864,8 +864,8 @@ fn window_on_a_long_coast() -> Window {
 
 /// Cuts along a line, and does not wait for it.
 fn begin_to_cut(window: &mut Window, path: &[DVec2]) {
-    let stencil = Stencil::Stroke { path: path.to_vec(), radius: 0.05 };
-    window.state_mut().send(Command::Domain(DomainCommand::Reshape(stencil, false)));
+    let cut_shape = CutShape::Stroke { path: path.to_vec(), radius: 0.05 };
+    window.state_mut().send(Command::Domain(DomainCommand::Reshape(cut_shape, false)));
     window.step();
 }
 
@@ -1063,9 +1063,9 @@ fn a_formula_that_cannot_be_read_says_why_and_changes_nothing() {
 #[test]
 fn a_formula_that_is_no_length_somewhere_says_where_and_changes_nothing() {
     for (formula, x) in [("if(x > 0.75, sqrt(-1), 0.1)", "x = 0.75"), ("0.1 - 0.2*(x > 0.5)", "x = 0.5")] {
-        for rule in [Rule::Area, Rule::Vertex] {
+        for rule in [RefinementRule::Area, RefinementRule::Vertex] {
             let mut window = window_of(TALL);
-            set(&mut window, Setting::Rule(rule));
+            set(&mut window, Setting::RefinementRule(rule));
             let before = (fingerprint(&window), settings(&window).clone(), entries(&window));
             open_section(&mut window, "Base field");
             window.get_by_role_and_label(Role::RadioButton, "Formula").click();
@@ -1092,7 +1092,7 @@ fn impossible_settings_are_refused_with_a_sentence() {
         Setting::Bounds(meshbrush::geometry::Rect::new(DVec2::ONE, DVec2::ZERO)),
         Setting::Domain(Domain {
             bounds: meshbrush::geometry::Rect::UNIT,
-            shape: Shape::Formula(Formula::parse("x > 9").unwrap()),
+            shape: DomainShape::Formula(Formula::parse("x > 9").unwrap()),
         }),
     ] {
         set(&mut window, setting.clone());
@@ -1178,9 +1178,9 @@ fn the_price_is_asked_only_where_a_click_paints_a_dab() {
     assert_eq!(price_tag(&window), None, "a stroke is under way");
     release(&mut window, FREE);
     assert!(price_tag(&window).is_some());
-    set(&mut window, Setting::Rule(Rule::Vertex));
+    set(&mut window, Setting::RefinementRule(RefinementRule::Vertex));
     assert_eq!(price_tag(&window), None, "every edit makes the mesh anew");
-    set(&mut window, Setting::Rule(Rule::Area));
+    set(&mut window, Setting::RefinementRule(RefinementRule::Area));
     // A larger brush costs more, with the pointer where it is.
     let small = price_tag(&window).unwrap();
     send(&mut window, Command::ScaleBrush(2.0));
@@ -1223,7 +1223,7 @@ fn the_rule_switches_and_says_what_it_misses() {
     let area = fingerprint(&window);
     window.get_by_role_and_label(Role::RadioButton, "Vertex rule").click();
     window.run();
-    assert_eq!(settings(&window).rule, Rule::Vertex);
+    assert_eq!(settings(&window).rule, RefinementRule::Vertex);
     assert_ne!(fingerprint(&window), area);
     assert!(window.query_by_label_contains("leaves no trace").is_some());
     window.get_by_role_and_label(Role::RadioButton, "Area rule").click();

@@ -6,8 +6,8 @@ use glam::{DVec2, dvec2};
 use meshbrush::document::{
     Base, Document, Example, Follower, MeshChange, Price, Pricer, Setting, Settings, Stage,
 };
-use meshbrush::domain::{Domain, Polygon, Shape, Stencil, corners};
-use meshbrush::field::{Formula, Rule, VertexRule};
+use meshbrush::domain::{CutShape, Domain, DomainShape, Polygon, corners};
+use meshbrush::field::{Formula, RefinementRule, VertexRule};
 use meshbrush::geometry::{Grouped, Rect};
 use meshbrush::mesh::Progress;
 use meshbrush::paint::{Brush, Medium};
@@ -186,7 +186,7 @@ fn what_cannot_be_met_leaves_document_and_mesh_as_they_were() {
         Setting::Base(Base::Formula(formula("1 / 0"))),
         Setting::MaxTriangles(1300),
         Setting::MaxMemory(1_000_000),
-        Setting::Domain(Domain { bounds: Rect::UNIT, shape: Shape::Formula(formula("x > 2")) }),
+        Setting::Domain(Domain { bounds: Rect::UNIT, shape: DomainShape::Formula(formula("x > 2")) }),
     ];
     for setting in late {
         document.set(setting).unwrap();
@@ -209,8 +209,12 @@ fn what_cannot_be_met_leaves_document_and_mesh_as_they_were() {
 fn a_formula_that_is_no_length_at_a_node_is_refused_by_the_vertex_rule_too() {
     // Below zero at a single node, between the middles of all pixels.
     let formula = Formula::parse("if(x == 0.5 and y == 0.5, -1, 0.2)").unwrap();
-    let settings =
-        Settings { spacing: 0.25, rule: Rule::Vertex, base: Base::Formula(formula), ..Settings::default() };
+    let settings = Settings {
+        spacing: 0.25,
+        rule: RefinementRule::Vertex,
+        base: Base::Formula(formula),
+        ..Settings::default()
+    };
     let error = Follower::new(&mut Document::new(settings, None).unwrap()).unwrap_err();
     assert!(error.to_string().contains("-1 at x = 0.5, y = 0.5"), "{error}");
 }
@@ -220,7 +224,7 @@ fn the_area_rule_implies_the_vertex_rule() {
     let mut document = Example::Threats.document(slope, sea);
     let follower = Follower::new(&mut document).unwrap();
     let mut by_vertex = document.clone();
-    by_vertex.set(Setting::Rule(Rule::Vertex)).unwrap();
+    by_vertex.set(Setting::RefinementRule(RefinementRule::Vertex)).unwrap();
     let coarser = Follower::new(&mut by_vertex).unwrap();
     assert!(coarser.mesh().triangles().len() < follower.mesh().triangles().len());
     // No triangle of the area rule's mesh breaks the vertex rule.
@@ -301,7 +305,7 @@ fn there_is_no_price_where_there_can_be_none() {
     assert_eq!(asked(dab, &document, &follower), None);
     settle(&mut follower, &mut document);
     assert!(asked(dab, &document, &follower).is_some());
-    document.set(Setting::Rule(Rule::Vertex)).unwrap();
+    document.set(Setting::RefinementRule(RefinementRule::Vertex)).unwrap();
     settle(&mut follower, &mut document);
     assert_eq!(asked(dab, &document, &follower), None);
 }
@@ -459,7 +463,7 @@ fn a_large_outline_is_followed_in_slices_and_cuts_made_meanwhile_join() {
     let mut document = Document::new(Settings::for_domain("coast".into(), coast), None).unwrap();
     let mut follower = Follower::new(&mut document).unwrap();
     let cut = |document: &mut Document, at: DVec2| {
-        let dab = Stencil::Stroke { path: vec![at], radius: 0.05 };
+        let dab = CutShape::Stroke { path: vec![at], radius: 0.05 };
         let domain = document.settings().domain.reshaped(&dab, false).unwrap();
         document.set(Setting::Domain(domain)).unwrap();
         document.end_gesture();

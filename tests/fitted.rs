@@ -11,7 +11,7 @@ use std::path::Path;
 use closure::{Point, Triangle};
 use fastrand::Rng;
 use glam::{DVec2, dvec2};
-use meshbrush::domain::{Boundary, Domain, DomainOnLattice, Polygon, Ring, signed_area};
+use meshbrush::domain::{BoundaryTreatment, Domain, DomainOnLattice, Polygon, Ring, signed_area};
 use meshbrush::geometry::{Lattice, LatticePoint};
 use meshbrush::io::geojson;
 use meshbrush::mesh::{Element, InvalidTarget, Limits, Location, Locator, Mesh, Topology};
@@ -128,7 +128,7 @@ impl Case {
     }
 
     fn mesh(&self) -> Mesh {
-        let boundary = Boundary::Fitted { diameter: self.diameter };
+        let boundary = BoundaryTreatment::Fitted { diameter: self.diameter };
         fitted(&self.domain, self.spacing, boundary, |e| Ok(self.exceeds(e.diameter(), e.world_corners())))
     }
 }
@@ -137,7 +137,7 @@ impl Case {
 fn fitted(
     domain: &Domain,
     spacing: f64,
-    boundary: Boundary,
+    boundary: BoundaryTreatment,
     by_field: impl Fn(&Element) -> Result<bool, InvalidTarget>,
 ) -> Mesh {
     let limits = Limits::default();
@@ -356,7 +356,7 @@ fn points_are_found_among_the_triangles_that_files_have() {
                     assert_eq!(mesh.node(node).as_dvec2(), p);
                     2
                 }
-                (Location::InHole, None) if mesh.lattice().bounds().contains(query) => 3,
+                (Location::OutsideDomain, None) if mesh.lattice().bounds().contains(query) => 3,
                 (Location::OutsideBounds, None) if !mesh.lattice().bounds().contains(query) => 4,
                 other => panic!("seed {seed}: {query}: {other:?}"),
             };
@@ -452,7 +452,7 @@ fn the_aegean_sea_keeps_its_islands() {
     let domain = Domain::of_polygons(&polygons).unwrap();
     let region = domain.region().unwrap();
     assert_eq!(region.hole_count(), 65);
-    let mesh = fitted(&domain, 0.5, Boundary::Fitted { diameter: 0.02 }, |_| Ok(false));
+    let mesh = fitted(&domain, 0.5, BoundaryTreatment::Fitted { diameter: 0.02 }, |_| Ok(false));
     let centroid =
         |t: &meshbrush::mesh::Triangle| t.vertices.map(|v| mesh.world(v)).iter().sum::<DVec2>() / 3.0;
     let left_out: Vec<DVec2> = mesh.triangles().iter().filter(|t| t.is_outside()).map(centroid).collect();

@@ -115,7 +115,7 @@ fn field(ui: &mut Ui, state: &mut State) {
         let error = TextError { message: "sqr is not a function; did you mean sqrt?", at: Some(6) };
         TextRow::formula("Risk", &mut state.broken).error(Some(error)).show(ui);
         TextRow::new("Name", &mut state.name).hint("untitled").show(ui);
-        dropdown_row(ui, "Rule", &mut state.rule, &[(0, "Area rule"), (1, "Vertex rule")]);
+        dropdown_row(ui, "RefinementRule", &mut state.rule, &[(0, "Area rule"), (1, "Vertex rule")]);
         NumberRow::new("Coarse spacing", &mut state.spacing).range(1e-6..=1.0).unit("km").show(ui);
         NumberRow::new("Budget", &mut state.limit).range(2.0..=1e9).integer().show(ui);
         toggle_row(ui, "Show edges", &mut state.edges);
@@ -337,7 +337,7 @@ fn states(path: &str, shown: Theme) {
     harness.render().unwrap().save(format!("{path}2.png")).unwrap();
     let mut harness = harness_for(State::default(), shown, 11, 1.0, true);
     harness.get_by_role_and_label(Role::Button, "Levels").click();
-    harness.get_by_label("Rule").click();
+    harness.get_by_label("RefinementRule").click();
     harness.run();
     harness.get_by_label("Field").focus();
     let handle = harness.get_by_role_and_label(Role::Slider, "Curve shape").rect().center();
@@ -608,7 +608,7 @@ fn text_dropdown_and_toggle_change_their_values() {
     harness.get_by_role_and_label(Role::CheckBox, "Show edges").click();
     harness.run();
     assert!(!harness.state().edges);
-    harness.get_by_role_and_label(Role::ComboBox, "Rule").click();
+    harness.get_by_role_and_label(Role::ComboBox, "RefinementRule").click();
     harness.run();
     harness.get_by_label("Vertex rule").click();
     harness.run();

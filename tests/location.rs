@@ -249,7 +249,7 @@ fn check(
         assert_eq!(containing, brute.containing_of_all(p), "the referee itself");
     }
     let Some(&(lowest, on)) = containing.first() else {
-        assert_eq!(answer, Location::InHole);
+        assert_eq!(answer, Location::OutsideDomain);
         return "hole";
     };
     let lowest = TriangleId::from_index(lowest);

@@ -8,8 +8,8 @@ use std::time::Instant;
 
 use glam::dvec2;
 use meshbrush::document::{Base, Document, Example, Follower, Settings, Stage};
-use meshbrush::domain::{Boundary, Domain, Shape};
-use meshbrush::field::{Formula, Rule, Transfer};
+use meshbrush::domain::{BoundaryTreatment, Domain, DomainShape};
+use meshbrush::field::{Formula, RefinementRule, Transfer};
 use meshbrush::geometry::Rect;
 use meshbrush::io::project::{self, Project};
 use meshbrush::paint::{Brush, Medium};
@@ -69,7 +69,7 @@ fn documents() -> Vec<Document> {
         let extent = domain.bounds.size().max_element();
         let settings = Settings {
             name: "Küste \"\\ \u{1f30a}".into(),
-            boundary: Boundary::Fitted { diameter: extent / (20.0 + random.f64()) },
+            boundary: BoundaryTreatment::Fitted { diameter: extent / (20.0 + random.f64()) },
             spacing: extent / (3.0 + random.f64()),
             transfer: Transfer { h_min: extent / 700.3, h_max: extent / 3.7, shape: 0.1 + random.f64() },
             base: Base::Constant(extent * random.f64().max(1e-3)),
@@ -86,17 +86,17 @@ fn documents() -> Vec<Document> {
     let picture = Settings {
         domain: Domain {
             bounds: Rect::new(dvec2(-1.0, 0.1), dvec2(1.0, 0.7)),
-            shape: Shape::Formula(formula("r < 0.9")),
+            shape: DomainShape::Formula(formula("r < 0.9")),
         },
-        boundary: Boundary::Report,
+        boundary: BoundaryTreatment::Report,
         base: Base::RiskImage { name: "slope.png".into(), raster: Arc::new(raster) },
-        rule: Rule::Area,
+        rule: RefinementRule::Area,
         resolution: 1024,
         ..plain.clone()
     };
     all.push(Document::new(picture, None).unwrap());
     let base = Base::Formula(formula("0.02 + 0.1*hypot(x - 0.5, y - 0.5)"));
-    all.push(Document::new(Settings { base, rule: Rule::Vertex, ..plain }, None).unwrap());
+    all.push(Document::new(Settings { base, rule: RefinementRule::Vertex, ..plain }, None).unwrap());
     for document in all.iter_mut().skip(3) {
         scribble(document, &mut random);
     }

@@ -200,7 +200,7 @@ fn adjacency_and_location_agree_with_algorithms_13_to_15() {
                     assert_eq!(theirs, Some(triangle.index() + 1));
                     found += 1;
                 }
-                Location::InHole => assert_eq!(theirs, None),
+                Location::OutsideDomain => assert_eq!(theirs, None),
                 // Several triangles are right; the report gives one at random, or none beside a removed one.
                 Location::OnEdge { .. } | Location::OnVertex { .. } => {}
                 other => panic!("{p:?}: {other:?}"),

@@ -305,7 +305,7 @@ fn edits_during_an_upload_do_not_hold_it_up_and_get_there() {
     let mut gpu = gpu.with_chunks(ChunkLimits { triangles: 1 << 20, node_bits: 14 }).unwrap();
     let mut mesh = Mesh::coarse_grid(Rect::UNIT, 0.2, |_| true, &Limits::default()).unwrap();
     let coarse = mesh.clone();
-    let square = |x, y, half| coarse.lattice().rect_round(&Rect::around(dvec2(x, y), half)).unwrap();
+    let square = |x, y, half| coarse.lattice().rect_around(&Rect::around(dvec2(x, y), half)).unwrap();
     let [first, second, third] = [(0.3, 0.3), (0.7, 0.6), (0.3, 0.75)].map(|(x, y)| square(x, y, 0.12));
     let mut squares = vec![first, second];
     mesh.refine(&Limits::default(), |element| Ok(exceeds(element, &squares))).unwrap();

@@ -4,7 +4,7 @@
 
 use std::path::Path;
 
-use meshbrush::domain::{Boundary, Domain, DomainOnLattice};
+use meshbrush::domain::{BoundaryTreatment, Domain, DomainOnLattice};
 use meshbrush::geometry::Lattice;
 use meshbrush::io::geojson;
 use meshbrush::mesh::{Limits, Mesh};
@@ -18,12 +18,12 @@ libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
     let region = domain.region().expect("polygons make a region");
     assert!(region.area() > 0.0 && region.edges().flatten().all(|p| domain.bounds.contains(p)));
     let spacing = domain.bounds.size().max_element() / 5.0;
-    for boundary in [Boundary::Report, Boundary::usual(spacing)] {
+    for boundary in [BoundaryTreatment::Report, BoundaryTreatment::usual(spacing)] {
         check_mesh(&domain, boundary, spacing);
     }
 });
 
-fn check_mesh(domain: &Domain, boundary: Boundary, spacing: f64) {
+fn check_mesh(domain: &Domain, boundary: BoundaryTreatment, spacing: f64) {
     let limits = Limits { max_triangles: MOST_TRIANGLES, ..Limits::default() };
     let Ok(lattice) = Lattice::covering(domain.bounds, spacing, MOST_TRIANGLES) else { return };
     let laid = DomainOnLattice::new(domain, boundary, &lattice);

@@ -4,7 +4,7 @@ use eframe::egui::{Key, Modifiers, ThemePreference};
 
 use super::App;
 use super::command::{Command, DomainCommand, Entry, Menu};
-use super::tools::{DomainShape, PaintKind, Tool};
+use super::tools::{DomainToolMode, PaintKind, Tool};
 use super::view::FieldOverlay;
 use crate::colormap::Colormap;
 use crate::document::Example;
@@ -87,10 +87,10 @@ fn tool(app: &App) -> Vec<Entry> {
         Entry::new(InTool, title, Command::Domain(DomainCommand::Shape(shape))).checked(taken)
     };
     entries.extend([
-        shape("Cut domain with the brush", DomainShape::Brush).group(),
-        shape("Cut domain with a rectangle", DomainShape::Rectangle),
-        shape("Cut domain with a polygon", DomainShape::Polygon),
-        shape("Draw the frame of the domain", DomainShape::Frame),
+        shape("Cut domain with the brush", DomainToolMode::Brush).group(),
+        shape("Cut domain with a rectangle", DomainToolMode::Rectangle),
+        shape("Cut domain with a polygon", DomainToolMode::Polygon),
+        shape("Draw the frame of the domain", DomainToolMode::Frame),
         Entry::new(InTool, "Add to the domain", Command::Domain(DomainCommand::Adds(!tools.domain_adds)))
             .key(Key::X)
             .checked(tools.domain_adds),

@@ -5,11 +5,11 @@ use std::path::PathBuf;
 use eframe::egui::{Key, KeyboardShortcut, Modifiers, ThemePreference};
 use glam::DVec2;
 
-use super::tools::{DomainShape, PaintKind, Tool};
+use super::tools::{DomainToolMode, PaintKind, Tool};
 use super::view::FieldOverlay;
 use crate::colormap::Colormap;
 use crate::document::{Example, Setting, Settings};
-use crate::domain::Stencil;
+use crate::domain::CutShape;
 use crate::geometry::Rect;
 use crate::mesh::TriangleId;
 
@@ -128,13 +128,13 @@ pub enum Command {
 #[derive(Clone, Debug, PartialEq)]
 pub enum DomainCommand {
     /// Adds a shape to the domain (`true`) or takes it away. Goes on until [`Command::EndGesture`].
-    Reshape(Stencil, bool),
+    Reshape(CutShape, bool),
     /// Sets the next corner of the polygon to cut the domain with, in world units.
     AddCorner(DVec2),
     /// Closes that polygon and cuts.
     CloseOutline,
     /// What the domain tool cuts with.
-    Shape(DomainShape),
+    Shape(DomainToolMode),
     /// Whether it adds or takes away.
     Adds(bool),
     /// Makes a rectangle, in world units, the domain's.

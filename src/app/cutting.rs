@@ -9,9 +9,9 @@ use eframe::egui::Context;
 
 use super::App;
 use super::command::DomainCommand;
-use super::tools::{DomainShape, Tool};
+use super::tools::{DomainToolMode, Tool};
 use crate::document::Setting;
-use crate::domain::{Domain, Stencil};
+use crate::domain::{CutShape, Domain};
 use crate::geometry::Rect;
 
 /// How long a frame waits for a cut: those of small outlines are seen in the frame that they were made in.
@@ -21,7 +21,7 @@ pub const PATIENCE: Duration = Duration::from_millis(3);
 #[derive(Clone, Debug, PartialEq)]
 enum Cut {
     /// Adds a shape (`true`), or takes it away.
-    Reshape(Stencil, bool),
+    Reshape(CutShape, bool),
     /// Another rectangle for the coarse grid, in world units.
     Frame(Rect),
 }
@@ -30,17 +30,17 @@ impl Cut {
     /// What it makes of a domain that has an outline.
     fn of(&self, domain: &Domain) -> Option<Domain> {
         match self {
-            Self::Reshape(stencil, adds) => domain.reshaped(stencil, *adds),
+            Self::Reshape(cut_shape, adds) => domain.reshaped(cut_shape, *adds),
             Self::Frame(bounds) => Some(domain.with_bounds(*bounds)),
         }
     }
 
     /// Takes in the next one, where both are made by one stroke of the brush.
     fn join(&mut self, next: &Self) -> bool {
-        let (Self::Reshape(stencil, adds), Self::Reshape(next, next_adds)) = (self, next) else {
+        let (Self::Reshape(cut_shape, adds), Self::Reshape(next, next_adds)) = (self, next) else {
             return false;
         };
-        *adds == *next_adds && stencil.join(next)
+        *adds == *next_adds && cut_shape.join(next)
     }
 }
 
@@ -74,13 +74,13 @@ impl Cutter {
     }
 
     /// The shapes that are not cut yet.
-    pub fn stencils(&self) -> impl Iterator<Item = &Stencil> {
+    pub fn cut_shapes(&self) -> impl Iterator<Item = &CutShape> {
         let waiting = self.waiting.iter().filter_map(|step| match step {
             Step::Cut(cut) => Some(cut),
             Step::EndGesture => None,
         });
         self.under_way.iter().map(|work| &work.cut).chain(waiting).filter_map(|cut| match cut {
-            Cut::Reshape(stencil, _) => Some(stencil),
+            Cut::Reshape(cut_shape, _) => Some(cut_shape),
             Cut::Frame(_) => None,
         })
     }
@@ -109,7 +109,7 @@ impl Cutter {
 impl App {
     pub(super) fn execute_on_domain(&mut self, command: DomainCommand) {
         match command {
-            DomainCommand::Reshape(stencil, adds) => self.reshape(stencil, adds),
+            DomainCommand::Reshape(cut_shape, adds) => self.reshape(cut_shape, adds),
             DomainCommand::AddCorner(corner) => self.outline.push(corner),
             DomainCommand::CloseOutline => self.close_outline(),
             DomainCommand::Shape(shape) => self.take_domain_shape(shape),
@@ -118,19 +118,19 @@ impl App {
         }
     }
 
-    fn take_domain_shape(&mut self, shape: DomainShape) {
+    fn take_domain_shape(&mut self, shape: DomainToolMode) {
         self.take_tool(Tool::Domain);
         self.tools.domain_shape = shape;
     }
 
-    fn reshape(&mut self, stencil: Stencil, adds: bool) {
+    fn reshape(&mut self, cut_shape: CutShape, adds: bool) {
         if self.session.document().settings().domain.formula().is_some() {
             self.session.report(
                 "The domain is given by a formula, and a formula has no outline to cut. Empty the row \"Domain where\" to start \
                  from the whole rectangle.",
             );
         } else {
-            self.cutter.push(Cut::Reshape(stencil, adds));
+            self.cutter.push(Cut::Reshape(cut_shape, adds));
         }
         self.hints.did(Tool::Domain);
     }
@@ -138,7 +138,7 @@ impl App {
     fn close_outline(&mut self) {
         let ring = std::mem::take(&mut self.outline);
         if ring.len() >= 3 {
-            self.reshape(Stencil::Ring(ring), self.tools.domain_adds);
+            self.reshape(CutShape::Ring(ring), self.tools.domain_adds);
             self.end_gesture();
         }
     }

@@ -44,7 +44,7 @@ use widgets::{CommandPalette, PaletteItem};
 
 use crate::colormap::Ground;
 use crate::document::Example;
-use crate::domain::Boundary;
+use crate::domain::BoundaryTreatment;
 use crate::mesh::TriangleId;
 use crate::render::gpu::device_descriptor;
 
@@ -97,7 +97,7 @@ pub struct App {
     /// Cuts of the domain that are being made.
     cutter: cutting::Cutter,
     /// How the outline was met before the report's way was chosen.
-    last_fitted: Option<Boundary>,
+    last_fitted: Option<BoundaryTreatment>,
     hovered_neighbour: Option<TriangleId>,
 }
 

@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use crate::document::{Base, Document, Follower};
-use crate::field::{Paint, Rule, TargetField};
+use crate::field::{PaintRef, RefinementRule, TargetField};
 use crate::mesh::{Location, Mesh, Neighbour, NodeId, Orientation, TriangleId, barycentric, interpolate};
 
 /// A quantity known at every point, and interpolated from the nodes.
@@ -93,10 +93,10 @@ pub fn value_at(point: DVec2, document: &Document, follower: &Follower, quantity
 }
 
 /// h̄ as a rule sees it, in world units: by pixel, or at the very point.
-pub fn target_at(point: DVec2, field: &TargetField, paint: Paint, rule: Rule) -> f64 {
+pub fn target_at(point: DVec2, field: &TargetField, paint: PaintRef, rule: RefinementRule) -> f64 {
     match rule {
-        Rule::Area => field.at(point).unwrap_or(f64::NAN),
-        Rule::Vertex => field.target_at_node(paint, point),
+        RefinementRule::Area => field.at(point).unwrap_or(f64::NAN),
+        RefinementRule::Vertex => field.target_at_node(paint, point),
     }
 }
 

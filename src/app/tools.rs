@@ -28,7 +28,7 @@ pub enum PaintKind {
 
 /// What the domain tool cuts with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum DomainShape {
+pub enum DomainToolMode {
     /// The brush ring.
     Brush,
     /// A rectangle from corner to corner.
@@ -57,7 +57,7 @@ pub struct Tools {
     /// The diameter that the brush paints, in world units.
     pub diameter: f64,
     /// What the domain tool cuts with.
-    pub domain_shape: DomainShape,
+    pub domain_shape: DomainToolMode,
     /// Whether it adds to the domain, or takes away.
     pub domain_adds: bool,
 }
@@ -73,14 +73,14 @@ impl Tools {
             paint_strength: 0.8,
             erase_strength: 1.0,
             diameter: 2.0 * h_min,
-            domain_shape: DomainShape::Brush,
+            domain_shape: DomainToolMode::Brush,
             domain_adds: false,
         }
     }
 
     /// Whether the tool in hand works with the brush ring.
     pub fn has_ring(&self) -> bool {
-        self.paints() || (self.tool == Tool::Domain && self.domain_shape == DomainShape::Brush)
+        self.paints() || (self.tool == Tool::Domain && self.domain_shape == DomainToolMode::Brush)
     }
 
     /// Whether the tool in hand changes the paint.

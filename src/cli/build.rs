@@ -12,14 +12,14 @@ use super::sources::Start;
 use super::terminal::Terminal;
 use crate::domain::{DomainOnLattice, Region};
 use crate::field::{
-    Paint, Rule, Source, TargetField, TargetFieldSpec, Transfer, VertexRule, smallest_target,
+    PaintRef, RefinementRule, Source, TargetField, TargetFieldSpec, Transfer, VertexRule, smallest_target,
 };
 use crate::geometry::Grouped;
 use crate::io;
 use crate::mesh::{
     CoarseError, Element, Extract, InvalidTarget, Limits, Mesh, Progress, Refiner, TriangleId,
 };
-use crate::paint::Layers;
+use crate::paint::PaintRasters;
 
 /// Triangles asked about, or pixels evaluated, between two looks at the clock.
 const SLICE: usize = 1 << 18;
@@ -33,7 +33,7 @@ pub struct Built {
     /// Its polygons, if it has some.
     pub region: Option<Arc<Region>>,
     /// Which points of a triangle count.
-    pub rule: Rule,
+    pub rule: RefinementRule,
     /// Its target diameter.
     pub target: Target,
     /// Time spent on refinement alone.
@@ -58,7 +58,7 @@ pub enum Target {
         /// Its sources.
         field: Box<TargetField>,
         /// Its paint.
-        layers: Box<Layers>,
+        layers: Box<PaintRasters>,
     },
 }
 
@@ -140,14 +140,14 @@ pub fn build(job: &Job, terminal: &mut Terminal) -> Result<Built, Failure> {
     }
     let Start { mut mesh, domain, region, sources, transfer, unasked, size, .. } = start;
     let (target, refined) = match job.rule {
-        Rule::Vertex => {
+        RefinementRule::Vertex => {
             let target = PointTarget { sources, transfer, unasked };
             let mut rule = VertexRule::new(|p| target.at(p));
             let exceeds = |element: &Element| domain.exceeds(element, |element| rule.exceeds(element));
             let refined = refine(&mut mesh, &job.limits, exceeds, terminal);
             (Target::ByVertex(target), refined)
         }
-        Rule::Area => {
+        RefinementRule::Area => {
             let field = fill(TargetFieldSpec { sources, transfer, size }, None, &mesh, terminal)?;
             let exceeds = |element: &Element| domain.exceeds(element, |element| Ok(field.exceeds(element)));
             let refined = refine(&mut mesh, &job.limits, exceeds, terminal);
@@ -170,14 +170,14 @@ fn build_project(path: &Path, job: &Job, terminal: &mut Terminal) -> Result<Buil
     let paint = document.layers().as_paint();
     let field = fill(settings.field_spec(), Some(paint), &mesh, terminal)?;
     let (target, refined) = match settings.rule {
-        Rule::Vertex => {
+        RefinementRule::Vertex => {
             let mut rule = VertexRule::new(|p| field.target_at_node(paint, p));
             let exceeds = |element: &Element| domain.exceeds(element, |element| rule.exceeds(element));
             let refined = refine(&mut mesh, &limits, exceeds, terminal);
             let layers = Box::new(document.layers().clone());
             (Target::OfDocument { field: Box::new(field), layers }, refined)
         }
-        Rule::Area => {
+        RefinementRule::Area => {
             let exceeds = |element: &Element| domain.exceeds(element, |element| Ok(field.exceeds(element)));
             let refined = refine(&mut mesh, &limits, exceeds, terminal);
             (Target::ByArea { field: Box::new(field), unasked: settings.transfer.h_max }, refined)
@@ -206,7 +206,7 @@ impl Built {
 /// Samples the sources, and paint where there is some.
 fn fill(
     spec: TargetFieldSpec,
-    paint: Option<Paint>,
+    paint: Option<PaintRef>,
     mesh: &Mesh,
     terminal: &mut Terminal,
 ) -> Result<TargetField, Failure> {

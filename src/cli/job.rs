@@ -7,7 +7,7 @@ use glam::DVec2;
 use super::args::{BoundaryArgument, InputArguments, RuleArgument};
 use super::failure::Failure;
 use crate::document::LEAST_MEMORY;
-use crate::field::{Formula, Rule, Transfer};
+use crate::field::{Formula, RefinementRule, Transfer};
 use crate::geometry::{Grouped, Rect};
 use crate::mesh::{Limits, MemoryLimit};
 use crate::raster::MAX_SIDE;
@@ -40,7 +40,7 @@ pub struct Job {
     /// Exponent of the risk.
     pub transfer_shape: f64,
     /// Which points of a triangle count.
-    pub rule: Rule,
+    pub rule: RefinementRule,
     /// Pixels along the longer side, for the area rule.
     pub resolution: Option<u32>,
     /// What the mesh may cost.
@@ -117,10 +117,10 @@ impl Job {
             h_max: typed.h_max.map(|value| length("--h-max", value)).transpose()?,
             transfer_shape: typed.transfer_shape,
             rule: match typed.rule {
-                Some(RuleArgument::Vertex) => Rule::Vertex,
-                Some(RuleArgument::Area) => Rule::Area,
-                None if by_pixels => Rule::Area,
-                None => Rule::Vertex,
+                Some(RuleArgument::Vertex) => RefinementRule::Vertex,
+                Some(RuleArgument::Area) => RefinementRule::Area,
+                None if by_pixels => RefinementRule::Area,
+                None => RefinementRule::Vertex,
             },
             resolution: typed.resolution.map(resolution).transpose()?,
             limits: limits(typed)?,

@@ -103,7 +103,7 @@ fn name(location: &Location) -> &'static str {
         Location::OnEdge { .. } => "edge",
         Location::OnVertex { .. } => "vertex",
         Location::OutsideBounds => "outside",
-        Location::InHole => "hole",
+        Location::OutsideDomain => "hole",
         Location::Invalid => "invalid",
     }
 }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::failure::Failure;
 use super::job::{Job, Meaning, RasterFormat, RasterSpec, SourceSpec};
-use crate::domain::{Boundary, Domain, DomainOnLattice, Region, Shape};
+use crate::domain::{BoundaryTreatment, Domain, DomainOnLattice, DomainShape, Region};
 use crate::field::{Source, Transfer, f32_not_below};
 use crate::geometry::{Lattice, Rect};
 use crate::io;
@@ -92,7 +92,7 @@ fn domain(job: &Job, placed: &[Option<Raster>]) -> Result<Domain, Failure> {
     }
     let bounds =
         job.domain.or_else(|| placed.iter().flatten().map(Raster::bounds).reduce(|a, b| a.union(&b)));
-    let shape = job.inside.clone().map_or(Shape::Whole, Shape::Formula);
+    let shape = job.inside.clone().map_or(DomainShape::Whole, DomainShape::Formula);
     Ok(Domain { bounds: bounds.unwrap_or(Rect::UNIT), shape })
 }
 
@@ -101,9 +101,9 @@ fn coarse_mesh(job: &Job, domain: &Domain) -> Result<(DomainOnLattice, Mesh), Fa
     let spacing = job.spacing.unwrap_or(bounds.size().max_element() / USUAL_CELLS);
     let lattice = Lattice::covering(bounds, spacing, job.limits.max_triangles).map_err(CoarseError::from)?;
     let boundary = match (job.fitted, job.boundary_diameter) {
-        (false, _) => Boundary::Report,
-        (true, None) => Boundary::usual(spacing),
-        (true, Some(diameter)) => Boundary::Fitted { diameter: resolvable(diameter, &lattice)? },
+        (false, _) => BoundaryTreatment::Report,
+        (true, None) => BoundaryTreatment::usual(spacing),
+        (true, Some(diameter)) => BoundaryTreatment::Fitted { diameter: resolvable(diameter, &lattice)? },
     };
     let domain = DomainOnLattice::new(domain, boundary, &lattice);
     let mesh = Mesh::coarse_grid(bounds, spacing, |node| domain.admits(node), &job.limits)?;

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::build::Built;
 use crate::domain::Region;
-use crate::field::Rule;
+use crate::field::RefinementRule;
 use crate::geometry::Grouped;
 use crate::mesh::Topology;
 
@@ -98,7 +98,7 @@ impl Summary {
             hash: mesh.fingerprint().to_string(),
             seconds: built.refinement.as_secs_f64(),
             spacing: mesh.lattice().spacing(),
-            rule: if built.rule == Rule::Vertex { "vertex" } else { "area" },
+            rule: if built.rule == RefinementRule::Vertex { "vertex" } else { "area" },
             resolution: built.target.resolution(),
             capped: built.capped,
             violations,

@@ -1,7 +1,7 @@
 //! Another outline for the shown mesh, on its way there.
 
-use crate::domain::{Boundary, DomainLaying, DomainOnLattice, RegionComparison};
-use crate::field::Rule;
+use crate::domain::{BoundaryTreatment, DomainLaying, DomainOnLattice, RegionComparison};
+use crate::field::RefinementRule;
 use crate::geometry::{Lattice, LatticeRect};
 use crate::mesh::Progress;
 
@@ -22,7 +22,8 @@ impl Cut {
     /// Whether a mesh can follow in place from one domain to the other: only where nothing else differs, and where what lies outside
     /// stays in the mesh, marked.
     pub(super) fn is_possible(shown: &Settings, wanted: &Settings) -> bool {
-        let fits = matches!(wanted.boundary, Boundary::Fitted { .. }) && wanted.rule == Rule::Area;
+        let fits = matches!(wanted.boundary, BoundaryTreatment::Fitted { .. })
+            && wanted.rule == RefinementRule::Area;
         let has_outlines = shown.domain.formula().is_none() && wanted.domain.formula().is_none();
         let otherwise_equal = Settings { domain: wanted.domain.clone(), ..shown.clone() } == *wanted;
         fits && has_outlines && shown.domain.bounds == wanted.domain.bounds && otherwise_equal
@@ -51,7 +52,7 @@ impl Cut {
     pub(super) fn finished(self) -> (DomainOnLattice, Vec<LatticeRect>) {
         let round = |area| {
             // Corners are moved to the nearest lattice point.
-            let rect = self.lattice.rect_round(area)?;
+            let rect = self.lattice.rect_around(area)?;
             Some(rect.expanded(1, self.lattice.extent()))
         };
         (self.laying.finished(), self.comparison.areas().iter().filter_map(round).collect())

@@ -3,8 +3,8 @@ use std::sync::Arc;
 use glam::{DVec2, dvec2};
 
 use super::{Base, Document, Settings};
-use crate::domain::{Boundary, Domain, Polygon};
-use crate::field::{Formula, Rule, Transfer};
+use crate::domain::{BoundaryTreatment, Domain, Polygon};
+use crate::field::{Formula, RefinementRule, Transfer};
 use crate::geometry::Rect;
 use crate::paint::{Brush, Medium};
 use crate::raster::Raster;
@@ -73,10 +73,10 @@ fn diamond() -> Settings {
         name: Example::Diamond.name().into(),
         domain: Domain::rectangle(Rect::around(DVec2::ZERO, 10.0)),
         spacing: 1.0,
-        boundary: Boundary::usual(1.0),
+        boundary: BoundaryTreatment::usual(1.0),
         transfer: Transfer { h_min: 0.02, h_max: 20.0, shape: 1.0 },
         base: Base::Formula(formula),
-        rule: Rule::Vertex,
+        rule: RefinementRule::Vertex,
         resolution: 1024,
         max_triangles: Settings::MAX_TRIANGLES,
         max_memory: Settings::MAX_MEMORY,
@@ -88,10 +88,10 @@ fn terrain(slope: Raster) -> Settings {
         name: Example::Terrain.name().into(),
         domain: Domain::rectangle(slope.bounds()),
         spacing: slope.bounds().size().max_element() / 24.0,
-        boundary: Boundary::usual(slope.bounds().size().max_element() / 24.0),
+        boundary: BoundaryTreatment::usual(slope.bounds().size().max_element() / 24.0),
         transfer: Transfer { h_min: 0.05, h_max: 2.0, shape: 1.6 },
         base: Base::RiskImage { name: "jacksboro_slope.png".into(), raster: Arc::new(slope) },
-        rule: Rule::Area,
+        rule: RefinementRule::Area,
         resolution: 1024,
         max_triangles: Settings::MAX_TRIANGLES,
         max_memory: Settings::MAX_MEMORY,
@@ -110,7 +110,7 @@ const SITES: [(DVec2, f64, f64, f64); 4] = [
 fn aegean(sea: &[Polygon]) -> Settings {
     let domain = Domain::of_polygons(sea).expect("a sound outline");
     let settings = Settings::for_domain(Example::Aegean.name().into(), domain);
-    Settings { spacing: 0.5, boundary: Boundary::Fitted { diameter: 0.02 }, ..settings }
+    Settings { spacing: 0.5, boundary: BoundaryTreatment::Fitted { diameter: 0.02 }, ..settings }
 }
 
 fn threats() -> Document {
@@ -145,7 +145,7 @@ impl Settings {
             name,
             domain,
             spacing,
-            boundary: Boundary::usual(spacing),
+            boundary: BoundaryTreatment::usual(spacing),
             transfer: Transfer { h_min: h_min * extent, h_max: h_max * extent, shape },
             base: Base::Constant(h_max * extent),
             ..usual
@@ -160,10 +160,10 @@ impl Default for Settings {
             name: "Untitled".into(),
             domain: Domain::rectangle(Rect::UNIT),
             spacing: 1.0 / 24.0,
-            boundary: Boundary::usual(1.0 / 24.0),
+            boundary: BoundaryTreatment::usual(1.0 / 24.0),
             transfer: Transfer { h_min: 0.0024, h_max: 0.2, shape: 1.0 },
             base: Base::Constant(0.2),
-            rule: Rule::Area,
+            rule: RefinementRule::Area,
             resolution: 1024,
             max_triangles: Self::MAX_TRIANGLES,
             max_memory: Self::MAX_MEMORY,

@@ -5,7 +5,7 @@ use super::job::{Finished, Job};
 use super::stage::{FollowError, Stage};
 use super::{Document, Repainted, Settings};
 use crate::domain::DomainOnLattice;
-use crate::field::{Rule, TargetField};
+use crate::field::{RefinementRule, TargetField};
 use crate::mesh::{Changes, Element, Mesh, Progress, RefineError, Updater};
 use crate::raster::PixelRect;
 
@@ -235,10 +235,10 @@ impl Follower {
             self.unread.extend(later);
             let changed = self.field.update(document.layers().as_paint(), now);
             match self.settings.rule {
-                Rule::Area => {
+                RefinementRule::Area => {
                     changed.iter().for_each(|&area| self.updater.add(self.field.lattice_rect(area)))
                 }
-                Rule::Vertex => self.lost_step = true,
+                RefinementRule::Vertex => self.lost_step = true,
             }
             return Ok(());
         }

@@ -1,7 +1,7 @@
 use std::collections::VecDeque;
 
 use super::Settings;
-use crate::paint::{Layers, Patch};
+use crate::paint::{PaintRasters, Patch};
 
 /// What is kept of one gesture: the other side of it, to be exchanged with the document's own.
 #[derive(Clone, Debug)]
@@ -11,7 +11,7 @@ pub(super) enum Change {
     /// Old settings, where the layers kept their size.
     Settings(Box<Settings>),
     /// Everything, where the domain or the resolution changed.
-    Everything(Box<(Settings, Layers)>),
+    Everything(Box<(Settings, PaintRasters)>),
 }
 
 impl Change {

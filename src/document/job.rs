@@ -3,7 +3,7 @@
 use super::stage::{FollowError, Stage};
 use super::{Document, Settings};
 use crate::domain::{DomainLaying, DomainOnLattice};
-use crate::field::{Rule, TargetField, VertexRule};
+use crate::field::{RefinementRule, TargetField, VertexRule};
 use crate::mesh::{CoarseError, Element, Mesh, Progress, RefineError, Refiner};
 use crate::raster::PixelRect;
 
@@ -120,16 +120,16 @@ impl Refining {
         domain: &DomainOnLattice,
         field: &TargetField,
         document: &Document,
-        rule: Rule,
+        rule: RefinementRule,
         visits: usize,
     ) -> Result<Progress, RefineError> {
         match rule {
-            Rule::Area => {
+            RefinementRule::Area => {
                 let exceeds =
                     |element: &Element| domain.exceeds(element, |element| Ok(field.exceeds(element)));
                 self.refiner.run(&mut self.mesh, exceeds, visits)
             }
-            Rule::Vertex => {
+            RefinementRule::Vertex => {
                 let paint = document.layers().as_paint();
                 let target = |point| field.target_at_node(paint, point);
                 let mut rule = VertexRule::resumed(target, std::mem::take(&mut self.known));

@@ -24,7 +24,7 @@ pub use settings::{Base, LEAST_MEMORY, MAX_COARSE_TRIANGLES, RESOLUTIONS, Settin
 pub use stage::{FollowError, Stage};
 
 use crate::mesh::Progress;
-use crate::paint::{Brush, Layers, Stroke};
+use crate::paint::{Brush, PaintRasters, Stroke};
 use crate::raster::PixelRect;
 use history::{Change, Entry};
 
@@ -32,7 +32,7 @@ use history::{Change, Entry};
 #[derive(Clone, Debug)]
 pub struct Document {
     settings: Settings,
-    layers: Layers,
+    layers: PaintRasters,
     history: History,
     stroke: Option<Stroke>,
     /// Whether the stroke under way ends where it leads by now.
@@ -61,13 +61,13 @@ impl Document {
     ///
     /// # Errors
     /// When the settings cannot be met.
-    pub fn new(settings: Settings, layers: Option<Layers>) -> Result<Self, SettingsError> {
+    pub fn new(settings: Settings, layers: Option<PaintRasters>) -> Result<Self, SettingsError> {
         let settings = settings.checked()?;
         let (bounds, size) = (settings.domain.bounds, settings.raster_size());
         let layers = match layers {
             Some(layers) if layers.risk.size() == size && layers.risk.bounds() == bounds => layers,
             Some(layers) => layers.resampled(bounds, size),
-            None => Layers::blank(bounds, size),
+            None => PaintRasters::blank(bounds, size),
         };
         Ok(Self {
             settings,
@@ -90,7 +90,7 @@ impl Document {
     }
 
     /// The paint.
-    pub fn layers(&self) -> &Layers {
+    pub fn layers(&self) -> &PaintRasters {
         &self.layers
     }
 
@@ -199,7 +199,7 @@ impl Document {
         self.end_stroke();
         self.end_gesture();
         if !self.layers.is_blank() {
-            let blank = Layers::blank(self.settings.domain.bounds, self.settings.raster_size());
+            let blank = PaintRasters::blank(self.settings.domain.bounds, self.settings.raster_size());
             self.replace("clear paint", self.settings.clone(), blank);
         }
     }
@@ -324,7 +324,7 @@ impl Document {
         }
     }
 
-    fn replace(&mut self, title: &'static str, settings: Settings, layers: Layers) {
+    fn replace(&mut self, title: &'static str, settings: Settings, layers: PaintRasters) {
         let settings = std::mem::replace(&mut self.settings, settings);
         let layers = std::mem::replace(&mut self.layers, layers);
         self.enter(title, Change::Everything(Box::new((settings, layers))));
@@ -348,7 +348,7 @@ impl Document {
     }
 
     /// The layers to resample from: in the middle of a gesture those before it, or each step would blur the paint.
-    fn layers_before_gesture(&self, joins: bool) -> &Layers {
+    fn layers_before_gesture(&self, joins: bool) -> &PaintRasters {
         match self.last_change() {
             Some(Change::Everything(before)) if joins => &before.1,
             _ => &self.layers,

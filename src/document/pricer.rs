@@ -3,10 +3,10 @@ use std::convert::Infallible;
 use glam::DVec2;
 
 use super::{Document, Follower};
-use crate::field::Rule;
+use crate::field::RefinementRule;
 use crate::mesh::{Forecast, Progress};
 use crate::paint::{Brush, Dab};
-use crate::raster::{PixelRect, Pyramid};
+use crate::raster::{MaxMipmap, PixelRect};
 
 /// Works out in slices what one dab would do to the mesh, and touches neither document nor mesh.
 ///
@@ -16,7 +16,7 @@ pub struct Pricer {
     question: Option<Question>,
     work: Work,
     /// The levels that pixels would ask for: those of the field, but for what is written.
-    levels: Pyramid<u8>,
+    levels: MaxMipmap<u8>,
     /// The revision of the document that the levels were copied at.
     levels_of: Option<u64>,
     /// Where levels of this dab and of those before may stand.
@@ -74,7 +74,7 @@ const NO_PIXELS: PixelRect = PixelRect { min: [0, 0], max: [0, 0] };
 
 impl Default for Pricer {
     fn default() -> Self {
-        let levels = Pyramid::filled([1, 1], 0);
+        let levels = MaxMipmap::filled([1, 1], 0);
         Self { question: None, work: Work::Idle, levels, levels_of: None, written: Vec::new() }
     }
 }
@@ -85,7 +85,7 @@ impl Pricer {
     /// There is an answer only while the follower is in step with its document and no stroke is under way.
     pub fn ask(&mut self, dab: Option<(Brush, DVec2)>, document: &Document, follower: &Follower) {
         let answerable = document.stroke().is_none()
-            && document.settings().rule == Rule::Area
+            && document.settings().rule == RefinementRule::Area
             && follower.is_in_step(document);
         let question = dab.filter(|(_, at)| answerable && at.is_finite()).map(|(brush, at)| Question {
             brush,
@@ -153,7 +153,7 @@ impl Pricer {
 
 /// Writes what the pixels of `area` would ask for: after the dab where it reaches, and as ever elsewhere.
 fn write(
-    levels: &mut Pyramid<u8>,
+    levels: &mut MaxMipmap<u8>,
     dab: &Dab,
     area: PixelRect,
     changed: &mut PixelRect,
@@ -184,7 +184,7 @@ fn count(changed: PixelRect, follower: &Follower) -> Work {
 
 fn price_so_far(
     forecast: &mut Forecast,
-    levels: &Pyramid<u8>,
+    levels: &MaxMipmap<u8>,
     follower: &Follower,
     visits: usize,
 ) -> Option<Price> {

@@ -1,6 +1,6 @@
 use super::{Base, Settings};
-use crate::domain::{Boundary, Domain};
-use crate::field::Rule;
+use crate::domain::{BoundaryTreatment, Domain};
+use crate::field::RefinementRule;
 use crate::geometry::Rect;
 
 /// One change of one setting, as a menu, a slider, a test or a script sends it.
@@ -17,7 +17,7 @@ pub enum Setting {
     /// The field under the paint.
     Base(Base),
     /// Which points of a triangle count.
-    Rule(Rule),
+    RefinementRule(RefinementRule),
     /// Pixels of the field along the longer side.
     Resolution(u32),
     /// Most triangles.
@@ -29,7 +29,7 @@ pub enum Setting {
     /// The domain altogether.
     Domain(Domain),
     /// How its boundary is met.
-    Boundary(Boundary),
+    Boundary(BoundaryTreatment),
 }
 
 impl Setting {
@@ -41,7 +41,7 @@ impl Setting {
             Self::LargestDiameter(_) => "largest diameter",
             Self::TransferShape(_) => "transfer curve",
             Self::Base(_) => "base field",
-            Self::Rule(_) => "refinement rule",
+            Self::RefinementRule(_) => "refinement rule",
             Self::Resolution(_) => "field resolution",
             Self::MaxTriangles(_) => "triangle budget",
             Self::MaxMemory(_) => "memory budget",
@@ -65,7 +65,7 @@ impl Setting {
             }
             Self::TransferShape(shape) => transfer.shape = shape,
             Self::Base(base) => settings.base = base,
-            Self::Rule(rule) => settings.rule = rule,
+            Self::RefinementRule(rule) => settings.rule = rule,
             Self::Resolution(resolution) => settings.resolution = resolution,
             Self::MaxTriangles(max_triangles) => settings.max_triangles = max_triangles,
             Self::MaxMemory(max_memory) => settings.max_memory = max_memory,

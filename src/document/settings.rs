@@ -1,7 +1,9 @@
 use std::sync::Arc;
 
-use crate::domain::{Boundary, Domain, DomainOnLattice};
-use crate::field::{Formula, Rule, Source, TargetFieldSpec, Transfer, TransferError, checked_target};
+use crate::domain::{BoundaryTreatment, Domain, DomainOnLattice};
+use crate::field::{
+    Formula, RefinementRule, Source, TargetFieldSpec, Transfer, TransferError, checked_target,
+};
 use crate::geometry::{GridError, Grouped, Lattice, Number};
 use crate::mesh::{Bytes, Limits, MemoryLimit};
 use crate::raster::{MAX_SIDE, Raster};
@@ -14,7 +16,7 @@ pub struct Settings {
     /// Ω.
     pub domain: Domain,
     /// How the mesh meets the boundary of a domain of polygons.
-    pub boundary: Boundary,
+    pub boundary: BoundaryTreatment,
     /// Largest side δ̄ of a coarse cell, in world units.
     pub spacing: f64,
     /// From risk to diameter; its ends bound h̄ everywhere.
@@ -22,7 +24,7 @@ pub struct Settings {
     /// What is there before anything is painted.
     pub base: Base,
     /// Which points of a triangle count.
-    pub rule: Rule,
+    pub rule: RefinementRule,
     /// Pixels of the field along the longer side of the domain.
     pub resolution: u32,
     /// Most triangles.
@@ -118,7 +120,7 @@ impl Settings {
     pub fn checked(self) -> Result<Self, SettingsError> {
         self.lattice()?;
         self.transfer.checked()?;
-        if let Boundary::Fitted { diameter } = self.boundary {
+        if let BoundaryTreatment::Fitted { diameter } = self.boundary {
             checked_target(diameter, self.domain.bounds.center())
                 .map_err(|e| SettingsError::BoundaryDiameter(e.value))?;
         }

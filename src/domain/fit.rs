@@ -12,7 +12,7 @@ use crate::mesh::{Element, Progress, bisection_edge_length, level_for_diameter};
 
 /// How the mesh meets the boundary of a region.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Boundary {
+pub enum BoundaryTreatment {
     /// Appendix A: a coarse triangle belongs to the mesh when its three nodes lie inside.
     Report,
     /// The mesh is refined towards the boundary; then a triangle belongs to it when its centroid lies inside.
@@ -22,7 +22,7 @@ pub enum Boundary {
     },
 }
 
-impl Boundary {
+impl BoundaryTreatment {
     /// A start: coarse enough to be quick, fine enough to see the shape. `spacing` is δ̄ in world units.
     pub fn usual(spacing: f64) -> Self {
         Self::Fitted { diameter: bisection_edge_length(spacing, 7) }
@@ -34,13 +34,13 @@ impl Boundary {
 pub struct DomainLaying {
     /// All but the region.
     laid: DomainOnLattice,
-    boundary: Boundary,
+    boundary: BoundaryTreatment,
     region: Option<RegionLaying>,
 }
 
 impl DomainLaying {
     /// Begins to lay a domain on a lattice that covers its bounds.
-    pub fn new(domain: &Domain, boundary: Boundary, lattice: &Lattice) -> Self {
+    pub fn new(domain: &Domain, boundary: BoundaryTreatment, lattice: &Lattice) -> Self {
         let formula = domain.formula().cloned();
         let laid =
             DomainOnLattice { bounds: domain.bounds, lattice: *lattice, formula, region: None, fitted: None };
@@ -73,14 +73,14 @@ pub struct DomainOnLattice {
 
 impl DomainOnLattice {
     /// Lays a domain on a lattice that covers its bounds. Only a region can be fitted; a formula is met as in the report.
-    pub fn new(domain: &Domain, boundary: Boundary, lattice: &Lattice) -> Self {
+    pub fn new(domain: &Domain, boundary: BoundaryTreatment, lattice: &Lattice) -> Self {
         DomainLaying::new(domain, boundary, lattice).finished()
     }
 
     /// The same domain on the same lattice, with its boundary met in another way.
-    pub fn with_boundary(&self, boundary: Boundary) -> Self {
+    pub fn with_boundary(&self, boundary: BoundaryTreatment) -> Self {
         let fitted = match boundary {
-            Boundary::Fitted { diameter } if self.region.is_some() => {
+            BoundaryTreatment::Fitted { diameter } if self.region.is_some() => {
                 Some(level_for_diameter(self.lattice.spacing(), diameter).unwrap_or(u32::MAX))
             }
             _ => None,

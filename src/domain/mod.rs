@@ -6,7 +6,7 @@ mod fit;
 mod laying;
 mod on_lattice;
 mod region;
-mod stencil;
+mod cut_shape;
 mod tangle;
 
 use std::sync::Arc;
@@ -15,10 +15,10 @@ use crate::field::Formula;
 use crate::geometry::{Grouped, Rect};
 
 pub use comparison::RegionComparison;
-pub use fit::{Boundary, DomainLaying, DomainOnLattice};
+pub use cut_shape::CutShape;
+pub use fit::{BoundaryTreatment, DomainLaying, DomainOnLattice};
 pub use on_lattice::RegionOnLattice;
 pub use region::{Polygon, Region, Ring, corners, signed_area};
-pub use stencil::Stencil;
 use tangle::check_tangle;
 pub use tangle::{MOST_CORNERS, MOST_CROSSINGS};
 
@@ -28,7 +28,7 @@ pub struct Domain {
     /// The rectangle that the coarse grid covers.
     pub bounds: Rect,
     /// Which part of it is meant.
-    pub shape: Shape,
+    pub shape: DomainShape,
 }
 
 /// Why polygons make no domain.
@@ -71,7 +71,7 @@ pub enum RegionError {
 
 /// Which part of a rectangle is meant.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Shape {
+pub enum DomainShape {
     /// All of it.
     Whole,
     /// Where the formula is neither zero nor NaN.
@@ -83,7 +83,7 @@ pub enum Shape {
 impl Domain {
     /// The whole of a rectangle.
     pub fn rectangle(bounds: Rect) -> Self {
-        Self { bounds, shape: Shape::Whole }
+        Self { bounds, shape: DomainShape::Whole }
     }
 
     /// What polygons cover; the bounds are the rectangle round them, so that straight sides along it are met exactly.
@@ -114,38 +114,40 @@ impl Domain {
         if region.is_empty() {
             return Err(RegionError::NoArea);
         }
-        Ok(Self { bounds: *region.frame(), shape: Shape::Region(Arc::new(region)) })
+        Ok(Self { bounds: *region.frame(), shape: DomainShape::Region(Arc::new(region)) })
     }
 
     /// The polygons, if the domain has some.
     pub fn region(&self) -> Option<&Arc<Region>> {
         match &self.shape {
-            Shape::Region(region) => Some(region),
-            Shape::Whole | Shape::Formula(_) => None,
+            DomainShape::Region(region) => Some(region),
+            DomainShape::Whole | DomainShape::Formula(_) => None,
         }
     }
 
     /// The polygons, or the whole rectangle as one; `None` for a formula.
     pub fn as_region(&self) -> Option<Arc<Region>> {
         match &self.shape {
-            Shape::Region(region) => Some(region.clone()),
-            Shape::Whole => Some(Arc::new(Region::new(&[vec![corners(&self.bounds)]], self.bounds))),
-            Shape::Formula(_) => None,
+            DomainShape::Region(region) => Some(region.clone()),
+            DomainShape::Whole => Some(Arc::new(Region::new(&[vec![corners(&self.bounds)]], self.bounds))),
+            DomainShape::Formula(_) => None,
         }
     }
 
     /// The formula, if the domain has one.
     pub fn formula(&self) -> Option<&Formula> {
         match &self.shape {
-            Shape::Formula(formula) => Some(formula),
-            Shape::Whole | Shape::Region(_) => None,
+            DomainShape::Formula(formula) => Some(formula),
+            DomainShape::Whole | DomainShape::Region(_) => None,
         }
     }
 
     /// The domain with other bounds. Polygons are cut off where these are smaller.
     pub fn with_bounds(&self, bounds: Rect) -> Self {
         let shape = match &self.shape {
-            Shape::Region(region) if bounds.is_proper() => Shape::Region(Arc::new(region.reframed(bounds))),
+            DomainShape::Region(region) if bounds.is_proper() => {
+                DomainShape::Region(Arc::new(region.reframed(bounds)))
+            }
             other => other.clone(),
         };
         Self { bounds, shape }

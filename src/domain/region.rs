@@ -37,8 +37,10 @@ impl Region {
     /// `frame` must be proper and all points finite.
     pub fn new(polygons: &[Polygon], frame: Rect) -> Self {
         let grid = Grid::over(&frame);
-        let simple: Vec<Shape> =
-            polygons.iter().flat_map(|rings| overlay(&grid.contours(rings), &[], Rule::EITHER)).collect();
+        let simple: Vec<Shape> = polygons
+            .iter()
+            .flat_map(|rings| overlay(&grid.contours(rings), &[], OverlayOperation::EITHER))
+            .collect();
         let contours: Vec<Contour> = simple.into_iter().flatten().collect();
         Self::cut_to_frame(&grid, &contours)
     }
@@ -69,7 +71,7 @@ impl Region {
     }
 
     fn cut_to_frame(grid: &Grid, contours: &[Contour]) -> Self {
-        grid.region(overlay(contours, &[grid.contour(&corners(&grid.frame))], Rule::BOTH))
+        grid.region(overlay(contours, &[grid.contour(&corners(&grid.frame))], OverlayOperation::BOTH))
     }
 
     /// The rectangle that the region is part of.
@@ -115,19 +117,19 @@ impl Region {
 
     /// The region with whatever one of the rings encloses added, within the frame.
     pub fn with(&self, rings: &[Ring]) -> Self {
-        self.combined(rings, Rule::EITHER)
+        self.combined(rings, OverlayOperation::EITHER)
     }
 
     /// The region without whatever one of the rings encloses.
     pub fn without(&self, rings: &[Ring]) -> Self {
-        self.combined(rings, Rule::FIRST_ONLY)
+        self.combined(rings, OverlayOperation::FIRST_ONLY)
     }
 
-    fn combined(&self, rings: &[Ring], rule: Rule) -> Self {
+    fn combined(&self, rings: &[Ring], rule: OverlayOperation) -> Self {
         let grid = Grid::over(&self.frame);
         let frame = [grid.contour(&corners(&self.frame))];
         let within: Vec<Contour> =
-            overlay(&grid.contours(rings), &frame, Rule::BOTH).into_iter().flatten().collect();
+            overlay(&grid.contours(rings), &frame, OverlayOperation::BOTH).into_iter().flatten().collect();
         grid.region(overlay(&grid.contours_of(self), &within, rule))
     }
 
@@ -202,9 +204,9 @@ type Shape = Vec<Contour>;
 
 /// Which points the result of an overlay has.
 #[derive(Clone, Copy)]
-struct Rule(OverlayRule, FillRule);
+struct OverlayOperation(OverlayRule, FillRule);
 
-impl Rule {
+impl OverlayOperation {
     /// Those enclosed an odd number of times by the first; those of either.
     const EITHER: Self = Self(OverlayRule::Union, FillRule::EvenOdd);
     /// Those of both; parts of the first may overlap.
@@ -212,7 +214,11 @@ impl Rule {
     const FIRST_ONLY: Self = Self(OverlayRule::Difference, FillRule::EvenOdd);
 }
 
-fn overlay(first: &[Contour], second: &[Contour], Rule(rule, fill): Rule) -> Vec<Shape> {
+fn overlay(
+    first: &[Contour],
+    second: &[Contour],
+    OverlayOperation(rule, fill): OverlayOperation,
+) -> Vec<Shape> {
     let corners = first.iter().chain(second).map(Vec::len).sum();
     // As geographic standards want it: a hole that touches another ring at one point stays a hole.
     let mut overlay = Overlay::new_custom(corners, IntOverlayOptions::ogc(), Solver::default());

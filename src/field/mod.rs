@@ -8,6 +8,6 @@ mod vertex_rule;
 
 pub use formula::Formula;
 pub use source::{Source, checked_target, smallest_target};
-pub use target_field::{Paint, Rule, TargetField, TargetFieldSpec, f32_not_below};
+pub use target_field::{PaintRef, RefinementRule, TargetField, TargetFieldSpec, f32_not_below};
 pub use transfer::{RiskToDiameter, Transfer, TransferError, TransferTable};
 pub use vertex_rule::VertexRule;

@@ -3,11 +3,11 @@ use glam::DVec2;
 use super::{RiskToDiameter, Source, Transfer, TransferTable, smallest_target};
 use crate::geometry::{Lattice, LatticePoint, LatticeRect};
 use crate::mesh::{Element, InvalidTarget, Progress, bisection_edge_length, level_for_diameter};
-use crate::raster::{PixelRect, Pyramid, Raster, RasterOnLattice};
+use crate::raster::{MaxMipmap, PixelRect, Raster, RasterOnLattice};
 
 /// Which points of a triangle its target diameter is the minimum over.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Rule {
+pub enum RefinementRule {
     /// The three vertices: the report's Eq. (12). A stroke that passes between the nodes leaves no trace.
     Vertex,
     /// The whole closed triangle. Implies Eq. (12), misses nothing, and can be undone locally.
@@ -27,7 +27,7 @@ pub struct TargetFieldSpec {
 
 /// The painted layers, each a raster over the same rectangle.
 #[derive(Clone, Copy)]
-pub struct Paint<'a> {
+pub struct PaintRef<'a> {
     /// Risk, 0 to 1.
     pub risk: &'a Raster,
     /// Target diameter in world units, infinite where nothing is painted.
@@ -36,7 +36,7 @@ pub struct Paint<'a> {
 
 /// h̄ over a domain, by pixel: the minimum of all sources and of what is painted, within \[h_min, h_max\].
 ///
-/// Beside each diameter stands the level that it needs, in a pyramid of maxima: the area rule asks that pyramid and no
+/// Beside each diameter stands the level that it needs, in a mipmap of maxima: the area rule asks that mipmap and no
 /// formula. Filled in slices ([`Self::fill`]) and kept up to date by rectangles ([`Self::update`]).
 #[derive(Clone, Debug)]
 pub struct TargetField {
@@ -46,7 +46,7 @@ pub struct TargetField {
     /// The smallest diameter that the sources ask for.
     base: Raster,
     target: Raster,
-    levels: Pyramid<u8>,
+    levels: MaxMipmap<u8>,
     on_lattice: RasterOnLattice,
     diameter_of_level: [f64; 64],
     filled_rows: u32,
@@ -67,7 +67,7 @@ impl TargetField {
             // Zeros cost nothing until they are written over, slice by slice.
             base: Raster::filled(bounds, size, 0.0),
             target: Raster::filled(bounds, size, 0.0),
-            levels: Pyramid::filled(size, 0),
+            levels: MaxMipmap::filled(size, 0),
             on_lattice: RasterOnLattice::new(lattice, size),
             diameter_of_level: std::array::from_fn(|l| bisection_edge_length(lattice.spacing(), l as u32)),
             filled_rows: 0,
@@ -86,7 +86,7 @@ impl TargetField {
     }
 
     /// The level that each pixel asks for.
-    pub fn levels(&self) -> &Pyramid<u8> {
+    pub fn levels(&self) -> &MaxMipmap<u8> {
         &self.levels
     }
 
@@ -94,7 +94,7 @@ impl TargetField {
     ///
     /// # Errors
     /// When a source gives NaN, infinity, zero or less at some pixel. The field is then of no use.
-    pub fn fill(&mut self, paint: Paint, pixels: usize) -> Result<Progress, InvalidTarget> {
+    pub fn fill(&mut self, paint: PaintRef, pixels: usize) -> Result<Progress, InvalidTarget> {
         self.fill_rows(Some(paint), pixels)
     }
 
@@ -106,7 +106,7 @@ impl TargetField {
         self.fill_rows(None, pixels)
     }
 
-    fn fill_rows(&mut self, paint: Option<Paint>, pixels: usize) -> Result<Progress, InvalidTarget> {
+    fn fill_rows(&mut self, paint: Option<PaintRef>, pixels: usize) -> Result<Progress, InvalidTarget> {
         let [columns, rows] = self.spec.size;
         let first = self.filled_rows;
         let slice_rows = (pixels / columns as usize).clamp(1, rows as usize) as u32;
@@ -128,11 +128,11 @@ impl TargetField {
     /// Returns small rectangles that hold all pixels that now ask for another level: only triangles that touch them may get
     /// another answer by the area rule. The next dab of a stroke covers the last one but for a crescent, and paint over what is
     /// fine already changes no level at all.
-    pub fn update(&mut self, paint: Paint, area: PixelRect) -> Vec<PixelRect> {
+    pub fn update(&mut self, paint: PaintRef, area: PixelRect) -> Vec<PixelRect> {
         self.refresh(Some(paint), area)
     }
 
-    fn refresh(&mut self, paint: Option<Paint>, area: PixelRect) -> Vec<PixelRect> {
+    fn refresh(&mut self, paint: Option<PaintRef>, area: PixelRect) -> Vec<PixelRect> {
         let area = PixelRect { min: area.min, max: [area.max[0], area.max[1].min(self.filled_rows)] };
         let columns = (area.min[0]..area.max[0]).step_by(BLOCK as usize);
         let rows = (area.min[1]..area.max[1]).step_by(BLOCK as usize);
@@ -146,7 +146,7 @@ impl TargetField {
     }
 
     /// Refreshes at most [`BLOCK`] × [`BLOCK`] pixels, and returns the bounds of those that ask for another level.
-    fn refresh_block(&mut self, paint: Option<Paint>, block: PixelRect) -> PixelRect {
+    fn refresh_block(&mut self, paint: Option<PaintRef>, block: PixelRect) -> PixelRect {
         let mut levels = [0; (BLOCK * BLOCK) as usize];
         let place = |x: u32, y: u32| ((y - block.min[1]) * BLOCK + x - block.min[0]) as usize;
         let mut changed = PixelRect { min: [0, 0], max: [0, 0] };
@@ -191,14 +191,14 @@ impl TargetField {
 
     /// [`Self::exceeds`] where the pixels asked for other levels, of a triangle by its corners and its level.
     #[inline]
-    pub fn would_exceed(&self, levels: &Pyramid<u8>, corners: [LatticePoint; 3], level: u32) -> bool {
+    pub fn would_exceed(&self, levels: &MaxMipmap<u8>, corners: [LatticePoint; 3], level: u32) -> bool {
         self.on_lattice.any_above(levels, corners, level as u8)
     }
 
     /// h̄ at a node, for the vertex rule: sources are asked at the very point and not by pixel.
     ///
     /// A value that no mesh can meet (NaN, infinity, zero or less) comes out as it is, for the rule to refuse.
-    pub fn target_at_node(&self, paint: Paint, point: DVec2) -> f64 {
+    pub fn target_at_node(&self, paint: PaintRef, point: DVec2) -> f64 {
         let asked = match smallest_target(&self.spec.sources, point, &self.spec.transfer) {
             Ok(asked) => asked,
             Err(invalid) => return invalid.value,
@@ -245,7 +245,7 @@ mod tests {
         let mut field = TargetField::new(spec.clone(), &lattice);
         let (mut risk, mut diameter) =
             (Raster::filled(bounds, size, 0.0), Raster::filled(bounds, size, f32::INFINITY));
-        while field.fill(Paint { risk: &risk, diameter: &diameter }, 100).unwrap() == Progress::More {}
+        while field.fill(PaintRef { risk: &risk, diameter: &diameter }, 100).unwrap() == Progress::More {}
         let mut random = fastrand::Rng::with_seed(14);
         let mut told = 0;
         for _ in 0..300 {
@@ -259,7 +259,7 @@ mod tests {
                 diameter.set(x, y, 0.3 * random.f32());
             }
             let before = field.levels().clone();
-            let changed = field.update(Paint { risk: &risk, diameter: &diameter }, area);
+            let changed = field.update(PaintRef { risk: &risk, diameter: &diameter }, area);
             let within = |x, y| {
                 changed.iter().any(|r| (r.min[0]..r.max[0]).contains(&x) && (r.min[1]..r.max[1]).contains(&y))
             };
@@ -267,12 +267,12 @@ mod tests {
                 assert!(before.get(x, y) == field.levels().get(x, y) || within(x, y), "{x}, {y}");
             }
             let mut anew = TargetField::new(spec.clone(), &lattice);
-            anew.fill(Paint { risk: &risk, diameter: &diameter }, usize::MAX).unwrap();
+            anew.fill(PaintRef { risk: &risk, diameter: &diameter }, usize::MAX).unwrap();
             assert!(risk.all().pixels().all(|(x, y)| anew.levels().get(x, y) == field.levels().get(x, y)));
             for rect in &changed {
                 assert!(rect.pixels().any(|(x, y)| before.get(x, y) != field.levels().get(x, y)), "{rect:?}");
             }
-            assert_eq!(field.update(Paint { risk: &risk, diameter: &diameter }, area), []);
+            assert_eq!(field.update(PaintRef { risk: &risk, diameter: &diameter }, area), []);
             told += changed.len();
         }
         assert!(told > 300, "{told}");

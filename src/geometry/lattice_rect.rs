@@ -42,7 +42,7 @@ fn meets([a, b, c]: [i64; 3], low: i64, high: i64) -> bool {
 impl Lattice {
     /// The smallest rectangle of the lattice round the part of `area` (in world units) that lies in the bounds; `None` where
     /// nothing does.
-    pub fn rect_round(&self, area: &Rect) -> Option<LatticeRect> {
+    pub fn rect_around(&self, area: &Rect) -> Option<LatticeRect> {
         let common = area.intersection(&self.bounds())?;
         let (min, max) =
             (self.lattice_from_world(common.min).floor(), self.lattice_from_world(common.max).ceil());

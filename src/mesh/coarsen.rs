@@ -245,7 +245,7 @@ impl Mesh {
         if id != last {
             // No coarse node is ever the last here, so that the triangles round it are joined by edges.
             let mut round = [None; 8];
-            let found = self.triangles_round(last, self.triangle_at(last));
+            let found = self.triangles_around(last, self.triangle_at(last));
             round.iter_mut().zip(found).for_each(|(place, id)| *place = Some(id));
             for triangle in round.into_iter().flatten() {
                 let vertices = &mut self.triangles[triangle.index()].vertices;

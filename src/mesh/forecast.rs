@@ -24,7 +24,7 @@ use crate::geometry::{Lattice, LatticePoint, LatticeRect};
 /// use meshbrush::mesh::{Forecast, Limits, Mesh, Progress};
 ///
 /// let mut mesh = Mesh::coarse_grid(Rect::UNIT, 0.5, |_| true, &Limits::default())?;
-/// let square = mesh.lattice().rect_round(&Rect::around(glam::dvec2(0.3, 0.4), 0.1)).unwrap();
+/// let square = mesh.lattice().rect_around(&Rect::around(glam::dvec2(0.3, 0.4), 0.1)).unwrap();
 /// let mut forecast = Forecast::new(&mesh, square, &Limits::default());
 /// let exceeds = |corners, level| level < 2 && square.touches(corners);
 /// assert_eq!(forecast.run(&mesh, exceeds, |_, _| true, usize::MAX)?, Progress::Done);
@@ -96,8 +96,8 @@ impl Shape {
     }
 
     /// How many triangles of the domain come when this one is bisected, or go below zero.
-    fn gain(&self, belongs: &impl Fn([LatticePoint; 3], u32) -> bool) -> i64 {
-        let counts = |shape: &Self| i64::from(belongs(shape.corners(), shape.level));
+    fn gain(&self, is_in_domain: &impl Fn([LatticePoint; 3], u32) -> bool) -> i64 {
+        let counts = |shape: &Self| i64::from(is_in_domain(shape.corners(), shape.level));
         self.children().iter().map(counts).sum::<i64>() - counts(self)
     }
 
@@ -182,7 +182,7 @@ impl Forecast {
     /// Counts until done or until `visits` triangles were looked at.
     ///
     /// `exceeds` is the rule as it would be, asked by corners and level. It must be monotone, and answer as ever outside the area.
-    /// `belongs` tells of any triangle, by the same, whether it lies in the domain.
+    /// `is_in_domain` tells of any triangle, by the same, whether it lies in the domain.
     ///
     /// # Errors
     /// When a target is finer than the lattice. The triangle budget is not looked at: the caller compares.
@@ -190,10 +190,10 @@ impl Forecast {
         &mut self,
         mesh: &Mesh,
         exceeds: impl Fn([LatticePoint; 3], u32) -> bool,
-        belongs: impl Fn([LatticePoint; 3], u32) -> bool,
+        is_in_domain: impl Fn([LatticePoint; 3], u32) -> bool,
         visits: usize,
     ) -> Result<Progress, RefineError> {
-        let gain = |shape: &Shape| shape.gain(&belongs);
+        let gain = |shape: &Shape| shape.gain(&is_in_domain);
         let max_level = self.max_level;
         let exceeds = |shape: &Shape| shape.level < max_level && exceeds(shape.corners(), shape.level);
         let deepest = mesh.lattice().deepest_level();

@@ -34,7 +34,7 @@ pub enum Location {
     /// Beyond the rectangle that the coarse grid covers.
     OutsideBounds,
     /// Within that rectangle, but where no triangle was kept, or only one outside the domain.
-    InHole,
+    OutsideDomain,
     /// A coordinate is NaN.
     Invalid,
 }
@@ -46,7 +46,7 @@ impl Location {
             Self::Inside { triangle } | Self::OnEdge { triangle, .. } | Self::OnVertex { triangle, .. } => {
                 Some(triangle)
             }
-            Self::OutsideBounds | Self::InHole | Self::Invalid => None,
+            Self::OutsideBounds | Self::OutsideDomain | Self::Invalid => None,
         }
     }
 }
@@ -81,9 +81,9 @@ impl Mesh {
                 WalkEnd::Found(id, sides) => self.lowest_round(id, sides),
                 WalkEnd::Blocked => unreachable!("the walk stays in the coarse triangle that it starts in"),
             })
-            .filter(|found| *found != Location::InHole)
+            .filter(|found| *found != Location::OutsideDomain)
             .min_by_key(Location::triangle)
-            .unwrap_or(Location::InHole)
+            .unwrap_or(Location::OutsideDomain)
     }
 
     /// Coarse triangles that contain a point in lattice coordinates (Algorithm 14): one, or up to six round a coarse node.
@@ -140,13 +140,13 @@ impl Mesh {
         let triangle = self.triangle(id);
         let on = sides.map(|side| side == Side::On);
         match on.iter().filter(|&&on| on).count() {
-            0 if triangle.is_outside() => Location::InHole,
+            0 if triangle.is_outside() => Location::OutsideDomain,
             0 => Location::Inside { triangle: id },
             1 => {
                 let edge = on.iter().position(|&on| on).unwrap_or(0);
                 let both = [Some(id), triangle.neighbours[edge].triangle()];
-                match both.into_iter().flatten().filter(|&id| self.belongs(id)).min() {
-                    None => Location::InHole,
+                match both.into_iter().flatten().filter(|&id| self.is_in_domain(id)).min() {
+                    None => Location::OutsideDomain,
                     Some(lowest) if lowest == id => Location::OnEdge { triangle: id, edge },
                     Some(across) => {
                         Location::OnEdge { triangle: across, edge: self.edge_towards(across, id) }
@@ -157,8 +157,8 @@ impl Mesh {
                 // Two of three edges anticlockwise: the first of them ends in the vertex that they share.
                 let first = (0..3).find(|&j| on[j] && on[(j + 1) % 3]).unwrap_or(0);
                 let node = triangle.edge_nodes()[first].1;
-                let lowest = self.triangles_round(node, id).filter(|&id| self.belongs(id)).min();
-                lowest.map_or(Location::InHole, |triangle| Location::OnVertex { triangle, node })
+                let lowest = self.triangles_around(node, id).filter(|&id| self.is_in_domain(id)).min();
+                lowest.map_or(Location::OutsideDomain, |triangle| Location::OnVertex { triangle, node })
             }
         }
     }
@@ -173,7 +173,7 @@ impl Mesh {
     ///
     /// At most eight. Where only a corner joins two parts of the domain, the other part is not reached.
     #[inline]
-    pub fn triangles_round(&self, node: NodeId, start: TriangleId) -> impl Iterator<Item = TriangleId> + '_ {
+    pub fn triangles_around(&self, node: NodeId, start: TriangleId) -> impl Iterator<Item = TriangleId> + '_ {
         let mut id = Some(start);
         let mut clockwise = false;
         std::iter::from_fn(move || {

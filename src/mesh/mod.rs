@@ -128,7 +128,7 @@ impl Mesh {
         self.nodes[id.index()]
     }
 
-    /// One of the triangles round a node; [`Self::triangles_round`] goes on from there.
+    /// One of the triangles round a node; [`Self::triangles_around`] goes on from there.
     ///
     /// # Panics
     /// When the id is not of this mesh.

@@ -26,7 +26,7 @@ impl Mesh {
     /// # Panics
     /// When the id is not of this mesh.
     #[inline]
-    pub fn belongs(&self, id: TriangleId) -> bool {
+    pub fn is_in_domain(&self, id: TriangleId) -> bool {
         !self.triangle(id).is_outside()
     }
 
@@ -37,7 +37,7 @@ impl Mesh {
     /// When the id is not of this mesh.
     pub fn neighbours_in_domain(&self, id: TriangleId) -> [Neighbour; 3] {
         self.triangle(id).neighbours.map(|across| match across.triangle() {
-            Some(other) if self.belongs(other) => across,
+            Some(other) if self.is_in_domain(other) => across,
             _ => Neighbour::BOUNDARY,
         })
     }

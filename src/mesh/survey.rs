@@ -48,7 +48,7 @@ impl Survey {
                 continue;
             }
             for across in triangle.neighbours {
-                match across.triangle().filter(|&id| mesh.belongs(id)) {
+                match across.triangle().filter(|&id| mesh.is_in_domain(id)) {
                     Some(id) => self.by_edge.join(index, id.index()),
                     None => self.boundary_edges += 1,
                 }

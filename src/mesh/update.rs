@@ -67,7 +67,7 @@ use crate::geometry::{LatticePoint, LatticeRect};
 ///     element.triangle.level() < if square.touches(element.corners) { 9 } else { 2 }
 /// };
 /// let mut mesh = Mesh::coarse_grid(Rect::UNIT, 0.25, |_| true, &Limits::default())?;
-/// let square = |x| mesh.lattice().rect_round(&Rect::around(glam::dvec2(x, 0.4), 0.05)).unwrap();
+/// let square = |x| mesh.lattice().rect_around(&Rect::around(glam::dvec2(x, 0.4), 0.05)).unwrap();
 /// let (before, after) = (square(0.3), square(0.6));
 /// mesh.refine(&Limits::default(), |element| Ok(exceeds(element, &before)))?;
 ///

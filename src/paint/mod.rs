@@ -5,7 +5,7 @@ mod tiles;
 
 use glam::DVec2;
 
-use crate::field::Paint;
+use crate::field::PaintRef;
 use crate::geometry::Rect;
 use crate::raster::Raster;
 
@@ -51,7 +51,7 @@ impl Brush {
     }
 
     /// The brush, widened where it is smaller than a pixel so that it always reaches the middle of one.
-    fn on(&self, layers: &Layers) -> Self {
+    fn on(&self, layers: &PaintRasters) -> Self {
         let radius = self.radius.max(0.71 * layers.risk.pixel_size().max_element());
         Self { radius, ..*self }
     }
@@ -59,15 +59,15 @@ impl Brush {
 
 /// What was painted: two rasters over the domain's rectangle.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Layers {
+pub struct PaintRasters {
     /// Risk, 0 to 1.
     pub risk: Raster,
     /// Target diameter in world units, infinite where nothing is painted.
     pub diameter: Raster,
 }
 
-impl Layers {
-    /// Layers with nothing on them; `size` is columns and rows.
+impl PaintRasters {
+    /// PaintRasters with nothing on them; `size` is columns and rows.
     pub fn blank(bounds: Rect, size: [u32; 2]) -> Self {
         Self {
             risk: Raster::filled(bounds, size, 0.0),
@@ -84,8 +84,8 @@ impl Layers {
     }
 
     /// As the field reads them.
-    pub fn as_paint(&self) -> Paint<'_> {
-        Paint { risk: &self.risk, diameter: &self.diameter }
+    pub fn as_paint(&self) -> PaintRef<'_> {
+        PaintRef { risk: &self.risk, diameter: &self.diameter }
     }
 
     /// Whether anything is painted.

@@ -3,7 +3,7 @@ use std::collections::{BTreeMap, VecDeque};
 use glam::DVec2;
 
 use super::tiles::{TILE, TilePixels, TilePlace, tile_area, tiles_touching};
-use super::{Brush, Layers, Medium, Patch, distance_to_segment};
+use super::{Brush, Medium, PaintRasters, Patch, distance_to_segment};
 use crate::field::f32_not_below;
 use crate::geometry::Rect;
 use crate::raster::PixelRect;
@@ -54,7 +54,7 @@ impl Stroke {
 
     /// Leads the brush on to `point` in world units; [`Self::advance`] lays down what it does on the way. A point that is not finite
     /// is passed over.
-    pub fn lead_to(&mut self, layers: &Layers, point: DVec2) {
+    pub fn lead_to(&mut self, layers: &PaintRasters, point: DVec2) {
         if point.is_finite() {
             let from = self.last.replace(point).unwrap_or(point);
             self.pending.push_back(Segment::new([from, point], self.brush.on(layers).radius, layers));
@@ -62,7 +62,7 @@ impl Stroke {
     }
 
     /// Lays down about `pixels` of what is left of the way, and returns those that may have changed; `None` once nothing is left.
-    pub fn advance(&mut self, layers: &mut Layers, pixels: usize) -> Option<PixelRect> {
+    pub fn advance(&mut self, layers: &mut PaintRasters, pixels: usize) -> Option<PixelRect> {
         let mut segment = self.pending.pop_front()?;
         let [from, to] = segment.ends;
         let brush = self.brush.on(layers);
@@ -90,7 +90,7 @@ impl Stroke {
 
     fn stamp_tile(
         &mut self,
-        layers: &mut Layers,
+        layers: &mut PaintRasters,
         place: TilePlace,
         area: PixelRect,
         coverage_at: impl Fn(DVec2) -> f64,
@@ -124,7 +124,7 @@ impl Stroke {
 }
 
 impl Segment {
-    fn new(ends: [DVec2; 2], radius: f64, layers: &Layers) -> Self {
+    fn new(ends: [DVec2; 2], radius: f64, layers: &PaintRasters) -> Self {
         let [from, to] = ends;
         let area = layers.risk.pixels_touching(&Rect::spanning(from, to).expanded(radius));
         let (size, pixel) = (layers.risk.size(), layers.risk.pixel_size());
@@ -152,7 +152,7 @@ pub struct Dab {
 
 impl Dab {
     /// A touch of `brush` at a point in world units, which must be finite. `h_max` is the largest target diameter.
-    pub fn new(brush: Brush, h_max: f64, at: DVec2, layers: &Layers) -> Self {
+    pub fn new(brush: Brush, h_max: f64, at: DVec2, layers: &PaintRasters) -> Self {
         let brush = brush.on(layers);
         let area = layers.risk.pixels_touching(&Rect::around(at, brush.radius));
         Self { brush, h_max, at, area }
@@ -164,7 +164,7 @@ impl Dab {
     }
 
     /// Risk and diameter of a pixel once touched, by column and row.
-    pub fn pixel(&self, layers: &Layers, x: u32, y: u32) -> [f32; 2] {
+    pub fn pixel(&self, layers: &PaintRasters, x: u32, y: u32) -> [f32; 2] {
         let old = [layers.risk.get(x, y), layers.diameter.get(x, y)];
         let coverage = self.brush.coverage((layers.risk.pixel_center(x, y) - self.at).length()) as f32;
         if coverage > 0.0 {
@@ -202,7 +202,7 @@ mod tests {
     const SIZE: [u32; 2] = [200, 150];
     const RISK: Brush = Brush { medium: Medium::Risk, radius: 0.1, hardness: 0.5, strength: 0.8 };
 
-    fn painted(layers: &mut Layers, brush: Brush, points: &[DVec2]) -> Patch {
+    fn painted(layers: &mut PaintRasters, brush: Brush, points: &[DVec2]) -> Patch {
         let mut stroke = Stroke::new(brush, 0.5);
         points.iter().for_each(|&p| stroke.lead_to(layers, p));
         while stroke.advance(layers, usize::MAX).is_some() {}
@@ -212,7 +212,7 @@ mod tests {
     #[test]
     fn a_stroke_taken_back_and_done_again_is_the_same() {
         let mut random = fastrand::Rng::with_seed(3);
-        let blank = Layers::blank(Rect::UNIT, SIZE);
+        let blank = PaintRasters::blank(Rect::UNIT, SIZE);
         let mut layers = blank.clone();
         let mut done = vec![];
         for medium in [Medium::Risk, Medium::Diameter(0.01), Medium::Eraser, Medium::Risk] {
@@ -236,7 +236,8 @@ mod tests {
         let points = [dvec2(0.1, 0.1), dvec2(0.9, 0.9), dvec2(0.9, 0.95)];
         let brush = Brush { radius: 0.02, ..RISK };
         let size = [1000, 900];
-        let (mut whole, mut sliced) = (Layers::blank(Rect::UNIT, size), Layers::blank(Rect::UNIT, size));
+        let (mut whole, mut sliced) =
+            (PaintRasters::blank(Rect::UNIT, size), PaintRasters::blank(Rect::UNIT, size));
         painted(&mut whole, brush, &points);
         let mut stroke = Stroke::new(brush, 0.5);
         points.iter().for_each(|&p| stroke.lead_to(&sliced, p));
@@ -258,7 +259,8 @@ mod tests {
     #[test]
     fn going_over_the_same_place_twice_in_a_stroke_does_no_more_than_once() {
         let (a, b) = (dvec2(0.2, 0.5), dvec2(0.8, 0.5));
-        let (mut once, mut twice) = (Layers::blank(Rect::UNIT, SIZE), Layers::blank(Rect::UNIT, SIZE));
+        let (mut once, mut twice) =
+            (PaintRasters::blank(Rect::UNIT, SIZE), PaintRasters::blank(Rect::UNIT, SIZE));
         painted(&mut once, RISK, &[a, b]);
         painted(&mut twice, RISK, &[a, b, a, b]);
         assert_eq!(once, twice);
@@ -270,7 +272,7 @@ mod tests {
     #[test]
     fn a_brush_smaller_than_a_pixel_leaves_a_trace() {
         for medium in [Medium::Risk, Medium::Diameter(0.01)] {
-            let mut layers = Layers::blank(Rect::UNIT, SIZE);
+            let mut layers = PaintRasters::blank(Rect::UNIT, SIZE);
             let brush = Brush { medium, radius: 1e-9, hardness: 1.0, strength: 1.0 };
             painted(&mut layers, brush, &[dvec2(0.33333, 0.77777)]);
             assert!(!layers.is_blank());
@@ -280,7 +282,7 @@ mod tests {
     #[test]
     fn a_dab_tells_what_a_stroke_of_one_point_lays_down() {
         let mut random = fastrand::Rng::with_seed(4);
-        let mut layers = Layers::blank(Rect::UNIT, SIZE);
+        let mut layers = PaintRasters::blank(Rect::UNIT, SIZE);
         let mut changed = 0;
         for _ in 0..60 {
             let media = [Medium::Risk, Medium::Diameter(0.01), Medium::Eraser];
@@ -303,7 +305,7 @@ mod tests {
 
     #[test]
     fn a_full_eraser_leaves_nothing() {
-        let mut layers = Layers::blank(Rect::UNIT, SIZE);
+        let mut layers = PaintRasters::blank(Rect::UNIT, SIZE);
         let points = [dvec2(0.3, 0.3), dvec2(0.6, 0.7)];
         painted(&mut layers, RISK, &points);
         painted(&mut layers, Brush { medium: Medium::Diameter(0.01), ..RISK }, &points);
@@ -315,7 +317,7 @@ mod tests {
 
     #[test]
     fn points_that_are_no_numbers_change_nothing() {
-        let mut layers = Layers::blank(Rect::UNIT, SIZE);
+        let mut layers = PaintRasters::blank(Rect::UNIT, SIZE);
         painted(&mut layers, RISK, &[dvec2(f64::NAN, 0.5), dvec2(f64::INFINITY, 0.0)]);
         assert!(layers.is_blank());
     }

@@ -1,6 +1,6 @@
 use std::collections::BTreeMap;
 
-use super::Layers;
+use super::PaintRasters;
 use crate::raster::{PixelRect, Raster};
 
 /// Pixels along the side of a tile.
@@ -34,7 +34,7 @@ impl Patch {
 
     /// Exchanges the kept pixels with those of the layers: once takes the gesture back, twice changes nothing. Returns
     /// the pixels exchanged, a rectangle for each tile: a long stroke touches far fewer than lie in its bounds.
-    pub fn exchange(&mut self, layers: &mut Layers) -> Vec<PixelRect> {
+    pub fn exchange(&mut self, layers: &mut PaintRasters) -> Vec<PixelRect> {
         let size = layers.risk.size();
         for (&place, old) in &mut self.tiles {
             let area = tile_area(place, size);
@@ -56,14 +56,14 @@ impl Patch {
 }
 
 impl TilePixels {
-    pub(super) fn copied(layers: &Layers, place: TilePlace) -> Self {
+    pub(super) fn copied(layers: &PaintRasters, place: TilePlace) -> Self {
         let area = tile_area(place, layers.risk.size());
         let copy = |raster: &Raster| raster.rows(area).collect::<Vec<_>>().concat().into();
         Self { risk: copy(&layers.risk), diameter: copy(&layers.diameter) }
     }
 }
 
-impl Layers {
+impl PaintRasters {
     /// The tiles on which something is painted.
     pub fn painted_tiles(&self) -> Tiles {
         let size = self.risk.size();

@@ -1,12 +1,12 @@
 //! A row-major grid of values over a rectangle, and the hierarchy of maxima that answers questions about triangles.
 
-mod pyramid;
+mod max_mipmap;
 
 use glam::DVec2;
 
 use crate::geometry::Rect;
 
-pub use pyramid::{Pyramid, RasterOnLattice};
+pub use max_mipmap::{MaxMipmap, RasterOnLattice};
 
 /// Most pixels along a side of a raster, so that pixel and lattice coordinates multiply exactly in 64 bits.
 pub const MAX_SIDE: u32 = 8192;

@@ -8,8 +8,8 @@ use std::path::Path;
 
 use glam::{DVec2, dvec2};
 use meshbrush::document::{Base, Document, FollowError, Follower, MeshChange, Setting, Settings, Stage};
-use meshbrush::domain::{Boundary, Domain, Shape, Stencil, corners};
-use meshbrush::field::{Formula, Rule, Transfer};
+use meshbrush::domain::{BoundaryTreatment, CutShape, Domain, DomainShape, corners};
+use meshbrush::field::{Formula, RefinementRule, Transfer};
 use meshbrush::geometry::{LatticePoint, Rect};
 use meshbrush::io::project::{self, Project};
 use meshbrush::mesh::{Progress, Triangle};
@@ -76,7 +76,7 @@ pub enum Operation {
     Redo,
     ClearPaint,
     /// Adds a shape to the domain, or takes it away.
-    Cut(Stencil, bool),
+    Cut(CutShape, bool),
     Set(Setting),
     EndGesture,
     /// The work under way is given up.
@@ -101,7 +101,7 @@ impl Operation {
                 _ => Self::EndGesture,
             },
             36 => Self::Reopen,
-            24..28 => Self::Cut(stencil(choices), choices.below(3) == 0),
+            24..28 => Self::Cut(cut_shape(choices), choices.below(3) == 0),
             _ => Self::Set(setting(choices, scale)),
         }
     }
@@ -130,8 +130,8 @@ impl Operation {
             Self::Undo => _ = document.undo(),
             Self::Redo => _ = document.redo(),
             Self::ClearPaint => document.clear_paint(),
-            Self::Cut(stencil, adds) => {
-                if let Some(domain) = document.settings().domain.reshaped(&stencil, adds) {
+            Self::Cut(cut_shape, adds) => {
+                if let Some(domain) = document.settings().domain.reshaped(&cut_shape, adds) {
                     Self::Set(Setting::Domain(domain)).apply(document);
                 }
             }
@@ -180,13 +180,13 @@ fn point(choices: &mut impl Choices) -> DVec2 {
     }
 }
 
-fn stencil(choices: &mut impl Choices) -> Stencil {
+fn cut_shape(choices: &mut impl Choices) -> CutShape {
     let mut at = || dvec2(choices.share(), choices.share());
     let (a, b, c) = (at(), at(), at());
     match choices.below(4) {
-        0 => Stencil::Ring(corners(&Rect::spanning(a, b))),
-        1 => Stencil::Ring(vec![a, b, c]),
-        n => Stencil::Stroke { path: [a, b][..n - 1].to_vec(), radius: 0.02 + 0.15 * choices.share() },
+        0 => CutShape::Ring(corners(&Rect::spanning(a, b))),
+        1 => CutShape::Ring(vec![a, b, c]),
+        n => CutShape::Stroke { path: [a, b][..n - 1].to_vec(), radius: 0.02 + 0.15 * choices.share() },
     }
 }
 
@@ -197,14 +197,18 @@ fn setting(choices: &mut impl Choices, scale: Scale) -> Setting {
         2 => Setting::LargestDiameter(8.0 * diameter),
         3 => Setting::TransferShape(0.5 + 2.0 * choices.share()),
         4 | 5 => Setting::Spacing([0.3, 0.25, 0.2, 0.15][choices.below(4)]),
-        6 | 7 => Setting::Rule(if choices.below(4) == 0 { Rule::Vertex } else { Rule::Area }),
+        6 | 7 => Setting::RefinementRule(if choices.below(4) == 0 {
+            RefinementRule::Vertex
+        } else {
+            RefinementRule::Area
+        }),
         8 | 9 => Setting::Resolution(scale.pixels + (f64::from(scale.pixels) * 0.6 * choices.share()) as u32),
         10 => Setting::MaxTriangles(scale.triangles * [1, 4, 20, 100][choices.below(4)]),
         11 => Setting::Base(base(choices, diameter)),
         12 => Setting::Bounds(bounds(choices)),
         13 => Setting::Domain(inside(choices)),
-        14 if choices.below(4) == 0 => Setting::Boundary(Boundary::Report),
-        14 => Setting::Boundary(Boundary::Fitted { diameter: 2.0 * diameter }),
+        14 if choices.below(4) == 0 => Setting::Boundary(BoundaryTreatment::Report),
+        14 => Setting::Boundary(BoundaryTreatment::Fitted { diameter: 2.0 * diameter }),
         _ => impossible(choices),
     }
 }
@@ -230,7 +234,7 @@ const INSIDES: [&str; 4] =
 fn inside(choices: &mut impl Choices) -> Domain {
     let chosen = choices.below(1 + 2 * INSIDES.len()).checked_sub(1).and_then(|n| INSIDES.get(n));
     let formula = chosen.map(|text| Formula::parse(text).unwrap());
-    Domain { bounds: Rect::UNIT, shape: formula.map_or(Shape::Whole, Shape::Formula) }
+    Domain { bounds: Rect::UNIT, shape: formula.map_or(DomainShape::Whole, DomainShape::Formula) }
 }
 
 /// What no document can meet.
@@ -252,7 +256,7 @@ pub fn domains() -> [Domain; 4] {
     [
         Domain::rectangle(Rect::UNIT),
         Domain::rectangle(Rect::new(DVec2::ZERO, dvec2(1.0, 0.7))),
-        Domain { bounds: Rect::UNIT, shape: Shape::Formula(Formula::parse(INSIDES[0]).unwrap()) },
+        Domain { bounds: Rect::UNIT, shape: DomainShape::Formula(Formula::parse(INSIDES[0]).unwrap()) },
         Domain::of_polygons(&[vec![outline, hole]]).unwrap(),
     ]
 }
@@ -395,7 +399,7 @@ pub fn run_bytes(bytes: &[u8]) {
         max_triangles: 20 * SMALL.triangles,
         resolution: SMALL.pixels,
         spacing: 0.2,
-        boundary: Boundary::Fitted { diameter: 2.0 * SMALL.diameter },
+        boundary: BoundaryTreatment::Fitted { diameter: 2.0 * SMALL.diameter },
         transfer,
         ..Settings::default()
     });

@@ -4,8 +4,8 @@ use eframe::egui::{self, Event, Key, Modifiers, PointerButton, Pos2, Response, U
 use glam::{DVec2, dvec2};
 
 use super::super::command::{Command, DomainCommand};
-use super::super::tools::{DomainShape, Tool, Tools};
-use crate::domain::{Stencil, corners};
+use super::super::tools::{DomainToolMode, Tool, Tools};
+use crate::domain::{CutShape, corners};
 use crate::geometry::Rect;
 use crate::scene::Camera;
 
@@ -175,13 +175,13 @@ impl Pointer<'_> {
         let point = self.world(pos);
         let adds = self.tools.domain_adds != modifiers.alt;
         match self.tools.domain_shape {
-            DomainShape::Brush => {
+            DomainToolMode::Brush => {
                 commands.push(Command::Domain(DomainCommand::Reshape(self.brush_along(vec![point]), adds)));
                 Gesture::Cutting { last: point, adds }
             }
-            DomainShape::Rectangle => Gesture::Framing { from: pos, to: pos, adds: Some(adds) },
-            DomainShape::Frame => Gesture::Framing { from: pos, to: pos, adds: None },
-            DomainShape::Polygon => {
+            DomainToolMode::Rectangle => Gesture::Framing { from: pos, to: pos, adds: Some(adds) },
+            DomainToolMode::Frame => Gesture::Framing { from: pos, to: pos, adds: None },
+            DomainToolMode::Polygon => {
                 let closes = self.first_corner.is_some_and(|first| {
                     let px = self.camera.screen_from_world(first).distance(self.px(pos));
                     px < CLOSING_POINTS * self.px_per_point
@@ -194,13 +194,13 @@ impl Pointer<'_> {
         }
     }
 
-    fn brush_along(&self, path: Vec<DVec2>) -> Stencil {
-        Stencil::Stroke { path, radius: self.tools.radius }
+    fn brush_along(&self, path: Vec<DVec2>) -> CutShape {
+        CutShape::Stroke { path, radius: self.tools.radius }
     }
 
     /// Cuts from where the brush was to where it is; all that it does in one frame is cut at once.
     fn cut_to(&self, point: DVec2, last: &mut DVec2, adds: bool, commands: &mut Vec<Command>) {
-        if let Some(Command::Domain(DomainCommand::Reshape(Stencil::Stroke { path, .. }, _))) =
+        if let Some(Command::Domain(DomainCommand::Reshape(CutShape::Stroke { path, .. }, _))) =
             commands.last_mut()
         {
             path.push(point);
@@ -287,7 +287,7 @@ fn framed(a: DVec2, b: DVec2, adds: Option<bool>) -> Vec<Command> {
         None => vec![Command::Domain(DomainCommand::Frame(Rect::spanning(a, b)))],
         Some(adds) => {
             let ring = corners(&Rect::spanning(a, b));
-            vec![Command::Domain(DomainCommand::Reshape(Stencil::Ring(ring), adds)), Command::EndGesture]
+            vec![Command::Domain(DomainCommand::Reshape(CutShape::Ring(ring), adds)), Command::EndGesture]
         }
     }
 }

@@ -6,7 +6,7 @@ use glam::DVec2;
 use super::super::theme::font;
 use super::super::tools::Tools;
 use crate::colormap::Ground;
-use crate::domain::Stencil;
+use crate::domain::CutShape;
 use crate::mesh::{Mesh, TriangleId};
 use crate::scene::{Camera, Highlights, Outline, highlight_outlines};
 
@@ -140,10 +140,10 @@ fn visible_pieces(ring: &[Pos2], view: Rect) -> Vec<Vec<Pos2>> {
 }
 
 /// A shape that is not cut yet: an outline, or what the brush has swept over.
-pub fn paint_stencil(painter: &Painter, stencil: &Stencil, at: &impl Fn(DVec2) -> Pos2) {
-    let (path, radius) = match stencil {
-        Stencil::Ring(ring) => return paint_outline(painter, ring.iter().map(|&corner| at(corner))),
-        Stencil::Stroke { path, radius } => (path, *radius),
+pub fn paint_stencil(painter: &Painter, cut_shape: &CutShape, at: &impl Fn(DVec2) -> Pos2) {
+    let (path, radius) = match cut_shape {
+        CutShape::Ring(ring) => return paint_outline(painter, ring.iter().map(|&corner| at(corner))),
+        CutShape::Stroke { path, radius } => (path, *radius),
     };
     let points: Vec<Pos2> = path.iter().map(|&point| at(point)).collect();
     let radius = points[0].distance(at(path[0] + DVec2::new(radius, 0.0)));

@@ -190,8 +190,8 @@ impl App {
                 marks::paint_outline(painter, ring.iter().map(|&corner| at(corner)));
             }
         }
-        for stencil in self.cutter.stencils() {
-            marks::paint_stencil(painter, stencil, at);
+        for cut_shape in self.cutter.cut_shapes() {
+            marks::paint_stencil(painter, cut_shape, at);
         }
         let corners: Vec<egui::Pos2> = self.outline.iter().map(|&corner| at(corner)).collect();
         marks::paint_open_polygon(painter, &corners, pointer);

@@ -3,10 +3,10 @@ use eframe::egui::{RichText, Ui};
 use super::super::App;
 use super::super::command::{Command, DomainCommand};
 use super::super::theme::{font, tokens};
-use super::super::tools::{DomainShape, Tool};
+use super::super::tools::{DomainToolMode, Tool};
 use super::super::widgets::{ActionButton, NumberRow, Section, SliderRow, format, segmented, value_row};
 use crate::document::Setting;
-use crate::domain::{Boundary, Domain, Region};
+use crate::domain::{BoundaryTreatment, Domain, Region};
 use crate::geometry::Rect;
 
 impl App {
@@ -32,16 +32,16 @@ impl App {
     fn domain_tool_ui(&mut self, ui: &mut Ui) {
         let mut shape = self.tools.domain_shape;
         let choices = [
-            (DomainShape::Brush, "Brush"),
-            (DomainShape::Rectangle, "Rectangle"),
-            (DomainShape::Polygon, "Polygon"),
-            (DomainShape::Frame, "Frame"),
+            (DomainToolMode::Brush, "Brush"),
+            (DomainToolMode::Rectangle, "Rectangle"),
+            (DomainToolMode::Polygon, "Polygon"),
+            (DomainToolMode::Frame, "Frame"),
         ];
         if segmented(ui, "What cuts the domain", &mut shape, &choices).changed() {
             self.commands.push(Command::Domain(DomainCommand::Shape(shape)));
         }
         ui.add_space(4.0);
-        if shape == DomainShape::Frame {
+        if shape == DomainToolMode::Frame {
             self.words(ui, "Drag a rectangle: the coarse grid covers it. Polygons are cut off at its sides.");
             return;
         }
@@ -51,9 +51,9 @@ impl App {
             self.commands.push(Command::Domain(DomainCommand::Adds(adds)));
         }
         ui.add_space(4.0);
-        if shape == DomainShape::Brush {
+        if shape == DomainToolMode::Brush {
             self.size_ui(ui);
-        } else if shape == DomainShape::Polygon {
+        } else if shape == DomainToolMode::Polygon {
             self.words(
                 ui,
                 "Click corner after corner; Enter, or the first corner, closes the polygon. Esc gives it up.",
@@ -66,18 +66,18 @@ impl App {
         let boundary = self.session.document().settings().boundary;
         let spacing = self.session.document().settings().spacing;
         let fitted = match boundary {
-            Boundary::Fitted { .. } => boundary,
-            Boundary::Report => self.last_fitted.unwrap_or(Boundary::usual(spacing)),
+            BoundaryTreatment::Fitted { .. } => boundary,
+            BoundaryTreatment::Report => self.last_fitted.unwrap_or(BoundaryTreatment::usual(spacing)),
         };
         let mut chosen = boundary;
-        let choices = [(fitted, "Fitted to outline"), (Boundary::Report, "As in the report")];
+        let choices = [(fitted, "Fitted to outline"), (BoundaryTreatment::Report, "As in the report")];
         if segmented(ui, "How the outline is met", &mut chosen, &choices).changed() {
             self.last_fitted = Some(fitted);
             self.commands.extend([Command::Set(Setting::Boundary(chosen)), Command::EndGesture]);
         }
         match boundary {
-            Boundary::Fitted { diameter } => self.fitted_ui(ui, diameter),
-            Boundary::Report => self.words(
+            BoundaryTreatment::Fitted { diameter } => self.fitted_ui(ui, diameter),
+            BoundaryTreatment::Report => self.words(
                 ui,
                 "Appendix A: a coarse triangle stays if its three corners are inside. What is narrower than the coarse grid is lost.",
             ),
@@ -92,7 +92,7 @@ impl App {
         let help = "Largest diameter of a triangle that the outline passes through. Then what has its middle outside is left out.";
         let response = row.help(help).show(ui);
         if response.changed() {
-            self.commands.push(Command::Set(Setting::Boundary(Boundary::Fitted { diameter })));
+            self.commands.push(Command::Set(Setting::Boundary(BoundaryTreatment::Fitted { diameter })));
         }
         self.settle(&response);
     }

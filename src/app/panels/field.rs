@@ -4,7 +4,7 @@ use super::super::App;
 use super::super::command::Command;
 use super::super::widgets::{ActionButton, NumberRow, Section, TextError, TextRow, segmented, value_row};
 use crate::document::{Base, RESOLUTIONS, Setting};
-use crate::domain::{Domain, Shape};
+use crate::domain::{Domain, DomainShape};
 use crate::field::Formula;
 
 /// Texts as typed, which need not be sound yet.
@@ -133,7 +133,7 @@ impl App {
             "everywhere; or x^2 + y^2 < 1"
         };
         if let Some(inside) = formula_row(ui, "Domain where", hint, &mut self.field_texts.inside, current) {
-            let shape = inside.map_or(Shape::Whole, Shape::Formula);
+            let shape = inside.map_or(DomainShape::Whole, DomainShape::Formula);
             self.set_whole(Setting::Domain(Domain { bounds, shape }));
         }
     }

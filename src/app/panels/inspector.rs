@@ -120,7 +120,7 @@ fn where_on(location: Location) -> Option<&'static str> {
 
 fn nowhere_ui(ui: &mut Ui, readout: &Readout) {
     let text = match readout.location {
-        Location::InHole => "The point lies in a hole of the domain, or beyond its outline.",
+        Location::OutsideDomain => "The point lies in a hole of the domain, or beyond its outline.",
         Location::Invalid => "The point is not a number.",
         _ => "The point lies outside the domain.",
     };

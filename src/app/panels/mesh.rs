@@ -5,7 +5,7 @@ use super::super::command::Command;
 use super::super::theme::{font, tokens};
 use super::super::widgets::{NumberRow, Section, SliderRow, format, segmented, value_row};
 use crate::document::{LEAST_MEMORY, Setting};
-use crate::field::Rule;
+use crate::field::RefinementRule;
 
 /// Triangles in a million.
 const MILLION: f64 = 1e6;
@@ -38,13 +38,13 @@ impl App {
 
     fn rule_ui(&mut self, ui: &mut Ui) {
         let mut rule = self.session.document().settings().rule;
-        let choices = [(Rule::Area, "Area rule"), (Rule::Vertex, "Vertex rule")];
+        let choices = [(RefinementRule::Area, "Area rule"), (RefinementRule::Vertex, "Vertex rule")];
         if segmented(ui, "Refinement rule", &mut rule, &choices).changed() {
-            self.commands.extend([Command::Set(Setting::Rule(rule)), Command::EndGesture]);
+            self.commands.extend([Command::Set(Setting::RefinementRule(rule)), Command::EndGesture]);
         }
         let words = match rule {
-            Rule::Area => "A triangle obeys h̄ everywhere inside it: no stroke is missed.",
-            Rule::Vertex => {
+            RefinementRule::Area => "A triangle obeys h̄ everywhere inside it: no stroke is missed.",
+            RefinementRule::Vertex => {
                 "The report's rule: h̄ counts at the three corners only. A stroke that passes between the nodes leaves \
                  no trace, and every edit makes the mesh anew."
             }

@@ -4,7 +4,7 @@ use super::super::App;
 use super::super::readout::{Quantity, value_at};
 use super::super::widgets::{StatusCell, format};
 use crate::document::Stage;
-use crate::field::Rule;
+use crate::field::RefinementRule;
 
 /// Space between cells.
 const GAP: f32 = 16.0;
@@ -78,8 +78,8 @@ impl App {
     /// The rule, and how long the last update took or how far the present one is.
     fn work_cells(&self) -> [StatusCell; 2] {
         let rule = match self.session.follower().settings().rule {
-            Rule::Area => "area",
-            Rule::Vertex => "vertex",
+            RefinementRule::Area => "area",
+            RefinementRule::Vertex => "vertex",
         };
         [StatusCell::new("rule", rule, 0), StatusCell::new("update", self.update_text(), 11)]
     }

@@ -10,9 +10,9 @@ use glam::{DVec2, dvec2};
 use super::SMALLEST_SIZE;
 use super::WINDOW_SIZE;
 use super::command::{Command, DomainCommand};
-use super::tools::{DomainShape, PaintKind, Tool};
+use super::tools::{DomainToolMode, PaintKind, Tool};
 use crate::document::{Base, Example, Setting};
-use crate::field::{Formula, Rule};
+use crate::field::{Formula, RefinementRule};
 use crate::io;
 use offscreen::OffscreenWindow;
 
@@ -95,7 +95,7 @@ fn terrain(window: &mut OffscreenWindow) {
 /// A sea fitted to its coast, about to be cut.
 fn aegean(window: &mut OffscreenWindow) {
     window.send(Command::OpenExample(Example::Aegean));
-    window.send(Command::Domain(DomainCommand::Shape(DomainShape::Brush)));
+    window.send(Command::Domain(DomainCommand::Shape(DomainToolMode::Brush)));
     window.send(Command::BrushRadius(0.2));
     point_at(window, dvec2(25.25, 38.1));
 }
@@ -112,7 +112,7 @@ fn deep(window: &mut OffscreenWindow) {
     let place = dvec2(0.3127, 0.6183);
     let formula = Formula::parse("max(1e-8, 0.3*hypot(x - 0.3127, y - 0.6183))").expect("a sound formula");
     window.send(Command::New);
-    window.send(Command::Set(Setting::Rule(Rule::Vertex)));
+    window.send(Command::Set(Setting::RefinementRule(RefinementRule::Vertex)));
     window.send(Command::Set(Setting::SmallestDiameter(1e-8)));
     window.send(Command::Set(Setting::Base(Base::Formula(formula))));
     window.send(Command::Use(Tool::Query));

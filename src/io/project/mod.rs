@@ -29,7 +29,7 @@ use super::{Meter, geojson};
 use crate::document::{Base, Document, Settings};
 use crate::domain::Polygon;
 use crate::geometry::Rect;
-use crate::paint::{Layers, Tiles};
+use crate::paint::{PaintRasters, Tiles};
 use crate::raster::Raster;
 use archive::{Archive, ArchiveWriter, Part};
 use settings::{Parts, Saved};
@@ -76,7 +76,7 @@ impl Project {
     /// A sentence, when the settings cannot be met.
     pub fn into_document(self) -> Result<Document, String> {
         let settings = self.settings.checked().map_err(|error| error.to_string())?;
-        let mut layers = Layers::blank(settings.domain.bounds, settings.raster_size());
+        let mut layers = PaintRasters::blank(settings.domain.bounds, settings.raster_size());
         layers.put_tiles(&self.tiles);
         Document::new(settings, Some(layers)).map_err(|error| error.to_string())
     }

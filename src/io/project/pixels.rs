@@ -8,7 +8,7 @@ use crate::geometry::Rect;
 use crate::paint::{TILE, TilePixels, TilePlace, Tiles, tile_area};
 use crate::raster::Raster;
 
-/// Layers that a tile has something on.
+/// PaintRasters that a tile has something on.
 const RISK: u8 = 1;
 const DIAMETER: u8 = 2;
 

@@ -9,8 +9,8 @@ use super::super::Flaw;
 use super::super::error::{PlacedFlaw, shown};
 use super::{FORMAT, VERSION};
 use crate::document::{Base, Settings};
-use crate::domain::{Boundary, Domain, Polygon, Shape};
-use crate::field::{Formula, Rule, Transfer};
+use crate::domain::{BoundaryTreatment, Domain, DomainShape, Polygon};
+use crate::field::{Formula, RefinementRule, Transfer};
 use crate::geometry::{Grouped, Number, Rect};
 use crate::raster::{MAX_SIDE, Raster};
 
@@ -119,14 +119,14 @@ impl Saved {
             domain: SavedDomain {
                 bounds: corners(settings.domain.bounds),
                 shape: match &settings.domain.shape {
-                    Shape::Whole => SavedShape::Whole,
-                    Shape::Formula(formula) => SavedShape::Formula(formula.source().into()),
-                    Shape::Region(_) => SavedShape::Polygons,
+                    DomainShape::Whole => SavedShape::Whole,
+                    DomainShape::Formula(formula) => SavedShape::Formula(formula.source().into()),
+                    DomainShape::Region(_) => SavedShape::Polygons,
                 },
             },
             boundary: match settings.boundary {
-                Boundary::Report => SavedBoundary::Report,
-                Boundary::Fitted { diameter } => SavedBoundary::Fitted(diameter),
+                BoundaryTreatment::Report => SavedBoundary::Report,
+                BoundaryTreatment::Fitted { diameter } => SavedBoundary::Fitted(diameter),
             },
             spacing: settings.spacing,
             transfer: SavedTransfer { h_min, h_max, shape },
@@ -144,8 +144,8 @@ impl Saved {
                 }
             },
             rule: match settings.rule {
-                Rule::Vertex => SavedRule::Vertex,
-                Rule::Area => SavedRule::Area,
+                RefinementRule::Vertex => SavedRule::Vertex,
+                RefinementRule::Area => SavedRule::Area,
             },
             resolution: settings.resolution,
             max_triangles: settings.max_triangles,
@@ -192,8 +192,8 @@ impl Saved {
         }
         let bounds = rect("domain", self.domain.bounds)?;
         let shape = match self.domain.shape {
-            SavedShape::Whole => Shape::Whole,
-            SavedShape::Formula(text) => Shape::Formula(formula("domain", &text)?),
+            SavedShape::Whole => DomainShape::Whole,
+            SavedShape::Formula(text) => DomainShape::Formula(formula("domain", &text)?),
             SavedShape::Polygons => {
                 Domain::of_stored_polygons(parts.polygons()?, bounds).map_err(sentence)?.shape
             }
@@ -214,8 +214,8 @@ impl Saved {
             name: self.name,
             domain: Domain { bounds, shape },
             boundary: match self.boundary {
-                SavedBoundary::Report => Boundary::Report,
-                SavedBoundary::Fitted(diameter) => Boundary::Fitted { diameter },
+                SavedBoundary::Report => BoundaryTreatment::Report,
+                SavedBoundary::Fitted(diameter) => BoundaryTreatment::Fitted { diameter },
             },
             spacing: self.spacing,
             transfer: Transfer {
@@ -225,8 +225,8 @@ impl Saved {
             },
             base,
             rule: match self.rule {
-                SavedRule::Vertex => Rule::Vertex,
-                SavedRule::Area => Rule::Area,
+                SavedRule::Vertex => RefinementRule::Vertex,
+                SavedRule::Area => RefinementRule::Area,
             },
             resolution: self.resolution,
             max_triangles: self.max_triangles,

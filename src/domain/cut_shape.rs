@@ -5,11 +5,11 @@ use std::sync::Arc;
 
 use glam::{DVec2, dvec2};
 
-use super::{Domain, Ring, Shape};
+use super::{Domain, DomainShape, Ring};
 
 /// A shape to cut with, in world units.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Stencil {
+pub enum CutShape {
     /// What a round brush sweeps over along a line of straight pieces; one point makes a disc.
     Stroke {
         /// Where the middle of the brush goes.
@@ -24,7 +24,7 @@ pub enum Stencil {
 /// Corners of a disc: its edge is a 500th of the radius off at most.
 const DISC_CORNERS: usize = 48;
 
-impl Stencil {
+impl CutShape {
     /// Goes on as `next` does, where both are strokes with the same brush, one from where the other ends; tells whether that is so.
     pub fn join(&mut self, next: &Self) -> bool {
         match (self, next) {
@@ -65,10 +65,10 @@ fn capsule(from: DVec2, to: DVec2, radius: f64) -> Ring {
 impl Domain {
     /// The domain with a shape added to it or taken away, within its bounds; `None` for a domain given by a formula, which has no
     /// outline to edit.
-    pub fn reshaped(&self, stencil: &Stencil, adds: bool) -> Option<Self> {
-        let (region, rings) = (self.as_region()?, stencil.rings());
+    pub fn reshaped(&self, cut_shape: &CutShape, adds: bool) -> Option<Self> {
+        let (region, rings) = (self.as_region()?, cut_shape.rings());
         let region = if adds { region.with(&rings) } else { region.without(&rings) };
-        Some(Self { bounds: self.bounds, shape: Shape::Region(Arc::new(region)) })
+        Some(Self { bounds: self.bounds, shape: DomainShape::Region(Arc::new(region)) })
     }
 }
 
@@ -80,11 +80,11 @@ mod tests {
 
     #[test]
     fn a_stroke_is_as_wide_as_its_brush() {
-        let disc = &Stencil::Stroke { path: vec![DVec2::ONE], radius: 2.0 }.rings()[0];
+        let disc = &CutShape::Stroke { path: vec![DVec2::ONE], radius: 2.0 }.rings()[0];
         assert!((signed_area(disc) / (2.0 * TAU) - 1.0).abs() < 5e-3);
         assert!(disc.iter().all(|p| (p.distance(DVec2::ONE) - 2.0).abs() < 1e-12));
         for end in [dvec2(5.0, 1.0), dvec2(1.0, -3.0), dvec2(-2.0, 5.0)] {
-            let ring = &Stencil::Stroke { path: vec![DVec2::ONE, end], radius: 0.5 }.rings()[0];
+            let ring = &CutShape::Stroke { path: vec![DVec2::ONE, end], radius: 0.5 }.rings()[0];
             let expected = DVec2::ONE.distance(end) + 0.125 * TAU;
             assert!((signed_area(ring) / expected - 1.0).abs() < 5e-3, "anticlockwise, and of that area");
         }
@@ -94,7 +94,7 @@ mod tests {
     fn a_domain_is_brushed_out_and_in_again() {
         let whole = Domain::rectangle(Rect::UNIT);
         let path = vec![dvec2(0.2, 0.5), dvec2(0.5, 0.6), dvec2(0.8, 0.5)];
-        let stroke = Stencil::Stroke { path, radius: 0.05 };
+        let stroke = CutShape::Stroke { path, radius: 0.05 };
         let cut = whole.reshaped(&stroke, false).unwrap();
         let region = cut.region().unwrap();
         assert_eq!(region.hole_count(), 1);

@@ -6,7 +6,7 @@ use crate::geometry::{Lattice, LatticePoint, LatticeRect};
 /// Answers "is there a value above this one under this triangle?" with early exits both ways, and is kept up to date in
 /// time proportional to the pixels that change.
 #[derive(Clone, Debug)]
-pub struct Pyramid<T = u8> {
+pub struct MaxMipmap<T = u8> {
     /// From the raster itself (0) to a single value.
     layers: Vec<Layer<T>>,
 }
@@ -24,8 +24,8 @@ impl<T: Copy> Layer<T> {
     }
 }
 
-impl<T: Copy + PartialOrd> Pyramid<T> {
-    /// The pyramid over a grid of one value; `size` is columns and rows.
+impl<T: Copy + PartialOrd> MaxMipmap<T> {
+    /// The mipmap over a grid of one value; `size` is columns and rows.
     ///
     /// # Panics
     /// When a side is zero.
@@ -57,7 +57,7 @@ impl<T: Copy + PartialOrd> Pyramid<T> {
 
     /// The largest value of all.
     pub fn max(&self) -> T {
-        self.layers.last().map(|top| top.values[0]).expect("a pyramid has at least one layer")
+        self.layers.last().map(|top| top.values[0]).expect("a mipmap has at least one layer")
     }
 
     /// Sets every pixel of `area` to what `value` gives for its column and row, and brings the maxima up to date.
@@ -135,14 +135,14 @@ impl RasterOnLattice {
     #[inline]
     pub fn any_above<T: Copy + PartialOrd>(
         &self,
-        pyramid: &Pyramid<T>,
+        mipmap: &MaxMipmap<T>,
         corners: [LatticePoint; 3],
         limit: T,
     ) -> bool {
-        if pyramid.max() <= limit {
+        if mipmap.max() <= limit {
             return false;
         }
-        let size = pyramid.size();
+        let size = mipmap.size();
         let (x0, x1) = self.closed_pixels(0, corners.map(|c| c.x), size[0]);
         let (y0, y1) = self.closed_pixels(1, corners.map(|c| c.y), size[1]);
         // Start where the triangle spans two squares at most along both axes; the top layer has one, so this ends.
@@ -152,13 +152,13 @@ impl RasterOnLattice {
         }
         let (x0, x1, y0, y1) = (x0 >> layer, x1 >> layer, y0 >> layer, y1 >> layer);
         let layer = layer as usize;
-        let above = |x, y| pyramid.layers[layer].get(x, y) > limit;
+        let above = |x, y| mipmap.layers[layer].get(x, y) > limit;
         // Most triangles are answered here.
         if !(above(x0, y0) | above(x1, y0) | above(x0, y1) | above(x1, y1)) {
             return false;
         }
         let shape = Octagon::around(corners, self.per_step);
-        (y0..=y1).any(|y| (x0..=x1).any(|x| self.search(pyramid, &shape, limit, layer, x, y)))
+        (y0..=y1).any(|y| (x0..=x1).any(|x| self.search(mipmap, &shape, limit, layer, x, y)))
     }
 
     /// First and last pixel along an axis whose closure meets a triangle with the given coordinates on it.
@@ -173,17 +173,17 @@ impl RasterOnLattice {
         (first, last.min(count - 1))
     }
 
-    /// Descends into one square of a layer. The depth is that of the pyramid.
+    /// Descends into one square of a layer. The depth is that of the mipmap.
     fn search<T: Copy + PartialOrd>(
         &self,
-        pyramid: &Pyramid<T>,
+        mipmap: &MaxMipmap<T>,
         shape: &Octagon,
         limit: T,
         layer: usize,
         x: u32,
         y: u32,
     ) -> bool {
-        if pyramid.layers[layer].get(x, y) <= limit {
+        if mipmap.layers[layer].get(x, y) <= limit {
             return false;
         }
         let square = self.square(layer, x, y);
@@ -193,9 +193,9 @@ impl RasterOnLattice {
         if layer == 0 || shape.holds(&square) {
             return true;
         }
-        let finer = pyramid.layers[layer - 1].size;
+        let finer = mipmap.layers[layer - 1].size;
         let (right, top) = ((2 * x + 1).min(finer[0] - 1), (2 * y + 1).min(finer[1] - 1));
-        (2 * y..=top).any(|y| (2 * x..=right).any(|x| self.search(pyramid, shape, limit, layer - 1, x, y)))
+        (2 * y..=top).any(|y| (2 * x..=right).any(|x| self.search(mipmap, shape, limit, layer - 1, x, y)))
     }
 
     fn square(&self, layer: usize, x: u32, y: u32) -> Octagon {
@@ -276,11 +276,11 @@ impl Octagon {
     }
 }
 
-impl<T: Copy + PartialOrd> From<&Raster<T>> for Pyramid<T> {
+impl<T: Copy + PartialOrd> From<&Raster<T>> for MaxMipmap<T> {
     fn from(raster: &Raster<T>) -> Self {
-        let mut pyramid = Self::filled(raster.size(), raster.get(0, 0));
-        pyramid.update(raster.all(), |x, y| raster.get(x, y));
-        pyramid
+        let mut mipmap = Self::filled(raster.size(), raster.get(0, 0));
+        mipmap.update(raster.all(), |x, y| raster.get(x, y));
+        mipmap
     }
 }
 
@@ -333,38 +333,38 @@ mod tests {
             }
             let on = RasterOnLattice::new(mesh.lattice(), size);
             for (x, y) in (PixelRect { min: [0, 0], max: size }).pixels() {
-                let mut pyramid = Pyramid::filled(size, 0u8);
-                pyramid.update(PixelRect { min: [x, y], max: [x + 1, y + 1] }, |_, _| 1);
+                let mut mipmap = MaxMipmap::filled(size, 0u8);
+                mipmap.update(PixelRect { min: [x, y], max: [x + 1, y + 1] }, |_, _| 1);
                 for id in (0..mesh.triangles().len()).map(TriangleId::from_index) {
                     let corners = mesh.corners(id);
                     let expected = meets_by_clipping(mesh.lattice(), size, corners, x, y);
                     assert_eq!(
-                        on.any_above(&pyramid, corners, 0),
+                        on.any_above(&mipmap, corners, 0),
                         expected,
                         "pixel {x}, {y} of {size:?}, {corners:?}"
                     );
-                    assert!(!on.any_above(&pyramid, corners, 1));
+                    assert!(!on.any_above(&mipmap, corners, 1));
                 }
             }
         }
     }
 
     #[test]
-    fn updates_of_parts_leave_the_pyramid_as_if_made_anew() {
+    fn updates_of_parts_leave_the_mipmap_as_if_made_anew() {
         let mut random = fastrand::Rng::with_seed(8);
         let size = [37, 21];
         let mut raster = Raster::filled(Rect::UNIT, size, 0u8);
-        let mut pyramid = Pyramid::from(&raster);
+        let mut mipmap = MaxMipmap::from(&raster);
         for _ in 0..200 {
             let (x, y) = (random.u32(..size[0]), random.u32(..size[1]));
             let max = [random.u32(x..size[0]) + 1, random.u32(y..size[1]) + 1];
             let (area, value) = (PixelRect { min: [x, y], max }, random.u8(..));
             area.pixels().for_each(|(x, y)| raster.set(x, y, value));
-            pyramid.update(area, |x, y| raster.get(x, y));
-            assert_eq!(pyramid.max(), *raster.values().iter().max().unwrap());
+            mipmap.update(area, |x, y| raster.get(x, y));
+            assert_eq!(mipmap.max(), *raster.values().iter().max().unwrap());
         }
-        let anew = Pyramid::from(&raster);
-        for (a, b) in pyramid.layers.iter().zip(&anew.layers) {
+        let anew = MaxMipmap::from(&raster);
+        for (a, b) in mipmap.layers.iter().zip(&anew.layers) {
             assert_eq!(a.values, b.values);
         }
     }
