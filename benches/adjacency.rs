@@ -1,10 +1,9 @@
 //! Adjacency rows (Algorithm 13) of the report's meshes.
 
-mod diamond;
-
 use std::time::Duration;
 
 use criterion::{BenchmarkId, Criterion, Throughput};
+use meshbrush_benches::diamond;
 
 fn main() {
     let mut criterion = Criterion::default().configure_from_args();

@@ -1,15 +1,15 @@
-//! A frame while painting: a recorded stroke of two seconds, replayed on a mesh of two million triangles.
+//! The cost of each frame while painting: a recorded stroke of two seconds, replayed on a mesh of two million triangles.
 //!
-//! For each frame of 1/60 s the processor's time is measured: *stamp* lays the points that the mouse reported into the painted
-//! layers, *update* brings field and mesh in step, *upload* hands the changed ranges to the graphics driver, here whichever one
-//! there is, and submits them. What the GPU does then, or lavapipe in its place, is waited for and not counted.
+//! Processor time is measured for each frame of 1/60 s. *stamp* rasterizes the reported mouse positions into the painted
+//! rasters. *update* brings field and mesh up to date. *upload* hands the changed ranges to the graphics driver and
+//! submits them. The bench waits for the GPU's own work, or lavapipe's, but does not count it.
 //!
-//! Both strokes are made five times, and each frame counts with the median of its five times, part by part.
+//! Paint and erase strokes are each repeated five times. A frame counts with the median of its five times, per part.
 //!
-//! *whole work*: every frame updates until it is in step. *in the window*: it stops at the window's budget, the next one goes on,
-//! and what is left when the stroke ends is counted in frames.
+//! *whole work*: every frame updates until the mesh is up to date. *in the window*: a frame stops at the window's budget
+//! and the next one continues; the frames needed after the end of the stroke are reported.
 //!
-//! Without a graphics driver upload is not measured.
+//! Without a graphics driver, upload is not measured.
 
 use std::time::{Duration, Instant};
 
@@ -17,25 +17,26 @@ use glam::{DVec2, dvec2};
 use meshbrush::document::{Base, Document, Follower, MeshChange, Settings, Stage};
 use meshbrush::field::Formula;
 use meshbrush::paint::{Brush, Medium};
+use meshbrush::render::gpu::Offscreen;
 
-/// As the window has them: `FRAME_BUDGET` in `app/mod.rs` and `SLICE` in `app/session.rs`.
+/// The window's own values: `FRAME_BUDGET` in `app/mod.rs` and `SLICE` in `app/session.rs`.
 const FRAME_BUDGET: Duration = Duration::from_millis(7);
 const SLICE: usize = 2048;
 
 const FRAMES: usize = 120;
 /// What a mouse reports in a frame, at 120 a second.
 const POINTS_PER_FRAME: usize = 2;
-/// How often both strokes are made.
+/// How often each stroke is repeated.
 const ROUNDS: usize = 5;
 
-/// The window's own brush on the unit square.
+/// The window's default brush on the unit square.
 const BRUSH: Brush = Brush { medium: Medium::Risk, radius: 0.06, hardness: 0.35, strength: 0.8 };
 const ERASER: Brush = Brush { medium: Medium::Eraser, strength: 1.0, ..BRUSH };
 
-/// Where the mouse is after a share of the stroke: most of an eight, 2.4 units long, slow in the bends and quick between.
+/// Position of the mouse after a share of the stroke: most of a figure eight, 2.4 units long, slow in the bends.
 fn recorded(share: f64) -> DVec2 {
-    let way = share - 0.05 * (12.0 * share).sin();
-    let angle = 0.4 + 5.6 * way;
+    let progress = share - 0.05 * (12.0 * share).sin();
+    let angle = 0.4 + 5.6 * progress;
     dvec2(0.5 + 0.36 * angle.cos(), 0.5 + 0.3 * (2.0 * angle).sin())
 }
 
@@ -44,16 +45,16 @@ fn points_of(frame: usize) -> impl Iterator<Item = DVec2> {
     (0..POINTS_PER_FRAME).map(move |i| recorded((frame * POINTS_PER_FRAME + i) as f64 / last))
 }
 
-/// Fine below a wave, so that the stroke goes over what is fine already and over what is coarse.
+/// A field that is fine below a wave, so that the stroke crosses fine and coarse parts.
 fn document() -> Document {
     let mut settings = Settings::default();
     settings.transfer.h_min = 0.0011;
     let formula = "if(y < 0.45 + 0.1 * sin(7 * x), 0.0011, 0.2)";
-    settings.base = Base::Formula(Formula::parse(formula).expect("a sound formula"));
-    Document::new(settings, None).expect("sound settings")
+    settings.base = Base::Formula(Formula::parse(formula).expect("a valid formula"));
+    Document::new(settings, None).expect("valid settings")
 }
 
-/// Times of one frame.
+/// Times of the parts of one frame.
 #[derive(Clone, Copy)]
 struct Frame {
     stamp: Duration,
@@ -61,11 +62,11 @@ struct Frame {
     upload: Duration,
 }
 
-/// Document, mesh and what is on the screen.
+/// Document, mesh and GPU copy.
 struct Bench {
     document: Document,
     follower: Follower,
-    screen: screen::Screen,
+    screen: Screen,
 }
 
 impl Bench {
@@ -94,7 +95,7 @@ impl Bench {
         }
     }
 
-    /// The stroke frame by frame, and then as many frames as it takes to be in step.
+    /// Draws the stroke frame by frame, then runs frames until the mesh is up to date.
     fn stroke(&mut self, brush: Brush, budget: Duration) -> Stroke {
         let mut stroke = Stroke { frames: Vec::new(), behind: 0 };
         let mut stage = Stage::InStep;
@@ -122,13 +123,13 @@ impl Bench {
 
 struct Stroke {
     frames: Vec<Frame>,
-    /// Frames until the mesh was in step once the stroke had ended.
+    /// Frames between the end of the stroke and the mesh being up to date.
     behind: usize,
 }
 
 fn report(name: &str, strokes: &[Stroke]) {
     let behind = strokes.iter().map(|stroke| stroke.behind).max().unwrap_or(0);
-    eprintln!("{name}: {behind} frames at most until in step");
+    eprintln!("{name}: {behind} frames at most until the mesh is up to date");
     eprintln!("            median       99 %      worst");
     let row = |part: &str, time: fn(&Frame) -> Duration| {
         let of_frame =
@@ -149,10 +150,43 @@ fn sorted(times: impl Iterator<Item = Duration>) -> Vec<Duration> {
     times
 }
 
+/// The mesh on the GPU, if there is one.
+struct Screen(Option<Offscreen>);
+
+impl Screen {
+    fn open() -> Self {
+        let offscreen = Offscreen::new();
+        match &offscreen {
+            Ok(offscreen) => eprintln!("Adapter: {}", offscreen.adapter()),
+            Err(e) => eprintln!("Upload is not measured. {e}"),
+        }
+        Self(offscreen.ok())
+    }
+
+    /// Uploads a change as the window does.
+    fn show(&mut self, follower: &Follower, change: &MeshChange) {
+        let Some(offscreen) = &mut self.0 else { return };
+        let (mesh, revision) = (follower.mesh(), follower.revision());
+        let mirror = offscreen.renderer().mirror_mut();
+        match change {
+            MeshChange::Replaced => mirror.upload(mesh, revision),
+            MeshChange::Within(changes) => mirror.write_ranges(mesh, revision, changes),
+        }
+        .expect("the mesh fits the graphics memory");
+        offscreen.queue().submit([]);
+    }
+
+    fn wait(&self) {
+        if let Some(offscreen) = &self.0 {
+            offscreen.device().poll(wgpu::PollType::wait_indefinitely()).expect("the device is not lost");
+        }
+    }
+}
+
 fn main() {
     let mut document = document();
     let follower = Follower::new(&mut document).expect("it has a mesh");
-    let mut bench = Bench { document, follower, screen: screen::Screen::open() };
+    let mut bench = Bench { document, follower, screen: Screen::open() };
     bench.frame(std::iter::empty(), FRAME_BUDGET);
     eprintln!("A mesh of {} triangles", bench.follower.mesh().triangles().len());
     for (name, budget) in [("whole work", Duration::MAX / 4), ("in the window", FRAME_BUDGET)] {
@@ -165,62 +199,5 @@ fn main() {
         }
         report(&format!("{name}, paint"), &painted);
         report(&format!("{name}, erase"), &erased);
-    }
-}
-
-#[cfg(feature = "gui")]
-mod screen {
-    use super::{Follower, MeshChange};
-    use meshbrush::render::gpu::Offscreen;
-
-    /// The mesh on the GPU.
-    pub struct Screen(Option<Offscreen>);
-
-    impl Screen {
-        pub fn open() -> Self {
-            let offscreen = Offscreen::new();
-            match &offscreen {
-                Ok(offscreen) => eprintln!("Adapter: {}", offscreen.adapter()),
-                Err(e) => eprintln!("Upload is not measured. {e}"),
-            }
-            Self(offscreen.ok())
-        }
-
-        /// As the window does it.
-        pub fn show(&mut self, follower: &Follower, change: &MeshChange) {
-            let Some(offscreen) = &mut self.0 else { return };
-            let (mesh, revision) = (follower.mesh(), follower.revision());
-            let mirror = offscreen.renderer().mirror_mut();
-            match change {
-                MeshChange::Replaced => mirror.upload(mesh, revision),
-                MeshChange::Within(changes) => mirror.write_ranges(mesh, revision, changes),
-            }
-            .expect("there is room");
-            offscreen.queue().submit([]);
-        }
-
-        pub fn wait(&self) {
-            if let Some(offscreen) = &self.0 {
-                offscreen.device().poll(wgpu::PollType::wait_indefinitely()).expect("the device is there");
-            }
-        }
-    }
-}
-
-#[cfg(not(feature = "gui"))]
-mod screen {
-    use super::{Follower, MeshChange};
-
-    /// No window, no GPU.
-    pub struct Screen;
-
-    impl Screen {
-        pub fn open() -> Self {
-            Self
-        }
-
-        pub fn show(&mut self, _: &Follower, _: &MeshChange) {}
-
-        pub fn wait(&self) {}
     }
 }

@@ -1,16 +1,15 @@
-//! Mesh generation: the report's series, carried on to 33 million triangles.
+//! Mesh generation: the report's series, extended to 33 million triangles.
 //!
-//! *fresh* builds in memory new from the allocator, as a first mesh must; that the system has to find its pages is a third
-//! of the time or more. *reused* builds into the arrays of the mesh before, as an edit with the vertex rule does. The time
-//! to drop a mesh is not counted.
-
-mod diamond;
+//! *fresh* builds in newly allocated memory, as a first mesh does; mapping its pages takes a third of the time or
+//! more. *reused* builds into the arrays of the previous mesh, as an edit under the vertex rule does. The time to
+//! drop a mesh is not counted.
 
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
 use criterion::{BenchmarkId, Criterion, SamplingMode, Throughput};
 use meshbrush::mesh::{Limits, Mesh, Refiner};
+use meshbrush_benches::diamond;
 
 fn fresh(level: u32) -> (Duration, Mesh) {
     let start = Instant::now();

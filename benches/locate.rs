@@ -2,14 +2,13 @@
 //!
 //! All three answer the same random points, one after the other, on one core.
 
-mod diamond;
-
 use std::hint::black_box;
 use std::time::Duration;
 
 use criterion::{BenchmarkId, Criterion, Throughput};
 use glam::{DVec2, dvec2};
 use meshbrush::mesh::{Locator, Mesh, NodeId};
+use meshbrush_benches::diamond;
 use spade::{
     DelaunayTriangulation, HierarchyHintGenerator, HintGenerator, LastUsedVertexHintGenerator, Point2,
     Triangulation,

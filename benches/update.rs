@@ -1,11 +1,11 @@
-//! Updates in place: the same dab on meshes from ten thousand to ten million triangles, beside making the mesh anew.
+//! Updates in place: the same dab on meshes of ten thousand to ten million triangles, beside a mesh made from scratch.
 //!
-//! The field is a raster with the area rule, as in the window; its own update is not counted. *same place*: a dab is
-//! painted and erased again, over and over. *moving*: a dab is painted at the next of eight places and the oldest of three is
-//! erased, so that entries leave from the middle of the arrays and others fill the gaps. *counted*: what the dab, or erasing it,
-//! would do, without doing it.
+//! The field is a raster under the area rule, as in the window; the cost of updating the field is not counted.
+//! *same place*: one dab is painted and erased repeatedly. *moving*: a dab is painted at the next of eight places and the
+//! oldest of three is erased, so that entries are removed from the middle of the arrays and others fill the gaps.
+//! *dab counted*, *erasing counted*: a forecast of what painting or erasing the dab would change.
 //!
-//! Throughput counts the triangles that come or go, in the fresh meshes those that are there in the end.
+//! Throughput counts the triangles added and removed; for a mesh made from scratch, all its triangles.
 
 use std::hint::black_box;
 use std::time::{Duration, Instant};
@@ -34,13 +34,13 @@ struct Scene {
 }
 
 impl Scene {
-    /// The right half asks for `level` up to the given row, which decides how large the mesh is.
+    /// The right half asks for `level` below the given row, which determines the size of the mesh.
     fn new(level: u8, rows: u32) -> Self {
         let coarse =
             Mesh::coarse_grid(Rect::UNIT, 1.0 / 16.0, |_| true, &Limits::default()).expect("a square");
         let mut levels = MaxMipmap::filled([SIDE; 2], 0);
         levels.update(PixelRect { min: [SIDE / 2 + 1, 0], max: [SIDE, rows] }, |_, _| level);
-        // One pixel as fine as any in all meshes: the rule has a way out where nothing is finer than a triangle.
+        // The same finest pixel in every mesh: the rule returns early where nothing is finer than a triangle.
         levels.update(PixelRect { min: [SIDE - 1; 2], max: [SIDE; 2] }, |_, _| 16);
         let on_lattice = RasterOnLattice::new(coarse.lattice(), [SIDE; 2]);
         let mut scene = Self { mesh: coarse.clone(), coarse, levels, on_lattice };
@@ -51,7 +51,7 @@ impl Scene {
         scene
     }
 
-    /// Paints or erases the dab at a place, and returns the part of the lattice that may change.
+    /// Paints or erases the dab at `place` and returns the part of the lattice that may change.
     fn stamp(&mut self, place: [u32; 2], level: u8) -> LatticeRect {
         let area = PixelRect { min: place.map(|c| c - RADIUS), max: place.map(|c| c + RADIUS + 1) };
         self.levels.update(area, |x, y| {
@@ -80,7 +80,7 @@ fn rule(levels: &MaxMipmap<u8>, on: RasterOnLattice) -> impl Fn(&Element) -> Res
     move |element| Ok(on.any_above(levels, element.corners, element.triangle.level() as u8))
 }
 
-/// Level of the right half and rows that it fills.
+/// Level of the right half, and the rows that it fills.
 const SIZES: [(u8, u32); 5] = [(5, 2048), (9, 1500), (12, 1950), (13, 2048), (16, 1220)];
 
 fn same_place(group: &mut BenchmarkGroup<WallTime>, scene: &mut Scene) {
@@ -102,7 +102,7 @@ fn same_place(group: &mut BenchmarkGroup<WallTime>, scene: &mut Scene) {
     assert_eq!(scene.mesh.triangles().len(), count);
 }
 
-/// What the dab of `same place` would add, and what taking it away would free, counted without doing it.
+/// Forecasts of what painting the dab of `same place` would add and what erasing it would remove.
 fn counted(group: &mut BenchmarkGroup<WallTime>, scene: &mut Scene) {
     let count = scene.mesh.triangles().len();
     let once = |scene: &Scene, area| {
@@ -147,11 +147,11 @@ fn moving(group: &mut BenchmarkGroup<WallTime>, scene: &mut Scene) {
     });
 }
 
-fn anew(group: &mut BenchmarkGroup<WallTime>, scene: &Scene) {
+fn from_scratch(group: &mut BenchmarkGroup<WallTime>, scene: &Scene) {
     let count = scene.mesh.triangles().len();
     group.throughput(Throughput::Elements(count as u64));
     let (mut mesh, mut refiner) = (scene.coarse.clone(), Refiner::new(&scene.coarse, Limits::default()));
-    group.bench_function(BenchmarkId::new("made anew", count), |b| {
+    group.bench_function(BenchmarkId::new("from scratch", count), |b| {
         b.iter_custom(|rounds| {
             let once = |_| {
                 let start = Instant::now();
@@ -166,7 +166,7 @@ fn anew(group: &mut BenchmarkGroup<WallTime>, scene: &Scene) {
     });
 }
 
-/// Bytes for each triangle of all that an update in place needs, after one that touched the whole mesh.
+/// Prints the memory of an update in place, in bytes per triangle, after one that touched the whole mesh.
 fn memory(level: u8) {
     let before = resident();
     let mut scene = Scene::new(level, SIDE);
@@ -177,7 +177,7 @@ fn memory(level: u8) {
     );
     let count = scene.mesh.triangles().len() as f64;
     let (arrays, marks) = (scene.mesh.bytes() as f64 / count, updater.bytes() as f64 / count);
-    // A pyramid is a third larger than its lowest layer.
+    // A max-mipmap is a third larger than its finest level.
     let field = (SIDE * SIDE) as usize * 4 / 3;
     let resident = resident().saturating_sub(before + field) as f64 / count;
     eprintln!(
@@ -185,7 +185,7 @@ fn memory(level: u8) {
     );
 }
 
-/// Memory of this process in use, in bytes; zero where the system does not say.
+/// Resident memory of this process in bytes; zero where the system does not report it.
 fn resident() -> usize {
     let statm = std::fs::read_to_string("/proc/self/statm").unwrap_or_default();
     let pages = statm.split(' ').nth(1).and_then(|pages| pages.parse().ok());
@@ -203,7 +203,7 @@ fn main() {
         let mut scene = Scene::new(level, rows);
         same_place(&mut group, &mut scene);
         counted(&mut group, &mut scene);
-        anew(&mut group, &scene);
+        from_scratch(&mut group, &scene);
         moving(&mut group, &mut scene);
     }
     group.finish();

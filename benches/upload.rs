@@ -1,4 +1,4 @@
-//! The way of a mesh to the screen: upload, drawing, and showing the kept picture again.
+//! A mesh on its way to the screen: upload, drawing, and showing the kept picture again.
 //!
 //! Without a graphics driver only the software renderer is measured.
 
@@ -32,7 +32,7 @@ fn style() -> Style {
     Style::dark(std::array::from_fn(|level| [(level * 255 / LEVELS) as u8, 140, 90, 255]))
 }
 
-/// The whole grid, moved by a little each time, so that no picture can be kept.
+/// The whole grid, panned a little each time, so that no kept picture can be reused.
 fn moved(mesh: &Mesh, frame: &mut u32) -> Camera {
     *frame += 1;
     let camera = Camera::fit(mesh.lattice(), mesh.lattice().bounds(), SIZE, 20.0);
@@ -50,7 +50,6 @@ fn software(c: &mut Criterion) {
     }
 }
 
-#[cfg(feature = "gui")]
 fn gpu(c: &mut Criterion) {
     let mut offscreen = match meshbrush::render::gpu::Offscreen::new() {
         Ok(offscreen) => offscreen,
@@ -65,7 +64,7 @@ fn gpu(c: &mut Criterion) {
         group.bench_function(BenchmarkId::new("upload", name), |b| {
             b.iter(|| {
                 offscreen.show(&mesh, 0).unwrap();
-                // Writes travel with the next submission.
+                // The queue executes writes with the next submission.
                 offscreen.queue().submit([]);
                 offscreen.device().poll(wgpu::PollType::wait_indefinitely()).unwrap();
             });
@@ -78,9 +77,6 @@ fn gpu(c: &mut Criterion) {
         });
     }
 }
-
-#[cfg(not(feature = "gui"))]
-fn gpu(_: &mut Criterion) {}
 
 criterion_group! {
     name = benches;

@@ -1,4 +1,4 @@
-//! The mesh of Figure 1 of the report (Section 5.4) on [−10, 10]², the subject of every bench of the core.
+//! The mesh of Figure 1 of the report (Section 5.4) on [−10, 10]², which the benches of the core build.
 
 use glam::DVec2;
 use meshbrush::geometry::{LatticePoint, Rect};
@@ -12,8 +12,8 @@ pub fn coarse() -> Mesh {
 
 /// The report's rule (Eqs. 12 and 13): `level` everywhere in the diamond ‖x‖₁ < 8, seen at the vertices.
 ///
-/// The diamond is found in lattice coordinates, where it is exact and costs a few integer operations: what is measured is
-/// the mesh, not the formula.
+/// The diamond is tested in lattice coordinates, which is exact and takes a few integer operations: the benches measure
+/// the mesh, not a formula.
 pub fn rule(mesh: &Mesh, level: u32) -> impl Fn(&Element) -> Result<bool, InvalidTarget> + use<> {
     let target = bisection_edge_length(1.0, level) * (1.0 + 1e-12);
     let steps = mesh.lattice().cell_steps();
@@ -25,7 +25,6 @@ pub fn rule(mesh: &Mesh, level: u32) -> impl Fn(&Element) -> Result<bool, Invali
 }
 
 /// The diamond refined to `level`.
-#[allow(dead_code)] // not every bench wants a finished mesh
 pub fn mesh(level: u32) -> Mesh {
     let mut mesh = coarse();
     let rule = rule(&mesh, level);
