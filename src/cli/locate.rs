@@ -102,8 +102,7 @@ fn name(location: &Location) -> &'static str {
         Location::Inside { .. } => "inside",
         Location::OnEdge { .. } => "edge",
         Location::OnVertex { .. } => "vertex",
-        Location::OutsideBounds => "outside",
-        Location::OutsideDomain => "hole",
+        Location::OutsideBounds | Location::OutsideDomain => "outside",
         Location::Invalid => "invalid",
     }
 }
