@@ -1510,7 +1510,7 @@ fn a_long_stroke_never_waits_for_the_mesh() {
     window.step();
     let document: &Document = window.state().session().document();
     assert!(document.stroke().is_some());
-    assert!(document.layers().risk.sample(FREE - dvec2(0.05, 0.0)).unwrap() > 0.1, "paint does not wait");
+    assert!(document.paint().risk.sample(FREE - dvec2(0.05, 0.0)).unwrap() > 0.1, "paint does not wait");
     release_at(&mut window, from, PointerButton::Primary);
     assert!(level_at(&window, FREE) > 10);
 }

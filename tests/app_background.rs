@@ -199,7 +199,7 @@ fn a_window_that_is_closed_while_the_document_is_saved_closes_when_it_is() {
         let file = pipe(folder(&format!("save-{by_key}")).join("a.meshbrush"));
         let mut window = window();
         paint(&mut window, 0.9);
-        let painted = document(&window).layers().clone();
+        let painted = document(&window).paint().clone();
         send(&mut window, Command::SaveTo(file.clone()));
         if by_key {
             send(&mut window, Command::Quit);
@@ -214,7 +214,7 @@ fn a_window_that_is_closed_while_the_document_is_saved_closes_when_it_is() {
         let saved = std::thread::spawn(move || read_all(&file));
         wait_for_close(&mut window);
         let saved = project::from_bytes(&saved.join().unwrap(), Path::new("a")).unwrap();
-        assert!(*saved.into_document().unwrap().layers() == painted);
+        assert!(*saved.into_document().unwrap().paint() == painted);
     }
 }
 
@@ -281,11 +281,11 @@ fn what_is_saved_while_the_document_is_saved_is_saved_next_and_then_it_is_left()
     // What is being saved lacks the last stroke.
     window.get_by_label("Save").click();
     window.run();
-    assert!(!document(&window).layers().is_blank());
+    assert!(!document(&window).paint().is_blank());
     // Open for writing too, so that it does not end between the two.
     let mut drain = File::options().read(true).write(true).open(&file).unwrap();
     std::thread::spawn(move || std::io::copy(&mut drain, &mut std::io::sink()));
-    wait(&mut window, "the new document", |window| document(window).layers().is_blank());
+    wait(&mut window, "the new document", |window| document(window).paint().is_blank());
     assert!(told(&window).is_empty(), "{}", told(&window));
 }
 

@@ -63,7 +63,7 @@ fn what_is_saved_by_key_is_opened_with_the_same_mesh() {
     // The ending is added.
     let saved = file.with_extension("meshbrush");
     wait(&mut window, "saving", |window| shows(window, "threats"));
-    assert!(project::read(&saved).unwrap().layers() == document(&window).layers());
+    assert!(project::read(&saved).unwrap().paint() == document(&window).paint());
 
     let (before, bytes) = (fingerprint(&window), fs::read(&saved).unwrap());
     paint(&mut window, 0.8);
@@ -88,11 +88,11 @@ fn edits_after_the_start_of_saving_stay_unsaved() {
     let mut window = window();
     send(&mut window, Command::BeginStroke(dvec2(0.9, 0.5)));
     send(&mut window, Command::SaveTo(file.clone()));
-    let saved = document(&window).layers().clone();
+    let saved = document(&window).paint().clone();
     paint(&mut window, 0.8);
     wait(&mut window, "saving", |window| shows(window, "a — edited"));
-    assert!(*project::read(&file).unwrap().layers() == saved);
-    assert!(saved != *document(&window).layers());
+    assert!(*project::read(&file).unwrap().paint() == saved);
+    assert!(saved != *document(&window).paint());
 }
 
 #[test]
@@ -120,11 +120,11 @@ fn unsaved_edits_are_asked_about() {
     send(&mut window, Command::SaveTo(file.clone()));
     wait(&mut window, "saving", |window| shows(window, "b"));
     paint(&mut window, 0.9);
-    let painted = document(&window).layers().clone();
+    let painted = document(&window).paint().clone();
     send(&mut window, Command::New);
     press(&mut window, "Save");
-    wait(&mut window, "saving and leaving", |window| document(window).layers().is_blank());
-    assert!(*project::read(&file).unwrap().layers() == painted);
+    wait(&mut window, "saving and leaving", |window| document(window).paint().is_blank());
+    assert!(*project::read(&file).unwrap().paint() == painted);
     // A new document has no file: nothing is written over.
     paint(&mut window, 0.5);
     key(&mut window, Modifiers::COMMAND, Key::S);

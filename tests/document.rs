@@ -113,10 +113,10 @@ fn edits_from_bytes_hold_what_random_edits_do() {
 fn undo_to_the_start_and_redo_to_the_end_are_exact() {
     let mut random = fastrand::Rng::with_seed(12);
     let mut document = Document::new(Settings { resolution: 200, ..Settings::default() }, None).unwrap();
-    let blank = document.layers().clone();
+    let blank = document.paint().clone();
     let mut states = vec![];
     for i in 0..30 {
-        states.push((document.settings().clone(), document.layers().clone()));
+        states.push((document.settings().clone(), document.paint().clone()));
         match i % 5 {
             3 => document.set(Setting::Resolution(150 + i)).unwrap(),
             4 => document.set(Setting::LargestDiameter(0.19 - 0.005 * f64::from(i))).unwrap(),
@@ -125,15 +125,15 @@ fn undo_to_the_start_and_redo_to_the_end_are_exact() {
         document.end_stroke();
         document.end_gesture();
     }
-    let end = (document.settings().clone(), document.layers().clone());
+    let end = (document.settings().clone(), document.paint().clone());
     for state in states.iter().rev() {
         assert!(document.undo());
-        assert_eq!((document.settings(), document.layers()), (&state.0, &state.1));
+        assert_eq!((document.settings(), document.paint()), (&state.0, &state.1));
     }
     assert!(!document.undo());
-    assert_eq!(document.layers(), &blank);
+    assert_eq!(document.paint(), &blank);
     while document.redo() {}
-    assert_eq!((document.settings(), document.layers()), (&end.0, &end.1));
+    assert_eq!((document.settings(), document.paint()), (&end.0, &end.1));
 }
 
 #[test]
@@ -228,7 +228,7 @@ fn the_area_rule_implies_the_vertex_rule() {
     let coarser = Follower::new(&mut by_vertex).unwrap();
     assert!(coarser.mesh().triangles().len() < follower.mesh().triangles().len());
     // No triangle of the area rule's mesh breaks the vertex rule.
-    let (field, paint) = (follower.field(), document.layers().as_paint());
+    let (field, paint) = (follower.field(), document.paint().as_paint());
     let mut rule = VertexRule::new(|point| field.target_at_node(paint, point));
     assert_eq!(follower.mesh().unsatisfied(|element| rule.exceeds(element)).unwrap(), []);
 }
@@ -427,7 +427,7 @@ fn work_that_a_budget_stopped_goes_on_when_it_is_raised_and_when_paint_is_erased
     document.draw_to(dvec2(0.9, 0.3));
     document.end_stroke();
     settle(&mut follower, &mut document);
-    assert!(!document.layers().is_blank());
+    assert!(!document.paint().is_blank());
     assert_as_from_scratch(&follower, &document);
 }
 
@@ -506,7 +506,7 @@ fn a_stroke_drawn_in_slices_is_one_entry_once_lifted_and_others_wait_for_it() {
     let way = [dvec2(0.2, 0.3), dvec2(0.8, 0.6)];
     let lead = |document: &mut Document| {
         document.begin_stroke(brush);
-        way.iter().for_each(|&point| document.lead_to(point));
+        way.iter().for_each(|&point| document.extend_stroke(point));
     };
     let mut at_once = blank();
     at_once.begin_stroke(brush);
@@ -515,24 +515,24 @@ fn a_stroke_drawn_in_slices_is_one_entry_once_lifted_and_others_wait_for_it() {
 
     let mut document = blank();
     lead(&mut document);
-    document.lift();
-    assert!(document.stroke().is_some() && document.layers().is_blank());
-    let slices = (1..).find(|_| document.draw_on(1000) == Progress::Done).unwrap();
+    document.finish_stroke();
+    assert!(document.stroke().is_some() && document.paint().is_blank());
+    let slices = (1..).find(|_| document.advance_stroke(1000) == Progress::Done).unwrap();
     assert!(slices > 50, "{slices}");
     assert_eq!((document.stroke().is_none(), document.history().len()), (true, 1));
-    assert_eq!(document.layers(), at_once.layers());
+    assert_eq!(document.paint(), at_once.paint());
 
     // Where it is not drawn yet, what comes next finds it drawn; taken back, nothing of it is left.
     let mut document = blank();
     lead(&mut document);
-    document.draw_on(1000);
+    document.advance_stroke(1000);
     document.set(Setting::Spacing(0.11)).unwrap();
-    assert_eq!((document.history().len(), document.layers()), (2, at_once.layers()));
+    assert_eq!((document.history().len(), document.paint()), (2, at_once.paint()));
     let mut document = blank();
     lead(&mut document);
-    document.draw_on(1000);
-    document.lift();
+    document.advance_stroke(1000);
+    document.finish_stroke();
     assert!(document.undo() && document.stroke().is_none());
-    assert!(document.layers().is_blank() && document.is_drawn());
-    assert_eq!(document.draw_on(1000), Progress::Done);
+    assert!(document.paint().is_blank() && document.is_stroke_drawn());
+    assert_eq!(document.advance_stroke(1000), Progress::Done);
 }

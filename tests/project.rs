@@ -112,7 +112,7 @@ fn what_is_saved_is_what_is_opened_and_saved_again_it_has_the_same_bytes() {
         assert!(back == project, "{}", document.settings().name);
         let again = back.into_document().unwrap();
         assert_eq!(again.settings(), document.settings());
-        assert!(again.layers() == document.layers());
+        assert!(again.paint() == document.paint());
         assert!(again.history().is_empty());
         assert!(bytes_of(&Project::of(&again)) == bytes);
     }

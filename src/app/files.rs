@@ -261,7 +261,7 @@ impl App {
         }
         let session = &self.session;
         let (mesh, field) = (session.shared_mesh(), session.follower().field().clone());
-        let (layers, rule) = (session.document().layers().clone(), session.follower().settings().rule);
+        let (layers, rule) = (session.document().paint().clone(), session.follower().settings().rule);
         let look = self.view.picture(session.document().settings());
         let file = path.clone();
         self.background.start(Aim::Export, &path, move |meter| {

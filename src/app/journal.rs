@@ -190,13 +190,13 @@ impl App {
         if edits.is_empty() {
             return;
         }
-        let Edits { settings, layers, tiles } = edits;
-        if layers || keeper.wants_whole.load(Ordering::Relaxed) {
+        let Edits { settings, all_paint, tiles } = edits;
+        if all_paint || keeper.wants_whole.load(Ordering::Relaxed) {
             let home = self.project.path().map(Path::to_owned);
             keeper.enter(Entry::Whole(Box::new(Project::of(document)), home));
         } else {
             if !tiles.is_empty() {
-                keeper.enter(Entry::Tiles(document.layers().tiles(tiles)));
+                keeper.enter(Entry::Tiles(document.paint().tiles(tiles)));
             }
             if settings {
                 keeper.enter(Entry::Settings(Box::new(document.settings().clone())));

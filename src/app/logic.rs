@@ -46,7 +46,7 @@ impl App {
 
             Command::BeginStroke(point) => self.begin_stroke(point),
             Command::DrawTo(point) => self.draw_to(point),
-            Command::EndStroke => self.session.document_mut().lift(),
+            Command::EndStroke => self.session.document_mut().finish_stroke(),
             Command::LineTo(point) => self.line_to(point),
             Command::Escape => self.escape(),
 
@@ -147,20 +147,20 @@ impl App {
         let brush = self.tools.brush();
         let document = self.session.document_mut();
         document.begin_stroke(brush);
-        document.lead_to(point);
+        document.extend_stroke(point);
         self.last_painted = Some(point);
         self.hints.did(self.tools.tool);
     }
 
     fn draw_to(&mut self, point: DVec2) {
-        self.session.document_mut().lead_to(point);
+        self.session.document_mut().extend_stroke(point);
         self.last_painted = Some(point);
     }
 
     fn line_to(&mut self, point: DVec2) {
         self.begin_stroke(self.last_painted.unwrap_or(point));
         self.draw_to(point);
-        self.session.document_mut().lift();
+        self.session.document_mut().finish_stroke();
     }
 
     fn escape(&mut self) {

@@ -86,7 +86,7 @@ pub fn value_at(point: DVec2, document: &Document, follower: &Follower, quantity
     match quantity {
         Quantity::TargetDiameter => {
             let rule = follower.settings().rule;
-            target_at(point, follower.field(), document.layers().as_paint(), rule)
+            target_at(point, follower.field(), document.paint().as_paint(), rule)
         }
         Quantity::Risk => risk_at(point, document),
     }
@@ -101,7 +101,7 @@ pub fn target_at(point: DVec2, field: &TargetField, paint: PaintRef, rule: Refin
 }
 
 fn risk_at(point: DVec2, document: &Document) -> f64 {
-    let painted = document.layers().risk.sample(point).map_or(f64::NAN, f64::from);
+    let painted = document.paint().risk.sample(point).map_or(f64::NAN, f64::from);
     match &document.settings().base {
         Base::RiskImage { raster, .. } => {
             raster.sample(point).map_or(painted, |risk| painted.max(f64::from(risk)))

@@ -166,7 +166,7 @@ impl Session {
         let began = Instant::now();
         let revision = self.follower.revision();
         let left = loop {
-            if self.document.draw_on(SLICE) == Progress::More && Instant::now() < deadline {
+            if self.document.advance_stroke(SLICE) == Progress::More && Instant::now() < deadline {
                 continue;
             }
             match self.follower.advance(&mut self.document, SLICE) {
@@ -182,7 +182,7 @@ impl Session {
         if self.follower.stopped().is_none() {
             self.standing = None;
         }
-        let left = left || !self.document.is_drawn();
+        let left = left || !self.document.is_stroke_drawn();
         let changed = self.follower.revision() != revision;
         if left || changed {
             self.work += began.elapsed();

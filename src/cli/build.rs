@@ -167,14 +167,14 @@ fn build_project(path: &Path, job: &Job, terminal: &mut Terminal) -> Result<Buil
     let domain = settings.domain_on_lattice().map_err(CoarseError::from)?;
     let admits = |node| domain.admits(node);
     let mut mesh = Mesh::coarse_grid(settings.domain.bounds, settings.spacing, admits, &limits)?;
-    let paint = document.layers().as_paint();
+    let paint = document.paint().as_paint();
     let field = fill(settings.field_spec(), Some(paint), &mesh, terminal)?;
     let (target, refined) = match settings.rule {
         RefinementRule::Vertex => {
             let mut rule = VertexRule::new(|p| field.target_at_node(paint, p));
             let exceeds = |element: &Element| domain.exceeds(element, |element| rule.exceeds(element));
             let refined = refine(&mut mesh, &limits, exceeds, terminal);
-            let layers = Box::new(document.layers().clone());
+            let layers = Box::new(document.paint().clone());
             (Target::OfDocument { field: Box::new(field), layers }, refined)
         }
         RefinementRule::Area => {

@@ -233,7 +233,7 @@ impl Follower {
         if let Some(area) = self.unread.pop() {
             let (now, later) = area.split_after(visits);
             self.unread.extend(later);
-            let changed = self.field.update(document.layers().as_paint(), now);
+            let changed = self.field.update(document.paint().as_paint(), now);
             match self.settings.rule {
                 RefinementRule::Area => {
                     changed.iter().for_each(|&area| self.updater.add(self.field.lattice_rect(area)))

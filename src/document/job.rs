@@ -80,7 +80,7 @@ impl Job {
         let domain = self.domain.as_ref().expect("it is laid before anything else");
         let Some(refining) = &mut self.refining else {
             let filled = match &mut self.field {
-                Some(field) => field.fill(document.layers().as_paint(), visits)?,
+                Some(field) => field.fill(document.paint().as_paint(), visits)?,
                 None => Progress::Done,
             };
             if filled == Progress::Done {
@@ -130,7 +130,7 @@ impl Refining {
                 self.refiner.run(&mut self.mesh, exceeds, visits)
             }
             RefinementRule::Vertex => {
-                let paint = document.layers().as_paint();
+                let paint = document.paint().as_paint();
                 let target = |point| field.target_at_node(paint, point);
                 let mut rule = VertexRule::resumed(target, std::mem::take(&mut self.known));
                 let exceeds = |element: &Element| domain.exceeds(element, |element| rule.exceeds(element));

@@ -1,5 +1,5 @@
-//! What the user edits: settings and paint, with every edit's inverse. Field and mesh are derived from it by a
-//! [`Follower`] and never saved.
+//! What the user edits: settings and paint, with the inverse of every edit. A [`Follower`] derives field and
+//! mesh from it; these are never saved.
 
 mod cut;
 mod edits;
@@ -28,16 +28,20 @@ use crate::paint::{Brush, PaintRasters, Stroke};
 use crate::raster::PixelRect;
 use history::{Change, Entry};
 
-/// The ground state: the only thing that is edited, undone and saved.
+/// The ground state: settings and paint, the only data that is edited, undone and saved.
+///
+/// Two counters describe it. [`Self::revision`] grows with every change, undo and single dabs included:
+/// compare it to find out whether anything changed. [`Self::version`] names a state between gestures, and
+/// undo returns to the former version: compare it to find out whether the document is as it was saved.
 #[derive(Clone, Debug)]
 pub struct Document {
     settings: Settings,
-    layers: PaintRasters,
+    paint: PaintRasters,
     history: History,
     stroke: Option<Stroke>,
-    /// Whether the stroke under way ends where it leads by now.
-    lifted: bool,
-    /// A settings gesture still going on: its title. Further changes with that title join it.
+    /// Whether the current stroke ends once it is drawn to its last point.
+    finishing: bool,
+    /// The settings gesture that has not ended, by its title. Further changes with that title join it.
     open_gesture: Option<&'static str>,
     repainted: Repainted,
     edits: Edits,
@@ -47,34 +51,35 @@ pub struct Document {
     last_version: u64,
 }
 
-/// Pixels that changed since the follower last asked.
+/// The pixels of the paint that changed since [`Document::take_repainted`] was last called.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Repainted {
-    /// Those in the rectangles; there may be none.
+    /// Pixels in these rectangles, which may overlap; the list may be empty.
     Within(Vec<PixelRect>),
-    /// The layers as such were replaced.
+    /// The rasters were replaced: every pixel may differ, and so may their size and bounds.
     Everything,
 }
 
 impl Document {
-    /// A document with the given settings and paint, and no history.
+    /// A document with the given settings and paint and an empty history. Without paint it is blank; paint on
+    /// another grid is resampled to that of the settings.
     ///
     /// # Errors
-    /// When the settings cannot be met.
-    pub fn new(settings: Settings, layers: Option<PaintRasters>) -> Result<Self, SettingsError> {
+    /// When the settings are out of range.
+    pub fn new(settings: Settings, paint: Option<PaintRasters>) -> Result<Self, SettingsError> {
         let settings = settings.checked()?;
         let (bounds, size) = (settings.domain.bounds, settings.raster_size());
-        let layers = match layers {
-            Some(layers) if layers.risk.size() == size && layers.risk.bounds() == bounds => layers,
-            Some(layers) => layers.resampled(bounds, size),
+        let paint = match paint {
+            Some(paint) if paint.risk.size() == size && paint.risk.bounds() == bounds => paint,
+            Some(paint) => paint.resampled(bounds, size),
             None => PaintRasters::blank(bounds, size),
         };
         Ok(Self {
             settings,
-            layers,
+            paint,
             history: History::default(),
             stroke: None,
-            lifted: false,
+            finishing: false,
             open_gesture: None,
             repainted: Repainted::Everything,
             edits: Edits::everything(),
@@ -84,14 +89,14 @@ impl Document {
         })
     }
 
-    /// The settings in force.
+    /// The current settings.
     pub fn settings(&self) -> &Settings {
         &self.settings
     }
 
-    /// The paint.
-    pub fn layers(&self) -> &PaintRasters {
-        &self.layers
+    /// What is painted: risk and target diameter by pixel, over the domain's bounds.
+    pub fn paint(&self) -> &PaintRasters {
+        &self.paint
     }
 
     /// What can be undone and redone.
@@ -99,74 +104,76 @@ impl Document {
         &self.history
     }
 
-    /// Grows with every change.
+    /// A counter that grows with every change and never returns to an earlier value.
     pub fn revision(&self) -> u64 {
         self.revision
     }
 
-    /// Names the document as it is: undo brings the former version back. A stroke counts once it has ended.
+    /// Identifies the current state: equal versions of one document have equal settings and paint. Undo and
+    /// redo return to the version of the state that they restore. A stroke counts once it has ended.
     pub fn version(&self) -> u64 {
         self.version
     }
 
-    /// The stroke under way.
+    /// The current stroke, from [`Self::begin_stroke`] until it ends.
     pub fn stroke(&self) -> Option<&Stroke> {
         self.stroke.as_ref()
     }
 
-    /// Puts the brush down. A stroke already under way ends first.
+    /// Begins a stroke, which touches nothing until [`Self::extend_stroke`]. The current stroke or gesture
+    /// ends first.
     pub fn begin_stroke(&mut self, brush: Brush) {
         self.end_stroke();
         self.end_gesture();
         self.stroke = Some(Stroke::new(brush, self.settings.transfer.h_max));
-        self.lifted = false;
+        self.finishing = false;
     }
 
-    /// Draws the stroke under way on to a point in world units.
+    /// Extends the current stroke to a point in world units and draws it there at once.
     pub fn draw_to(&mut self, point: DVec2) {
-        self.lead_to(point);
-        while self.draw_on(usize::MAX) == Progress::More {}
+        self.extend_stroke(point);
+        while self.advance_stroke(usize::MAX) == Progress::More {}
     }
 
-    /// Leads the stroke under way on to a point in world units; [`Self::draw_on`] then draws it.
-    pub fn lead_to(&mut self, point: DVec2) {
+    /// Extends the current stroke to a point in world units; [`Self::advance_stroke`] draws the new segment.
+    pub fn extend_stroke(&mut self, point: DVec2) {
         if let Some(stroke) = &mut self.stroke {
-            stroke.lead_to(&self.layers, point);
+            stroke.extend(&self.paint, point);
         }
     }
 
-    /// Draws at most one straight piece of the way on which the stroke under way was led, and about `pixels` of it. A stroke that was
-    /// lifted ends with the last.
-    pub fn draw_on(&mut self, pixels: usize) -> Progress {
+    /// Draws at most one segment of the current stroke, and about `pixels` of it. A stroke that was finished
+    /// ends with its last segment.
+    pub fn advance_stroke(&mut self, pixels: usize) -> Progress {
         let Some(stroke) = &mut self.stroke else { return Progress::Done };
-        let area = stroke.advance(&mut self.layers, pixels);
-        let progress = if stroke.is_laid_down() { Progress::Done } else { Progress::More };
+        let area = stroke.advance(&mut self.paint, pixels);
+        let progress = if stroke.is_drawn() { Progress::Done } else { Progress::More };
         if let Some(area) = area {
             self.note_repainted([area]);
         }
-        if self.lifted && progress == Progress::Done {
+        if self.finishing && progress == Progress::Done {
             self.end_stroke();
         }
         progress
     }
 
-    /// Whether the stroke under way, if there is one, is drawn as far as it was led.
-    pub fn is_drawn(&self) -> bool {
-        self.stroke.as_ref().is_none_or(Stroke::is_laid_down)
+    /// Whether the current stroke is drawn to its last point; true without a stroke.
+    pub fn is_stroke_drawn(&self) -> bool {
+        self.stroke.as_ref().is_none_or(Stroke::is_drawn)
     }
 
-    /// Lifts the brush: the stroke ends once it is drawn as far as it was led.
-    pub fn lift(&mut self) {
-        self.lifted = true;
-        if self.is_drawn() {
+    /// Lets the current stroke end as soon as [`Self::advance_stroke`] has drawn it to its last point.
+    pub fn finish_stroke(&mut self) {
+        self.finishing = true;
+        if self.is_stroke_drawn() {
             self.end_stroke();
         }
     }
 
-    /// Ends the stroke under way, drawn as far as it was led: it becomes one entry of the history.
+    /// Draws the rest of the current stroke at once and ends it: it becomes one entry of the history.
     pub fn end_stroke(&mut self) {
-        self.lifted = false;
-        while self.draw_on(usize::MAX) == Progress::More {}
+        self.finishing = false;
+        while self.advance_stroke(usize::MAX) == Progress::More {}
         if let Some(stroke) = self.stroke.take() {
             let title = match stroke.brush().medium {
                 crate::paint::Medium::Eraser => "erase",
@@ -179,10 +186,10 @@ impl Document {
         }
     }
 
-    /// Gives up the stroke under way, as if it had never begun.
+    /// Removes the current stroke, as if it had never begun.
     pub fn cancel_stroke(&mut self) {
         if let Some(stroke) = self.stroke.take() {
-            let areas = stroke.finish().exchange(&mut self.layers);
+            let areas = stroke.finish().exchange(&mut self.paint);
             self.note_repainted(areas);
         }
     }
@@ -191,14 +198,14 @@ impl Document {
     pub fn replace_with(&mut self, title: &'static str, other: Self) {
         self.end_stroke();
         self.end_gesture();
-        self.replace(title, other.settings, other.layers);
+        self.replace(title, other.settings, other.paint);
     }
 
-    /// Takes all paint away.
+    /// Removes all paint, as one gesture.
     pub fn clear_paint(&mut self) {
         self.end_stroke();
         self.end_gesture();
-        if !self.layers.is_blank() {
+        if !self.paint.is_blank() {
             let blank = PaintRasters::blank(self.settings.domain.bounds, self.settings.raster_size());
             self.replace("clear paint", self.settings.clone(), blank);
         }
@@ -207,7 +214,7 @@ impl Document {
     /// Changes one setting. Changes of the same setting are one gesture until [`Self::end_gesture`].
     ///
     /// # Errors
-    /// When the new settings cannot be met. The document is then as before.
+    /// When the new settings are out of range. The document then stays as it was.
     pub fn set(&mut self, setting: Setting) -> Result<(), SettingsError> {
         let title = setting.title();
         let mut settings = self.settings.clone();
@@ -219,14 +226,14 @@ impl Document {
         self.end_stroke();
         let (bounds, size) = (settings.domain.bounds, settings.raster_size());
         let joins = self.open_gesture == Some(title);
-        if bounds != self.settings.domain.bounds || size != self.layers.risk.size() {
-            let layers = self.layers_before_gesture(joins).resampled(bounds, size);
+        if bounds != self.settings.domain.bounds || size != self.paint.risk.size() {
+            let paint = self.paint_before_gesture(joins).resampled(bounds, size);
             if joins && matches!(self.last_change(), Some(Change::Everything(_))) {
                 self.settings = settings;
-                self.layers = layers;
+                self.paint = paint;
                 self.note_replaced();
             } else {
-                self.replace(title, settings, layers);
+                self.replace(title, settings, paint);
             }
         } else {
             let old = std::mem::replace(&mut self.settings, settings);
@@ -243,12 +250,13 @@ impl Document {
         Ok(())
     }
 
-    /// Ends a settings gesture, such as the drag of a slider: the next change is an entry of its own.
+    /// Ends the current settings gesture, such as the drag of a slider: the next change is an entry of its
+    /// own.
     pub fn end_gesture(&mut self) {
         self.open_gesture = None;
     }
 
-    /// Takes back the last gesture, or the stroke under way.
+    /// Undoes the last gesture, or removes the current stroke. Returns whether there was one.
     pub fn undo(&mut self) -> bool {
         if self.stroke.is_some() {
             self.cancel_stroke();
@@ -261,7 +269,7 @@ impl Document {
         did
     }
 
-    /// Does the last undone gesture again.
+    /// Redoes the gesture that was undone last. Returns whether there was one.
     pub fn redo(&mut self) -> bool {
         self.end_stroke();
         self.end_gesture();
@@ -271,10 +279,11 @@ impl Document {
         did
     }
 
-    /// Takes back the last gesture for good, if it changed a setting: it turned out that this cannot be met.
+    /// Undoes the last gesture without a way to redo it, if it changed a setting: it turned out that no mesh
+    /// can be made.
     ///
-    /// Paint stays: whoever painted since then should not lose it. So does all else after an undo, which has led here: the last
-    /// gesture is then another one.
+    /// A stroke is kept: its paint must not be lost. Nothing happens after an undo or redo either, as the
+    /// last entry of the history is then not the change that failed.
     pub fn reject_last(&mut self) {
         let paints = matches!(self.last_change(), Some(Change::Paint(_)));
         let newest = self.version == self.last_version;
@@ -283,23 +292,23 @@ impl Document {
         }
     }
 
-    /// Forgets what could be undone: the document as it is becomes a starting point.
+    /// Empties the history: the current state can no longer be undone.
     pub fn forget_history(&mut self) {
         self.end_stroke();
         self.history = History::default();
     }
 
-    /// What was repainted since this was last asked.
+    /// The pixels that changed since the last call.
     pub fn take_repainted(&mut self) -> Repainted {
         std::mem::replace(&mut self.repainted, Repainted::Within(Vec::new()))
     }
 
-    /// Whether a stroke, or a gesture with a setting, is still going on.
+    /// Whether a stroke or a settings gesture has begun and not ended.
     pub fn is_in_gesture(&self) -> bool {
         self.stroke.is_some() || self.open_gesture.is_some()
     }
 
-    /// What was edited since this was last asked, a stroke under way included.
+    /// What was edited since the last call, the current stroke included.
     pub fn take_edits(&mut self) -> Edits {
         std::mem::take(&mut self.edits)
     }
@@ -308,7 +317,7 @@ impl Document {
         std::mem::swap(&mut entry.version, &mut self.version);
         match &mut entry.change {
             Change::Paint(patch) => {
-                let areas = patch.exchange(&mut self.layers);
+                let areas = patch.exchange(&mut self.paint);
                 self.note_repainted(areas);
             }
             Change::Settings(settings) => {
@@ -318,20 +327,21 @@ impl Document {
             }
             Change::Everything(both) => {
                 std::mem::swap(&mut both.0, &mut self.settings);
-                std::mem::swap(&mut both.1, &mut self.layers);
+                std::mem::swap(&mut both.1, &mut self.paint);
                 self.note_replaced();
             }
         }
     }
 
-    fn replace(&mut self, title: &'static str, settings: Settings, layers: PaintRasters) {
+    /// Replaces settings and paint as one gesture.
+    fn replace(&mut self, title: &'static str, settings: Settings, paint: PaintRasters) {
         let settings = std::mem::replace(&mut self.settings, settings);
-        let layers = std::mem::replace(&mut self.layers, layers);
-        self.enter(title, Change::Everything(Box::new((settings, layers))));
+        let paint = std::mem::replace(&mut self.paint, paint);
+        self.enter(title, Change::Everything(Box::new((settings, paint))));
         self.note_replaced();
     }
 
-    /// Enters a gesture into the history.
+    /// Adds an entry to the history, after its change was made.
     fn enter(&mut self, title: &'static str, change: Change) {
         let version = self.version;
         self.next_version();
@@ -347,11 +357,12 @@ impl Document {
         self.history.last_done().map(|entry| &entry.change)
     }
 
-    /// The layers to resample from: in the middle of a gesture those before it, or each step would blur the paint.
-    fn layers_before_gesture(&self, joins: bool) -> &PaintRasters {
+    /// The paint to resample from. Within a gesture it is the paint before the gesture: resampling it in
+    /// every step would blur it.
+    fn paint_before_gesture(&self, joins: bool) -> &PaintRasters {
         match self.last_change() {
             Some(Change::Everything(before)) if joins => &before.1,
-            _ => &self.layers,
+            _ => &self.paint,
         }
     }
 

@@ -108,7 +108,7 @@ impl Pricer {
             self.written.clear();
         }
         let h_max = document.settings().transfer.h_max;
-        let dab = Dab::new(question.brush, h_max, question.at, document.layers());
+        let dab = Dab::new(question.brush, h_max, question.at, document.paint());
         self.written.push(dab.area());
         let left = self.written.iter().copied().filter(|area| !area.is_empty()).collect();
         Work::Writing { dab, left, changed: NO_PIXELS }
@@ -166,7 +166,7 @@ fn write(
         if !dab.area().contains(x, y) {
             return before;
         }
-        let after = field.level_with(x, y, dab.pixel(document.layers(), x, y));
+        let after = field.level_with(x, y, dab.pixel(document.paint(), x, y));
         if after != before {
             *changed = changed.union(&PixelRect { min: [x, y], max: [x + 1, y + 1] });
         }

@@ -313,9 +313,9 @@ mod tests {
         document.draw_to(dvec2(at, 0.3));
         document.draw_to(dvec2(0.5, at));
         document.end_stroke();
-        let Edits { settings, layers, tiles } = document.take_edits();
-        assert!(!settings && !layers && !tiles.is_empty(), "strokes change paint alone");
-        document.layers().tiles(tiles)
+        let Edits { settings, all_paint, tiles } = document.take_edits();
+        assert!(!settings && !all_paint && !tiles.is_empty(), "strokes change paint alone");
+        document.paint().tiles(tiles)
     }
 
     #[test]
@@ -324,10 +324,10 @@ mod tests {
         let mut document = example();
         let mut journal = Journal::begin(&folder, &Project::of(&document), None, 100).unwrap();
         let mut versions =
-            vec![(fs::metadata(&journal.path).unwrap().len() as usize, document.layers().clone())];
+            vec![(fs::metadata(&journal.path).unwrap().len() as usize, document.paint().clone())];
         for n in 0..12 {
             journal.add_tiles(&gesture(&mut document, n), 101 + u64::from(n)).unwrap();
-            versions.push((fs::metadata(&journal.path).unwrap().len() as usize, document.layers().clone()));
+            versions.push((fs::metadata(&journal.path).unwrap().len() as usize, document.paint().clone()));
         }
         let bytes = fs::read(&journal.path).unwrap();
         for cut in (0..bytes.len())
@@ -340,7 +340,7 @@ mod tests {
                 Some(kept) => {
                     assert_eq!((kept.time, kept.clean), (99 + whole as u64, false));
                     let kept = kept.project.into_document().unwrap();
-                    assert!(*kept.layers() == versions[whole - 1].1, "cut at {cut}");
+                    assert!(*kept.paint() == versions[whole - 1].1, "cut at {cut}");
                 }
             }
         }
@@ -357,15 +357,15 @@ mod tests {
         let mut journal = Journal::begin(&folder, &Project::of(&document), None, 1).unwrap();
         journal.add_tiles(&gesture(&mut document, 0), 2).unwrap();
         document.set(Setting::SmallestDiameter(0.0123)).unwrap();
-        let Edits { settings, layers, tiles } = document.take_edits();
-        assert!(settings && !layers && tiles.is_empty());
+        let Edits { settings, all_paint, tiles } = document.take_edits();
+        assert!(settings && !all_paint && tiles.is_empty());
         journal.add_settings(document.settings().clone(), 3).unwrap();
         drop(journal);
         let kept = abandoned(&folder).pop().unwrap().project.into_document().unwrap();
         assert_eq!(kept.settings(), document.settings());
-        assert!(kept.layers() == document.layers());
+        assert!(kept.paint() == document.paint());
         document.set(Setting::Resolution(32)).unwrap();
-        assert!(document.take_edits().layers, "every pixel is another one");
+        assert!(document.take_edits().all_paint, "every pixel is another one");
         fs::remove_dir_all(folder).unwrap();
     }
 

@@ -1,4 +1,5 @@
-//! Brush and stroke as data, and stamping a stroke into the painted layers.
+//! Paint: two rasters, the brush as data, the stroke that stamps it into the rasters, and old pixels for
+//! undo.
 
 mod stroke;
 mod tiles;
@@ -12,32 +13,34 @@ use crate::raster::Raster;
 pub use stroke::{Dab, Stroke};
 pub use tiles::{Patch, TILE, TilePixels, TilePlace, Tiles, tile_area, tiles_touching};
 
-/// What a brush lays down.
+/// What a brush does to the pixels under it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Medium {
-    /// Risk builds up towards 1, by the brush's strength in each stroke.
+    /// Raises the risk towards 1, with each stroke by the brush's strength.
     Risk,
-    /// The target diameter sinks to this value, in world units; the soft rim grades up to the largest diameter.
+    /// Lowers the target diameter to this value, in world units; towards the soft rim the diameter grows to
+    /// the largest of the document.
     Diameter(f64),
-    /// Takes away what was painted, of both kinds.
+    /// Removes risk and target diameter.
     Eraser,
 }
 
 /// A round brush.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Brush {
-    /// What it lays down.
+    /// What it does to a pixel.
     pub medium: Medium,
     /// Radius in world units.
     pub radius: f64,
-    /// Share of the radius within which it works fully, 0 to 1; from there it fades to the rim.
+    /// Fraction of the radius with full coverage, 0 to 1; from there the coverage falls to 0 at the rim.
     pub hardness: f64,
-    /// How much of the way one stroke goes, 0 to 1.
+    /// How far one stroke moves a pixel towards the full effect, 0 to 1.
     pub strength: f64,
 }
 
 impl Brush {
-    /// How fully the brush works at a distance from its middle, 0 to 1; distance in world units.
+    /// Coverage at a distance from the brush's centre, in world units: 1 in the core, 0 at the rim and
+    /// beyond.
     pub fn coverage(&self, distance: f64) -> f64 {
         let core = self.radius * self.hardness.clamp(0.0, 1.0);
         if distance <= core {
@@ -45,19 +48,21 @@ impl Brush {
         } else if distance >= self.radius {
             0.0
         } else {
+            // Smoothstep from the rim to the core.
             let t = (self.radius - distance) / (self.radius - core);
             t * t * (3.0 - 2.0 * t)
         }
     }
 
-    /// The brush, widened where it is smaller than a pixel so that it always reaches the middle of one.
-    fn on(&self, layers: &PaintRasters) -> Self {
-        let radius = self.radius.max(0.71 * layers.risk.pixel_size().max_element());
+    /// The brush for these rasters: one smaller than a pixel is widened until it always reaches the centre of
+    /// a pixel, which is half a diagonal away at most.
+    fn on(&self, paint: &PaintRasters) -> Self {
+        let radius = self.radius.max(0.71 * paint.risk.pixel_size().max_element());
         Self { radius, ..*self }
     }
 }
 
-/// What was painted: two rasters over the domain's rectangle.
+/// What is painted: two rasters of the same size over the domain's bounds.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PaintRasters {
     /// Risk, 0 to 1.
@@ -67,7 +72,7 @@ pub struct PaintRasters {
 }
 
 impl PaintRasters {
-    /// PaintRasters with nothing on them; `size` is columns and rows.
+    /// Rasters with nothing painted; `size` is [columns, rows].
     pub fn blank(bounds: Rect, size: [u32; 2]) -> Self {
         Self {
             risk: Raster::filled(bounds, size, 0.0),
@@ -75,7 +80,7 @@ impl PaintRasters {
         }
     }
 
-    /// The same paint on another grid. What lies beyond `bounds` is lost.
+    /// The same paint on another grid of [columns, rows]. Paint outside `bounds` is lost.
     pub fn resampled(&self, bounds: Rect, size: [u32; 2]) -> Self {
         Self {
             risk: self.risk.resampled(bounds, size, 0.0),
@@ -83,12 +88,12 @@ impl PaintRasters {
         }
     }
 
-    /// As the field reads them.
+    /// The rasters as the field reads them.
     pub fn as_paint(&self) -> PaintRef<'_> {
         PaintRef { risk: &self.risk, diameter: &self.diameter }
     }
 
-    /// Whether anything is painted.
+    /// Whether nothing is painted.
     pub fn is_blank(&self) -> bool {
         self.risk.values().iter().all(|&r| r == 0.0) && self.diameter.values().iter().all(|d| d.is_infinite())
     }

@@ -10,34 +10,48 @@ use crate::raster::PixelRect;
 
 /// One gesture with a brush, from press to release.
 ///
-/// Within a stroke, going twice over the same place does no more than going once: each pixel keeps the fullest coverage
-/// that it got, and its new value follows from that and from its value before the stroke.
+/// The pointer gives a polyline. Each of its segments covers a capsule, and the stroke covers their union:
+///
+/// ```text
+///      .-----------.         coverage of a pixel: 1 in the core, smoothly down to 0 at the rim;
+///    /  .---------.  \       where capsules overlap, the largest coverage counts
+///   |  | o-------o |  |
+///    \  '---------'  /       o---o  segment of the pointer's path
+///      '-----------'         inner line: core (hardness × radius); outer line: rim (radius)
+/// ```
+///
+/// A pixel's new value follows from its value before the stroke and its largest coverage. So passing over a
+/// place twice within a stroke does no more than passing over it once, and a stroke gives the same pixels
+/// however it is sliced.
 #[derive(Clone, Debug)]
 pub struct Stroke {
     brush: Brush,
-    /// Where a painted diameter grades to at the rim, in world units.
+    /// The largest target diameter, in world units: a painted diameter grows to it at the rim.
     h_max: f64,
-    /// Where the brush was led to last, in world units.
+    /// The last point of the path, in world units.
     last: Option<DVec2>,
-    /// The way that is not laid down yet.
+    /// Segments that are not drawn yet, in order.
     pending: VecDeque<Segment>,
     touched: BTreeMap<TilePlace, Touched>,
 }
 
-/// A straight piece of a stroke's way.
+/// A straight piece of the path, from one point of the pointer to the next.
 #[derive(Clone, Debug)]
 struct Segment {
     /// Its ends, in world units.
     ends: [DVec2; 2],
     /// The pixels that it may change.
     area: PixelRect,
-    /// The tiles there that it reaches and that are still to be done.
+    /// The tiles in `area` that it reaches and that are not stamped yet.
     tiles: Vec<TilePlace>,
 }
 
+/// A tile that the stroke reached.
 #[derive(Clone, Debug)]
 struct Touched {
+    /// Its pixels before the stroke.
     before: TilePixels,
+    /// The largest coverage of each pixel so far, 0 to 1, in the order of the pixels.
     coverage: Box<[f32]>,
 }
 
@@ -52,24 +66,25 @@ impl Stroke {
         &self.brush
     }
 
-    /// Leads the brush on to `point` in world units; [`Self::advance`] lays down what it does on the way. A point that is not finite
-    /// is passed over.
-    pub fn lead_to(&mut self, layers: &PaintRasters, point: DVec2) {
+    /// Extends the path to `point`, in world units; [`Self::advance`] draws the new segment. A point that is
+    /// not finite is ignored.
+    pub fn extend(&mut self, paint: &PaintRasters, point: DVec2) {
         if point.is_finite() {
             let from = self.last.replace(point).unwrap_or(point);
-            self.pending.push_back(Segment::new([from, point], self.brush.on(layers).radius, layers));
+            self.pending.push_back(Segment::new([from, point], self.brush.on(paint).radius, paint));
         }
     }
 
-    /// Lays down about `pixels` of what is left of the way, and returns those that may have changed; `None` once nothing is left.
-    pub fn advance(&mut self, layers: &mut PaintRasters, pixels: usize) -> Option<PixelRect> {
+    /// Draws about `pixels` of the next segment, whole tiles of it. Returns the rectangle in which pixels may
+    /// have changed, `None` if nothing was left to draw.
+    pub fn advance(&mut self, paint: &mut PaintRasters, pixels: usize) -> Option<PixelRect> {
         let mut segment = self.pending.pop_front()?;
         let [from, to] = segment.ends;
-        let brush = self.brush.on(layers);
+        let brush = self.brush.on(paint);
         let mut changed = PixelRect { min: [0, 0], max: [0, 0] };
         for _ in 0..pixels.div_ceil((TILE * TILE) as usize) {
             let Some(place) = segment.tiles.pop() else { return Some(changed) };
-            let stamped = self.stamp_tile(layers, place, segment.area, |pixel| {
+            let stamped = self.stamp_tile(paint, place, segment.area, |pixel| {
                 brush.coverage(distance_to_segment(pixel, from, to))
             });
             changed = changed.union(&stamped);
@@ -78,26 +93,28 @@ impl Stroke {
         Some(changed)
     }
 
-    /// Whether all of the way is laid down.
-    pub fn is_laid_down(&self) -> bool {
+    /// Whether the path is drawn to its last point.
+    pub fn is_drawn(&self) -> bool {
         self.pending.is_empty()
     }
 
-    /// The old pixels of all that the stroke touched.
+    /// Ends the stroke: the pixels before it of all tiles that it touched.
     pub fn finish(self) -> Patch {
         Patch::from_tiles(self.touched.into_iter().map(|(place, touched)| (place, touched.before)).collect())
     }
 
+    /// Applies the brush to the pixels of one tile in `area`, and returns the rectangle of these pixels.
     fn stamp_tile(
         &mut self,
-        layers: &mut PaintRasters,
+        paint: &mut PaintRasters,
         place: TilePlace,
         area: PixelRect,
         coverage_at: impl Fn(DVec2) -> f64,
     ) -> PixelRect {
-        let tile = tile_area(place, layers.risk.size());
+        let tile = tile_area(place, paint.risk.size());
+        // The first visit of the stroke keeps the tile as it was.
         let touched = self.touched.entry(place).or_insert_with(|| {
-            let before = TilePixels::copied(layers, place);
+            let before = TilePixels::copied(paint, place);
             let coverage = vec![0.0; before.risk.len()].into();
             Touched { before, coverage }
         });
@@ -106,17 +123,19 @@ impl Stroke {
             min: [tile.min[0].max(area.min[0]), tile.min[1].max(area.min[1])],
             max: [tile.max[0].min(area.max[0]), tile.max[1].min(area.max[1])],
         };
-        let pixel_center = layers.risk.pixel_centers();
+        let pixel_center = paint.risk.pixel_centers();
         for (x, y) in common.pixels() {
             let coverage = coverage_at(pixel_center(x, y)) as f32;
             let i = (y - tile.min[1]) as usize * columns + (x - tile.min[0]) as usize;
             if coverage > touched.coverage[i] {
+                // From the pixel before the stroke, not from its present value: the order of the segments
+                // does not matter.
                 touched.coverage[i] = coverage;
                 let amount = f64::from(coverage) * self.brush.strength;
                 let old = [touched.before.risk[i], touched.before.diameter[i]];
-                let [risk, diameter] = laid_down(self.brush.medium, amount, old, self.h_max);
-                layers.risk.set(x, y, risk);
-                layers.diameter.set(x, y, diameter);
+                let [risk, diameter] = painted_pixel(self.brush.medium, amount, old, self.h_max);
+                paint.risk.set(x, y, risk);
+                paint.diameter.set(x, y, diameter);
             }
         }
         common
@@ -124,37 +143,39 @@ impl Stroke {
 }
 
 impl Segment {
-    fn new(ends: [DVec2; 2], radius: f64, layers: &PaintRasters) -> Self {
+    fn new(ends: [DVec2; 2], radius: f64, paint: &PaintRasters) -> Self {
         let [from, to] = ends;
-        let area = layers.risk.pixels_touching(&Rect::spanning(from, to).expanded(radius));
-        let (size, pixel) = (layers.risk.size(), layers.risk.pixel_size());
+        let area = paint.risk.pixels_touching(&Rect::spanning(from, to).expanded(radius));
+        let (size, pixel) = (paint.risk.size(), paint.risk.pixel_size());
         let reaches = |&place: &TilePlace| {
             let PixelRect { min, max } = tile_area(place, size);
             let [low, high] = [min, max].map(|[x, y]| DVec2::new(x.into(), y.into()) * pixel);
             let (middle, half_diagonal) = (0.5 * (low + high), 0.5 * (high - low).length());
-            let distance = distance_to_segment(layers.risk.bounds().min + middle, from, to);
-            // Rounding does not matter: the rim of the brush does nothing.
+            let distance = distance_to_segment(paint.risk.bounds().min + middle, from, to);
+            // Rounding does not matter: at the rim the coverage is 0.
             distance <= radius + half_diagonal
         };
         Self { ends, area, tiles: tiles_touching(area).filter(reaches).collect() }
     }
 }
 
-/// What a stroke does that is a single touch of the brush: told, not laid down.
+/// A stroke of a single point, computed without changing the rasters. [`Dab::pixel`] gives what that stroke
+/// would paint.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dab {
     brush: Brush,
-    /// As for a stroke.
+    /// The largest target diameter, in world units.
     h_max: f64,
     at: DVec2,
     area: PixelRect,
 }
 
 impl Dab {
-    /// A touch of `brush` at a point in world units, which must be finite. `h_max` is the largest target diameter.
-    pub fn new(brush: Brush, h_max: f64, at: DVec2, layers: &PaintRasters) -> Self {
-        let brush = brush.on(layers);
-        let area = layers.risk.pixels_touching(&Rect::around(at, brush.radius));
+    /// A dab of `brush` at a point in world units, which must be finite. `h_max` is the largest target
+    /// diameter, in world units.
+    pub fn new(brush: Brush, h_max: f64, at: DVec2, paint: &PaintRasters) -> Self {
+        let brush = brush.on(paint);
+        let area = paint.risk.pixels_touching(&Rect::around(at, brush.radius));
         Self { brush, h_max, at, area }
     }
 
@@ -163,20 +184,20 @@ impl Dab {
         self.area
     }
 
-    /// Risk and diameter of a pixel once touched, by column and row.
-    pub fn pixel(&self, layers: &PaintRasters, x: u32, y: u32) -> [f32; 2] {
-        let old = [layers.risk.get(x, y), layers.diameter.get(x, y)];
-        let coverage = self.brush.coverage((layers.risk.pixel_center(x, y) - self.at).length()) as f32;
+    /// [risk, target diameter] of the pixel in column `x` and row `y` after the dab.
+    pub fn pixel(&self, paint: &PaintRasters, x: u32, y: u32) -> [f32; 2] {
+        let old = [paint.risk.get(x, y), paint.diameter.get(x, y)];
+        let coverage = self.brush.coverage((paint.risk.pixel_center(x, y) - self.at).length()) as f32;
         if coverage > 0.0 {
-            laid_down(self.brush.medium, f64::from(coverage) * self.brush.strength, old, self.h_max)
+            painted_pixel(self.brush.medium, f64::from(coverage) * self.brush.strength, old, self.h_max)
         } else {
             old
         }
     }
 }
 
-/// New risk and diameter of a pixel from the old ones, where the brush works by `amount`, 0 to 1.
-fn laid_down(medium: Medium, amount: f64, [risk, diameter]: [f32; 2], h_max: f64) -> [f32; 2] {
+/// New [risk, diameter] of a pixel from the old values. `amount` is coverage times strength, 0 to 1.
+fn painted_pixel(medium: Medium, amount: f64, [risk, diameter]: [f32; 2], h_max: f64) -> [f32; 2] {
     match medium {
         Medium::Risk => [(f64::from(risk) + amount * (1.0 - f64::from(risk))) as f32, diameter],
         Medium::Diameter(target) => {
@@ -184,7 +205,8 @@ fn laid_down(medium: Medium, amount: f64, [risk, diameter]: [f32; 2], h_max: f64
             [risk, diameter.min(f32_not_below(graded))]
         }
         Medium::Eraser => {
-            // The last trace goes too: a hundredth of risk that stays behind would keep the mesh refined.
+            // A remainder below a hundredth becomes blank: it would keep the mesh refined without being
+            // visible.
             let risk = f64::from(risk) * (1.0 - amount);
             let risk = if risk < 0.01 { 0.0 } else { risk as f32 };
             let diameter = f64::from(diameter);
@@ -202,37 +224,37 @@ mod tests {
     const SIZE: [u32; 2] = [200, 150];
     const RISK: Brush = Brush { medium: Medium::Risk, radius: 0.1, hardness: 0.5, strength: 0.8 };
 
-    fn painted(layers: &mut PaintRasters, brush: Brush, points: &[DVec2]) -> Patch {
+    fn painted(paint: &mut PaintRasters, brush: Brush, points: &[DVec2]) -> Patch {
         let mut stroke = Stroke::new(brush, 0.5);
-        points.iter().for_each(|&p| stroke.lead_to(layers, p));
-        while stroke.advance(layers, usize::MAX).is_some() {}
+        points.iter().for_each(|&p| stroke.extend(paint, p));
+        while stroke.advance(paint, usize::MAX).is_some() {}
         stroke.finish()
     }
 
     #[test]
-    fn a_stroke_taken_back_and_done_again_is_the_same() {
+    fn undo_and_redo_of_a_stroke_restore_every_pixel() {
         let mut random = fastrand::Rng::with_seed(3);
         let blank = PaintRasters::blank(Rect::UNIT, SIZE);
-        let mut layers = blank.clone();
+        let mut paint = blank.clone();
         let mut done = vec![];
         for medium in [Medium::Risk, Medium::Diameter(0.01), Medium::Eraser, Medium::Risk] {
             let points: Vec<_> = (0..5).map(|_| dvec2(random.f64(), random.f64()) * 1.2).collect();
-            let before = layers.clone();
-            let patch = painted(&mut layers, Brush { medium, ..RISK }, &points);
-            done.push((before, patch, layers.clone()));
+            let before = paint.clone();
+            let patch = painted(&mut paint, Brush { medium, ..RISK }, &points);
+            done.push((before, patch, paint.clone()));
         }
         for (before, patch, after) in done.iter_mut().rev() {
-            patch.exchange(&mut layers);
-            assert_eq!(layers, *before);
-            patch.exchange(&mut layers);
-            assert_eq!(layers, *after);
-            patch.exchange(&mut layers);
+            patch.exchange(&mut paint);
+            assert_eq!(paint, *before);
+            patch.exchange(&mut paint);
+            assert_eq!(paint, *after);
+            patch.exchange(&mut paint);
         }
-        assert_eq!(layers, blank);
+        assert_eq!(paint, blank);
     }
 
     #[test]
-    fn a_stroke_drawn_in_slices_is_the_same_and_leaves_distant_tiles_alone() {
+    fn slices_do_not_change_a_stroke_and_distant_tiles_are_not_touched() {
         let points = [dvec2(0.1, 0.1), dvec2(0.9, 0.9), dvec2(0.9, 0.95)];
         let brush = Brush { radius: 0.02, ..RISK };
         let size = [1000, 900];
@@ -240,9 +262,9 @@ mod tests {
             (PaintRasters::blank(Rect::UNIT, size), PaintRasters::blank(Rect::UNIT, size));
         painted(&mut whole, brush, &points);
         let mut stroke = Stroke::new(brush, 0.5);
-        points.iter().for_each(|&p| stroke.lead_to(&sliced, p));
+        points.iter().for_each(|&p| stroke.extend(&sliced, p));
         let mut slices = 0;
-        while !stroke.is_laid_down() {
+        while !stroke.is_drawn() {
             let before = sliced.clone();
             let area = stroke.advance(&mut sliced, 1).expect("something is left");
             assert!(area.max[0] - area.min[0] <= TILE && area.max[1] - area.min[1] <= TILE);
@@ -257,7 +279,7 @@ mod tests {
     }
 
     #[test]
-    fn going_over_the_same_place_twice_in_a_stroke_does_no_more_than_once() {
+    fn passing_over_a_place_twice_in_one_stroke_does_no_more_than_once() {
         let (a, b) = (dvec2(0.2, 0.5), dvec2(0.8, 0.5));
         let (mut once, mut twice) =
             (PaintRasters::blank(Rect::UNIT, SIZE), PaintRasters::blank(Rect::UNIT, SIZE));
@@ -270,19 +292,19 @@ mod tests {
     }
 
     #[test]
-    fn a_brush_smaller_than_a_pixel_leaves_a_trace() {
+    fn a_brush_smaller_than_a_pixel_paints_a_pixel() {
         for medium in [Medium::Risk, Medium::Diameter(0.01)] {
-            let mut layers = PaintRasters::blank(Rect::UNIT, SIZE);
+            let mut paint = PaintRasters::blank(Rect::UNIT, SIZE);
             let brush = Brush { medium, radius: 1e-9, hardness: 1.0, strength: 1.0 };
-            painted(&mut layers, brush, &[dvec2(0.33333, 0.77777)]);
-            assert!(!layers.is_blank());
+            painted(&mut paint, brush, &[dvec2(0.33333, 0.77777)]);
+            assert!(!paint.is_blank());
         }
     }
 
     #[test]
-    fn a_dab_tells_what_a_stroke_of_one_point_lays_down() {
+    fn a_dab_equals_a_stroke_of_one_point() {
         let mut random = fastrand::Rng::with_seed(4);
-        let mut layers = PaintRasters::blank(Rect::UNIT, SIZE);
+        let mut paint = PaintRasters::blank(Rect::UNIT, SIZE);
         let mut changed = 0;
         for _ in 0..60 {
             let media = [Medium::Risk, Medium::Diameter(0.01), Medium::Eraser];
@@ -290,13 +312,13 @@ mod tests {
             let radius = 0.3 * random.f64().powi(4);
             let brush = Brush { medium, radius, hardness: random.f64(), strength: random.f64() };
             let at = dvec2(random.f64(), random.f64()) * 1.2 - 0.1;
-            let before = layers.clone();
+            let before = paint.clone();
             let dab = Dab::new(brush, 0.5, at, &before);
-            painted(&mut layers, brush, &[at]);
+            painted(&mut paint, brush, &[at]);
             for (x, y) in before.risk.all().pixels() {
                 let was = [before.risk.get(x, y), before.diameter.get(x, y)];
                 let told = if dab.area().contains(x, y) { dab.pixel(&before, x, y) } else { was };
-                assert_eq!([layers.risk.get(x, y), layers.diameter.get(x, y)], told);
+                assert_eq!([paint.risk.get(x, y), paint.diameter.get(x, y)], told);
                 changed += usize::from(told != was);
             }
         }
@@ -304,21 +326,21 @@ mod tests {
     }
 
     #[test]
-    fn a_full_eraser_leaves_nothing() {
-        let mut layers = PaintRasters::blank(Rect::UNIT, SIZE);
+    fn erasing_at_full_strength_leaves_blank_rasters() {
+        let mut paint = PaintRasters::blank(Rect::UNIT, SIZE);
         let points = [dvec2(0.3, 0.3), dvec2(0.6, 0.7)];
-        painted(&mut layers, RISK, &points);
-        painted(&mut layers, Brush { medium: Medium::Diameter(0.01), ..RISK }, &points);
-        assert!(!layers.is_blank());
+        painted(&mut paint, RISK, &points);
+        painted(&mut paint, Brush { medium: Medium::Diameter(0.01), ..RISK }, &points);
+        assert!(!paint.is_blank());
         let eraser = Brush { medium: Medium::Eraser, radius: 0.3, hardness: 1.0, strength: 1.0 };
-        painted(&mut layers, eraser, &points);
-        assert!(layers.is_blank());
+        painted(&mut paint, eraser, &points);
+        assert!(paint.is_blank());
     }
 
     #[test]
-    fn points_that_are_no_numbers_change_nothing() {
-        let mut layers = PaintRasters::blank(Rect::UNIT, SIZE);
-        painted(&mut layers, RISK, &[dvec2(f64::NAN, 0.5), dvec2(f64::INFINITY, 0.0)]);
-        assert!(layers.is_blank());
+    fn points_that_are_not_finite_are_ignored() {
+        let mut paint = PaintRasters::blank(Rect::UNIT, SIZE);
+        painted(&mut paint, RISK, &[dvec2(f64::NAN, 0.5), dvec2(f64::INFINITY, 0.0)]);
+        assert!(paint.is_blank());
     }
 }

@@ -117,15 +117,15 @@ impl Operation {
         match self {
             Self::Stroke(brush, points) => {
                 document.begin_stroke(brush);
-                points.into_iter().for_each(|point| document.lead_to(point));
-                document.lift();
+                points.into_iter().for_each(|point| document.extend_stroke(point));
+                document.finish_stroke();
             }
             Self::Begin(brush, point) => {
                 document.begin_stroke(brush);
-                document.lead_to(point);
+                document.extend_stroke(point);
             }
-            Self::Draw(point) => document.lead_to(point),
-            Self::End => document.lift(),
+            Self::Draw(point) => document.extend_stroke(point),
+            Self::End => document.finish_stroke(),
             Self::CancelStroke => document.cancel_stroke(),
             Self::Undo => _ = document.undo(),
             Self::Redo => _ = document.redo(),
@@ -155,7 +155,7 @@ fn reopened(document: &Document) -> Document {
     let project = project::from_bytes(&bytes, Path::new("edits.meshbrush")).unwrap();
     let opened = project.into_document().unwrap();
     assert_eq!(opened.settings(), document.settings());
-    assert!(opened.layers() == document.layers(), "paint was lost");
+    assert!(opened.paint() == document.paint(), "paint was lost");
     assert!(!opened.clone().undo(), "history is not saved");
     opened
 }
@@ -318,7 +318,7 @@ impl Driver {
 
     /// One slice of work, as in the window: of the stroke under way, or of what follows from it. True at rest.
     fn work(&mut self, visits: usize) -> bool {
-        if self.document.draw_on(visits) == Progress::More {
+        if self.document.advance_stroke(visits) == Progress::More {
             return false;
         }
         let stage = self.follower.advance(&mut self.document, visits).unwrap_or_else(|error| {

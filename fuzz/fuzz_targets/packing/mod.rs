@@ -72,7 +72,7 @@ pub fn hold(project: Project) {
     let project = Project::of(&document);
     saved_again(&project);
     let back = project.into_document().unwrap();
-    assert!(back.settings() == document.settings() && back.layers() == document.layers());
+    assert!(back.settings() == document.settings() && back.paint() == document.paint());
 }
 
 fn saved_again(project: &Project) {

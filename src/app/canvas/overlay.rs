@@ -47,7 +47,7 @@ impl OverlayColors {
     }
 
     fn fill_with_risk(&mut self, document: &Document) {
-        let risk = &document.layers().risk;
+        let risk = &document.paint().risk;
         self.size = risk.size();
         let table: [[u8; 4]; 256] = std::array::from_fn(|i| risk_color(i as u8));
         self.rgba.clear();

@@ -67,7 +67,7 @@ pub struct Project {
 impl Project {
     /// A document as it is now, a stroke under way included.
     pub fn of(document: &Document) -> Self {
-        Self { settings: document.settings().clone(), tiles: document.layers().painted_tiles() }
+        Self { settings: document.settings().clone(), tiles: document.paint().painted_tiles() }
     }
 
     /// The document, without history.
