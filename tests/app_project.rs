@@ -13,7 +13,8 @@ use egui_kittest::kittest::Queryable as _;
 use glam::dvec2;
 use headless::{EDITED, Window, document, paint, send, window};
 use meshbrush::app::command::Command;
-use meshbrush::document::{Example, Stage};
+use meshbrush::document::{Example, Settings, Stage};
+use meshbrush::io::journal::Journal;
 use meshbrush::io::project::{self, Project};
 use meshbrush::mesh::Fingerprint;
 
@@ -99,7 +100,10 @@ fn edits_after_the_start_of_saving_stay_unsaved() {
 fn unsaved_edits_are_asked_about() {
     let file = folder("asked").join("b.meshbrush");
     let question = "Save changes to “Radar threats”?";
-    for leave in [Command::New, Command::OpenExample(Example::Diamond), Command::Quit] {
+    let settings = Box::new(Settings { spacing: 0.3, ..Settings::default() });
+    let leaves =
+        [Command::New, Command::OpenExample(Example::Diamond), Command::NewWith(settings), Command::Quit];
+    for leave in leaves {
         let mut window = window();
         send(&mut window, leave.clone());
         assert!(!shows(&window, question), "nothing is unsaved");
@@ -129,6 +133,31 @@ fn unsaved_edits_are_asked_about() {
     paint(&mut window, 0.5);
     key(&mut window, Modifiers::COMMAND, Key::S);
     assert!(shows(&window, "Save project"));
+}
+
+#[test]
+fn edits_are_asked_about_before_unsaved_work_is_restored() {
+    let folder = folder("restored");
+    let left = Example::Diamond.document(|| unreachable!(), || unreachable!());
+    let journal = Journal::begin(&folder, &Project::of(&left), None, 1).unwrap();
+    drop(journal);
+    let mut window = window();
+    let ctx = window.ctx.clone();
+    window.state_mut().keep_journal_in(folder, &ctx);
+    let (offer, question) = ("Restore unsaved work?", "Save changes to “Radar threats”?");
+    wait(&mut window, "the offer", |window| shows(window, offer));
+    paint(&mut window, 0.9);
+    let painted = document(&window).version();
+    press(&mut window, "Restore");
+    assert!(shows(&window, question) && !shows(&window, offer));
+    press(&mut window, "Cancel");
+    assert!(shows(&window, offer), "it is still offered");
+    assert_eq!(document(&window).version(), painted);
+    press(&mut window, "Restore");
+    press(&mut window, "Do not save");
+    assert!(!shows(&window, offer) && !shows(&window, question));
+    assert_eq!(document(&window).settings(), left.settings());
+    assert!(document(&window).history().is_empty() && shows(&window, "The report's diamond — edited"));
 }
 
 #[test]

@@ -206,6 +206,26 @@ fn what_cannot_be_met_leaves_document_and_mesh_as_they_were() {
 }
 
 #[test]
+fn undo_stops_where_another_document_was_opened() {
+    let mut document = Document::new(Settings::default(), None).unwrap();
+    let mut follower = Follower::new(&mut document).unwrap();
+    document.begin_stroke(Brush { medium: Medium::Risk, radius: 0.1, hardness: 0.5, strength: 0.7 });
+    document.draw_to(dvec2(0.3, 0.4));
+    document.end_stroke();
+    document.set(Setting::Spacing(0.1)).unwrap();
+    document.undo();
+    let (revision, version) = (document.revision(), document.version());
+    let diamond = Example::Diamond.document(slope, sea);
+    document.replace_with(diamond.clone());
+    assert!(!document.undo() && !document.redo(), "nothing of the former document is kept");
+    assert_eq!(document.settings(), diamond.settings());
+    assert!(document.paint() == diamond.paint());
+    assert!(document.revision() > revision && document.version() > version);
+    settle(&mut follower, &mut document);
+    assert_eq!(follower.mesh().triangles().len(), 9560);
+}
+
+#[test]
 fn a_formula_that_is_no_length_at_a_node_is_refused_by_the_vertex_rule_too() {
     // Below zero at a single node, between the middles of all pixels.
     let formula = Formula::parse("if(x == 0.5 and y == 0.5, -1, 0.2)").unwrap();

@@ -52,6 +52,8 @@ pub enum Command {
     Export(PathBuf),
     /// Ends the program.
     Quit,
+    /// Opens the unsaved work that an earlier run left behind and that is offered now.
+    Restore,
 
     /// Takes back the last gesture.
     Undo,

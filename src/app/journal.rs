@@ -10,6 +10,7 @@ use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 use eframe::egui::Context;
 
 use super::App;
+use super::command::Command;
 use super::widgets::{Answer, ConfirmDialog};
 use crate::document::{Edits, Settings};
 use crate::io::journal::{self, Abandoned};
@@ -96,7 +97,8 @@ impl JournalKeeper {
     }
 }
 
-/// Writes entries as they come, until the end. It never waits for the disk: what is handed to the system outlives the program.
+/// Writes entries as they come, until the end. It never waits for the disk: what is handed to the system
+/// outlives the program.
 fn keep(
     folder: &Path,
     entries: &Receiver<Entry>,
@@ -138,8 +140,8 @@ enum Outdated {
     Left(Box<Abandoned>),
 }
 
-/// How long nothing must have been written before the disk is waited for: the system lets nobody write to a file in that time, and the
-/// next gesture would be lost if the program were killed.
+/// How long nothing must have been written before the disk is waited for: the system lets nobody write to a
+/// file in that time, and the next gesture would be lost if the program were killed.
 const QUIET: Duration = Duration::from_secs(1);
 /// How long it is put off at most.
 const LONGEST_DELAY: Duration = Duration::from_secs(30);
@@ -221,6 +223,10 @@ impl App {
         if keeper.offered.is_none() {
             keeper.offered = keeper.found.try_recv().ok();
         }
+        if self.project.is_asking() || self.project.is_leaving() {
+            // "Restore" was chosen, and first it is decided what becomes of the current document.
+            return;
+        }
         let Some(left) = &keeper.offered else { return };
         let name = &left.project.settings.name;
         let home = left.home.as_deref().and_then(Path::file_name);
@@ -231,21 +237,26 @@ impl App {
         );
         let dialog = ConfirmDialog::new("Restore unsaved work?", &body, "Restore");
         let Some(answer) = dialog.alternative("Discard").cancel("Later").show(ctx) else { return };
-        let Some(left) = keeper.offered.take() else { return };
         match answer {
-            Answer::Confirmed => self.restore(left),
-            Answer::Alternative => keeper.enter(Entry::Forget(Box::new(left))),
-            Answer::Cancelled => {}
+            // It stays offered: the command may be cancelled to keep the current document.
+            Answer::Confirmed => self.commands.push(Command::Restore),
+            Answer::Alternative => {
+                if let Some(left) = keeper.offered.take() {
+                    keeper.enter(Entry::Forget(Box::new(left)));
+                }
+            }
+            Answer::Cancelled => keeper.offered = None,
         }
     }
 
-    /// Shows what was left behind, as an edit that can be undone, and keeps it in this run's journal from now on.
-    fn restore(&mut self, left: Abandoned) {
+    /// Opens the work that is offered, and keeps it in this run's journal from now on.
+    pub(super) fn restore(&mut self) {
+        let Some(left) = self.journal.as_mut().and_then(|keeper| keeper.offered.take()) else { return };
         let document = match left.project.clone().into_document() {
             Ok(document) => document,
             Err(problem) => return self.session.report(problem),
         };
-        self.show_document("restore", document);
+        self.show_document(document);
         let version = self.session.document().version();
         self.project.belongs_to(left.home.clone(), version, false);
         self.follow_journal();

@@ -18,7 +18,7 @@ impl App {
     pub fn execute(&mut self, command: Command, ctx: &Context) {
         let Some(command) = self.asked_before_leaving(command) else { return };
         match command {
-            Command::New => self.open("new document", new_document()),
+            Command::New => self.open(new_document()),
             Command::OpenExample(example) => self.open_example(example),
             Command::AskToOpen => self.files.ask(FileRequest::Open),
             Command::Open(path) => self.open_file(path),
@@ -36,6 +36,8 @@ impl App {
             Command::ExportAs(path) => self.export_as(path, ctx),
             Command::Export(path) => self.export(path),
             Command::Quit => ctx.send_viewport_cmd(ViewportCommand::Close),
+
+            Command::Restore => self.restore(),
 
             Command::Undo => self.undo(),
             Command::Redo => self.redo(),
@@ -76,15 +78,16 @@ impl App {
         }
     }
 
-    fn open(&mut self, title: &'static str, document: Document) {
-        self.show_document(title, document);
+    fn open(&mut self, document: Document) {
+        self.show_document(document);
         self.project.belongs_to(None, self.session.document().version(), true);
     }
 
-    /// Puts another document in the place of the present one, and fits brush and view to it.
-    pub(super) fn show_document(&mut self, title: &'static str, document: Document) {
+    /// Opens another document in place of the current one, and fits brush and view to it. It cannot be
+    /// undone: [`Self::asked_before_leaving`] asks before edits are lost.
+    pub(super) fn show_document(&mut self, document: Document) {
         self.give_up_cuts();
-        self.session.document_mut().replace_with(title, document);
+        self.session.document_mut().replace_with(document);
         self.session.query(None);
         self.session.set_notice(None);
         let settings = self.session.document().settings();
@@ -130,13 +133,13 @@ impl App {
 
     fn new_with(&mut self, settings: Settings) {
         match Document::new(settings, None) {
-            Ok(document) => self.open("open domain", document),
+            Ok(document) => self.open(document),
             Err(error) => self.session.report(error),
         }
     }
 
     fn open_example(&mut self, example: Example) {
-        self.open("example", super::files::example(example));
+        self.open(super::files::example(example));
     }
 
     fn begin_stroke(&mut self, point: DVec2) {

@@ -154,8 +154,14 @@ impl App {
             self.theme = eframe::get_value(storage, THEME_KEY).unwrap_or(self.theme);
             cc.egui_ctx.set_theme(self.theme);
         }
-        let folder = eframe::storage_dir(APP_ID).map(|folder| folder.join("journals"));
-        self.journal = folder.map(|folder| journal::JournalKeeper::new(folder, &cc.egui_ctx));
+        if let Some(folder) = eframe::storage_dir(APP_ID) {
+            self.keep_journal_in(folder.join("journals"), &cc.egui_ctx);
+        }
+    }
+
+    /// Keeps unsaved work in a folder from now on, and offers what earlier runs left there.
+    pub fn keep_journal_in(&mut self, folder: PathBuf, ctx: &Context) {
+        self.journal = Some(journal::JournalKeeper::new(folder, ctx));
     }
 
     /// From now on shows the same on every machine: no times, and the mesh drawn in software.

@@ -24,8 +24,8 @@ const RECENT_KEY: &str = "recent files";
 /// The document's file, and what of the document is saved.
 pub struct ProjectFile {
     path: Option<PathBuf>,
-    /// The versions of the document that were opened, or saved last.
-    unedited: Vec<u64>,
+    /// The version of the document that was opened, or saved last; `None` if it is in no file.
+    saved_version: Option<u64>,
     recent: Vec<PathBuf>,
     /// The command that would lose edits, while it is asked what to do with them.
     leaving: Option<Command>,
@@ -33,7 +33,8 @@ pub struct ProjectFile {
     after_saving: Option<Command>,
     /// The version that may be lost: somebody said so.
     given_up: Option<u64>,
-    /// Files that are there already, while it is asked whether they are to be replaced, and the command that does it.
+    /// Files that are there already, while it is asked whether they are to be replaced, and the command that
+    /// does it.
     replacing: Option<(Vec<PathBuf>, Command)>,
     /// Where to save once more when the present saving is done.
     save_again: Option<PathBuf>,
@@ -47,7 +48,7 @@ impl ProjectFile {
     pub fn new(version: u64) -> Self {
         Self {
             path: None,
-            unedited: vec![version],
+            saved_version: Some(version),
             recent: Vec::new(),
             leaving: None,
             after_saving: None,
@@ -87,14 +88,10 @@ impl ProjectFile {
         eframe::set_value(storage, RECENT_KEY, &named);
     }
 
-    /// The document is another one now, or belongs to another file. `saved` tells that the file has that version.
+    /// The document is another one now, or belongs to another file. `saved` tells that the file has that
+    /// version.
     pub(super) fn belongs_to(&mut self, path: Option<PathBuf>, version: u64, saved: bool) {
-        if path.is_some() {
-            self.unedited.clear();
-        }
-        if saved {
-            self.unedited.push(version);
-        }
+        self.saved_version = saved.then_some(version);
         if let Some(path) = &path {
             self.recent.retain(|other| other != path);
             self.recent.insert(0, path.clone());
@@ -150,7 +147,7 @@ impl App {
         let document = self.session.document();
         document.stroke().is_some()
             || !self.cutter.is_idle()
-            || !self.project.unedited.contains(&document.version())
+            || self.project.saved_version != Some(document.version())
     }
 
     /// Whether the document is being saved as it is now.
@@ -171,6 +168,8 @@ impl App {
                 | Command::OpenExample(_)
                 | Command::OpenProject(_)
                 | Command::OpenDomain(_)
+                | Command::NewWith(_)
+                | Command::Restore
                 | Command::Quit
         );
         if leaves && !self.may_leave() {
@@ -358,9 +357,7 @@ impl App {
             self.session.report(format!("{} {problem}", path.display()));
             return;
         }
-        self.show_document("open project", document);
-        // What was there before belongs to another file.
-        self.session.document_mut().forget_history();
+        self.show_document(document);
         self.project.belongs_to(Some(path), self.session.document().version(), true);
     }
 

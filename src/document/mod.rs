@@ -194,11 +194,25 @@ impl Document {
         }
     }
 
-    /// Puts another document's settings and paint in the place of this one's, as one gesture.
-    pub fn replace_with(&mut self, title: &'static str, other: Self) {
-        self.end_stroke();
-        self.end_gesture();
-        self.replace(title, other.settings, other.paint);
+    /// Opens another document in place of this one. Nothing of this one is kept: the history is empty, and what was not
+    /// saved is lost.
+    ///
+    /// Only the counters run on: [`Self::version`] and [`Self::revision`] are new, so that a copy of the former document
+    /// (a file, a mesh) is not taken for one of this.
+    pub fn replace_with(&mut self, other: Self) {
+        let version = self.last_version + 1;
+        *self = Self {
+            history: History::default(),
+            stroke: None,
+            finishing: false,
+            open_gesture: None,
+            repainted: Repainted::Everything,
+            edits: Edits::everything(),
+            revision: self.revision + 1,
+            version,
+            last_version: version,
+            ..other
+        };
     }
 
     /// Removes all paint, as one gesture.
@@ -290,12 +304,6 @@ impl Document {
         if self.stroke.is_none() && !paints && newest && self.undo() {
             self.history.forget_undone();
         }
-    }
-
-    /// Empties the history: the current state can no longer be undone.
-    pub fn forget_history(&mut self) {
-        self.end_stroke();
-        self.history = History::default();
     }
 
     /// The pixels that changed since the last call.
