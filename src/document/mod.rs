@@ -19,7 +19,7 @@ pub use examples::Example;
 pub use follower::{Follower, MeshChange};
 pub use history::History;
 pub use pricer::{Price, Pricer};
-pub use setting::Setting;
+pub use setting::{Setting, SettingKind};
 pub use settings::{Base, LEAST_MEMORY, MAX_COARSE_TRIANGLES, RESOLUTIONS, Settings, SettingsError};
 pub use stage::{FollowError, Stage};
 
@@ -41,8 +41,8 @@ pub struct Document {
     stroke: Option<Stroke>,
     /// Whether the current stroke ends once it is drawn to its last point.
     finishing: bool,
-    /// The settings gesture that has not ended, by its title. Further changes with that title join it.
-    open_gesture: Option<&'static str>,
+    /// The setting of the gesture that has not ended. Further changes of that setting join it.
+    open_gesture: Option<SettingKind>,
     repainted: Repainted,
     edits: Edits,
     revision: u64,
@@ -194,11 +194,11 @@ impl Document {
         }
     }
 
-    /// Opens another document in place of this one. Nothing of this one is kept: the history is empty, and what was not
-    /// saved is lost.
+    /// Opens another document in place of this one. Nothing of this one is kept: the history is empty, and
+    /// what was not saved is lost.
     ///
-    /// Only the counters run on: [`Self::version`] and [`Self::revision`] are new, so that a copy of the former document
-    /// (a file, a mesh) is not taken for one of this.
+    /// Only the counters run on: [`Self::version`] and [`Self::revision`] are new, so that a copy of the
+    /// former document (a file, a mesh) is not taken for one of this.
     pub fn replace_with(&mut self, other: Self) {
         let version = self.last_version + 1;
         *self = Self {
@@ -230,7 +230,7 @@ impl Document {
     /// # Errors
     /// When the new settings are out of range. The document then stays as it was.
     pub fn set(&mut self, setting: Setting) -> Result<(), SettingsError> {
-        let title = setting.title();
+        let (kind, title) = (setting.kind(), setting.title());
         let mut settings = self.settings.clone();
         setting.apply(&mut settings);
         if settings == self.settings {
@@ -239,7 +239,7 @@ impl Document {
         let settings = settings.checked()?;
         self.end_stroke();
         let (bounds, size) = (settings.domain.bounds, settings.raster_size());
-        let joins = self.open_gesture == Some(title);
+        let joins = self.open_gesture == Some(kind);
         if bounds != self.settings.domain.bounds || size != self.paint.risk.size() {
             let paint = self.paint_before_gesture(joins).resampled(bounds, size);
             if joins && matches!(self.last_change(), Some(Change::Everything(_))) {
@@ -257,7 +257,7 @@ impl Document {
             }
             self.revision += 1;
         }
-        self.open_gesture = Some(title);
+        self.open_gesture = Some(kind);
         if joins {
             self.next_version();
         }

@@ -1,3 +1,5 @@
+use std::mem::Discriminant;
+
 use super::{Base, Settings};
 use crate::domain::{BoundaryTreatment, Domain};
 use crate::field::RefinementRule;
@@ -32,8 +34,17 @@ pub enum Setting {
     Boundary(BoundaryTreatment),
 }
 
+/// Which setting a [`Setting`] changes, whatever the value: changes of one kind can be one gesture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct SettingKind(Discriminant<Setting>);
+
 impl Setting {
-    /// What the history calls it.
+    /// Which setting this changes.
+    pub fn kind(&self) -> SettingKind {
+        SettingKind(std::mem::discriminant(self))
+    }
+
+    /// The name of the change in the history, for display only.
     pub fn title(&self) -> &'static str {
         match self {
             Self::Spacing(_) => "coarse spacing",
