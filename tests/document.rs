@@ -2,11 +2,13 @@
 
 mod operations;
 
+use std::sync::Arc;
+
 use glam::{DVec2, dvec2};
 use meshbrush::document::{
-    Base, Document, Example, Follower, MeshChange, Price, Pricer, Setting, Settings, Stage,
+    Base, Document, Example, Follower, History, MeshChange, Price, Pricer, Setting, Settings, Stage,
 };
-use meshbrush::domain::{CutShape, Domain, DomainShape, Polygon, corners};
+use meshbrush::domain::{CutShape, Domain, DomainShape, Polygon, Region, corners};
 use meshbrush::field::{Formula, RefinementRule, VertexRule};
 use meshbrush::geometry::{Grouped, Rect};
 use meshbrush::mesh::Progress;
@@ -202,6 +204,41 @@ fn what_cannot_be_met_leaves_document_and_mesh_as_they_were() {
         assert_eq!((document.settings(), follower.settings()), (&settings, &settings));
         assert_eq!(follower.mesh().fingerprint(), fingerprint);
         assert!(document.history().is_empty() && document.history().redo_title().is_none());
+    }
+}
+
+/// The oldest gestures are dropped once outlines or pictures pass the limit of the history.
+#[test]
+fn outlines_and_pictures_count_for_the_memory_limit_of_the_history() {
+    let ring = |count: u32| -> Polygon {
+        let corner = |k: u32| {
+            let angle = f64::from(k) / f64::from(count) * std::f64::consts::TAU;
+            DVec2::splat(0.5) + 0.4 * dvec2(angle.cos(), angle.sin())
+        };
+        vec![(0..count).map(corner).collect()]
+    };
+    let regions = [60_000, 60_001].map(|count| Region::new(&[ring(count)], Rect::UNIT));
+    let raster = Raster::filled(Rect::UNIT, [2000, 2000], 0.5f32);
+    // 16 bytes a corner, 4 bytes a pixel.
+    let changes: [(usize, &dyn Fn(usize) -> Setting); 2] = [
+        (960_000, &|n| {
+            let shape = DomainShape::Region(Arc::new(regions[n % 2].clone()));
+            Setting::Domain(Domain { bounds: Rect::UNIT, shape })
+        }),
+        (16_000_000, &|n| {
+            Setting::Base(Base::RiskImage { name: format!("{n}.png"), raster: Arc::new(raster.clone()) })
+        }),
+    ];
+    for (bytes, change) in changes {
+        let mut document = Document::new(Settings::default(), None).unwrap();
+        let room = History::MAX_BYTES / bytes;
+        for n in 0..room + 5 {
+            document.set(change(n)).unwrap();
+            document.end_gesture();
+        }
+        let kept = document.history().len();
+        // The first entry has neither outline nor picture, and the document holds the last one itself.
+        assert!((room - 1..=room + 1).contains(&kept), "{kept} entries of {bytes} bytes");
     }
 }
 

@@ -1,58 +1,104 @@
-use std::collections::VecDeque;
+//! The gestures that can be undone and redone, and the memory that they keep alive.
 
-use super::Settings;
+use std::collections::{HashMap, VecDeque};
+use std::sync::Arc;
+
+use super::{Base, Settings};
 use crate::paint::{PaintRasters, Patch};
 
-/// What is kept of one gesture: the other side of it, to be exchanged with the document's own.
+/// The data of one gesture that the document does not have now: before undo the old data, after it the new
+/// data. Undo and redo exchange it with the document's own.
 #[derive(Clone, Debug)]
 pub(super) enum Change {
-    /// Old pixels.
+    /// The pixels of a stroke.
     Paint(Patch),
-    /// Old settings, where the layers kept their size.
+    /// Settings, where the paint rasters kept their bounds and size.
     Settings(Box<Settings>),
-    /// Everything, where the domain or the resolution changed.
+    /// Settings and paint, where the bounds or the size of the rasters changed.
     Everything(Box<(Settings, PaintRasters)>),
 }
 
 impl Change {
-    fn bytes(&self) -> usize {
+    /// Bytes of this change alone, without the data that its settings share with others.
+    fn own_bytes(&self) -> usize {
         match self {
             Self::Paint(patch) => patch.bytes(),
-            Self::Settings(_) => size_of::<Settings>(),
-            Self::Everything(both) => 8 * both.1.risk.values().len(),
+            Self::Settings(settings) => own_bytes(settings),
+            Self::Everything(both) => own_bytes(&both.0) + both.1.bytes(),
         }
     }
+
+    fn settings(&self) -> Option<&Settings> {
+        match self {
+            Self::Paint(_) => None,
+            Self::Settings(settings) => Some(settings),
+            Self::Everything(both) => Some(&both.0),
+        }
+    }
+}
+
+fn own_bytes(settings: &Settings) -> usize {
+    let picture_name = match &settings.base {
+        Base::RiskImage { name, .. } => name.capacity(),
+        Base::Constant(_) | Base::Formula(_) => 0,
+    };
+    size_of::<Settings>() + settings.name.capacity() + picture_name
+}
+
+/// Data behind an `Arc`, which other settings may share: its address and its size in bytes.
+type SharedData = (usize, usize);
+
+fn shared_data(settings: &Settings) -> impl Iterator<Item = SharedData> {
+    let outline = settings.domain.region().map(|region| (Arc::as_ptr(region).addr(), region.bytes()));
+    let (base_formula, picture) = match &settings.base {
+        Base::Constant(_) => (None, None),
+        Base::Formula(formula) => (Some(formula), None),
+        Base::RiskImage { raster, .. } => (None, Some((Arc::as_ptr(raster).addr(), raster.bytes()))),
+    };
+    let formulas = [settings.domain.formula(), base_formula].into_iter().flatten();
+    formulas.map(|formula| (formula.address(), formula.bytes())).chain(outline).chain(picture)
 }
 
 /// One gesture, done or undone.
 #[derive(Clone, Debug)]
 pub(super) struct Entry {
+    /// Its name, for display only.
     pub(super) title: &'static str,
     pub(super) change: Change,
-    /// The document's version on the other side.
+    /// The version of the document that undo or redo returns to.
     pub(super) version: u64,
 }
 
-/// Gestures that can be undone and redone. Neither mesh nor field is kept: they are derived.
+/// Gestures that can be undone and redone, back to the start of the document. Neither mesh nor field is kept:
+/// they are derived.
 ///
-/// Limits: [`Self::MAX_BYTES`] of old pixels; the oldest gestures are forgotten first.
+/// Its memory is bounded by [`Self::MAX_BYTES`]; the oldest gestures are dropped first.
 #[derive(Clone, Debug, Default)]
 pub struct History {
+    /// The oldest first.
     done: VecDeque<Entry>,
+    /// The one undone last is the last.
     undone: Vec<Entry>,
+    memory: Memory,
 }
 
 impl History {
-    /// Most memory for old pixels.
+    /// Most bytes that the gestures keep alive: old pixels, outlines, pictures and formulas. The last gesture
+    /// is kept whatever its size.
     pub const MAX_BYTES: usize = 256 << 20;
 
-    /// Notes a gesture. Whatever was undone can no longer be redone.
-    pub(super) fn push(&mut self, entry: Entry) {
-        self.undone.clear();
+    /// Adds a gesture that was just done, and drops those that can no longer be redone. `current` are the
+    /// document's settings after it.
+    pub(super) fn push(&mut self, entry: Entry, current: &Settings) {
+        for undone in self.undone.drain(..) {
+            self.memory.remove(&undone.change);
+        }
+        self.memory.add(&entry.change);
         self.done.push_back(entry);
-        let mut bytes: usize = self.done.iter().map(|entry| entry.change.bytes()).sum();
-        while bytes > Self::MAX_BYTES && self.done.len() > 1 {
-            bytes -= self.done.pop_front().map_or(0, |entry| entry.change.bytes());
+        while self.done.len() > 1 && self.memory.bytes(current) > Self::MAX_BYTES {
+            if let Some(oldest) = self.done.pop_front() {
+                self.memory.remove(&oldest.change);
+            }
         }
     }
 
@@ -60,33 +106,42 @@ impl History {
         self.done.back()
     }
 
-    /// Moves the last gesture to the undone ones, after `exchange` has turned it round.
+    /// Undoes the last gesture: `exchange` exchanges its data with the document's. Returns whether there was
+    /// one.
     pub(super) fn undo(&mut self, exchange: impl FnOnce(&mut Entry)) -> bool {
         let Some(mut entry) = self.done.pop_back() else { return false };
-        exchange(&mut entry);
+        self.exchange(&mut entry, exchange);
         self.undone.push(entry);
         true
     }
 
-    /// The opposite of [`Self::undo`].
+    /// Redoes the gesture that was undone last, in the same way.
     pub(super) fn redo(&mut self, exchange: impl FnOnce(&mut Entry)) -> bool {
         let Some(mut entry) = self.undone.pop() else { return false };
-        exchange(&mut entry);
+        self.exchange(&mut entry, exchange);
         self.done.push_back(entry);
         true
     }
 
-    /// Forgets the last undone gesture.
-    pub(super) fn forget_undone(&mut self) {
-        self.undone.pop();
+    fn exchange(&mut self, entry: &mut Entry, exchange: impl FnOnce(&mut Entry)) {
+        self.memory.remove(&entry.change);
+        exchange(entry);
+        self.memory.add(&entry.change);
     }
 
-    /// What undo would take back, in a word or two.
+    /// Drops the gesture that was undone last.
+    pub(super) fn forget_undone(&mut self) {
+        if let Some(undone) = self.undone.pop() {
+            self.memory.remove(&undone.change);
+        }
+    }
+
+    /// What undo would undo, in one or two words.
     pub fn undo_title(&self) -> Option<&'static str> {
         self.done.back().map(|entry| entry.title)
     }
 
-    /// What redo would do again.
+    /// What redo would redo, in one or two words.
     pub fn redo_title(&self) -> Option<&'static str> {
         self.undone.last().map(|entry| entry.title)
     }
@@ -99,5 +154,132 @@ impl History {
     /// Whether nothing can be undone.
     pub fn is_empty(&self) -> bool {
         self.done.is_empty()
+    }
+}
+
+/// How much memory changes keep alive, kept up to date as they come and go.
+#[derive(Clone, Debug, Default)]
+struct Memory {
+    /// Bytes that belong to one change each.
+    own: usize,
+    /// Data that changes share, by address. The address stays valid: a change with an `Arc` to the data is in
+    /// the history.
+    shared: HashMap<usize, Shared>,
+    /// Bytes of all shared data, each counted once.
+    shared_bytes: usize,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Shared {
+    bytes: usize,
+    /// How many changes refer to it.
+    references: usize,
+}
+
+impl Memory {
+    fn add(&mut self, change: &Change) {
+        self.own += change.own_bytes();
+        for (address, bytes) in change.settings().into_iter().flat_map(shared_data) {
+            let shared = self.shared.entry(address).or_insert(Shared { bytes, references: 0 });
+            if shared.references == 0 {
+                self.shared_bytes += bytes;
+            }
+            shared.references += 1;
+        }
+    }
+
+    fn remove(&mut self, change: &Change) {
+        self.own -= change.own_bytes();
+        for (address, _) in change.settings().into_iter().flat_map(shared_data) {
+            let shared = self.shared.get_mut(&address).expect("what is removed was added before");
+            shared.references -= 1;
+            if shared.references == 0 {
+                self.shared_bytes -= shared.bytes;
+                self.shared.remove(&address);
+            }
+        }
+    }
+
+    /// Bytes in all. Data that the current settings hold too costs nothing extra.
+    fn bytes(&self, current: &Settings) -> usize {
+        let held = shared_data(current).filter_map(|(address, _)| self.shared.get(&address));
+        self.own + self.shared_bytes - held.map(|shared| shared.bytes).sum::<usize>()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::dvec2;
+
+    use super::*;
+    use crate::document::{Document, Setting};
+    use crate::domain::{Domain, DomainShape, Region, corners};
+    use crate::field::Formula;
+    use crate::geometry::Rect;
+    use crate::raster::Raster;
+
+    /// An outline of 4 corners.
+    fn outline(side: f64) -> Setting {
+        let square = vec![corners(&Rect::new(dvec2(0.0, 0.0), dvec2(side, side)))];
+        let region = Arc::new(Region::new(&[square], Rect::UNIT));
+        Setting::Domain(Domain { bounds: Rect::UNIT, shape: DomainShape::Region(region) })
+    }
+
+    fn picture(side: u32) -> Setting {
+        let raster = Arc::new(Raster::filled(Rect::UNIT, [side, side], 0.5));
+        Setting::Base(Base::RiskImage { name: String::new(), raster })
+    }
+
+    fn formula(text: &str) -> Setting {
+        Setting::Base(Base::Formula(Formula::parse(text).unwrap()))
+    }
+
+    /// What the entries keep alive beyond their own settings, counted from scratch.
+    fn counted(document: &Document) -> usize {
+        let History { done, undone, memory } = document.history();
+        let settings = done.iter().chain(undone).filter_map(|entry| entry.change.settings());
+        let mut data: HashMap<usize, usize> = settings.flat_map(shared_data).collect();
+        shared_data(document.settings()).for_each(|(address, _)| _ = data.remove(&address));
+        let own: usize = done.iter().chain(undone).map(|entry| entry.change.own_bytes()).sum();
+        assert_eq!(own, memory.own);
+        data.values().sum()
+    }
+
+    fn bytes(document: &Document) -> usize {
+        let memory = &document.history().memory;
+        memory.bytes(document.settings()) - memory.own
+    }
+
+    #[test]
+    fn shared_data_counts_once_and_not_while_the_document_holds_it() {
+        let name = "x".repeat(10);
+        let mut document = Document::new(Settings { name, ..Settings::default() }, None).unwrap();
+        let mut set = |setting| {
+            document.set(setting).unwrap();
+            document.end_gesture();
+            assert_eq!(bytes(&document), counted(&document));
+            bytes(&document)
+        };
+        assert_eq!(set(outline(0.5)), 0, "the document holds the only outline");
+        let one = set(outline(0.6));
+        assert!((64..300).contains(&one), "four corners of 16 bytes each: {one}");
+        assert_eq!(set(Setting::Spacing(0.1)), one);
+        assert_eq!(set(Setting::Spacing(0.2)), one, "three entries share the second outline");
+        assert_eq!(set(picture(100)), one);
+        let two = set(picture(10));
+        assert_eq!(two, one + 4 * 100 * 100);
+        set(formula("x + 1"));
+        assert!((1..1000).contains(&(set(formula("x + 2")) - two - 400)), "the second picture and a formula");
+        while document.undo() {
+            assert_eq!(bytes(&document), counted(&document));
+        }
+        assert!(bytes(&document) > two, "undone gestures keep their data");
+        while document.redo() {
+            assert_eq!(bytes(&document), counted(&document));
+        }
+        document.undo();
+        document.reject_last();
+        document.set(Setting::Spacing(0.3)).unwrap();
+        assert_eq!(bytes(&document), counted(&document));
     }
 }

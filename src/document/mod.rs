@@ -353,7 +353,7 @@ impl Document {
     fn enter(&mut self, title: &'static str, change: Change) {
         let version = self.version;
         self.next_version();
-        self.history.push(Entry { title, change, version });
+        self.history.push(Entry { title, change, version }, &self.settings);
     }
 
     fn next_version(&mut self) {

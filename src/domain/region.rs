@@ -105,6 +105,11 @@ impl Region {
         self.rings().map(Vec::len).sum()
     }
 
+    /// Memory of the rings, in bytes.
+    pub fn bytes(&self) -> usize {
+        self.rings().map(|ring| size_of::<Ring>() + size_of_val(&**ring)).sum()
+    }
+
     /// How many holes the polygons have.
     pub fn hole_count(&self) -> usize {
         self.polygons.iter().map(|rings| rings.len() - 1).sum()

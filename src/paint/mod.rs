@@ -88,6 +88,11 @@ impl PaintRasters {
         }
     }
 
+    /// Memory of the pixels, in bytes.
+    pub fn bytes(&self) -> usize {
+        self.risk.bytes() + self.diameter.bytes()
+    }
+
     /// The rasters as the field reads them.
     pub fn as_paint(&self) -> PaintRef<'_> {
         PaintRef { risk: &self.risk, diameter: &self.diameter }

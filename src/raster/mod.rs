@@ -104,6 +104,11 @@ impl<T: Copy> Raster<T> {
         &self.values
     }
 
+    /// Memory of the values, in bytes.
+    pub fn bytes(&self) -> usize {
+        size_of_val(&*self.values)
+    }
+
     /// The values of an area, row by row from the lowest.
     ///
     /// # Panics

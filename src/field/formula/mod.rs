@@ -95,6 +95,16 @@ impl Formula {
         &self.source
     }
 
+    /// Where the compiled formula lies in memory: equal for clones, which share it.
+    pub fn address(&self) -> usize {
+        Arc::as_ptr(&self.program).addr()
+    }
+
+    /// Memory that clones share, in bytes.
+    pub fn bytes(&self) -> usize {
+        self.source.len() + self.program.bytes()
+    }
+
     /// The value, if the formula uses no coordinate.
     ///
     /// ```

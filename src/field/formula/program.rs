@@ -114,6 +114,11 @@ impl Program {
         run(&self.code, self.slots, x, y)
     }
 
+    /// Memory of the instructions, in bytes.
+    pub(super) fn bytes(&self) -> usize {
+        size_of_val(&*self.code)
+    }
+
     pub(super) fn constant(&self) -> Option<f64> {
         match *self.code {
             [Op::Number(value)] => Some(value),
