@@ -341,3 +341,6 @@ fn failure_to_open(error: eframe::Error) -> String {
         other => format!("The window could not be opened: {other}."),
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,9 +1,6 @@
 //! Files being read and written beside the window: their progress, cancelling them, and closing the window before they are done.
 //!
 //! Pipes make it slow: whoever reads or writes one waits for the test.
-#![cfg(all(feature = "gui", unix))]
-
-mod headless;
 
 use std::fs::{self, File};
 use std::io::{ErrorKind, Read, Write};
@@ -14,14 +11,18 @@ use std::time::{Duration, Instant};
 use eframe::egui::accesskit::Role;
 use eframe::egui::{ViewportCommand, ViewportEvent, ViewportId};
 use egui_kittest::kittest::Queryable as _;
-use headless::{EDITED, Window, document, paint, send, window};
-use meshbrush::app::command::Command;
-use meshbrush::io::project;
+
+use super::{Window, document, paint, send, window};
+use crate::app::command::Command;
+use crate::io::project;
 
 const QUESTION: &str = "Save changes to “Radar threats”?";
 
+/// The title of the first example once it is edited.
+const EDITED: &str = "Radar threats — edited";
+
 fn folder(name: &str) -> PathBuf {
-    headless::folder("app-background", name)
+    super::folder("app-background", name)
 }
 
 fn pipe(path: PathBuf) -> PathBuf {

@@ -1,7 +1,4 @@
 //! Saving, opening and the questions before something would be lost, in the window, by role and label.
-#![cfg(feature = "gui")]
-
-mod headless;
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -11,15 +8,19 @@ use std::time::{Duration, Instant};
 use eframe::egui::{self, Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
 use glam::dvec2;
-use headless::{EDITED, Window, document, paint, send, window};
-use meshbrush::app::command::Command;
-use meshbrush::document::{Example, Settings, Stage};
-use meshbrush::io::journal::Journal;
-use meshbrush::io::project::{self, Project};
-use meshbrush::mesh::Fingerprint;
+
+use super::{Window, document, paint, send, window};
+use crate::app::command::Command;
+use crate::document::{Example, Settings, Stage};
+use crate::io::journal::Journal;
+use crate::io::project::{self, Project};
+use crate::mesh::Fingerprint;
+
+/// The title of the first example once it is edited.
+const EDITED: &str = "Radar threats — edited";
 
 fn folder(name: &str) -> PathBuf {
-    headless::folder("app-project", name)
+    super::folder("app-project", name)
 }
 
 fn key(window: &mut Window, modifiers: Modifiers, key: Key) {

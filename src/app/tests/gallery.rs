@@ -1,13 +1,13 @@
 //! The controls, driven by role and label, and drawn in both themes.
-#![cfg(feature = "gui")]
 
 use eframe::egui;
 use egui::accesskit::Role;
 use egui::{Align2, Color32, Theme, Ui, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
-use meshbrush::app::theme;
-use meshbrush::app::widgets::*;
+
+use crate::app::theme;
+use crate::app::widgets::*;
 
 /// Everything that the gallery's controls edit.
 struct State {

@@ -1,0 +1,94 @@
+//! Opening and exporting files.
+
+use std::time::{Duration, Instant};
+
+use eframe::egui::accesskit::Role;
+use eframe::egui::{Event, Key, Modifiers};
+use egui_kittest::kittest::Queryable as _;
+use glam::dvec2;
+
+use super::{Window, fingerprint, key, notice, scratch, send, settings, stroke, wait_for_notice, window};
+use crate::app::command::Command;
+use crate::document::Base;
+
+#[test]
+fn an_export_writes_the_file_and_tells() {
+    let mut window = window();
+    for ending in ["vtu", "msh", "svg", "png"] {
+        let file = scratch(&format!("app-export.{ending}"));
+        let _ = std::fs::remove_file(&file); // absent at the first run
+        send(&mut window, Command::Export(file.clone()));
+        let told = wait_for_notice(&mut window);
+        assert!(told.contains("triangles written to") && told.contains(ending), "{told}");
+        assert!(std::fs::metadata(&file).unwrap().len() > 100_000);
+        send(&mut window, Command::Escape);
+    }
+    send(&mut window, Command::Export(scratch("app-export.doc")));
+    assert!(wait_for_notice(&mut window).contains(".vtu"));
+    send(&mut window, Command::Escape);
+    send(&mut window, Command::Export(scratch("no such folder/mesh.vtu")));
+    assert!(wait_for_notice(&mut window).contains("could not be written: there is no folder"));
+    stroke(&mut window, dvec2(0.1, 0.1), dvec2(0.2, 0.1));
+    assert!(notice(&window).contains("no folder"), "what failed stays");
+}
+
+#[test]
+fn an_export_asks_before_it_replaces_any_of_its_files() {
+    let mut window = window();
+    let [nodes, elements] = ["node", "ele"].map(|ending| scratch(&format!("app-replace.{ending}")));
+    for ending in ["node", "neigh", "edge"] {
+        let _ = std::fs::remove_file(nodes.with_extension(ending)); // absent at the first run
+    }
+    std::fs::write(&elements, "of another mesh").unwrap();
+    let button = |window: &mut Window, label: &str| {
+        window.get_by_role_and_label(Role::Button, label).click();
+        window.run();
+    };
+    send(&mut window, Command::ExportAs(nodes.clone()));
+    button(&mut window, "Cancel");
+    assert_eq!((notice(&window).as_str(), nodes.exists()), ("", false));
+    send(&mut window, Command::ExportAs(nodes.clone()));
+    assert!(window.query_by_label_contains("app-replace.ele?").is_some(), "the one that is there");
+    button(&mut window, "Replace");
+    assert!(wait_for_notice(&mut window).contains("triangles written to"));
+    assert!(nodes.exists() && std::fs::read_to_string(&elements).unwrap() != "of another mesh");
+    stroke(&mut window, dvec2(0.1, 0.1), dvec2(0.2, 0.1));
+    assert_eq!(notice(&window), "", "news go once work goes on");
+}
+
+#[test]
+fn the_export_dialog_takes_a_path() {
+    let mut window = window();
+    let file = scratch("app-dialog.obj");
+    let _ = std::fs::remove_file(&file); // absent at the first run
+    key(&mut window, Modifiers::COMMAND, Key::E);
+    window.run_steps(3);
+    window.event(Event::Text(file.display().to_string()));
+    window.run();
+    key(&mut window, Modifiers::NONE, Key::Enter);
+    assert!(wait_for_notice(&mut window).contains("written"));
+    assert!(file.exists());
+}
+
+#[test]
+fn a_bad_picture_is_told_and_a_good_one_becomes_risk() {
+    let mut window = window();
+    let before = fingerprint(&window);
+    let bad = scratch("app-bad.png");
+    std::fs::write(&bad, b"no picture").unwrap();
+    send(&mut window, Command::OpenImage(bad));
+    let told = wait_for_notice(&mut window);
+    assert!(told.contains("app-bad.png"), "{told}");
+    assert_eq!(fingerprint(&window), before);
+    send(&mut window, Command::Escape);
+
+    let good = concat!(env!("CARGO_MANIFEST_DIR"), "/assets/jacksboro_slope.png");
+    send(&mut window, Command::OpenImage(good.into()));
+    let patience = Instant::now() + Duration::from_secs(20);
+    while fingerprint(&window) == before {
+        assert!(Instant::now() < patience, "{}", notice(&window));
+        std::thread::sleep(Duration::from_millis(5));
+        window.run();
+    }
+    assert!(matches!(settings(&window).base, Base::RiskImage { .. }));
+}

@@ -1,0 +1,132 @@
+//! Keys and modifiers.
+
+use eframe::egui::accesskit::Role;
+use eframe::egui::{Key, Modifiers, vec2};
+use egui_kittest::kittest::Queryable as _;
+use glam::dvec2;
+
+use super::{
+    FREE, TALL, Window, canvas, click, entries, fingerprint, key, level_at, move_to, press, release, send,
+    stroke, wheel, window, window_of,
+};
+use crate::app::command::Command;
+use crate::app::tools::Tool;
+
+#[test]
+fn letters_take_tools_in_hand() {
+    let mut window = window();
+    for (letter, tool) in [
+        (Key::E, Tool::Eraser),
+        (Key::Q, Tool::Query),
+        (Key::H, Tool::Pan),
+        (Key::D, Tool::Domain),
+        (Key::B, Tool::Brush),
+    ] {
+        key(&mut window, Modifiers::NONE, letter);
+        assert_eq!(window.state().tools().tool, tool);
+    }
+    for (name, tool) in [("Eraser", Tool::Eraser), ("Query", Tool::Query), ("Brush", Tool::Brush)] {
+        let buttons = window.get_all_by_role_and_label(Role::Button, name);
+        let leftmost = buttons.min_by(|a, b| a.rect().left().total_cmp(&b.rect().left())).unwrap();
+        leftmost.click();
+        window.run();
+        assert_eq!(window.state().tools().tool, tool);
+    }
+}
+
+#[test]
+fn a_tool_taken_in_hand_brings_its_section_into_view() {
+    let mut window = window_of(vec2(900.0, 600.0));
+    let panel = canvas(&window).right_center() + vec2(100.0, 0.0);
+    wheel(&mut window, panel, -2000.0);
+    let top = canvas(&window).top();
+    let section = |window: &Window, name: &str| window.get_by_role_and_label(Role::Button, name).rect().top();
+    assert!(section(&window, "Risk to diameter") < top, "scrolled away");
+    key(&mut window, Modifiers::NONE, Key::Q);
+    assert!(section(&window, "Triangle") >= top);
+}
+
+#[test]
+fn brackets_and_digits_set_the_brush() {
+    let mut window = window();
+    let before = window.state().tools().clone();
+    key(&mut window, Modifiers::NONE, Key::CloseBracket);
+    assert!(window.state().tools().radius > before.radius);
+    key(&mut window, Modifiers::NONE, Key::OpenBracket);
+    key(&mut window, Modifiers::NONE, Key::OpenBracket);
+    assert!(window.state().tools().radius < before.radius);
+    assert_eq!(window.state().tools().hardness, before.hardness);
+    // A keyboard says `{` where Shift and `[` are pressed.
+    key(&mut window, Modifiers::SHIFT, Key::CloseCurlyBracket);
+    assert!(window.state().tools().hardness > before.hardness);
+    key(&mut window, Modifiers::SHIFT, Key::OpenCurlyBracket);
+    key(&mut window, Modifiers::SHIFT, Key::OpenCurlyBracket);
+    assert!(window.state().tools().hardness < before.hardness);
+    for (digit, strength) in [(Key::Num1, 0.1), (Key::Num5, 0.5), (Key::Num0, 1.0)] {
+        key(&mut window, Modifiers::NONE, digit);
+        assert_eq!(window.state().tools().paint_strength, strength);
+    }
+    key(&mut window, Modifiers::NONE, Key::E);
+    key(&mut window, Modifiers::NONE, Key::Num3);
+    assert_eq!(window.state().tools().erase_strength, 0.3);
+    assert_eq!(window.state().tools().paint_strength, 1.0, "the eraser has a strength of its own");
+}
+
+#[test]
+fn alt_or_ctrl_click_picks_the_value_under_the_pointer() {
+    let mut window = window();
+    send(&mut window, Command::BrushStrength(0.11));
+    click(&mut window, dvec2(0.245, 0.765), Modifiers::ALT);
+    assert!((window.state().tools().paint_strength - 0.72).abs() < 0.02, "the risk of the first site");
+    key(&mut window, Modifiers::NONE, Key::T);
+    let before = window.state().tools().diameter;
+    click(&mut window, dvec2(0.245, 0.765), Modifiers::COMMAND);
+    assert_ne!(window.state().tools().diameter, before);
+    assert_eq!(entries(&window), 0);
+}
+
+#[test]
+fn shift_click_draws_a_straight_line_from_the_last_stroke() {
+    let mut window = window();
+    stroke(&mut window, FREE, FREE);
+    let middle = FREE - dvec2(0.0, 0.15);
+    assert_eq!(level_at(&window, FREE - dvec2(0.0, 0.1)), 0);
+    click(&mut window, FREE - dvec2(0.0, 0.2), Modifiers::SHIFT);
+    assert!(level_at(&window, middle) > 5);
+    assert_eq!(entries(&window), 2);
+}
+
+#[test]
+fn shift_drag_sizes_the_brush() {
+    let mut window = window();
+    let before = window.state().tools().radius;
+    press(&mut window, FREE, Modifiers::SHIFT);
+    move_to(&mut window, FREE + dvec2(0.05, 0.0));
+    release(&mut window, FREE + dvec2(0.05, 0.0));
+    assert!((window.state().tools().radius - before - 0.05).abs() < 1e-3);
+    assert_eq!(entries(&window), 0, "nothing was painted");
+}
+
+#[test]
+fn keys_typed_into_a_field_stay_there() {
+    let mut window = window_of(TALL);
+    stroke(&mut window, FREE, FREE);
+    let painted = fingerprint(&window);
+    window.get_by_role_and_label(Role::TextInput, "Size value").focus();
+    window.run();
+    for letter in [Key::E, Key::Q, Key::G, Key::Num1] {
+        key(&mut window, Modifiers::NONE, letter);
+    }
+    window.get_by_role_and_label(Role::TextInput, "Size value").type_text("0.05");
+    window.run();
+    key(&mut window, Modifiers::COMMAND, Key::Z);
+    key(&mut window, Modifiers::COMMAND, Key::Backspace);
+    assert_eq!(window.state().tools().tool, Tool::Brush);
+    assert!(window.state().view().edges);
+    assert_eq!(window.state().tools().paint_strength, 0.8);
+    assert_eq!(
+        fingerprint(&window),
+        painted,
+        "neither undo nor clearing reaches the document from a text field"
+    );
+}

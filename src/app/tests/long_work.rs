@@ -1,0 +1,114 @@
+//! Work that takes many frames.
+
+use std::time::{Duration, Instant};
+
+use eframe::egui::accesskit::Role;
+use eframe::egui::{Event, Key, Modifiers, PointerButton, vec2};
+use egui_kittest::kittest::Queryable as _;
+use glam::dvec2;
+
+use super::{
+    FREE, button_event, fingerprint, key, level_at, notice, on_screen, release_at, stroke, triangles, window,
+    window_of,
+};
+use crate::app::command::Command;
+use crate::document::{Document, Example, Follower, Setting, Stage};
+
+/// A smallest diameter that makes the first example's mesh have about two million triangles.
+const TWO_MILLIONS: f64 = 0.00025;
+
+#[test]
+fn the_former_mesh_is_shown_until_the_new_one_is_whole() {
+    let mut window = window();
+    let (before, generation) = (fingerprint(&window), window.state().session().follower().revision());
+    window.state_mut().send(Command::Set(Setting::SmallestDiameter(TWO_MILLIONS)));
+    window.step();
+    let mut frames = 0;
+    while window.state().session().stage() != Stage::InStep {
+        assert_eq!(window.state().session().follower().revision(), generation);
+        assert_eq!(fingerprint(&window), before, "not a part of the new mesh is shown");
+        window.step();
+        frames += 1;
+    }
+    assert!(frames > 5, "so much work is spread over more than {frames} frames");
+    assert!(triangles(&window) > 1_500_000, "{}", triangles(&window));
+    assert_eq!(window.state().session().follower().revision(), generation + 1);
+}
+
+#[test]
+fn in_a_small_window_nothing_covers_the_button_that_cancels() {
+    let mut window = window_of(vec2(900.0, 600.0));
+    window.state_mut().send(Command::Set(Setting::SmallestDiameter(1e-4)));
+    let patience = Instant::now() + Duration::from_secs(20);
+    while window.query_by_label("Cancel").is_none() {
+        assert!(Instant::now() < patience, "no progress was shown");
+        window.step();
+    }
+    assert!(window.query_by_label_contains("Drag to paint risk").is_none(), "the hint makes room");
+}
+
+#[test]
+fn cancel_gives_a_long_update_up_and_the_next_edit_takes_it_up_again() {
+    let mut window = window();
+    let before = fingerprint(&window);
+    window.state_mut().send(Command::Set(Setting::SmallestDiameter(1e-4)));
+    let patience = Instant::now() + Duration::from_secs(20);
+    while window.query_by_label("Cancel").is_none() {
+        assert!(Instant::now() < patience, "no progress was shown");
+        window.step();
+    }
+    assert!(window.query_by_role(Role::ProgressIndicator).is_some());
+    window.get_by_role_and_label(Role::Button, "Cancel").click();
+    window.run();
+    assert_eq!(window.state().session().stage(), Stage::InStep);
+    assert_eq!(fingerprint(&window), before);
+    assert!(notice(&window).contains("not updated"), "{}", notice(&window));
+    assert!(window.query_by_label("Cancel").is_none());
+    key(&mut window, Modifiers::COMMAND, Key::Z);
+    assert_eq!(fingerprint(&window), before);
+    stroke(&mut window, FREE, FREE);
+    assert_ne!(fingerprint(&window), before);
+}
+
+#[test]
+fn one_slice_of_work_is_small_however_much_there_is_to_do() {
+    const VISITS: usize = 2048;
+    let mut document =
+        Example::Threats.document(|| unreachable!("not of this example"), || unreachable!("nor this"));
+    let mut follower = Follower::new(&mut document).unwrap();
+    document.set(Setting::SmallestDiameter(TWO_MILLIONS)).unwrap();
+    let (mut last, mut most, mut slices) = (0, 0, 0);
+    loop {
+        match follower.advance(&mut document, VISITS).unwrap() {
+            Stage::InStep => break,
+            Stage::Outlining | Stage::Filling => {}
+            Stage::Refining { triangles } => {
+                most = most.max(triangles.saturating_sub(last.max(1200)));
+                last = triangles;
+            }
+        }
+        slices += 1;
+    }
+    assert!(last > 1_000_000 && slices > 500, "{last} triangles in {slices} slices");
+    // A visit bisects a triangle, its neighbour, and now and then a chain of them.
+    assert!(most <= 4 * VISITS, "{most} triangles in one slice of {VISITS} visits");
+}
+
+#[test]
+fn a_long_stroke_never_waits_for_the_mesh() {
+    let mut window = window();
+    window.state_mut().send(Command::Set(Setting::SmallestDiameter(TWO_MILLIONS)));
+    window.step();
+    let from = on_screen(&window, FREE);
+    window.event(Event::PointerMoved(from));
+    window.event(button_event(from, PointerButton::Primary, true, Modifiers::NONE));
+    for i in 0..10 {
+        window.event(Event::PointerMoved(from - vec2(8.0 * i as f32, 0.0)));
+    }
+    window.step();
+    let document: &Document = window.state().session().document();
+    assert!(document.stroke().is_some());
+    assert!(document.paint().risk.sample(FREE - dvec2(0.05, 0.0)).unwrap() > 0.1, "paint does not wait");
+    release_at(&mut window, from, PointerButton::Primary);
+    assert!(level_at(&window, FREE) > 10);
+}

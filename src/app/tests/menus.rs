@@ -1,0 +1,88 @@
+//! Menus, the command palette, dialogs.
+
+use std::collections::BTreeSet;
+
+use eframe::egui::accesskit::Role;
+use eframe::egui::{Event, Key, Modifiers, pos2, vec2};
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
+
+use super::{FREE, Window, choose, click, key, open_menu, selected, wheel, window, window_of};
+use crate::app::tools::Tool;
+
+#[test]
+fn the_palette_finds_and_runs_a_command() {
+    let mut window = window();
+    key(&mut window, Modifiers::COMMAND, Key::P);
+    window.event(Event::Text("quer".into()));
+    window.run();
+    key(&mut window, Modifiers::NONE, Key::Enter);
+    assert_eq!(window.state().tools().tool, Tool::Query);
+    assert!(window.query_by_label("Command").is_none(), "it closes");
+    key(&mut window, Modifiers::COMMAND, Key::P);
+    assert!(window.query_by_label("Command").is_some());
+    key(&mut window, Modifiers::NONE, Key::Escape);
+    assert!(window.query_by_label("Command").is_none());
+}
+
+#[test]
+fn a_long_menu_scrolls_in_a_small_window() {
+    let mut window = window_of(vec2(900.0, 600.0));
+    open_menu(&mut window, "Tool");
+    let bottom = |window: &Window| {
+        let last = window.query_all_by_label_contains("Strength 100 %").next();
+        last.map_or(f32::INFINITY, |entry| entry.rect().bottom())
+    };
+    assert!(bottom(&window) > 600.0);
+    wheel(&mut window, pos2(240.0, 300.0), -2000.0);
+    assert!(bottom(&window) < 600.0, "{}", bottom(&window));
+}
+
+#[test]
+fn every_command_is_in_a_menu_and_every_menu_entry_in_the_palette() {
+    let mut window = window();
+    key(&mut window, Modifiers::COMMAND, Key::P);
+    let palette: BTreeSet<String> = labels(&window, Role::MenuItem);
+    key(&mut window, Modifiers::NONE, Key::Escape);
+    assert!(palette.len() > 40, "{palette:?}");
+    let at_rest = labels(&window, Role::Button);
+    let mut menus = BTreeSet::new();
+    for menu in ["File", "Edit", "Tool", "View", "Examples", "Help"] {
+        open_menu(&mut window, menu);
+        let entries: Vec<_> = labels(&window, Role::Button).difference(&at_rest).cloned().collect();
+        assert!(!entries.is_empty(), "{menu} is empty");
+        menus.extend(entries);
+        key(&mut window, Modifiers::NONE, Key::Escape);
+        assert_eq!(labels(&window, Role::Button), at_rest, "Escape closes {menu}");
+    }
+    // The label of an entry ends with its key.
+    let names = |entry: &str, title: &str| entry == title || entry.starts_with(&format!("{title} "));
+    let missing: Vec<_> =
+        palette.iter().filter(|title| !menus.iter().any(|entry| names(entry, title))).collect();
+    assert!(missing.is_empty(), "in no menu: {missing:?}");
+    let unknown: Vec<_> =
+        menus.iter().filter(|entry| !palette.iter().any(|title| names(entry, title))).collect();
+    assert!(unknown.is_empty(), "not in the palette: {unknown:?}");
+    for entry in
+        ["Undo Ctrl+Z", "Redo Ctrl+Shift+Z", "Larger brush ]", "Softer brush Shift+[", "Fit domain Home"]
+    {
+        assert!(menus.contains(entry), "{entry} is not shown with its key");
+    }
+}
+
+fn labels(window: &Window, role: Role) -> BTreeSet<String> {
+    window.get_all_by_role(role).filter_map(|node| node.accesskit_node().label()).collect()
+}
+
+#[test]
+fn escape_closes_what_is_open_first() {
+    let mut window = window();
+    key(&mut window, Modifiers::NONE, Key::Q);
+    click(&mut window, FREE, Modifiers::NONE);
+    choose(&mut window, "Help", "About Meshbrush");
+    assert!(window.query_by_label_contains("Maubach").is_some());
+    key(&mut window, Modifiers::NONE, Key::B);
+    assert_eq!(window.state().tools().tool, Tool::Query, "a dialog keeps the keys");
+    key(&mut window, Modifiers::NONE, Key::Escape);
+    assert!(window.query_by_label_contains("Maubach").is_none());
+    assert!(selected(&window).is_some(), "the queried triangle is let go by the next Escape");
+}

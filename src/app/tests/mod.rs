@@ -1,0 +1,296 @@
+//! The window driven as a person drives it, by role and label, without a display. Most tests need no graphics driver.
+
+#[cfg(unix)]
+mod background;
+mod budget;
+mod domain;
+mod files;
+mod gallery;
+mod keys;
+mod long_work;
+mod menus;
+mod painting;
+mod pictures;
+mod project;
+mod query;
+mod settings;
+mod view;
+
+use std::fs;
+use std::path::PathBuf;
+use std::time::{Duration, Instant};
+
+use eframe::App as _;
+use eframe::egui::accesskit::Role;
+use eframe::egui::{self, Event, Key, Modifiers, PointerButton, Pos2, Rect, Vec2, pos2, vec2};
+use egui_kittest::Harness;
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use glam::{DVec2, dvec2};
+
+use crate::app::command::Command;
+use crate::app::{App, CANVAS_NAME};
+use crate::document::{Document, Setting, Settings};
+use crate::mesh::{Fingerprint, TriangleId};
+
+type Window = Harness<'static, App>;
+
+/// Where tests write files.
+const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/target/tmp");
+/// Room for every section of the side panel at once, so that nothing must be scrolled to.
+const TALL: Vec2 = vec2(1440.0, 1900.0);
+
+/// Off the canvas, over nothing.
+const RESTING_PLACE: Pos2 = pos2(600.0, 10.0);
+
+/// In the first example: free of paint, and far from it.
+const FREE: DVec2 = dvec2(0.9, 0.5);
+
+const CTRL_SHIFT: Modifiers = Modifiers { shift: true, ..Modifiers::COMMAND };
+
+fn window() -> Window {
+    window_of(vec2(1440.0, 900.0))
+}
+
+fn window_of(size: Vec2) -> Window {
+    let mut window = Harness::builder()
+        .with_size(size)
+        .with_max_steps(4000)
+        .build_eframe(|cc| App::new(&cc.egui_ctx, cc.wgpu_render_state.as_ref()).unwrap());
+    window.run();
+    window
+}
+
+fn send(window: &mut Window, command: Command) {
+    window.state_mut().send(command);
+    window.run();
+}
+
+fn set(window: &mut Window, setting: Setting) {
+    window.state_mut().send(Command::Set(setting));
+    send(window, Command::EndGesture);
+}
+
+fn canvas(window: &Window) -> Rect {
+    window.get_by_role_and_label(Role::Image, CANVAS_NAME).rect()
+}
+
+/// Where a point of the world is on the screen.
+fn on_screen(window: &Window, world: DVec2) -> Pos2 {
+    let px = window.state().view().camera.unwrap().screen_from_world(world);
+    canvas(window).min + vec2(px.x as f32, px.y as f32)
+}
+
+/// What point of the world is at a place on the screen.
+fn in_world(window: &Window, at: Pos2) -> DVec2 {
+    let px = at - canvas(window).min;
+    window.state().view().camera.unwrap().world_from_screen(dvec2(px.x.into(), px.y.into()))
+}
+
+fn button_event(pos: Pos2, button: PointerButton, pressed: bool, modifiers: Modifiers) -> Event {
+    Event::PointerButton { pos, button, pressed, modifiers }
+}
+
+fn press(window: &mut Window, world: DVec2, modifiers: Modifiers) {
+    let pos = on_screen(window, world);
+    press_at(window, pos, PointerButton::Primary, modifiers);
+}
+
+fn press_at(window: &mut Window, pos: Pos2, button: PointerButton, modifiers: Modifiers) {
+    window.event(Event::ModifiersChanged(modifiers));
+    window.event(Event::PointerMoved(pos));
+    window.event(button_event(pos, button, true, modifiers));
+    window.run();
+}
+
+fn move_to(window: &mut Window, world: DVec2) {
+    let pos = on_screen(window, world);
+    window.event(Event::PointerMoved(pos));
+    window.run();
+}
+
+fn release(window: &mut Window, world: DVec2) {
+    let pos = on_screen(window, world);
+    release_at(window, pos, PointerButton::Primary);
+}
+
+fn release_at(window: &mut Window, pos: Pos2, button: PointerButton) {
+    window.event(button_event(pos, button, false, Modifiers::NONE));
+    window.event(Event::ModifiersChanged(Modifiers::NONE));
+    window.run();
+}
+
+fn click(window: &mut Window, world: DVec2, modifiers: Modifiers) {
+    press(window, world, modifiers);
+    release(window, world);
+}
+
+fn stroke(window: &mut Window, from: DVec2, to: DVec2) {
+    press(window, from, Modifiers::NONE);
+    for i in 1..=5 {
+        move_to(window, from.lerp(to, f64::from(i) / 5.0));
+    }
+    release(window, to);
+}
+
+fn key(window: &mut Window, modifiers: Modifiers, key: Key) {
+    window.key_press_modifiers(modifiers, key);
+    window.run();
+}
+
+/// A press of Tab as the window passes it on: before egui moves the focus by it.
+fn press_tab(window: &mut Window) {
+    let tab = Event::Key {
+        key: Key::Tab,
+        physical_key: None,
+        pressed: true,
+        repeat: false,
+        modifiers: Modifiers::NONE,
+    };
+    let mut raw = egui::RawInput { events: vec![tab], ..Default::default() };
+    let ctx = window.ctx.clone();
+    window.state_mut().raw_input_hook(&ctx, &mut raw);
+    for event in raw.events {
+        window.event(event);
+    }
+    window.run();
+}
+
+fn triangles(window: &Window) -> usize {
+    window.state().session().mesh().triangles().len()
+}
+
+fn fingerprint(window: &Window) -> Fingerprint {
+    window.state().session().mesh().fingerprint()
+}
+
+fn settings(window: &Window) -> &Settings {
+    window.state().session().document().settings()
+}
+
+fn entries(window: &Window) -> usize {
+    window.state().session().document().history().len()
+}
+
+fn notice(window: &Window) -> String {
+    window.state().session().notice().map_or(String::new(), |notice| notice.text.clone())
+}
+
+/// The level of the triangle round a point.
+fn level_at(window: &Window, world: DVec2) -> u32 {
+    let mesh = window.state().session().mesh();
+    mesh.triangle(mesh.locate(world).triangle().expect("a point of the domain")).level()
+}
+
+fn selected(window: &Window) -> Option<TriangleId> {
+    let readout = window.state().session().readout(window.state().view().quantity)?;
+    readout.location.triangle()
+}
+
+fn open_section(window: &mut Window, title: &str) {
+    let named = window.get_all_by_role_and_label(Role::Button, title);
+    let header = named.max_by(|a, b| a.rect().left().total_cmp(&b.rect().left())).unwrap();
+    if header.accesskit_node().data().is_expanded() != Some(true) {
+        header.click();
+        window.run();
+    }
+}
+
+fn type_into(window: &mut Window, name: &str, text: &str) {
+    window.get_by_role_and_label(Role::TextInput, name).focus();
+    window.run();
+    key(window, Modifiers::COMMAND, Key::A);
+    window.get_by_role_and_label(Role::TextInput, name).type_text(text);
+    window.run();
+    key(window, Modifiers::NONE, Key::Enter);
+}
+
+fn choose(window: &mut Window, menu: &str, entry: &str) {
+    open_menu(window, menu);
+    window.get_by_role_and_label(Role::Button, entry).click();
+    window.run();
+}
+
+/// Opens a menu of the bar; sections of the panel may have the same name.
+fn open_menu(window: &mut Window, menu: &str) {
+    let named = window.get_all_by_role_and_label(Role::Button, menu);
+    named.min_by(|a, b| a.rect().top().total_cmp(&b.rect().top())).unwrap().click();
+    window.run();
+}
+
+fn value_of(window: &Window, role: Role, name: &str) -> String {
+    window.get_by_role_and_label(role, name).value().unwrap_or_default()
+}
+
+fn wheel(window: &mut Window, at: Pos2, delta: f32) {
+    window.event(Event::PointerMoved(at));
+    window.event(Event::MouseWheel {
+        unit: egui::MouseWheelUnit::Point,
+        delta: vec2(0.0, delta),
+        modifiers: Modifiers::NONE,
+        phase: egui::TouchPhase::Move,
+        source: egui::MouseWheelSource::Wheel,
+    });
+    window.run();
+}
+
+/// Area of the mesh.
+fn area(window: &Window) -> f64 {
+    window.state().session().mesh().area()
+}
+
+fn scratch(name: &str) -> PathBuf {
+    PathBuf::from(FOLDER).join(name)
+}
+
+/// Runs frames until work off the thread has been heard of.
+fn wait_until(window: &mut Window, done: impl Fn(&Window) -> bool) {
+    for _ in 0..1000 {
+        window.run();
+        if done(window) {
+            return;
+        }
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    panic!("it did not happen");
+}
+
+fn wait_for_notice(window: &mut Window) -> String {
+    let patience = Instant::now() + Duration::from_secs(20);
+    while notice(window).is_empty() {
+        assert!(Instant::now() < patience, "nothing was told");
+        std::thread::sleep(Duration::from_millis(5));
+        window.run();
+    }
+    notice(window)
+}
+
+/// The tag beside the brush ring.
+fn price_tag(window: &Window) -> Option<String> {
+    let mut tags = window.query_all_by_role(Role::Label).filter_map(|node| node.accesskit_node().value());
+    tags.find(|label| {
+        ["+", "−", "over", "frees", "no change", "counting"].iter().any(|start| label.starts_with(start))
+    })
+}
+
+fn hover(window: &mut Window, world: DVec2) -> Option<String> {
+    move_to(window, world);
+    price_tag(window)
+}
+/// An empty folder of its own for each test `name` of the file `of`.
+fn folder(of: &str, name: &str) -> PathBuf {
+    let folder = scratch(of).join(name);
+    let _ = fs::remove_dir_all(&folder); // absent at the first run
+    fs::create_dir_all(&folder).unwrap();
+    folder
+}
+
+/// A short vertical stroke at an x of the unit square.
+fn paint(window: &mut Window, x: f64) {
+    send(window, Command::BeginStroke(dvec2(x, 0.5)));
+    send(window, Command::DrawTo(dvec2(x, 0.6)));
+    send(window, Command::EndStroke);
+}
+
+fn document(window: &Window) -> &Document {
+    window.state().session().document()
+}

@@ -1,0 +1,108 @@
+//! What is drawn, judged by its picture.
+
+use std::sync::Arc;
+
+use eframe::egui::{Key, Modifiers, Pos2, vec2};
+use egui_kittest::Harness;
+use glam::dvec2;
+
+use super::{FREE, RESTING_PLACE, Window, canvas, choose, key, on_screen, scratch, send, stroke};
+use crate::app::App;
+use crate::app::command::Command;
+use crate::app::view::FieldOverlay;
+
+/// A window whose canvas is drawn, on the software driver. Slower: only for what is judged by its picture.
+fn drawn_window() -> Window {
+    let mut setup = egui_kittest::wgpu::default_wgpu_setup();
+    if let eframe::egui_wgpu::WgpuSetup::CreateNew(create) = &mut setup {
+        create.device_descriptor = Arc::new(crate::render::gpu::device_descriptor);
+    }
+    let mut window = Harness::builder()
+        .with_size(vec2(1100.0, 700.0))
+        .with_max_steps(4000)
+        .with_render_cursor(false)
+        .wgpu_setup(setup)
+        .build_eframe(|cc| App::new(&cc.egui_ctx, cc.wgpu_render_state.as_ref()).unwrap());
+    window.run();
+    window
+}
+
+/// What the window looks like: rows from the top, four bytes a pixel.
+struct Picture {
+    width: usize,
+    rgba: Vec<u8>,
+}
+
+fn picture(window: &mut Window) -> Picture {
+    let image = window.render().unwrap();
+    Picture { width: image.width() as usize, rgba: image.into_raw() }
+}
+
+fn pixel(picture: &Picture, at: Pos2) -> [u8; 3] {
+    let start = 4 * (at.y.round() as usize * picture.width + at.x.round() as usize);
+    picture.rgba[start..start + 3].try_into().unwrap()
+}
+
+fn is_colorful([r, g, b]: [u8; 3]) -> bool {
+    r.max(g).max(b) - r.min(g).min(b) > 40
+}
+
+/// How many pixels within `radius` points of `middle` are coloured as a refined level.
+fn colorful(image: &Picture, middle: Pos2, radius: i32) -> usize {
+    let offsets = (-radius..=radius).flat_map(|y| (-radius..=radius).map(move |x| vec2(x as f32, y as f32)));
+    offsets.filter(|offset| is_colorful(pixel(image, middle + *offset))).count()
+}
+
+#[test]
+fn a_stroke_is_seen_on_the_canvas_and_gone_after_undo() {
+    let mut window = drawn_window();
+    let at = on_screen(&window, FREE);
+    window.hover_at(RESTING_PLACE);
+    window.run();
+    let empty = picture(&mut window);
+    assert_eq!(colorful(&empty, at, 20), 0);
+    stroke(&mut window, FREE, FREE);
+    window.hover_at(RESTING_PLACE);
+    window.run();
+    let painted = picture(&mut window);
+    assert!(colorful(&painted, at, 20) > 1000);
+    let hovered = window.state().view().clone();
+    key(&mut window, Modifiers::COMMAND, Key::Z);
+    window.run();
+    let undone = picture(&mut window);
+    assert_eq!(colorful(&undone, at, 20), 0);
+    assert_eq!(hovered.camera, window.state().view().camera);
+}
+
+#[test]
+fn an_overlay_and_the_light_theme_are_seen_on_the_canvas() {
+    let mut window = drawn_window();
+    window.hover_at(RESTING_PLACE);
+    window.run();
+    let at = on_screen(&window, dvec2(0.72, 0.74));
+    let plain = picture(&mut window);
+    send(&mut window, Command::Overlay(FieldOverlay::Risk));
+    let [r, g, _] = pixel(&picture(&mut window), at);
+    assert!(r > g, "risk is warm");
+    send(&mut window, Command::Overlay(FieldOverlay::Risk));
+    assert_eq!(pixel(&picture(&mut window), at), pixel(&plain, at), "the same command takes it away");
+    choose(&mut window, "View", "Light theme");
+    let light = picture(&mut window);
+    let corner = canvas(&window).left_top() + vec2(3.0, 3.0);
+    assert!(pixel(&plain, corner)[0] < 40 && pixel(&light, corner)[0] > 180);
+}
+
+#[test]
+fn the_screenshots_are_the_same_every_time() {
+    let take = |name: &str| {
+        let folder = scratch(name);
+        let files = crate::app::write_screenshots(&folder).unwrap();
+        files.iter().map(|file| std::fs::read(file).unwrap()).collect::<Vec<_>>()
+    };
+    let (first, second) = std::thread::scope(|scope| {
+        let second = scope.spawn(|| take("screenshots-2"));
+        (take("screenshots-1"), second.join().unwrap())
+    });
+    assert_eq!(first.len(), 9);
+    assert!(first == second, "the same commands, another picture");
+}

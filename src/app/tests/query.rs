@@ -1,0 +1,94 @@
+//! The query tool and the inspector.
+
+use eframe::egui::accesskit::Role;
+use eframe::egui::{Key, Modifiers};
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use glam::dvec2;
+
+use super::{TALL, click, entries, key, selected, send, value_of, window, window_of};
+use crate::app::command::Command;
+use crate::app::tools::Tool;
+use crate::document::Example;
+use crate::mesh::Location;
+
+#[test]
+fn a_click_shows_the_triangle_and_each_chip_goes_to_its_neighbour() {
+    let mut window = window_of(TALL);
+    assert!(window.query_by_label_contains("Nothing asked yet").is_some());
+    key(&mut window, Modifiers::NONE, Key::Q);
+    click(&mut window, dvec2(0.71, 0.735), Modifiers::NONE);
+    let mesh = window.state().session().mesh();
+    let expected = mesh.locate(dvec2(0.71, 0.735)).triangle().unwrap();
+    let start = selected(&window).expect("a triangle under the pointer");
+    assert_eq!(start, expected);
+    let level = mesh.triangle(start).level();
+    let shown = value_of(&window, Role::Definition, "Level · orientation");
+    assert!(shown.starts_with(&format!("{level} · ")), "{shown}");
+    assert_eq!(entries(&window), 0, "a question is no edit");
+
+    for (i, name) in ["Bisection neighbour", "Second neighbour", "Third neighbour"].iter().enumerate() {
+        send(&mut window, Command::QueryTriangle(start));
+        let there = window.state().session().mesh().triangle(start).neighbours[i].triangle().unwrap();
+        window.get_by_role_and_label(Role::Button, name).click();
+        window.run();
+        assert_eq!(selected(&window), Some(there), "{name}");
+    }
+    key(&mut window, Modifiers::NONE, Key::Escape);
+    assert_eq!(selected(&window), None, "Escape lets go");
+    assert!(window.query_by_label_contains("Nothing asked yet").is_some());
+}
+
+#[test]
+fn the_inspector_counts_as_files_do() {
+    let mut window = window_of(TALL);
+    send(&mut window, Command::OpenExample(Example::Aegean));
+    send(&mut window, Command::Use(Tool::Query));
+    send(&mut window, Command::Query(dvec2(25.25, 38.1)));
+    window.run();
+    let mesh = window.state().session().mesh();
+    let (id, extract) = (selected(&window).expect("a triangle of the sea"), mesh.extract());
+    let place = extract.place_of(id).unwrap();
+    assert_ne!(place, id, "triangles on land come before it");
+    let shown = |number: usize| crate::app::widgets::format::count(number as u64);
+    let title = format!("Triangle {}", shown(place.index()));
+    window.get_by_role_and_label(Role::Button, &title);
+    for (i, (node, subscript)) in
+        extract.triangles()[place.index()].vertices.iter().zip(["₁", "₂", "₃"]).enumerate()
+    {
+        let row = value_of(&window, Role::Definition, &format!("v{subscript} · {}", shown(node.index())));
+        let corner = mesh.world_corners(id)[i];
+        assert!(row.starts_with(&format!("{:.2}", corner.x)), "{row} at {corner}");
+    }
+    let across = mesh.neighbours_in_domain(id).map(|n| n.triangle().unwrap());
+    let chips = across.map(|id| shown(extract.place_of(id).unwrap().index()));
+    for (name, number) in ["Bisection neighbour", "Second neighbour", "Third neighbour"].iter().zip(chips) {
+        assert_eq!(value_of(&window, Role::Button, name), number, "{name}");
+    }
+}
+
+#[test]
+fn a_click_outside_the_domain_says_so() {
+    let mut window = window();
+    key(&mut window, Modifiers::NONE, Key::Q);
+    click(&mut window, dvec2(-0.1, 0.5), Modifiers::NONE);
+    let readout = window.state().session().readout(window.state().view().quantity).unwrap();
+    assert_eq!(readout.triangle, None);
+    assert_eq!(readout.location, Location::OutsideBounds);
+    assert!(window.query_by_label_contains("No triangle here").is_some());
+}
+
+#[test]
+fn a_chip_at_the_edge_of_the_domain_goes_nowhere() {
+    let mut window = window_of(TALL);
+    let mesh = window.state().session().mesh();
+    let id = mesh.locate(dvec2(0.02, 0.99)).triangle().unwrap();
+    let missing = mesh.triangle(id).neighbours.iter().position(|n| n.triangle().is_none()).unwrap();
+    send(&mut window, Command::QueryTriangle(id));
+    let name = ["Bisection neighbour", "Second neighbour", "Third neighbour"][missing];
+    let chip = window.get_by_role_and_label(Role::Button, name);
+
+    assert!(chip.accesskit_node().is_disabled());
+    chip.click();
+    window.run();
+    assert_eq!(selected(&window), Some(id));
+}

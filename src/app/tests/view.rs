@@ -1,0 +1,149 @@
+//! Zoom, panels, theme and layout.
+
+use eframe::egui::accesskit::Role;
+use eframe::egui::{Event, Key, Modifiers, PointerButton, Pos2, Rect, pos2, vec2};
+use egui_kittest::kittest::Queryable as _;
+use glam::dvec2;
+
+use super::{
+    RESTING_PLACE, TALL, Window, canvas, choose, entries, in_world, key, on_screen, open_section, press_at,
+    press_tab, release_at, send, settings, wheel, window, window_of,
+};
+use crate::app::command::Command;
+use crate::colormap::Ground;
+
+#[test]
+fn the_wheel_zooms_at_the_pointer() {
+    let mut window = window();
+    let at = on_screen(&window, dvec2(0.3, 0.7));
+    for delta in [50.0, 50.0, -150.0] {
+        let (before, scale) = (in_world(&window, at), window.state().view().camera.unwrap().px_per_world());
+        wheel(&mut window, at, delta);
+        let now = window.state().view().camera.unwrap().px_per_world();
+        assert!(if delta > 0.0 { now > 1.1 * scale } else { now < 0.9 * scale }, "{scale} to {now}");
+        let moved = in_world(&window, at).distance(before) * now;
+        assert!(moved < 1e-3, "the point under the pointer moved by {moved} pixels");
+    }
+}
+
+#[test]
+fn the_wheel_over_the_panel_does_not_zoom() {
+    let mut window = window();
+    let camera = window.state().view().camera;
+    wheel(&mut window, pos2(1300.0, 400.0), -80.0);
+    assert_eq!(window.state().view().camera, camera);
+}
+
+#[test]
+fn space_and_middle_drag_pan_and_home_fits() {
+    let mut window = window();
+    let fitted = window.state().view().camera;
+    let (from, to) = (canvas(&window).center(), canvas(&window).center() + vec2(120.0, -60.0));
+    let mut held = in_world(&window, from);
+    window.key_down(Key::Space);
+    press_at(&mut window, from, PointerButton::Primary, Modifiers::NONE);
+    window.event(Event::PointerMoved(to));
+    window.run();
+    release_at(&mut window, to, PointerButton::Primary);
+    window.key_up(Key::Space);
+    window.run();
+    assert!(in_world(&window, to).distance(held) < 1e-9, "the held point follows the pointer");
+    assert_eq!(entries(&window), 0, "nothing was painted");
+
+    held = in_world(&window, from);
+    press_at(&mut window, from, PointerButton::Middle, Modifiers::NONE);
+    window.event(Event::PointerMoved(to));
+    window.run();
+    release_at(&mut window, to, PointerButton::Middle);
+    assert!(in_world(&window, to).distance(held) < 1e-9);
+    assert_eq!(entries(&window), 0);
+
+    key(&mut window, Modifiers::NONE, Key::H);
+    held = in_world(&window, from);
+    press_at(&mut window, from, PointerButton::Primary, Modifiers::NONE);
+    window.event(Event::PointerMoved(to));
+    window.run();
+    release_at(&mut window, to, PointerButton::Primary);
+    assert!(in_world(&window, to).distance(held) < 1e-9, "the pan tool pans");
+
+    key(&mut window, Modifiers::NONE, Key::Home);
+    assert_eq!(window.state().view().camera, fitted);
+}
+
+#[test]
+fn the_hint_covers_nothing_of_a_fitted_domain() {
+    for size in [vec2(900.0, 600.0), vec2(1440.0, 900.0)] {
+        let window = window_of(size);
+        let hint = window.get_by_label_contains("Drag to paint risk").rect();
+        let rim = on_screen(&window, dvec2(0.5, 0.0));
+        assert!(rim.y < hint.top() && hint.bottom() < canvas(&window).bottom(), "{rim} behind {hint}");
+    }
+}
+
+#[test]
+fn tab_hides_the_panels_and_brings_them_back() {
+    let mut window = window();
+    let narrow = canvas(&window);
+    press_tab(&mut window);
+    assert!(!window.state().view().panels);
+    assert!(canvas(&window).width() > narrow.width() + 300.0);
+    assert!(window.query_by_label("Levels").is_none());
+    press_tab(&mut window);
+    assert_eq!(canvas(&window), narrow);
+}
+
+#[test]
+fn a_hovered_level_is_shown_alone_and_hiding_the_panels_ends_that() {
+    let mut window = window();
+    let legend = |window: &Window, level: u32| {
+        let count = window.state().session().level_counts()[level as usize];
+        let count = crate::app::widgets::format::count(count as u64);
+        window.get_by_label(&format!("Level {level}: {count} triangles")).rect().center()
+    };
+    let style = |window: &Window| window.state().view().style(settings(window), 1.0).shown_levels;
+    assert_eq!(style(&window), u64::MAX);
+    for level in [4, 7] {
+        window.hover_at(legend(&window, level));
+        window.run();
+        assert_eq!(style(&window), 1 << level);
+    }
+    press_tab(&mut window);
+    assert_eq!(style(&window), u64::MAX, "no legend, no lone level");
+    press_tab(&mut window);
+    window.hover_at(RESTING_PLACE);
+    window.run();
+    assert_eq!(style(&window), u64::MAX);
+}
+
+#[test]
+fn the_theme_switches_by_menu_and_by_panel() {
+    let mut window = window_of(TALL);
+    assert_eq!(window.state().view().ground, Ground::Dark);
+    choose(&mut window, "View", "Light theme");
+    assert_eq!(window.state().view().ground, Ground::Light);
+    open_section(&mut window, "View");
+    window.get_by_role_and_label(Role::RadioButton, "Dark").click();
+    window.run();
+    assert_eq!(window.state().view().ground, Ground::Dark);
+}
+
+#[test]
+fn the_bars_have_room_for_what_they_show_at_any_width() {
+    for width in [900.0, 940.0, 1000.0, 1100.0, 1440.0] {
+        for zoom in [1.0, 1e6] {
+            let mut window = window_of(vec2(width, 600.0));
+            window.hover_at(canvas(&window).center());
+            send(&mut window, Command::Zoom(zoom));
+            let screen = Rect::from_min_size(Pos2::ZERO, vec2(width, 600.0));
+            let bottom = window.get_all_by_role(Role::Definition).filter(|cell| cell.rect().top() > 570.0);
+            let cells: Vec<Rect> = bottom.map(|cell| cell.rect()).collect();
+            assert!(cells.len() >= 5, "{} cells at {width}", cells.len());
+            for (i, cell) in cells.iter().enumerate() {
+                assert!(screen.contains_rect(*cell), "{cell:?} at {width}");
+                assert!(cells[..i].iter().all(|other| !other.intersects(*cell)), "{cells:?} at {width}");
+            }
+            let right = cells.iter().map(|cell| cell.right()).fold(0.0, f32::max);
+            assert!((width - 16.0 - right).abs() < 1.0, "the last cell ends with the panel, not at {right}");
+        }
+    }
+}
