@@ -1,13 +1,14 @@
 //! The mesh of Figure 1 of the report (Section 5.4) on [−10, 10]², which the benches of the core build.
 
 use glam::DVec2;
-use meshbrush::geometry::{LatticePoint, Rect};
+use meshbrush::geometry::{Lattice, LatticePoint, Rect};
 use meshbrush::mesh::{Element, InvalidTarget, Limits, Mesh, bisection_edge_length};
 
 /// The coarse grid of 20 × 20 cells.
 pub fn coarse() -> Mesh {
     let bounds = Rect::around(DVec2::ZERO, 10.0);
-    Mesh::coarse_grid(bounds, 1.0, |_| true, &Limits::default()).expect("a square has a grid")
+    let lattice = Lattice::covering(bounds, 1.0, 1_000_000).expect("a square has a grid");
+    Mesh::coarse_grid(&lattice, |_| true, &Limits::default()).expect("within the default limits")
 }
 
 /// The report's rule (Eqs. 12 and 13): `level` everywhere in the diamond ‖x‖₁ < 8, seen at the vertices.

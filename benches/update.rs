@@ -12,7 +12,7 @@ use std::time::{Duration, Instant};
 
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, BenchmarkId, Criterion, SamplingMode, Throughput};
-use meshbrush::geometry::{LatticePoint, LatticeRect, Rect};
+use meshbrush::geometry::{Lattice, LatticePoint, LatticeRect, Rect};
 use meshbrush::mesh::{Element, Forecast, InvalidTarget, Limits, Mesh, Progress, Refiner, Updater};
 use meshbrush::raster::{MaxMipmap, PixelRect, RasterOnLattice};
 
@@ -36,8 +36,9 @@ struct Scene {
 impl Scene {
     /// The right half asks for `level` below the given row, which determines the size of the mesh.
     fn new(level: u8, rows: u32) -> Self {
+        let lattice = Lattice::covering(Rect::UNIT, 1.0 / 16.0, 1_000_000).expect("a square has a grid");
         let coarse =
-            Mesh::coarse_grid(Rect::UNIT, 1.0 / 16.0, |_| true, &Limits::default()).expect("a square");
+            Mesh::coarse_grid(&lattice, |_| true, &Limits::default()).expect("within the default limits");
         let mut levels = MaxMipmap::filled([SIDE; 2], 0);
         levels.update(PixelRect { min: [SIDE / 2 + 1, 0], max: [SIDE, rows] }, |_, _| level);
         // The same finest pixel in every mesh: the rule returns early where nothing is finer than a triangle.

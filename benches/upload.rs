@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use glam::DVec2;
-use meshbrush::geometry::Rect;
+use meshbrush::geometry::{Lattice, Rect};
 use meshbrush::mesh::{Limits, Mesh};
 use meshbrush::scene::{Camera, LEVELS, Style};
 
@@ -18,7 +18,12 @@ fn meshes() -> Vec<(&'static str, Mesh)> {
 }
 
 fn graded(least: f64) -> Mesh {
-    let mut mesh = Mesh::coarse_grid(Rect::UNIT, 0.05, |_| true, &Limits::default()).unwrap();
+    let mut mesh = Mesh::coarse_grid(
+        &Lattice::covering(Rect::UNIT, 0.05, 1_000_000).unwrap(),
+        |_| true,
+        &Limits::default(),
+    )
+    .unwrap();
     mesh.refine(&Limits::default(), |element| {
         let off = |x: DVec2| (x.y - 0.5 - 0.3 * (6.0 * x.x).sin()).abs();
         let nearest = element.world_corners().map(off).into_iter().fold(f64::MAX, f64::min);

@@ -143,7 +143,7 @@ fn fitted(
     let limits = Limits::default();
     let lattice = Lattice::covering(domain.bounds, spacing, limits.max_triangles).unwrap();
     let laid = DomainOnLattice::new(domain, boundary, &lattice);
-    let mut mesh = Mesh::coarse_grid(domain.bounds, spacing, |node| laid.admits(node), &limits).unwrap();
+    let mut mesh = Mesh::coarse_grid(&lattice, |node| laid.admits(node), &limits).unwrap();
     mesh.refine(&limits, |element| laid.exceeds(element, &by_field)).unwrap();
     mesh.sort_out(0..mesh.triangles().len(), |element| laid.excludes(element));
     assert_eq!(mesh.violations(), []);

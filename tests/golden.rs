@@ -3,13 +3,15 @@
 mod closure;
 
 use glam::DVec2;
-use meshbrush::geometry::{LatticePoint, Rect};
+use meshbrush::geometry::{Lattice, LatticePoint, Rect};
 use meshbrush::mesh::{Limits, Mesh, bisection_edge_length, fingerprint_of};
 
 /// The mesh of Figure 1 on [−10, 10]², where every coordinate is exact, with the report's vertex rule (Eq. 12).
 fn diamond(target: f64) -> Mesh {
     let bounds = Rect::around(DVec2::ZERO, 10.0);
-    let mut mesh = Mesh::coarse_grid(bounds, 1.0, |_| true, &Limits::default()).unwrap();
+    let mut mesh =
+        Mesh::coarse_grid(&Lattice::covering(bounds, 1.0, 1_000_000).unwrap(), |_| true, &Limits::default())
+            .unwrap();
     mesh.refine(&Limits::default(), |element| {
         let inside = element.world_corners().iter().any(|x| x.x.abs() + x.y.abs() < 8.0);
         Ok(element.diameter() > if inside { target } else { 20.0 })

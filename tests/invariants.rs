@@ -2,13 +2,18 @@
 
 use fastrand::Rng;
 use glam::{DVec2, dvec2};
-use meshbrush::geometry::Rect;
+use meshbrush::geometry::{Lattice, Rect};
 use meshbrush::mesh::{Element, InvalidTarget, Limits, Mesh, RefineError, Refiner, TriangleId};
 
 /// The unit square in 4 × 4 cells, without a corner and a node inside, so that diagonals are on the boundary.
 fn with_a_hole() -> Mesh {
     let removed = [DVec2::ZERO, dvec2(0.5, 0.75)];
-    Mesh::coarse_grid(Rect::UNIT, 0.25, |p| !removed.contains(&p), &Limits::default()).unwrap()
+    Mesh::coarse_grid(
+        &Lattice::covering(Rect::UNIT, 0.25, 1_000_000).unwrap(),
+        |p| !removed.contains(&p),
+        &Limits::default(),
+    )
+    .unwrap()
 }
 
 /// Target diameters that grow with the distance from a few points; an edit moves one, adds one or takes one away.
@@ -166,7 +171,12 @@ fn the_lattice_ends_with_an_error_at_its_deepest_level() {
         (0.01, Rect::UNIT),
         (1.0, Rect::new(dvec2(1e9, 1e9), dvec2(1e9 + 4.0, 1e9 + 3.0))),
     ] {
-        let mut mesh = Mesh::coarse_grid(bounds, spacing, |_| true, &Limits::default()).unwrap();
+        let mut mesh = Mesh::coarse_grid(
+            &Lattice::covering(bounds, spacing, 1_000_000).unwrap(),
+            |_| true,
+            &Limits::default(),
+        )
+        .unwrap();
         let corner = mesh.lattice().extent();
         let deepest = mesh.lattice().deepest_level();
         let at_corner = |element: &Element| element.corners.contains(&corner);
@@ -183,7 +193,12 @@ fn the_lattice_ends_with_an_error_at_its_deepest_level() {
 #[test]
 #[should_panic(expected = "leave the lattice")]
 fn a_call_below_the_deepest_level_panics() {
-    let mut mesh = Mesh::coarse_grid(Rect::UNIT, 1.0, |_| true, &Limits::default()).unwrap();
+    let mut mesh = Mesh::coarse_grid(
+        &Lattice::covering(Rect::UNIT, 1.0, 1_000_000).unwrap(),
+        |_| true,
+        &Limits::default(),
+    )
+    .unwrap();
     for _ in 0..=mesh.lattice().deepest_level() {
         mesh.refine_triangle(TriangleId::from_index(0));
     }

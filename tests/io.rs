@@ -6,7 +6,7 @@ use std::io::Read;
 use flate2::read::ZlibDecoder;
 use glam::{DVec2, dvec2};
 use meshbrush::colormap::{Colormap, Ground, LevelColors};
-use meshbrush::geometry::Rect;
+use meshbrush::geometry::{Lattice, Rect};
 use meshbrush::io::{MeshData, NodeValues, csv, msh, node, obj, sms, stl, svg, vtu};
 use meshbrush::mesh::{Extract, Limits, Mesh, NodeId};
 
@@ -32,7 +32,9 @@ struct Sample {
 impl Sample {
     fn new(bounds: Rect, spacing: f64, inside: impl Fn(DVec2) -> bool, finest: f64) -> Self {
         let limits = Limits::default();
-        let mut mesh = Mesh::coarse_grid(bounds, spacing, inside, &limits).unwrap();
+        let mut mesh =
+            Mesh::coarse_grid(&Lattice::covering(bounds, spacing, 1_000_000).unwrap(), inside, &limits)
+                .unwrap();
         let focus = bounds.min + 0.3 * bounds.size();
         let target = |p: DVec2| finest + 0.3 * (p - focus).length();
         mesh.refine(&limits, |e| Ok(e.world_corners().iter().any(|&p| e.diameter() > target(p)))).unwrap();

@@ -9,7 +9,7 @@ use std::collections::{BTreeSet, HashMap};
 
 use fastrand::Rng;
 use glam::{DVec2, dvec2};
-use meshbrush::geometry::{LatticePoint, Rect};
+use meshbrush::geometry::{Lattice, LatticePoint, Rect};
 use meshbrush::mesh::{
     Limits, Location, Locator, Mesh, NodeId, TriangleId, barycentric, bisection_edge_length, interpolate,
 };
@@ -167,7 +167,12 @@ fn refined(mut mesh: Mesh, level: u32, towards: &[DVec2]) -> Mesh {
 
 fn subjects() -> Vec<(&'static str, Subject)> {
     let grid = |bounds, spacing, contains: &dyn Fn(DVec2) -> bool| {
-        Mesh::coarse_grid(bounds, spacing, contains, &Limits::default()).unwrap()
+        Mesh::coarse_grid(
+            &Lattice::covering(bounds, spacing, 1_000_000).unwrap(),
+            contains,
+            &Limits::default(),
+        )
+        .unwrap()
     };
     let everywhere = |_: DVec2| true;
     let not = |removed: &'static [(u32, u32)], cells: f64| {

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use meshbrush::document::{Base, Example};
-use meshbrush::geometry::Rect;
+use meshbrush::geometry::{Lattice, Rect};
 use meshbrush::io::png::{Behind, read_metered as read_png};
 use meshbrush::io::project::{self, Project};
 use meshbrush::io::{MeshData, MeshFormat, Meter, geojson, stl, vtu, write_file_metered};
@@ -35,7 +35,9 @@ fn files(folder: &Path) -> Vec<(String, Vec<u8>)> {
 /// A mesh of so many triangles that every format takes several blocks.
 fn mesh() -> (Mesh, Vec<f64>) {
     let limits = Limits::default();
-    let mut mesh = Mesh::coarse_grid(Rect::UNIT, 0.05, |_| true, &limits).unwrap();
+    let mut mesh =
+        Mesh::coarse_grid(&Lattice::covering(Rect::UNIT, 0.05, 1_000_000).unwrap(), |_| true, &limits)
+            .unwrap();
     mesh.refine(&limits, |element| Ok(element.diameter() > 0.01)).unwrap();
     let targets = vec![0.01; mesh.nodes().len()];
     (mesh, targets)

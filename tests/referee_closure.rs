@@ -5,7 +5,7 @@ mod closure;
 use closure::{Point, Triangle};
 use fastrand::Rng;
 use glam::{DVec2, dvec2};
-use meshbrush::geometry::{LatticePoint, Rect};
+use meshbrush::geometry::{Lattice, LatticePoint, Rect};
 use meshbrush::mesh::{Element, Fingerprint, InvalidTarget, Limits, Mesh, Progress, Refiner, fingerprint_of};
 
 /// A domain, a coarse grid and a rule, at random.
@@ -138,15 +138,15 @@ impl Case {
 
     fn coarse_mesh(&self) -> Option<Mesh> {
         // The grid is known to the domain test only through the places of its nodes.
-        let full = Mesh::coarse_grid(self.bounds, self.spacing, |_| true, &Limits::default()).unwrap();
-        let cells = full.lattice().cells().map(i64::from);
+        let lattice = Lattice::covering(self.bounds, self.spacing, 1_000_000).unwrap();
+        let cells = lattice.cells().map(i64::from);
         let contains = |p: DVec2| {
             let relative = (p - self.bounds.min) / self.bounds.size();
             let [column, row] =
                 [relative.x * cells[0] as f64, relative.y * cells[1] as f64].map(|x| x.round() as i64);
             self.hole.keeps(cells, column, row)
         };
-        Mesh::coarse_grid(self.bounds, self.spacing, contains, &Limits::default()).ok()
+        Mesh::coarse_grid(&lattice, contains, &Limits::default()).ok()
     }
 
     fn rule(&self) -> impl Fn(&Element) -> Result<bool, InvalidTarget> {

@@ -8,14 +8,19 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use glam::dvec2;
 use literal::{BETA, Node, Report};
-use meshbrush::geometry::Rect;
+use meshbrush::geometry::{Lattice, Rect};
 use meshbrush::mesh::{Limits, Location, Mesh, NodeId, Orientation, TriangleId};
 
 /// The same coarse mesh twice: grid nodes (column, row) of an N_e × N_e grid on the unit square without `removed`.
 fn coarse_pair(n_e: i64, removed: &[(i64, i64)]) -> (Mesh, Report) {
     let whole = |x: f64| (x * n_e as f64).round() as i64;
     let contains = |p: glam::DVec2| !removed.contains(&(whole(p.x), whole(p.y)));
-    let mesh = Mesh::coarse_grid(Rect::UNIT, 1.0 / n_e as f64, contains, &Limits::default()).unwrap();
+    let mesh = Mesh::coarse_grid(
+        &Lattice::covering(Rect::UNIT, 1.0 / n_e as f64, 1_000_000).unwrap(),
+        contains,
+        &Limits::default(),
+    )
+    .unwrap();
     assert_eq!(mesh.lattice().cells(), [n_e as u32; 2]);
     let delta = i64::from(mesh.lattice().cell_steps());
     let mut report = Report::initialise_mesh(n_e, delta, |[x, y]| !removed.contains(&(x / delta, y / delta)));

@@ -5,7 +5,7 @@
 #![cfg(feature = "gui")]
 
 use glam::{DVec2, dvec2};
-use meshbrush::geometry::{LatticePoint, LatticeRect, Rect};
+use meshbrush::geometry::{Lattice, LatticePoint, LatticeRect, Rect};
 use meshbrush::mesh::{Changes, Element, Limits, Mesh, Progress, Updater};
 use meshbrush::render::gpu::{ChunkLimits, GpuError, Offscreen};
 use meshbrush::render::{Image, software};
@@ -43,7 +43,12 @@ fn colors() -> ColorTable {
 /// Graded towards a curve, with a round hole.
 fn graded() -> Mesh {
     let contains = |p: DVec2| p.distance(dvec2(0.7, 0.3)) > 0.15;
-    let mut mesh = Mesh::coarse_grid(Rect::UNIT, 0.05, contains, &Limits::default()).unwrap();
+    let mut mesh = Mesh::coarse_grid(
+        &Lattice::covering(Rect::UNIT, 0.05, 1_000_000).unwrap(),
+        contains,
+        &Limits::default(),
+    )
+    .unwrap();
     mesh.refine(&Limits::default(), |element| {
         let near = |x: DVec2| (x.y - 0.5 - 0.3 * (6.0 * x.x).sin()).abs();
         let target = element.world_corners().map(near).into_iter().fold(f64::MAX, f64::min);
@@ -55,7 +60,12 @@ fn graded() -> Mesh {
 
 /// Refined to the last level of the lattice round one node.
 fn deep() -> (Mesh, LatticePoint) {
-    let mut mesh = Mesh::coarse_grid(Rect::UNIT, 0.3, |_| true, &Limits::default()).unwrap();
+    let mut mesh = Mesh::coarse_grid(
+        &Lattice::covering(Rect::UNIT, 0.3, 1_000_000).unwrap(),
+        |_| true,
+        &Limits::default(),
+    )
+    .unwrap();
     let deepest = mesh.lattice().deepest_level();
     let point = LatticePoint::new(0x2491_d3a7, 0x1b4c_8e35);
     mesh.refine(&Limits::default(), |element| {
@@ -145,7 +155,9 @@ fn pictures_agree_down_to_the_last_level() {
 fn pictures_agree_where_cells_are_not_square() {
     let Some(mut gpu) = gpu() else { return };
     let bounds = Rect::new(dvec2(-7.0, 3.0), dvec2(-5.96, 4.0));
-    let mut mesh = Mesh::coarse_grid(bounds, 0.6, |_| true, &Limits::default()).unwrap();
+    let mut mesh =
+        Mesh::coarse_grid(&Lattice::covering(bounds, 0.6, 1_000_000).unwrap(), |_| true, &Limits::default())
+            .unwrap();
     let step = mesh.lattice().step();
     assert!((step.x / step.y - 1.04).abs() < 1e-9, "{step}");
     mesh.refine(&Limits::default(), |element| {
@@ -221,7 +233,12 @@ fn a_mesh_in_many_chunks_looks_the_same() {
     assert!(matches!(refused, GpuError::TooManyNodes { .. }), "{refused}");
     assert!(small.picture(&camera, &style).is_ok(), "the canvas is still there");
 
-    let coarse = Mesh::coarse_grid(Rect::UNIT, 0.05, |_| true, &Limits::default()).unwrap();
+    let coarse = Mesh::coarse_grid(
+        &Lattice::covering(Rect::UNIT, 0.05, 1_000_000).unwrap(),
+        |_| true,
+        &Limits::default(),
+    )
+    .unwrap();
     small.show(&coarse, 3).unwrap();
     let former = small.picture(&camera, &style).unwrap();
     let mirror = small.renderer().mirror_mut();
@@ -259,7 +276,12 @@ fn the_former_mesh_stays_until_the_next_is_whole() {
 fn changed_ranges_bring_the_mesh_up_to_date() {
     let Some(gpu) = gpu() else { return };
     let mut gpu = gpu.with_chunks(ChunkLimits { triangles: 900, node_bits: 14 }).unwrap();
-    let mut mesh = Mesh::coarse_grid(Rect::UNIT, 0.05, |_| true, &Limits::default()).unwrap();
+    let mut mesh = Mesh::coarse_grid(
+        &Lattice::covering(Rect::UNIT, 0.05, 1_000_000).unwrap(),
+        |_| true,
+        &Limits::default(),
+    )
+    .unwrap();
     let (camera, style) = (whole(&mesh), Style::dark(colors()));
     for step in 0..12u64 {
         let before = mesh.clone();
@@ -271,7 +293,12 @@ fn changed_ranges_bring_the_mesh_up_to_date() {
         .unwrap();
         // The last step takes all back, as coarsening would.
         if step == 11 {
-            mesh = Mesh::coarse_grid(Rect::UNIT, 0.05, |_| true, &Limits::default()).unwrap();
+            mesh = Mesh::coarse_grid(
+                &Lattice::covering(Rect::UNIT, 0.05, 1_000_000).unwrap(),
+                |_| true,
+                &Limits::default(),
+            )
+            .unwrap();
         }
         let mirror = gpu.renderer().mirror_mut();
         mirror.write_ranges(&mesh, step, &differences(&before, &mesh)).unwrap();
@@ -303,7 +330,12 @@ fn edits_during_an_upload_do_not_hold_it_up_and_get_there() {
     let Some(gpu) = gpu() else { return };
     // Nodes in several buffers, triangles in one, which is exchanged for a larger one on the way.
     let mut gpu = gpu.with_chunks(ChunkLimits { triangles: 1 << 20, node_bits: 14 }).unwrap();
-    let mut mesh = Mesh::coarse_grid(Rect::UNIT, 0.2, |_| true, &Limits::default()).unwrap();
+    let mut mesh = Mesh::coarse_grid(
+        &Lattice::covering(Rect::UNIT, 0.2, 1_000_000).unwrap(),
+        |_| true,
+        &Limits::default(),
+    )
+    .unwrap();
     let coarse = mesh.clone();
     let square = |x, y, half| coarse.lattice().rect_around(&Rect::around(dvec2(x, y), half)).unwrap();
     let [first, second, third] = [(0.3, 0.3), (0.7, 0.6), (0.3, 0.75)].map(|(x, y)| square(x, y, 0.12));

@@ -7,7 +7,7 @@ use std::ops::Range;
 
 use fastrand::Rng;
 use glam::{DVec2, dvec2};
-use meshbrush::geometry::{LatticePoint, LatticeRect, Rect};
+use meshbrush::geometry::{Lattice, LatticePoint, LatticeRect, Rect};
 use meshbrush::mesh::{
     Changes, Element, Forecast, InvalidTarget, Limits, Mesh, Orientation, Progress, RefineError, Updater,
 };
@@ -80,7 +80,12 @@ fn domains() -> Vec<Mesh> {
     let grid = |w: f64, h: f64, spacing: f64, removed: &[(i32, i32)]| {
         let whole = |x: f64| (x / spacing).round() as i32;
         let contains = |p: DVec2| !removed.contains(&(whole(p.x), whole(p.y)));
-        Mesh::coarse_grid(Rect::new(DVec2::ZERO, dvec2(w, h)), spacing, contains, &Limits::default()).unwrap()
+        Mesh::coarse_grid(
+            &Lattice::covering(Rect::new(DVec2::ZERO, dvec2(w, h)), spacing, 1_000_000).unwrap(),
+            contains,
+            &Limits::default(),
+        )
+        .unwrap()
     };
     vec![
         grid(1.0, 1.0, 1.0, &[]),
@@ -300,7 +305,12 @@ fn a_forecast_says_when_a_target_is_finer_than_the_lattice() {
 
 /// A grid of 16 × 16 cells with one corner refined, and a disc far from there.
 fn with_a_far_corner(level: u32) -> (Mesh, Spot, Spot) {
-    let coarse = Mesh::coarse_grid(Rect::UNIT, 1.0 / 16.0, |_| true, &Limits::default()).unwrap();
+    let coarse = Mesh::coarse_grid(
+        &Lattice::covering(Rect::UNIT, 1.0 / 16.0, 1_000_000).unwrap(),
+        |_| true,
+        &Limits::default(),
+    )
+    .unwrap();
     let steps = i64::from(coarse.lattice().cell_steps());
     let corner = Spot { at: [0, 0], radius: 4 * steps, level };
     let dab = Spot { at: [12 * steps, 11 * steps], radius: steps / 2, level: 10 };
@@ -309,8 +319,7 @@ fn with_a_far_corner(level: u32) -> (Mesh, Spot, Spot) {
 
 /// The coarse mesh that a mesh without holes was refined from.
 fn coarse_of(mesh: &Mesh) -> Mesh {
-    let spacing = mesh.lattice().spacing();
-    Mesh::coarse_grid(mesh.lattice().bounds(), spacing, |_| true, &Limits::default()).unwrap()
+    Mesh::coarse_grid(mesh.lattice(), |_| true, &Limits::default()).unwrap()
 }
 
 #[test]

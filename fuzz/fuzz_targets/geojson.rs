@@ -27,7 +27,7 @@ fn check_mesh(domain: &Domain, boundary: BoundaryTreatment, spacing: f64) {
     let limits = Limits { max_triangles: MOST_TRIANGLES, ..Limits::default() };
     let Ok(lattice) = Lattice::covering(domain.bounds, spacing, MOST_TRIANGLES) else { return };
     let laid = DomainOnLattice::new(domain, boundary, &lattice);
-    let Ok(mut mesh) = Mesh::coarse_grid(domain.bounds, spacing, |node| laid.admits(node), &limits) else {
+    let Ok(mut mesh) = Mesh::coarse_grid(&lattice, |node| laid.admits(node), &limits) else {
         return;
     };
     // Where the budget ends it, the mesh must be whole all the same.

@@ -166,7 +166,7 @@ fn build_project(path: &Path, job: &Job, terminal: &mut Terminal) -> Result<Buil
     let limits = Limits { max_triangles, ..job.limits };
     let domain = settings.domain_on_lattice().map_err(CoarseError::from)?;
     let admits = |node| domain.admits(node);
-    let mut mesh = Mesh::coarse_grid(settings.domain.bounds, settings.spacing, admits, &limits)?;
+    let mut mesh = Mesh::coarse_grid(domain.lattice(), admits, &limits)?;
     let paint = document.paint().as_paint();
     let field = fill(settings.field_spec(), Some(paint), &mesh, terminal)?;
     let (target, refined) = match settings.rule {

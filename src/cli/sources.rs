@@ -99,14 +99,15 @@ fn domain(job: &Job, placed: &[Option<Raster>]) -> Result<Domain, Failure> {
 fn coarse_mesh(job: &Job, domain: &Domain) -> Result<(DomainOnLattice, Mesh), Failure> {
     let bounds = domain.bounds;
     let spacing = job.spacing.unwrap_or(bounds.size().max_element() / USUAL_CELLS);
-    let lattice = Lattice::covering(bounds, spacing, job.limits.max_triangles).map_err(CoarseError::from)?;
+    let lattice =
+        Lattice::covering(bounds, spacing, job.limits.most_triangles()).map_err(CoarseError::from)?;
     let boundary = match (job.fitted, job.boundary_diameter) {
         (false, _) => BoundaryTreatment::Report,
         (true, None) => BoundaryTreatment::usual(spacing),
         (true, Some(diameter)) => BoundaryTreatment::Fitted { diameter: resolvable(diameter, &lattice)? },
     };
     let domain = DomainOnLattice::new(domain, boundary, &lattice);
-    let mesh = Mesh::coarse_grid(bounds, spacing, |node| domain.admits(node), &job.limits)?;
+    let mesh = Mesh::coarse_grid(&lattice, |node| domain.admits(node), &job.limits)?;
     Ok((domain, mesh))
 }
 

@@ -110,7 +110,7 @@ impl Refining {
     fn new(settings: &Settings, domain: &DomainOnLattice) -> Result<Self, FollowError> {
         let limits = settings.limits();
         let admits = |node| domain.admits(node);
-        let mesh = Mesh::coarse_grid(settings.domain.bounds, settings.spacing, admits, &limits)?;
+        let mesh = Mesh::coarse_grid(domain.lattice(), admits, &limits)?;
         let refiner = Refiner::new(&mesh, limits);
         Ok(Self { mesh, refiner, refined: false, sorted: 0, known: Vec::new() })
     }

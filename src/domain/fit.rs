@@ -88,6 +88,11 @@ impl DomainOnLattice {
         Self { fitted, ..self.clone() }
     }
 
+    /// The lattice, for the coarse grid of a mesh of this domain.
+    pub fn lattice(&self) -> &Lattice {
+        &self.lattice
+    }
+
     /// Whether the boundary is met by refinement, and triangles outside are to be sorted out at the end.
     pub fn is_fitted(&self) -> bool {
         self.fitted.is_some()

@@ -295,7 +295,12 @@ mod tests {
         let (mut cut, mut inside, mut outside, mut on_edge) = (0, 0, 0, 0);
         for _ in 0..60 {
             let region = Arc::new(region(&mut random));
-            let mut mesh = Mesh::coarse_grid(Rect::UNIT, 0.34, |_| true, &Limits::default()).unwrap();
+            let mut mesh = Mesh::coarse_grid(
+                &Lattice::covering(Rect::UNIT, 0.34, 1_000_000).unwrap(),
+                |_| true,
+                &Limits::default(),
+            )
+            .unwrap();
             for _ in 0..150 {
                 mesh.refine_triangle(TriangleId::from_index(random.usize(..mesh.triangles().len())));
             }
@@ -339,7 +344,12 @@ mod tests {
     #[test]
     fn sides_of_the_frame_are_no_boundary() {
         let whole = Arc::new(Region::new(&[vec![crate::domain::corners(&Rect::UNIT)]], Rect::UNIT));
-        let mut mesh = Mesh::coarse_grid(Rect::UNIT, 0.25, |_| true, &Limits::default()).unwrap();
+        let mut mesh = Mesh::coarse_grid(
+            &Lattice::covering(Rect::UNIT, 0.25, 1_000_000).unwrap(),
+            |_| true,
+            &Limits::default(),
+        )
+        .unwrap();
         let sorted = RegionLaying::new(&whole, mesh.lattice()).finished();
         mesh.sort_out(0..32, |element| {
             assert!(

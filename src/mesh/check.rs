@@ -273,12 +273,17 @@ fn twice_signed_area([a, b, c]: [LatticePoint; 3]) -> i128 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::Rect;
+    use crate::geometry::{Lattice, Rect};
     use crate::mesh::{Limits, Neighbour, Triangle};
 
     /// The unit square in 2 × 2 cells, refined round the first triangle.
     fn sound_mesh() -> Mesh {
-        let mut mesh = Mesh::coarse_grid(Rect::UNIT, 0.5, |_| true, &Limits::default()).unwrap();
+        let mut mesh = Mesh::coarse_grid(
+            &Lattice::covering(Rect::UNIT, 0.5, 1_000_000).unwrap(),
+            |_| true,
+            &Limits::default(),
+        )
+        .unwrap();
         for _ in 0..3 {
             mesh.refine_triangle(TriangleId(0));
         }

@@ -4,12 +4,12 @@ use glam::DVec2;
 
 use super::triangle::Kind;
 use super::{KindCounts, Limits, Mesh, Neighbour, NodeId, Orientation, Triangle, TriangleId};
-use crate::geometry::{GridError, Lattice, LatticePoint, Number, Rect};
+use crate::geometry::{GridError, Lattice, LatticePoint, Number};
 
 /// Why no coarse triangulation could be made.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum CoarseError {
-    /// The grid itself is impossible.
+    /// The grid itself is impossible or too fine.
     #[error(transparent)]
     Grid(#[from] GridError),
     /// No coarse triangle has all three nodes in the domain.
@@ -19,7 +19,7 @@ pub enum CoarseError {
         Number(*spacing)
     )]
     EmptyDomain {
-        /// The spacing that was asked for, in world units.
+        /// The side of a coarse cell, in world units.
         spacing: f64,
     },
 }
@@ -54,20 +54,23 @@ impl CoarseIndex {
 impl Mesh {
     /// The coarse triangulation of a domain (Algorithm 7 without its padding, with Appendix A).
     ///
-    /// `spacing` is δ̄, the largest side of a coarse cell, in world units. A coarse triangle is kept when
-    /// `contains` is true at its three nodes, given in world coordinates. Nodes that no kept triangle uses are left out;
-    /// the report keeps them.
+    /// The cells of `lattice` are the coarse cells. A coarse triangle is kept when `contains` is true at its three
+    /// nodes, given in world coordinates. Nodes that no kept triangle uses are left out; the report keeps them.
     ///
     /// # Errors
-    /// When the grid is impossible or over the triangle budget, or when nothing of it lies in the domain.
+    /// When the grid has more triangles than `limits` allow, or when none of them lies in the domain.
     pub fn coarse_grid(
-        bounds: Rect,
-        spacing: f64,
+        lattice: &Lattice,
         contains: impl Fn(DVec2) -> bool,
         limits: &Limits,
     ) -> Result<Self, CoarseError> {
-        let lattice = Lattice::covering(bounds, spacing, limits.most_triangles())?;
-        let mesh = CoarseGrid::new(&lattice).triangulate(contains);
+        let spacing = lattice.spacing();
+        let (grid, limit) = (CoarseGrid::new(lattice), limits.most_triangles());
+        if grid.triangle_count() > limit {
+            let triangles = grid.triangle_count() as f64;
+            return Err(GridError::TooManyCells { spacing, triangles, limit }.into());
+        }
+        let mesh = grid.triangulate(contains);
         if mesh.triangles.is_empty() { Err(CoarseError::EmptyDomain { spacing }) } else { Ok(mesh) }
     }
 

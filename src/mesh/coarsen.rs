@@ -264,14 +264,19 @@ mod tests {
     use glam::{DVec2, dvec2};
 
     use super::*;
-    use crate::geometry::Rect;
+    use crate::geometry::{Lattice, Rect};
     use crate::mesh::Limits;
 
     /// A rectangle with a corner and a node cut out, so that diagonals and sides are on the boundary.
     fn coarse() -> Mesh {
         let removed = [DVec2::ZERO, dvec2(0.75, 0.5)];
         let bounds = Rect::new(DVec2::ZERO, dvec2(1.25, 1.0));
-        Mesh::coarse_grid(bounds, 0.25, |p| !removed.contains(&p), &Limits::default()).unwrap()
+        Mesh::coarse_grid(
+            &Lattice::covering(bounds, 0.25, 1_000_000).unwrap(),
+            |p| !removed.contains(&p),
+            &Limits::default(),
+        )
+        .unwrap()
     }
 
     /// The last of the chain of triangles that must be bisected before `id`, or `id` itself.

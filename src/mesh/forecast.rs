@@ -20,10 +20,11 @@ use crate::geometry::{Lattice, LatticePoint, LatticeRect};
 /// and memory go with the triangles that touch the changed rectangle and those that would come and go.
 ///
 /// ```
-/// use meshbrush::geometry::Rect;
+/// use meshbrush::geometry::{Lattice, Rect};
 /// use meshbrush::mesh::{Forecast, Limits, Mesh, Progress};
 ///
-/// let mut mesh = Mesh::coarse_grid(Rect::UNIT, 0.5, |_| true, &Limits::default())?;
+/// let lattice = Lattice::covering(Rect::UNIT, 0.5, 1_000_000)?;
+/// let mut mesh = Mesh::coarse_grid(&lattice, |_| true, &Limits::default())?;
 /// let square = mesh.lattice().rect_around(&Rect::around(glam::dvec2(0.3, 0.4), 0.1)).unwrap();
 /// let mut forecast = Forecast::new(&mesh, square, &Limits::default());
 /// let exceeds = |corners, level| level < 2 && square.touches(corners);

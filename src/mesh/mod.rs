@@ -3,11 +3,12 @@
 //! Nothing here knows a field, a file or a window. What to refine and where the domain lies come in as closures.
 //!
 //! ```
-//! use meshbrush::geometry::Rect;
+//! use meshbrush::geometry::{Lattice, Rect};
 //! use meshbrush::mesh::{Limits, Mesh};
 //!
 //! // Refine to a diameter of 0.1 near the origin, 0.5 elsewhere.
-//! let mut mesh = Mesh::coarse_grid(Rect::UNIT, 0.25, |_| true, &Limits::default())?;
+//! let lattice = Lattice::covering(Rect::UNIT, 0.25, 1_000_000)?;
+//! let mut mesh = Mesh::coarse_grid(&lattice, |_| true, &Limits::default())?;
 //! mesh.refine(&Limits::default(), |element| {
 //!     let near = element.world_corners().iter().any(|x| x.length() < 0.3);
 //!     Ok(element.diameter() > if near { 0.1 } else { 0.5 })

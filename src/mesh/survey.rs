@@ -129,12 +129,17 @@ mod tests {
     use glam::{DVec2, dvec2};
 
     use super::*;
-    use crate::geometry::Rect;
+    use crate::geometry::{Lattice, Rect};
     use crate::mesh::{Limits, NodeId, TriangleId};
 
     /// A square of 10 × 10 cells without what lies within `radius` (along either axis) of a place.
     fn without(places: &[(DVec2, f64)]) -> Mesh {
-        let mut mesh = Mesh::coarse_grid(Rect::UNIT, 0.1, |_| true, &Limits::default()).unwrap();
+        let mut mesh = Mesh::coarse_grid(
+            &Lattice::covering(Rect::UNIT, 0.1, 1_000_000).unwrap(),
+            |_| true,
+            &Limits::default(),
+        )
+        .unwrap();
         let all = 0..mesh.triangles().len();
         mesh.sort_out(all, |element| {
             let centroid = element.world_corners().iter().sum::<DVec2>() / 3.0;

@@ -66,7 +66,8 @@ use crate::geometry::{LatticePoint, LatticeRect};
 /// let exceeds = |element: &Element, square: &LatticeRect| {
 ///     element.triangle.level() < if square.touches(element.corners) { 9 } else { 2 }
 /// };
-/// let mut mesh = Mesh::coarse_grid(Rect::UNIT, 0.25, |_| true, &Limits::default())?;
+/// let lattice = Lattice::covering(Rect::UNIT, 0.25, 1_000_000)?;
+/// let mut mesh = Mesh::coarse_grid(&lattice, |_| true, &Limits::default())?;
 /// let square = |x| mesh.lattice().rect_around(&Rect::around(glam::dvec2(x, 0.4), 0.05)).unwrap();
 /// let (before, after) = (square(0.3), square(0.6));
 /// mesh.refine(&Limits::default(), |element| Ok(exceeds(element, &before)))?;
@@ -77,7 +78,7 @@ use crate::geometry::{LatticePoint, LatticeRect};
 /// while updater.run(&mut mesh, |element| Ok(exceeds(element, &after)), 100)? == Progress::More {
 ///     assert!(mesh.violations().is_empty()); // it could be drawn
 /// }
-/// # let mut anew = Mesh::coarse_grid(Rect::UNIT, 0.25, |_| true, &Limits::default())?;
+/// # let mut anew = Mesh::coarse_grid(&lattice, |_| true, &Limits::default())?;
 /// # anew.refine(&Limits::default(), |element| Ok(exceeds(element, &after)))?;
 /// assert_eq!(mesh.fingerprint(), anew.fingerprint());
 /// # Ok::<(), Box<dyn std::error::Error>>(())

@@ -327,7 +327,12 @@ mod tests {
         for (size, w, h) in [([8, 8], 1.0, 1.0), ([7, 5], 1.0, 1.0), ([16, 9], 3.0, 2.0), ([1, 3], 1.0, 1.3)]
         {
             let bounds = Rect::new(DVec2::ZERO, dvec2(w, h));
-            let mut mesh = Mesh::coarse_grid(bounds, 0.5, |_| true, &Limits::default()).unwrap();
+            let mut mesh = Mesh::coarse_grid(
+                &Lattice::covering(bounds, 0.5, 1_000_000).unwrap(),
+                |_| true,
+                &Limits::default(),
+            )
+            .unwrap();
             for _ in 0..60 {
                 mesh.refine_triangle(TriangleId::from_index(random.usize(..mesh.triangles().len())));
             }

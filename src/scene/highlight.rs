@@ -112,11 +112,16 @@ fn cut_to_canvas(mut polygon: Vec<DVec2>, camera: &Camera) -> Vec<DVec2> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::Rect;
+    use crate::geometry::{Lattice, Rect};
     use crate::mesh::Limits;
 
     fn mesh() -> Mesh {
-        Mesh::coarse_grid(Rect::UNIT, 0.5, |_| true, &Limits::default()).unwrap()
+        Mesh::coarse_grid(
+            &Lattice::covering(Rect::UNIT, 0.5, 1_000_000).unwrap(),
+            |_| true,
+            &Limits::default(),
+        )
+        .unwrap()
     }
 
     #[test]

@@ -144,7 +144,7 @@ fn paint([r, g, b, a]: [u8; 4]) -> tiny_skia::Paint<'static> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::Rect;
+    use crate::geometry::{Lattice, Rect};
     use crate::mesh::Limits;
     use crate::scene::{ColorTable, LEVELS};
     use glam::dvec2;
@@ -154,7 +154,12 @@ mod tests {
     }
 
     fn mesh() -> Mesh {
-        Mesh::coarse_grid(Rect::UNIT, 0.25, |_| true, &Limits::default()).unwrap()
+        Mesh::coarse_grid(
+            &Lattice::covering(Rect::UNIT, 0.25, 1_000_000).unwrap(),
+            |_| true,
+            &Limits::default(),
+        )
+        .unwrap()
     }
 
     #[test]
