@@ -13,8 +13,8 @@ pub fn coarse() -> Mesh {
 
 /// The report's rule (Eqs. 12 and 13): `level` everywhere in the diamond ‖x‖₁ < 8, seen at the vertices.
 ///
-/// The diamond is tested in lattice coordinates, which is exact and takes a few integer operations: the benches measure
-/// the mesh, not a formula.
+/// The diamond is tested in lattice coordinates, which is exact and takes a few integer operations: the
+/// benches measure the mesh, not a formula.
 pub fn rule(mesh: &Mesh, level: u32) -> impl Fn(&Element) -> Result<bool, InvalidTarget> + use<> {
     let target = bisection_edge_length(1.0, level) * (1.0 + 1e-12);
     let steps = mesh.lattice().cell_steps();

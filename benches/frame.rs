@@ -1,13 +1,16 @@
-//! The cost of each frame while painting: a recorded stroke of two seconds, replayed on a mesh of two million triangles.
+//! The cost of each frame while painting: a recorded stroke of two seconds, replayed on a mesh of two million
+//! triangles.
 //!
-//! Processor time is measured for each frame of 1/60 s. *stamp* rasterizes the reported mouse positions into the painted
-//! rasters. *update* brings field and mesh up to date. *upload* hands the changed ranges to the graphics driver and
-//! submits them. The bench waits for the GPU's own work, or lavapipe's, but does not count it.
+//! Processor time is measured for each frame of 1/60 s. *stamp* rasterizes the reported mouse positions into
+//! the painted rasters. *update* brings field and mesh up to date. *upload* hands the changed ranges to the
+//! graphics driver and submits them. The bench waits for the GPU's own work, or lavapipe's, but does not
+//! count it.
 //!
-//! Paint and erase strokes are each repeated five times. A frame counts with the median of its five times, per part.
+//! Paint and erase strokes are each repeated five times. A frame counts with the median of its five times,
+//! per part.
 //!
-//! *whole work*: every frame updates until the mesh is up to date. *in the window*: a frame stops at the window's budget
-//! and the next one continues; the frames needed after the end of the stroke are reported.
+//! *whole work*: every frame updates until the mesh is up to date. *in the window*: a frame stops at the
+//! window's budget and the next one continues; the frames needed after the end of the stroke are reported.
 //!
 //! Without a graphics driver, upload is not measured.
 
@@ -33,7 +36,8 @@ const ROUNDS: usize = 5;
 const BRUSH: Brush = Brush { medium: Medium::Risk, radius: 0.06, hardness: 0.35, strength: 0.8 };
 const ERASER: Brush = Brush { medium: Medium::Eraser, strength: 1.0, ..BRUSH };
 
-/// Position of the mouse after a share of the stroke: most of a figure eight, 2.4 units long, slow in the bends.
+/// Position of the mouse after a share of the stroke: most of a figure eight, 2.4 units long, slow in the
+/// bends.
 fn recorded(share: f64) -> DVec2 {
     let progress = share - 0.05 * (12.0 * share).sin();
     let angle = 0.4 + 5.6 * progress;
@@ -170,7 +174,7 @@ impl Screen {
         let mirror = offscreen.renderer().mirror_mut();
         match change {
             MeshChange::Replaced => mirror.upload(mesh, revision),
-            MeshChange::Within(changes) => mirror.write_ranges(mesh, revision, changes),
+            MeshChange::Within(changes) => mirror.apply_changes(mesh, revision, changes),
         }
         .expect("the mesh fits the graphics memory");
         offscreen.queue().submit([]);

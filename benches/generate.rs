@@ -1,8 +1,8 @@
 //! Mesh generation: the report's series, extended to 33 million triangles.
 //!
-//! *fresh* builds in newly allocated memory, as a first mesh does; mapping its pages takes a third of the time or
-//! more. *reused* builds into the arrays of the previous mesh, as an edit under the vertex rule does. The time to
-//! drop a mesh is not counted.
+//! *fresh* builds in newly allocated memory, as a first mesh does; mapping its pages takes a third of the
+//! time or more. *reused* builds into the arrays of the previous mesh, as an edit under the vertex rule does.
+//! The time to drop a mesh is not counted.
 
 use std::hint::black_box;
 use std::time::{Duration, Instant};

@@ -1,4 +1,5 @@
-//! Point location in the report's meshes: our walk, our search tree, and spade's Delaunay triangulation of the same nodes.
+//! Point location in the report's meshes: our walk, our search tree, and spade's Delaunay triangulation of
+//! the same nodes.
 //!
 //! All three answer the same random points, one after the other, on one core.
 

@@ -1,9 +1,11 @@
-//! Updates in place: the same dab on meshes of ten thousand to ten million triangles, beside a mesh made from scratch.
+//! Updates in place: the same dab on meshes of ten thousand to ten million triangles, beside a mesh made from
+//! scratch.
 //!
-//! The field is a raster under the area rule, as in the window; the cost of updating the field is not counted.
-//! *same place*: one dab is painted and erased repeatedly. *moving*: a dab is painted at the next of eight places and the
-//! oldest of three is erased, so that entries are removed from the middle of the arrays and others fill the gaps.
-//! *dab counted*, *erasing counted*: a forecast of what painting or erasing the dab would change.
+//! The field is a raster under the area rule, as in the window; the cost of updating the field is not
+//! counted. *same place*: one dab is painted and erased repeatedly. *moving*: a dab is painted at the next of
+//! eight places and the oldest of three is erased, so that entries are removed from the middle of the arrays
+//! and others fill the gaps. *dab counted*, *erasing counted*: a forecast of what painting or erasing the dab
+//! would change.
 //!
 //! Throughput counts the triangles added and removed; for a mesh made from scratch, all its triangles.
 

@@ -6,9 +6,10 @@ use std::time::Duration;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use glam::DVec2;
+use meshbrush::colormap::LEVELS;
 use meshbrush::geometry::{Lattice, Rect};
 use meshbrush::mesh::{Limits, Mesh};
-use meshbrush::scene::{Camera, LEVELS, Style};
+use meshbrush::scene::{Camera, Style};
 
 const SIZE: [u32; 2] = [1200, 900];
 

@@ -5,11 +5,12 @@
 #![cfg(feature = "gui")]
 
 use glam::{DVec2, dvec2};
+use meshbrush::colormap::{LEVELS, LevelColors};
 use meshbrush::geometry::{Lattice, LatticePoint, LatticeRect, Rect};
 use meshbrush::mesh::{Changes, Element, Limits, Mesh, Progress, Updater};
 use meshbrush::render::gpu::{ChunkLimits, GpuError, Offscreen};
 use meshbrush::render::{Image, software};
-use meshbrush::scene::{Camera, ColorTable, LEVELS, Overlay, Style};
+use meshbrush::scene::{Camera, Overlay, Style};
 
 const SIZE: [u32; 2] = [400, 300];
 
@@ -25,8 +26,8 @@ fn gpu() -> Option<Offscreen> {
     }
 }
 
-/// Level 0 dark, then from violet to yellow: near enough to the program's own colours to judge pictures by.
-fn colors() -> ColorTable {
+/// Level 0 dark, then from violet to yellow, similar to the colours of the program.
+fn colors() -> LevelColors {
     const STOPS: [[f32; 3]; 5] =
         [[70., 40., 120.], [59., 82., 139.], [33., 145., 140.], [94., 201., 98.], [253., 231., 37.]];
     std::array::from_fn(|level| {
@@ -38,6 +39,7 @@ fn colors() -> ColorTable {
         let [r, g, b] = std::array::from_fn(|c| (STOPS[i][c] * (1.0 - f) + STOPS[i + 1][c] * f) as u8);
         [r, g, b, 255]
     })
+    .into()
 }
 
 /// Graded towards a curve, with a round hole.
@@ -242,10 +244,10 @@ fn a_mesh_in_many_chunks_looks_the_same() {
     small.show(&coarse, 3).unwrap();
     let former = small.picture(&camera, &style).unwrap();
     let mirror = small.renderer().mirror_mut();
-    assert!(mirror.write_ranges(&mesh, 4, &differences(&coarse, &mesh)).is_err());
+    assert!(mirror.apply_changes(&mesh, 4, &differences(&coarse, &mesh)).is_err());
     assert_eq!(mirror.shown(), None);
     assert_eq!(small.picture(&camera, &style).unwrap(), former);
-    small.renderer().mirror_mut().write_ranges(&coarse, 5, &Changes::default()).unwrap();
+    small.renderer().mirror_mut().apply_changes(&coarse, 5, &Changes::default()).unwrap();
     assert_eq!(small.renderer().mirror().shown(), Some(5));
     assert_eq!(small.picture(&camera, &style).unwrap(), former);
 }
@@ -258,9 +260,9 @@ fn the_former_mesh_stays_until_the_next_is_whole() {
     let (camera, style) = (whole(&before), Style::dark(colors()));
     gpu.show(&before, 1).unwrap();
     let first = gpu.picture(&camera, &style).unwrap();
-    gpu.renderer().mirror_mut().begin(&after, 2).unwrap();
+    gpu.renderer().mirror_mut().begin_upload(&after, 2).unwrap();
     let mut slices = 0;
-    while gpu.renderer().mirror_mut().upload_some(&after, 100_000) == Progress::More {
+    while gpu.renderer().mirror_mut().advance_upload(&after, 100_000) == Progress::More {
         slices += 1;
         assert_eq!(gpu.renderer().mirror().shown(), Some(1));
         assert_eq!(gpu.renderer().mirror().uploading(), Some(2));
@@ -301,7 +303,7 @@ fn changed_ranges_bring_the_mesh_up_to_date() {
             .unwrap();
         }
         let mirror = gpu.renderer().mirror_mut();
-        mirror.write_ranges(&mesh, step, &differences(&before, &mesh)).unwrap();
+        mirror.apply_changes(&mesh, step, &differences(&before, &mesh)).unwrap();
         assert_eq!(mirror.shown(), Some(step));
         let picture = gpu.picture(&camera, &style).unwrap();
         assert_agree(&format!("ranges-{step}"), &picture, &software::draw(&mesh, &camera, &style, None, &[]));
@@ -343,10 +345,10 @@ fn edits_during_an_upload_do_not_hold_it_up_and_get_there() {
     mesh.refine(&Limits::default(), |element| Ok(exceeds(element, &squares))).unwrap();
     let mut updater = Updater::new(Limits::default());
     gpu.show(&coarse, 0).unwrap();
-    gpu.renderer().mirror_mut().begin(&mesh, 1).unwrap();
+    gpu.renderer().mirror_mut().begin_upload(&mesh, 1).unwrap();
     let whole_bytes = size_of_val(mesh.triangles()) + size_of_val(mesh.nodes());
     let (mut revision, mut lengths) = (1, vec![]);
-    while gpu.renderer().mirror_mut().upload_some(&mesh, whole_bytes / 16) == Progress::More {
+    while gpu.renderer().mirror_mut().advance_upload(&mesh, whole_bytes / 16) == Progress::More {
         assert!(revision < 60, "edits hold the upload up: {lengths:?}");
         // Small edits, one that outgrows the buffers, one that takes away more than is left to send, and one after that.
         let small =
@@ -365,7 +367,7 @@ fn edits_during_an_upload_do_not_hold_it_up_and_get_there() {
         updater.add(edited);
         while updater.run(&mut mesh, |e| Ok(exceeds(e, &squares)), usize::MAX) != Ok(Progress::Done) {}
         let Some(changes) = updater.take_changes() else { continue };
-        gpu.renderer().mirror_mut().write_ranges(&mesh, revision, &changes).unwrap();
+        gpu.renderer().mirror_mut().apply_changes(&mesh, revision, &changes).unwrap();
         assert_eq!(gpu.renderer().mirror().uploading(), Some(revision));
         assert_eq!(gpu.renderer().mirror().shown(), Some(0));
         lengths.push(mesh.triangles().len());
@@ -426,7 +428,7 @@ fn a_picture_drawn_in_software_reaches_the_canvas_unchanged() {
 fn a_canvas_without_a_mesh_is_its_ground() {
     let Some(mut gpu) = gpu() else { return };
     let camera = whole(&graded());
-    let style = Style { level_colors: [[9; 4]; LEVELS], ..Style::light(colors()) };
+    let style = Style { level_colors: [[9; 4]; LEVELS].into(), ..Style::light(colors()) };
     let picture = gpu.picture(&camera, &style).unwrap();
     assert_eq!(picture, Image::filled(SIZE, style.ground));
 }

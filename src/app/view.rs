@@ -65,7 +65,7 @@ impl View {
 
     /// How the mesh is drawn on a screen with `px_per_point` pixels for a point.
     pub fn style(&self, settings: &Settings, px_per_point: f32) -> Style {
-        let colors = *self.level_colors(settings).as_table();
+        let colors = self.level_colors(settings);
         let style = match self.ground {
             Ground::Dark => Style::dark(colors),
             Ground::Light => Style::light(colors),

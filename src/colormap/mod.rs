@@ -1,4 +1,4 @@
-//! Colours of levels and neighbours, and the measures of colour they are checked by.
+//! Colours of levels and neighbours, and measures of contrast.
 //!
 //! Colours are sRGB bytes: `[red, green, blue]`, or with an alpha of 255 after them.
 
@@ -7,17 +7,20 @@ mod tables;
 use std::str::FromStr;
 use std::sync::LazyLock;
 
-/// A table of colours from 0 to 1.
+/// Number of levels a mesh can have; the lattice ends before.
+pub const LEVELS: usize = 64;
+
+/// A colour map: a colour for each number from 0 to 1.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Colormap {
-    /// Violet over green to yellow; even in lightness, safe for colour-blind people.
+    /// Violet over green to yellow. Perceptually uniform, safe for colour-blind people.
     #[default]
     Viridis,
-    /// Black over purple and orange to pale yellow; even in lightness.
+    /// Black over purple and orange to pale yellow. Perceptually uniform.
     Magma,
-    /// Navy to yellow; looks nearly the same with and without red-green blindness.
+    /// Navy to yellow. Looks nearly the same with and without red-green blindness.
     Cividis,
-    /// Blue over green to red; many steps to tell apart, but not even in lightness.
+    /// Blue over green to red. Many distinguishable steps, but not perceptually uniform.
     Turbo,
     /// Dark to light grey, for print.
     Greys,
@@ -29,10 +32,10 @@ pub enum Colormap {
 pub struct UnknownColormap(String);
 
 impl Colormap {
-    /// Every map, in the order a menu shows them.
+    /// All colour maps, in menu order.
     pub const ALL: [Self; 5] = [Self::Viridis, Self::Magma, Self::Cividis, Self::Turbo, Self::Greys];
 
-    /// The name a person knows it by; [`Colormap::from_str`] reads it in any case.
+    /// The name in menus; [`Colormap::from_str`] reads it, in upper or lower case.
     pub fn name(self) -> &'static str {
         match self {
             Self::Viridis => "Viridis",
@@ -43,9 +46,9 @@ impl Colormap {
         }
     }
 
-    /// The colour at `t`, between the two nearest of 256 entries.
+    /// The colour at `t`, interpolated between the two nearest of 256 entries.
     ///
-    /// Below 0 and for NaN it is the first entry, above 1 the last.
+    /// Below 0 and for NaN it is the first entry, above 1 the last one.
     ///
     /// ```
     /// use meshbrush::colormap::Colormap;
@@ -56,13 +59,13 @@ impl Colormap {
     pub fn sample(self, t: f64) -> [u8; 3] {
         let table = self.table();
         let t = if t.is_nan() { 0.0 } else { t.clamp(0.0, 1.0) };
-        let place = t * 255.0;
-        let below = place as usize;
+        let position = t * 255.0;
+        let below = position as usize;
         let (a, b) = (rgb(table[below]), rgb(table[(below + 1).min(255)]));
-        let between = place - below as f64;
+        let fraction = position - below as f64;
         std::array::from_fn(|i| {
             let (a, b) = (f64::from(a[i]), f64::from(b[i]));
-            (a + (b - a) * between).round() as u8
+            (a + (b - a) * fraction).round() as u8
         })
     }
 
@@ -76,11 +79,11 @@ impl Colormap {
         }
     }
 
-    /// Where on the map level 1 and the deepest level lie.
+    /// The positions of level 1 and of the deepest level on the map.
     ///
-    /// Refinement stands out from the ground: towards light on the dark ground, towards dark on the
-    /// light one. Every map stops short of the end that would be lost in the ground. Turbo is read by
-    /// hue and runs from blue to red on both, short of its dark ends.
+    /// Finer levels contrast more with the ground: they get lighter on the dark ground and darker on the
+    /// light one. No map uses the end that would not contrast with the ground. Turbo, which is read by hue,
+    /// runs from blue to red on both grounds, without its dark ends.
     fn span(self, ground: Ground) -> (f64, f64) {
         match (self, ground) {
             (Self::Turbo, _) => (0.12, 0.9),
@@ -95,7 +98,7 @@ impl Colormap {
 impl FromStr for Colormap {
     type Err = UnknownColormap;
 
-    /// Reads a name in any case; `grays`, `grey` and `gray` are Greys.
+    /// Reads a name in upper or lower case; `grays`, `grey` and `gray` are Greys.
     fn from_str(name: &str) -> Result<Self, UnknownColormap> {
         let wanted = name.trim();
         let known = Self::ALL.into_iter().find(|map| map.name().eq_ignore_ascii_case(wanted));
@@ -106,7 +109,7 @@ impl FromStr for Colormap {
     }
 }
 
-/// What the mesh is drawn on.
+/// The background of the mesh.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Ground {
     /// The dark theme's canvas.
@@ -117,7 +120,7 @@ pub enum Ground {
 }
 
 impl Ground {
-    /// The canvas itself.
+    /// The colour of the canvas.
     pub const fn canvas(self) -> [u8; 3] {
         match self {
             Self::Dark => [0x0b, 0x0d, 0x10],
@@ -125,7 +128,7 @@ impl Ground {
         }
     }
 
-    /// Triangles of level 0: close to the canvas, so that refinement stands out.
+    /// The colour of level 0: close to that of the canvas, so that refined parts stand out.
     pub const fn level_0(self) -> [u8; 3] {
         match self {
             Self::Dark => [0x1d, 0x21, 0x2b],
@@ -133,7 +136,7 @@ impl Ground {
         }
     }
 
-    /// The three neighbours of a triangle, the bisection neighbour first: the same on the canvas, in chips and in pins.
+    /// Colours of the three neighbours of a triangle, the bisection neighbour first.
     pub const fn neighbours(self) -> [[u8; 3]; 3] {
         match self {
             Self::Dark => [[0xf4, 0xb9, 0x42], [0x5a, 0xd1, 0xc0], [0xe2, 0x6f, 0xb0]],
@@ -142,10 +145,10 @@ impl Ground {
     }
 }
 
-/// The colour of every level, 0 to 63.
+/// The colour of every level, from 0 to 63.
 ///
-/// A level's colour follows from the map, the ground and the deepest level on the legend, never
-/// from a mesh: it stays while a person paints.
+/// The colour of a level depends on the map, the ground and the deepest level of the legend, but not on a
+/// mesh: it does not change while the mesh is edited.
 ///
 /// ```
 /// use meshbrush::colormap::{Colormap, Ground, LevelColors};
@@ -157,13 +160,13 @@ impl Ground {
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LevelColors {
-    rgba: [[u8; 4]; 64],
+    rgba: [[u8; 4]; LEVELS],
 }
 
 impl LevelColors {
-    /// Spreads levels 1 to `deepest` evenly over the map; deeper ones keep the last colour.
+    /// Distributes levels 1 to `deepest` evenly over the map; deeper levels have the last colour.
     ///
-    /// With a `deepest` of 0 or 1 every level from 1 on has that last colour; above 63 it counts as 63.
+    /// If `deepest` is 0 or 1, every level from 1 on has the last colour. Values above 63 count as 63.
     pub fn new(map: Colormap, ground: Ground, deepest: u8) -> Self {
         let (first, last) = map.span(ground);
         let steps = deepest.clamp(1, 63) - 1;
@@ -176,21 +179,28 @@ impl LevelColors {
             };
             opaque(map.sample(t))
         };
-        let mut rgba = [opaque(ground.level_0()); 64];
+        let mut rgba = [opaque(ground.level_0()); LEVELS];
         for (level, entry) in rgba.iter_mut().enumerate().skip(1) {
             *entry = color(level);
         }
         Self { rgba }
     }
 
-    /// The colour of a level; from 63 on the last one.
+    /// The colour of a level; above 63 that of level 63.
     pub fn of(&self, level: u8) -> [u8; 4] {
         self.rgba[usize::from(level.min(63))]
     }
 
-    /// All 64 colours, level by level, as the shader takes them.
-    pub fn as_table(&self) -> &[[u8; 4]; 64] {
+    /// All colours by level.
+    pub fn as_table(&self) -> &[[u8; 4]; LEVELS] {
         &self.rgba
+    }
+}
+
+impl From<[[u8; 4]; LEVELS]> for LevelColors {
+    /// Takes the colours level by level: red, green, blue as sRGB bytes. The fourth byte is not used.
+    fn from(rgba: [[u8; 4]; LEVELS]) -> Self {
+        Self { rgba }
     }
 }
 
@@ -202,7 +212,7 @@ pub fn luminance(color: [u8; 3]) -> f64 {
 
 /// Contrast of two colours in either order, from 1 to 21, as WCAG 2 defines it.
 ///
-/// Text wants 4.5 and more on its ground, large text and shapes 3.
+/// Text needs at least 4.5, large text and shapes at least 3.
 ///
 /// ```
 /// use meshbrush::colormap::contrast_ratio;
@@ -215,7 +225,7 @@ pub fn contrast_ratio(a: [u8; 3], b: [u8; 3]) -> f64 {
     a.max(b) / a.min(b)
 }
 
-/// Light of each channel from 0 to 1, without the sRGB transfer curve (IEC 61966-2-1).
+/// Linear intensity of each channel from 0 to 1: inverts the sRGB transfer function (IEC 61966-2-1).
 fn linear_rgb(color: [u8; 3]) -> [f64; 3] {
     static LINEAR: LazyLock<[f64; 256]> = LazyLock::new(|| {
         std::array::from_fn(|byte| {
@@ -256,13 +266,13 @@ mod tests {
         lab(linear_rgb(color))[0]
     }
 
-    /// Colour difference by CIE 1976: about 2.3 is just noticed.
+    /// Colour difference by CIE 1976: about 2.3 is just noticeable.
     fn difference(a: [f64; 3], b: [f64; 3]) -> f64 {
         let (a, b) = (lab(a), lab(b));
         (0..3).map(|i| (a[i] - b[i]).powi(2)).sum::<f64>().sqrt()
     }
 
-    /// What a person without medium-wave cones sees (Machado, Oliveira and Fernandes 2009).
+    /// Simulates deuteranopia, the absence of medium-wavelength cones (Machado, Oliveira and Fernandes 2009).
     fn deuteranopia([r, g, b]: [f64; 3]) -> [f64; 3] {
         [
             0.367322 * r + 0.860646 * g - 0.227968 * b,
@@ -290,7 +300,7 @@ mod tests {
     }
 
     #[test]
-    fn tables_have_the_published_ends_and_middles() {
+    fn tables_have_the_published_entries() {
         let hex = |map: Colormap, i: usize| map.table()[i];
         assert_eq!(hex(Colormap::Viridis, 0), 0x440154);
         assert_eq!(hex(Colormap::Viridis, 128), 0x21918c);
@@ -304,7 +314,7 @@ mod tests {
     }
 
     #[test]
-    fn samples_are_entries_and_lie_between_them() {
+    fn samples_are_entries_or_between_entries() {
         for map in Colormap::ALL {
             for i in 0..=255_u8 {
                 let entry = rgb(map.table()[usize::from(i)]);
@@ -320,11 +330,11 @@ mod tests {
     }
 
     #[test]
-    fn even_maps_grow_lighter_all_the_way() {
+    fn uniform_maps_get_lighter_from_end_to_end() {
         for map in [Colormap::Viridis, Colormap::Magma, Colormap::Cividis, Colormap::Greys] {
             let lightness: Vec<f64> = map.table().iter().map(|&c| lightness(rgb(c))).collect();
             let steps = lightness.windows(2).map(|w| w[1] - w[0]);
-            // Bytes are coarse: a single step may stand still, or fall by less than an eye sees.
+            // Because of rounding to bytes, a single step may be zero or slightly negative.
             assert!(steps.clone().all(|step| step > -0.25), "{map:?}");
             let strides = lightness.windows(9).map(|w| w[8] - w[0]);
             assert!(strides.clone().all(|s| s > 0.5), "{map:?}");
@@ -332,7 +342,7 @@ mod tests {
     }
 
     #[test]
-    fn neighbouring_levels_can_be_told_apart() {
+    fn neighbouring_levels_are_distinguishable() {
         for (map, ground, deepest, colors) in every_scale() {
             for l in 1..=deepest {
                 let pair = [l - 1, l].map(|l| linear_rgb(level(&colors, l)));
@@ -376,21 +386,21 @@ mod tests {
     }
 
     #[test]
-    fn neighbours_differ_from_each_other_for_every_eye() {
+    fn colours_of_neighbours_are_distinguishable_with_colour_blindness() {
         let neighbours = Ground::Dark.neighbours();
         for (i, a) in neighbours.iter().enumerate() {
             for b in &neighbours[..i] {
                 let (a, b) = (linear_rgb(*a), linear_rgb(*b));
                 assert!(difference(a, b) > 40.0);
                 let seen = difference(deuteranopia(a), deuteranopia(b));
-                // 2 and 3 come closest, at 10.6; the chips and pins carry the number too.
+                // 2 and 3 are closest, at 10.6; chips and pins also show the number.
                 assert!(seen > 10.0, "{i}: {seen:.1}");
             }
         }
     }
 
     #[test]
-    fn names_are_read_in_any_case() {
+    fn names_are_read_in_upper_and_lower_case() {
         for map in Colormap::ALL {
             assert_eq!(map.name().parse(), Ok(map));
             assert_eq!(map.name().to_uppercase().parse(), Ok(map));

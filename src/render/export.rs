@@ -1,4 +1,4 @@
-//! A mesh as a file of any kind: with its data, or as a picture of the whole of it.
+//! Exports a mesh: with its data, or as a picture of the whole mesh.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -13,20 +13,20 @@ use crate::scene::{Camera, Style};
 /// Most pixels along a side of a picture.
 pub const LARGEST_PICTURE: u32 = 16_384;
 
-/// What is written.
+/// A file format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ExportFormat {
     /// The mesh with its data.
     Mesh(MeshFormat),
-    /// A picture of lines and faces.
+    /// A vector picture.
     Svg,
-    /// A picture of pixels.
+    /// A pixel picture.
     Png,
 }
 
-/// The ending of a name that says nothing.
+/// The ending of a file name is not that of a format.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{}: the ending says what to write; choose one of{}", .0.display(), with_dots())]
+#[error("{}: the ending chooses the format; use one of{}", .0.display(), with_dots())]
 pub struct UnknownEnding(pub PathBuf);
 
 fn with_dots() -> String {
@@ -34,7 +34,7 @@ fn with_dots() -> String {
 }
 
 impl ExportFormat {
-    /// The format that the ending of a file's name chooses, in capitals or not.
+    /// The format that the ending of a file name chooses; upper and lower case are the same.
     ///
     /// # Errors
     /// When the ending is none of [`Self::endings`].
@@ -54,12 +54,12 @@ impl ExportFormat {
         MeshFormat::ALL.into_iter().map(|(ending, _)| ending).chain(["svg", "png"])
     }
 
-    /// Whether data at the nodes are written.
+    /// Whether the format contains data at the nodes.
     pub fn wants_node_data(self) -> bool {
         matches!(self, Self::Mesh(_))
     }
 
-    /// The files that are written where `path` is asked for, `path` first.
+    /// All files that an export to `path` writes, `path` first.
     pub fn files(self, path: &Path) -> Vec<PathBuf> {
         match self {
             Self::Mesh(format) => format.files(path),
@@ -67,11 +67,12 @@ impl ExportFormat {
         }
     }
 
-    /// Writes the file, or the four files of `.node`, and returns their names. `extract` is that of `mesh`, and `data` belongs to
-    /// its nodes; a picture needs no data.
+    /// Writes the file, or the four files of `.node`, and returns their names. `extract` must be that of
+    /// `mesh`, and `data` belongs to its nodes; a picture needs no data.
     ///
     /// # Errors
-    /// When the file system says no, the format cannot hold the mesh, or the meter was cancelled. What was there before is then still there.
+    /// When the file cannot be written, the format cannot hold the mesh, or the meter was cancelled. Existing
+    /// files are then unchanged.
     pub fn write(
         self,
         path: &Path,
@@ -99,23 +100,23 @@ impl ExportFormat {
     }
 }
 
-/// How a picture of a whole mesh looks.
+/// The appearance of a picture of a whole mesh.
 #[derive(Clone, Debug)]
 pub struct Look {
     /// In pixels, at most [`LARGEST_PICTURE`].
     pub width: u32,
-    /// In pixels, at most [`LARGEST_PICTURE`]; where none is given, that of the domain's proportions.
+    /// In pixels, at most [`LARGEST_PICTURE`]; `None` follows the proportions of the domain.
     pub height: Option<u32>,
     /// Whether edges are drawn.
     pub edges: bool,
-    /// What is behind the mesh.
+    /// The background.
     pub ground: Ground,
     /// Colour of each level.
     pub level_colors: LevelColors,
 }
 
 impl Look {
-    /// Width of a picture unless told, in pixels.
+    /// Default width in pixels.
     pub const WIDTH: u32 = 1600;
 
     fn size(&self, lattice: &Lattice) -> [u32; 2] {
@@ -129,7 +130,7 @@ impl Look {
     fn draw(&self, mesh: &Mesh) -> Image {
         let lattice = mesh.lattice();
         let camera = Camera::fit(lattice, lattice.bounds(), self.size(lattice), 0.0);
-        let colors = *self.level_colors.as_table();
+        let colors = self.level_colors.clone();
         let style = match self.ground {
             Ground::Dark => Style::dark(colors),
             Ground::Light => Style::light(colors),

@@ -1,22 +1,23 @@
 //! Draws a scene: [`software`] everywhere, and on the GPU with the feature `gui`.
 //!
-//! Both follow one rule for each pixel. The pixel takes the fill of the triangle that holds its centre, mixed with the
-//! colour of the edge by `edge_alpha · clamp(reach − d, 0, 1)`, where d is the distance to the nearest edge of that
-//! triangle in pixels. All numbers of the rule come from [`LevelPaint`](crate::scene::LevelPaint) and
-//! [`Style`](crate::scene::Style). Fills have no antialiasing: abutting triangles would show bright seams.
+//! Both renderers colour a pixel by the same rule: the fill of the triangle that contains its centre, mixed
+//! with the colour of the edge by `edge_alpha · clamp(reach − d, 0, 1)`, where d is the distance to the
+//! nearest edge of that triangle in pixels. All numbers of the rule come from
+//! [`LevelPaint`](crate::scene::LevelPaint) and [`Style`](crate::scene::Style). Fills are not antialiased,
+//! since adjacent triangles would show bright seams.
 
 pub mod export;
 #[cfg(feature = "gui")]
 pub mod gpu;
 pub mod software;
 
-/// Triangles with legs from this length on, in pixels, are not rasterised by their corners but pixel by pixel, from the
-/// exact lines through their edges: further out, f32 and a rasteriser's fixed-point numbers would shift a diagonal.
-/// At most a few of them meet a canvas at a time.
+/// Triangles with legs of at least this length, in pixels, are drawn pixel by pixel from the exact lines
+/// through their edges. Rasterizing such triangles from their corners in f32 or fixed-point numbers would
+/// shift a diagonal. At most a few of them intersect the canvas.
 const HUGE_LEG_PX: f32 = 4096.0;
 
-/// How far the pixels of a huge triangle reach beyond its edges, in pixels. A rasterised neighbour ends on its own grid
-/// of 1/256 px; this closes the gap.
+/// How far huge triangles are drawn beyond their edges, in pixels. A rasterized neighbour ends on a grid of
+/// 1/256 px; the overlap closes the gap.
 const SEAM_SLACK_PX: f32 = 1.0 / 64.0;
 
 /// An opaque picture.
@@ -24,7 +25,7 @@ const SEAM_SLACK_PX: f32 = 1.0 / 64.0;
 pub struct Image {
     /// Width and height in pixels.
     pub size: [u32; 2],
-    /// Red, green, blue, alpha as sRGB bytes, row by row from the upper left.
+    /// Red, green, blue and alpha as sRGB bytes, row by row from the upper left.
     pub rgba: Vec<u8>,
 }
 

@@ -2,16 +2,16 @@ use glam::{DVec2, IVec2, dvec2};
 
 use crate::geometry::{Lattice, LatticePoint, Rect};
 
-/// At the furthest zoom out the whole grid takes this share of the canvas.
+/// The furthest zoom out shows the whole grid on this share of the canvas.
 const SMALLEST_SHARE: f64 = 0.25;
-/// At the furthest zoom in a lattice step, the leg of the deepest triangles, takes this many pixels.
+/// Size of a lattice step, the leg of the deepest triangles, at the furthest zoom in, in pixels.
 const LARGEST_STEP_PX: f64 = 200.0;
 
-/// The view of a grid on a canvas: which point is in the middle, and how large things are.
+/// The view of a grid on a canvas: the point in the middle, and the scale.
 ///
-/// The middle is kept in lattice coordinates. These need 30 bits before the point, which leaves an f64 22 bits after it:
-/// at the deepest zoom a position is exact to 0.0001 px. It always lies on the grid, so that differences to nodes fit an
-/// `i32`.
+/// The middle is stored in lattice coordinates. They need 30 bits before the binary point, which leaves 22
+/// bits of an f64 after it: at the deepest zoom a position is exact to 0.0001 px. The middle always lies on
+/// the grid, so differences to nodes fit an `i32`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
     lattice: Lattice,
@@ -21,8 +21,8 @@ pub struct Camera {
 }
 
 impl Camera {
-    /// The camera that shows `bounds`, in world units, as large as a canvas of `size_px` allows with `margin_px` free on
-    /// every side.
+    /// The camera that shows `bounds`, in world units, as large as possible on a canvas of `size_px`, with a
+    /// margin of `margin_px` on every side.
     ///
     /// ```
     /// # use meshbrush::{geometry::{Lattice, Rect}, scene::Camera};
@@ -44,7 +44,7 @@ impl Camera {
         Self { size_px: size_px.map(|n| n.max(1)), ..self }.within_limits()
     }
 
-    /// The same view of another grid: the world stays where it was, as far as the other grid reaches.
+    /// The same view of another grid: the world keeps its place, as far as the other grid extends.
     pub fn on_lattice(self, lattice: &Lattice) -> Self {
         if self.lattice == *lattice {
             return self;
@@ -58,8 +58,8 @@ impl Camera {
         Self { center: self.center - self.steps_from_px(delta_px), ..self }.within_limits()
     }
 
-    /// Enlarges the picture by `factor` and keeps what is below `at_px` in its place, within the limits: from the whole
-    /// grid on a quarter of the canvas to 200 px for a lattice step.
+    /// Scales the picture by `factor` and keeps the point at `at_px` in its place. Limits: the whole grid on
+    /// a quarter of the canvas, and 200 px per lattice step.
     pub fn zoomed(self, factor: f64, at_px: DVec2) -> Self {
         let fixed = self.lattice_from_screen(at_px);
         let scaled = Self { px_per_world: self.px_per_world * factor, ..self }.within_limits();
@@ -67,12 +67,12 @@ impl Camera {
         Self { center, ..scaled }.within_limits()
     }
 
-    /// Puts a point of the world in the middle of the canvas.
+    /// Moves a point of the world to the middle of the canvas.
     pub fn centered_on(self, world: DVec2) -> Self {
         Self { center: self.lattice.lattice_from_world(world), ..self }.within_limits()
     }
 
-    /// The grid that the camera looks at.
+    /// The lattice of the grid.
     pub fn lattice(&self) -> &Lattice {
         &self.lattice
     }
@@ -82,41 +82,42 @@ impl Camera {
         self.size_px
     }
 
-    /// Pixels for a world unit.
+    /// Pixels per world unit.
     pub fn px_per_world(&self) -> f64 {
         self.px_per_world
     }
 
-    /// Pixels for a lattice step along x and y; up to 5 % apart where cells are not square.
+    /// Pixels per lattice step along x and y. They differ by up to 5 % where cells are not square.
     pub fn px_per_step(&self) -> DVec2 {
         self.px_per_world * self.lattice.step()
     }
 
-    /// The lattice point at or below the middle of the canvas, and what is left to it, in lattice steps from 0 to 1.
+    /// The middle of the canvas as a lattice point (rounded down) and the remainder, in lattice steps from 0
+    /// to 1.
     pub fn anchor(&self) -> (IVec2, DVec2) {
         let whole = self.center.floor();
         (whole.as_ivec2(), self.center - whole)
     }
 
-    /// Where a node is drawn, in pixels.
+    /// Position of a node on the screen, in pixels.
     #[inline]
     pub fn screen_from_lattice(&self, p: LatticePoint) -> DVec2 {
         self.screen(p.as_dvec2() - self.center)
     }
 
-    /// Where a point of the world is drawn, in pixels.
+    /// Position of a point of the world on the screen, in pixels.
     pub fn screen_from_world(&self, p: DVec2) -> DVec2 {
         self.screen(self.lattice.lattice_from_world(p) - self.center)
     }
 
-    /// [`Self::screen_from_world`] for a great many points: quick, and to within rounding of world coordinates.
+    /// [`Self::screen_from_world`] for many points: faster, exact up to the rounding of world coordinates.
     pub fn screen_map(&self) -> impl Fn(DVec2) -> DVec2 + use<> {
         let (world, middle) = (self.world_from_lattice(self.center), self.half_size_px());
         let scale = dvec2(self.px_per_world, -self.px_per_world);
         move |p| middle + (p - world) * scale
     }
 
-    /// Lattice coordinates of a pixel position, as real numbers; may lie off the grid.
+    /// Lattice coordinates of a pixel position, as real numbers; the point may be outside the grid.
     pub fn lattice_from_screen(&self, px: DVec2) -> DVec2 {
         self.center + self.steps_from_px(px - self.half_size_px())
     }
@@ -154,7 +155,8 @@ impl Camera {
     fn within_limits(mut self) -> Self {
         let whole = fitting_scale(self.lattice.bounds(), self.size_px, 0.0);
         let smallest = whole * SMALLEST_SHARE;
-        // A grid far from the origin may have so few halvings that the whole of it comes first.
+        // On a grid far from the origin with few halvings, a step at the scale that fits the whole grid can
+        // be larger.
         let largest = (LARGEST_STEP_PX / self.lattice.step().max_element()).max(whole);
         let scale = if self.px_per_world.is_finite() { self.px_per_world } else { whole };
         self.px_per_world = scale.clamp(smallest, largest);
@@ -202,7 +204,7 @@ mod tests {
     }
 
     #[test]
-    fn zooming_keeps_what_is_below_the_pointer() {
+    fn zooming_keeps_the_point_below_the_pointer() {
         let mut camera = camera(Rect::UNIT, 0.05);
         let pointer = dvec2(301.0, 207.0);
         let below = camera.lattice_from_screen(pointer);
@@ -237,7 +239,7 @@ mod tests {
     }
 
     #[test]
-    fn many_points_are_where_each_is() {
+    fn the_map_for_many_points_agrees_with_single_points() {
         let camera =
             camera(Rect::new(dvec2(3.0, -2.0), dvec2(7.0, 1.1)), 0.31).zoomed(900.0, dvec2(310.0, 120.0));
         let quick = camera.screen_map();
@@ -247,7 +249,7 @@ mod tests {
     }
 
     #[test]
-    fn the_world_stays_when_the_grid_changes() {
+    fn the_view_stays_when_the_grid_changes() {
         let camera = camera(Rect::UNIT, 0.05).zoomed(8.0, dvec2(100.0, 100.0));
         let finer = Lattice::covering(Rect::UNIT, 0.013, 100_000).unwrap();
         let px = dvec2(700.0, 40.0);

@@ -5,13 +5,13 @@ use crate::colormap::Ground;
 use crate::mesh::{Mesh, TriangleId};
 
 const WHITE: [u8; 4] = [0xff; 4];
-/// Outlines are cut off this far outside the canvas, where no line width reaches.
-const CUT_OFF_PX: f64 = 32.0;
+/// Outlines are clipped this far outside the canvas, further than any line width.
+const CLIP_MARGIN_PX: f64 = 32.0;
 
-/// Triangles that stand out.
+/// Triangles to emphasize.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Highlights {
-    /// The triangle that was asked about.
+    /// The queried triangle.
     pub selected: Option<TriangleId>,
     /// Its neighbours, the bisection neighbour first; `None` at the boundary.
     pub neighbours: [Option<TriangleId>; 3],
@@ -30,7 +30,7 @@ impl Highlights {
 /// A closed shape on the screen, filled and outlined. Colours are sRGB bytes, alpha not premultiplied.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outline {
-    /// Corners in pixels, at least three; a triangle, cut off where it reaches far beyond the canvas.
+    /// Corners in pixels, at least three: a triangle, clipped where it extends far beyond the canvas.
     pub polygon: Vec<[f32; 2]>,
     /// Colour inside.
     pub fill: [u8; 4],
@@ -40,9 +40,9 @@ pub struct Outline {
     pub line_width_px: f32,
 }
 
-/// The shapes of the highlights, to be drawn in this order. `px_per_point` widens lines on dense screens.
+/// The outlines of the highlights, in drawing order. `px_per_point` scales line widths on dense screens.
 ///
-/// Ids that the mesh no longer has, and triangles off the canvas, give none.
+/// Ids that the mesh no longer has and triangles off the canvas have no outline.
 pub fn highlight_outlines(
     mesh: &Mesh,
     camera: &Camera,
@@ -63,7 +63,7 @@ pub fn highlight_outlines(
     if highlights.hovered != highlights.selected {
         draw(highlights.hovered, translucent(WHITE, 0x14), translucent(WHITE, 0xb0), 1.0);
     }
-    // White alone would be lost on yellow: a dark halo carries it.
+    // White alone is hard to see on yellow, so it gets a dark halo.
     draw(highlights.selected, translucent(WHITE, 0x30), [0, 0, 0, 0x70], 4.0);
     draw(highlights.selected, [0; 4], WHITE, 2.0);
     outlines
@@ -76,19 +76,19 @@ fn translucent([r, g, b, _]: [u8; 4], alpha: u8) -> [u8; 4] {
 fn polygon_on_screen(mesh: &Mesh, camera: &Camera, id: TriangleId) -> Option<Vec<[f32; 2]>> {
     let triangle = mesh.triangles().get(id.index())?;
     let corners = triangle.vertices.map(|v| camera.screen_from_lattice(mesh.node(v)));
-    let polygon = cut_to_canvas(corners.to_vec(), camera);
+    let polygon = clip_to_canvas(corners.to_vec(), camera);
     (polygon.len() >= 3).then(|| polygon.into_iter().map(|p| p.as_vec2().to_array()).collect())
 }
 
-/// Cuts a convex polygon off a little outside the canvas, one side after the other (Sutherland and Hodgman).
+/// Clips a convex polygon a little outside the canvas (Sutherland and Hodgman).
 ///
-/// A triangle that is large on the lattice can be 10¹¹ px wide at a deep zoom, where f32 would tear its edges away.
-fn cut_to_canvas(mut polygon: Vec<DVec2>, camera: &Camera) -> Vec<DVec2> {
-    let far = 2.0 * camera.half_size_px() + DVec2::splat(CUT_OFF_PX);
+/// At a deep zoom a coarse triangle can be 10¹¹ px wide; in f32 its edges would be displaced.
+fn clip_to_canvas(mut polygon: Vec<DVec2>, camera: &Camera) -> Vec<DVec2> {
+    let far = 2.0 * camera.half_size_px() + DVec2::splat(CLIP_MARGIN_PX);
     let sides = [
-        (dvec2(1.0, 0.0), CUT_OFF_PX),
+        (dvec2(1.0, 0.0), CLIP_MARGIN_PX),
         (dvec2(-1.0, 0.0), far.x),
-        (dvec2(0.0, 1.0), CUT_OFF_PX),
+        (dvec2(0.0, 1.0), CLIP_MARGIN_PX),
         (dvec2(0.0, -1.0), far.y),
     ];
     for (inwards, offset) in sides {
@@ -125,7 +125,7 @@ mod tests {
     }
 
     #[test]
-    fn a_triangle_and_its_neighbours_become_their_corners_on_the_screen() {
+    fn a_triangle_and_its_neighbours_are_outlined_by_their_corners() {
         let mesh = mesh();
         let camera = Camera::fit(mesh.lattice(), Rect::UNIT, [100, 100], 0.0);
         let highlights = Highlights::around(&mesh, TriangleId::from_index(0));
@@ -141,7 +141,7 @@ mod tests {
     }
 
     #[test]
-    fn a_triangle_much_larger_than_the_canvas_is_cut_off_outside_it() {
+    fn a_triangle_much_larger_than_the_canvas_is_clipped_outside_it() {
         let mesh = mesh();
         let camera =
             Camera::fit(mesh.lattice(), Rect::UNIT, [100, 100], 0.0).zoomed(1e300, dvec2(10.0, 80.0));
@@ -152,7 +152,7 @@ mod tests {
     }
 
     #[test]
-    fn ids_of_a_former_mesh_are_no_longer_drawn() {
+    fn ids_of_a_previous_mesh_are_not_drawn() {
         let mesh = mesh();
         let camera = Camera::fit(mesh.lattice(), Rect::UNIT, [100, 100], 0.0);
         let highlights =

@@ -1,7 +1,7 @@
-//! What a picture shows, as plain data: where the camera stands, how levels look, what is highlighted, what lies above.
+//! What a picture shows, as plain data: the camera, the appearance of levels, the highlights and the overlay.
 //!
-//! Everything here is in the user's terms, with neither GPU nor window. Both renderers take their numbers from here, so
-//! they cannot drift apart. Pixels are physical ones, counted from the upper left corner of the canvas, y downwards.
+//! This module knows neither GPU nor window. Both renderers take their numbers from it, so they cannot
+//! diverge. Pixels are physical pixels, counted from the upper left corner of the canvas, y downwards.
 //! Colours are sRGB bytes and are mixed as such, as in egui.
 
 mod camera;
@@ -12,4 +12,4 @@ mod style;
 pub use camera::Camera;
 pub use highlight::{Highlights, Outline, highlight_outlines};
 pub use overlay::{Overlay, TexelMap};
-pub use style::{ColorTable, LEVELS, LevelPaint, Style};
+pub use style::{LevelPaint, Style};

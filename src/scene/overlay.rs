@@ -3,12 +3,12 @@ use glam::{DVec2, dvec2};
 use super::Camera;
 use crate::geometry::Rect;
 
-/// A raster of colours above the mesh, such as the field that is painted.
+/// A raster of colours drawn over the mesh, such as the painted field.
 ///
-/// Shown with the nearest pixel, so that the raster's own resolution is seen.
+/// It is sampled at the nearest pixel, so that its own resolution is visible.
 #[derive(Clone, Copy, Debug)]
 pub struct Overlay<'a> {
-    /// Where it lies, in world units.
+    /// The rectangle it covers, in world units.
     pub bounds: Rect,
     /// Pixels in a row.
     pub columns: u32,
@@ -16,23 +16,23 @@ pub struct Overlay<'a> {
     pub rows: u32,
     /// Red, green, blue, alpha, not premultiplied, row by row from the lower left.
     pub rgba: &'a [[u8; 4]],
-    /// How much of it shows, from 0 to 1.
+    /// Opacity from 0 to 1.
     pub opacity: f32,
-    /// Changes with the contents; renderers that keep a copy compare it.
+    /// Changes with the contents. Renderers that keep a copy compare it.
     pub revision: u64,
 }
 
-/// The pixels of an overlay as seen from the screen.
+/// Maps screen positions to pixels (texels) of an overlay.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TexelMap {
-    /// Column and row, as real numbers, in the middle of the canvas.
+    /// Column and row at the middle of the canvas, as real numbers.
     pub at_center: DVec2,
-    /// Columns for a pixel to the right, and rows for a pixel upwards.
+    /// Columns per pixel to the right, and rows per pixel upwards.
     pub per_px: DVec2,
 }
 
 impl Overlay<'_> {
-    /// Where on the screen its pixels are.
+    /// The position of its pixels on the screen.
     pub fn texels(&self, camera: &Camera) -> TexelMap {
         let per_world = dvec2(f64::from(self.columns), f64::from(self.rows)) / self.bounds.size();
         let middle = camera.world_from_screen(camera.half_size_px());

@@ -1,45 +1,40 @@
 use super::Camera;
-use crate::colormap::Ground;
-
-/// Levels that a mesh can have: the lattice ends before.
-pub const LEVELS: usize = 64;
-
-/// The colour of each level, from 0: red, green, blue as sRGB bytes. The fourth byte is not used, fills are opaque.
-pub type ColorTable = [[u8; 4]; LEVELS];
+use crate::colormap::{Ground, LEVELS, LevelColors};
 
 fn opaque([r, g, b]: [u8; 3]) -> [u8; 4] {
     [r, g, b, 0xff]
 }
 
-/// How a mesh looks. Colours are sRGB bytes.
+/// The appearance of a mesh. Colours are sRGB bytes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Style {
     /// Fill by level.
-    pub level_colors: ColorTable,
-    /// What shows where there is no mesh: the colour of the canvas.
+    pub level_colors: LevelColors,
+    /// The colour of the canvas, seen where there is no mesh.
     pub ground: [u8; 4],
     /// Whether edges are drawn.
     pub edges: bool,
     /// Width of an edge in pixels.
     pub edge_width_px: f32,
-    /// Legs of triangles, in pixels, at which edges are gone and at which they are drawn in full.
+    /// Lengths of legs in pixels: up to the first, edges are invisible; from the second on, they are drawn in
+    /// full.
     pub edge_fade_px: [f32; 2],
-    /// How dark an edge is beside its fill: 0 black, 1 like the fill.
+    /// Brightness of an edge relative to its fill: 0 is black, 1 the colour of the fill.
     pub edge_shade: f32,
-    /// Levels shown in full, as bits from level 0. The others recede towards the ground.
+    /// Levels shown in full, as bits from level 0. The others fade towards the ground.
     pub shown_levels: u64,
 }
 
-/// How much of its own colour a receding level keeps.
-const RECEDED_FILL: f32 = 0.12;
-/// How much of its edges a receding level keeps.
-const RECEDED_EDGE: f32 = 0.5;
+/// The share of its own colour that a faded level keeps.
+const FADED_FILL: f32 = 0.12;
+/// The share of its edges that a faded level keeps.
+const FADED_EDGE: f32 = 0.5;
 
 impl Style {
-    /// The look on a dark ground.
-    pub fn dark(level_colors: ColorTable) -> Self {
+    /// The appearance on a dark ground.
+    pub fn dark(level_colors: impl Into<LevelColors>) -> Self {
         Self {
-            level_colors,
+            level_colors: level_colors.into(),
             ground: opaque(Ground::Dark.canvas()),
             edges: true,
             edge_width_px: 1.0,
@@ -49,26 +44,27 @@ impl Style {
         }
     }
 
-    /// The look on a light ground.
-    pub fn light(level_colors: ColorTable) -> Self {
+    /// The appearance on a light ground.
+    pub fn light(level_colors: impl Into<LevelColors>) -> Self {
         Self { ground: opaque(Ground::Light.canvas()), edge_shade: 0.72, ..Self::dark(level_colors) }
     }
 
-    /// The same look on a screen with `px_per_point` pixels for a point: edges keep their width to the eye.
+    /// The same appearance on a screen with `px_per_point` pixels per point: edges keep their apparent width.
     pub fn at_density(mut self, px_per_point: f32) -> Self {
         self.edge_width_px *= px_per_point;
         self.edge_fade_px = self.edge_fade_px.map(|px| px * px_per_point);
         self
     }
 
-    /// How far from the middle of an edge its colour reaches, in pixels. The coverage of a pixel whose centre is `d` px
-    /// away is this less `d`, from 0 to 1: each of the two triangles draws its half of the line.
+    /// How far from the middle of an edge its colour extends, in pixels. A pixel whose centre is at distance
+    /// `d` has the coverage `edge_reach_px − d`, clamped to 0…1. Each of the two triangles draws its half of
+    /// the line.
     pub fn edge_reach_px(&self) -> f32 {
         self.edge_width_px / 2.0 + 0.5
     }
 
-    /// By how much less than from the middle of an edge it counts from the boundary, in pixels: nobody draws the other half of the
-    /// line there, so the triangle draws both.
+    /// Subtracted from the distance to a boundary edge, in pixels: there is no neighbour to draw the other
+    /// half of the line, so the triangle draws both.
     pub fn rim_px(&self) -> f32 {
         self.edge_width_px / 2.0
     }
@@ -78,20 +74,20 @@ impl Style {
         self.shown_levels >> level & 1 == 1
     }
 
-    /// The ground, from 0 to 1.
+    /// The colour of the ground, channels from 0 to 1.
     pub fn ground_color(&self) -> [f32; 3] {
         unit_color(self.ground)
     }
 }
 
-/// How the triangles of one level are drawn at one zoom. Colours from 0 to 1, lengths in pixels.
+/// The appearance of the triangles of one level at one zoom. Channels from 0 to 1, lengths in pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LevelPaint {
     /// Colour inside.
     pub fill: [f32; 3],
     /// Colour of the edges.
     pub edge: [f32; 3],
-    /// How much of the edges shows: 0 where triangles are too small for them.
+    /// Opacity of the edges: 0 where triangles are too small for edges.
     pub edge_alpha: f32,
     /// Length of a leg.
     pub leg_px: f32,
@@ -102,9 +98,9 @@ pub struct LevelPaint {
 }
 
 impl LevelPaint {
-    /// How every level is drawn, from 0.
+    /// The appearance of every level, from 0.
     ///
-    /// Lengths along x and y differ by up to 5 % where cells are not square; these are their means.
+    /// Where cells are not square, lengths along x and y differ by up to 5 %; these are their means.
     pub fn all(camera: &Camera, style: &Style) -> [Self; LEVELS] {
         std::array::from_fn(|level| Self::at(level as u32, camera, style))
     }
@@ -124,8 +120,7 @@ impl LevelPaint {
         Self {
             fill,
             edge: fill.map(|c| c * style.edge_shade),
-            edge_alpha: edge_alpha(leg_px as f32, style)
-                * if style.shows(level) { 1.0 } else { RECEDED_EDGE },
+            edge_alpha: edge_alpha(leg_px as f32, style) * if style.shows(level) { 1.0 } else { FADED_EDGE },
             leg_px: leg_px as f32,
             apex_height_px: apex_height_px as f32,
             base_height_px: base_height_px as f32,
@@ -134,8 +129,8 @@ impl LevelPaint {
 }
 
 fn fill_color(level: u32, style: &Style) -> [f32; 3] {
-    let own = unit_color(style.level_colors[level as usize]);
-    if style.shows(level) { own } else { mixed(style.ground_color(), own, RECEDED_FILL) }
+    let own = unit_color(style.level_colors.of(level as u8));
+    if style.shows(level) { own } else { mixed(style.ground_color(), own, FADED_FILL) }
 }
 
 fn edge_alpha(leg_px: f32, style: &Style) -> f32 {
@@ -144,7 +139,7 @@ fn edge_alpha(leg_px: f32, style: &Style) -> f32 {
         return 0.0;
     }
     let t = ((leg_px - gone) / (full - gone)).min(1.0);
-    // Smooth at both ends, so that no zoom shows where the fade begins.
+    // Smooth at both ends, so that the beginning of the fade is not visible while zooming.
     t * t * (3.0 - 2.0 * t)
 }
 
@@ -192,7 +187,7 @@ mod tests {
     }
 
     #[test]
-    fn levels_out_of_the_filter_recede_towards_the_ground() {
+    fn levels_that_are_not_shown_fade_towards_the_ground() {
         let style = Style { shown_levels: 1 << 3, ..Style::dark([[200; 4]; LEVELS]) };
         let paints = paints(&style, 1.0);
         assert_eq!(paints[3].fill, unit_color([200; 4]));

@@ -129,7 +129,7 @@ impl Sending {
         let (mesh, revision) = (follower.mesh(), follower.revision());
         match change {
             Some(MeshChange::Within(changes)) if !self.behind || mirror.uploading().is_some() => {
-                mirror.write_ranges(mesh, revision, &changes)?;
+                mirror.apply_changes(mesh, revision, &changes)?;
             }
             Some(_) => self.behind = true,
             None => {}
@@ -138,9 +138,9 @@ impl Sending {
             return Ok(Progress::Done);
         }
         if mirror.uploading() != Some(revision) {
-            mirror.begin(mesh, revision)?;
+            mirror.begin_upload(mesh, revision)?;
         }
-        Ok(mirror.upload_some(mesh, BYTES_PER_FRAME))
+        Ok(mirror.advance_upload(mesh, BYTES_PER_FRAME))
     }
 }
 

@@ -1,21 +1,22 @@
-//! Arrays that grow, over as many buffers as the device's limits ask for.
+//! Growing arrays in as many buffers as the limits of the device require.
 
 use super::GpuError;
-use super::mirror::NODE_BUFFERS;
 use crate::geometry::LatticePoint;
 use crate::mesh::Triangle;
 
-/// Larger buffers would make a growing mesh ask for much memory at once.
+/// Node buffers that a shader reads at once.
+pub const NODE_BUFFERS: usize = 4;
+/// Upper limit of a buffer: with larger ones, each growth of a mesh would allocate much memory at once.
 const LARGEST_CHUNK_BYTES: u64 = 256 << 20;
-/// Smallest buffer, so that the first strokes of a brush find room.
+/// Smallest buffer, so that the first strokes need no larger one.
 const SMALLEST_CHUNK_BYTES: u64 = 64 << 10;
 
-/// How many entries of the mesh's arrays one buffer takes.
+/// How many entries of the arrays of a mesh fit one buffer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ChunkLimits {
-    /// Triangles in a buffer, drawn together.
+    /// Triangles in a buffer; they are drawn together.
     pub triangles: usize,
-    /// Nodes in a buffer, as a power of two; a shader reads [`NODE_BUFFERS`] of them.
+    /// Binary logarithm of the nodes in a buffer; a shader reads [`NODE_BUFFERS`] buffers.
     pub node_bits: u32,
 }
 
@@ -59,9 +60,10 @@ impl ChunkedArray {
         &self.chunks
     }
 
-    /// Makes room for `items`, keeping the first `kept` of the present contents. True when buffers were exchanged.
+    /// Makes room for `items` and keeps the first `kept` items of the present contents. Returns whether any
+    /// buffer was replaced.
     ///
-    /// Chunks that are not needed stay for later, but where nothing is to be kept, no more than are needed once more.
+    /// Unneeded chunks are kept for later. When no contents are kept, at most as many as needed now stay.
     pub(super) fn reserve(
         &mut self,
         device: &wgpu::Device,
@@ -94,14 +96,14 @@ impl ChunkedArray {
         Ok(changed)
     }
 
-    /// Twice what is there, or somewhat more than is asked for; never more than a chunk.
+    /// Twice the present size or a quarter more than needed, whichever is larger; at most a whole chunk.
     fn grown_size(&self, needed: u64, present: Option<&wgpu::Buffer>) -> u64 {
         let doubled = present.map_or(0, |buffer| 2 * buffer.size());
         let roomy = (needed + needed / 4).max(doubled).max(SMALLEST_CHUNK_BYTES);
         roomy.next_multiple_of(self.item_bytes).min(self.bytes(self.chunk_items))
     }
 
-    /// Writes the bytes of whole items from index `first` on, across the borders of chunks.
+    /// Writes the bytes of whole items from index `first` on, across the boundaries of chunks.
     pub(super) fn write(&self, queue: &wgpu::Queue, first: usize, mut bytes: &[u8]) {
         let mut index = first;
         while !bytes.is_empty() {
@@ -114,8 +116,8 @@ impl ChunkedArray {
         }
     }
 
-    /// How many of `items` lie in each chunk.
-    pub(super) fn fill_of_chunks(&self, items: usize) -> impl Iterator<Item = usize> {
+    /// How many of the first `items` items lie in each chunk.
+    pub(super) fn items_in_chunks(&self, items: usize) -> impl Iterator<Item = usize> {
         let size = self.chunk_items;
         (0..items.div_ceil(size)).map(move |chunk| (items - chunk * size).min(size))
     }

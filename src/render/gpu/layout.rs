@@ -1,10 +1,11 @@
-//! Plain data as the shaders read it.
+//! The uniform data of the shaders.
 
 use bytemuck::{Pod, Zeroable};
 use glam::{IVec2, Vec2};
 
+use crate::colormap::LEVELS;
 use crate::render::{HUGE_LEG_PX, SEAM_SLACK_PX};
-use crate::scene::{Camera, LEVELS, LevelPaint, Overlay, Style};
+use crate::scene::{Camera, LevelPaint, Overlay, Style};
 
 /// `Level` of mesh.wgsl.
 #[repr(C)]

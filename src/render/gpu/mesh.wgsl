@@ -1,7 +1,7 @@
-// Draws triangles straight from the arrays of the mesh: three vertices for each entry, fetched by index.
+// Draws triangles directly from the arrays of the mesh: three vertices per entry, fetched by index.
 //
-// Positions are pixels from the middle of the canvas, y upwards. The camera is subtracted from lattice coordinates as
-// integers; only the difference becomes f32.
+// Positions are in pixels from the middle of the canvas, y upwards. The position of the camera is subtracted
+// from lattice coordinates in integers; only the difference is converted to f32.
 
 struct Level {
     fill: vec3<f32>,
@@ -46,7 +46,7 @@ struct Corner {
     @location(0) inside_px: vec3<f32>,
     @location(1) @interpolate(flat) fill: vec3<f32>,
     @location(2) @interpolate(flat) edge: vec4<f32>,
-    // What to take from each distance, so that an edge at the boundary is drawn whole.
+    // Subtracted from each distance, so that boundary edges get their full width.
     @location(3) @interpolate(flat) rims_px: vec3<f32>,
 }
 
@@ -59,32 +59,33 @@ fn vs_main(@builtin(vertex_index) index: u32) -> Corner {
     let corner = index % 3u;
     let level_number = triangles[entry].kind % 64u;
     let level = view.levels[level_number];
-    var placed: Placed;
+    var placement: Placement;
     if triangles[entry].kind >= 64u {
-        // All three corners in one place: nothing is drawn.
-        placed.px = vec2(0.0);
+        // All three corners in one point: nothing is drawn.
+        placement.px = vec2(0.0);
     } else if level.huge != 0u {
-        placed = huge_corner(entry, corner);
+        placement = huge_corner(entry, corner);
     } else {
         let steps = steps_from_anchor(triangles[entry].vertices[corner]);
-        placed.px = (vec2<f32>(steps) - view.fraction) * view.px_per_step;
-        placed.inside_px = inside_at_corner(corner, level_number, level.apex_height_px, level.base_height_px);
+        placement.px = (vec2<f32>(steps) - view.fraction) * view.px_per_step;
+        placement.inside_px = inside_at_corner(corner, level_number, level.apex_height_px, level.base_height_px);
     }
     var out: Corner;
-    out.position = vec4(placed.px / view.half_size_px, 0.0, 1.0);
-    out.inside_px = placed.inside_px;
+    out.position = vec4(placement.px / view.half_size_px, 0.0, 1.0);
+    out.inside_px = placement.inside_px;
     out.fill = level.fill;
     out.edge = vec4(level.edge, level.edge_alpha);
     out.rims_px = rims(entry, level_number);
     return out;
 }
 
-struct Placed {
+struct Placement {
     px: vec2<f32>,
     inside_px: vec3<f32>,
 }
 
-// Lattice steps to a node from the camera's anchor. Lattice coordinates end at 2³⁰, so the difference fits.
+// Lattice steps from the camera's anchor to a node. Lattice coordinates are at most 2³⁰, so the difference
+// fits.
 fn steps_from_anchor(node: u32) -> vec2<i32> {
     let place = node & ((1u << view.node_chunk_bits) - 1u);
     var p: vec2<u32>;
@@ -97,7 +98,7 @@ fn steps_from_anchor(node: u32) -> vec2<i32> {
     return bitcast<vec2<i32>>(p) - view.anchor;
 }
 
-// A corner is its height away from the opposite edge, and on the two others.
+// The distances of a corner from the three edges: its height from the opposite edge, 0 from the two others.
 fn inside_at_corner(corner: u32, level: u32, apex_height_px: f32, base_height_px: f32) -> vec3<f32> {
     // The apex is the second vertex at even levels, the third at odd levels.
     let is_apex = corner == 1u + (level & 1u);
@@ -109,7 +110,8 @@ fn inside_at_corner(corner: u32, level: u32, apex_height_px: f32, base_height_px
     );
 }
 
-// Half the width of a line for each edge where nobody draws the other half, by the corner opposite.
+// For each corner, half the line width if the opposite edge is a boundary edge: no neighbour draws the other
+// half there.
 fn rims(entry: u32, level: u32) -> vec3<f32> {
     let odd = level & 1u;
     let apex = 1u + odd;
@@ -126,33 +128,35 @@ fn rim_towards(neighbour: u32) -> f32 {
     return select(0.0, view.rim_px, neighbour == BOUNDARY);
 }
 
-// A corner of one triangle over the whole canvas, from which the fragment shader cuts the huge triangle; nowhere, where
-// the canvas lies beyond one of its edges.
-fn huge_corner(entry: u32, corner: u32) -> Placed {
+// A corner of a triangle that covers the whole canvas; the fragment shader discards what is outside the huge
+// triangle. If the canvas lies beyond one of its edges, all corners are off the canvas.
+fn huge_corner(entry: u32, corner: u32) -> Placement {
     let a = steps_from_anchor(triangles[entry].vertices[0]);
     let b = steps_from_anchor(triangles[entry].vertices[1]);
     let c = steps_from_anchor(triangles[entry].vertices[2]);
-    let lines = array(inward_line(b, c, a), inward_line(c, a, b), inward_line(a, b, c));
+    let half_planes = array(half_plane(b, c, a), half_plane(c, a, b), half_plane(a, b, c));
     let unit = vec2(select(-1.0, 3.0, corner == 1u), select(-1.0, 3.0, corner == 2u));
     let px = unit * view.half_size_px;
-    var out: Placed;
+    var out: Placement;
     out.px = px;
     out.inside_px =
-        vec3(dot(lines[0], vec3(px, 1.0)), dot(lines[1], vec3(px, 1.0)), dot(lines[2], vec3(px, 1.0)));
+        vec3(dot(half_planes[0], vec3(px, 1.0)), dot(half_planes[1], vec3(px, 1.0)), dot(half_planes[2], vec3(px, 1.0)));
     for (var i = 0; i < 3; i++) {
-        let at_nearest_corner = dot(abs(lines[i].xy), view.half_size_px) + lines[i].z;
-        if at_nearest_corner < -view.seam_slack_px {
+        let largest = dot(abs(half_planes[i].xy), view.half_size_px) + half_planes[i].z;
+        if largest < -view.seam_slack_px {
             out.px = vec2(-2.0, -2.0) * view.half_size_px;
         }
     }
     return out;
 }
 
-// The line through an edge, positive on the side of the opposite corner: xy · px + z is the distance in pixels.
+// The half-plane of an edge, positive on the side of the opposite corner: xy · px + z is the distance in
+// pixels.
 //
-// Edges run along an axis or a diagonal, so the normal consists of −1, 0 and 1, and the product with it fits an i32: of
-// two coordinates only one can be near 2³⁰ with that sign on a line that meets the grid in more than a point.
-fn inward_line(start: vec2<i32>, end: vec2<i32>, opposite: vec2<i32>) -> vec3<f32> {
+// Edges run along an axis or a diagonal, so the normal has components −1, 0 and 1. Its product with a node
+// fits an i32: on a line that meets the lattice in more than one point, only one coordinate can be near 2³⁰
+// with that sign.
+fn half_plane(start: vec2<i32>, end: vec2<i32>, opposite: vec2<i32>) -> vec3<f32> {
     let along = sign(end - start);
     var normal = vec2(-along.y, along.x);
     let across = opposite - start;

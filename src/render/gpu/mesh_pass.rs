@@ -1,4 +1,4 @@
-//! The pipeline that draws the triangles of a mirror.
+//! The render pipeline for the triangles of a mirror.
 
 use super::layout::MeshView;
 use super::mirror::MeshMirror;
@@ -23,7 +23,7 @@ impl MeshPass {
             entries: &[wgpu::BindGroupEntry { binding: 0, resource: view.as_entire_binding() }],
         });
         let shader = device.create_shader_module(wgpu::include_wgsl!("mesh.wgsl"));
-        let pipeline = full_pipeline(device, &shader, &[&view_layout, mirror.layout()], format, None);
+        let pipeline = render_pipeline(device, &shader, &[&view_layout, mirror.layout()], format, None);
         Self { pipeline, view, view_group }
     }
 
@@ -35,7 +35,7 @@ impl MeshPass {
         camera: &Camera,
         style: &Style,
     ) {
-        // While the mesh of another grid is taken in, the former one stays in its place in the world.
+        // During the upload of a mesh with another lattice, the previous mesh keeps its place in the world.
         let camera = mirror.lattice().map_or(*camera, |lattice| camera.on_lattice(lattice));
         let view = MeshView::new(&camera, style, mirror.limits().node_bits);
         queue.write_buffer(&self.view, 0, bytemuck::bytes_of(&view));
@@ -48,8 +48,9 @@ impl MeshPass {
     }
 }
 
-/// A pipeline without vertex buffers, from `vs_main` and `fs_main`, for a target without depth and multisampling.
-pub(super) fn full_pipeline(
+/// A render pipeline without vertex buffers, from `vs_main` and `fs_main`, without depth buffer and
+/// multisampling.
+pub(super) fn render_pipeline(
     device: &wgpu::Device,
     shader: &wgpu::ShaderModule,
     groups: &[&wgpu::BindGroupLayout],
@@ -107,7 +108,7 @@ pub(super) fn uniform_entry(binding: u32) -> wgpu::BindGroupLayoutEntry {
     }
 }
 
-/// A texture that a fragment shader reads texel by texel.
+/// Layout entry of a texture that a fragment shader reads without filtering.
 pub(super) fn texel_entry(binding: u32) -> wgpu::BindGroupLayoutEntry {
     wgpu::BindGroupLayoutEntry {
         binding,
@@ -121,7 +122,7 @@ pub(super) fn texel_entry(binding: u32) -> wgpu::BindGroupLayoutEntry {
     }
 }
 
-/// A texture of one layer.
+/// A two-dimensional texture without mip levels.
 pub(super) fn new_texture(
     device: &wgpu::Device,
     label: &str,

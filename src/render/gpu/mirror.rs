@@ -3,31 +3,54 @@
 use std::ops::Range;
 
 use super::GpuError;
-use super::chunks::{ChunkLimits, ChunkedArray, new_buffer};
+use super::chunks::{ChunkLimits, ChunkedArray, NODE_BUFFERS, new_buffer};
 use crate::geometry::{Lattice, LatticePoint};
 use crate::mesh::{Changes, Mesh, Progress, Triangle};
 
-/// Node buffers that a shader reads at once.
-pub const NODE_BUFFERS: usize = 4;
-/// Changed ranges with at most this many entries between them travel as one.
+/// Changed ranges with at most this many entries between them are written as one.
 const SMALL_GAP: usize = 32;
 
-/// A mesh on the GPU: the arrays of [`Mesh`] as they are, in one buffer or several.
+/// A mesh on the GPU: the arrays of [`Mesh`] as they are, each in one or more buffers.
 ///
-/// There are two copies. The *front* is drawn; the *back* takes in another mesh piece by piece, while the front stays on
-/// the screen, and changes places with it when it is whole. Small edits go to the front at once; while the back takes in a mesh
-/// they are edits of that mesh, and go there.
+/// There are two copies. The front is drawn. The back receives another mesh in slices while the front stays
+/// on the screen; when it is complete, the two change places.
+///
+/// ```text
+///  mesh 2 ── begin_upload, advance_upload … ──► back    mesh 2, in part
+///                                                │
+///                                                │ with the last byte they change places:
+///                                                │ the back is now drawn, and the buffers of
+///                                                │ mesh 1 receive the next upload
+///                                                ▼
+///                                               front   mesh 1, drawn
+/// ```
+///
+/// [`Self::apply_changes`] writes edits into the back during an upload, since they are edits of the mesh that
+/// is being uploaded. At other times it writes into the front.
 pub struct MeshMirror {
-    device: wgpu::Device,
-    queue: wgpu::Queue,
+    gpu: Gpu,
     limits: ChunkLimits,
-    layout: wgpu::BindGroupLayout,
-    unused_nodes: wgpu::Buffer,
     front: MeshCopy,
     back: MeshCopy,
     upload: Option<Upload>,
     shown: Option<u64>,
     generation: u64,
+}
+
+/// What is needed to make buffers, fill them and bind them.
+struct Gpu {
+    device: wgpu::Device,
+    queue: wgpu::Queue,
+    layout: wgpu::BindGroupLayout,
+    /// Bound in place of node buffers that a mesh does not need.
+    no_nodes: wgpu::Buffer,
+}
+
+/// Numbers of entries in the two arrays of a mesh.
+#[derive(Clone, Copy)]
+struct Counts {
+    nodes: usize,
+    triangles: usize,
 }
 
 struct MeshCopy {
@@ -38,11 +61,10 @@ struct MeshCopy {
     bind_groups: Vec<wgpu::BindGroup>,
 }
 
-/// How far the back has come: the revision of the mesh, and how many of its first nodes and triangles are there.
+/// An upload into the back: the revision of the mesh, and how many of its first entries are there.
 struct Upload {
     revision: u64,
-    nodes: usize,
-    triangles: usize,
+    sent: Counts,
 }
 
 impl MeshMirror {
@@ -56,12 +78,15 @@ impl MeshMirror {
         if available < needed {
             return Err(GpuError::TooFewStorageBuffers { available, needed });
         }
-        Ok(Self {
+        let gpu = Gpu {
             device: device.clone(),
             queue: queue.clone(),
-            limits,
             layout: bind_group_layout(device),
-            unused_nodes: new_buffer(device, "no nodes", size_of::<LatticePoint>() as u64)?,
+            no_nodes: new_buffer(device, "no nodes", size_of::<LatticePoint>() as u64)?,
+        };
+        Ok(Self {
+            gpu,
+            limits,
             front: MeshCopy::new(limits),
             back: MeshCopy::new(limits),
             upload: None,
@@ -70,99 +95,85 @@ impl MeshMirror {
         })
     }
 
-    /// Begins to take in a mesh; a mesh that was half taken in is dropped. `revision` is the caller's name for it.
+    /// Begins to upload a mesh; an unfinished upload is dropped. `revision` is the caller's name for the
+    /// mesh.
     ///
     /// # Errors
     /// When the device cannot hold the mesh. The mesh on the screen stays.
-    pub fn begin(&mut self, mesh: &Mesh, revision: u64) -> Result<(), GpuError> {
+    pub fn begin_upload(&mut self, mesh: &Mesh, revision: u64) -> Result<(), GpuError> {
         self.upload = None;
         self.check(mesh)?;
-        self.back.reserve(&self.device, &self.queue, mesh, [0, 0])?;
-        self.back.bind(&self.device, &self.layout, &self.unused_nodes);
-        self.back.describe(mesh);
-        self.upload = Some(Upload { revision, nodes: 0, triangles: 0 });
+        let sent = Counts { nodes: 0, triangles: 0 };
+        self.back.bind_groups.clear();
+        self.back.fit(&self.gpu, mesh, sent)?;
+        self.upload = Some(Upload { revision, sent });
         Ok(())
     }
 
-    /// Takes in about `byte_budget` more bytes of the mesh that [`Self::begin`] was called with; where it has changed since,
-    /// [`Self::write_ranges`] was told. When the last byte is in, the mesh is shown from the next frame on.
-    pub fn upload_some(&mut self, mesh: &Mesh, byte_budget: usize) -> Progress {
-        let Some(upload) = &mut self.upload else { return Progress::Done };
+    /// Uploads about `byte_budget` more bytes of the mesh that [`Self::begin_upload`] was called with. If the
+    /// mesh has changed since, the changes must have gone to [`Self::apply_changes`]. With the last byte the
+    /// mesh is shown.
+    pub fn advance_upload(&mut self, mesh: &Mesh, byte_budget: usize) -> Progress {
+        let Some(Upload { revision, sent }) = &mut self.upload else { return Progress::Done };
         debug_assert_eq!(
             self.back.triangle_count,
             mesh.triangles().len(),
-            "the mesh changed during its upload, and its mirror was not told"
+            "the mesh changed during its upload without apply_changes"
         );
-        let sent = send(&self.queue, &self.back.nodes, mesh.nodes(), &mut upload.nodes, byte_budget);
-        let left = byte_budget.saturating_sub(sent);
-        send(&self.queue, &self.back.triangles, mesh.triangles(), &mut upload.triangles, left);
-        if upload.nodes < mesh.nodes().len() || upload.triangles < mesh.triangles().len() {
+        let queue = &self.gpu.queue;
+        let bytes = send(queue, &self.back.nodes, mesh.nodes(), &mut sent.nodes, byte_budget);
+        let left = byte_budget.saturating_sub(bytes);
+        send(queue, &self.back.triangles, mesh.triangles(), &mut sent.triangles, left);
+        if sent.nodes < mesh.nodes().len() || sent.triangles < mesh.triangles().len() {
             return Progress::More;
         }
-        self.shown = Some(upload.revision);
+        self.shown = Some(*revision);
         self.upload = None;
         std::mem::swap(&mut self.front, &mut self.back);
         self.generation += 1;
         Progress::Done
     }
 
-    /// Takes in a whole mesh at once.
+    /// Uploads a whole mesh in one call.
     ///
     /// # Errors
-    /// As [`Self::begin`].
+    /// As [`Self::begin_upload`].
     pub fn upload(&mut self, mesh: &Mesh, revision: u64) -> Result<(), GpuError> {
-        self.begin(mesh, revision)?;
-        self.upload_some(mesh, usize::MAX);
+        self.begin_upload(mesh, revision)?;
+        self.advance_upload(mesh, usize::MAX);
         Ok(())
     }
 
-    /// Takes over that only these entries of a mesh have changed: of the one that is being taken in, or else of the one on the
-    /// screen. Where there is neither, all of it travels.
+    /// Writes the changed entries of a mesh: of the one being uploaded, otherwise of the one on the screen.
+    /// Without either, the whole mesh is uploaded.
     ///
-    /// While a mesh is taken in, what is there of it is written again, and what is not comes in its turn.
+    /// During an upload, changed entries that were already sent are written again; the others follow in their
+    /// turn.
     ///
     /// # Errors
-    /// When the device cannot hold the mesh. A mesh that was half taken in is dropped. The one on the screen stays, but if it
-    /// was the one that changed, [`Self::shown`] forgets it: the next mesh travels as a whole.
-    pub fn write_ranges(&mut self, mesh: &Mesh, revision: u64, changes: &Changes) -> Result<(), GpuError> {
+    /// When the device cannot hold the mesh. An unfinished upload is dropped. The picture stays, but if the
+    /// mesh on the screen was the one that changed, [`Self::shown`] becomes `None` and the next mesh is
+    /// uploaded whole.
+    pub fn apply_changes(&mut self, mesh: &Mesh, revision: u64, changes: &Changes) -> Result<(), GpuError> {
         if let Some(upload) = self.upload.take() {
-            self.upload = Some(self.patch_back(upload, mesh, revision, changes)?);
+            self.check(mesh)?;
+            // Entries behind the end of a mesh that became shorter must be sent again if it grows.
+            let sent = upload.sent.at_most(mesh);
+            self.back.fit(&self.gpu, mesh, sent)?;
+            self.back.write(&self.gpu.queue, mesh, sent, changes);
+            self.upload = Some(Upload { revision, sent });
             return Ok(());
         }
         if self.shown.take().is_none() {
             return self.upload(mesh, revision);
         }
         self.check(mesh)?;
-        if self.front.reserve(&self.device, &self.queue, mesh, [usize::MAX; 2])? {
-            self.front.bind(&self.device, &self.layout, &self.unused_nodes);
-        }
-        send_ranges(&self.queue, &self.front.nodes, mesh.nodes(), &changes.nodes);
-        send_ranges(&self.queue, &self.front.triangles, mesh.triangles(), &changes.triangles);
-        self.front.describe(mesh);
+        let all = Counts { nodes: usize::MAX, triangles: usize::MAX };
+        self.front.fit(&self.gpu, mesh, all)?;
+        self.front.write(&self.gpu.queue, mesh, all.at_most(mesh), changes);
         self.shown = Some(revision);
         self.generation += 1;
         Ok(())
-    }
-
-    /// The upload as it goes on with the mesh as it is now.
-    fn patch_back(
-        &mut self,
-        upload: Upload,
-        mesh: &Mesh,
-        revision: u64,
-        changes: &Changes,
-    ) -> Result<Upload, GpuError> {
-        self.check(mesh)?;
-        // What lies behind the end of a mesh that became shorter is there no longer, though it may grow again.
-        let nodes = upload.nodes.min(mesh.nodes().len());
-        let triangles = upload.triangles.min(mesh.triangles().len());
-        if self.back.reserve(&self.device, &self.queue, mesh, [nodes, triangles])? {
-            self.back.bind(&self.device, &self.layout, &self.unused_nodes);
-        }
-        send_ranges(&self.queue, &self.back.nodes, &mesh.nodes()[..nodes], &changes.nodes);
-        send_ranges(&self.queue, &self.back.triangles, &mesh.triangles()[..triangles], &changes.triangles);
-        self.back.describe(mesh);
-        Ok(Upload { revision, nodes, triangles })
     }
 
     /// Revision of the mesh that is drawn, or `None` before the first and after a failure.
@@ -170,17 +181,17 @@ impl MeshMirror {
         self.shown
     }
 
-    /// Revision of the mesh that is being taken in.
+    /// Revision of the mesh that is being uploaded.
     pub fn uploading(&self) -> Option<u64> {
         self.upload.as_ref().map(|upload| upload.revision)
     }
 
-    /// How the arrays are divided.
+    /// Sizes of the buffers.
     pub fn limits(&self) -> ChunkLimits {
         self.limits
     }
 
-    /// Changes whenever something else is to be drawn.
+    /// Changes whenever the picture must be redrawn.
     pub(super) fn generation(&self) -> u64 {
         self.generation
     }
@@ -191,18 +202,27 @@ impl MeshMirror {
     }
 
     pub(super) fn layout(&self) -> &wgpu::BindGroupLayout {
-        &self.layout
+        &self.gpu.layout
     }
 
-    /// The buffers to draw, each with how many triangles it holds.
+    /// The buffers to draw, each with its number of triangles.
     pub(super) fn draws(&self) -> impl Iterator<Item = (&wgpu::BindGroup, usize)> {
         let copy = &self.front;
-        copy.bind_groups.iter().zip(copy.triangles.fill_of_chunks(copy.triangle_count))
+        copy.bind_groups.iter().zip(copy.triangles.items_in_chunks(copy.triangle_count))
     }
 
     fn check(&self, mesh: &Mesh) -> Result<(), GpuError> {
         let (nodes, limit) = (mesh.nodes().len(), self.limits.max_nodes());
         if nodes > limit { Err(GpuError::TooManyNodes { nodes, limit }) } else { Ok(()) }
+    }
+}
+
+impl Counts {
+    fn at_most(self, mesh: &Mesh) -> Self {
+        Self {
+            nodes: self.nodes.min(mesh.nodes().len()),
+            triangles: self.triangles.min(mesh.triangles().len()),
+        }
     }
 }
 
@@ -217,29 +237,30 @@ impl MeshCopy {
         }
     }
 
-    /// Makes room for a mesh. So many of the first nodes and triangles survive when buffers are exchanged for larger ones: true
-    /// when some were.
-    fn reserve(
-        &mut self,
-        device: &wgpu::Device,
-        queue: &wgpu::Queue,
-        mesh: &Mesh,
-        [kept_nodes, kept_triangles]: [usize; 2],
-    ) -> Result<bool, GpuError> {
-        let nodes = self.nodes.reserve(device, queue, mesh.nodes().len(), kept_nodes)?;
-        let triangles = self.triangles.reserve(device, queue, mesh.triangles().len(), kept_triangles)?;
-        Ok(nodes || triangles)
-    }
-
-    fn describe(&mut self, mesh: &Mesh) {
+    /// Makes the buffers large enough for a mesh. The first `kept` entries keep their contents.
+    fn fit(&mut self, gpu: &Gpu, mesh: &Mesh, kept: Counts) -> Result<(), GpuError> {
+        let (device, queue) = (&gpu.device, &gpu.queue);
+        let nodes = self.nodes.reserve(device, queue, mesh.nodes().len(), kept.nodes)?;
+        let triangles = self.triangles.reserve(device, queue, mesh.triangles().len(), kept.triangles)?;
+        // No bind groups: a failed call may have replaced buffers without binding them.
+        if nodes || triangles || self.bind_groups.is_empty() {
+            self.bind(gpu);
+        }
         self.triangle_count = mesh.triangles().len();
         self.lattice = Some(*mesh.lattice());
+        Ok(())
+    }
+
+    /// Writes the changed entries among the first `present` ones.
+    fn write(&self, queue: &wgpu::Queue, mesh: &Mesh, present: Counts, changes: &Changes) {
+        send_ranges(queue, &self.nodes, &mesh.nodes()[..present.nodes], &changes.nodes);
+        send_ranges(queue, &self.triangles, &mesh.triangles()[..present.triangles], &changes.triangles);
     }
 
     /// One group for each chunk of triangles, with all nodes.
-    fn bind(&mut self, device: &wgpu::Device, layout: &wgpu::BindGroupLayout, unused_nodes: &wgpu::Buffer) {
+    fn bind(&mut self, gpu: &Gpu) {
         let nodes: [&wgpu::Buffer; NODE_BUFFERS] =
-            std::array::from_fn(|i| self.nodes.chunks().get(i).unwrap_or(unused_nodes));
+            std::array::from_fn(|i| self.nodes.chunks().get(i).unwrap_or(&gpu.no_nodes));
         let bind = |triangles: &wgpu::Buffer| {
             let buffers = std::iter::once(triangles).chain(nodes);
             let entries: Vec<_> = (0..)
@@ -249,9 +270,9 @@ impl MeshCopy {
                     resource: buffer.as_entire_binding(),
                 })
                 .collect();
-            device.create_bind_group(&wgpu::BindGroupDescriptor {
+            gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
                 label: Some("mesh"),
-                layout,
+                layout: &gpu.layout,
                 entries: &entries,
             })
         };
@@ -274,7 +295,7 @@ fn bind_group_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
         .create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some("mesh"), entries: &entries })
 }
 
-/// Sends items from `*next` on, within the budget but at least one, and returns the bytes sent.
+/// Sends items from `*next` on: as many as the budget allows, at least one. Returns the bytes sent.
 fn send<T: bytemuck::Pod>(
     queue: &wgpu::Queue,
     array: &ChunkedArray,
@@ -304,7 +325,7 @@ fn send_ranges<T: bytemuck::Pod>(
     }
 }
 
-/// Ascending ranges with the small gaps between them filled: fewer, longer writes.
+/// Joins ascending ranges across small gaps, for fewer and longer writes.
 fn joined(ranges: &[Range<usize>]) -> Vec<Range<usize>> {
     let mut joined: Vec<Range<usize>> = Vec::new();
     for range in ranges {
@@ -321,7 +342,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn near_ranges_travel_together() {
+    fn near_ranges_are_joined() {
         assert_eq!(joined(&[0..3, 4..6, 6..9, 500..501]), [0..9, 500..501]);
         assert_eq!(joined(&[0..30, 5..7, 100..101]), [0..30, 100..101]);
         assert_eq!(joined(&[]), []);

@@ -1,7 +1,8 @@
-//! Draws a scene on the GPU: the mesh's own arrays are the vertex data.
+//! Draws a scene on the GPU. The arrays of the mesh are the vertex data.
 //!
-//! [`GpuRenderer`] is what a window keeps. In it a [`MeshMirror`] holds the copy of the mesh, and a picture of it is kept
-//! as a texture, so that only a change of the mesh, the camera or the style costs drawing.
+//! A window keeps a [`GpuRenderer`]. It contains a [`MeshMirror`], the copy of the mesh, and keeps the
+//! picture of the mesh as a texture, so that the mesh is redrawn only when the mesh, the camera or the style
+//! changed.
 
 mod chunks;
 mod layout;
@@ -11,8 +12,8 @@ mod offscreen;
 mod overlay_pass;
 mod picture;
 
-pub use chunks::ChunkLimits;
-pub use mirror::{MeshMirror, NODE_BUFFERS};
+pub use chunks::{ChunkLimits, NODE_BUFFERS};
+pub use mirror::MeshMirror;
 pub use offscreen::{Offscreen, offscreen, read_back};
 
 use self::overlay_pass::OverlayPass;
@@ -21,7 +22,7 @@ use crate::geometry::Grouped;
 use crate::mesh::{Bytes, Mesh};
 use crate::scene::{Camera, Overlay, Style};
 
-/// What cannot be drawn with the graphics driver at hand.
+/// Why the graphics driver cannot draw.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum GpuError {
     /// No graphics driver at all.
@@ -29,7 +30,7 @@ pub enum GpuError {
         "No usable graphics driver ({reason}). Install a Vulkan or OpenGL driver, such as mesa-vulkan-drivers."
     )]
     NoAdapter {
-        /// What the search for one said.
+        /// The driver loader's message.
         reason: String,
     },
     /// The driver refused to be opened.
@@ -37,21 +38,21 @@ pub enum GpuError {
     NoDevice {
         /// Name of the driver.
         adapter: String,
-        /// What it said.
+        /// Its message.
         reason: String,
     },
-    /// Vertex shaders cannot read the mesh.
+    /// Vertex shaders cannot read enough buffers for a mesh.
     #[error(
-        "The graphics driver lets a shader read {available} storage buffers, and drawing a mesh takes {needed}. Update \
-         the driver, or choose another with WGPU_BACKEND=vulkan."
+        "The graphics driver lets a shader read {available} storage buffers, but drawing a mesh needs {needed}. Update \
+         the driver, or choose another one with WGPU_BACKEND=vulkan."
     )]
     TooFewStorageBuffers {
         /// Buffers that a shader may read.
         available: u32,
-        /// Buffers that the mesh takes.
+        /// Buffers that the mesh needs.
         needed: u32,
     },
-    /// The nodes do not fit the buffers that a shader can read at once.
+    /// The nodes do not fit into the buffers that a shader can read.
     #[error(
         "The mesh has {} nodes, and this graphics driver can show {}. Raise the smallest diameter or paint \
          less; the command line can draw and export the mesh as it is.",
@@ -73,13 +74,13 @@ pub enum GpuError {
         /// Bytes that were asked for.
         bytes: u64,
     },
-    /// A picture or a raster is larger than a texture can be.
+    /// A picture or a raster is larger than the largest texture.
     #[error(
         "{what} of {} × {} pixels is larger than this graphics driver can hold: at most {limit} along each side. \
          Choose a lower resolution.", size[0], size[1]
     )]
     TooLarge {
-        /// What is too large, as the beginning of a sentence.
+        /// What is too large, as the subject of a sentence.
         what: &'static str,
         /// Its width and height in pixels.
         size: [u32; 2],
@@ -89,13 +90,13 @@ pub enum GpuError {
     /// The device was lost while a picture was read back.
     #[error("The picture could not be read back from the graphics driver: {reason}.")]
     ReadBack {
-        /// What the driver said.
+        /// The driver's message.
         reason: String,
     },
 }
 
-/// What to ask an adapter for: all that it can hold, for the default limits allow neither large meshes nor, on OpenGL,
-/// any storage buffer.
+/// Requests the adapter's own limits: the default ones allow no large meshes and, on OpenGL, no storage
+/// buffers.
 pub fn device_descriptor(adapter: &wgpu::Adapter) -> wgpu::DeviceDescriptor<'static> {
     wgpu::DeviceDescriptor {
         label: Some("meshbrush"),
@@ -104,14 +105,15 @@ pub fn device_descriptor(adapter: &wgpu::Adapter) -> wgpu::DeviceDescriptor<'sta
     }
 }
 
-/// Whether [`GpuRenderer::prepare_in_software`] is the better choice: the driver has no GPU behind it.
+/// Whether the driver emulates a GPU. [`GpuRenderer::prepare_in_software`] is then faster.
 pub fn emulates_gpu(adapter: &wgpu::Adapter) -> bool {
     adapter.get_info().device_type == wgpu::DeviceType::Cpu
 }
 
-/// Everything on the GPU that a canvas needs.
+/// Everything that a canvas needs on the GPU.
 ///
-/// For each frame: bring [`Self::mirror_mut`] and the overlay up to date, [`Self::prepare`], then [`Self::paint`].
+/// For each frame, bring [`Self::mirror_mut`] and the overlay up to date, then call [`Self::prepare`] and
+/// [`Self::paint`].
 pub struct GpuRenderer {
     mirror: MeshMirror,
     picture: MeshPicture,
@@ -119,7 +121,8 @@ pub struct GpuRenderer {
 }
 
 impl GpuRenderer {
-    /// A renderer for canvases of `target_format`, which must be in gamma space: `Rgba8Unorm` or `Bgra8Unorm`.
+    /// A renderer for canvases of `target_format`, which must be in gamma space: `Rgba8Unorm` or
+    /// `Bgra8Unorm`.
     ///
     /// # Errors
     /// When the device cannot draw a mesh at all.
@@ -131,7 +134,7 @@ impl GpuRenderer {
         Self::with_chunks(device, queue, target_format, ChunkLimits::of_device(&device.limits()))
     }
 
-    /// As [`Self::new`], with buffers of another size than the device allows.
+    /// As [`Self::new`], with buffers of the given size.
     ///
     /// # Errors
     /// As [`Self::new`].
@@ -153,15 +156,15 @@ impl GpuRenderer {
         &self.mirror
     }
 
-    /// The copy of the mesh, to bring it up to date.
+    /// The copy of the mesh, for updates.
     pub fn mirror_mut(&mut self) -> &mut MeshMirror {
         &mut self.mirror
     }
 
-    /// Shows an overlay, or none. Its colours travel only when its size or revision changed.
+    /// Shows or hides the overlay. Its colours are uploaded only when its size or revision changed.
     ///
     /// # Errors
-    /// When the raster is larger than a texture can be.
+    /// When the raster is larger than the largest texture.
     pub fn set_overlay(
         &mut self,
         device: &wgpu::Device,
@@ -171,11 +174,11 @@ impl GpuRenderer {
         self.overlay.set(device, queue, overlay)
     }
 
-    /// Draws the picture of the mesh with `encoder` if the mesh, the camera or the style changed, and readies
-    /// [`Self::paint`].
+    /// Redraws the picture of the mesh with `encoder` if the mesh, the camera or the style changed, and
+    /// prepares [`Self::paint`].
     ///
     /// # Errors
-    /// When the canvas is larger than a texture can be.
+    /// When the canvas is larger than the largest texture.
     pub fn prepare(
         &mut self,
         device: &wgpu::Device,
@@ -189,8 +192,9 @@ impl GpuRenderer {
         Ok(())
     }
 
-    /// As [`Self::prepare`] with a picture drawn by [`software`](crate::render::software), for drivers without a GPU
-    /// behind them: several times as fast there. Needs no mirror; `revision` is the caller's name for the mesh.
+    /// As [`Self::prepare`], but the [software renderer](crate::render::software) draws the picture. This is
+    /// several times as fast where the driver emulates a GPU. It needs no mirror; `revision` is the caller's
+    /// name for the mesh.
     ///
     /// # Errors
     /// As [`Self::prepare`].
@@ -208,15 +212,15 @@ impl GpuRenderer {
         Ok(())
     }
 
-    /// Puts the picture and the overlay on the canvas, which the viewport of `pass` must be.
+    /// Draws the picture and the overlay on the canvas. The viewport of `pass` must be the canvas.
     ///
-    /// The pass has a target of the renderer's format, no depth and no multisampling.
+    /// The pass must have a target of the renderer's format, no depth buffer and no multisampling.
     pub fn paint(&self, pass: &mut wgpu::RenderPass<'_>) {
         self.picture.paint(pass);
         self.overlay.paint(pass);
     }
 
-    /// How often the picture was drawn anew.
+    /// How often the picture was redrawn.
     pub fn redraws(&self) -> u64 {
         self.picture.redraws()
     }

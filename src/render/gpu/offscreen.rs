@@ -7,7 +7,7 @@ use crate::mesh::Mesh;
 use crate::render::Image;
 use crate::scene::{Camera, Overlay, Style};
 
-/// A device of its own with a renderer, to draw pictures that no window shows.
+/// A renderer with a device of its own, which draws pictures without a window.
 pub struct Offscreen {
     device: wgpu::Device,
     queue: wgpu::Queue,
@@ -33,7 +33,7 @@ pub fn offscreen(
 }
 
 impl Offscreen {
-    /// Opens the first driver that will do.
+    /// Opens the first usable driver.
     ///
     /// # Errors
     /// When there is none.
@@ -44,7 +44,7 @@ impl Offscreen {
         Ok(Self { device, queue, adapter, format, renderer })
     }
 
-    /// Starts anew with buffers of another size than the device allows.
+    /// Replaces the renderer by one with buffers of the given size.
     ///
     /// # Errors
     /// When the device cannot draw a mesh at all.
@@ -53,7 +53,7 @@ impl Offscreen {
         Ok(Self { renderer, ..self })
     }
 
-    /// Starts anew on a canvas of another format: the `Bgra8Unorm` of windows.
+    /// Replaces the renderer by one for canvases of another format, such as the `Bgra8Unorm` of windows.
     ///
     /// # Errors
     /// As [`Self::with_chunks`].
@@ -82,7 +82,7 @@ impl Offscreen {
         &mut self.renderer
     }
 
-    /// Takes in a whole mesh; `revision` is the caller's name for it.
+    /// Uploads a whole mesh; `revision` is the caller's name for it.
     ///
     /// # Errors
     /// When the device cannot hold it.
@@ -90,18 +90,18 @@ impl Offscreen {
         self.renderer.mirror_mut().upload(mesh, revision)
     }
 
-    /// Shows an overlay, or none.
+    /// Shows or hides the overlay.
     ///
     /// # Errors
-    /// When the raster is larger than a texture can be.
+    /// When the raster is larger than the largest texture.
     pub fn show_overlay(&mut self, overlay: Option<&Overlay>) -> Result<(), GpuError> {
         self.renderer.set_overlay(&self.device, &self.queue, overlay)
     }
 
-    /// Draws a frame as a window does, and waits until it is done.
+    /// Draws a frame as a window does, and waits for the device to finish.
     ///
     /// # Errors
-    /// When the canvas is larger than a texture can be, or the device is lost.
+    /// When the canvas is larger than the largest texture, or the device is lost.
     pub fn frame(&mut self, camera: &Camera, style: &Style) -> Result<(), GpuError> {
         let canvas = self.canvas(camera)?;
         let mut encoder = self.encoder();
@@ -123,7 +123,7 @@ impl Offscreen {
         read_back(&self.device, &self.queue, encoder, &canvas)
     }
 
-    /// Draws a frame by [`GpuRenderer::prepare_in_software`] and reads it back.
+    /// Draws a frame with [`GpuRenderer::prepare_in_software`] and reads it back.
     ///
     /// # Errors
     /// As [`Self::frame`].
@@ -170,7 +170,7 @@ fn wait(device: &wgpu::Device) -> Result<(), GpuError> {
     done.map(|_| ()).map_err(|e| GpuError::ReadBack { reason: e.to_string() })
 }
 
-/// Runs what `encoder` holds, waits until it is done, and reads `canvas`, which may be a source of copies, back.
+/// Submits `encoder`, waits for the device and reads `canvas` back. `canvas` must have the usage `COPY_SRC`.
 ///
 /// # Errors
 /// When the device is lost.

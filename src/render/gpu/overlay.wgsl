@@ -1,4 +1,4 @@
-// Draws a raster over the canvas with its pixels as they are: nearest sampling at any zoom.
+// Draws a raster over the canvas with nearest sampling at any zoom.
 
 struct View {
     // Column and row in the middle of the canvas: whole texels, and the rest from 0 to 1.

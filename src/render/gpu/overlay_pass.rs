@@ -1,8 +1,8 @@
-//! The raster above the mesh.
+//! The render pipeline for the overlay above the mesh.
 
 use super::GpuError;
 use super::layout::OverlayView;
-use super::mesh_pass::{full_pipeline, new_texture, texel_entry, uniform_buffer, uniform_entry};
+use super::mesh_pass::{new_texture, render_pipeline, texel_entry, uniform_buffer, uniform_entry};
 use crate::geometry::Rect;
 use crate::scene::{Camera, Overlay};
 
@@ -12,11 +12,11 @@ pub(super) struct OverlayPass {
     pipeline: wgpu::RenderPipeline,
     layout: wgpu::BindGroupLayout,
     view: wgpu::Buffer,
-    raster: Option<Raster>,
+    shown: Option<OverlayTexture>,
 }
 
 /// An overlay whose colours are on the GPU.
-struct Raster {
+struct OverlayTexture {
     texture: wgpu::Texture,
     group: wgpu::BindGroup,
     bounds: Rect,
@@ -24,7 +24,7 @@ struct Raster {
     revision: u64,
 }
 
-impl Raster {
+impl OverlayTexture {
     fn size(&self) -> [u32; 2] {
         [self.texture.width(), self.texture.height()]
     }
@@ -39,10 +39,10 @@ impl OverlayPass {
         let shader = device.create_shader_module(wgpu::include_wgsl!("overlay.wgsl"));
         let blend = wgpu::BlendState::ALPHA_BLENDING;
         Self {
-            pipeline: full_pipeline(device, &shader, &[&layout], format, Some(blend)),
+            pipeline: render_pipeline(device, &shader, &[&layout], format, Some(blend)),
             layout,
             view: uniform_buffer(device, "overlay view", size_of::<OverlayView>()),
-            raster: None,
+            shown: None,
         }
     }
 
@@ -52,53 +52,48 @@ impl OverlayPass {
         queue: &wgpu::Queue,
         overlay: Option<&Overlay>,
     ) -> Result<(), GpuError> {
-        let Some(overlay) = overlay else {
-            self.raster = None;
+        let previous = self.shown.take();
+        let Some(overlay) = overlay.filter(|overlay| overlay.columns > 0 && overlay.rows > 0) else {
             return Ok(());
         };
-        if overlay.columns == 0 || overlay.rows == 0 {
-            self.raster = None;
-            return Ok(());
-        }
-        let (mut raster, stale) =
-            match self.raster.take().filter(|raster| raster.size() == [overlay.columns, overlay.rows]) {
-                Some(raster) => {
-                    let stale = raster.revision != overlay.revision;
-                    (raster, stale)
-                }
-                None => (self.new_raster(device, overlay)?, true),
-            };
+        let size = [overlay.columns, overlay.rows];
+        let (mut shown, stale) = match previous.filter(|previous| previous.size() == size) {
+            Some(previous) => {
+                let stale = previous.revision != overlay.revision;
+                (previous, stale)
+            }
+            None => (self.new_texture(device, overlay)?, true),
+        };
         if stale {
-            write(queue, &raster.texture, overlay);
+            write(queue, &shown.texture, overlay);
         }
-        (raster.bounds, raster.opacity, raster.revision) =
-            (overlay.bounds, overlay.opacity, overlay.revision);
-        self.raster = Some(raster);
+        (shown.bounds, shown.opacity, shown.revision) = (overlay.bounds, overlay.opacity, overlay.revision);
+        self.shown = Some(shown);
         Ok(())
     }
 
     pub(super) fn prepare(&self, queue: &wgpu::Queue, camera: &Camera) {
-        let Some(raster) = &self.raster else { return };
-        let [columns, rows] = raster.size();
-        let place = Overlay {
-            bounds: raster.bounds,
+        let Some(shown) = &self.shown else { return };
+        let [columns, rows] = shown.size();
+        let placement = Overlay {
+            bounds: shown.bounds,
             columns,
             rows,
             rgba: &[],
-            opacity: raster.opacity,
-            revision: raster.revision,
+            opacity: shown.opacity,
+            revision: shown.revision,
         };
-        queue.write_buffer(&self.view, 0, bytemuck::bytes_of(&OverlayView::new(camera, &place)));
+        queue.write_buffer(&self.view, 0, bytemuck::bytes_of(&OverlayView::new(camera, &placement)));
     }
 
     pub(super) fn paint(&self, pass: &mut wgpu::RenderPass<'_>) {
-        let Some(raster) = &self.raster else { return };
+        let Some(shown) = &self.shown else { return };
         pass.set_pipeline(&self.pipeline);
-        pass.set_bind_group(0, &raster.group, &[]);
+        pass.set_bind_group(0, &shown.group, &[]);
         pass.draw(0..3, 0..1);
     }
 
-    fn new_raster(&self, device: &wgpu::Device, overlay: &Overlay) -> Result<Raster, GpuError> {
+    fn new_texture(&self, device: &wgpu::Device, overlay: &Overlay) -> Result<OverlayTexture, GpuError> {
         let size = [overlay.columns, overlay.rows];
         let limit = device.limits().max_texture_dimension_2d;
         if size[0] > limit || size[1] > limit {
@@ -116,7 +111,7 @@ impl OverlayPass {
             ],
         });
         let Overlay { bounds, opacity, revision, .. } = *overlay;
-        Ok(Raster { texture, group, bounds, opacity, revision })
+        Ok(OverlayTexture { texture, group, bounds, opacity, revision })
     }
 }
 

@@ -1,18 +1,18 @@
 //! The picture of the mesh, kept as a texture.
 
 use super::GpuError;
-use super::mesh_pass::{MeshPass, full_pipeline, new_texture, texel_entry};
+use super::mesh_pass::{MeshPass, new_texture, render_pipeline, texel_entry};
 use super::mirror::MeshMirror;
 use crate::mesh::Mesh;
 use crate::render::{Image, software};
 use crate::scene::{Camera, Style};
 
-/// The same for every canvas, so that a picture drawn in software needs no conversion.
+/// Independent of the canvas, so that a picture drawn in software needs no conversion.
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 
-/// Draws the mesh into a texture when something changed, and copies the texture to the canvas otherwise.
+/// Draws the mesh into a texture when something changed, and otherwise only copies the texture to the canvas.
 ///
-/// A window repaints for every hover in a panel; a large mesh must not be drawn for that.
+/// A window repaints whenever the pointer moves in a panel; that must not redraw a large mesh.
 pub(super) struct MeshPicture {
     mesh_pass: MeshPass,
     blit: wgpu::RenderPipeline,
@@ -28,7 +28,7 @@ struct Target {
     group: wgpu::BindGroup,
 }
 
-/// What the picture shows. It is drawn anew when any of it changes.
+/// What the picture shows. When any of it changes, the picture is redrawn.
 #[derive(PartialEq)]
 struct Drawn {
     source: Source,
@@ -53,7 +53,7 @@ impl MeshPicture {
         let shader = device.create_shader_module(wgpu::include_wgsl!("blit.wgsl"));
         Self {
             mesh_pass: MeshPass::new(device, FORMAT, mirror),
-            blit: full_pipeline(device, &shader, &[&blit_layout], format, None),
+            blit: render_pipeline(device, &shader, &[&blit_layout], format, None),
             blit_layout,
             target: None,
             drawn: None,
@@ -73,7 +73,7 @@ impl MeshPicture {
     ) -> Result<(), GpuError> {
         let source = Source::Mirror(mirror.generation());
         let Some(wanted) = self.if_not_drawn(source, camera, style) else { return Ok(()) };
-        let target = self.target_of(device, camera.size_px())?;
+        let target = self.target_with_size(device, camera.size_px())?;
         let mut pass = begin_pass(encoder, &target.view, style.ground_color());
         self.mesh_pass.draw(queue, &mut pass, mirror, camera, style);
         drop(pass);
@@ -93,13 +93,13 @@ impl MeshPicture {
     ) -> Result<(), GpuError> {
         let source = Source::Software(revision);
         let Some(wanted) = self.if_not_drawn(source, camera, style) else { return Ok(()) };
-        let target = self.target_of(device, camera.size_px())?;
+        let target = self.target_with_size(device, camera.size_px())?;
         write_image(queue, &target.texture, &software::draw(mesh, camera, style, None, &[]));
         self.keep(target, wanted);
         Ok(())
     }
 
-    /// What is to be drawn, if the picture does not show it already.
+    /// What to draw, unless the picture already shows it.
     fn if_not_drawn(&self, source: Source, camera: &Camera, style: &Style) -> Option<Drawn> {
         let wanted = Drawn { source, camera: *camera, style: style.clone() };
         (self.drawn.as_ref() != Some(&wanted)).then_some(wanted)
@@ -122,8 +122,8 @@ impl MeshPicture {
         self.redraws
     }
 
-    /// The present texture if it has the right size, else a new one.
-    fn target_of(&mut self, device: &wgpu::Device, size: [u32; 2]) -> Result<Target, GpuError> {
+    /// The current texture if it has the right size, otherwise a new one.
+    fn target_with_size(&mut self, device: &wgpu::Device, size: [u32; 2]) -> Result<Target, GpuError> {
         if let Some(target) =
             self.target.take_if(|target| [target.texture.width(), target.texture.height()] == size)
         {
@@ -159,7 +159,7 @@ fn write_image(queue: &wgpu::Queue, texture: &wgpu::Texture, image: &Image) {
     queue.write_texture(texture.as_image_copy(), &image.rgba, layout, texture.size());
 }
 
-/// A pass onto one texture, cleared to `ground` first.
+/// Begins a render pass onto one texture, which is first cleared to `ground`.
 pub(super) fn begin_pass<'e>(
     encoder: &'e mut wgpu::CommandEncoder,
     view: &wgpu::TextureView,

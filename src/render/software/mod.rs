@@ -1,10 +1,11 @@
-//! The renderer that needs no driver: pictures from the command line, and the referee of the GPU.
+//! The renderer that needs no graphics driver. It draws pictures for the command line and is the reference
+//! for the GPU.
 
-mod raster;
+mod rasterizer;
 
 use glam::DVec2;
 
-use self::raster::{Brush, Canvas};
+use self::rasterizer::{LevelShader, Rasterizer};
 use super::{HUGE_LEG_PX, Image};
 use crate::geometry::LatticePoint;
 use crate::mesh::Mesh;
@@ -12,8 +13,8 @@ use crate::scene::{Camera, LevelPaint, Outline, Overlay, Style};
 
 /// Draws a mesh as `camera` sees it, the overlay above it, and outlines on top.
 ///
-/// Outlines come from [`highlight_outlines`](crate::scene::highlight_outlines). The time is proportional to the mesh and
-/// to the pixels: about 50 ns a triangle.
+/// Outlines come from [`highlight_outlines`](crate::scene::highlight_outlines). The time is proportional to
+/// the mesh and to the pixels: about 50 ns per triangle.
 pub fn draw(
     mesh: &Mesh,
     camera: &Camera,
@@ -33,34 +34,42 @@ pub fn draw(
 
 fn draw_triangles(image: &mut Image, mesh: &Mesh, camera: &Camera, style: &Style) {
     let paints = LevelPaint::all(camera, style);
-    let brushes = paints.map(|paint| Brush::new(&paint, style));
+    let shaders = paints.map(|paint| LevelShader::new(&paint, style));
     let snapped: Vec<[i32; 2]> =
-        mesh.nodes().iter().map(|&p| raster::snapped(camera.screen_from_lattice(p))).collect();
-    let mut canvas = Canvas::of(image);
+        mesh.nodes().iter().map(|&p| rasterizer::snapped(camera.screen_from_lattice(p))).collect();
+    let mut rasterizer = Rasterizer::new(image);
     for triangle in mesh.triangles().iter().filter(|t| !t.is_outside()) {
         let level = triangle.level() as usize;
         if paints[level].leg_px < HUGE_LEG_PX {
             let corners = triangle.vertices.map(|v| snapped[v.index()]);
-            canvas.fill_snapped(corners, triangle.boundary_opposite(), &brushes[level]);
+            rasterizer.fill_snapped(corners, triangle.boundary_opposite(), &shaders[level]);
         } else {
             let corners = triangle.vertices.map(|v| mesh.node(v));
-            let lines = inward_lines(corners, camera);
-            canvas.fill_by_lines(&lines, triangle.boundary_opposite(), &brushes[level]);
+            let half_planes = half_planes(corners, camera);
+            rasterizer.fill_half_planes(&half_planes, triangle.boundary_opposite(), &shaders[level]);
         }
     }
 }
 
-/// The distance from a line as a function of pixel coordinates, in pixels: `normal · p + offset`, with |normal| = 1.
-pub(super) struct Line {
+/// One side of a line. The signed distance of the pixel position p from the line is `normal · p + offset` in
+/// pixels, with |normal| = 1; it is positive inside.
+pub(super) struct HalfPlane {
     normal: DVec2,
     offset: f64,
 }
 
-/// The lines through the edges of a triangle, positive inside.
+impl HalfPlane {
+    #[inline]
+    fn distance_px(&self, px: DVec2) -> f64 {
+        self.normal.dot(px) + self.offset
+    }
+}
+
+/// The half-planes that intersect in a triangle, one per edge.
 ///
-/// An edge runs along an axis or a diagonal of the lattice: its normal has components −1, 0 and 1, and everything up to
-/// the scale is exact.
-fn inward_lines(corners: [LatticePoint; 3], camera: &Camera) -> [Line; 3] {
+/// An edge runs along an axis or a diagonal of the lattice, so its normal has components −1, 0 and 1, and
+/// everything before the scaling to pixels is exact.
+fn half_planes(corners: [LatticePoint; 3], camera: &Camera) -> [HalfPlane; 3] {
     std::array::from_fn(|i| {
         let [from, to, opposite] = [1, 2, 3].map(|k| corners[(i + k) % 3].as_dvec2());
         let steps = (to - from).perp();
@@ -69,9 +78,9 @@ fn inward_lines(corners: [LatticePoint; 3], camera: &Camera) -> [Line; 3] {
         let per_px = normal / camera.px_per_step();
         let middle = camera.lattice_from_screen(camera.half_size_px());
         let steps_at_middle = normal.dot(middle - from);
-        // From lattice to screen y turns round.
+        // The y axis points up on the lattice and down on the screen.
         let normal = DVec2::new(per_px.x, -per_px.y) / per_px.length();
-        Line { normal, offset: steps_at_middle / per_px.length() - normal.dot(camera.half_size_px()) }
+        HalfPlane { normal, offset: steps_at_middle / per_px.length() - normal.dot(camera.half_size_px()) }
     })
 }
 
@@ -88,8 +97,8 @@ fn blend_overlay(image: &mut Image, camera: &Camera, overlay: &Overlay) {
         let texel = map.at_center.y + (half.y - f64::from(y) - 0.5) * map.per_px.y;
         let Some(row) = index_below(texel, overlay.rows) else { continue };
         let colors = &overlay.rgba[row * overlay.columns as usize..];
-        let line = &mut pixels[(y * width) as usize..][..width as usize];
-        for (pixel, column) in line.iter_mut().zip(&columns) {
+        let pixel_row = &mut pixels[(y * width) as usize..][..width as usize];
+        for (pixel, column) in pixel_row.iter_mut().zip(&columns) {
             if let &Some(column) = column {
                 *pixel = blended(*pixel, colors[column], overlay.opacity);
             }
@@ -109,7 +118,7 @@ fn blended(below: [u8; 4], [r, g, b, a]: [u8; 4], opacity: f32) -> [u8; 4] {
 
 fn draw_outlines(image: &mut Image, outlines: &[Outline]) {
     let [width, height] = image.size;
-    // An opaque picture is the same premultiplied and not.
+    // In an opaque picture, premultiplied and plain colours are the same.
     let Some(mut pixmap) = tiny_skia::PixmapMut::from_bytes(&mut image.rgba, width, height) else { return };
     for outline in outlines {
         let Some(path) = closed_path(&outline.polygon) else { continue };
@@ -144,13 +153,13 @@ fn paint([r, g, b, a]: [u8; 4]) -> tiny_skia::Paint<'static> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::colormap::{LEVELS, LevelColors};
     use crate::geometry::{Lattice, Rect};
     use crate::mesh::Limits;
-    use crate::scene::{ColorTable, LEVELS};
     use glam::dvec2;
 
-    fn colors() -> ColorTable {
-        std::array::from_fn(|level| [40 + 3 * level as u8, 90, 120, 255])
+    fn colors() -> LevelColors {
+        std::array::from_fn(|level| [40 + 3 * level as u8, 90, 120, 255]).into()
     }
 
     fn mesh() -> Mesh {
@@ -163,7 +172,7 @@ mod tests {
     }
 
     #[test]
-    fn every_pixel_of_the_domain_is_filled_and_none_outside() {
+    fn exactly_the_pixels_of_the_domain_are_filled() {
         let mesh = mesh();
         let style = Style { edges: false, ..Style::dark(colors()) };
         for zoom in [1.0, 0.77, 3.1] {
@@ -179,13 +188,13 @@ mod tests {
     }
 
     #[test]
-    fn the_rim_of_the_domain_is_drawn_on_every_side() {
+    fn the_boundary_of_the_domain_is_drawn_on_every_side() {
         let mesh = mesh();
         let style = Style::dark(colors());
         for margin in [0.0, 0.25, 0.5, 0.75] {
             let camera = Camera::fit(mesh.lattice(), Rect::UNIT, [101, 101], margin);
             let image = draw(&mesh, &camera, &style, None, &[]);
-            // Off the corners and the edges within, where the rim alone darkens the fill of 40.
+            // Away from corners and interior edges, only the boundary edge darkens the fill of 40.
             let inward = |n: u32| [[n, 10], [100 - n, 90], [10, n], [90, 100 - n]];
             for (outermost, next) in inward(0).into_iter().zip(inward(1)) {
                 let red = |[x, y]: [u32; 2]| image.pixel(x, y)[0];
@@ -196,11 +205,11 @@ mod tests {
     }
 
     #[test]
-    fn a_huge_triangle_is_drawn_as_its_lines_say() {
+    fn a_huge_triangle_is_drawn_from_its_half_planes() {
         let mesh = mesh();
         let style = Style::dark(colors());
         let camera = Camera::fit(mesh.lattice(), Rect::UNIT, [64, 64], 0.0).zoomed(1e300, dvec2(10.0, 45.0));
-        // The corner of a cell and the diagonal that starts there go through the middle.
+        // A corner of a cell is in the middle of the picture, with the diagonal that starts there.
         let camera = camera.centered_on(dvec2(0.5, 0.25));
         let image = draw(&mesh, &camera, &style, None, &[]);
         assert!(image.pixel(32, 5)[0] < 40, "the vertical edge");
@@ -210,7 +219,7 @@ mod tests {
     }
 
     #[test]
-    fn an_overlay_lies_where_its_rectangle_is() {
+    fn an_overlay_covers_its_rectangle() {
         let mesh = mesh();
         let camera = Camera::fit(mesh.lattice(), Rect::UNIT, [100, 100], 0.0);
         let rgba = [[255, 0, 0, 255], [0, 255, 0, 255], [0, 0, 255, 255], [9, 9, 9, 0]];
