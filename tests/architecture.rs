@@ -135,6 +135,24 @@ fn the_mesh_knows_geometry_and_nothing_else_of_the_house() {
 }
 
 #[test]
+fn the_parts_of_the_mesh_import_downwards() {
+    let parts = ["kernel", "extract", "query"];
+    let mut found = Vec::new();
+    for file in rooms().into_iter().filter(|file| file.module.len() > 1 && file.room() == "mesh") {
+        let own = parts.iter().position(|part| *part == file.module[1]);
+        let allowed = &parts[..=own.unwrap_or_else(|| panic!("{} is in no part of mesh", file.path))];
+        for path in file.paths() {
+            // `crate::mesh` alone is a visibility.
+            let names_mesh = path.segments.len() > 2 && path.segments[..2] == ["crate", "mesh"];
+            if names_mesh && !allowed.contains(&path.segments[2].as_str()) {
+                found.push(format!("{}:{} names {}", file.path, path.line, path.segments.join("::")));
+            }
+        }
+    }
+    assert_none(found, &format!("in mesh the order is {}:", parts.join(" ")));
+}
+
+#[test]
 fn before_render_nothing_knows_time_place_or_screen() {
     let forbidden = [
         "std::time",
@@ -211,8 +229,8 @@ fn only_the_window_speaks_egui() {
 
 #[test]
 fn unsafe_code_is_in_one_file() {
-    let others = read_src().into_iter().filter(|file| file.path != "src/mesh/memory.rs");
-    assert_none(with_word(others, "unsafe"), "unsafe stands in mesh/memory.rs only:");
+    let others = read_src().into_iter().filter(|file| file.path != "src/mesh/kernel/memory.rs");
+    assert_none(with_word(others, "unsafe"), "unsafe stands in mesh/kernel/memory.rs only:");
 }
 
 #[test]

@@ -1,4 +1,4 @@
-use super::{Mesh, NodeId};
+use crate::mesh::kernel::{Mesh, NodeId};
 
 /// Which nodes are joined by an edge to which (Algorithm 13), as compressed rows.
 ///

@@ -1,158 +1,6 @@
 //! Refinement until a rule holds everywhere: Algorithms 2 and 10 to 12.
 
-use glam::DVec2;
-
-use super::{Bytes, DEEPEST_LEVEL, MemoryLimit, Mesh, Triangle, TriangleId, bisection_edge_length, memory};
-use crate::geometry::{Grouped, Lattice, LatticePoint, Number};
-
-/// Most triangles of any mesh, whatever its budget: ids above are taken for marks.
-const MOST_TRIANGLES: usize = (1 << 31) - 1;
-
-/// What a mesh may cost.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Limits {
-    /// Most triangles; refinement that would pass it stops with an error. A triangle and its share of the nodes take
-    /// 38 bytes, and 4 more while the mesh is refined from scratch.
-    pub max_triangles: usize,
-    /// Deepest level, or `None` for as deep as the lattice goes. Triangles at this level count as satisfied.
-    pub max_level: Option<u32>,
-    /// Most memory, or `None` for as much as [`Self::max_triangles`] take.
-    pub max_memory: Option<MemoryLimit>,
-}
-
-impl Limits {
-    /// [`Self::max_triangles`], as far as memory and ids go.
-    pub fn most_triangles(&self) -> usize {
-        let room = self.max_memory.map_or(usize::MAX, |memory| memory.triangles());
-        self.max_triangles.min(MOST_TRIANGLES).min(room)
-    }
-
-    /// What to say where [`Self::most_triangles`] would be passed.
-    fn passed(&self) -> RefineError {
-        let limit = self.most_triangles();
-        match self.max_memory {
-            Some(memory) if memory.triangles() < self.max_triangles.min(MOST_TRIANGLES) => {
-                RefineError::TooMuchMemory { limit, memory }
-            }
-            _ => RefineError::TooManyTriangles { limit },
-        }
-    }
-}
-
-impl Default for Limits {
-    /// 50 million triangles (1.9 GB), and any level.
-    fn default() -> Self {
-        Self { max_triangles: 50_000_000, max_level: None, max_memory: None }
-    }
-}
-
-/// A triangle as a refinement rule sees it.
-pub struct Element<'a> {
-    /// The entry of the triangle array.
-    pub triangle: &'a Triangle,
-    /// Its vertices in lattice coordinates, in its order.
-    pub corners: [LatticePoint; 3],
-    /// The grid and lattice of the mesh.
-    pub lattice: &'a Lattice,
-    diameter: f64,
-}
-
-/// [`Mesh::diameter`] of every level of the lattice.
-pub(super) struct Diameters([f64; DEEPEST_LEVEL + 1]);
-
-impl Diameters {
-    pub(super) fn of(mesh: &Mesh) -> Self {
-        let spacing = mesh.lattice.spacing();
-        Self(std::array::from_fn(|level| bisection_edge_length(spacing, level as u32)))
-    }
-}
-
-impl Element<'_> {
-    /// Length of the bisection edge in world units (Eq. 1): what a rule compares with the target diameter.
-    #[inline]
-    pub fn diameter(&self) -> f64 {
-        self.diameter
-    }
-
-    /// The vertices in world coordinates, in the triangle's order.
-    #[inline]
-    pub fn world_corners(&self) -> [DVec2; 3] {
-        self.corners.map(|c| self.lattice.world_from_lattice(c))
-    }
-}
-
-/// A rule met a target diameter that no mesh can satisfy, or that is no number.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[error(
-    "The target diameter is {} at x = {}, y = {}: it must be a positive number everywhere in the domain.",
-    Number(*value), Number(at.x), Number(at.y)
-)]
-pub struct InvalidTarget {
-    /// Where, in world coordinates.
-    pub at: DVec2,
-    /// The value met there.
-    pub value: f64,
-}
-
-/// Why refinement stopped before every triangle was satisfied. The mesh is conforming all the same.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum RefineError {
-    /// The rule met a bad target.
-    #[error(transparent)]
-    InvalidTarget(#[from] InvalidTarget),
-    /// The next call would pass the triangle budget.
-    #[error(
-        "The mesh needs more than {} triangles, which is the limit. Raise the smallest diameter, paint less, or raise the \
-         limit.",
-        Grouped(*limit)
-    )]
-    TooManyTriangles {
-        /// [`Limits::max_triangles`].
-        limit: usize,
-    },
-    /// The next call would pass the memory budget.
-    #[error(
-        "The mesh needs more than {} triangles, and {} of memory, which is the limit, has room for no more. Raise the \
-         smallest diameter, paint less, or raise the limit.",
-        Grouped(*limit), Bytes(memory.bytes)
-    )]
-    TooMuchMemory {
-        /// The triangles that there is room for.
-        limit: usize,
-        /// [`Limits::max_memory`].
-        memory: MemoryLimit,
-    },
-    /// The target is smaller than the lattice can resolve.
-    #[error(
-        "The target diameter near x = {}, y = {} is too small: below {smallest:.3e} (level {level}) nodes would leave the \
-         lattice. Raise the smallest diameter, or mesh a smaller domain.",
-        Number(at.x), Number(at.y)
-    )]
-    TooFine {
-        /// A vertex of the triangle that could not be bisected, in world coordinates.
-        at: DVec2,
-        /// The smallest diameter that the lattice allows, in world units.
-        smallest: f64,
-        /// Its level.
-        level: u32,
-    },
-}
-
-impl RefineError {
-    /// Whether the mesh would be too large: a larger budget helps.
-    pub fn is_over_budget(&self) -> bool {
-        matches!(self, Self::TooManyTriangles { .. } | Self::TooMuchMemory { .. })
-    }
-}
-
-/// Whether a sliced piece of work is finished.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Progress {
-    /// Nothing is left to do.
-    Done,
-    /// The allowance was used up; call again.
-    More,
-}
+use super::{Diameters, Element, InvalidTarget, Limits, Mesh, Progress, RefineError, TriangleId, make_room};
 
 /// Refinement of a mesh in slices (Algorithm 12).
 ///
@@ -202,7 +50,7 @@ impl Refiner {
         visits: usize,
     ) -> Result<Progress, RefineError> {
         let deepest = mesh.lattice.deepest_level();
-        let cap = self.limits.max_level.unwrap_or(u32::MAX);
+        let cap = self.limits.level_cap();
         let diameters = Diameters::of(mesh);
         // So many triangles there can be before memory or the budget must be looked at.
         let mut room = 0;
@@ -220,7 +68,7 @@ impl Refiner {
                 continue;
             }
             if level >= deepest {
-                return Err(too_fine(mesh, id));
+                return Err(RefineError::too_fine(&mesh.lattice, mesh.node(mesh.triangle(id).vertices[0])));
             }
             let most_new = Mesh::most_new_triangles(level);
             if mesh.triangles.len() + most_new > room {
@@ -237,7 +85,7 @@ impl Refiner {
     fn room_for(&mut self, mesh: &mut Mesh, id: TriangleId, most_new: usize) -> Result<usize, RefineError> {
         let room = mesh.room_for(id, most_new, &self.limits)?;
         let limit = self.limits.most_triangles();
-        memory::make_room(&mut self.agenda.after, most_new, limit);
+        make_room(&mut self.agenda.after, most_new, limit);
         Ok(room.min(self.agenda.after.capacity()))
     }
 
@@ -311,11 +159,6 @@ impl Agenda {
         }
         self.after.push(next);
     }
-}
-
-pub(super) fn too_fine(mesh: &Mesh, id: TriangleId) -> RefineError {
-    let level = mesh.lattice.deepest_level();
-    RefineError::TooFine { at: mesh.world_corners(id)[0], smallest: mesh.diameter(level), level }
 }
 
 impl Mesh {
@@ -425,23 +268,6 @@ impl Mesh {
                     current = across;
                 }
             }
-        }
-    }
-
-    #[inline]
-    pub(super) fn element(&self, id: TriangleId, diameters: &Diameters) -> Element<'_> {
-        self.element_of(self.triangle(id), diameters)
-    }
-
-    /// The element of a triangle that need not be in the array.
-    #[inline]
-    pub(super) fn element_of<'a>(&'a self, triangle: &'a Triangle, diameters: &Diameters) -> Element<'a> {
-        let corners = triangle.vertices.map(|v| self.node(v));
-        Element {
-            triangle,
-            corners,
-            lattice: &self.lattice,
-            diameter: diameters.0[triangle.level() as usize],
         }
     }
 }

@@ -2,19 +2,16 @@
 //!
 //! A bisection makes one node, and a node names its bisection: the triangles that share the edge of which it is the middle, one
 //! or two. So a mesh is told apart from its coarse grid by a set of nodes, and an update by the nodes that come and those that
-//! go. The work is that of [`Updater`](super::Updater), in the same order and for the same reasons; but where that one changes
+//! go. The work is that of [`Updater`](crate::mesh::Updater), in the same order and for the same reasons; but where that one changes
 //! entries, this one notes nodes. Triangles that are not in the array are known by their corners alone: parent, children and
 //! the mirror image across the bisection edge follow from the lattice, as the head of `coarsen.rs` tells.
 
 use std::collections::HashMap;
 
-use super::locate::WalkEnd;
-use super::marks::Marks;
-use super::update::Search;
-use super::{Limits, Mesh, Progress, RefineError, TriangleId};
 use crate::geometry::{Lattice, LatticePoint, LatticeRect};
+use crate::mesh::kernel::{Bitset, Limits, Mesh, Progress, RefineError, Search, TriangleId, WalkEnd};
 
-/// Counts what [`Updater`](super::Updater) would do after a change of the rule, in slices, and leaves the mesh alone.
+/// Counts what [`Updater`](crate::mesh::Updater) would do after a change of the rule, in slices, and leaves the mesh alone.
 ///
 /// The mesh must be at rest: the one made from scratch by the rule as it was. It must not change until the count is done. Time
 /// and memory go with the triangles that touch the changed rectangle and those that would come and go.
@@ -41,14 +38,14 @@ pub struct Forecast {
     search: Search,
     searching: bool,
     /// Triangles found by the search.
-    reached: Marks,
+    reached: Bitset,
     /// Triangles that may exceed their target.
-    asked: Vec<Shape>,
+    asked: Vec<TreeTriangle>,
     /// Entries whose newest vertex may be free to go, for when all triangles are satisfied.
     loose: Vec<TriangleId>,
     /// The same, of triangles that would be put back.
-    put_back: Vec<Shape>,
-    chain: Vec<Shape>,
+    put_back: Vec<TreeTriangle>,
+    chain: Vec<TreeTriangle>,
     fates: HashMap<LatticePoint, Fate>,
     /// For each coarse triangle, by number, where the last walk in it ended: the next begins there.
     near: HashMap<usize, TriangleId>,
@@ -68,7 +65,7 @@ enum Fate {
 
 /// A triangle of the bisection tree, in the mesh or not.
 #[derive(Clone, Copy, Debug)]
-struct Shape {
+struct TreeTriangle {
     /// Where the right angle is.
     apex: LatticePoint,
     /// The ends of the bisection edge.
@@ -76,7 +73,7 @@ struct Shape {
     level: u32,
 }
 
-impl Shape {
+impl TreeTriangle {
     fn of(mesh: &Mesh, id: TriangleId) -> Self {
         let triangle = mesh.triangle(id);
         let ends = triangle.bisection_edge().map(|end| mesh.node(end));
@@ -98,7 +95,7 @@ impl Shape {
 
     /// How many triangles of the domain come when this one is bisected, or go below zero.
     fn gain(&self, is_in_domain: &impl Fn([LatticePoint; 3], u32) -> bool) -> i64 {
-        let counts = |shape: &Self| i64::from(is_in_domain(shape.corners(), shape.level));
+        let counts = |triangle: &Self| i64::from(is_in_domain(triangle.corners(), triangle.level));
         self.children().iter().map(counts).sum::<i64>() - counts(self)
     }
 
@@ -149,10 +146,10 @@ impl Forecast {
     /// Nothing counted yet. `area` holds all places where the rule has changed.
     pub fn new(mesh: &Mesh, area: LatticeRect, limits: &Limits) -> Self {
         Self {
-            max_level: limits.max_level.unwrap_or(u32::MAX),
+            max_level: limits.level_cap(),
             search: Search::new(mesh, area),
             searching: true,
-            reached: Marks::default(),
+            reached: Bitset::default(),
             asked: Vec::new(),
             loose: Vec::new(),
             put_back: Vec::new(),
@@ -194,27 +191,29 @@ impl Forecast {
         is_in_domain: impl Fn([LatticePoint; 3], u32) -> bool,
         visits: usize,
     ) -> Result<Progress, RefineError> {
-        let gain = |shape: &Shape| shape.gain(&is_in_domain);
+        let gain = |triangle: &TreeTriangle| triangle.gain(&is_in_domain);
         let max_level = self.max_level;
-        let exceeds = |shape: &Shape| shape.level < max_level && exceeds(shape.corners(), shape.level);
+        let exceeds = |triangle: &TreeTriangle| {
+            triangle.level < max_level && exceeds(triangle.corners(), triangle.level)
+        };
         let deepest = mesh.lattice().deepest_level();
         // Ends: as the update does, see the head of `update.rs`.
         for _ in 0..visits {
-            if let Some(shape) = self.asked.pop() {
-                if !exceeds(&shape) {
+            if let Some(triangle) = self.asked.pop() {
+                if !exceeds(&triangle) {
                     continue;
                 }
-                if shape.level >= deepest {
-                    return Err(too_fine(mesh, &shape));
+                if triangle.level >= deepest {
+                    return Err(RefineError::too_fine(mesh.lattice(), triangle.apex));
                 }
-                self.bisect(mesh, shape, gain);
-                self.asked.extend(shape.children());
+                self.bisect(mesh, triangle, gain);
+                self.asked.extend(triangle.children());
             } else if self.searching {
                 self.search_on(mesh);
-            } else if let Some(shape) = self.put_back.pop() {
-                self.loosen(mesh, &shape, exceeds, gain);
+            } else if let Some(triangle) = self.put_back.pop() {
+                self.loosen(mesh, &triangle, exceeds, gain);
             } else if let Some(id) = self.loose.pop() {
-                self.loosen(mesh, &Shape::of(mesh, id), exceeds, gain);
+                self.loosen(mesh, &TreeTriangle::of(mesh, id), exceeds, gain);
             } else {
                 return Ok(Progress::Done);
             }
@@ -226,7 +225,7 @@ impl Forecast {
     fn search_on(&mut self, mesh: &Mesh) {
         if let Some(id) = self.search.found() {
             self.search.spread_from(mesh, id, &mut self.reached);
-            self.asked.push(Shape::of(mesh, id));
+            self.asked.push(TreeTriangle::of(mesh, id));
             // Where a triangle round it was bisected, the newest vertex is looked at once that one is put back.
             if mesh.star_of(id).is_some() {
                 self.loose.push(id);
@@ -238,15 +237,15 @@ impl Forecast {
 
     /// Notes that a triangle is bisected, and first whatever must be to keep the mesh compatible. Each of the chain is one level
     /// above the one before.
-    fn bisect(&mut self, mesh: &Mesh, shape: Shape, gain: impl Fn(&Shape) -> i64) {
-        self.chain.push(shape);
-        while let Some(&shape) = self.chain.last() {
-            let midpoint = shape.midpoint();
-            if self.is_node(mesh, midpoint, &shape) {
+    fn bisect(&mut self, mesh: &Mesh, triangle: TreeTriangle, gain: impl Fn(&TreeTriangle) -> i64) {
+        self.chain.push(triangle);
+        while let Some(&triangle) = self.chain.last() {
+            let midpoint = triangle.midpoint();
+            if self.is_node(mesh, midpoint, &triangle) {
                 self.chain.pop();
                 continue;
             }
-            let across = shape.across(mesh);
+            let across = triangle.across(mesh);
             if let Some(across) = across
                 && across.level > 0
                 && !self.is_node(mesh, across.apex, &across)
@@ -257,7 +256,7 @@ impl Forecast {
             self.chain.pop();
             self.fates.insert(midpoint, Fate::Comes);
             self.added += 1 + usize::from(across.is_some());
-            self.change += gain(&shape) + across.as_ref().map_or(0, &gain);
+            self.change += gain(&triangle) + across.as_ref().map_or(0, &gain);
         }
     }
 
@@ -265,21 +264,21 @@ impl Forecast {
     fn loosen(
         &mut self,
         mesh: &Mesh,
-        shape: &Shape,
-        exceeds: impl Fn(&Shape) -> bool,
-        gain: impl Fn(&Shape) -> i64,
+        triangle: &TreeTriangle,
+        exceeds: impl Fn(&TreeTriangle) -> bool,
+        gain: impl Fn(&TreeTriangle) -> i64,
     ) {
-        if shape.level == 0 || self.fates.contains_key(&shape.apex) {
+        if triangle.level == 0 || self.fates.contains_key(&triangle.apex) {
             return;
         }
-        let parent = shape.parent(mesh.lattice());
+        let parent = triangle.parent(mesh.lattice());
         let parents = [Some(parent), parent.across(mesh)];
         let parents = || parents.iter().flatten();
         if parents().any(|parent| parent.children().iter().any(|child| self.is_bisected(mesh, child))) {
             return;
         }
         let fate = if parents().any(exceeds) { Fate::Stays } else { Fate::Goes };
-        self.fates.insert(shape.apex, fate);
+        self.fates.insert(triangle.apex, fate);
         if fate == Fate::Goes {
             self.removed += parents().count();
             self.change -= parents().map(gain).sum::<i64>();
@@ -287,12 +286,12 @@ impl Forecast {
         }
     }
 
-    fn is_bisected(&mut self, mesh: &Mesh, shape: &Shape) -> bool {
-        shape.level < mesh.lattice().deepest_level() && self.is_node(mesh, shape.midpoint(), shape)
+    fn is_bisected(&mut self, mesh: &Mesh, triangle: &TreeTriangle) -> bool {
+        triangle.level < mesh.lattice().deepest_level() && self.is_node(mesh, triangle.midpoint(), triangle)
     }
 
     /// Whether a point of a triangle, which may lie on its rim, is a node as far as counted.
-    fn is_node(&mut self, mesh: &Mesh, point: LatticePoint, of: &Shape) -> bool {
+    fn is_node(&mut self, mesh: &Mesh, point: LatticePoint, of: &TreeTriangle) -> bool {
         match self.fates.get(&point) {
             Some(Fate::Comes | Fate::Stays) => true,
             Some(Fate::Goes) => false,
@@ -300,8 +299,8 @@ impl Forecast {
         }
     }
 
-    fn was_node(&mut self, mesh: &Mesh, point: LatticePoint, of: &Shape) -> bool {
-        let (number, entry) = of.coarse_entry(mesh).expect("shapes are made within the domain");
+    fn was_node(&mut self, mesh: &Mesh, point: LatticePoint, of: &TreeTriangle) -> bool {
+        let (number, entry) = of.coarse_entry(mesh).expect("triangles are made within the domain");
         let near = self.near.entry(number).or_insert(entry);
         let WalkEnd::Found(id, _) = mesh.walk(*near, point.as_dvec2()) else {
             unreachable!("the walk stays in the coarse triangle that it starts in");
@@ -309,10 +308,4 @@ impl Forecast {
         *near = id;
         mesh.corners(id).contains(&point)
     }
-}
-
-fn too_fine(mesh: &Mesh, shape: &Shape) -> RefineError {
-    let level = mesh.lattice().deepest_level();
-    let at = mesh.lattice().world_from_lattice(shape.apex);
-    RefineError::TooFine { at, smallest: mesh.diameter(level), level }
 }

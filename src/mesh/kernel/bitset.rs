@@ -7,7 +7,7 @@ use std::ops::Range;
 /// Above the bits stand three layers that say which words below are not empty, 64 to a bit. So an empty set is seen at once,
 /// and going through a small set in a large array costs no more than in a small one. An eighth of a byte for each place.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Marks {
+pub(in crate::mesh) struct Bitset {
     layers: [Vec<u64>; LAYERS],
     count: usize,
     /// No word of bits behind this one has any: near at hand when the last place is asked for again and again.
@@ -17,20 +17,20 @@ pub(super) struct Marks {
 /// With four layers the topmost has one word for 2²⁴ places, and is gone through word by word.
 const LAYERS: usize = 4;
 
-impl Marks {
+impl Bitset {
     /// How many places are in the set.
-    pub(super) fn count(&self) -> usize {
+    pub(in crate::mesh) fn count(&self) -> usize {
         self.count
     }
 
     #[inline]
-    pub(super) fn contains(&self, place: usize) -> bool {
+    pub(in crate::mesh) fn contains(&self, place: usize) -> bool {
         self.layers[0].get(place / 64).is_some_and(|word| word >> (place % 64) & 1 == 1)
     }
 
     /// Adds a place, and tells whether it was new.
     #[inline]
-    pub(super) fn insert(&mut self, place: usize) -> bool {
+    pub(in crate::mesh) fn insert(&mut self, place: usize) -> bool {
         if place / 64 >= self.layers[0].len() {
             self.make_room(place);
         }
@@ -70,7 +70,7 @@ impl Marks {
 
     /// Takes a place out, and tells whether it was in.
     #[inline]
-    pub(super) fn remove(&mut self, place: usize) -> bool {
+    pub(in crate::mesh) fn remove(&mut self, place: usize) -> bool {
         let was_in = self.contains(place);
         if was_in {
             self.layers[0][place / 64] &= !(1 << (place % 64));
@@ -93,7 +93,7 @@ impl Marks {
 
     /// The array's last entry took the place `to`, as by `swap_remove`: its mark goes with it.
     #[inline]
-    pub(super) fn swap_removed(&mut self, last: usize, to: usize) {
+    pub(in crate::mesh) fn swap_removed(&mut self, last: usize, to: usize) {
         if self.remove(last) && last != to {
             self.insert(to);
         } else {
@@ -103,7 +103,7 @@ impl Marks {
 
     /// The last place of the set.
     #[inline]
-    pub(super) fn last(&mut self) -> Option<usize> {
+    pub(in crate::mesh) fn last(&mut self) -> Option<usize> {
         if self.count == 0 {
             return None;
         }
@@ -121,7 +121,7 @@ impl Marks {
     }
 
     /// Takes all places out, a word at a time.
-    pub(super) fn clear(&mut self) {
+    pub(in crate::mesh) fn clear(&mut self) {
         while let Some(last) = self.last() {
             let word = last / 64;
             self.count -= self.layers[0][word].count_ones() as usize;
@@ -131,7 +131,7 @@ impl Marks {
     }
 
     /// Takes all places out, as ascending ranges that do not touch.
-    pub(super) fn take_ranges(&mut self) -> Vec<Range<usize>> {
+    pub(in crate::mesh) fn take_ranges(&mut self) -> Vec<Range<usize>> {
         let mut ranges: Vec<Range<usize>> = Vec::new();
         while let Some(last) = self.last() {
             let word = last / 64;
@@ -150,7 +150,7 @@ impl Marks {
     }
 
     /// Memory taken, in bytes.
-    pub(super) fn bytes(&self) -> usize {
+    pub(in crate::mesh) fn bytes(&self) -> usize {
         self.layers.iter().map(|layer| 8 * layer.capacity()).sum()
     }
 }
@@ -173,7 +173,7 @@ mod tests {
     fn marks_are_a_set() {
         let mut random = fastrand::Rng::with_seed(5);
         for size in [1, 64, 65, 5000, 300_000, 40_000_000] {
-            let (mut marks, mut plain) = (Marks::default(), BTreeSet::new());
+            let (mut marks, mut plain) = (Bitset::default(), BTreeSet::new());
             for _ in 0..5000 {
                 let near = plain.last().map_or(0, |&p: &usize| p.saturating_sub(random.usize(..70)));
                 let place = if random.bool() { near } else { random.usize(..size) };

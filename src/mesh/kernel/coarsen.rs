@@ -32,7 +32,7 @@ use super::{Mesh, Neighbour, NodeId, Orientation, Triangle, TriangleId};
 
 /// The two children of one parent, named as in `bisect`.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Siblings {
+pub(in crate::mesh) struct Siblings {
     kept: TriangleId,
     new: TriangleId,
 }
@@ -52,7 +52,7 @@ impl Siblings {
 
 /// All triangles round a node that is the newest vertex of each: what a bisection left behind, and nothing has cut since.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Star {
+pub(in crate::mesh) struct Star {
     centre: NodeId,
     one: Siblings,
     /// `None` where the cut edge is on the boundary.
@@ -60,7 +60,7 @@ pub(super) struct Star {
 }
 
 impl Star {
-    pub(super) fn centre(&self) -> NodeId {
+    pub(in crate::mesh) fn centre(&self) -> NodeId {
         self.centre
     }
 
@@ -69,17 +69,17 @@ impl Star {
     }
 
     /// The triangles round the centre.
-    pub(super) fn children(&self) -> impl Iterator<Item = TriangleId> {
+    pub(in crate::mesh) fn children(&self) -> impl Iterator<Item = TriangleId> {
         self.sides().flat_map(|side| [side.kept, side.new])
     }
 
     /// The entries that the parents take.
-    pub(super) fn places(&self) -> impl Iterator<Item = TriangleId> {
+    pub(in crate::mesh) fn places(&self) -> impl Iterator<Item = TriangleId> {
         self.sides().map(|side| side.place())
     }
 
     /// The entries that become free, the highest first.
-    pub(super) fn freed(&self) -> impl Iterator<Item = TriangleId> + use<> {
+    pub(in crate::mesh) fn freed(&self) -> impl Iterator<Item = TriangleId> + use<> {
         let (one, other) = (self.one.freed(), self.other.map(|side| side.freed()));
         let higher = other.map_or(one, |other| one.max(other));
         std::iter::once(higher).chain(other.map(|other| one.min(other)))
@@ -90,7 +90,7 @@ impl Mesh {
     /// The star round the newest vertex of `id`, if it is one: `None` for a coarse triangle, and where a triangle round that
     /// node was bisected.
     #[inline]
-    pub(super) fn star_of(&self, id: TriangleId) -> Option<Star> {
+    pub(in crate::mesh) fn star_of(&self, id: TriangleId) -> Option<Star> {
         let centre = self.triangle(id).newest_vertex()?;
         let (one, facing) = self.siblings(id)?;
         let Some(facing) = facing.triangle() else { return Some(Star { centre, one, other: None }) };
@@ -161,7 +161,7 @@ impl Mesh {
 
     /// The parents of a star, to be put back by [`Self::merge`].
     #[inline]
-    pub(super) fn parents(&self, star: &Star) -> [Option<Triangle>; 2] {
+    pub(in crate::mesh) fn parents(&self, star: &Star) -> [Option<Triangle>; 2] {
         let across = |side: Siblings| Neighbour::from(side.place());
         let one = self.parent(star.one, star.other.map_or(Neighbour::BOUNDARY, across));
         [Some(one), star.other.map(|other| self.parent(other, across(star.one)))]

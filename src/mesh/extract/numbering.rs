@@ -1,12 +1,12 @@
-use super::{NodeId, TriangleId};
+use crate::mesh::kernel::{NodeId, TriangleId};
 
-/// The numbers that triangles and nodes have in an [`Extract`](super::Extract), and so in files, without making one.
+/// The numbers that triangles and nodes have in an [`Extract`](crate::mesh::Extract), and so in files, without making one.
 ///
-/// A [`Survey`](super::Survey) finds them in slices. They take a quarter of a byte for each triangle and node.
+/// A [`Survey`](crate::mesh::Survey) finds them in slices. They take a quarter of a byte for each triangle and node.
 #[derive(Clone, Debug)]
 pub struct Numbering {
-    pub(super) triangles: Ranks,
-    pub(super) nodes: Ranks,
+    pub(in crate::mesh) triangles: RankBits,
+    pub(in crate::mesh) nodes: RankBits,
 }
 
 impl Numbering {
@@ -29,15 +29,15 @@ impl Numbering {
 
 /// A sequence of yes and no that knows how often yes came before each yes.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Ranks {
+pub(in crate::mesh) struct RankBits {
     count: usize,
     yes: u32,
     /// 64 answers at a time, and how often yes came before them.
     words: Vec<(u64, u32)>,
 }
 
-impl Ranks {
-    pub(super) fn push(&mut self, answer: bool) {
+impl RankBits {
+    pub(in crate::mesh) fn push(&mut self, answer: bool) {
         if self.count.is_multiple_of(64) {
             self.words.push((0, self.yes));
         }
@@ -54,7 +54,7 @@ impl Ranks {
     }
 }
 
-impl FromIterator<bool> for Ranks {
+impl FromIterator<bool> for RankBits {
     fn from_iter<I: IntoIterator<Item = bool>>(answers: I) -> Self {
         let mut ranks = Self::default();
         answers.into_iter().for_each(|answer| ranks.push(answer));

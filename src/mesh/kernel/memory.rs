@@ -12,7 +12,7 @@ impl Mesh {
     /// A large mesh reserves all it may ever need in one step: untouched memory costs nothing, and the arrays never move
     /// again. With large pages this takes a third off the time to build two million triangles.
     #[cold]
-    pub(super) fn make_room(&mut self, more: usize, most: usize) -> usize {
+    pub(in crate::mesh) fn make_room(&mut self, more: usize, most: usize) -> usize {
         make_room(&mut self.triangles, more, most);
         // A bisection makes one node, and one or two triangles.
         make_room(&mut self.nodes, more, most);
@@ -25,7 +25,7 @@ impl Mesh {
 impl Mesh {
     /// Gives the memory back that a larger mesh has left behind, but for room to double.
     #[cold]
-    pub(super) fn give_memory_back(&mut self) {
+    pub(in crate::mesh) fn give_memory_back(&mut self) {
         self.triangles.shrink_to(2 * self.triangles.len());
         self.nodes.shrink_to(2 * self.nodes.len());
         self.triangle_at.shrink_to(2 * self.triangle_at.len());
@@ -39,7 +39,7 @@ impl Mesh {
 }
 
 /// Makes room for `more` further entries, and where the array is large at once for `most` in all.
-pub(super) fn make_room<T>(array: &mut Vec<T>, more: usize, most: usize) {
+pub(in crate::mesh) fn make_room<T>(array: &mut Vec<T>, more: usize, most: usize) {
     if array.capacity() - array.len() >= more {
         return;
     }

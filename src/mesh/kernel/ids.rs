@@ -1,11 +1,11 @@
 use bytemuck::{Pod, Zeroable};
 
-/// A node by its place in [`Mesh::nodes`](super::Mesh::nodes), from zero.
+/// A node by its place in [`Mesh::nodes`](crate::mesh::Mesh::nodes), from zero.
 ///
 /// Refinement keeps all ids. Coarsening fills gaps with the last node, never with a coarse one: those keep their ids for ever.
 #[repr(transparent)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Pod, Zeroable)]
-pub struct NodeId(pub(super) u32);
+pub struct NodeId(pub(in crate::mesh) u32);
 
 impl NodeId {
     /// The id of the node at `index` of the node array.
@@ -20,14 +20,14 @@ impl NodeId {
     }
 }
 
-/// A triangle by its place in [`Mesh::triangles`](super::Mesh::triangles), from zero.
+/// A triangle by its place in [`Mesh::triangles`](crate::mesh::Mesh::triangles), from zero.
 ///
 /// Refinement keeps the index of a bisected triangle for one of its children, and coarsening gives a parent the lower index of
 /// its children's, so the entry with a coarse triangle's index is always one of that triangle's descendants. Coarsening fills
 /// gaps with the last entry: beyond the coarse triangles an id says nothing about the triangle that an update leaves there.
 #[repr(transparent)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Pod, Zeroable)]
-pub struct TriangleId(pub(super) u32);
+pub struct TriangleId(pub(in crate::mesh) u32);
 
 impl TriangleId {
     /// The id of the triangle at `index` of the triangle array.

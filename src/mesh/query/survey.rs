@@ -1,7 +1,7 @@
 //! What kind of shape a mesh has: how many parts, how many holes; and what numbers its triangles have in files.
 
-use super::numbering::{Numbering, Ranks};
-use super::{Mesh, Progress};
+use crate::mesh::extract::{Numbering, RankBits};
+use crate::mesh::kernel::{Mesh, Progress};
 
 /// The shape of a mesh's domain, as the triangles show it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -19,7 +19,7 @@ pub struct Topology {
 pub struct Survey {
     by_edge: Forest,
     by_corner: Forest,
-    belongs: Ranks,
+    belongs: RankBits,
     has_node: Vec<bool>,
     next: usize,
     boundary_edges: usize,
@@ -31,7 +31,7 @@ impl Survey {
         Self {
             by_edge: Forest::new(mesh.triangles.len()),
             by_corner: Forest::new(mesh.nodes.len()),
-            belongs: Ranks::default(),
+            belongs: RankBits::default(),
             has_node: vec![false; mesh.nodes.len()],
             next: 0,
             boundary_edges: 0,

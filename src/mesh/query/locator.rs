@@ -1,8 +1,8 @@
 use glam::DVec2;
 
-use super::locate::WalkEnd;
-use super::{Location, Mesh, TriangleId, memory};
+use super::Location;
 use crate::geometry::LatticePoint;
+use crate::mesh::kernel::{Mesh, TriangleId, WalkEnd, make_room};
 
 /// A search tree over a mesh, for many queries: the report's virtual buckets (Section 7.1), carried on until no walk is
 /// left.
@@ -100,7 +100,7 @@ impl<'m> Locator<'m> {
     pub fn new(mesh: &'m Mesh) -> Self {
         let [columns, rows] = mesh.lattice.cells().map(|n| n as usize);
         let (table, mut quarters) = (vec![Square::EMPTY; columns * rows], Vec::new());
-        memory::make_room(&mut quarters, mesh.triangles.len() / 4, mesh.triangles.len());
+        make_room(&mut quarters, mesh.triangles.len() / 4, mesh.triangles.len());
         let mut locator = Self { mesh, columns, side_bits: mesh.lattice.halvings(), table, quarters };
         let by_level = ids_by_level(mesh);
         // The larger triangles first: a square is divided only for a smaller one, and hands on what it has.

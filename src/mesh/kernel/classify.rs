@@ -7,8 +7,7 @@
 
 use std::ops::Range;
 
-use super::refine::Diameters;
-use super::{Element, Mesh, Neighbour, TriangleId};
+use super::{Diameters, Element, Mesh, Neighbour, TriangleId};
 
 impl Mesh {
     /// How many triangles belong to the domain.

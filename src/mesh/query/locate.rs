@@ -4,8 +4,8 @@ use std::cmp::Ordering;
 
 use glam::DVec2;
 
-use super::{Mesh, NodeId, TriangleId};
-use crate::geometry::{Side, exact_sum_sign, side_of_edge};
+use crate::geometry::{Side, exact_sum_sign};
+use crate::mesh::kernel::{Mesh, NodeId, TriangleId, WalkEnd};
 
 /// Where a point lies in a mesh.
 ///
@@ -49,15 +49,6 @@ impl Location {
             Self::OutsideBounds | Self::OutsideDomain | Self::Invalid => None,
         }
     }
-}
-
-/// How a walk ended.
-#[derive(Clone, Copy)]
-pub(super) enum WalkEnd {
-    /// In a triangle that contains the point, strictly right of none of its edges; the sides are per edge.
-    Found(TriangleId, [Side; 3]),
-    /// At an edge of the boundary, with the point strictly beyond.
-    Blocked,
 }
 
 impl Mesh {
@@ -104,36 +95,6 @@ impl Mesh {
         })
     }
 
-    /// Steps from triangle to triangle towards `p` in lattice coordinates, across the first edge that has it strictly
-    /// beyond.
-    ///
-    /// With exact tests such a walk in a Delaunay triangulation comes strictly nearer (in power distance) at every step, so
-    /// it visits no triangle twice. All angles are at most 90°, so every mesh of this method is Delaunay. No random order of
-    /// edges and no memory of the previous triangle are needed to end; skipping the edge just crossed only saves a test.
-    #[inline]
-    pub(super) fn walk(&self, start: TriangleId, p: DVec2) -> WalkEnd {
-        let mut id = start;
-        let mut previous = None;
-        'step: loop {
-            let triangle = self.triangle(id);
-            let mut sides = [Side::Left; 3];
-            for (j, (from, to)) in triangle.edge_nodes().into_iter().enumerate() {
-                let across = triangle.neighbours[j].triangle();
-                if across.is_some() && across == previous {
-                    continue; // the point is strictly on this side: the edge was just crossed
-                }
-                sides[j] = side_of_edge(self.node(from), self.node(to), p);
-                if sides[j] == Side::Right {
-                    let Some(next) = across else { return WalkEnd::Blocked };
-                    previous = Some(id);
-                    id = next;
-                    continue 'step;
-                }
-            }
-            return WalkEnd::Found(id, sides);
-        }
-    }
-
     /// Where a point lies that was found in triangle `id` on the given sides of its edges; ties go to the lowest index of the
     /// domain.
     pub(super) fn lowest_round(&self, id: TriangleId, sides: [Side; 3]) -> Location {
@@ -167,37 +128,6 @@ impl Mesh {
     pub(super) fn edge_towards(&self, id: TriangleId, across: TriangleId) -> usize {
         let found = self.triangle(id).neighbours.iter().position(|n| n.triangle() == Some(across));
         found.expect("neighbours are symmetric (invariant 3)")
-    }
-
-    /// The triangles round `node` that can be reached from `start` (one of them) across edges, `start` first.
-    ///
-    /// At most eight. Where only a corner joins two parts of the domain, the other part is not reached.
-    #[inline]
-    pub fn triangles_around(&self, node: NodeId, start: TriangleId) -> impl Iterator<Item = TriangleId> + '_ {
-        let mut id = Some(start);
-        let mut clockwise = false;
-        std::iter::from_fn(move || {
-            let current = id?;
-            id = self.turn(node, current, clockwise);
-            if id.is_none() && !clockwise {
-                clockwise = true;
-                id = self.turn(node, start, true);
-            } else if id == Some(start) {
-                id = None;
-            }
-            Some(current)
-        })
-        .take(8)
-    }
-
-    /// The next triangle round `node`, `None` at the boundary.
-    #[inline]
-    fn turn(&self, node: NodeId, id: TriangleId, clockwise: bool) -> Option<TriangleId> {
-        let triangle = self.triangle(id);
-        // Anticlockwise edges: the one that ends in the node is crossed to turn anticlockwise round it.
-        let crossed =
-            triangle.edge_nodes().iter().position(|&(from, to)| node == if clockwise { from } else { to })?;
-        triangle.neighbours[crossed].triangle()
     }
 }
 

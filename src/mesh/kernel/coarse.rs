@@ -2,8 +2,7 @@
 
 use glam::DVec2;
 
-use super::triangle::Kind;
-use super::{KindCounts, Limits, Mesh, Neighbour, NodeId, Orientation, Triangle, TriangleId};
+use super::{Kind, KindCounts, Limits, Mesh, Neighbour, NodeId, Orientation, Triangle, TriangleId};
 use crate::geometry::{GridError, Lattice, LatticePoint, Number};
 
 /// Why no coarse triangulation could be made.
@@ -29,7 +28,7 @@ pub enum CoarseError {
 /// Coarse triangles are numbered as in Figure 2 of the report, from zero: row by row from the lower left, in each
 /// cell first the one below the diagonal.
 #[derive(Clone, Debug)]
-pub(super) struct CoarseIndex {
+pub(in crate::mesh) struct CoarseIndex {
     /// Id by coarse number, `Neighbour::BOUNDARY` where the coarse triangle is not in the domain; `None` when all
     /// are, and each number is its own id.
     ids: Option<Vec<Neighbour>>,
@@ -39,14 +38,14 @@ pub(super) struct CoarseIndex {
 
 impl CoarseIndex {
     #[inline]
-    pub(super) fn get(&self, number: usize) -> Option<TriangleId> {
+    pub(in crate::mesh) fn get(&self, number: usize) -> Option<TriangleId> {
         match &self.ids {
             None => Some(TriangleId::from_index(number)),
             Some(ids) => ids[number].triangle(),
         }
     }
 
-    pub(super) fn kept(&self) -> usize {
+    pub(in crate::mesh) fn kept(&self) -> usize {
         self.kept
     }
 }

@@ -2,10 +2,10 @@
 
 use std::collections::{BTreeMap, HashMap};
 
-use super::refine::Diameters;
-use super::triangle::Kind;
-use super::{DEEPEST_LEVEL, Element, InvalidTarget, Mesh, NodeId, Orientation, TriangleId};
 use crate::geometry::LatticePoint;
+use crate::mesh::kernel::{
+    DEEPEST_LEVEL, Diameters, Element, InvalidTarget, Kind, Mesh, NodeId, Orientation, TriangleId,
+};
 
 /// A broken invariant of [`Mesh`], in the order of the list there.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]

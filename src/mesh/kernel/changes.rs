@@ -1,7 +1,6 @@
 use std::ops::Range;
 
-use super::marks::Marks;
-use super::{Mesh, NodeId, TriangleId};
+use super::{Bitset, Mesh, NodeId, TriangleId};
 
 /// Which entries of a mesh's two arrays differ from what they were when this was last asked.
 ///
@@ -9,9 +8,9 @@ use super::{Mesh, NodeId, TriangleId};
 /// array may also have become shorter.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Changes {
-    /// Of [`Mesh::nodes`](super::Mesh::nodes).
+    /// Of [`Mesh::nodes`](crate::mesh::Mesh::nodes).
     pub nodes: Vec<Range<usize>>,
-    /// Of [`Mesh::triangles`](super::Mesh::triangles).
+    /// Of [`Mesh::triangles`](crate::mesh::Mesh::triangles).
     pub triangles: Vec<Range<usize>>,
 }
 
@@ -42,8 +41,8 @@ fn join(ranges: &mut Vec<Range<usize>>, later: &[Range<usize>], end: usize) {
 /// [`Changes`] as they come about.
 #[derive(Clone, Debug, Default)]
 pub(super) struct ChangeLog {
-    pub(super) nodes: Marks,
-    pub(super) triangles: Marks,
+    pub(super) nodes: Bitset,
+    pub(super) triangles: Bitset,
     /// How many times something changed.
     steps: u64,
     steps_told: u64,

@@ -2,8 +2,8 @@ use std::borrow::Cow;
 
 use glam::DVec2;
 
-use super::{Mesh, Neighbour, NodeId, Triangle, TriangleId};
 use crate::geometry::{Lattice, LatticePoint};
+use crate::mesh::kernel::{Mesh, Neighbour, NodeId, Triangle, TriangleId};
 
 /// What others get of a mesh, in files and elsewhere: nodes and triangles that count from zero without a gap.
 ///
@@ -42,7 +42,7 @@ impl Cell {
 
 /// An edge, as others want it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Edge {
+pub struct MeshEdge {
     /// Its nodes.
     pub ends: [usize; 2],
     /// Whether the domain ends there.
@@ -173,11 +173,11 @@ impl Extract<'_> {
     }
 
     /// Every edge once, in the order of the triangles.
-    pub fn edges(&self) -> impl Iterator<Item = Edge> + Clone + '_ {
+    pub fn edges(&self) -> impl Iterator<Item = MeshEdge> + Clone + '_ {
         self.triangles.iter().enumerate().flat_map(|(index, triangle)| {
             let edges = triangle.edge_nodes().into_iter().zip(triangle.neighbours);
             let mine = edges.filter(move |(_, across)| across.triangle().is_none_or(|t| index < t.index()));
-            mine.map(|((from, to), across)| Edge {
+            mine.map(|((from, to), across)| MeshEdge {
                 ends: [from.index(), to.index()],
                 on_boundary: across.triangle().is_none(),
             })

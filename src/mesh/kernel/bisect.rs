@@ -60,7 +60,7 @@ impl Mesh {
 
     /// Bisects a triangle whose bisection edge is on the boundary (Algorithm 19).
     #[inline(always)]
-    pub(super) fn bisect_at_boundary(&mut self, id: TriangleId) {
+    pub(in crate::mesh) fn bisect_at_boundary(&mut self, id: TriangleId) {
         let midpoint = self.push_midpoint(id);
         self.counts.bisected(self.triangle(id).kind());
         self.bisect_side(id, midpoint, Facing::BOUNDARY);

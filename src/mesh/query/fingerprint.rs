@@ -1,5 +1,5 @@
-use super::Mesh;
 use crate::geometry::LatticePoint;
+use crate::mesh::kernel::Mesh;
 
 /// A hash of a mesh's set of triangles, whatever their order and numbering.
 ///

@@ -28,49 +28,49 @@ pub struct Triangle {
 /// Children are of their parent's class until somebody asks anew.
 #[repr(transparent)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Pod, Zeroable)]
-pub(super) struct Kind(u32);
+pub(in crate::mesh) struct Kind(u32);
 
 impl Kind {
     /// More than any level: the GPU's shader knows this number too.
     const OUTSIDE: u32 = 64;
     /// How many kinds there can be.
-    pub(super) const COUNT: usize = 2 * Self::OUTSIDE as usize;
+    pub(in crate::mesh) const COUNT: usize = 2 * Self::OUTSIDE as usize;
 
     #[inline]
-    pub(super) const fn inside(level: u32) -> Self {
+    pub(in crate::mesh) const fn inside(level: u32) -> Self {
         Self(level)
     }
 
     #[inline]
-    pub(super) const fn with_outside(self, outside: bool) -> Self {
+    pub(in crate::mesh) const fn with_outside(self, outside: bool) -> Self {
         Self(self.level() | if outside { Self::OUTSIDE } else { 0 })
     }
 
     #[inline]
-    pub(super) const fn level(self) -> u32 {
+    pub(in crate::mesh) const fn level(self) -> u32 {
         self.0 % Self::OUTSIDE
     }
 
     #[inline]
-    pub(super) const fn is_outside(self) -> bool {
+    pub(in crate::mesh) const fn is_outside(self) -> bool {
         self.0 >= Self::OUTSIDE
     }
 
     /// The kind of the children.
     #[inline]
-    pub(super) const fn finer(self) -> Self {
+    pub(in crate::mesh) const fn finer(self) -> Self {
         Self(self.0 + 1)
     }
 
     /// The kind of the parent.
     #[inline]
-    pub(super) const fn coarser(self) -> Self {
+    pub(in crate::mesh) const fn coarser(self) -> Self {
         Self(self.0 - 1)
     }
 
     /// Place in a table of all kinds.
     #[inline]
-    pub(super) const fn index(self) -> usize {
+    pub(in crate::mesh) const fn index(self) -> usize {
         self.0 as usize
     }
 }
@@ -97,7 +97,7 @@ impl Orientation {
 
 impl Triangle {
     #[inline]
-    pub(super) fn new(
+    pub(in crate::mesh) fn new(
         vertices: [NodeId; 3],
         neighbours: [Neighbour; 3],
         orientation: Orientation,
@@ -115,19 +115,19 @@ impl Triangle {
     }
 
     /// Whether the triangle is there only to hold up its neighbours, and lies outside the domain
-    /// ([`Mesh::sort_out`](super::Mesh::sort_out)).
+    /// ([`Mesh::sort_out`](crate::mesh::Mesh::sort_out)).
     #[inline]
     pub const fn is_outside(&self) -> bool {
         self.kind.is_outside()
     }
 
     #[inline]
-    pub(super) const fn kind(&self) -> Kind {
+    pub(in crate::mesh) const fn kind(&self) -> Kind {
         self.kind
     }
 
     #[inline]
-    pub(super) fn set_outside(&mut self, outside: bool) {
+    pub(in crate::mesh) fn set_outside(&mut self, outside: bool) {
         self.kind = self.kind.with_outside(outside);
     }
 
@@ -201,7 +201,7 @@ impl Triangle {
     /// Whether k and O *match*: k = 1 with O = 0, or k = 2 with O = 1. The one bit that every case of
     /// Algorithms 8, 9, 19 and 21 to 25 depends on.
     #[inline]
-    pub(super) const fn matched(&self) -> bool {
+    pub(in crate::mesh) const fn matched(&self) -> bool {
         self.bisection_end() as u32 == 1 + self.orientation
     }
 }

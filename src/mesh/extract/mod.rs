@@ -1,0 +1,10 @@
+//! What leaves the program: nodes and triangles of the domain, numbered without gaps.
+
+#[expect(clippy::module_inception, reason = "the part is named for its main type")]
+mod extract;
+mod numbering;
+
+pub(in crate::mesh) use numbering::RankBits;
+
+pub use extract::{BoundaryEdge, Cell, Extract, MeshEdge};
+pub use numbering::Numbering;

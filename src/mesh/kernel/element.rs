@@ -1,0 +1,73 @@
+//! What a refinement rule is asked about, and what a slice of work returns.
+
+use glam::DVec2;
+
+use super::{DEEPEST_LEVEL, Mesh, Triangle, TriangleId, bisection_edge_length};
+use crate::geometry::{Lattice, LatticePoint};
+
+/// A triangle as a refinement rule sees it.
+pub struct Element<'a> {
+    /// The entry of the triangle array.
+    pub triangle: &'a Triangle,
+    /// Its vertices in lattice coordinates, in its order.
+    pub corners: [LatticePoint; 3],
+    /// The grid and lattice of the mesh.
+    pub lattice: &'a Lattice,
+    diameter: f64,
+}
+
+/// [`Mesh::diameter`] of every level of the lattice.
+pub(in crate::mesh) struct Diameters([f64; DEEPEST_LEVEL + 1]);
+
+impl Diameters {
+    pub(in crate::mesh) fn of(mesh: &Mesh) -> Self {
+        let spacing = mesh.lattice.spacing();
+        Self(std::array::from_fn(|level| bisection_edge_length(spacing, level as u32)))
+    }
+}
+
+impl Element<'_> {
+    /// Length of the bisection edge in world units (Eq. 1): what a rule compares with the target diameter.
+    #[inline]
+    pub fn diameter(&self) -> f64 {
+        self.diameter
+    }
+
+    /// The vertices in world coordinates, in the triangle's order.
+    #[inline]
+    pub fn world_corners(&self) -> [DVec2; 3] {
+        self.corners.map(|c| self.lattice.world_from_lattice(c))
+    }
+}
+
+impl Mesh {
+    #[inline]
+    pub(in crate::mesh) fn element(&self, id: TriangleId, diameters: &Diameters) -> Element<'_> {
+        self.element_of(self.triangle(id), diameters)
+    }
+
+    /// The element of a triangle that need not be in the array.
+    #[inline]
+    pub(in crate::mesh) fn element_of<'a>(
+        &'a self,
+        triangle: &'a Triangle,
+        diameters: &Diameters,
+    ) -> Element<'a> {
+        let corners = triangle.vertices.map(|v| self.node(v));
+        Element {
+            triangle,
+            corners,
+            lattice: &self.lattice,
+            diameter: diameters.0[triangle.level() as usize],
+        }
+    }
+}
+
+/// Whether a sliced piece of work is finished.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Progress {
+    /// Nothing is left to do.
+    Done,
+    /// The allowance was used up; call again.
+    More,
+}

@@ -1,0 +1,108 @@
+//! Memory as a limit: translated into a count of triangles, so that refinement has one number to look at.
+
+use std::fmt;
+
+use super::RefineError;
+
+/// Most triangles of any mesh, whatever its budget: ids above are taken for marks.
+pub const MOST_TRIANGLES: usize = (1 << 31) - 1;
+
+/// What a mesh may cost.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Limits {
+    /// Most triangles; refinement that would pass it stops with an error. A triangle and its share of the nodes take
+    /// 38 bytes, and 4 more while the mesh is refined from scratch.
+    pub max_triangles: usize,
+    /// Deepest level, or `None` for as deep as the lattice goes. Triangles at this level count as satisfied.
+    pub max_level: Option<u32>,
+    /// Most memory, or `None` for as much as [`Self::max_triangles`] take.
+    pub max_memory: Option<MemoryLimit>,
+}
+
+impl Limits {
+    /// [`Self::max_triangles`], as far as memory and ids go.
+    pub fn most_triangles(&self) -> usize {
+        let room = self.max_memory.map_or(usize::MAX, |memory| memory.triangles());
+        self.max_triangles.min(MOST_TRIANGLES).min(room)
+    }
+
+    /// [`Self::max_level`], or a level that no triangle has.
+    pub(in crate::mesh) fn level_cap(&self) -> u32 {
+        self.max_level.unwrap_or(u32::MAX)
+    }
+
+    /// What to say where [`Self::most_triangles`] would be passed.
+    pub(super) fn passed(&self) -> RefineError {
+        let limit = self.most_triangles();
+        match self.max_memory {
+            Some(memory) if memory.triangles() < self.max_triangles.min(MOST_TRIANGLES) => {
+                RefineError::TooMuchMemory { limit, memory }
+            }
+            _ => RefineError::TooManyTriangles { limit },
+        }
+    }
+}
+
+impl Default for Limits {
+    /// 50 million triangles (1.9 GB), and any level.
+    fn default() -> Self {
+        Self { max_triangles: 50_000_000, max_level: None, max_memory: None }
+    }
+}
+
+/// How much memory meshes may take, and how much of it a triangle is reckoned at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct MemoryLimit {
+    /// Most memory, in bytes.
+    pub bytes: usize,
+    /// What a triangle takes with its share of all else, in bytes.
+    pub per_triangle: usize,
+}
+
+/// A triangle and its share of the nodes, in bytes ([`Mesh::bytes`](crate::mesh::Mesh::bytes)).
+const IN_THE_MESH: usize = 38;
+/// While it is refined from scratch: the order of visits, and the vertex rule's values at nodes.
+const WHILE_MADE: usize = 8;
+/// While it is updated in place: the marks, with room to double ([`Updater::bytes`](crate::mesh::Updater::bytes)).
+const WHILE_UPDATED: usize = 2;
+
+impl MemoryLimit {
+    /// For a mesh that is made once.
+    pub fn for_one_mesh(bytes: usize) -> Self {
+        Self { bytes, per_triangle: IN_THE_MESH + WHILE_MADE }
+    }
+
+    /// For a mesh that is updated in place, or made anew beside the one that is shown.
+    pub fn for_two_meshes(bytes: usize) -> Self {
+        Self { bytes, per_triangle: 2 * IN_THE_MESH + WHILE_MADE + WHILE_UPDATED }
+    }
+
+    /// How many triangles there is room for.
+    pub fn triangles(&self) -> usize {
+        self.bytes / self.per_triangle.max(1)
+    }
+}
+
+/// A count of bytes for a person: `2 GB`, `12.5 MB`; units are powers of 1000.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Bytes(pub usize);
+
+impl fmt::Display for Bytes {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (unit, name) = if self.0 >= 1_000_000_000 { (1e9, "GB") } else { (1e6, "MB") };
+        let value = (self.0 as f64 / unit * 1000.0).round() / 1000.0;
+        write!(f, "{value} {name}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sizes_are_written_for_a_person() {
+        let written =
+            [0, 400, 12_500_000, 999_999_999, 2_000_000_000, 2_147_483_648].map(|n| Bytes(n).to_string());
+        assert_eq!(written, ["0 MB", "0 MB", "12.5 MB", "1000 MB", "2 GB", "2.147 GB"]);
+    }
+}

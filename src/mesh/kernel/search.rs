@@ -1,0 +1,102 @@
+//! The search for the triangles that touch a rectangle, which updates and forecasts start from.
+
+use super::{Bitset, Mesh, TriangleId, WalkEnd};
+use crate::geometry::{LatticePoint, LatticeRect};
+
+/// A search for the triangles that touch a rectangle.
+///
+/// In one coarse triangle they can be reached from each other across edges: what it has in common with the rectangle is convex,
+/// and on the straight way between two points of it one goes from triangle to triangle across an edge, or round a node that
+/// lies in the rectangle too. So one triangle for each coarse triangle that the rectangle touches is enough to start from, holes
+/// or not.
+#[derive(Clone, Debug)]
+pub(in crate::mesh) struct Search {
+    area: LatticeRect,
+    /// The cells that the area touches: the first and last column, and the first and last row.
+    columns: [u32; 2],
+    rows: [u32; 2],
+    /// The next half cell, counted row by row.
+    next: u64,
+    /// Triangles found, whose neighbours have not been looked at.
+    found: Vec<TriangleId>,
+}
+
+impl Search {
+    pub(in crate::mesh) fn new(mesh: &Mesh, area: LatticeRect) -> Self {
+        let steps = mesh.lattice().cell_steps();
+        let [columns, rows] = mesh.lattice().cells();
+        // Closed cells: a line between two cells belongs to both.
+        let touched = |low: u32, high: u32, count: u32| {
+            [low.div_ceil(steps).saturating_sub(1), (high / steps).min(count - 1)]
+        };
+        let columns = touched(area.min.x, area.max.x, columns);
+        let rows = touched(area.min.y, area.max.y, rows);
+        Self { area, columns, rows, next: 0, found: Vec::new() }
+    }
+
+    /// A triangle found that the search has not gone on from, if there is one.
+    pub(in crate::mesh) fn found(&self) -> Option<TriangleId> {
+        self.found.last().copied()
+    }
+
+    /// Goes on from the triangle that [`Self::found`] gave, to its neighbours.
+    #[inline]
+    pub(in crate::mesh) fn spread_from(&mut self, mesh: &Mesh, id: TriangleId, reached: &mut Bitset) {
+        self.found.pop();
+        for across in mesh.triangle(id).neighbours.iter().filter_map(|n| n.triangle()) {
+            if !reached.contains(across.index()) && self.area.touches(mesh.corners(across)) {
+                reached.insert(across.index());
+                self.found.push(across);
+            }
+        }
+    }
+
+    /// Enters the next half cell that the area touches; false where there is none.
+    #[inline]
+    pub(in crate::mesh) fn enter_next(&mut self, mesh: &Mesh, reached: &mut Bitset) -> bool {
+        let Some((cell, upper)) = self.next_half_cell() else { return false };
+        if let Some(start) = self.start(mesh, cell, upper)
+            && reached.insert(start.index())
+        {
+            self.found.push(start);
+        }
+        true
+    }
+
+    /// The next cell that the area touches, by column and row, and whether it is the upper half.
+    fn next_half_cell(&mut self) -> Option<([u32; 2], bool)> {
+        let ([c0, c1], [r0, r1]) = (self.columns, self.rows);
+        if c0 > c1 {
+            return None; // beyond the grid
+        }
+        let (across, upper) = (u64::from(c1 - c0 + 1), self.next % 2 == 1);
+        let cell = self.next / 2;
+        self.next += 1;
+        let row = r0 + (cell / across) as u32;
+        (row <= r1).then_some(([c0 + (cell % across) as u32, row], upper))
+    }
+
+    /// A triangle in the given half of a cell that touches the area, unless the half does not or is not in the domain.
+    fn start(&self, mesh: &Mesh, [column, row]: [u32; 2], upper: bool) -> Option<TriangleId> {
+        let number = 2 * (row as usize * mesh.lattice().cells()[0] as usize + column as usize);
+        let entry = mesh.coarse.get(number + usize::from(upper))?;
+        let steps = mesh.lattice().cell_steps();
+        let (left, bottom) = (column * steps, row * steps);
+        // The corner of the common rectangle that lies deepest in the half.
+        let (point, inside) = if upper {
+            let x = self.area.max.x.min(left + steps);
+            let y = self.area.max.y.min(bottom + steps);
+            (LatticePoint::new(x, y), x - left + (y - bottom) >= steps)
+        } else {
+            let (x, y) = (self.area.min.x.max(left), self.area.min.y.max(bottom));
+            (LatticePoint::new(x, y), x - left + (y - bottom) <= steps)
+        };
+        if !inside {
+            return None;
+        }
+        match mesh.walk(entry, point.as_dvec2()) {
+            WalkEnd::Found(id, _) => Some(id),
+            WalkEnd::Blocked => unreachable!("the walk stays in the coarse triangle that it starts in"),
+        }
+    }
+}

@@ -1,0 +1,19 @@
+//! Questions to a finished mesh: location, adjacency, survey, interpolation, fingerprint, checks, forecast.
+
+mod adjacency;
+mod check;
+mod fingerprint;
+mod forecast;
+mod interpolate;
+mod locate;
+mod locator;
+mod survey;
+
+pub use adjacency::Adjacency;
+pub use check::Violation;
+pub use fingerprint::{Fingerprint, fingerprint_of};
+pub use forecast::Forecast;
+pub use interpolate::{barycentric, interpolate};
+pub use locate::Location;
+pub use locator::Locator;
+pub use survey::{Survey, Topology};
