@@ -243,6 +243,26 @@ fn outlines_and_pictures_count_for_the_memory_limit_of_the_history() {
 }
 
 #[test]
+fn the_risk_at_a_point_is_the_higher_of_paint_and_picture() {
+    // Brightens from left to right, over the left half of the domain only.
+    let values = (0..10).map(|column| column as f32 / 10.0).collect();
+    let half = Rect::new(DVec2::ZERO, dvec2(0.5, 1.0));
+    let raster = Arc::new(Raster::from_values(half, [10, 1], values));
+    let base = Base::RiskImage { name: "slope.png".into(), raster };
+    let mut document = Document::new(Settings { base, ..Settings::default() }, None).unwrap();
+    document.begin_stroke(Brush { medium: Medium::Risk, radius: 0.1, hardness: 1.0, strength: 0.5 });
+    document.draw_to(dvec2(0.1, 0.5));
+    document.draw_to(dvec2(0.9, 0.5));
+    for (point, risk) in
+        [([0.12, 0.5], 0.5), ([0.47, 0.5], 0.9), ([0.8, 0.5], 0.5), ([0.22, 0.9], 0.4), ([0.8, 0.9], 0.0)]
+    {
+        let found = document.risk_at(DVec2::from_array(point)).unwrap();
+        assert!((found - risk).abs() < 1e-6, "{found} at {point:?}");
+    }
+    assert_eq!(document.risk_at(dvec2(1.1, 0.5)), None);
+}
+
+#[test]
 fn undo_stops_where_another_document_was_opened() {
     let mut document = Document::new(Settings::default(), None).unwrap();
     let mut follower = Follower::new(&mut document).unwrap();

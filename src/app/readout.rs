@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use crate::document::{Base, Document, Follower};
+use crate::document::{Document, Follower};
 use crate::field::{PaintRef, RefinementRule, TargetField};
 use crate::mesh::{Location, Mesh, Neighbour, NodeId, Orientation, TriangleId, barycentric, interpolate};
 
@@ -88,7 +88,7 @@ pub fn value_at(point: DVec2, document: &Document, follower: &Follower, quantity
             let rule = follower.settings().rule;
             target_at(point, follower.field(), document.paint().as_paint(), rule)
         }
-        Quantity::Risk => risk_at(point, document),
+        Quantity::Risk => document.risk_at(point).unwrap_or(f64::NAN),
     }
 }
 
@@ -97,15 +97,5 @@ pub fn target_at(point: DVec2, field: &TargetField, paint: PaintRef, rule: Refin
     match rule {
         RefinementRule::Area => field.at(point).unwrap_or(f64::NAN),
         RefinementRule::Vertex => field.target_at_node(paint, point),
-    }
-}
-
-fn risk_at(point: DVec2, document: &Document) -> f64 {
-    let painted = document.paint().risk.sample(point).map_or(f64::NAN, f64::from);
-    match &document.settings().base {
-        Base::RiskImage { raster, .. } => {
-            raster.sample(point).map_or(painted, |risk| painted.max(f64::from(risk)))
-        }
-        Base::Constant(_) | Base::Formula(_) => painted,
     }
 }

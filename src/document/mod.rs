@@ -99,6 +99,17 @@ impl Document {
         &self.paint
     }
 
+    /// The risk at a point in world units, 0 to 1: that of the paint or that of the base picture, whichever
+    /// is higher. `None` outside the domain's bounds.
+    pub fn risk_at(&self, point: DVec2) -> Option<f64> {
+        let painted = self.paint.risk.sample(point).map(f64::from)?;
+        let base = match &self.settings.base {
+            Base::RiskImage { raster, .. } => raster.sample(point).map_or(0.0, f64::from),
+            Base::Constant(_) | Base::Formula(_) => 0.0,
+        };
+        Some(painted.max(base))
+    }
+
     /// What can be undone and redone.
     pub fn history(&self) -> &History {
         &self.history
