@@ -4,117 +4,132 @@ use std::fs::File;
 use std::io::{BufRead, BufReader, Read};
 use std::path::Path;
 
+use csv_core::{ReadRecordResult, ReaderBuilder, Terminator};
 use glam::DVec2;
 
 use super::error::{PlacedFlaw, shown};
 use super::{Flaw, ReadError};
 
-/// Longest line taken, in bytes. Keeps a file without line breaks from filling the memory.
+/// Longest line that is read, in bytes. Without a limit a file without line breaks would fill the memory.
 const LONGEST_LINE: u64 = 1 << 20;
 
-/// Reads the points of a table, in world units.
+/// Reads the points of a table, in world units, in the order of its rows.
 ///
-/// The header names the columns, in any order and case; columns other than `x` and `y` are passed over. Fields may be
-/// quoted, blank lines are skipped. `NaN` and `inf` are numbers here: what they mean is for the search to answer.
+/// The header names the columns, in any order and case; columns other than `x` and `y` are ignored. Fields
+/// follow RFC 4180: one that begins with a quotation mark may contain commas, but it must end on its line.
+/// White space around fields and blank lines are ignored. `NaN` and `inf` are read as numbers: the location
+/// of such a point answers that it is invalid.
 ///
 /// # Errors
-/// When the file cannot be read, has no header with `x` and `y`, or a field is not a number; with the line.
+/// When the file cannot be read, has no header with `x` and `y`, or a field is not a number; the error names
+/// the line.
 pub fn read(path: &Path) -> Result<Vec<DVec2>, ReadError> {
     let read = File::open(path).map_err(PlacedFlaw::from).and_then(|file| parse(BufReader::new(file)));
     read.map_err(|flaw| flaw.in_file(path))
 }
 
-/// As [`read`], from bytes.
+/// Reads the points of a table as [`read`] does, from bytes. Errors call the file `name`.
 ///
 /// # Errors
-/// As [`read`]; the file is then called as given.
+/// As [`read`].
 pub fn from_bytes(bytes: &[u8], name: &Path) -> Result<Vec<DVec2>, ReadError> {
     parse(bytes).map_err(|flaw| flaw.in_file(name))
 }
 
 fn parse(source: impl BufRead) -> Result<Vec<DVec2>, PlacedFlaw> {
-    let mut lines = Lines { source, number: 0 };
-    let Some(header) = lines.next_line()? else {
-        return Err(
-            Flaw::Syntax("there is no header; the first line must name the columns x and y.".into()).into()
-        );
-    };
-    let place = |name| header.iter().position(|field| field.eq_ignore_ascii_case(name));
+    let mut rows = Rows::new(source);
+    if !rows.advance()? {
+        let problem = "there is no header; the first line must name the columns x and y.";
+        return Err(Flaw::Syntax(problem.into()).into());
+    }
+    let place = |name| rows.fields().position(|field| field.eq_ignore_ascii_case(name));
     let (Some(x), Some(y)) = (place("x"), place("y")) else {
-        let problem = format!(
-            "the header is `{}`, and it must name the columns x and y.",
-            shown(40, &header.join(","))
-        );
-        return Err(Flaw::Syntax(problem).at(lines.number));
+        let header = rows.fields().collect::<Vec<_>>().join(",");
+        let problem =
+            format!("the header is `{}`, and it must name the columns x and y.", shown(40, &header));
+        return Err(Flaw::Syntax(problem).at(rows.line));
     };
     let mut points = Vec::new();
-    while let Some(fields) = lines.next_line()? {
-        let number =
-            |column: usize, name: &str| coordinate(fields.get(column), name).map_err(|f| f.at(lines.number));
-        points.push(DVec2::new(number(x, "x")?, number(y, "y")?));
+    while rows.advance()? {
+        points.push(DVec2::new(rows.number(x, "x")?, rows.number(y, "y")?));
     }
     Ok(points)
 }
 
-fn coordinate(field: Option<&String>, name: &str) -> Result<f64, Flaw> {
-    let Some(text) = field.filter(|text| !text.is_empty()) else {
-        return Err(Flaw::Syntax(format!("there is no {name}.")));
-    };
-    text.parse().map_err(|_| Flaw::Syntax(format!("{name} is `{}`, which is not a number.", shown(40, text))))
-}
-
-struct Lines<R> {
+/// The rows of a table, one at a time.
+struct Rows<R> {
     source: R,
-    /// Of the last line read, counted from one.
-    number: usize,
+    parser: csv_core::Reader,
+    /// The number of the current line, counted from one.
+    line: usize,
+    /// The fields of the current row, one after the other, and where each ends.
+    text: String,
+    ends: Vec<usize>,
 }
 
-impl<R: BufRead> Lines<R> {
-    /// The fields of the next line that is not blank, `None` at the end of the file.
-    fn next_line(&mut self) -> Result<Option<Vec<String>>, PlacedFlaw> {
+impl<R: BufRead> Rows<R> {
+    fn new(source: R) -> Self {
+        // Of a line break in two bytes the first is white space at the end of the last field.
+        let parser = ReaderBuilder::new().terminator(Terminator::Any(b'\n')).build();
+        Self { source, parser, line: 0, text: String::new(), ends: Vec::new() }
+    }
+
+    /// Goes to the next line that is not blank. Returns whether there is one.
+    fn advance(&mut self) -> Result<bool, PlacedFlaw> {
         loop {
             let mut bytes = Vec::new();
             let read = self.source.by_ref().take(LONGEST_LINE).read_until(b'\n', &mut bytes)?;
             if read == 0 {
-                return Ok(None);
+                return Ok(false);
             }
-            self.number += 1;
+            self.line += 1;
             if read as u64 == LONGEST_LINE {
-                return Err(Flaw::Syntax("the line is longer than a megabyte.".into()).at(self.number));
+                return Err(Flaw::Syntax("the line is longer than a megabyte.".into()).at(self.line));
             }
-            let Ok(line) = String::from_utf8(bytes) else {
-                return Err(Flaw::Syntax("the line is not UTF-8 text.".into()).at(self.number));
-            };
-            // Spreadsheets put a byte order mark before the first line.
-            let line = line.trim_start_matches('\u{feff}').trim();
-            if !line.is_empty() {
-                return Ok(Some(fields(line).map_err(|flaw| flaw.at(self.number))?));
+            if !bytes.trim_ascii().is_empty() {
+                self.parse_line(bytes).map_err(|flaw| flaw.at(self.line))?;
+                return Ok(true);
             }
         }
     }
-}
 
-/// Splits a line at commas outside quotation marks; a doubled mark inside stands for itself.
-fn fields(line: &str) -> Result<Vec<String>, Flaw> {
-    let mut fields = vec![String::new()];
-    let mut quoted = false;
-    let mut characters = line.chars().peekable();
-    while let Some(c) = characters.next() {
-        let field = fields.last_mut().expect("the list begins with one field and only grows");
-        match c {
-            '"' if quoted && characters.peek() == Some(&'"') => {
-                characters.next();
-                field.push('"');
-            }
-            '"' if quoted || field.trim().is_empty() => quoted = !quoted,
-            ',' if !quoted => fields.push(String::new()),
-            _ => field.push(c),
+    /// Splits a line into fields.
+    fn parse_line(&mut self, mut line: Vec<u8>) -> Result<(), Flaw> {
+        // The parser waits for the end of the line; the last one of a file may have none.
+        line.push(b'\n');
+        // Fields are shorter than their line, and a line has fewer fields than bytes.
+        let mut text = vec![0; line.len()];
+        self.ends.resize(line.len(), 0);
+        // It also removes a byte order mark, which spreadsheets put before the first line.
+        self.parser.reset();
+        let (result, _, bytes, fields) = self.parser.read_record(&line, &mut text, &mut self.ends);
+        if result != ReadRecordResult::Record {
+            return Err(Flaw::Syntax("a quotation mark is not closed on its line.".into()));
         }
+        text.truncate(bytes);
+        self.ends.truncate(fields);
+        self.text =
+            String::from_utf8(text).map_err(|_| Flaw::Syntax("the line is not UTF-8 text.".into()))?;
+        Ok(())
     }
-    if quoted {
-        return Err(Flaw::Syntax("a quotation mark is not closed on its line.".into()));
+
+    /// The fields of the current row, without the white space around them.
+    fn fields(&self) -> impl Iterator<Item = &str> {
+        (0..self.ends.len()).filter_map(|column| self.field(column))
     }
-    Ok(fields.into_iter().map(|field| field.trim().to_owned()).collect())
+
+    fn field(&self, column: usize) -> Option<&str> {
+        let start = if column == 0 { 0 } else { *self.ends.get(column - 1)? };
+        self.text.get(start..*self.ends.get(column)?).map(str::trim)
+    }
+
+    /// The number in a column of the current row.
+    fn number(&self, column: usize, name: &str) -> Result<f64, PlacedFlaw> {
+        let flaw = |problem| Flaw::Syntax(problem).at(self.line);
+        let text = self.field(column).filter(|text| !text.is_empty());
+        let text = text.ok_or_else(|| flaw(format!("there is no {name}.")))?;
+        text.parse().map_err(|_| flaw(format!("{name} is `{}`, which is not a number.", shown(40, text))))
+    }
 }
 
 #[cfg(test)]
@@ -136,18 +151,21 @@ mod tests {
         let quoted = "name,\"Y\", X ,note\n\"a, \"\"b\"\"\",\"2\", 1 ,\n";
         assert_eq!(parsed(quoted), Ok(vec![point(1.0, 2.0)]));
         assert_eq!(parsed("x,y\n"), Ok(vec![]));
+        assert_eq!(parsed("x,y\r\n1,\"2\"\r\n"), Ok(vec![point(1.0, 2.0)]));
         let odd = parsed("x,y\nNaN,inf\n").unwrap();
         assert!(odd[0].x.is_nan() && odd[0].y == f64::INFINITY);
     }
 
     #[test]
-    fn mistakes_are_named_with_their_line() {
+    fn errors_name_their_line() {
         for (text, expected) in [
             ("", ": there is no header"),
             ("\n\n1,2\n", ", line 3: the header is `1,2`, and it must name the columns x and y."),
             ("x,y\n1,2\n\n1\n", ", line 4: there is no y."),
             ("x,y\n,2\n", ", line 2: there is no x."),
             ("x,y\n1,two\n", ", line 2: y is `two`, which is not a number."),
+            ("x,y\r1,2\r3,4\r", ", line 1: the header is `x,y\\r1,2\\r3,4`"),
+            ("x,y,note\n1,2,\"a\n3,4,b\n", ", line 2: a quotation mark is not closed"),
             ("x,y\n\"1,2\n", ", line 2: a quotation mark is not closed"),
         ] {
             let message = parsed(text).unwrap_err();

@@ -2,6 +2,8 @@
 
 use std::ops::Range;
 
+use unicode_width::UnicodeWidthChar;
+
 /// A mistake in a formula.
 ///
 /// It prints as a sentence for a person: what was found, what was expected, what would help.
@@ -114,22 +116,8 @@ fn columns(text: &str) -> usize {
     text.chars().map(char_columns).sum()
 }
 
-/// Columns of a character in a fixed-width font: 0 for accents that join the letter before, 2 for
-/// East Asian letters and pictographs, else 1.
+/// Columns of a character in a fixed-width font: 0 for accents that join the letter before, 2 for East Asian
+/// letters and pictographs.
 fn char_columns(c: char) -> usize {
-    match c {
-        '\u{300}'..='\u{36f}' | '\u{20d0}'..='\u{20ff}' | '\u{fe00}'..='\u{fe0f}' => 0,
-        '\u{1100}'..='\u{115f}'
-        | '\u{2e80}'..='\u{303e}'
-        | '\u{3041}'..='\u{a4cf}'
-        | '\u{ac00}'..='\u{d7a3}'
-        | '\u{f900}'..='\u{faff}'
-        | '\u{fe30}'..='\u{fe6f}'
-        | '\u{ff00}'..='\u{ff60}'
-        | '\u{ffe0}'..='\u{ffe6}'
-        | '\u{1f300}'..='\u{1f64f}'
-        | '\u{1f900}'..='\u{1f9ff}'
-        | '\u{20000}'..='\u{3fffd}' => 2,
-        _ => 1,
-    }
+    c.width().unwrap_or(0) // none for control characters, which are not shown
 }

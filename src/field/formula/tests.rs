@@ -222,6 +222,18 @@ fn nan_is_not_lost_in_min_max_clamp_or_step() {
     }
 }
 
+/// Carets stand under the mistake in a fixed-width font: wide letters take two columns, accents none.
+#[test]
+fn carets_stand_under_wide_letters_and_accents() {
+    for (source, pointer) in [
+        ("x + 高さ", "x + 高さ\n    ^^^^"),
+        ("x + e\u{301}te", "x + e\u{301}te\n    ^^^"),
+        ("\u{1f30a}", "\u{1f30a}\n^^"),
+    ] {
+        assert_eq!(Formula::parse(source).unwrap_err().pointer(), pointer);
+    }
+}
+
 /// Regression guard for golden number 5 of the design: no fused, reordered or widened arithmetic.
 #[test]
 fn sums_are_plain_f64_in_the_order_written() {
