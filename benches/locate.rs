@@ -25,7 +25,7 @@ fn points() -> Vec<DVec2> {
 type Spade<H> = DelaunayTriangulation<Point2<f64>, (), (), (), H>;
 
 fn spade_of<H: HintGenerator<f64> + Default>(mesh: &Mesh) -> Spade<H> {
-    let world = (0..mesh.nodes().len()).map(|n| mesh.world(NodeId::from_index(n)));
+    let world = (0..mesh.raw_nodes().len()).map(|n| mesh.world(NodeId::from_index(n)));
     Spade::bulk_load(world.map(|p| Point2::new(p.x, p.y)).collect()).expect("every node is a finite point")
 }
 
@@ -44,7 +44,7 @@ fn main() {
     let points = points();
     for level in [9, 13] {
         let mesh = diamond::mesh(level);
-        let triangles = mesh.triangles().len();
+        let triangles = mesh.raw_triangle_count();
         let locator = Locator::new(&mesh);
         let hierarchy = spade_of::<HierarchyHintGenerator<f64>>(&mesh);
         let last_used = spade_of::<LastUsedVertexHintGenerator>(&mesh);

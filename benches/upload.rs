@@ -48,7 +48,7 @@ fn moved(mesh: &Mesh, frame: &mut u32) -> Camera {
 fn software(c: &mut Criterion) {
     let mut group = c.benchmark_group("software");
     for (name, mesh) in meshes() {
-        group.throughput(Throughput::Elements(mesh.triangles().len() as u64));
+        group.throughput(Throughput::Elements(mesh.raw_triangle_count() as u64));
         let (style, mut frame) = (style(), 0);
         group.bench_function(BenchmarkId::new("draw", name), |b| {
             b.iter(|| meshbrush::render::software::draw(&mesh, &moved(&mesh, &mut frame), &style, None, &[]));
@@ -64,7 +64,7 @@ fn gpu(c: &mut Criterion) {
     eprintln!("Adapter: {}", offscreen.adapter());
     let mut group = c.benchmark_group("gpu");
     for (name, mesh) in meshes() {
-        group.throughput(Throughput::Elements(mesh.triangles().len() as u64));
+        group.throughput(Throughput::Elements(mesh.raw_triangle_count() as u64));
         let (style, mut frame) = (style(), 0);
         let kept = moved(&mesh, &mut frame);
         group.bench_function(BenchmarkId::new("upload", name), |b| {

@@ -14,7 +14,9 @@ use glam::{DVec2, dvec2};
 use meshbrush::domain::{BoundaryTreatment, Domain, DomainOnLattice, Polygon, Ring, signed_area};
 use meshbrush::geometry::{Lattice, LatticePoint};
 use meshbrush::io::geojson;
-use meshbrush::mesh::{Element, InvalidTarget, Limits, Location, Locator, Mesh, Topology};
+use meshbrush::mesh::{
+    Element, InvalidTarget, Limits, Location, Locator, Mesh, NodeId, Topology, TriangleId,
+};
 
 /// A region, a grid over it and a rule, at random.
 struct Case {
@@ -145,7 +147,7 @@ fn fitted(
     let laid = DomainOnLattice::new(domain, boundary, &lattice);
     let mut mesh = Mesh::coarse_grid(&lattice, |node| laid.admits(node), &limits).unwrap();
     mesh.refine(&limits, |element| laid.exceeds(element, &by_field)).unwrap();
-    mesh.sort_out(0..mesh.triangles().len(), |element| laid.excludes(element));
+    mesh.classify(0..mesh.raw_triangle_count(), |element| laid.excludes(element));
     assert_eq!(mesh.violations(), []);
     mesh
 }
@@ -260,7 +262,7 @@ fn point([x, y]: [u32; 2]) -> Point {
 }
 
 fn corners_of(mesh: &Mesh) -> Vec<Triangle> {
-    mesh.triangles().iter().map(|t| t.vertices.map(|v| mesh.node(v)).map(|p| point([p.x, p.y]))).collect()
+    mesh.raw_triangles().iter().map(|t| t.vertices.map(|v| mesh.node(v)).map(|p| point([p.x, p.y]))).collect()
 }
 
 #[test]
@@ -273,7 +275,7 @@ fn every_fitted_mesh_is_the_one_that_brute_force_finds() {
         let expected = closure::set_of(plain_closure(&case, &outline, mesh.lattice()));
         let found = corners_of(&mesh);
         assert!(closure::set_of(found.iter().copied()) == expected, "seed {seed}");
-        for (triangle, corners) in mesh.triangles().iter().zip(&found) {
+        for (triangle, corners) in mesh.raw_triangles().iter().zip(&found) {
             let inside = outline.has_centroid(corners);
             assert!(inside.is_none_or(|inside| inside != triangle.is_outside()), "seed {seed}: {corners:?}");
             on_edge += usize::from(inside.is_none());
@@ -285,6 +287,58 @@ fn every_fitted_mesh_is_the_one_that_brute_force_finds() {
     // The generator does its work.
     assert!(kept > 50_000 && left_out > 30_000 && cut > 20_000, "{kept} {left_out} {cut}");
     assert!(on_edge < 2000, "{on_edge} centroids on an edge are not judged");
+}
+
+/// An edge as a pair of nodes in ascending order.
+fn undirected((a, b): (NodeId, NodeId)) -> [NodeId; 2] {
+    [a.min(b), a.max(b)]
+}
+
+#[test]
+fn default_accessors_show_the_domain_only() {
+    let mut left_out = 0;
+    for seed in 700..740 {
+        let mesh = Case::random(seed).mesh();
+        let kept: Vec<usize> =
+            (0..mesh.raw_triangle_count()).filter(|&n| !mesh.raw_triangles()[n].is_outside()).collect();
+        left_out += mesh.raw_triangle_count() - kept.len();
+        assert!(mesh.triangles().map(|(id, _)| id.index()).eq(kept.iter().copied()), "seed {seed}");
+        assert_eq!(mesh.triangle_count(), kept.len(), "seed {seed}");
+        assert_eq!(mesh.level_counts().iter().sum::<usize>(), kept.len(), "seed {seed}");
+
+        let (mut owners, mut around) = (HashMap::<[NodeId; 2], Vec<TriangleId>>::new(), HashMap::new());
+        for id in kept.into_iter().map(TriangleId::from_index) {
+            for edge in mesh.triangle(id).edge_nodes() {
+                owners.entry(undirected(edge)).or_default().push(id);
+            }
+            for node in mesh.triangle(id).vertices {
+                around.entry(node).or_insert_with(HashSet::new).insert(id);
+            }
+        }
+        let edges: Vec<_> = mesh.edges().map(undirected).collect();
+        assert_eq!(edges.len(), owners.len(), "seed {seed}: every edge once");
+        assert!(edges.iter().all(|edge| owners.contains_key(edge)), "seed {seed}");
+        assert_eq!(mesh.nodes().count(), around.len(), "seed {seed}");
+        assert!(
+            mesh.nodes().all(|(id, place)| around.contains_key(&id) && mesh.node(id) == place),
+            "seed {seed}"
+        );
+
+        let rows = mesh.adjacency();
+        assert_eq!(rows.edge_count(), owners.len(), "seed {seed}");
+        for node in (0..mesh.raw_nodes().len()).map(NodeId::from_index) {
+            let joined = |&other: &NodeId| owners.contains_key(&undirected((node, other)));
+            assert!(rows.of(node).iter().all(joined), "seed {seed}: {node:?}");
+            let found: HashSet<_> = mesh.triangles_around(node).collect();
+            assert_eq!(found, around.remove(&node).unwrap_or_default(), "seed {seed}: {node:?}");
+        }
+        for (id, triangle) in mesh.triangles() {
+            let edges = triangle.edge_nodes().map(|edge| &owners[&undirected(edge)]);
+            let expected = edges.map(|both| both.iter().copied().find(|&other| other != id));
+            assert_eq!(mesh.neighbours(id).map(|across| across.triangle()), expected, "seed {seed}: {id:?}");
+        }
+    }
+    assert!(left_out > 10_000, "{left_out}");
 }
 
 /// Coordinates in 2⁻⁶⁰ of a lattice step, where that is exact.
@@ -313,7 +367,7 @@ fn queries(mesh: &Mesh, random: &mut Rng) -> Vec<DVec2> {
     let lattice = mesh.lattice();
     let mut queries = vec![dvec2(f64::NAN, 0.0), lattice.bounds().min, lattice.bounds().max];
     for _ in 0..400 {
-        let triangle = &mesh.triangles()[random.usize(..mesh.triangles().len())];
+        let triangle = &mesh.raw_triangles()[random.usize(..mesh.raw_triangle_count())];
         let [a, b, c] = triangle.vertices.map(|v| mesh.world(v));
         let inner = a.lerp(b, random.f64()).lerp(c, random.f64());
         for p in [a, a.midpoint(b), b.midpoint(c), (a + b + c) / 3.0, inner] {
@@ -396,7 +450,7 @@ fn pieces(triangles: &[[LatticePoint; 3]]) -> Vec<Vec<usize>> {
 /// Parts of the mesh; and holes, as pieces of what is left out that reach no side of the rectangle.
 fn parts_and_holes(mesh: &Mesh) -> (usize, usize) {
     let of_class = |outside: bool| -> Vec<[LatticePoint; 3]> {
-        let class = mesh.triangles().iter().filter(|t| t.is_outside() == outside);
+        let class = mesh.raw_triangles().iter().filter(|t| t.is_outside() == outside);
         class.map(|t| t.vertices.map(|v| mesh.node(v))).collect()
     };
     let extent = mesh.lattice().extent();
@@ -455,7 +509,7 @@ fn the_aegean_sea_keeps_its_islands() {
     let mesh = fitted(&domain, 0.5, BoundaryTreatment::Fitted { diameter: 0.02 }, |_| Ok(false));
     let centroid =
         |t: &meshbrush::mesh::Triangle| t.vertices.map(|v| mesh.world(v)).iter().sum::<DVec2>() / 3.0;
-    let left_out: Vec<DVec2> = mesh.triangles().iter().filter(|t| t.is_outside()).map(centroid).collect();
+    let left_out: Vec<DVec2> = mesh.raw_triangles().iter().filter(|t| t.is_outside()).map(centroid).collect();
     let encloses = |ring: &Ring, p: DVec2| {
         let ends = ring.iter().zip(ring.iter().skip(1).chain(ring.first()));
         let above = |a: DVec2, b: DVec2| {

@@ -29,7 +29,7 @@ struct BruteForce {
 impl BruteForce {
     fn new(mesh: &Mesh) -> Self {
         let corner = |v: NodeId| [i64::from(mesh.node(v).x), i64::from(mesh.node(v).y)];
-        let corners: Vec<_> = mesh.triangles().iter().map(|t| t.vertices.map(corner)).collect();
+        let corners: Vec<_> = mesh.raw_triangles().iter().map(|t| t.vertices.map(corner)).collect();
         let (mut candidates, mut sizes) = (HashMap::<_, Vec<usize>>::new(), BTreeSet::new());
         for (index, c) in corners.iter().enumerate() {
             let range = |axis: usize| {
@@ -208,7 +208,7 @@ fn nudged(x: f64, random: &mut Rng) -> f64 {
 fn hostile(mesh: &Mesh, random: &mut Rng) -> DVec2 {
     let lattice = mesh.lattice();
     let bounds = lattice.bounds();
-    let id = TriangleId::from_index(random.usize(..mesh.triangles().len()));
+    let id = TriangleId::from_index(random.usize(..mesh.raw_triangle_count()));
     let corners = mesh.world_corners(id);
     let (a, b) = (corners[random.usize(..3)], corners[random.usize(..3)]);
     let p = match random.u32(0..16) {
@@ -288,7 +288,7 @@ fn a_million_hostile_points_are_found_where_brute_force_finds_them() {
             let world = hostile(mesh, &mut random);
             let answer = mesh.locate(world);
             assert_eq!(locator.locate(world), answer, "{name}: {world:?}");
-            let everything = query % (1 + mesh.triangles().len() / 10) == 0;
+            let everything = query % (1 + mesh.raw_triangle_count() / 10) == 0;
             let kind = std::panic::catch_unwind(|| check(&subject, &brute, everything, world, answer));
             let kind = kind.unwrap_or_else(|_| panic!("{name}: {world:?}: {answer:?}"));
             *kinds.entry(kind).or_default() += 1;
@@ -305,7 +305,7 @@ fn a_point_with_a_nodes_coordinates_is_on_that_vertex_and_one_ulp_off_is_not() {
     for (name, subject) in subjects() {
         let mesh = &subject.mesh;
         let locator = Locator::new(mesh);
-        for index in 0..mesh.nodes().len() {
+        for index in 0..mesh.raw_nodes().len() {
             let node = NodeId::from_index(index);
             let world = mesh.world(node);
             for answer in [mesh.locate(world), locator.locate(world)] {
@@ -366,8 +366,8 @@ fn barycentric_coordinates_sum_to_one_and_reproduce_linear_functions() {
 fn the_adjacency_rows_are_the_sets_of_algorithm_13() {
     for (name, subject) in subjects() {
         let mesh = &subject.mesh;
-        let mut rows = vec![BTreeSet::new(); mesh.nodes().len()];
-        for t in mesh.triangles() {
+        let mut rows = vec![BTreeSet::new(); mesh.raw_nodes().len()];
+        for t in mesh.raw_triangles() {
             for (n, m) in [(0, 1), (0, 2), (1, 0), (1, 2), (2, 0), (2, 1)] {
                 rows[t.vertices[n].index()].insert(t.vertices[m]);
             }

@@ -39,7 +39,7 @@ fn mesh() -> (Mesh, Vec<f64>) {
         Mesh::coarse_grid(&Lattice::covering(Rect::UNIT, 0.05, 1_000_000).unwrap(), |_| true, &limits)
             .unwrap();
     mesh.refine(&limits, |element| Ok(element.diameter() > 0.01)).unwrap();
-    let targets = vec![0.01; mesh.nodes().len()];
+    let targets = vec![0.01; mesh.raw_nodes().len()];
     (mesh, targets)
 }
 

@@ -177,7 +177,7 @@ impl Case {
 
 fn triangles_of(mesh: &Mesh) -> Vec<Triangle> {
     let point = |p: LatticePoint| [i64::from(p.x), i64::from(p.y)];
-    closure::set_of(mesh.triangles().iter().map(|t| t.vertices.map(|v| point(mesh.node(v)))))
+    closure::set_of(mesh.raw_triangles().iter().map(|t| t.vertices.map(|v| point(mesh.node(v)))))
 }
 
 fn fingerprint(triangles: &[Triangle]) -> Fingerprint {

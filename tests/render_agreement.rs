@@ -224,7 +224,7 @@ fn a_mesh_in_many_chunks_looks_the_same() {
     let mesh = graded();
     let (camera, style) = (whole(&mesh), Style::dark(colors()));
     // The fewest bits with which four buffers hold all nodes.
-    let node_bits = (mesh.nodes().len() as u32).div_ceil(4).next_power_of_two().ilog2();
+    let node_bits = (mesh.raw_nodes().len() as u32).div_ceil(4).next_power_of_two().ilog2();
     let mut gpu = gpu.with_chunks(ChunkLimits { triangles: 1000, node_bits }).unwrap();
     gpu.show(&mesh, 1).unwrap();
     let picture = gpu.picture(&camera, &style).unwrap();
@@ -312,8 +312,8 @@ fn changed_ranges_bring_the_mesh_up_to_date() {
 
 fn differences(before: &Mesh, after: &Mesh) -> Changes {
     Changes {
-        nodes: changed(before.nodes(), after.nodes()),
-        triangles: changed(before.triangles(), after.triangles()),
+        nodes: changed(before.raw_nodes(), after.raw_nodes()),
+        triangles: changed(before.raw_triangles(), after.raw_triangles()),
     }
 }
 
@@ -346,7 +346,7 @@ fn edits_during_an_upload_do_not_hold_it_up_and_get_there() {
     let mut updater = Updater::new(Limits::default());
     gpu.show(&coarse, 0).unwrap();
     gpu.renderer().mirror_mut().begin_upload(&mesh, 1).unwrap();
-    let whole_bytes = size_of_val(mesh.triangles()) + size_of_val(mesh.nodes());
+    let whole_bytes = size_of_val(mesh.raw_triangles()) + size_of_val(mesh.raw_nodes());
     let (mut revision, mut lengths) = (1, vec![]);
     while gpu.renderer().mirror_mut().advance_upload(&mesh, whole_bytes / 16) == Progress::More {
         assert!(revision < 60, "edits hold the upload up: {lengths:?}");
@@ -370,7 +370,7 @@ fn edits_during_an_upload_do_not_hold_it_up_and_get_there() {
         gpu.renderer().mirror_mut().apply_changes(&mesh, revision, &changes).unwrap();
         assert_eq!(gpu.renderer().mirror().uploading(), Some(revision));
         assert_eq!(gpu.renderer().mirror().shown(), Some(0));
-        lengths.push(mesh.triangles().len());
+        lengths.push(mesh.raw_triangle_count());
     }
     assert_eq!(gpu.renderer().mirror().shown(), Some(revision));
     assert!(lengths.len() > 10 && !lengths.is_sorted(), "{lengths:?}");

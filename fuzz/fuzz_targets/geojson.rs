@@ -32,7 +32,7 @@ fn check_mesh(domain: &Domain, boundary: BoundaryTreatment, spacing: f64) {
     };
     // Where the budget ends it, the mesh must be whole all the same.
     let refined = mesh.refine(&limits, |element| laid.exceeds(element, |_| Ok(false)));
-    mesh.sort_out(0..mesh.triangles().len(), |element| laid.excludes(element));
+    mesh.classify(0..mesh.raw_triangle_count(), |element| laid.excludes(element));
     assert_eq!(mesh.violations(), []);
     if refined.is_ok() {
         assert_eq!(mesh.unsatisfied(|element| laid.exceeds(element, |_| Ok(false))), Ok(vec![]));

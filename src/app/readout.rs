@@ -73,7 +73,7 @@ fn read_triangle(mesh: &Mesh, id: TriangleId, point: DVec2, value: impl Fn(DVec2
         orientation: triangle.orientation(),
         diameter: mesh.diameter(triangle.level()),
         vertices,
-        neighbours: mesh.neighbours_in_domain(id),
+        neighbours: mesh.neighbours(id),
         zeta,
         at_vertices,
         interpolated: interpolate(zeta, at_vertices),

@@ -194,7 +194,7 @@ impl Built {
         terminal.clear();
         let Self { mesh, domain, .. } = &mut self;
         if domain.is_fitted() {
-            mesh.sort_out(0..mesh.triangles().len(), |element| domain.excludes(element));
+            mesh.classify(0..mesh.raw_triangle_count(), |element| domain.excludes(element));
             if mesh.triangle_count() == 0 {
                 return Err(CoarseError::EmptyDomain { spacing: mesh.lattice().spacing() }.into());
             }
@@ -236,7 +236,7 @@ fn refine(
     let start = Instant::now();
     let mut refiner = Refiner::new(mesh, *limits);
     while refiner.run(mesh, &mut exceeds, SLICE)? == Progress::More {
-        terminal.progress(start, || format!("{} triangles", Grouped(mesh.triangles().len())));
+        terminal.progress(start, || format!("{} triangles", Grouped(mesh.raw_triangle_count())));
     }
     Ok((start.elapsed(), refiner.capped()))
 }

@@ -58,7 +58,7 @@ struct Answers<'a> {
 impl Answers<'_> {
     /// One row for each point, in their order.
     fn write(&self, points: &[DVec2], out: &mut dyn Write) -> io::Result<()> {
-        let many = points.len() > self.mesh.triangles().len() / TRIANGLES_PER_POINT;
+        let many = points.len() > self.mesh.raw_triangle_count() / TRIANGLES_PER_POINT;
         let locator = many.then(|| Locator::new(self.mesh));
         writeln!(out, "{HEADER}")?;
         for &point in points {

@@ -87,7 +87,7 @@ impl Summary {
         let topology = built.region.as_ref().map(|_| mesh.topology());
         Self {
             triangles: mesh.triangle_count(),
-            nodes: topology.map_or(mesh.nodes().len(), |topology| topology.nodes),
+            nodes: topology.map_or(mesh.raw_nodes().len(), |topology| topology.nodes),
             area: mesh.area(),
             outline: built
                 .region

@@ -127,7 +127,7 @@ impl Follower {
             None if self.cut.is_some() => Stage::Outlining,
             None if !self.unread.is_empty() || self.lost_step => Stage::Filling,
             None if self.updater.is_done() => Stage::InStep,
-            None => Stage::Refining { triangles: self.mesh.triangles().len() },
+            None => Stage::Refining { triangles: self.mesh.raw_triangle_count() },
             Some(job) => job.stage(),
         }
     }
@@ -190,7 +190,7 @@ impl Follower {
         let (max_triangles, max_memory) = (wanted.max_triangles, wanted.max_memory);
         let with_budgets = Settings { max_triangles, max_memory, ..self.settings.clone() };
         let limits = wanted.limits();
-        let fits = self.mesh.triangles().len() <= limits.most_triangles();
+        let fits = self.mesh.raw_triangle_count() <= limits.most_triangles();
         let obeyed = !self.lost_step && fits && with_budgets == *wanted;
         if obeyed {
             self.settings = with_budgets;
@@ -253,7 +253,7 @@ impl Follower {
             self.revision += 1;
             if domain.is_fitted() || mesh.outside_count() > 0 {
                 for ids in &changes.triangles {
-                    mesh.sort_out(ids.clone(), |element| domain.excludes(element));
+                    mesh.classify(ids.clone(), |element| domain.excludes(element));
                 }
             }
             match &mut self.changes {

@@ -59,7 +59,7 @@ impl Job {
         match &self.refining {
             _ if self.laying.is_some() => Stage::Outlining,
             None => Stage::Filling,
-            Some(refining) => Stage::Refining { triangles: refining.mesh.triangles().len() },
+            Some(refining) => Stage::Refining { triangles: refining.mesh.raw_triangle_count() },
         }
     }
 
@@ -95,7 +95,7 @@ impl Job {
             refining.refined = progress == Progress::Done;
             return Ok(Progress::More);
         }
-        Ok(refining.sort_out(domain, visits))
+        Ok(refining.classify(domain, visits))
     }
 
     pub(super) fn finished(self) -> Finished {
@@ -141,12 +141,12 @@ impl Refining {
         }
     }
 
-    fn sort_out(&mut self, domain: &DomainOnLattice, visits: usize) -> Progress {
-        let all = self.mesh.triangles().len();
+    fn classify(&mut self, domain: &DomainOnLattice, visits: usize) -> Progress {
+        let all = self.mesh.raw_triangle_count();
         let first = self.sorted;
         self.sorted = if domain.is_fitted() { first.saturating_add(visits).min(all) } else { all };
         if domain.is_fitted() {
-            self.mesh.sort_out(first..self.sorted, |element| domain.excludes(element));
+            self.mesh.classify(first..self.sorted, |element| domain.excludes(element));
         }
         if self.sorted == all { Progress::Done } else { Progress::More }
     }

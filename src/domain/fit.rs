@@ -60,7 +60,7 @@ impl DomainLaying {
     }
 }
 
-/// A domain laid on the lattice of a mesh: what the coarse grid, the refinement rule and [`Mesh::sort_out`](crate::mesh::Mesh::sort_out) ask.
+/// A domain laid on the lattice of a mesh: what the coarse grid, the refinement rule and [`Mesh::classify`](crate::mesh::Mesh::classify) ask.
 #[derive(Clone, Debug)]
 pub struct DomainOnLattice {
     bounds: Rect,

@@ -302,7 +302,7 @@ mod tests {
             )
             .unwrap();
             for _ in 0..150 {
-                mesh.refine_triangle(TriangleId::from_index(random.usize(..mesh.triangles().len())));
+                mesh.refine_triangle(TriangleId::from_index(random.usize(..mesh.raw_triangle_count())));
             }
             let lattice = *mesh.lattice();
             // At times so little room that squares are larger than coarse cells.
@@ -310,8 +310,8 @@ mod tests {
             let mut laying = RegionLaying::within(&region, &lattice, most);
             while laying.advance(random.usize(1..300)) == Progress::More {}
             let sorted = laying.finished();
-            let all = 0..mesh.triangles().len();
-            mesh.sort_out(all, |element| {
+            let all = 0..mesh.raw_triangle_count();
+            mesh.classify(all, |element| {
                 let touched = cut_by_brute_force(&region, &lattice, element.corners);
                 let sum =
                     |c: fn(&LatticePoint) -> u32| element.corners.iter().map(|p| i128::from(c(p))).sum();
@@ -328,7 +328,7 @@ mod tests {
                 outside += usize::from(sorted.misses(element.corners, element.triangle.level()));
                 !centroid_in
             });
-            for node in mesh.nodes() {
+            for node in mesh.raw_nodes() {
                 let (inside, on) =
                     brute_force(&region, &lattice, [i128::from(node.x), i128::from(node.y)], 1);
                 assert_eq!(sorted.contains(*node), inside || on, "{node:?}");
@@ -351,7 +351,7 @@ mod tests {
         )
         .unwrap();
         let sorted = RegionLaying::new(&whole, mesh.lattice()).finished();
-        mesh.sort_out(0..32, |element| {
+        mesh.classify(0..32, |element| {
             assert!(
                 !sorted.cuts(element.corners, element.triangle.level())
                     && !sorted.misses(element.corners, element.triangle.level())
@@ -359,6 +359,6 @@ mod tests {
             );
             false
         });
-        assert!(mesh.nodes().iter().all(|&node| sorted.contains(node)));
+        assert!(mesh.raw_nodes().iter().all(|&node| sorted.contains(node)));
     }
 }

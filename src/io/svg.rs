@@ -101,7 +101,7 @@ fn write_edges(out: &mut impl Write, mesh: &Extract, page: &Page, style: &Style)
 /// Every edge, with the level that it is drawn at.
 fn edges<'a>(mesh: &'a Extract) -> impl Iterator<Item = (u32, [NodeId; 2])> + Clone + 'a {
     mesh.triangles().iter().enumerate().flat_map(move |(index, triangle)| {
-        let edges = triangle.edge_nodes().into_iter().zip(triangle.neighbours);
+        let edges = triangle.edge_nodes().into_iter().zip(triangle.raw_neighbours);
         edges.filter_map(move |((from, to), across)| match across.triangle() {
             Some(other) if other.index() < index => None, // the other triangle has drawn it
             Some(other) => Some((triangle.level().max(mesh.triangles()[other.index()].level()), [from, to])),

@@ -334,13 +334,13 @@ mod tests {
             )
             .unwrap();
             for _ in 0..60 {
-                mesh.refine_triangle(TriangleId::from_index(random.usize(..mesh.triangles().len())));
+                mesh.refine_triangle(TriangleId::from_index(random.usize(..mesh.raw_triangle_count())));
             }
             let on = RasterOnLattice::new(mesh.lattice(), size);
             for (x, y) in (PixelRect { min: [0, 0], max: size }).pixels() {
                 let mut mipmap = MaxMipmap::filled(size, 0u8);
                 mipmap.update(PixelRect { min: [x, y], max: [x + 1, y + 1] }, |_, _| 1);
-                for id in (0..mesh.triangles().len()).map(TriangleId::from_index) {
+                for id in (0..mesh.raw_triangle_count()).map(TriangleId::from_index) {
                     let corners = mesh.corners(id);
                     let expected = meets_by_clipping(mesh.lattice(), size, corners, x, y);
                     assert_eq!(

@@ -344,18 +344,18 @@ impl Driver {
         }
         match change {
             Some(MeshChange::Replaced) => {
-                self.nodes = mesh.nodes().to_vec();
-                self.triangles = mesh.triangles().to_vec();
+                self.nodes = mesh.raw_nodes().to_vec();
+                self.triangles = mesh.raw_triangles().to_vec();
             }
             Some(MeshChange::Within(changes)) => {
                 self.changes_within += 1;
-                patch(&mut self.nodes, mesh.nodes(), &changes.nodes);
-                patch(&mut self.triangles, mesh.triangles(), &changes.triangles);
+                patch(&mut self.nodes, mesh.raw_nodes(), &changes.nodes);
+                patch(&mut self.triangles, mesh.raw_triangles(), &changes.triangles);
             }
             None => {}
         }
-        assert!(self.nodes == mesh.nodes(), "a node changed and was not told");
-        assert!(self.triangles == mesh.triangles(), "a triangle changed and was not told");
+        assert!(self.nodes == mesh.raw_nodes(), "a node changed and was not told");
+        assert!(self.triangles == mesh.raw_triangles(), "a triangle changed and was not told");
     }
 
     /// Works on to rest, where the mesh must be the one made from scratch.

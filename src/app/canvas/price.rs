@@ -33,7 +33,7 @@ impl App {
     pub(super) fn show_price(&self, ui: &Ui, canvas: Rect, pointer: Pos2, radius: f32) {
         let pricer = self.session.pricer();
         let t = tokens(ui);
-        let count = self.session.mesh().triangles().len();
+        let count = self.session.mesh().raw_triangle_count();
         let (text, color) = match (pricer.price(), pricer.progress()) {
             (Some(price), _) => tag(price, count, self.session.document().settings(), t),
             // Whether there is such a frame depends on the machine's speed.

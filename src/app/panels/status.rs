@@ -63,7 +63,7 @@ impl App {
     fn mesh_cells(&self) -> [StatusCell; 3] {
         let mesh = self.session.mesh();
         let nodes = match (mesh.outside_count(), self.session.topology()) {
-            (0, _) => format::count(mesh.nodes().len() as u64),
+            (0, _) => format::count(mesh.raw_nodes().len() as u64),
             (_, Some(topology)) => format::count(topology.nodes as u64),
             (_, None) => NONE.into(),
         };

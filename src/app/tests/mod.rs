@@ -156,7 +156,7 @@ fn press_tab(window: &mut Window) {
 }
 
 fn triangles(window: &Window) -> usize {
-    window.state().session().mesh().triangles().len()
+    window.state().session().mesh().raw_triangle_count()
 }
 
 fn fingerprint(window: &Window) -> Fingerprint {

@@ -28,7 +28,7 @@ fn a_click_shows_the_triangle_and_each_chip_goes_to_its_neighbour() {
 
     for (i, name) in ["Bisection neighbour", "Second neighbour", "Third neighbour"].iter().enumerate() {
         send(&mut window, Command::QueryTriangle(start));
-        let there = window.state().session().mesh().triangle(start).neighbours[i].triangle().unwrap();
+        let there = window.state().session().mesh().neighbours(start)[i].triangle().unwrap();
         window.get_by_role_and_label(Role::Button, name).click();
         window.run();
         assert_eq!(selected(&window), Some(there), "{name}");
@@ -59,7 +59,7 @@ fn the_inspector_counts_as_files_do() {
         let corner = mesh.world_corners(id)[i];
         assert!(row.starts_with(&format!("{:.2}", corner.x)), "{row} at {corner}");
     }
-    let across = mesh.neighbours_in_domain(id).map(|n| n.triangle().unwrap());
+    let across = mesh.neighbours(id).map(|n| n.triangle().unwrap());
     let chips = across.map(|id| shown(extract.place_of(id).unwrap().index()));
     for (name, number) in ["Bisection neighbour", "Second neighbour", "Third neighbour"].iter().zip(chips) {
         assert_eq!(value_of(&window, Role::Button, name), number, "{name}");
@@ -82,7 +82,7 @@ fn a_chip_at_the_edge_of_the_domain_goes_nowhere() {
     let mut window = window_of(TALL);
     let mesh = window.state().session().mesh();
     let id = mesh.locate(dvec2(0.02, 0.99)).triangle().unwrap();
-    let missing = mesh.triangle(id).neighbours.iter().position(|n| n.triangle().is_none()).unwrap();
+    let missing = mesh.neighbours(id).iter().position(|n| n.triangle().is_none()).unwrap();
     send(&mut window, Command::QueryTriangle(id));
     let name = ["Bisection neighbour", "Second neighbour", "Third neighbour"][missing];
     let chip = window.get_by_role_and_label(Role::Button, name);

@@ -30,7 +30,7 @@ pub struct Cell {
 
 impl Cell {
     fn of(triangle: &Triangle) -> Self {
-        let [bisection, second, third] = triangle.neighbours.map(|n| n.triangle().map(TriangleId::index));
+        let [bisection, second, third] = triangle.raw_neighbours.map(|n| n.triangle().map(TriangleId::index));
         Self {
             corners: triangle.edge_nodes().map(|(from, _)| from.index()),
             // The bisection edge joins the first two corners, so its neighbour is opposite the last.
@@ -69,7 +69,6 @@ impl Mesh {
     }
 
     fn extract_inside(&self) -> Extract<'_> {
-        let inside = || self.triangles.iter().filter(|t| !t.is_outside());
         let mut places = Vec::with_capacity(self.triangles.len());
         let mut count = 0;
         for triangle in &self.triangles {
@@ -77,24 +76,20 @@ impl Mesh {
             places.push(if triangle.is_outside() { Neighbour::BOUNDARY } else { place });
             count += usize::from(!triangle.is_outside());
         }
-        let mut used = vec![false; self.nodes.len()];
-        for vertex in inside().flat_map(|triangle| triangle.vertices) {
-            used[vertex.index()] = true;
-        }
         let mut nodes = Vec::new();
         let mut node_places = Vec::with_capacity(self.nodes.len());
-        for (&node, used) in self.nodes.iter().zip(used) {
+        for (&node, used) in self.nodes.iter().zip(self.used_nodes()) {
             node_places.push(NodeId::from_index(nodes.len()));
             nodes.extend(used.then_some(node));
         }
         let renumbered = |triangle: &Triangle| {
             let mut renumbered = *triangle;
             renumbered.vertices = triangle.vertices.map(|v| node_places[v.index()]);
-            renumbered.neighbours =
-                triangle.neighbours.map(|n| n.triangle().map_or(n, |id| places[id.index()]));
+            renumbered.raw_neighbours =
+                triangle.raw_neighbours.map(|n| n.triangle().map_or(n, |id| places[id.index()]));
             renumbered
         };
-        let triangles = inside().map(renumbered).collect();
+        let triangles = self.triangles().map(|(_, triangle)| renumbered(triangle)).collect();
         Extract { lattice: self.lattice, nodes: Cow::Owned(nodes), triangles, places: Some(places) }
     }
 }
@@ -175,7 +170,7 @@ impl Extract<'_> {
     /// Every edge once, in the order of the triangles.
     pub fn edges(&self) -> impl Iterator<Item = MeshEdge> + Clone + '_ {
         self.triangles.iter().enumerate().flat_map(|(index, triangle)| {
-            let edges = triangle.edge_nodes().into_iter().zip(triangle.neighbours);
+            let edges = triangle.edge_nodes().into_iter().zip(triangle.raw_neighbours);
             let mine = edges.filter(move |(_, across)| across.triangle().is_none_or(|t| index < t.index()));
             mine.map(|((from, to), across)| MeshEdge {
                 ends: [from.index(), to.index()],
@@ -187,7 +182,7 @@ impl Extract<'_> {
     /// All edges at which the domain ends, in the order of their triangles.
     pub fn boundary_edges(&self) -> impl Iterator<Item = BoundaryEdge> + Clone + '_ {
         self.triangles.iter().flat_map(|triangle| {
-            let edges = triangle.edge_nodes().into_iter().zip(triangle.neighbours);
+            let edges = triangle.edge_nodes().into_iter().zip(triangle.raw_neighbours);
             edges.filter(|(_, across)| across.triangle().is_none()).map(|((from, to), _)| BoundaryEdge {
                 ends: [from.index(), to.index()],
                 level: triangle.level(),

@@ -85,7 +85,7 @@ impl Mesh {
         let t = *self.triangle(parent);
         let kept = Neighbour::from(parent);
         let new = Neighbour::from(TriangleId::from_index(self.triangles.len()));
-        let [_, n2, n3] = t.neighbours;
+        let [_, n2, n3] = t.raw_neighbours;
         let by_match = |yes, no| select_unpredictable(t.matched(), yes, no);
         let kept_sees = [by_match(n2, n3), by_match(new, facing.kept), by_match(facing.kept, new)];
         let new_sees = [by_match(n3, n2), by_match(facing.new, kept), by_match(kept, facing.new)];
@@ -112,7 +112,7 @@ impl Mesh {
     /// Algorithm 20: `id` no longer borders on `old` but on `new`.
     #[inline(always)]
     pub(super) fn replace_neighbour(&mut self, id: TriangleId, old: Neighbour, new: Neighbour) {
-        let neighbours = &mut self.triangles[id.index()].neighbours;
+        let neighbours = &mut self.triangles[id.index()].raw_neighbours;
         debug_assert!(neighbours.contains(&old), "neighbours are symmetric");
         *neighbours = neighbours.map(|n| select_unpredictable(n == old, new, n));
     }

@@ -17,8 +17,8 @@ pub struct Changes {
 impl Changes {
     /// Takes in what changed after this, in `mesh` as it is now.
     pub fn extend(&mut self, later: &Self, mesh: &Mesh) {
-        join(&mut self.nodes, &later.nodes, mesh.nodes().len());
-        join(&mut self.triangles, &later.triangles, mesh.triangles().len());
+        join(&mut self.nodes, &later.nodes, mesh.raw_nodes().len());
+        join(&mut self.triangles, &later.triangles, mesh.raw_triangle_count());
     }
 }
 

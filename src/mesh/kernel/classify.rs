@@ -12,7 +12,7 @@ use super::{Diameters, Element, Mesh, Neighbour, TriangleId};
 impl Mesh {
     /// How many triangles belong to the domain.
     pub fn triangle_count(&self) -> usize {
-        self.triangles.len() - self.outside_count()
+        self.raw_triangle_count() - self.outside_count()
     }
 
     /// How many triangles lie outside the domain.
@@ -29,13 +29,13 @@ impl Mesh {
         !self.triangle(id).is_outside()
     }
 
-    /// The neighbours of a triangle as the domain has them: those outside are boundary. Anticlockwise, the one across the
-    /// bisection edge first.
+    /// The neighbours of a triangle in the domain, anticlockwise, the one across the bisection edge first. A triangle outside the
+    /// domain counts as boundary.
     ///
     /// # Panics
     /// When the id is not of this mesh.
-    pub fn neighbours_in_domain(&self, id: TriangleId) -> [Neighbour; 3] {
-        self.triangle(id).neighbours.map(|across| match across.triangle() {
+    pub fn neighbours(&self, id: TriangleId) -> [Neighbour; 3] {
+        self.triangle(id).raw_neighbours.map(|across| match across.triangle() {
             Some(other) if self.is_in_domain(other) => across,
             _ => Neighbour::BOUNDARY,
         })
@@ -51,7 +51,7 @@ impl Mesh {
     }
 
     /// Asks anew which of the triangles `ids` lie outside the domain. New triangles are of their parent's class until then.
-    pub fn sort_out(&mut self, ids: Range<usize>, mut is_outside: impl FnMut(&Element) -> bool) {
+    pub fn classify(&mut self, ids: Range<usize>, mut is_outside: impl FnMut(&Element) -> bool) {
         let diameters = Diameters::of(self);
         for index in ids {
             let outside = is_outside(&self.element(TriangleId::from_index(index), &diameters));

@@ -111,7 +111,7 @@ impl Mesh {
         // The legs meet in the newest vertex. One ends in the apex of the parent: there lies the sibling.
         let [_, second, _] = triangle.edges();
         let (sibling, facing) = if second.0 == apex || second.1 == apex { (1, 2) } else { (2, 1) };
-        let across = triangle.neighbours[sibling].triangle();
+        let across = triangle.raw_neighbours[sibling].triangle();
         let sibling = across.expect("a triangle and its sibling cover their parent");
         if self.triangle(sibling).level() != triangle.level() {
             return None;
@@ -121,7 +121,7 @@ impl Mesh {
         } else {
             Siblings { kept: sibling, new: id }
         };
-        Some((siblings, triangle.neighbours[facing]))
+        Some((siblings, triangle.raw_neighbours[facing]))
     }
 
     /// Place of the parent's apex among the vertices of a triangle that is not coarse.
@@ -180,8 +180,8 @@ impl Mesh {
         };
         // The kept child runs as its parent does.
         let mut parent = Triangle::new(vertices, [across; 3], kept.orientation(), kind);
-        let (kept, new) = (kept.neighbours[0], new.neighbours[0]);
-        parent.neighbours = if parent.matched() { [across, kept, new] } else { [across, new, kept] };
+        let (kept, new) = (kept.raw_neighbours[0], new.raw_neighbours[0]);
+        parent.raw_neighbours = if parent.matched() { [across, kept, new] } else { [across, new, kept] };
         parent
     }
 
@@ -199,7 +199,7 @@ impl Mesh {
     pub(super) fn merge(&mut self, star: &Star, parents: &[Option<Triangle>; 2], log: &mut ChangeLog) {
         for (side, parent) in star.sides().zip(parents.iter().flatten()) {
             let (place, freed) = (side.place(), side.freed());
-            if let Some(outer) = self.triangle(freed).neighbours[0].triangle() {
+            if let Some(outer) = self.triangle(freed).raw_neighbours[0].triangle() {
                 self.replace_neighbour(outer, freed.into(), place.into());
                 log.triangle(outer);
             }
@@ -227,7 +227,7 @@ impl Mesh {
             return;
         }
         log.triangle(id);
-        for neighbour in moved.neighbours.iter().filter_map(|n| n.triangle()) {
+        for neighbour in moved.raw_neighbours.iter().filter_map(|n| n.triangle()) {
             self.replace_neighbour(neighbour, last.into(), id.into());
             log.triangle(neighbour);
         }
@@ -245,7 +245,7 @@ impl Mesh {
         if id != last {
             // No coarse node is ever the last here, so that the triangles round it are joined by edges.
             let mut round = [None; 8];
-            let found = self.triangles_around(last, self.triangle_at(last));
+            let found = self.raw_triangles_around(last, self.raw_triangle_at(last));
             round.iter_mut().zip(found).for_each(|(place, id)| *place = Some(id));
             for triangle in round.into_iter().flatten() {
                 let vertices = &mut self.triangles[triangle.index()].vertices;
@@ -282,7 +282,7 @@ mod tests {
     /// The last of the chain of triangles that must be bisected before `id`, or `id` itself.
     fn first_to_bisect(mesh: &Mesh, mut id: TriangleId) -> TriangleId {
         loop {
-            match mesh.triangle(id).neighbours[0].triangle() {
+            match mesh.triangle(id).raw_neighbours[0].triangle() {
                 Some(across) if mesh.triangle(across).level() < mesh.triangle(id).level() => id = across,
                 _ => return id,
             }
@@ -290,7 +290,7 @@ mod tests {
     }
 
     fn bisect(mesh: &mut Mesh, id: TriangleId) {
-        match mesh.triangle(id).neighbours[0].triangle() {
+        match mesh.triangle(id).raw_neighbours[0].triangle() {
             None => mesh.bisect_at_boundary(id),
             Some(across) => mesh.bisect_pair(id, across),
         }

@@ -76,14 +76,49 @@ impl Mesh {
         &self.lattice
     }
 
-    /// All nodes in lattice coordinates (𝒩), those of the coarse grid first.
-    pub fn nodes(&self) -> &[LatticePoint] {
+    /// The triangles of the domain (𝒯), in the order of their ids.
+    ///
+    /// Triangles outside a fitted domain are left out; [`Self::raw_triangles`] has them.
+    pub fn triangles(&self) -> impl Iterator<Item = (TriangleId, &Triangle)> + Clone {
+        let all = self.triangles.iter().enumerate();
+        all.filter(|(_, triangle)| !triangle.is_outside())
+            .map(|(index, triangle)| (TriangleId::from_index(index), triangle))
+    }
+
+    /// The nodes of the domain (𝒩) in lattice coordinates, in the order of their ids.
+    ///
+    /// Nodes that only triangles outside a fitted domain have are left out; [`Self::raw_nodes`] has them. Where there
+    /// are triangles outside, this goes through all triangles first.
+    pub fn nodes(&self) -> impl Iterator<Item = (NodeId, LatticePoint)> {
+        let used = (self.outside_count() > 0).then(|| self.used_nodes());
+        let all = self.nodes.iter().enumerate();
+        all.filter(move |(index, _)| used.as_ref().is_none_or(|used| used[*index]))
+            .map(|(index, &node)| (NodeId::from_index(index), node))
+    }
+
+    /// For each entry of [`Self::raw_nodes`] whether a triangle of the domain has it.
+    pub(in crate::mesh) fn used_nodes(&self) -> Vec<bool> {
+        let mut used = vec![false; self.nodes.len()];
+        for vertex in self.triangles().flat_map(|(_, triangle)| triangle.vertices) {
+            used[vertex.index()] = true;
+        }
+        used
+    }
+
+    /// The array of nodes in lattice coordinates, those of the coarse grid first. It includes nodes that only triangles
+    /// outside a fitted domain have.
+    pub fn raw_nodes(&self) -> &[LatticePoint] {
         &self.nodes
     }
 
-    /// All triangles (𝒯).
-    pub fn triangles(&self) -> &[Triangle] {
+    /// The array of triangles, those outside a fitted domain included ([`Triangle::is_outside`]).
+    pub fn raw_triangles(&self) -> &[Triangle] {
         &self.triangles
+    }
+
+    /// How many entries [`Self::raw_triangles`] has: what memory and limits count.
+    pub fn raw_triangle_count(&self) -> usize {
+        self.triangles.len()
     }
 
     /// The triangle with the given id.
@@ -104,12 +139,12 @@ impl Mesh {
         self.nodes[id.index()]
     }
 
-    /// One of the triangles round a node; [`Self::triangles_around`] goes on from there.
+    /// One of the triangles around a node, which may lie outside the domain.
     ///
     /// # Panics
     /// When the id is not of this mesh.
     #[inline]
-    pub fn triangle_at(&self, id: NodeId) -> TriangleId {
+    pub(in crate::mesh) fn raw_triangle_at(&self, id: NodeId) -> TriangleId {
         self.triangle_at[id.index()]
     }
 

@@ -202,7 +202,7 @@ impl Mesh {
         let mut current = id;
         loop {
             let level = self.triangle(current).level();
-            match self.triangle(current).neighbours[0].triangle() {
+            match self.triangle(current).raw_neighbours[0].triangle() {
                 None => {
                     self.bisect_at_boundary(current);
                     bisected(current);
@@ -258,7 +258,7 @@ impl Mesh {
         // Ends: as in `refine_triangle_with`.
         loop {
             let triangle = self.triangle(current);
-            match triangle.neighbours[0].triangle() {
+            match triangle.raw_neighbours[0].triangle() {
                 None => return size + 1,
                 Some(across) => {
                     size += 2;

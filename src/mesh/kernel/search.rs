@@ -43,7 +43,7 @@ impl Search {
     #[inline]
     pub(in crate::mesh) fn spread_from(&mut self, mesh: &Mesh, id: TriangleId, reached: &mut Bitset) {
         self.found.pop();
-        for across in mesh.triangle(id).neighbours.iter().filter_map(|n| n.triangle()) {
+        for across in mesh.triangle(id).raw_neighbours.iter().filter_map(|n| n.triangle()) {
             if !reached.contains(across.index()) && self.area.touches(mesh.corners(across)) {
                 reached.insert(across.index());
                 self.found.push(across);

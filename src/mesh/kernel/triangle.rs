@@ -7,7 +7,7 @@ use super::{Neighbour, NodeId};
 /// Order of the arrays:
 /// - `vertices` as Maubach's method leaves them. The bisection edge joins the first vertex to the third at an
 ///   even level, and to the second at an odd level.
-/// - `neighbours` anticlockwise, the one across the bisection edge first.
+/// - `raw_neighbours` anticlockwise, the one across the bisection edge first.
 ///
 /// Which triangle is the *sibling*, the other child of the same parent, cannot always be told from the order of
 /// the vertices: at level 1, the four triangles round a node fit both ways. The lattice decides, at every level; the rule and its
@@ -17,8 +17,9 @@ use super::{Neighbour, NodeId};
 pub struct Triangle {
     /// References to the three vertices, V(t).
     pub vertices: [NodeId; 3],
-    /// References to the three neighbours, N(t).
-    pub neighbours: [Neighbour; 3],
+    /// References to the three neighbours, N(t), triangles outside a fitted domain among them; see
+    /// [`Mesh::neighbours`](crate::mesh::Mesh::neighbours).
+    pub raw_neighbours: [Neighbour; 3],
     orientation: u32,
     kind: Kind,
 }
@@ -103,7 +104,7 @@ impl Triangle {
         orientation: Orientation,
         kind: Kind,
     ) -> Self {
-        Self { vertices, neighbours, orientation: orientation as u32, kind }
+        Self { vertices, raw_neighbours: neighbours, orientation: orientation as u32, kind }
     }
 
     /// How many bisections made this triangle from a coarse one, L(t).
@@ -115,7 +116,7 @@ impl Triangle {
     }
 
     /// Whether the triangle is there only to hold up its neighbours, and lies outside the domain
-    /// ([`Mesh::sort_out`](crate::mesh::Mesh::sort_out)).
+    /// ([`Mesh::classify`](crate::mesh::Mesh::classify)).
     #[inline]
     pub const fn is_outside(&self) -> bool {
         self.kind.is_outside()
@@ -180,11 +181,11 @@ impl Triangle {
         }
     }
 
-    /// For each vertex whether nothing lies across the edge opposite to it.
+    /// For each vertex whether no triangle at all, inside or outside the domain, lies across the opposite edge.
     #[inline]
-    pub fn boundary_opposite(&self) -> [bool; 3] {
+    pub fn raw_boundary_opposite(&self) -> [bool; 3] {
         let mut boundary = [false; 3];
-        for ((from, to), across) in self.edges().into_iter().zip(self.neighbours) {
+        for ((from, to), across) in self.edges().into_iter().zip(self.raw_neighbours) {
             boundary[3 - from - to] = across == Neighbour::BOUNDARY;
         }
         boundary

@@ -194,7 +194,7 @@ impl Updater {
         };
         // So many triangles there can be before memory or the budget must be looked at.
         let mut room = 0;
-        self.most_triangles = self.most_triangles.max(mesh.triangles().len());
+        self.most_triangles = self.most_triangles.max(mesh.raw_triangle_count());
         // Ends: see the head of this file.
         for _ in 0..visits {
             if self.search.is_some() || !self.areas.is_empty() {
@@ -220,9 +220,9 @@ impl Updater {
         if !self.is_done() {
             return Ok(Progress::More);
         }
-        if mesh.triangles().len() < self.most_triangles / 4 {
+        if mesh.raw_triangle_count() < self.most_triangles / 4 {
             mesh.give_memory_back();
-            self.most_triangles = mesh.triangles().len();
+            self.most_triangles = mesh.raw_triangle_count();
         }
         Ok(Progress::Done)
     }
@@ -267,10 +267,10 @@ impl Updater {
             return Err(RefineError::too_fine(mesh.lattice(), mesh.node(mesh.triangle(id).vertices[0])));
         }
         let most_new = Mesh::most_new_triangles(level);
-        if mesh.triangles().len() + most_new > *room {
+        if mesh.raw_triangle_count() + most_new > *room {
             *room = mesh.room_for(id, most_new, &self.limits)?;
         }
-        let (first_node, first_new) = (mesh.nodes().len(), mesh.triangles().len());
+        let (first_node, first_new) = (mesh.raw_nodes().len(), mesh.raw_triangle_count());
         let mut new = first_new;
         let Self { chain, exceeding, log, .. } = self;
         mesh.refine_triangle_with(id, chain, |parent| {
@@ -283,11 +283,11 @@ impl Updater {
         });
         // The neighbour across a new child's bisection edge bordered on the parent's entry before.
         for new in first_new..new {
-            if let Some(outer) = mesh.triangles()[new].neighbours[0].triangle() {
+            if let Some(outer) = mesh.raw_triangles()[new].raw_neighbours[0].triangle() {
                 log.triangle(outer);
             }
         }
-        for node in first_node..mesh.nodes().len() {
+        for node in first_node..mesh.raw_nodes().len() {
             log.nodes.insert(node);
         }
         log.step();
@@ -329,7 +329,7 @@ impl Updater {
         }
         // The highest first: so the last entry of the array is never itself one to be removed later.
         for freed in star.freed() {
-            let last = mesh.triangles().len() - 1;
+            let last = mesh.raw_triangle_count() - 1;
             self.exceeding.swap_removed(last, freed.index());
             self.loose.swap_removed(last, freed.index());
             mesh.remove_triangle(freed, &mut self.log);

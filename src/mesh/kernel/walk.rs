@@ -29,7 +29,7 @@ impl Mesh {
             let triangle = self.triangle(id);
             let mut sides = [Side::Left; 3];
             for (j, (from, to)) in triangle.edge_nodes().into_iter().enumerate() {
-                let across = triangle.neighbours[j].triangle();
+                let across = triangle.raw_neighbours[j].triangle();
                 if across.is_some() && across == previous {
                     continue; // the point is strictly on this side: the edge was just crossed
                 }
@@ -45,11 +45,26 @@ impl Mesh {
         }
     }
 
-    /// The triangles round `node` that can be reached from `start` (one of them) across edges, `start` first.
+    /// The triangles of the domain around `node`, at most eight.
+    ///
+    /// Where only a corner joins two parts of the coarse grid, those of one part.
+    ///
+    /// # Panics
+    /// When the id is not of this mesh.
+    pub fn triangles_around(&self, node: NodeId) -> impl Iterator<Item = TriangleId> + '_ {
+        self.raw_triangles_around(node, self.raw_triangle_at(node)).filter(|&id| self.is_in_domain(id))
+    }
+
+    /// The triangles around `node` that can be reached from `start` (one of them) across edges, `start` first, those outside
+    /// the domain included.
     ///
     /// At most eight. Where only a corner joins two parts of the domain, the other part is not reached.
     #[inline]
-    pub fn triangles_around(&self, node: NodeId, start: TriangleId) -> impl Iterator<Item = TriangleId> + '_ {
+    pub(in crate::mesh) fn raw_triangles_around(
+        &self,
+        node: NodeId,
+        start: TriangleId,
+    ) -> impl Iterator<Item = TriangleId> + '_ {
         let mut id = Some(start);
         let mut clockwise = false;
         std::iter::from_fn(move || {
@@ -73,6 +88,6 @@ impl Mesh {
         // Anticlockwise edges: the one that ends in the node is crossed to turn anticlockwise round it.
         let crossed =
             triangle.edge_nodes().iter().position(|&(from, to)| node == if clockwise { from } else { to })?;
-        triangle.neighbours[crossed].triangle()
+        triangle.raw_neighbours[crossed].triangle()
     }
 }

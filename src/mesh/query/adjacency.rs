@@ -20,7 +20,7 @@ impl Adjacency {
         &self.neighbours[start as usize..end as usize]
     }
 
-    /// Number of rows, one for each node.
+    /// Number of rows, one for each entry of [`Mesh::raw_nodes`].
     pub fn len(&self) -> usize {
         self.row_starts.len() - 1
     }
@@ -30,25 +30,28 @@ impl Adjacency {
         self.len() == 0
     }
 
-    /// Number of edges of the mesh.
+    /// Number of edges of the domain.
     pub fn edge_count(&self) -> usize {
         self.neighbours.len() / 2
     }
 }
 
 impl Mesh {
-    /// Every edge of the mesh once, as a pair of nodes.
+    /// Every edge of the domain once, as a pair of nodes.
     pub fn edges(&self) -> impl Iterator<Item = (NodeId, NodeId)> + '_ {
-        self.triangles.iter().enumerate().flat_map(|(index, triangle)| {
-            let mine = move |j: &usize| {
-                triangle.neighbours[*j].triangle().is_none_or(|across| index < across.index())
+        self.triangles().flat_map(move |(id, triangle)| {
+            let own = move |j: &usize| {
+                // The triangle with the lower index has the edge, unless that one lies outside.
+                let across = triangle.raw_neighbours[*j].triangle();
+                across.is_none_or(|across| id < across || !self.is_in_domain(across))
             };
             let nodes = triangle.edge_nodes();
-            (0..3).filter(mine).map(move |j| nodes[j])
+            (0..3).filter(own).map(move |j| nodes[j])
         })
     }
 
-    /// The adjacency rows of all nodes (Algorithm 13), in time proportional to the mesh.
+    /// The adjacency rows (Algorithm 13), one for each entry of [`Mesh::raw_nodes`], in time proportional to the mesh. The
+    /// rows of nodes that only triangles outside the domain have are empty.
     pub fn adjacency(&self) -> Adjacency {
         let mut row_starts = vec![0u32; self.nodes.len() + 1];
         for (a, b) in self.edges() {

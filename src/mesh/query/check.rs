@@ -118,7 +118,7 @@ impl Mesh {
         let triangle = self.triangle(id);
         triangle.vertices.iter().any(|v| v.index() >= self.nodes.len())
             || triangle
-                .neighbours
+                .raw_neighbours
                 .iter()
                 .filter_map(|n| n.triangle())
                 .any(|n| n.index() >= self.triangles.len())
@@ -144,11 +144,11 @@ impl Mesh {
     fn check_neighbours(&self, id: TriangleId, found: &mut Vec<Violation>) {
         let triangle = self.triangle(id);
         for (edge, (from, to)) in triangle.edge_nodes().into_iter().enumerate() {
-            let Some(across) = triangle.neighbours[edge].triangle() else { continue };
+            let Some(across) = triangle.raw_neighbours[edge].triangle() else { continue };
             let other = self.triangle(across);
             let answers = (0..3).any(|j| {
                 // Both run anticlockwise, so they run along a shared edge in opposite directions.
-                other.neighbours[j].triangle() == Some(id) && other.edge_nodes()[j] == (to, from)
+                other.raw_neighbours[j].triangle() == Some(id) && other.edge_nodes()[j] == (to, from)
             });
             if !answers || across == id {
                 found.push(Violation::AsymmetricNeighbour { triangle: id, edge });
@@ -165,7 +165,7 @@ impl Mesh {
             for (j, (from, to)) in triangle.edge_nodes().into_iter().enumerate() {
                 let entry = owners.entry((from.min(to), from.max(to))).or_default();
                 entry.0 += 1;
-                entry.1 |= triangle.neighbours[j].triangle().is_none();
+                entry.1 |= triangle.raw_neighbours[j].triangle().is_none();
             }
         }
         for (&(a, b), &(count, on_boundary)) in &owners {
@@ -300,13 +300,13 @@ mod tests {
     /// A triangle that has a neighbour across its bisection edge, and that neighbour.
     fn pair(mesh: &Mesh) -> (TriangleId, TriangleId) {
         let ids = (0..mesh.triangles.len()).map(TriangleId::from_index);
-        let across = |id| mesh.triangle(id).neighbours[0].triangle();
+        let across = |id| mesh.triangle(id).raw_neighbours[0].triangle();
         let level = |id| mesh.triangle(id).level();
         ids.filter_map(|id| Some((id, across(id)?))).find(|&(a, b)| level(a) == level(b)).unwrap()
     }
 
     fn with_level(t: Triangle, level: u32) -> Triangle {
-        Triangle::new(t.vertices, t.neighbours, t.orientation(), Kind::inside(level))
+        Triangle::new(t.vertices, t.raw_neighbours, t.orientation(), Kind::inside(level))
     }
 
     #[test]
@@ -315,7 +315,7 @@ mod tests {
         mesh.triangles[2].vertices[1] = NodeId(999);
         assert_eq!(mesh.violations(), [Violation::DanglingReference(TriangleId(2))]);
         let mut mesh = sound_mesh();
-        mesh.triangles[3].neighbours[2] = TriangleId(999).into();
+        mesh.triangles[3].raw_neighbours[2] = TriangleId(999).into();
         assert_eq!(mesh.violations(), [Violation::DanglingReference(TriangleId(3))]);
     }
 
@@ -330,7 +330,7 @@ mod tests {
     fn a_wrong_orientation_is_reported() {
         let mut mesh = sound_mesh();
         let t = mesh.triangles[1];
-        mesh.triangles[1] = Triangle::new(t.vertices, t.neighbours, t.orientation().reversed(), t.kind());
+        mesh.triangles[1] = Triangle::new(t.vertices, t.raw_neighbours, t.orientation().reversed(), t.kind());
         assert_reported(&mesh, |v| *v == Violation::WrongOrientation(TriangleId(1)));
     }
 
@@ -338,10 +338,10 @@ mod tests {
     fn an_asymmetric_neighbour_is_reported() {
         let mut mesh = sound_mesh();
         let (a, b) = pair(&mesh);
-        mesh.triangles[b.index()].neighbours[0] = Neighbour::BOUNDARY;
+        mesh.triangles[b.index()].raw_neighbours[0] = Neighbour::BOUNDARY;
         assert_reported(&mesh, |v| *v == Violation::AsymmetricNeighbour { triangle: a, edge: 0 });
         let mut mesh = sound_mesh();
-        mesh.triangles[a.index()].neighbours.rotate_left(1);
+        mesh.triangles[a.index()].raw_neighbours.rotate_left(1);
         assert_reported(
             &mesh,
             |v| matches!(v, Violation::AsymmetricNeighbour { triangle, .. } if *triangle == a),
@@ -352,8 +352,8 @@ mod tests {
     fn a_shared_edge_called_boundary_on_both_sides_is_reported() {
         let mut mesh = sound_mesh();
         let (a, b) = pair(&mesh);
-        mesh.triangles[a.index()].neighbours[0] = Neighbour::BOUNDARY;
-        mesh.triangles[b.index()].neighbours[0] = Neighbour::BOUNDARY;
+        mesh.triangles[a.index()].raw_neighbours[0] = Neighbour::BOUNDARY;
+        mesh.triangles[b.index()].raw_neighbours[0] = Neighbour::BOUNDARY;
         let [p, q] = mesh.triangle(a).bisection_edge();
         assert_eq!(mesh.violations(), [Violation::UnmatchedEdge(p.min(q), p.max(q))]);
     }
@@ -362,8 +362,8 @@ mod tests {
     fn a_hanging_node_is_reported() {
         let mut mesh = sound_mesh();
         let (a, b) = pair(&mesh);
-        mesh.triangles[a.index()].neighbours[0] = Neighbour::BOUNDARY;
-        mesh.triangles[b.index()].neighbours[0] = Neighbour::BOUNDARY;
+        mesh.triangles[a.index()].raw_neighbours[0] = Neighbour::BOUNDARY;
+        mesh.triangles[b.index()].raw_neighbours[0] = Neighbour::BOUNDARY;
         let node = NodeId::from_index(mesh.nodes.len());
         mesh.bisect_at_boundary(a);
         assert_eq!(mesh.violations(), [Violation::HangingNode { triangle: b, node }]);

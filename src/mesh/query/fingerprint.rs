@@ -42,8 +42,6 @@ const fn scrambled(mut z: u64) -> u64 {
 impl Mesh {
     /// The hash of the set of triangles of the domain, in lattice coordinates.
     pub fn fingerprint(&self) -> Fingerprint {
-        fingerprint_of(
-            self.triangles.iter().filter(|t| !t.is_outside()).map(|t| t.vertices.map(|v| self.node(v))),
-        )
+        fingerprint_of(self.triangles().map(|(id, _)| self.corners(id)))
     }
 }

@@ -27,9 +27,9 @@ use crate::mesh::kernel::{Bitset, Limits, Mesh, Progress, RefineError, Search, T
 /// let exceeds = |corners, level| level < 2 && square.touches(corners);
 /// assert_eq!(forecast.run(&mesh, exceeds, |_, _| true, usize::MAX)?, Progress::Done);
 ///
-/// let before = mesh.triangles().len() as i64;
+/// let before = mesh.raw_triangle_count() as i64;
 /// mesh.refine(&Limits::default(), |element| Ok(exceeds(element.corners, element.triangle.level())))?;
-/// assert_eq!(before + forecast.change(), mesh.triangles().len() as i64);
+/// assert_eq!(before + forecast.change(), mesh.raw_triangle_count() as i64);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug)]

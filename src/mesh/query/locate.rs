@@ -105,7 +105,7 @@ impl Mesh {
             0 => Location::Inside { triangle: id },
             1 => {
                 let edge = on.iter().position(|&on| on).unwrap_or(0);
-                let both = [Some(id), triangle.neighbours[edge].triangle()];
+                let both = [Some(id), triangle.raw_neighbours[edge].triangle()];
                 match both.into_iter().flatten().filter(|&id| self.is_in_domain(id)).min() {
                     None => Location::OutsideDomain,
                     Some(lowest) if lowest == id => Location::OnEdge { triangle: id, edge },
@@ -118,7 +118,7 @@ impl Mesh {
                 // Two of three edges anticlockwise: the first of them ends in the vertex that they share.
                 let first = (0..3).find(|&j| on[j] && on[(j + 1) % 3]).unwrap_or(0);
                 let node = triangle.edge_nodes()[first].1;
-                let lowest = self.triangles_around(node, id).filter(|&id| self.is_in_domain(id)).min();
+                let lowest = self.raw_triangles_around(node, id).filter(|&id| self.is_in_domain(id)).min();
                 lowest.map_or(Location::OutsideDomain, |triangle| Location::OnVertex { triangle, node })
             }
         }
@@ -126,7 +126,7 @@ impl Mesh {
 
     /// Place of the edge of `id` that it shares with `across`.
     pub(super) fn edge_towards(&self, id: TriangleId, across: TriangleId) -> usize {
-        let found = self.triangle(id).neighbours.iter().position(|n| n.triangle() == Some(across));
+        let found = self.triangle(id).raw_neighbours.iter().position(|n| n.triangle() == Some(across));
         found.expect("neighbours are symmetric (invariant 3)")
     }
 }

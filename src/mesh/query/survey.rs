@@ -47,7 +47,7 @@ impl Survey {
             if triangle.is_outside() {
                 continue;
             }
-            for across in triangle.neighbours {
+            for across in triangle.raw_neighbours {
                 match across.triangle().filter(|&id| mesh.is_in_domain(id)) {
                     Some(id) => self.by_edge.join(index, id.index()),
                     None => self.boundary_edges += 1,
@@ -140,8 +140,8 @@ mod tests {
             &Limits::default(),
         )
         .unwrap();
-        let all = 0..mesh.triangles().len();
-        mesh.sort_out(all, |element| {
+        let all = 0..mesh.raw_triangle_count();
+        mesh.classify(all, |element| {
             let centroid = element.world_corners().iter().sum::<DVec2>() / 3.0;
             places.iter().any(|(place, radius)| (centroid - *place).abs().max_element() < *radius)
         });
@@ -181,7 +181,7 @@ mod tests {
         while survey.advance(&mesh, 7) == Progress::More {}
         assert_eq!(survey.topology(&mesh), mesh.topology());
         let (sliced, whole) = (survey.numbering(), numbering(&mesh));
-        let ids = || (0..mesh.triangles().len()).map(TriangleId::from_index);
+        let ids = || (0..mesh.raw_triangle_count()).map(TriangleId::from_index);
         assert!(ids().all(|id| sliced.triangle(id) == whole.triangle(id)));
     }
 
@@ -192,10 +192,10 @@ mod tests {
         {
             let mesh = without(&places);
             let (numbering, extract) = (numbering(&mesh), mesh.extract());
-            for id in (0..mesh.triangles().len()).map(TriangleId::from_index) {
+            for id in (0..mesh.raw_triangle_count()).map(TriangleId::from_index) {
                 assert_eq!(numbering.triangle(id), extract.place_of(id), "{id:?}");
             }
-            let ids = (0..mesh.nodes().len()).map(NodeId::from_index);
+            let ids = (0..mesh.raw_nodes().len()).map(NodeId::from_index);
             let numbered: Vec<_> = ids.filter_map(|id| Some((numbering.node(id)?, mesh.node(id)))).collect();
             let listed = extract.nodes().iter().enumerate().map(|(n, &node)| (NodeId::from_index(n), node));
             assert!(listed.eq(numbered), "nodes without {places:?}");

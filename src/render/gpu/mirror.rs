@@ -117,14 +117,14 @@ impl MeshMirror {
         let Some(Upload { revision, sent }) = &mut self.upload else { return Progress::Done };
         debug_assert_eq!(
             self.back.triangle_count,
-            mesh.triangles().len(),
+            mesh.raw_triangle_count(),
             "the mesh changed during its upload without apply_changes"
         );
         let queue = &self.gpu.queue;
-        let bytes = send(queue, &self.back.nodes, mesh.nodes(), &mut sent.nodes, byte_budget);
+        let bytes = send(queue, &self.back.nodes, mesh.raw_nodes(), &mut sent.nodes, byte_budget);
         let left = byte_budget.saturating_sub(bytes);
-        send(queue, &self.back.triangles, mesh.triangles(), &mut sent.triangles, left);
-        if sent.nodes < mesh.nodes().len() || sent.triangles < mesh.triangles().len() {
+        send(queue, &self.back.triangles, mesh.raw_triangles(), &mut sent.triangles, left);
+        if sent.nodes < mesh.raw_nodes().len() || sent.triangles < mesh.raw_triangle_count() {
             return Progress::More;
         }
         self.shown = Some(*revision);
@@ -212,7 +212,7 @@ impl MeshMirror {
     }
 
     fn check(&self, mesh: &Mesh) -> Result<(), GpuError> {
-        let (nodes, limit) = (mesh.nodes().len(), self.limits.max_nodes());
+        let (nodes, limit) = (mesh.raw_nodes().len(), self.limits.max_nodes());
         if nodes > limit { Err(GpuError::TooManyNodes { nodes, limit }) } else { Ok(()) }
     }
 }
@@ -220,8 +220,8 @@ impl MeshMirror {
 impl Counts {
     fn at_most(self, mesh: &Mesh) -> Self {
         Self {
-            nodes: self.nodes.min(mesh.nodes().len()),
-            triangles: self.triangles.min(mesh.triangles().len()),
+            nodes: self.nodes.min(mesh.raw_nodes().len()),
+            triangles: self.triangles.min(mesh.raw_triangle_count()),
         }
     }
 }
@@ -240,21 +240,21 @@ impl MeshCopy {
     /// Makes the buffers large enough for a mesh. The first `kept` entries keep their contents.
     fn fit(&mut self, gpu: &Gpu, mesh: &Mesh, kept: Counts) -> Result<(), GpuError> {
         let (device, queue) = (&gpu.device, &gpu.queue);
-        let nodes = self.nodes.reserve(device, queue, mesh.nodes().len(), kept.nodes)?;
-        let triangles = self.triangles.reserve(device, queue, mesh.triangles().len(), kept.triangles)?;
+        let nodes = self.nodes.reserve(device, queue, mesh.raw_nodes().len(), kept.nodes)?;
+        let triangles = self.triangles.reserve(device, queue, mesh.raw_triangle_count(), kept.triangles)?;
         // No bind groups: a failed call may have replaced buffers without binding them.
         if nodes || triangles || self.bind_groups.is_empty() {
             self.bind(gpu);
         }
-        self.triangle_count = mesh.triangles().len();
+        self.triangle_count = mesh.raw_triangle_count();
         self.lattice = Some(*mesh.lattice());
         Ok(())
     }
 
     /// Writes the changed entries among the first `present` ones.
     fn write(&self, queue: &wgpu::Queue, mesh: &Mesh, present: Counts, changes: &Changes) {
-        send_ranges(queue, &self.nodes, &mesh.nodes()[..present.nodes], &changes.nodes);
-        send_ranges(queue, &self.triangles, &mesh.triangles()[..present.triangles], &changes.triangles);
+        send_ranges(queue, &self.nodes, &mesh.raw_nodes()[..present.nodes], &changes.nodes);
+        send_ranges(queue, &self.triangles, &mesh.raw_triangles()[..present.triangles], &changes.triangles);
     }
 
     /// One group for each chunk of triangles, with all nodes.

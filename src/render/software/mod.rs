@@ -36,17 +36,17 @@ fn draw_triangles(image: &mut Image, mesh: &Mesh, camera: &Camera, style: &Style
     let paints = LevelPaint::all(camera, style);
     let shaders = paints.map(|paint| LevelShader::new(&paint, style));
     let snapped: Vec<[i32; 2]> =
-        mesh.nodes().iter().map(|&p| rasterizer::snapped(camera.screen_from_lattice(p))).collect();
+        mesh.raw_nodes().iter().map(|&p| rasterizer::snapped(camera.screen_from_lattice(p))).collect();
     let mut rasterizer = Rasterizer::new(image);
-    for triangle in mesh.triangles().iter().filter(|t| !t.is_outside()) {
+    for triangle in mesh.raw_triangles().iter().filter(|t| !t.is_outside()) {
         let level = triangle.level() as usize;
         if paints[level].leg_px < HUGE_LEG_PX {
             let corners = triangle.vertices.map(|v| snapped[v.index()]);
-            rasterizer.fill_snapped(corners, triangle.boundary_opposite(), &shaders[level]);
+            rasterizer.fill_snapped(corners, triangle.raw_boundary_opposite(), &shaders[level]);
         } else {
             let corners = triangle.vertices.map(|v| mesh.node(v));
             let half_planes = half_planes(corners, camera);
-            rasterizer.fill_half_planes(&half_planes, triangle.boundary_opposite(), &shaders[level]);
+            rasterizer.fill_half_planes(&half_planes, triangle.raw_boundary_opposite(), &shaders[level]);
         }
     }
 }
