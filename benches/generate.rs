@@ -21,7 +21,7 @@ fn reused(coarse: &Mesh, mesh: &mut Mesh, refiner: &mut Refiner, level: u32) -> 
     let start = Instant::now();
     mesh.clone_from(coarse);
     refiner.restart(mesh);
-    refiner.run(mesh, diamond::rule(coarse, level), usize::MAX).expect("within the default limits");
+    refiner.advance(mesh, diamond::rule(coarse, level), usize::MAX).expect("within the default limits");
     start.elapsed()
 }
 

@@ -70,7 +70,7 @@ impl Scene {
     fn update(&mut self, updater: &mut Updater, area: LatticeRect) -> Duration {
         let start = Instant::now();
         updater.add(area);
-        let progress = updater.run(&mut self.mesh, rule(&self.levels, self.on_lattice), usize::MAX);
+        let progress = updater.advance(&mut self.mesh, rule(&self.levels, self.on_lattice), usize::MAX);
         let time = start.elapsed();
         assert_eq!(progress, Ok(Progress::Done));
         black_box(updater.take_changes());
@@ -112,7 +112,7 @@ fn counted(group: &mut BenchmarkGroup<WallTime>, scene: &mut Scene) {
         let start = Instant::now();
         let mut forecast = Forecast::new(&scene.mesh, area, &Limits::default());
         let exceeds = |corners, level| scene.on_lattice.any_above(&scene.levels, corners, level as u8);
-        assert_eq!(forecast.run(&scene.mesh, exceeds, |_, _| true, usize::MAX), Ok(Progress::Done));
+        assert_eq!(forecast.advance(&scene.mesh, exceeds, |_, _| true, usize::MAX), Ok(Progress::Done));
         (start.elapsed(), forecast.added() + forecast.removed())
     };
     let mut updater = Updater::new(Limits::default());
@@ -160,7 +160,7 @@ fn from_scratch(group: &mut BenchmarkGroup<WallTime>, scene: &Scene) {
                 let start = Instant::now();
                 mesh.clone_from(&scene.coarse);
                 refiner.restart(&mesh);
-                let made = refiner.run(&mut mesh, rule(&scene.levels, scene.on_lattice), usize::MAX);
+                let made = refiner.advance(&mut mesh, rule(&scene.levels, scene.on_lattice), usize::MAX);
                 assert_eq!(made, Ok(Progress::Done));
                 start.elapsed()
             };

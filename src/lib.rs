@@ -3,6 +3,9 @@
 //! Mesh generation by local bisection refinement of triangulated grids (Maubach's method). Rooms, lowest first; a room
 //! imports only from rooms above it in this list. ARCHITECTURE.md draws the house.
 
+#![deny(unsafe_code)]
+
+pub mod text;
 pub mod geometry;
 pub mod mesh;
 pub mod raster;

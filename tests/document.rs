@@ -10,10 +10,11 @@ use meshbrush::document::{
 };
 use meshbrush::domain::{CutShape, Domain, DomainShape, Polygon, Region, corners};
 use meshbrush::field::{Formula, RefinementRule, VertexRule};
-use meshbrush::geometry::{Grouped, Rect};
+use meshbrush::geometry::Rect;
 use meshbrush::mesh::Progress;
 use meshbrush::paint::{Brush, Medium};
 use meshbrush::raster::Raster;
+use meshbrush::text::Grouped;
 use operations::{Choices, Driver, Operation, Scale, domains, run_bytes};
 
 /// A square with a square hole.
@@ -420,7 +421,7 @@ fn the_memory_budget_holds_while_one_paints_and_while_the_mesh_is_made_anew() {
             Err(error) => break error.to_string(),
         }
     };
-    assert!(error.contains("2 MB of memory") && error.contains("Raise the smallest diameter"), "{error}");
+    assert!(error.contains("2 MB of memory") && error.contains("which is the limit"), "{error}");
     let count = follower.mesh().raw_triangle_count();
     assert!((room - 100..=room).contains(&count), "{count} of {room}");
     assert!(2 * follower.mesh().bytes() <= 2_000_000);

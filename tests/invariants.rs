@@ -62,7 +62,7 @@ fn a_thousand_edits_with_rebuild_break_nothing() {
         // In the memory of the mesh before; every tenth time also from nothing.
         mesh.clone_from(&coarse);
         refiner.restart(&mesh);
-        refiner.run(&mut mesh, vertex_rule(|x| field.target(x)), usize::MAX).unwrap();
+        refiner.advance(&mut mesh, vertex_rule(|x| field.target(x)), usize::MAX).unwrap();
         assert_eq!(mesh.violations(), [], "edit {edit}");
         assert_eq!(mesh.unsatisfied(vertex_rule(|x| field.target(x))).unwrap(), [], "edit {edit}");
         if edit % 10 == 0 {

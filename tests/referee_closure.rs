@@ -217,7 +217,7 @@ fn slices_of_any_length_give_the_same_mesh() {
         let mut mesh = coarse;
         let mut refiner = Refiner::new(&mesh, Limits::default());
         let mut slices = 0;
-        while refiner.run(&mut mesh, case.rule(), random.usize(1..300)).unwrap() == Progress::More {
+        while refiner.advance(&mut mesh, case.rule(), random.usize(1..300)).unwrap() == Progress::More {
             slices += 1;
             if slices % 8 == 1 {
                 assert_eq!(mesh.violations(), [], "seed {seed}: conforming after every slice");

@@ -365,7 +365,7 @@ fn edits_during_an_upload_do_not_hold_it_up_and_get_there() {
         }
         revision += 1;
         updater.add(edited);
-        while updater.run(&mut mesh, |e| Ok(exceeds(e, &squares)), usize::MAX) != Ok(Progress::Done) {}
+        while updater.advance(&mut mesh, |e| Ok(exceeds(e, &squares)), usize::MAX) != Ok(Progress::Done) {}
         let Some(changes) = updater.take_changes() else { continue };
         gpu.renderer().mirror_mut().apply_changes(&mesh, revision, &changes).unwrap();
         assert_eq!(gpu.renderer().mirror().uploading(), Some(revision));

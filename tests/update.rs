@@ -189,7 +189,7 @@ impl Mirror {
 }
 
 fn settle(updater: &mut Updater, mesh: &mut Mesh, spots: &[Spot]) {
-    while updater.run(mesh, rule(spots), 1000).unwrap() == Progress::More {}
+    while updater.advance(mesh, rule(spots), 1000).unwrap() == Progress::More {}
     assert!(updater.is_done());
 }
 
@@ -209,7 +209,7 @@ fn after_any_edits_cut_anywhere_the_mesh_is_the_one_made_from_scratch() {
             let slice = 1 << random.u32(..8);
             let mut progress = Progress::More;
             for _ in 0..if random.bool() { random.usize(..8) } else { usize::MAX } {
-                progress = updater.run(&mut mesh, rule(&spots), slice).unwrap();
+                progress = updater.advance(&mut mesh, rule(&spots), slice).unwrap();
                 if random.u8(..8) == 0 {
                     assert_eq!(mesh.violations(), [], "seed {seed}, edit {count}");
                     let changes = updater.take_changes();
@@ -271,7 +271,7 @@ fn a_forecast_is_what_the_update_then_does() {
             let mut forecast = Forecast::new(&mesh, hull(&areas), &Limits::default());
             let asks = |corners, level| spots.iter().any(|spot| level < spot.level && spot.meets(corners));
             let slice = 1 << random.u32(..12);
-            while forecast.run(&mesh, asks, |_, _| true, slice).unwrap() == Progress::More {}
+            while forecast.advance(&mesh, asks, |_, _| true, slice).unwrap() == Progress::More {}
             areas.into_iter().for_each(|area| updater.add(area));
             settle(&mut updater, &mut mesh, &spots);
             let (added, removed) = (forecast.added(), forecast.removed());
@@ -292,12 +292,12 @@ fn a_forecast_says_when_a_target_is_finer_than_the_lattice() {
     let corner = LatticeRect { min: LatticePoint::new(0, 0), max: LatticePoint::new(0, 0) };
     let mut forecast = Forecast::new(&mesh, corner, &Limits::default());
     let error =
-        forecast.run(&mesh, |corners, _| corner.touches(corners), |_, _| true, usize::MAX).unwrap_err();
+        forecast.advance(&mesh, |corners, _| corner.touches(corners), |_, _| true, usize::MAX).unwrap_err();
     assert!(matches!(error, RefineError::TooFine { .. }), "{error}");
     let limits = Limits { max_level: Some(9), ..Limits::default() };
     let mut forecast = Forecast::new(&mesh, corner, &limits);
     assert_eq!(
-        forecast.run(&mesh, |corners, _| corner.touches(corners), |_, _| true, usize::MAX),
+        forecast.advance(&mesh, |corners, _| corner.touches(corners), |_, _| true, usize::MAX),
         Ok(Progress::Done)
     );
     let mut mesh = mesh;
@@ -334,7 +334,7 @@ fn the_work_goes_with_the_change_and_not_with_the_mesh() {
         let mut visits = [0, 0];
         for (i, spots) in [vec![corner, dab], vec![corner]].into_iter().enumerate() {
             updater.add(dab.area(&mesh));
-            while updater.run(&mut mesh, rule(&spots), 1).unwrap() == Progress::More {
+            while updater.advance(&mut mesh, rule(&spots), 1).unwrap() == Progress::More {
                 visits[i] += 1;
             }
         }
@@ -353,7 +353,7 @@ fn at_the_budget_the_mesh_is_conforming_and_the_work_can_go_on() {
     let limit = from_scratch(&coarse_of(&mesh), &[corner, dab]).raw_triangle_count() - 1;
     let mut updater = Updater::new(Limits { max_triangles: limit, ..Limits::default() });
     updater.add(dab.area(&mesh));
-    let refused = updater.run(&mut mesh, rule(&[corner, dab]), usize::MAX);
+    let refused = updater.advance(&mut mesh, rule(&[corner, dab]), usize::MAX);
     assert_eq!(refused, Err(RefineError::TooManyTriangles { limit }));
     assert!(mesh.raw_triangle_count() <= limit && mesh.raw_triangle_count() > before.1);
     assert_eq!(mesh.violations(), []);
@@ -378,7 +378,7 @@ fn whatever_fits_the_budget_is_reached_though_old_and_new_together_do_not_fit() 
         let mut updater = Updater::new(Limits { max_triangles: limit, ..Limits::default() });
         updater.add(dab.area(&mesh));
         updater.add(moved.area(&mesh));
-        while updater.run(&mut mesh, rule(&[corner, moved]), 100).unwrap() == Progress::More {
+        while updater.advance(&mut mesh, rule(&[corner, moved]), 100).unwrap() == Progress::More {
             assert!(mesh.raw_triangle_count() <= limit);
         }
         assert_eq!(mesh.fingerprint(), anew.fingerprint());
@@ -394,13 +394,13 @@ fn a_bad_target_or_too_small_a_one_is_refused_and_can_be_taken_back() {
     let bad = InvalidTarget { at: DVec2::ONE, value: f64::NAN };
     updater.add(dab.area(&mesh));
     let within_dab = |e: &Element| if dab.meets(e.corners) { Err(bad) } else { rule(&[corner])(e) };
-    let refused = updater.run(&mut mesh, within_dab, usize::MAX);
+    let refused = updater.advance(&mut mesh, within_dab, usize::MAX);
     assert!(matches!(refused, Err(RefineError::InvalidTarget(_))), "{refused:?}");
     assert_eq!(mesh.violations(), []);
 
     let point = Spot { radius: 0, level: u32::MAX, ..dab };
     updater.add(point.area(&mesh));
-    let refused = updater.run(&mut mesh, rule(&[corner, point]), usize::MAX);
+    let refused = updater.advance(&mut mesh, rule(&[corner, point]), usize::MAX);
     assert!(matches!(refused, Err(RefineError::TooFine { .. })), "{refused:?}");
     assert_eq!(mesh.level_counts().len() as u32, mesh.lattice().deepest_level() + 1);
     assert_eq!(mesh.violations(), []);
@@ -432,10 +432,10 @@ fn cancelled_work_leaves_a_conforming_mesh_and_nothing_to_do() {
     let mut updater = Updater::new(Limits::default());
     for visits in [0, 1, 10, 40, 100, 400, 1000] {
         updater.add(dab.area(&mesh));
-        updater.run(&mut cut, rule(&[corner, dab]), visits).unwrap();
+        updater.advance(&mut cut, rule(&[corner, dab]), visits).unwrap();
         updater.cancel();
         assert!(updater.is_done() && cut.violations().is_empty());
-        assert_eq!(updater.run(&mut cut, rule(&[corner]), 1), Ok(Progress::Done));
+        assert_eq!(updater.advance(&mut cut, rule(&[corner]), 1), Ok(Progress::Done));
     }
     // Work on the same place, later, mends it.
     updater.add(dab.area(&mesh));

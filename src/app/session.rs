@@ -8,8 +8,9 @@ use glam::DVec2;
 use super::readout::{Quantity, Readout};
 use super::widgets::format;
 use crate::document::{Document, FollowError, Follower, MeshChange, Pricer, Setting, Stage};
-use crate::mesh::{Bytes, Mesh, NodeId, Numbering, Progress, RefineError, Survey, Topology, TriangleId};
+use crate::mesh::{Mesh, NodeId, Numbering, Progress, RefineError, Survey, Topology, TriangleId};
 use crate::paint::Brush;
+use crate::text::Bytes;
 
 /// Pixels or triangles in one slice of work: well below a millisecond.
 const SLICE: usize = 2048;
@@ -266,16 +267,29 @@ impl Session {
             self.document.reject_last();
         }
         if self.document.revision() != revision {
-            self.report(error);
+            self.report(format!("{error}{}", advice(error)));
         } else {
             let former = self.document.settings() != self.follower.settings();
             let text = if former {
-                format!("{error} Until then the former mesh is shown.")
+                format!("{error}{} Until then the former mesh is shown.", advice(error))
             } else {
                 standstill(error)
             };
             self.standing = Some(Notice { failed: true, text });
         }
+    }
+}
+
+/// What would help against an error, as a further sentence.
+fn advice(error: &FollowError) -> &'static str {
+    match error {
+        FollowError::Refine(RefineError::TooFine { .. }) => {
+            " Raise the smallest diameter, or mesh a smaller domain."
+        }
+        FollowError::Refine(error) if error.is_over_budget() => {
+            " Raise the smallest diameter, paint less, or raise the limit."
+        }
+        _ => "",
     }
 }
 
@@ -296,6 +310,6 @@ fn standstill(error: &FollowError) -> String {
                 "The mesh stops at its limit of {limit} of memory: {kept} Raise the memory budget {helps}"
             )
         }
-        other => format!("{other} Until then {kept}"),
+        other => format!("{other}{} Until then {kept}", advice(other)),
     }
 }

@@ -14,12 +14,12 @@ use crate::domain::{DomainOnLattice, Region};
 use crate::field::{
     PaintRef, RefinementRule, Source, TargetField, TargetFieldSpec, Transfer, VertexRule, smallest_target,
 };
-use crate::geometry::Grouped;
 use crate::io;
 use crate::mesh::{
     CoarseError, Element, Extract, InvalidTarget, Limits, Mesh, Progress, Refiner, TriangleId,
 };
 use crate::paint::PaintRasters;
+use crate::text::Grouped;
 
 /// Triangles asked about, or pixels evaluated, between two looks at the clock.
 const SLICE: usize = 1 << 18;
@@ -235,7 +235,7 @@ fn refine(
 ) -> Result<(Duration, usize), Failure> {
     let start = Instant::now();
     let mut refiner = Refiner::new(mesh, *limits);
-    while refiner.run(mesh, &mut exceeds, SLICE)? == Progress::More {
+    while refiner.advance(mesh, &mut exceeds, SLICE)? == Progress::More {
         terminal.progress(start, || format!("{} triangles", Grouped(mesh.raw_triangle_count())));
     }
     Ok((start.elapsed(), refiner.capped()))

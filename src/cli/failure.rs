@@ -21,7 +21,7 @@ pub enum Failure {
     #[error(transparent)]
     Coarse(#[from] CoarseError),
     /// The refinement could not end.
-    #[error(transparent)]
+    #[error("{0}{advice}", advice = advice(.0))]
     Refine(#[from] RefineError),
     /// A file could not be written.
     #[error("{} cannot be written: {problem}.", file.display())]
@@ -51,6 +51,18 @@ impl Failure {
     /// Whether the reader of standard output has simply seen enough, as `head` does.
     pub fn is_closed_pipe(&self) -> bool {
         matches!(self, Self::Print(e) if e.kind() == io::ErrorKind::BrokenPipe)
+    }
+}
+
+/// What would help, as a further sentence.
+fn advice(error: &RefineError) -> &'static str {
+    match error {
+        RefineError::InvalidTarget(_) => "",
+        RefineError::TooManyTriangles { .. } => {
+            " Raise the smallest diameter, or the limit with --max-triangles."
+        }
+        RefineError::TooMuchMemory { .. } => " Raise the smallest diameter, or the limit with --max-memory.",
+        RefineError::TooFine { .. } => " Raise the smallest diameter, or mesh a smaller domain.",
     }
 }
 

@@ -8,9 +8,10 @@ use super::args::{BoundaryArgument, InputArguments, RuleArgument};
 use super::failure::Failure;
 use crate::document::LEAST_MEMORY;
 use crate::field::{Formula, RefinementRule, Transfer};
-use crate::geometry::{Grouped, Rect};
-use crate::mesh::{Limits, MemoryLimit};
+use crate::geometry::Rect;
+use crate::mesh::{Limits, MOST_TRIANGLES, MemoryLimit};
 use crate::raster::MAX_SIDE;
+use crate::text::Grouped;
 
 /// A mesh to be made.
 #[derive(Debug)]
@@ -89,8 +90,6 @@ pub enum Meaning {
 
 /// Most triangles when nobody says how many.
 const USUAL_BUDGET: usize = 50_000_000;
-/// More triangles than this have no ids.
-const MOST_TRIANGLES: usize = 2_000_000_000;
 
 impl Job {
     /// Checks the arguments one by one and against each other.

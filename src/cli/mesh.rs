@@ -13,9 +13,9 @@ use super::output::{Output, Wanted};
 use super::summary::Summary;
 use super::terminal::Terminal;
 use crate::field::Formula;
-use crate::geometry::Grouped;
 use crate::io::{MeshData, NodeValues};
 use crate::mesh::{Extract, TriangleId};
+use crate::text::Grouped;
 
 /// Broken invariants that are printed one by one; the others are counted.
 const SHOWN_VIOLATIONS: usize = 20;

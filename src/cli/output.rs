@@ -5,10 +5,10 @@ use std::path::{Path, PathBuf};
 use super::args::PictureArguments;
 use super::failure::Failure;
 use crate::colormap::{Colormap, Ground, LevelColors};
-use crate::geometry::Grouped;
 use crate::io::{MeshData, Meter, obstacle};
 use crate::mesh::{Extract, Mesh};
 use crate::render::export::{ExportFormat, LARGEST_PICTURE, Look};
+use crate::text::Grouped;
 
 /// A file to be written.
 #[derive(Debug)]

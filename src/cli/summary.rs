@@ -5,8 +5,8 @@ use serde::Serialize;
 use super::build::Built;
 use crate::domain::Region;
 use crate::field::RefinementRule;
-use crate::geometry::Grouped;
 use crate::mesh::Topology;
+use crate::text::Grouped;
 
 /// The figures of a mesh; its JSON is the answer of `--json`.
 #[derive(Debug, Serialize)]

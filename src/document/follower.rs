@@ -248,7 +248,7 @@ impl Follower {
         let (field, domain) = (&self.field, &self.domain);
         let mesh = Arc::make_mut(&mut self.mesh);
         let exceeds = |element: &Element| domain.exceeds(element, |element| Ok(field.exceeds(element)));
-        let result = self.updater.run(mesh, exceeds, visits);
+        let result = self.updater.advance(mesh, exceeds, visits);
         if let Some(changes) = self.updater.take_changes() {
             self.revision += 1;
             if domain.is_fitted() || mesh.outside_count() > 0 {

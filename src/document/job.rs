@@ -127,14 +127,14 @@ impl Refining {
             RefinementRule::Area => {
                 let exceeds =
                     |element: &Element| domain.exceeds(element, |element| Ok(field.exceeds(element)));
-                self.refiner.run(&mut self.mesh, exceeds, visits)
+                self.refiner.advance(&mut self.mesh, exceeds, visits)
             }
             RefinementRule::Vertex => {
                 let paint = document.paint().as_paint();
                 let target = |point| field.target_at_node(paint, point);
                 let mut rule = VertexRule::resumed(target, std::mem::take(&mut self.known));
                 let exceeds = |element: &Element| domain.exceeds(element, |element| rule.exceeds(element));
-                let progress = self.refiner.run(&mut self.mesh, exceeds, visits);
+                let progress = self.refiner.advance(&mut self.mesh, exceeds, visits);
                 self.known = rule.into_known();
                 progress
             }

@@ -194,7 +194,7 @@ fn price_so_far(
         domain.exceeds_at(corners, level, by_field).unwrap_or(false)
     };
     let belongs = |corners, _| !domain.excludes_at(corners);
-    let progress = forecast.run(follower.mesh(), exceeds, belongs, visits);
+    let progress = forecast.advance(follower.mesh(), exceeds, belongs, visits);
     let [added, removed] = [forecast.added(), forecast.removed()];
     match progress {
         Err(_) => Some(Price::TooFine),

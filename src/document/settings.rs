@@ -4,9 +4,11 @@ use crate::domain::{BoundaryTreatment, Domain, DomainOnLattice};
 use crate::field::{
     Formula, RefinementRule, Source, TargetFieldSpec, Transfer, TransferError, checked_target,
 };
-use crate::geometry::{GridError, Grouped, Lattice, Number};
-use crate::mesh::{Bytes, Limits, MemoryLimit};
+use crate::geometry::{GridError, Lattice};
+use crate::mesh::{Limits, MemoryLimit};
 use crate::raster::{MAX_SIDE, Raster};
+use crate::text::Bytes;
+use crate::text::{Grouped, Number};
 
 /// Everything about a document that is not paint.
 #[derive(Clone, Debug, PartialEq)]

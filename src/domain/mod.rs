@@ -12,7 +12,8 @@ mod tangle;
 use std::sync::Arc;
 
 use crate::field::Formula;
-use crate::geometry::{Grouped, Rect};
+use crate::geometry::Rect;
+use crate::text::Grouped;
 
 pub use comparison::RegionComparison;
 pub use cut_shape::CutShape;

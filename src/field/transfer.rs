@@ -1,4 +1,4 @@
-use crate::geometry::Number;
+use crate::text::Number;
 
 /// How risk becomes a target diameter: from `h_max` at risk 0 down to `h_min` at risk 1, on a logarithmic scale.
 ///

@@ -1,7 +1,8 @@
 use bytemuck::{Pod, Zeroable};
 use glam::DVec2;
 
-use super::{Grouped, Number, Rect};
+use super::Rect;
+use crate::text::{Grouped, Number};
 
 /// Lattice coordinates stay at or below 2 to this power, so that differences fit an `i32` on the GPU.
 pub const LATTICE_BITS: u32 = 30;
@@ -77,7 +78,7 @@ pub enum GridError {
     /// More coarse triangles than the budget allows.
     #[error(
         "A coarse spacing of {} would start with about {triangles:.3e} triangles, and the \
-         limit is {}. Choose a larger spacing, and let the brush refine where detail matters.",
+         limit is {}. Choose a larger spacing.",
         Number(*spacing), Grouped(*limit)
     )]
     TooManyCells {

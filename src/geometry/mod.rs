@@ -1,16 +1,12 @@
 //! The only geometric predicates of the program, rectangles, and the map between the world and
 //! the integer lattice on which every node of a mesh lies.
 
-mod grouped;
 mod lattice;
 mod lattice_rect;
-mod number;
 mod predicates;
 mod rect;
 
-pub use grouped::{Grouped, group_digits};
 pub use lattice::{GridError, LATTICE_BITS, Lattice, LatticePoint};
 pub use lattice_rect::LatticeRect;
-pub use number::Number;
 pub use predicates::{Side, exact_sum_sign, side_of_edge};
 pub use rect::Rect;

@@ -3,8 +3,8 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use super::Cancelled;
-use crate::geometry::Grouped;
 use crate::raster::MAX_SIDE;
+use crate::text::Grouped;
 
 /// Why a file could not be used: which file, where in it, and what is wrong there.
 #[derive(Debug, thiserror::Error)]

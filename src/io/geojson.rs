@@ -12,7 +12,7 @@ use serde::de::{DeserializeSeed, Deserializer, Error, SeqAccess, Visitor};
 use super::Meter;
 use super::error::{Flaw, PlacedFlaw, ReadError};
 use crate::domain::{MOST_CORNERS, Polygon};
-use crate::geometry::Grouped;
+use crate::text::Grouped;
 
 /// Largest file read.
 const MOST_BYTES: u64 = 256 << 20;

@@ -31,7 +31,7 @@ pub mod stl;
 pub mod svg;
 pub mod vtu;
 
-pub use crate::geometry::Number;
+pub use crate::text::Number;
 pub use atomic::{exists, make_folder, obstacle, write_file, write_file_metered};
 pub use error::{Flaw, Place, ReadError};
 pub use mesh_file::MeshFormat;

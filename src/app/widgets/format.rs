@@ -3,7 +3,7 @@
 //! Digits are grouped by thousands with commas, the minus sign is `−`, and there are just enough digits. Numbers that
 //! change while one looks at them keep their number of decimals ([`fixed`], [`significant`]), so nothing jumps.
 
-use crate::geometry::group_digits;
+use crate::text::group_digits;
 
 /// A count, grouped by thousands: `37,987`.
 pub fn count(value: u64) -> String {

@@ -11,11 +11,10 @@ use super::{FORMAT, VERSION};
 use crate::document::{Base, Settings};
 use crate::domain::{BoundaryTreatment, Domain, DomainShape, Polygon};
 use crate::field::{Formula, RefinementRule, Transfer};
-use crate::geometry::{Grouped, Number, Rect};
+use crate::geometry::Rect;
+use crate::mesh::MOST_TRIANGLES;
 use crate::raster::{MAX_SIDE, Raster};
-
-/// Most triangles that a budget can name: more have no ids.
-const MOST_TRIANGLES: usize = 2_000_000_000;
+use crate::text::{Grouped, Number};
 
 /// What every version of the format begins with.
 #[derive(Deserialize)]

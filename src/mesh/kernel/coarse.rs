@@ -3,7 +3,8 @@
 use glam::DVec2;
 
 use super::{Kind, KindCounts, Limits, Mesh, Neighbour, NodeId, Orientation, Triangle, TriangleId};
-use crate::geometry::{GridError, Lattice, LatticePoint, Number};
+use crate::geometry::{GridError, Lattice, LatticePoint};
+use crate::text::Number;
 
 /// Why no coarse triangulation could be made.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

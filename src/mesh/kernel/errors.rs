@@ -2,8 +2,9 @@
 
 use glam::DVec2;
 
-use super::{Bytes, MemoryLimit, bisection_edge_length};
-use crate::geometry::{Grouped, Lattice, LatticePoint, Number};
+use super::{MemoryLimit, bisection_edge_length};
+use crate::geometry::{Lattice, LatticePoint};
+use crate::text::{Bytes, Grouped, Number};
 
 /// A rule met a target diameter that no mesh can satisfy, or that is no number.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -26,8 +27,7 @@ pub enum RefineError {
     InvalidTarget(#[from] InvalidTarget),
     /// The next call would pass the triangle budget.
     #[error(
-        "The mesh needs more than {} triangles, which is the limit. Raise the smallest diameter, paint less, or raise the \
-         limit.",
+        "The mesh needs more than {} triangles, which is the limit.",
         Grouped(*limit)
     )]
     TooManyTriangles {
@@ -36,8 +36,7 @@ pub enum RefineError {
     },
     /// The next call would pass the memory budget.
     #[error(
-        "The mesh needs more than {} triangles, and {} of memory, which is the limit, has room for no more. Raise the \
-         smallest diameter, paint less, or raise the limit.",
+        "The mesh needs more than {} triangles, and {} of memory, which is the limit, has room for no more.",
         Grouped(*limit), Bytes(memory.bytes)
     )]
     TooMuchMemory {
@@ -49,7 +48,7 @@ pub enum RefineError {
     /// The target is smaller than the lattice can resolve.
     #[error(
         "The target diameter near x = {}, y = {} is too small: below {smallest:.3e} (level {level}) nodes would leave the \
-         lattice. Raise the smallest diameter, or mesh a smaller domain.",
+         lattice.",
         Number(at.x), Number(at.y)
     )]
     TooFine {

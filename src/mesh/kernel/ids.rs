@@ -1,15 +1,22 @@
 use bytemuck::{Pod, Zeroable};
 
+use super::MOST_TRIANGLES;
+
 /// A node by its place in [`Mesh::nodes`](crate::mesh::Mesh::nodes), from zero.
 ///
-/// Refinement keeps all ids. Coarsening fills gaps with the last node, never with a coarse one: those keep their ids for ever.
+/// Refinement keeps all ids. Coarsening fills gaps with the last node, never with a coarse one: those keep their ids.
 #[repr(transparent)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Pod, Zeroable)]
 pub struct NodeId(pub(in crate::mesh) u32);
 
 impl NodeId {
     /// The id of the node at `index` of the node array.
+    ///
+    /// # Panics
+    /// When the index is above [`MOST_TRIANGLES`]: there are no such ids.
+    #[inline]
     pub const fn from_index(index: usize) -> Self {
+        assert!(index <= MOST_TRIANGLES, "the index of a node is larger than any mesh");
         Self(index as u32)
     }
 
@@ -31,7 +38,12 @@ pub struct TriangleId(pub(in crate::mesh) u32);
 
 impl TriangleId {
     /// The id of the triangle at `index` of the triangle array.
+    ///
+    /// # Panics
+    /// When the index is above [`MOST_TRIANGLES`]: there are no such ids.
+    #[inline]
     pub const fn from_index(index: usize) -> Self {
+        assert!(index <= MOST_TRIANGLES, "the index of a triangle is larger than any mesh");
         Self(index as u32)
     }
 
@@ -71,5 +83,16 @@ impl std::fmt::Debug for Neighbour {
             Some(id) => write!(f, "{}", id.0),
             None => f.write_str("boundary"),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    #[should_panic(expected = "larger than any mesh")]
+    fn an_index_beyond_all_ids_is_refused() {
+        TriangleId::from_index(1 << 32);
     }
 }

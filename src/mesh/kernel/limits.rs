@@ -1,13 +1,15 @@
 //! Memory as a limit: translated into a count of triangles, so that refinement has one number to look at.
 
-use std::fmt;
-
 use super::RefineError;
 
-/// Most triangles of any mesh, whatever its budget: ids above are taken for marks.
+/// The most triangles of any mesh, whatever its limits: higher ids serve as marks.
 pub const MOST_TRIANGLES: usize = (1 << 31) - 1;
 
 /// What a mesh may cost.
+///
+/// Once the arrays pass 2 MiB, a mesh reserves address space for [`Self::most_triangles`] in one step: about 2 GB with
+/// the default limits. Memory is used only as it is touched. On Windows, which charges for reservations, the arrays
+/// grow by doubling instead.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
     /// Most triangles; refinement that would pass it stops with an error. A triangle and its share of the nodes take
@@ -50,7 +52,7 @@ impl Default for Limits {
     }
 }
 
-/// How much memory meshes may take, and how much of it a triangle is reckoned at.
+/// How much memory meshes may take, and how much of it a triangle takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MemoryLimit {
     /// Most memory, in bytes.
@@ -72,7 +74,7 @@ impl MemoryLimit {
         Self { bytes, per_triangle: IN_THE_MESH + WHILE_MADE }
     }
 
-    /// For a mesh that is updated in place, or made anew beside the one that is shown.
+    /// For a mesh that is updated in place, or made again beside the one that is shown.
     pub fn for_two_meshes(bytes: usize) -> Self {
         Self { bytes, per_triangle: 2 * IN_THE_MESH + WHILE_MADE + WHILE_UPDATED }
     }
@@ -80,29 +82,5 @@ impl MemoryLimit {
     /// How many triangles there is room for.
     pub fn triangles(&self) -> usize {
         self.bytes / self.per_triangle.max(1)
-    }
-}
-
-/// A count of bytes for a person: `2 GB`, `12.5 MB`; units are powers of 1000.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Bytes(pub usize);
-
-impl fmt::Display for Bytes {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (unit, name) = if self.0 >= 1_000_000_000 { (1e9, "GB") } else { (1e6, "MB") };
-        let value = (self.0 as f64 / unit * 1000.0).round() / 1000.0;
-        write!(f, "{value} {name}")
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn sizes_are_written_for_a_person() {
-        let written =
-            [0, 400, 12_500_000, 999_999_999, 2_000_000_000, 2_147_483_648].map(|n| Bytes(n).to_string());
-        assert_eq!(written, ["0 MB", "0 MB", "12.5 MB", "1000 MB", "2 GB", "2.147 GB"]);
     }
 }

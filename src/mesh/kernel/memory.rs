@@ -71,7 +71,10 @@ fn advise_large_pages<T>(array: &mut Vec<T>) {
     if first < last {
         // SAFETY: the range lies within the one allocation of `array`, which is borrowed exclusively, and MADV_HUGEPAGE
         // leaves the contents of memory as they are.
-        unsafe { libc::madvise(first as *mut libc::c_void, last - first, libc::MADV_HUGEPAGE) };
+        #[allow(unsafe_code, reason = "advice on pages has no safe interface")]
+        unsafe {
+            libc::madvise(first as *mut libc::c_void, last - first, libc::MADV_HUGEPAGE)
+        };
     }
 }
 

@@ -28,7 +28,7 @@ pub use coarse::CoarseError;
 pub use element::{Element, Progress};
 pub use errors::{InvalidTarget, RefineError};
 pub use ids::{Neighbour, NodeId, TriangleId};
-pub use limits::{Bytes, Limits, MOST_TRIANGLES, MemoryLimit};
+pub use limits::{Limits, MOST_TRIANGLES, MemoryLimit};
 pub use refine::Refiner;
 pub use triangle::{Orientation, Triangle};
 pub use update::Updater;

@@ -14,7 +14,7 @@ use super::{Diameters, Element, InvalidTarget, Limits, Mesh, Progress, RefineErr
 #[derive(Clone, Debug)]
 pub struct Refiner {
     limits: Limits,
-    agenda: Agenda,
+    work: WorkList,
     chain: Vec<TriangleId>,
     capped: usize,
 }
@@ -22,7 +22,7 @@ pub struct Refiner {
 impl Refiner {
     /// Work that visits every triangle of `mesh` and whatever comes of it.
     pub fn new(mesh: &Mesh, limits: Limits) -> Self {
-        let mut refiner = Self { limits, agenda: Agenda::default(), chain: Vec::new(), capped: 0 };
+        let mut refiner = Self { limits, work: WorkList::default(), chain: Vec::new(), capped: 0 };
         refiner.restart(mesh);
         refiner
     }
@@ -32,7 +32,7 @@ impl Refiner {
     /// Together with `clone_from` of the coarse mesh this builds a mesh again at the speed of the cache; new memory costs
     /// about as much time as the work.
     pub fn restart(&mut self, mesh: &Mesh) {
-        self.agenda.restart(mesh.triangles.len());
+        self.work.restart(mesh.triangles.len());
         self.capped = 0;
     }
 
@@ -43,7 +43,7 @@ impl Refiner {
     ///
     /// # Errors
     /// When the rule meets a bad target, or a limit is reached.
-    pub fn run(
+    pub fn advance(
         &mut self,
         mesh: &mut Mesh,
         mut exceeds: impl FnMut(&Element) -> Result<bool, InvalidTarget>,
@@ -56,15 +56,15 @@ impl Refiner {
         let mut room = 0;
         // Ends: each turn is done with a triangle or takes it one level down, and levels are bounded.
         for _ in 0..visits {
-            let Some(id) = self.agenda.current() else { return Ok(Progress::Done) };
+            let Some(id) = self.work.current() else { return Ok(Progress::Done) };
             if !exceeds(&mesh.element(id, &diameters))? {
-                self.agenda.advance();
+                self.work.next();
                 continue;
             }
             let level = mesh.triangle(id).level();
             if level >= cap {
                 self.capped += 1;
-                self.agenda.advance();
+                self.work.next();
                 continue;
             }
             if level >= deepest {
@@ -74,9 +74,9 @@ impl Refiner {
             if mesh.triangles.len() + most_new > room {
                 room = self.room_for(mesh, id, most_new)?;
             }
-            mesh.refine_triangle_with(id, &mut self.chain, |parent| self.agenda.bisected(parent));
+            mesh.refine_triangle_with(id, &mut self.chain, |parent| self.work.bisected(parent));
         }
-        Ok(if self.agenda.current().is_none() { Progress::Done } else { Progress::More })
+        Ok(if self.work.current().is_none() { Progress::Done } else { Progress::More })
     }
 
     /// Makes room for the next call of RefineTriangle, which appends at most `most_new` triangles; returns how many
@@ -85,8 +85,8 @@ impl Refiner {
     fn room_for(&mut self, mesh: &mut Mesh, id: TriangleId, most_new: usize) -> Result<usize, RefineError> {
         let room = mesh.room_for(id, most_new, &self.limits)?;
         let limit = self.limits.most_triangles();
-        make_room(&mut self.agenda.after, most_new, limit);
-        Ok(room.min(self.agenda.after.capacity()))
+        make_room(&mut self.work.after, most_new, limit);
+        Ok(room.min(self.work.after.capacity()))
     }
 
     /// How many triangles asked for more than [`Limits::max_level`] allows.
@@ -100,7 +100,7 @@ impl Refiner {
 /// They are a linked list in the order of the leaves of the bisection tree: a new triangle goes in behind its sibling,
 /// which keeps their parent's place. Children of triangles that the list has passed wait on a stack.
 #[derive(Clone, Debug, Default)]
-struct Agenda {
+struct WorkList {
     /// For each triangle the next one in the list, or `END`, or `PASSED`.
     after: Vec<u32>,
     /// The first triangle of the list.
@@ -111,7 +111,7 @@ struct Agenda {
     current: u32,
 }
 
-impl Agenda {
+impl WorkList {
     const END: u32 = u32::MAX;
     const PASSED: u32 = u32::MAX - 1;
 
@@ -134,7 +134,7 @@ impl Agenda {
 
     /// The current triangle is done with; go on to the next.
     #[inline]
-    fn advance(&mut self) {
+    fn next(&mut self) {
         let next = std::mem::replace(&mut self.after[self.current as usize], Self::PASSED);
         if next != Self::PASSED {
             self.head = next;
@@ -166,14 +166,14 @@ impl Mesh {
     /// coarser than their target.
     ///
     /// # Errors
-    /// As [`Refiner::run`].
+    /// As [`Refiner::advance`].
     pub fn refine(
         &mut self,
         limits: &Limits,
         exceeds: impl FnMut(&Element) -> Result<bool, InvalidTarget>,
     ) -> Result<usize, RefineError> {
         let mut refiner = Refiner::new(self, *limits);
-        refiner.run(self, exceeds, usize::MAX)?;
+        refiner.advance(self, exceeds, usize::MAX)?;
         Ok(refiner.capped())
     }
 

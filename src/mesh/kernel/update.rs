@@ -75,7 +75,7 @@ use crate::geometry::LatticeRect;
 /// let mut updater = Updater::new(Limits::default());
 /// updater.add(before);
 /// updater.add(after);
-/// while updater.run(&mut mesh, |element| Ok(exceeds(element, &after)), 100)? == Progress::More {
+/// while updater.advance(&mut mesh, |element| Ok(exceeds(element, &after)), 100)? == Progress::More {
 ///     assert!(mesh.violations().is_empty()); // it could be drawn
 /// }
 /// # let mut anew = Mesh::coarse_grid(&lattice, |_| true, &Limits::default())?;
@@ -127,7 +127,7 @@ impl Updater {
     }
 
     /// Adds a rectangle to the work: the rule may give another answer for triangles that touch it. Must be called before the next
-    /// [`Self::run`] after such a change, and may be called while earlier work is under way.
+    /// [`Self::advance`] after such a change, and may be called while earlier work is under way.
     pub fn add(&mut self, area: LatticeRect) {
         self.areas.push(Area { rect: area, tell: false });
     }
@@ -181,7 +181,7 @@ impl Updater {
     /// # Errors
     /// When the rule meets a bad target, or a limit is reached. The mesh is conforming and the work is kept: after a change of
     /// the rule that is added it may go on.
-    pub fn run(
+    pub fn advance(
         &mut self,
         mesh: &mut Mesh,
         mut exceeds: impl FnMut(&Element) -> Result<bool, InvalidTarget>,

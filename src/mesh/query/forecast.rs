@@ -25,7 +25,7 @@ use crate::mesh::kernel::{Bitset, Limits, Mesh, Progress, RefineError, Search, T
 /// let square = mesh.lattice().rect_around(&Rect::around(glam::dvec2(0.3, 0.4), 0.1)).unwrap();
 /// let mut forecast = Forecast::new(&mesh, square, &Limits::default());
 /// let exceeds = |corners, level| level < 2 && square.touches(corners);
-/// assert_eq!(forecast.run(&mesh, exceeds, |_, _| true, usize::MAX)?, Progress::Done);
+/// assert_eq!(forecast.advance(&mesh, exceeds, |_, _| true, usize::MAX)?, Progress::Done);
 ///
 /// let before = mesh.raw_triangle_count() as i64;
 /// mesh.refine(&Limits::default(), |element| Ok(exceeds(element.corners, element.triangle.level())))?;
@@ -184,7 +184,7 @@ impl Forecast {
     ///
     /// # Errors
     /// When a target is finer than the lattice. The triangle budget is not looked at: the caller compares.
-    pub fn run(
+    pub fn advance(
         &mut self,
         mesh: &Mesh,
         exceeds: impl Fn([LatticePoint; 3], u32) -> bool,

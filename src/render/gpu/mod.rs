@@ -18,9 +18,10 @@ pub use offscreen::{Offscreen, offscreen, read_back};
 
 use self::overlay_pass::OverlayPass;
 use self::picture::MeshPicture;
-use crate::geometry::Grouped;
-use crate::mesh::{Bytes, Mesh};
+use crate::mesh::Mesh;
 use crate::scene::{Camera, Overlay, Style};
+use crate::text::Bytes;
+use crate::text::Grouped;
 
 /// Why the graphics driver cannot draw.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

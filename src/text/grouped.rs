@@ -1,9 +1,9 @@
 use std::fmt;
 
-/// A count as people read it: digits in groups of three. It stands in the lowest room because every room's sentences count.
+/// A count for a person: digits in groups of three.
 ///
 /// ```
-/// # use meshbrush::geometry::Grouped;
+/// # use meshbrush::text::Grouped;
 /// assert_eq!(Grouped(2_113_944).to_string(), "2,113,944");
 /// assert_eq!(Grouped(721).to_string(), "721");
 /// ```
