@@ -52,7 +52,7 @@ pub struct Lattice {
     step: DVec2,
 }
 
-/// Why no coarse grid could be laid.
+/// Why no coarse grid could be made.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum GridError {
     /// A corner is NaN or infinite, or a side is not positive.

@@ -1,6 +1,7 @@
 use super::{Lattice, LatticePoint, Rect};
 
-/// An axis-parallel rectangle with corners on the lattice, closed on all sides; it may be a segment or a point.
+/// An axis-parallel rectangle with corners on the lattice, closed on all sides; it may be a segment or a
+/// point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct LatticeRect {
     /// Lower left corner.
@@ -10,7 +11,7 @@ pub struct LatticeRect {
 }
 
 impl LatticeRect {
-    /// This rectangle with every side moved outwards by so many steps, as far as the lattice goes.
+    /// This rectangle with every side moved outwards by `steps`, as far as the lattice goes.
     pub fn expanded(&self, steps: u32, extent: LatticePoint) -> Self {
         let Self { min, max } = *self;
         Self {
@@ -21,8 +22,9 @@ impl LatticeRect {
 
     /// Whether the rectangle and a closed triangle of a mesh have a point in common.
     ///
-    /// The edges of such a triangle run along axes and diagonals of the lattice, so that the two meet when their extents
-    /// along x, y, x + y and x − y do: one of these is always a separating axis if there is one.
+    /// The edges of such a triangle run along axes and diagonals of the lattice, so that the two meet when
+    /// their extents along x, y, x + y and x − y do: one of these is always a separating axis if there is
+    /// one.
     #[inline]
     pub fn touches(&self, corners: [LatticePoint; 3]) -> bool {
         let (x, y) = (corners.map(|c| i64::from(c.x)), corners.map(|c| i64::from(c.y)));
@@ -40,8 +42,8 @@ fn meets([a, b, c]: [i64; 3], low: i64, high: i64) -> bool {
 }
 
 impl Lattice {
-    /// The smallest rectangle of the lattice round the part of `area` (in world units) that lies in the bounds; `None` where
-    /// nothing does.
+    /// The smallest rectangle of the lattice around the part of `area` (in world units) that lies in the
+    /// bounds; `None` where nothing does.
     pub fn rect_around(&self, area: &Rect) -> Option<LatticeRect> {
         let common = area.intersection(&self.bounds())?;
         let (min, max) =

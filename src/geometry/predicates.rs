@@ -7,7 +7,7 @@ use super::LatticePoint;
 /// Where a point lies, seen along a directed edge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Side {
-    /// Strictly to the left: inside, for an edge that runs anticlockwise round a triangle.
+    /// Strictly to the left: inside, for an edge that runs anticlockwise around a triangle.
     Left,
     /// On the line through the edge.
     On,

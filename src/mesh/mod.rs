@@ -1,6 +1,7 @@
 //! The method of the report: a mesh of right-angled isosceles triangles, refined by local bisection.
 //!
-//! Nothing here knows a field, a file or a window. What to refine and where the domain lies come in as closures.
+//! Nothing here knows a field, a file or a window. What to refine and where the domain lies come in as
+//! closures.
 //!
 //! ```
 //! use meshbrush::geometry::{Lattice, Rect};

@@ -7,7 +7,8 @@ use crate::mesh::kernel::{Mesh, Neighbour, NodeId, Triangle, TriangleId};
 
 /// What others get of a mesh, in files and elsewhere: nodes and triangles that count from zero without a gap.
 ///
-/// Ids in it are places in its own arrays. Where the whole mesh is given away they are those of the mesh, and nothing is copied.
+/// Ids in it are places in its own arrays. Where the whole mesh is given away they are those of the mesh, and
+/// nothing is copied.
 #[derive(Clone, Debug)]
 pub struct Extract<'a> {
     lattice: Lattice,
@@ -17,7 +18,7 @@ pub struct Extract<'a> {
     places: Option<Vec<Neighbour>>,
 }
 
-/// A triangle as others want it.
+/// A triangle in plain numbers, for writers of files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Cell {
     /// Nodes, anticlockwise, the first two the ends of the bisection edge.
@@ -40,7 +41,7 @@ impl Cell {
     }
 }
 
-/// An edge, as others want it.
+/// An edge in plain numbers, for writers of files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MeshEdge {
     /// Its nodes.
@@ -110,7 +111,8 @@ impl Extract<'_> {
         &self.triangles
     }
 
-    /// The place in [`Self::triangles`] of a triangle of the mesh; `None` for one that lies outside the domain.
+    /// The place in [`Self::triangles`] of a triangle of the mesh; `None` for one that lies outside the
+    /// domain.
     ///
     /// # Panics
     /// When the id is not of the mesh.
@@ -154,12 +156,12 @@ impl Extract<'_> {
         counts
     }
 
-    /// All triangles, as others want them.
+    /// All triangles in plain numbers, in the order of [`Self::triangles`].
     pub fn cells(&self) -> impl ExactSizeIterator<Item = Cell> + Clone + '_ {
         self.triangles.iter().map(Cell::of)
     }
 
-    /// A triangle of [`Self::triangles`], as others want it.
+    /// A triangle of [`Self::triangles`] in plain numbers.
     ///
     /// # Panics
     /// When there is no such triangle.

@@ -1,8 +1,10 @@
 use crate::mesh::kernel::{NodeId, TriangleId};
 
-/// The numbers that triangles and nodes have in an [`Extract`](crate::mesh::Extract), and so in files, without making one.
+/// The numbers that triangles and nodes have in an [`Extract`](crate::mesh::Extract), and so in files,
+/// without making one.
 ///
-/// A [`Survey`](crate::mesh::Survey) finds them in slices. They take a quarter of a byte for each triangle and node.
+/// A [`Survey`](crate::mesh::Survey) finds them in slices. They take a quarter of a byte for each triangle
+/// and node.
 #[derive(Clone, Debug)]
 pub struct Numbering {
     pub(in crate::mesh) triangles: RankBits,
@@ -27,7 +29,7 @@ impl Numbering {
     }
 }
 
-/// A sequence of yes and no that knows how often yes came before each yes.
+/// A rank bit vector: bits, with the count of ones before each word.
 #[derive(Clone, Debug, Default)]
 pub(in crate::mesh) struct RankBits {
     count: usize,

@@ -1,8 +1,13 @@
-//! Bisection of a triangle together with its bisection neighbour: Algorithms 1, 8, 9 and 19 to 25 as one rule.
+//! Bisection of a triangle together with its bisection neighbour: Algorithms 1, 8, 9 and 19 to 25 as one
+//! rule.
 //!
-//! The report spells out eight routines, one for each way in which the level and the orientations of the two parents
-//! can fall. All eight are this rule, applied to each parent by itself. With neighbours N = (across the bisection edge,
-//! n₂, n₃), and *facing* for what lies across the half of the cut edge that a child keeps:
+//! This is newest vertex bisection of compatibly divisible pairs [Mitchell1989], which for these triangles is
+//! bisection of the longest edge [Rivara1984], by the vertex order of [Maubach1995].
+//!
+//! The report spells out eight routines, one for each way in which the level and the orientations of the two
+//! parents can fall. All eight are this rule, applied to each parent by itself. With neighbours N = (across
+//! the bisection edge, n₂, n₃), and *facing* for what lies across the half of the cut edge that a child
+//! keeps:
 //!
 //! | parent        | kept child             | new child             | back-reference to move |
 //! |---------------|------------------------|-----------------------|------------------------|
@@ -78,8 +83,8 @@ impl Mesh {
 
     /// Replaces `parent` by one of its children and appends the other, by the rule at the head of this file.
     ///
-    /// Which case applies is as good as random from one call to the next. So both outcomes are computed and one is
-    /// selected: a wrong guess of the processor at a branch costs more than all of it.
+    /// Which case applies is as good as random from one call to the next. So both outcomes are computed and
+    /// one is selected: a wrong guess of the processor at a branch costs more than all of it.
     #[inline(always)]
     fn bisect_side(&mut self, parent: TriangleId, midpoint: NodeId, facing: Facing) {
         let t = *self.triangle(parent);

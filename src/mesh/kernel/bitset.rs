@@ -1,16 +1,18 @@
-//! A set of places in an array.
+//! A bitset with summary levels.
 
 use std::ops::Range;
 
 /// A set of places in an array, as bits, quick to change and to read from either end.
 ///
-/// Above the bits stand three layers that say which words below are not empty, 64 to a bit. So an empty set is seen at once,
-/// and going through a small set in a large array costs no more than in a small one. An eighth of a byte for each place.
+/// Above the bits stand three layers that say which words below are not empty, 64 to a bit. So an empty set
+/// is seen at once, and going through a small set in a large array costs no more than in a small one. An
+/// eighth of a byte for each place.
 #[derive(Clone, Debug, Default)]
 pub(in crate::mesh) struct Bitset {
     layers: [Vec<u64>; LAYERS],
     count: usize,
-    /// No word of bits behind this one has any: near at hand when the last place is asked for again and again.
+    /// No word of bits behind this one has any: near at hand when the last place is asked for again and
+    /// again.
     last_word: usize,
 }
 
@@ -28,7 +30,7 @@ impl Bitset {
         self.layers[0].get(place / 64).is_some_and(|word| word >> (place % 64) & 1 == 1)
     }
 
-    /// Adds a place, and tells whether it was new.
+    /// Adds a place, and returns whether it was new.
     #[inline]
     pub(in crate::mesh) fn insert(&mut self, place: usize) -> bool {
         if place / 64 >= self.layers[0].len() {
@@ -68,7 +70,7 @@ impl Bitset {
         }
     }
 
-    /// Takes a place out, and tells whether it was in.
+    /// Takes a place out, and returns whether it was in.
     #[inline]
     pub(in crate::mesh) fn remove(&mut self, place: usize) -> bool {
         let was_in = self.contains(place);

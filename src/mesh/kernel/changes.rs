@@ -4,8 +4,8 @@ use super::{Bitset, Mesh, NodeId, TriangleId};
 
 /// Which entries of a mesh's two arrays differ from what they were when this was last asked.
 ///
-/// Ranges count entries of the arrays as they are now; they ascend and do not touch. Entries that are new are among them; an
-/// array may also have become shorter.
+/// Ranges count entries of the arrays as they are now; they ascend and do not touch. Entries that are new are
+/// among them; an array may also have become shorter.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Changes {
     /// Of [`Mesh::nodes`](crate::mesh::Mesh::nodes).
@@ -45,7 +45,7 @@ pub(super) struct ChangeLog {
     pub(super) triangles: Bitset,
     /// How many times something changed.
     steps: u64,
-    steps_told: u64,
+    steps_taken: u64,
 }
 
 impl ChangeLog {
@@ -72,7 +72,7 @@ impl ChangeLog {
     /// What changed since this was last asked, `None` if nothing did.
     pub(super) fn take(&mut self) -> Option<Changes> {
         let (nodes, triangles) = (self.nodes.take_ranges(), self.triangles.take_ranges());
-        let told = std::mem::replace(&mut self.steps_told, self.steps);
-        (told != self.steps).then_some(Changes { nodes, triangles })
+        let taken = std::mem::replace(&mut self.steps_taken, self.steps);
+        (taken != self.steps).then_some(Changes { nodes, triangles })
     }
 }

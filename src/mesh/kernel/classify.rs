@@ -1,9 +1,9 @@
 //! Triangles outside the domain.
 //!
-//! Where the boundary is met by refinement, the coarse grid covers the whole rectangle, and what lies outside the domain is sorted
-//! out when all is refined. Those triangles are not removed: they hold up their neighbours. So the mesh is updated in place, and a
-//! point is located in it, as if there were no boundary. They only bear a mark, and counts, fingerprint, location and whatever
-//! leaves the program pass them over.
+//! Where the boundary is met by refinement, the coarse grid covers the whole rectangle, and what lies outside
+//! the domain is sorted out when all is refined. Those triangles are not removed: they hold up their
+//! neighbours. So the mesh is updated in place, and a point is located in it, as if there were no boundary.
+//! They only bear a mark, and counts, fingerprint, location and exports leave them out.
 
 use std::ops::Range;
 
@@ -29,8 +29,8 @@ impl Mesh {
         !self.triangle(id).is_outside()
     }
 
-    /// The neighbours of a triangle in the domain, anticlockwise, the one across the bisection edge first. A triangle outside the
-    /// domain counts as boundary.
+    /// The neighbours of a triangle in the domain, anticlockwise, the one across the bisection edge first. A
+    /// triangle outside the domain counts as boundary.
     ///
     /// # Panics
     /// When the id is not of this mesh.
@@ -50,7 +50,8 @@ impl Mesh {
         self.level_counts().iter().enumerate().map(|(level, &count)| count as f64 * share(level)).sum()
     }
 
-    /// Asks anew which of the triangles `ids` lie outside the domain. New triangles are of their parent's class until then.
+    /// Classifies the entries `ids` as inside or outside the domain. New triangles have the class of their
+    /// parent until then.
     pub fn classify(&mut self, ids: Range<usize>, mut is_outside: impl FnMut(&Element) -> bool) {
         let diameters = Diameters::of(self);
         for index in ids {

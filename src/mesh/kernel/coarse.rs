@@ -26,12 +26,12 @@ pub enum CoarseError {
 
 /// Which entry of the triangle array descends from which coarse triangle (ℳ_t of Algorithm 17).
 ///
-/// Coarse triangles are numbered as in Figure 2 of the report, from zero: row by row from the lower left, in each
-/// cell first the one below the diagonal.
+/// Coarse triangles are numbered as in Figure 2 of the report, from zero: row by row from the lower left, in
+/// each cell first the one below the diagonal.
 #[derive(Clone, Debug)]
 pub(in crate::mesh) struct CoarseIndex {
-    /// Id by coarse number, `Neighbour::BOUNDARY` where the coarse triangle is not in the domain; `None` when all
-    /// are, and each number is its own id.
+    /// Id by coarse number, `Neighbour::BOUNDARY` where the coarse triangle is not in the domain; `None` when
+    /// all are, and each number is its own id.
     ids: Option<Vec<Neighbour>>,
     /// How many coarse triangles are in the domain.
     kept: usize,
@@ -54,8 +54,9 @@ impl CoarseIndex {
 impl Mesh {
     /// The coarse triangulation of a domain (Algorithm 7 without its padding, with Appendix A).
     ///
-    /// The cells of `lattice` are the coarse cells. A coarse triangle is kept when `contains` is true at its three
-    /// nodes, given in world coordinates. Nodes that no kept triangle uses are left out; the report keeps them.
+    /// The cells of `lattice` are the coarse cells. A coarse triangle is kept when `contains` is true at its
+    /// three nodes, given in world coordinates. Nodes that no kept triangle uses are left out; the report
+    /// keeps them.
     ///
     /// # Errors
     /// When the grid has more triangles than `limits` allow, or when none of them lies in the domain.
@@ -133,7 +134,8 @@ impl<'a> CoarseGrid<'a> {
         (CoarseIndex { ids: Some(ids), kept: kept.len() }, kept)
     }
 
-    /// The nodes that some kept triangle uses, and ℳ_x from grid number to id (Algorithm 16, without orphans).
+    /// The nodes that some kept triangle uses, and ℳ_x from grid number to id (Algorithm 16, without
+    /// orphans).
     fn filter_nodes(&self, kept: &[usize]) -> (Vec<LatticePoint>, Vec<NodeId>) {
         let mut used = vec![false; self.node_count()];
         for &number in kept {
@@ -171,7 +173,8 @@ impl<'a> CoarseGrid<'a> {
         LatticePoint::new((number % per_row) as u32 * steps, (number / per_row) as u32 * steps)
     }
 
-    /// Grid nodes of a coarse triangle, anticlockwise, the bisection edge from the first to the last (Algorithm 5).
+    /// Grid nodes of a coarse triangle, anticlockwise, the bisection edge from the first to the last
+    /// (Algorithm 5).
     ///
     /// ```text
     ///   upper left o-----o upper right      below: (upper left, lower left, lower right)

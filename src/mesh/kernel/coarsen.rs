@@ -1,31 +1,46 @@
 //! Taking bisections back: the table of `bisect` read from right to left.
 //!
+//! A node can go when it is the newest vertex of every triangle around it [ChenZhang2010]: two pairs of
+//! siblings, or one pair at the boundary.
+//!
+//! ```text
+//!          o                       o
+//!        / | \                   /   \
+//!      / a | a'\               /   a   \       a, a' and b, b' are siblings; m is their newest vertex
+//!     o----m----o     =>      o---------o
+//!      \ b | b'/               \   b   /
+//!        \ | /                   \   /
+//!          o                       o
+//! ```
+//!
 //! # Who is whose sibling
 //!
-//! Call the half of a square cell that a diagonal cuts off a *half*, and the quarter that two diagonals cut out a *quarter*.
-//! Let s = δ / 2ʲ. A triangle of level 2j is a half of a cell of side s with corners at multiples of s, and one of level
-//! 2j + 1 is a quarter of such a cell, its newest vertex the centre. For so it is with the coarse triangles (j = 0); bisecting
-//! a half gives two quarters of the same cell; and bisecting a quarter, at the side of its cell, gives two triangles with
-//! legs of s/2 along the axes: halves of cells of side s/2.
+//! Call the half of a square cell that a diagonal cuts off a *half*, and the quarter that two diagonals cut
+//! out a *quarter*. Let s = δ / 2ʲ. A triangle of level 2j is a half of a cell of side s with corners at
+//! multiples of s, and one of level 2j + 1 is a quarter of such a cell, its newest vertex the centre. For so
+//! it is with the coarse triangles (j = 0); bisecting a half gives two quarters of the same cell; and
+//! bisecting a quarter, at the side of its cell, gives two triangles with legs of s/2 along the axes: halves
+//! of cells of side s/2.
 //!
-//! The corners of such a half are an old corner of the large cell, the middle of the large cell's side, and its centre.
-//! Measured in s/2 they have none, one and two odd coordinates: call that number their *rank*. Algorithm 1 lists them in this
-//! order, as (end of the cut edge, midpoint, apex of the parent). The cut edge of a half joins its first vertex to its third.
-//! Hence, with m the newest vertex:
+//! The corners of such a half are an old corner of the large cell, the middle of the large cell's side, and
+//! its centre. Measured in s/2 they have none, one and two odd coordinates: call that number their *rank*.
+//! Algorithm 1 lists them in this order, as (end of the cut edge, midpoint, apex of the parent). The cut edge
+//! of a half joins its first vertex to its third. Hence, with m the newest vertex:
 //!
 //! | level      | coordinates in        | vertices, by rank      | apex of the parent       | kept child begins with    |
 //! |------------|-----------------------|------------------------|--------------------------|---------------------------|
 //! | 2j + 1 ≥ 3 | δ / 2ʲ                | (0, 1, m) or (1, 2, m) | the one of rank 1        | rank 0                    |
 //! | 2j + 2 ≥ 4 | δ / 2ʲ, as its parent | (end, m, apex)         | the third                | the end of the lower rank |
 //!
-//! The last entry: the parent's vertices are those of the line above, so its cut edge, from first to second, runs from the
-//! lower rank to the higher; and the kept child has the parent's first vertex. The diagonals thus join the corners whose sum of
-//! coordinates is even. In the cells of the coarse grid it is the falling one, the antidiagonal: at level 1 the parent's apex
-//! lies diagonally below or above m with both coordinates on the same side, and all triangles run anticlockwise, so that of
-//! the two children at level 2 the kept one does, and the new one, a mirror image, does not.
+//! The last entry: the parent's vertices are those of the line above, so its cut edge, from first to second,
+//! runs from the lower rank to the higher; and the kept child has the parent's first vertex. The diagonals
+//! thus join the corners whose sum of coordinates is even. In the cells of the coarse grid it is the falling
+//! one, the antidiagonal: at level 1 the parent's apex lies diagonally below or above m with both coordinates
+//! on the same side, and all triangles run anticlockwise, so that of the two children at level 2 the kept one
+//! does, and the new one, a mirror image, does not.
 //!
-//! So the lattice knows the vertices of every triangle in their order: a mesh refined again after it was coarsened has the
-//! very triangles of one that never was, up to their numbers.
+//! So the lattice knows the vertices of every triangle in their order: a mesh refined again after it was
+//! coarsened has the same triangles as one that never was, up to their numbers.
 
 use super::changes::ChangeLog;
 use super::{Mesh, Neighbour, NodeId, Orientation, Triangle, TriangleId};
@@ -38,8 +53,8 @@ pub(in crate::mesh) struct Siblings {
 }
 
 impl Siblings {
-    /// The entry that the parent takes: the lower one. A coarse triangle's entry is lower than all that were appended, so that
-    /// it stays with a descendant of that coarse triangle.
+    /// The entry that the parent takes: the lower one. A coarse triangle's entry is lower than all that were
+    /// appended, so that it stays with a descendant of that coarse triangle.
     fn place(&self) -> TriangleId {
         self.kept.min(self.new)
     }
@@ -50,7 +65,8 @@ impl Siblings {
     }
 }
 
-/// All triangles round a node that is the newest vertex of each: what a bisection left behind, and nothing has cut since.
+/// All triangles around a node that is the newest vertex of each: what a bisection left behind, and nothing
+/// has cut since.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::mesh) struct Star {
     centre: NodeId,
@@ -68,7 +84,7 @@ impl Star {
         std::iter::once(self.one).chain(self.other)
     }
 
-    /// The triangles round the centre.
+    /// The triangles around the centre.
     pub(in crate::mesh) fn children(&self) -> impl Iterator<Item = TriangleId> {
         self.sides().flat_map(|side| [side.kept, side.new])
     }
@@ -87,8 +103,8 @@ impl Star {
 }
 
 impl Mesh {
-    /// The star round the newest vertex of `id`, if it is one: `None` for a coarse triangle, and where a triangle round that
-    /// node was bisected.
+    /// The star around the newest vertex of `id`, if it is one: `None` for a coarse triangle, and where a
+    /// triangle around that node was bisected.
     #[inline]
     pub(in crate::mesh) fn star_of(&self, id: TriangleId) -> Option<Star> {
         let centre = self.triangle(id).newest_vertex()?;
@@ -103,7 +119,8 @@ impl Mesh {
         Some(Star { centre, one, other: Some(other) })
     }
 
-    /// A triangle with its sibling, and what lies across its half of the cut edge; `None` where the sibling was bisected.
+    /// A triangle with its sibling, and what lies across its half of the cut edge; `None` where the sibling
+    /// was bisected.
     #[inline]
     fn siblings(&self, id: TriangleId) -> Option<(Siblings, Neighbour)> {
         let triangle = self.triangle(id);
@@ -152,7 +169,8 @@ impl Mesh {
         }
     }
 
-    /// How many coordinates of a node are odd, in units of the cells of which the triangles of an odd `level` are quarters.
+    /// How many coordinates of a node are odd, in units of the cells of which the triangles of an odd `level`
+    /// are quarters.
     #[inline]
     fn rank(&self, node: NodeId, level: u32) -> u32 {
         let (node, cell) = (self.node(node), self.lattice.halvings() - level / 2);
@@ -185,7 +203,7 @@ impl Mesh {
         parent
     }
 
-    /// Puts the parents of a star back, as [`Self::parents`] tells them.
+    /// Puts the parents of a star back, which [`Self::parents`] gave.
     ///
     /// ```text
     ///          o                       o
@@ -243,7 +261,7 @@ impl Mesh {
         let last = NodeId::from_index(self.nodes.len() - 1);
         log.nodes.swap_removed(last.index(), id.index());
         if id != last {
-            // No coarse node is ever the last here, so that the triangles round it are joined by edges.
+            // No coarse node is ever the last here, so that the triangles around it are joined by edges.
             let mut round = [None; 8];
             let found = self.raw_triangles_around(last, self.raw_triangle_at(last));
             round.iter_mut().zip(found).for_each(|(place, id)| *place = Some(id));
@@ -296,7 +314,8 @@ mod tests {
         }
     }
 
-    /// The triangle to bisect next: near a place of its own for each seed, so that all levels are met, or anywhere.
+    /// The triangle to bisect next: near a place of its own for each seed, so that all levels are met, or
+    /// anywhere.
     fn any_triangle(mesh: &Mesh, random: &mut fastrand::Rng, seed: usize) -> TriangleId {
         let focus = TriangleId::from_index(seed % mesh.coarse_triangles());
         let anywhere = TriangleId::from_index(random.usize(..mesh.triangles.len()));

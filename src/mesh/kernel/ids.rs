@@ -4,7 +4,8 @@ use super::MOST_TRIANGLES;
 
 /// A node by its place in [`Mesh::nodes`](crate::mesh::Mesh::nodes), from zero.
 ///
-/// Refinement keeps all ids. Coarsening fills gaps with the last node, never with a coarse one: those keep their ids.
+/// Refinement keeps all ids. Coarsening fills gaps with the last node, never with a coarse one: those keep
+/// their ids.
 #[repr(transparent)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Pod, Zeroable)]
 pub struct NodeId(pub(in crate::mesh) u32);
@@ -29,9 +30,10 @@ impl NodeId {
 
 /// A triangle by its place in [`Mesh::triangles`](crate::mesh::Mesh::triangles), from zero.
 ///
-/// Refinement keeps the index of a bisected triangle for one of its children, and coarsening gives a parent the lower index of
-/// its children's, so the entry with a coarse triangle's index is always one of that triangle's descendants. Coarsening fills
-/// gaps with the last entry: beyond the coarse triangles an id says nothing about the triangle that an update leaves there.
+/// Refinement keeps the index of a bisected triangle for one of its children, and coarsening gives a parent
+/// the lower index of its children's, so the entry with a coarse triangle's index is always one of that
+/// triangle's descendants. Coarsening fills gaps with the last entry: beyond the coarse triangles an id says
+/// nothing about the triangle that an update leaves there.
 #[repr(transparent)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Pod, Zeroable)]
 pub struct TriangleId(pub(in crate::mesh) u32);

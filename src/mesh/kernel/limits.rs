@@ -7,13 +7,13 @@ pub const MOST_TRIANGLES: usize = (1 << 31) - 1;
 
 /// What a mesh may cost.
 ///
-/// Once the arrays pass 2 MiB, a mesh reserves address space for [`Self::most_triangles`] in one step: about 2 GB with
-/// the default limits. Memory is used only as it is touched. On Windows, which charges for reservations, the arrays
-/// grow by doubling instead.
+/// Once the arrays pass 2 MiB, a mesh reserves address space for [`Self::most_triangles`] in one step: about
+/// 2 GB with the default limits. Memory is used only as it is touched. On Windows, which charges for
+/// reservations, the arrays grow by doubling instead.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
-    /// Most triangles; refinement that would pass it stops with an error. A triangle and its share of the nodes take
-    /// 38 bytes, and 4 more while the mesh is refined from scratch.
+    /// Most triangles; refinement that would pass it stops with an error. A triangle and its share of the
+    /// nodes take 38 bytes, and 4 more while the mesh is refined from scratch.
     pub max_triangles: usize,
     /// Deepest level, or `None` for as deep as the lattice goes. Triangles at this level count as satisfied.
     pub max_level: Option<u32>,
@@ -65,7 +65,8 @@ pub struct MemoryLimit {
 const IN_THE_MESH: usize = 38;
 /// While it is refined from scratch: the order of visits, and the vertex rule's values at nodes.
 const WHILE_MADE: usize = 8;
-/// While it is updated in place: the marks, with room to double ([`Updater::bytes`](crate::mesh::Updater::bytes)).
+/// While it is updated in place: the marks, with room to double
+/// ([`Updater::bytes`](crate::mesh::Updater::bytes)).
 const WHILE_UPDATED: usize = 2;
 
 impl MemoryLimit {

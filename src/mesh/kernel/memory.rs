@@ -6,11 +6,12 @@ use super::Mesh;
 const PAGE: usize = 2 << 20;
 
 impl Mesh {
-    /// Makes room for at least `more` further triangles and as many nodes, and never for more than `most` triangles
-    /// unless `more` asks for it. Returns how many triangles there can be before this must be called again.
+    /// Makes room for at least `more` further triangles and as many nodes, and never for more than `most`
+    /// triangles unless `more` asks for it. Returns how many triangles there can be before this must be
+    /// called again.
     ///
-    /// A large mesh reserves all it may ever need in one step: untouched memory costs nothing, and the arrays never move
-    /// again. With large pages this takes a third off the time to build two million triangles.
+    /// A large mesh reserves all it may ever need in one step: untouched memory costs nothing, and the arrays
+    /// never move again. With large pages this takes a third off the time to build two million triangles.
     #[cold]
     pub(in crate::mesh) fn make_room(&mut self, more: usize, most: usize) -> usize {
         make_room(&mut self.triangles, more, most);
@@ -31,8 +32,8 @@ impl Mesh {
         self.triangle_at.shrink_to(2 * self.triangle_at.len());
     }
 
-    /// Memory that nodes and triangles take, in bytes: 38 for each triangle, more where the mesh was larger a while ago.
-    /// What is reserved and was never touched does not count.
+    /// Memory that nodes and triangles take, in bytes: 38 for each triangle, more where the mesh was larger a
+    /// while ago. What is reserved and was never touched does not count.
     pub fn bytes(&self) -> usize {
         size_of_val(&*self.triangles) + size_of_val(&*self.nodes) + size_of_val(&*self.triangle_at)
     }
@@ -61,16 +62,16 @@ pub(in crate::mesh) fn make_room<T>(array: &mut Vec<T>, more: usize, most: usize
     array.reserve(more);
 }
 
-/// Asks the system to back the array with pages of 2 MiB: five hundred times fewer page faults and misses of the address
-/// cache. Advice only: nothing depends on whether it is taken.
+/// Asks the system to back the array with pages of 2 MiB: five hundred times fewer page faults and misses of
+/// the address cache. Advice only: nothing depends on whether it is taken.
 #[cfg(any(target_os = "linux", target_os = "android"))]
 fn advise_large_pages<T>(array: &mut Vec<T>) {
     let start = array.as_mut_ptr() as usize;
     let end = start + array.capacity() * size_of::<T>();
     let (first, last) = (start.next_multiple_of(PAGE), end / PAGE * PAGE);
     if first < last {
-        // SAFETY: the range lies within the one allocation of `array`, which is borrowed exclusively, and MADV_HUGEPAGE
-        // leaves the contents of memory as they are.
+        // SAFETY: the range lies within the one allocation of `array`, which is borrowed exclusively, and
+        // MADV_HUGEPAGE leaves the contents of memory as they are.
         #[allow(unsafe_code, reason = "advice on pages has no safe interface")]
         unsafe {
             libc::madvise(first as *mut libc::c_void, last - first, libc::MADV_HUGEPAGE)

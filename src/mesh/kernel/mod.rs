@@ -47,16 +47,18 @@ pub(in crate::mesh) const DEEPEST_LEVEL: usize = 2 * LATTICE_BITS as usize;
 ///
 /// Invariants, each with a [`Violation`] that names it; [`Mesh::violations`] lists all that are broken:
 ///
-/// 1. *Right size*: a triangle is right-angled and isosceles on the lattice, with the bisection edge of its level (Eq. 1).
+/// 1. *Right size*: a triangle is right-angled and isosceles on the lattice, with the bisection edge of its
+///    level (Eq. 1).
 /// 2. *Orientation*: vertices run the way that the triangle says.
-/// 3. *Neighbours*: edge j is shared with neighbour j and with nobody else; the other triangle says the same.
+/// 3. *Neighbours*: edge j is shared with neighbour j and with no other triangle; the other triangle says the
+///    same.
 /// 4. *Compatible*: an edge without a neighbour belongs to one triangle only and has no node in its middle.
 /// 5. *Graded*: neighbours differ by at most one level.
 /// 6. *Area*: the triangles cover exactly the coarse triangles that were kept.
 /// 7. *Nodes*: every node is a vertex of some triangle, and no two nodes coincide.
 /// 8. *Buckets*: the entry with a coarse triangle's index lies in that coarse triangle.
-/// 9. *Ledgers*: the triangle noted for a node has that node, and the triangles of each level and class are counted
-///    right.
+/// 9. *Ledgers*: the triangle noted for a node has that node, and the triangles of each level and class are
+///    counted right.
 ///
 /// The tenth, that no triangle exceeds its target (Eq. 14), needs the rule: [`Mesh::unsatisfied`].
 #[derive(Debug)]
@@ -87,8 +89,8 @@ impl Mesh {
 
     /// The nodes of the domain (𝒩) in lattice coordinates, in the order of their ids.
     ///
-    /// Nodes that only triangles outside a fitted domain have are left out; [`Self::raw_nodes`] has them. Where there
-    /// are triangles outside, this goes through all triangles first.
+    /// Nodes that only triangles outside a fitted domain have are left out; [`Self::raw_nodes`] has them.
+    /// Where there are triangles outside, this goes through all triangles first.
     pub fn nodes(&self) -> impl Iterator<Item = (NodeId, LatticePoint)> {
         let used = (self.outside_count() > 0).then(|| self.used_nodes());
         let all = self.nodes.iter().enumerate();
@@ -105,8 +107,8 @@ impl Mesh {
         used
     }
 
-    /// The array of nodes in lattice coordinates, those of the coarse grid first. It includes nodes that only triangles
-    /// outside a fitted domain have.
+    /// The array of nodes in lattice coordinates, those of the coarse grid first. It includes nodes that only
+    /// triangles outside a fitted domain have.
     pub fn raw_nodes(&self) -> &[LatticePoint] {
         &self.nodes
     }
@@ -183,7 +185,7 @@ impl Mesh {
 pub(in crate::mesh) struct KindCounts(pub(in crate::mesh) [u32; Kind::COUNT]);
 
 impl KindCounts {
-    /// Of a mesh of so many coarse triangles.
+    /// Of a mesh of this many coarse triangles.
     fn coarse(triangles: usize) -> Self {
         let mut counts = [0; Kind::COUNT];
         counts[0] = triangles as u32;
@@ -243,8 +245,8 @@ impl Clone for Mesh {
 
 /// Length ℓ_b of the bisection edge of a triangle at `level` (Eq. 1).
 ///
-/// `spacing` is the side δ of a coarse cell; both lengths are in world units. Each level divides by √2; at odd
-/// levels the result is `spacing` times a power of two, and exactly that.
+/// `spacing` is the side δ of a coarse cell; both lengths are in world units. Each level divides by √2; at
+/// odd levels the result is `spacing` times a power of two, and exactly that.
 ///
 /// ```
 /// # use meshbrush::mesh::bisection_edge_length;

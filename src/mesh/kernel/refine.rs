@@ -1,16 +1,32 @@
 //! Refinement until a rule holds everywhere: Algorithms 2 and 10 to 12.
+//!
+//! ```text
+//! while the work list has a triangle t:
+//!     if t satisfies the rule: take it off the list
+//!     else: RefineTriangle(t)                     its children take its place on the list
+//!
+//! RefineTriangle(t):
+//!     let n be the triangle across the bisection edge of t
+//!     if n is coarser than t: RefineTriangle(n)   then a child of n lies across, at the level of t
+//!     bisect t and n together, or t alone at the boundary
+//! ```
+//!
+//! RefineTriangle is the recursion of [Maubach1995] and [Kossaczky1994]. Each call goes one level up, so it
+//! ends at a coarse triangle at the latest. All calls together add at most a constant times as many triangles
+//! as exceed their target [BDD2004].
 
 use super::{Diameters, Element, InvalidTarget, Limits, Mesh, Progress, RefineError, TriangleId, make_room};
 
 /// Refinement of a mesh in slices (Algorithm 12).
 ///
-/// The mesh is conforming after every slice. The result does not depend on the slices or on the order of visits: the
-/// report goes through the array from end to end; this goes from leaf to leaf of the bisection tree, so that what it
-/// touches is near in space and still in the cache.
+/// The mesh is conforming after every slice. The result does not depend on the slices or on the order of
+/// visits: the report goes through the array from end to end; this goes from leaf to leaf of the bisection
+/// tree, so that what it touches is near in space and still in the cache.
 ///
-/// The report asks about each entry of the array until it is satisfied, and never again. But compatibility may bisect it
-/// later, and with the vertex rule a child can exceed its target where its parent did not: the new node may lie where
-/// the target is smaller. So that Eq. (14) holds, the children of a triangle that was satisfied are asked about too.
+/// The report asks about each entry of the array until it is satisfied, and never again. But compatibility
+/// may bisect it later, and with the vertex rule a child can exceed its target where its parent did not: the
+/// new node may lie where the target is smaller. So that Eq. (14) holds, the children of a triangle that was
+/// satisfied are asked about too.
 #[derive(Clone, Debug)]
 pub struct Refiner {
     limits: Limits,
@@ -20,17 +36,17 @@ pub struct Refiner {
 }
 
 impl Refiner {
-    /// Work that visits every triangle of `mesh` and whatever comes of it.
+    /// Work that visits every triangle of `mesh` and all their descendants.
     pub fn new(mesh: &Mesh, limits: Limits) -> Self {
         let mut refiner = Self { limits, work: WorkList::default(), chain: Vec::new(), capped: 0 };
         refiner.restart(mesh);
         refiner
     }
 
-    /// Begins anew, for any mesh, in the memory that the work before has taken.
+    /// Starts again, for any mesh, in the memory of the work before.
     ///
-    /// Together with `clone_from` of the coarse mesh this builds a mesh again at the speed of the cache; new memory costs
-    /// about as much time as the work.
+    /// Together with `clone_from` of the coarse mesh this builds a mesh again at the speed of the cache; new
+    /// memory costs about as much time as the work.
     pub fn restart(&mut self, mesh: &Mesh) {
         self.work.restart(mesh.triangles.len());
         self.capped = 0;
@@ -38,8 +54,8 @@ impl Refiner {
 
     /// Refines until done or until `visits` triangles were asked about.
     ///
-    /// `exceeds` is the local refinement condition (Eq. 13): whether an element's diameter exceeds its target. It
-    /// must depend on the element alone.
+    /// `exceeds` is the local refinement condition (Eq. 13): whether an element's diameter exceeds its
+    /// target. It must depend on the element alone.
     ///
     /// # Errors
     /// When the rule meets a bad target, or a limit is reached.
@@ -52,7 +68,7 @@ impl Refiner {
         let deepest = mesh.lattice.deepest_level();
         let cap = self.limits.level_cap();
         let diameters = Diameters::of(mesh);
-        // So many triangles there can be before memory or the budget must be looked at.
+        // The count of triangles up to which neither memory nor the limits need a look.
         let mut room = 0;
         // Ends: each turn is done with a triangle or takes it one level down, and levels are bounded.
         for _ in 0..visits {
@@ -61,6 +77,7 @@ impl Refiner {
                 self.work.next();
                 continue;
             }
+            // It exceeds its target: bisect it, unless its level forbids.
             let level = mesh.triangle(id).level();
             if level >= cap {
                 self.capped += 1;
@@ -79,8 +96,8 @@ impl Refiner {
         Ok(if self.work.current().is_none() { Progress::Done } else { Progress::More })
     }
 
-    /// Makes room for the next call of RefineTriangle, which appends at most `most_new` triangles; returns how many
-    /// triangles the mesh can have before this must be asked again.
+    /// Makes room for the next call of RefineTriangle, which appends at most `most_new` triangles; returns
+    /// how many triangles the mesh can have before this must be asked again.
     #[cold]
     fn room_for(&mut self, mesh: &mut Mesh, id: TriangleId, most_new: usize) -> Result<usize, RefineError> {
         let room = mesh.room_for(id, most_new, &self.limits)?;
@@ -97,8 +114,15 @@ impl Refiner {
 
 /// The triangles still to be asked about.
 ///
-/// They are a linked list in the order of the leaves of the bisection tree: a new triangle goes in behind its sibling,
-/// which keeps their parent's place. Children of triangles that the list has passed wait on a stack.
+/// They are a linked list in the order of the leaves of the bisection tree: a new triangle goes in behind its
+/// sibling, which keeps their parent's place. Children of triangles that the list has passed wait on a stack.
+///
+/// ```text
+///   passed          head
+///   0   1   2   │   3 → 5 → 4 → END          bisecting 5 appends 6:   3 → 5 → 6 → 4 → END
+///       ↑       │
+///   bisected meanwhile: 1 and its new child go onto the stack, and are taken before 3
+/// ```
 #[derive(Clone, Debug, Default)]
 struct WorkList {
     /// For each triangle the next one in the list, or `END`, or `PASSED`.
@@ -177,7 +201,8 @@ impl Mesh {
         Ok(refiner.capped())
     }
 
-    /// Bisects one triangle, and first whatever must be bisected to keep the mesh compatible (Algorithms 10 and 11).
+    /// Bisects one triangle, and before it those that must be bisected to keep the mesh compatible
+    /// (Algorithms 10 and 11).
     ///
     /// New triangles and nodes are appended; the entry `id` becomes one of the two children.
     ///
@@ -189,8 +214,9 @@ impl Mesh {
         self.refine_triangle_with(id, &mut Vec::new(), |_| {});
     }
 
-    /// As [`Self::refine_triangle`], with a stack to reuse; tells of every entry that it bisects, in the order of the new
-    /// entries. Each entry of the chain is one level above the one before, so it ends at a coarse triangle at the latest.
+    /// As [`Self::refine_triangle`], with a stack to reuse; calls `bisected` with every entry that it
+    /// bisects, in the order of the new entries. Each entry of the chain is one level above the one before,
+    /// so it ends at a coarse triangle at the latest.
     #[inline]
     pub(super) fn refine_triangle_with(
         &mut self,
@@ -225,8 +251,8 @@ impl Mesh {
         }
     }
 
-    /// Makes room for a call of [`Self::refine_triangle`] that appends at most `most_new` triangles; returns how many triangles
-    /// there can be before this must be asked again.
+    /// Makes room for a call of [`Self::refine_triangle`] that appends at most `most_new` triangles; returns
+    /// how many triangles there can be before this must be asked again.
     ///
     /// # Errors
     /// When the call would pass the triangle budget.
@@ -245,8 +271,8 @@ impl Mesh {
         Ok(self.make_room(most_new, limit).min(limit))
     }
 
-    /// The most triangles that [`Self::refine_triangle`] appends for one of this level: the closure bisects at most one pair at
-    /// each level down to it.
+    /// The most triangles that [`Self::refine_triangle`] appends for one of this level: the closure bisects
+    /// at most one pair at each level down to it.
     #[inline]
     pub(super) fn most_new_triangles(level: u32) -> usize {
         2 * (level as usize + 1)

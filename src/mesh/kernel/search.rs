@@ -5,10 +5,10 @@ use crate::geometry::{LatticePoint, LatticeRect};
 
 /// A search for the triangles that touch a rectangle.
 ///
-/// In one coarse triangle they can be reached from each other across edges: what it has in common with the rectangle is convex,
-/// and on the straight way between two points of it one goes from triangle to triangle across an edge, or round a node that
-/// lies in the rectangle too. So one triangle for each coarse triangle that the rectangle touches is enough to start from, holes
-/// or not.
+/// In one coarse triangle they can be reached from each other across edges: what it has in common with the
+/// rectangle is convex, and on the straight way between two points of it one goes from triangle to triangle
+/// across an edge, or around a node that lies in the rectangle too. So one triangle for each coarse triangle
+/// that the rectangle touches is enough to start from, holes or not.
 #[derive(Clone, Debug)]
 pub(in crate::mesh) struct Search {
     area: LatticeRect,
@@ -76,7 +76,8 @@ impl Search {
         (row <= r1).then_some(([c0 + (cell % across) as u32, row], upper))
     }
 
-    /// A triangle in the given half of a cell that touches the area, unless the half does not or is not in the domain.
+    /// A triangle in the given half of a cell that touches the area, unless the half does not or is not in
+    /// the domain.
     fn start(&self, mesh: &Mesh, [column, row]: [u32; 2], upper: bool) -> Option<TriangleId> {
         let number = 2 * (row as usize * mesh.lattice().cells()[0] as usize + column as usize);
         let entry = mesh.coarse.get(number + usize::from(upper))?;

@@ -9,9 +9,9 @@ use super::{Neighbour, NodeId};
 ///   even level, and to the second at an odd level.
 /// - `raw_neighbours` anticlockwise, the one across the bisection edge first.
 ///
-/// Which triangle is the *sibling*, the other child of the same parent, cannot always be told from the order of
-/// the vertices: at level 1, the four triangles round a node fit both ways. The lattice decides, at every level; the rule and its
-/// proof stand at the head of `coarsen.rs`.
+/// Which triangle is the *sibling*, the other child of the same parent, does not always follow from the order
+/// of the vertices: at level 1, the four triangles around a node fit both ways. The lattice decides, at every
+/// level; the rule and its proof stand at the head of `coarsen.rs`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Pod, Zeroable)]
 pub struct Triangle {
@@ -24,9 +24,10 @@ pub struct Triangle {
     kind: Kind,
 }
 
-/// Level and class of a triangle in one word: the level, plus [`Kind::OUTSIDE`] where it lies outside the domain.
+/// Level and class of a triangle in one word: the level, plus [`Kind::OUTSIDE`] where it lies outside the
+/// domain.
 ///
-/// Children are of their parent's class until somebody asks anew.
+/// Children are of their parent's class until they are classified themselves.
 #[repr(transparent)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Pod, Zeroable)]
 pub(in crate::mesh) struct Kind(u32);
@@ -76,7 +77,7 @@ impl Kind {
     }
 }
 
-/// Which way the vertices of a triangle run round it, O(t).
+/// Which way the vertices of a triangle run around it, O(t).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Orientation {
     /// O(t) = 0.
@@ -86,7 +87,7 @@ pub enum Orientation {
 }
 
 impl Orientation {
-    /// The other way round.
+    /// The opposite orientation.
     #[inline]
     pub const fn reversed(self) -> Self {
         match self {
@@ -169,8 +170,9 @@ impl Triangle {
         if self.level() == 0 { None } else { Some(self.apex()) }
     }
 
-    /// The edges as pairs of places among the vertices, each (from, to), anticlockwise round the triangle and
-    /// beginning with the bisection edge: edge j is shared with neighbour j (ℰ of the report, from right to left).
+    /// The edges as pairs of places among the vertices, each (from, to), anticlockwise around the triangle
+    /// and beginning with the bisection edge: edge j is shared with neighbour j (ℰ of the report, from right
+    /// to left).
     #[inline]
     pub const fn edges(&self) -> [(usize, usize); 3] {
         match (self.bisection_end(), self.orientation()) {
@@ -181,7 +183,8 @@ impl Triangle {
         }
     }
 
-    /// For each vertex whether no triangle at all, inside or outside the domain, lies across the opposite edge.
+    /// For each vertex whether no triangle at all, inside or outside the domain, lies across the opposite
+    /// edge.
     #[inline]
     pub fn raw_boundary_opposite(&self) -> [bool; 3] {
         let mut boundary = [false; 3];

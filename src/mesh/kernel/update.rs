@@ -1,47 +1,64 @@
 //! The mesh after the rule has changed in some places: refined and coarsened there, and nowhere else.
 //!
+//! ```text
+//!   changed rectangle                            bitsets over the array of triangles
+//!        │ search                                ┌──────────────┐
+//!        ├─ exceeds its target ────────────────► │  exceeding   │ ─ refine ─► children keep the mark
+//!        └─ every triangle found ──────────────► │  loose       │ ─ coarsen ► parents become loose
+//!                                                └──────────────┘
+//!   order: search first, then refine while anything exceeds, then coarsen; done when both are empty
+//! ```
+//!
 //! # What is done
 //!
-//! Three kinds of work, always in this order: *search* for the triangles that touch a changed rectangle; *refine* those that
-//! exceed their target, until none does; *coarsen*: let nodes go that nothing needs any more, until there is none.
+//! Three kinds of work, always in this order: *search* for the triangles that touch a changed rectangle;
+//! *refine* those that exceed their target, until none does; *coarsen*: let nodes go that nothing needs any
+//! more, until there is none.
 //!
 //! # Why it ends at the mesh made from scratch
 //!
-//! The rule must be monotone: a triangle inside a satisfied triangle is satisfied. Then the conforming refinements that satisfy
-//! it have a smallest one, M*, which every other refines. The work keeps two promises at all times:
+//! The rule must be monotone: a triangle inside a satisfied triangle is satisfied. Then the conforming
+//! refinements that satisfy it have a smallest one, M*, which every other refines. The work keeps two
+//! promises at all times:
 //!
 //! 1. A triangle that exceeds its target is marked as *exceeding*. (One that is marked may have ceased to.)
-//! 2. A node that could go has a triangle round it that is marked as *loose*. A node can go when it is the newest vertex of all
-//!    triangles round it (four, or two at the boundary) and neither parent exceeds its target.
+//! 2. A node that could go has a triangle around it that is marked as *loose*. A node can go when it is the
+//!    newest vertex of all triangles around it (four, or two at the boundary) and neither parent exceeds its
+//!    target.
 //!
-//! A change of the rule within a rectangle keeps them once it is searched: every triangle that touches the rectangle is asked,
-//! and marked as loose, as a parent that touches it has a child that does. Bisection keeps them: the children take over the
-//! mark of their parent, and where it had none they are satisfied by monotony. Coarsening keeps them: a node can become free
-//! only when a triangle round it is put back, and those are marked as loose.
+//! A change of the rule within a rectangle keeps them once it is searched: every triangle that touches the
+//! rectangle is asked, and marked as loose, as a parent that touches it has a child that does. Bisection
+//! keeps them: the children take over the mark of their parent, and where it had none they are satisfied by
+//! monotony. Coarsening keeps them: a node can become free only when a triangle around it is put back, and
+//! those are marked as loose.
 //!
-//! Once no mark is left, all triangles are satisfied and no node can go, and this is M*. For were it finer, take a triangle
-//! of the deepest level among those that lie strictly inside a triangle of M*. No triangle round its newest vertex was
-//! bisected, or there would be a deeper one; and the parents lie in triangles of M*, so they are satisfied. That node could go.
+//! Once no mark is left, all triangles are satisfied and no node can go, and this is M*. For were it finer,
+//! take a triangle of the deepest level among those that lie strictly inside a triangle of M*. No triangle
+//! around its newest vertex was bisected, or there would be a deeper one; and the parents lie in triangles of
+//! M*, so they are satisfied. That node could go.
 //!
 //! # Why it ends, and how soon
 //!
-//! A triangle that exceeds its target is bisected in every mesh that satisfies the rule, and what compatibility demands besides
-//! is too: nodes that are created belong to M*. Once all triangles are satisfied, nodes that go do not. So as long as the rule
-//! stays the same, each node is created or removed once at most, and only those in which the meshes before and after differ.
-//! Beyond that there is one question for each triangle that touches a rectangle, and a few for each that changes. The
-//! search starts in the coarse triangles that the rectangle touches and goes from neighbour to neighbour. Nothing looks at the
+//! A triangle that exceeds its target is bisected in every mesh that satisfies the rule, and what
+//! compatibility demands besides is too: nodes that are created belong to M*. Once all triangles are
+//! satisfied, nodes that go do not. So as long as the rule stays the same, each node is created or removed
+//! once at most, and only those in which the meshes before and after differ. Beyond that there is one
+//! question for each triangle that touches a rectangle, and a few for each that changes. The search starts in
+//! the coarse triangles that the rectangle touches and goes from neighbour to neighbour. Nothing looks at the
 //! rest of the mesh.
 //!
-//! Where the triangle budget is met while nodes could go, these go first, until none can. By the same argument the mesh is then
-//! nowhere finer than M*, and what is bisected from there on belongs to M*: the budget is met again only if M* does not fit.
+//! Where the triangle budget is met while nodes could go, these go first, until none can. By the same
+//! argument the mesh is then nowhere finer than M*, and what is bisected from there on belongs to M*: the
+//! budget is met again only if M* does not fit.
 //!
 //! # How the work survives the moves
 //!
-//! Coarsening fills a gap in the arrays with the last entry. What is still to be done is a set of marks on places of the array,
-//! and the mark moves with its entry. The search alone remembers ids, and while it goes on nothing moves.
+//! Coarsening fills a gap in the arrays with the last entry. What is still to be done is a set of marks on
+//! places of the array, and the mark moves with its entry. The search alone remembers ids, and during it
+//! nothing moves.
 //!
-//! Triangles are taken from the end of the array: the youngest first. Those are near in space and in memory, and when a place
-//! is painted and erased again, entries leave from the end and no other has to move.
+//! Triangles are taken from the end of the array: the youngest first. Those are near in space and in memory,
+//! and when a place is painted and erased again, entries leave from the end and no other has to move.
 
 use super::changes::ChangeLog;
 use super::coarsen::Star;
@@ -53,10 +70,11 @@ use crate::geometry::LatticeRect;
 
 /// Brings a mesh up to date where its rule has changed, in slices.
 ///
-/// For a mesh that satisfied a monotone rule before ([`Mesh::refine`] makes one), the result is the mesh made from scratch, up
-/// to the order of its entries. The minimum of a target over the closed triangle is such a rule; the report's Eq. (12), the
-/// minimum over the vertices, is not. Time and memory go with the triangles that touch the changed rectangles, and those that
-/// change, and not with the mesh. The mesh is conforming after every slice.
+/// For a mesh that satisfied a monotone rule before ([`Mesh::refine`] makes one), the result is the mesh made
+/// from scratch, up to the order of its entries. The minimum of a target over the closed triangle is such a
+/// rule; the report's Eq. (12), the minimum over the vertices, is not. Time and memory go with the triangles
+/// that touch the changed rectangles, and those that change, and not with the mesh. The mesh is conforming
+/// after every slice.
 ///
 /// ```
 /// use meshbrush::geometry::{Lattice, LatticeRect, Rect};
@@ -78,9 +96,9 @@ use crate::geometry::LatticeRect;
 /// while updater.advance(&mut mesh, |element| Ok(exceeds(element, &after)), 100)? == Progress::More {
 ///     assert!(mesh.violations().is_empty()); // it could be drawn
 /// }
-/// # let mut anew = Mesh::coarse_grid(&lattice, |_| true, &Limits::default())?;
-/// # anew.refine(&Limits::default(), |element| Ok(exceeds(element, &after)))?;
-/// assert_eq!(mesh.fingerprint(), anew.fingerprint());
+/// # let mut scratch = Mesh::coarse_grid(&lattice, |_| true, &Limits::default())?;
+/// # scratch.refine(&Limits::default(), |element| Ok(exceeds(element, &after)))?;
+/// assert_eq!(mesh.fingerprint(), scratch.fingerprint());
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug)]
@@ -90,7 +108,7 @@ pub struct Updater {
     areas: Vec<Area>,
     search: Option<Search>,
     /// Whether all triangles that the search finds count as changed.
-    tells: bool,
+    reports_all: bool,
     /// Triangles found by the search under way; otherwise empty.
     reached: Bitset,
     /// Triangles that may exceed their target.
@@ -110,7 +128,7 @@ impl Updater {
             limits,
             areas: Vec::new(),
             search: None,
-            tells: false,
+            reports_all: false,
             reached: Bitset::default(),
             exceeding: Bitset::default(),
             loose: Bitset::default(),
@@ -126,14 +144,15 @@ impl Updater {
         self.limits = limits;
     }
 
-    /// Adds a rectangle to the work: the rule may give another answer for triangles that touch it. Must be called before the next
-    /// [`Self::advance`] after such a change, and may be called while earlier work is under way.
+    /// Adds a rectangle to the work: the rule may give another answer for triangles that touch it. Must be
+    /// called before the next [`Self::advance`] after such a change, and may be called while earlier work is
+    /// under way.
     pub fn add(&mut self, area: LatticeRect) {
         self.areas.push(Area { rect: area, tell: false });
     }
 
-    /// As [`Self::add`], where besides something has changed that is derived from each triangle alone: all that touch the rectangle
-    /// are told of as changed ([`Self::take_changes`]).
+    /// As [`Self::add`], where besides something has changed that is derived from each triangle alone: all
+    /// that touch the rectangle count as changed ([`Self::take_changes`]).
     pub fn add_and_tell(&mut self, area: LatticeRect) {
         self.areas.push(Area { rect: area, tell: true });
     }
@@ -146,8 +165,8 @@ impl Updater {
             && self.loose.count() == 0
     }
 
-    /// Gives up what is left to do. The mesh is conforming, but where work was left it may be coarser or finer than it ought
-    /// to be, until it is made anew.
+    /// Gives up what is left to do. The mesh is conforming, but where work was left it may be coarser or
+    /// finer than it ought to be, until it is made from scratch.
     pub fn cancel(&mut self) {
         self.areas.clear();
         self.search = None;
@@ -172,15 +191,17 @@ impl Updater {
         marks.map(Bitset::bytes).iter().sum()
     }
 
-    /// Works until done or until `visits` triangles were looked at. A visit bisects one pair at each level at most.
+    /// Works until done or until `visits` triangles were looked at. A visit bisects one pair at each level at
+    /// most.
     ///
-    /// `exceeds` tells whether an element's diameter exceeds its target. It must depend on the element alone, be monotone, and
-    /// answer as ever outside the rectangles that were added. A parent that could be put back is no entry of the array; what it
-    /// says about its nodes and neighbours is what it would say then.
+    /// `exceeds` returns whether an element's diameter exceeds its target. It must depend on the element
+    /// alone, be monotone, and answer as before outside the rectangles that were added. A parent that could
+    /// be put back is no entry of the array; what it says about its nodes and neighbours is what it would say
+    /// then.
     ///
     /// # Errors
-    /// When the rule meets a bad target, or a limit is reached. The mesh is conforming and the work is kept: after a change of
-    /// the rule that is added it may go on.
+    /// When the rule meets a bad target, or a limit is reached. The mesh is conforming and the work is kept:
+    /// after a change of the rule that is added it may go on.
     pub fn advance(
         &mut self,
         mesh: &mut Mesh,
@@ -192,7 +213,7 @@ impl Updater {
         let mut exceeds = |element: &Element| -> Result<bool, InvalidTarget> {
             Ok(element.triangle.level() < cap && exceeds(element)?)
         };
-        // So many triangles there can be before memory or the budget must be looked at.
+        // The count of triangles up to which neither memory nor the limits need a look.
         let mut room = 0;
         self.most_triangles = self.most_triangles.max(mesh.raw_triangle_count());
         // Ends: see the head of this file.
@@ -238,7 +259,7 @@ impl Updater {
         let Some(search) = &mut self.search else {
             if let Some(area) = self.areas.pop() {
                 self.search = Some(Search::new(mesh, area.rect));
-                self.tells = area.tell;
+                self.reports_all = area.tell;
             }
             return Ok(());
         };
@@ -247,7 +268,7 @@ impl Updater {
                 self.exceeding.insert(id.index());
             }
             self.loose.insert(id.index());
-            if self.tells {
+            if self.reports_all {
                 self.log.triangle(id);
                 self.log.step();
             }

@@ -15,12 +15,13 @@ pub(in crate::mesh) enum WalkEnd {
 }
 
 impl Mesh {
-    /// Steps from triangle to triangle towards `p` in lattice coordinates, across the first edge that has it strictly
-    /// beyond.
+    /// Steps from triangle to triangle towards `p` in lattice coordinates, across the first edge that has it
+    /// strictly beyond.
     ///
-    /// With exact tests such a walk in a Delaunay triangulation comes strictly nearer (in power distance) at every step, so
-    /// it visits no triangle twice. All angles are at most 90°, so every mesh of this method is Delaunay. No random order of
-    /// edges and no memory of the previous triangle are needed to end; skipping the edge just crossed only saves a test.
+    /// With exact tests such a walk in a Delaunay triangulation comes strictly nearer (in power distance) at
+    /// every step, so it visits no triangle twice. All angles are at most 90°, so every mesh of this method
+    /// is Delaunay. No random order of edges and no memory of the previous triangle are needed to end;
+    /// skipping the edge just crossed only saves a test.
     #[inline]
     pub(in crate::mesh) fn walk(&self, start: TriangleId, p: DVec2) -> WalkEnd {
         let mut id = start;
@@ -55,8 +56,8 @@ impl Mesh {
         self.raw_triangles_around(node, self.raw_triangle_at(node)).filter(|&id| self.is_in_domain(id))
     }
 
-    /// The triangles around `node` that can be reached from `start` (one of them) across edges, `start` first, those outside
-    /// the domain included.
+    /// The triangles around `node` that can be reached from `start` (one of them) across edges, `start`
+    /// first, those outside the domain included.
     ///
     /// At most eight. Where only a corner joins two parts of the domain, the other part is not reached.
     #[inline]
@@ -81,11 +82,11 @@ impl Mesh {
         .take(8)
     }
 
-    /// The next triangle round `node`, `None` at the boundary.
+    /// The next triangle around `node`, `None` at the boundary.
     #[inline]
     fn turn(&self, node: NodeId, id: TriangleId, clockwise: bool) -> Option<TriangleId> {
         let triangle = self.triangle(id);
-        // Anticlockwise edges: the one that ends in the node is crossed to turn anticlockwise round it.
+        // Anticlockwise edges: the one that ends in the node is crossed to turn anticlockwise around it.
         let crossed =
             triangle.edge_nodes().iter().position(|&(from, to)| node == if clockwise { from } else { to })?;
         triangle.raw_neighbours[crossed].triangle()

@@ -2,8 +2,8 @@ use crate::mesh::kernel::{Mesh, NodeId};
 
 /// Which nodes are joined by an edge to which (Algorithm 13), as compressed rows.
 ///
-/// The report reserves 16 places for each node and deletes duplicates afterwards. Here each edge is met once, by the
-/// triangle with the lower index, so that no duplicate arises.
+/// The report reserves 16 places for each node and deletes duplicates afterwards. Here each edge is met once,
+/// by the triangle with the lower index, so that no duplicate arises.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Adjacency {
     row_starts: Vec<u32>,
@@ -50,8 +50,8 @@ impl Mesh {
         })
     }
 
-    /// The adjacency rows (Algorithm 13), one for each entry of [`Mesh::raw_nodes`], in time proportional to the mesh. The
-    /// rows of nodes that only triangles outside the domain have are empty.
+    /// The adjacency rows (Algorithm 13), one for each entry of [`Mesh::raw_nodes`], in time proportional to
+    /// the mesh. The rows of nodes that only triangles outside the domain have are empty.
     pub fn adjacency(&self) -> Adjacency {
         let mut row_starts = vec![0u32; self.nodes.len() + 1];
         for (a, b) in self.edges() {

@@ -1,4 +1,4 @@
-//! The invariants of a mesh, executable. Not fast: meant for tests and for doubt.
+//! The invariants of a mesh as executable checks. They are slow: for tests and debugging.
 
 use std::collections::{BTreeMap, HashMap};
 
@@ -27,7 +27,8 @@ pub enum Violation {
         /// Place of the edge, the bisection edge first.
         edge: usize,
     },
-    /// Invariant 4: two triangles have the edge, and one says that it is on the boundary; or more than two have it.
+    /// Invariant 4: two triangles have the edge, and one says that it is on the boundary; or more than two
+    /// have it.
     #[error("the edge from node {0:?} to {1:?} is shared, but not by neighbours")]
     UnmatchedEdge(NodeId, NodeId),
     /// Invariant 4: a node in the middle of a boundary edge.
@@ -129,7 +130,8 @@ impl Mesh {
         let [from, to] = triangle.bisection_edge().map(|v| self.node(v));
         let apex = self.node(triangle.apex());
         let cell = u128::from(self.lattice.cell_steps());
-        // The square of the bisection edge is 2 δ² at level 0 and halves with each level; each leg's is half of it.
+        // The square of the bisection edge is 2 δ² at level 0 and halves with each level; each leg's is half
+        // of it.
         let long = (2 * cell * cell) >> triangle.level();
         let legs_fit = [from, to].iter().all(|&end| 2 * squared_distance(apex, end) == long);
         if squared_distance(from, to) != long || !legs_fit {
@@ -269,15 +271,16 @@ fn twice_signed_area([a, b, c]: [LatticePoint; 3]) -> i128 {
     ab.0 * ac.1 - ab.1 * ac.0
 }
 
-/// A check that never fails proves nothing: each test breaks a mesh by hand, and one violation must name the break.
+/// A check that never fails proves nothing: each test breaks a mesh on purpose, and a violation must name the
+/// break.
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::geometry::{Lattice, Rect};
     use crate::mesh::{Limits, Neighbour, Triangle};
 
-    /// The unit square in 2 × 2 cells, refined round the first triangle.
-    fn sound_mesh() -> Mesh {
+    /// The unit square in 2 × 2 cells, refined around the first triangle.
+    fn valid_mesh() -> Mesh {
         let mut mesh = Mesh::coarse_grid(
             &Lattice::covering(Rect::UNIT, 0.5, 1_000_000).unwrap(),
             |_| true,
@@ -311,24 +314,24 @@ mod tests {
 
     #[test]
     fn a_dangling_reference_is_reported() {
-        let mut mesh = sound_mesh();
+        let mut mesh = valid_mesh();
         mesh.triangles[2].vertices[1] = NodeId(999);
         assert_eq!(mesh.violations(), [Violation::DanglingReference(TriangleId(2))]);
-        let mut mesh = sound_mesh();
+        let mut mesh = valid_mesh();
         mesh.triangles[3].raw_neighbours[2] = TriangleId(999).into();
         assert_eq!(mesh.violations(), [Violation::DanglingReference(TriangleId(3))]);
     }
 
     #[test]
     fn a_wrong_shape_is_reported() {
-        let mut mesh = sound_mesh();
+        let mut mesh = valid_mesh();
         mesh.triangles[1] = with_level(mesh.triangles[1], mesh.triangles[1].level() + 2);
         assert_reported(&mesh, |v| *v == Violation::WrongShape(TriangleId(1)));
     }
 
     #[test]
     fn a_wrong_orientation_is_reported() {
-        let mut mesh = sound_mesh();
+        let mut mesh = valid_mesh();
         let t = mesh.triangles[1];
         mesh.triangles[1] = Triangle::new(t.vertices, t.raw_neighbours, t.orientation().reversed(), t.kind());
         assert_reported(&mesh, |v| *v == Violation::WrongOrientation(TriangleId(1)));
@@ -336,11 +339,11 @@ mod tests {
 
     #[test]
     fn an_asymmetric_neighbour_is_reported() {
-        let mut mesh = sound_mesh();
+        let mut mesh = valid_mesh();
         let (a, b) = pair(&mesh);
         mesh.triangles[b.index()].raw_neighbours[0] = Neighbour::BOUNDARY;
         assert_reported(&mesh, |v| *v == Violation::AsymmetricNeighbour { triangle: a, edge: 0 });
-        let mut mesh = sound_mesh();
+        let mut mesh = valid_mesh();
         mesh.triangles[a.index()].raw_neighbours.rotate_left(1);
         assert_reported(
             &mesh,
@@ -350,7 +353,7 @@ mod tests {
 
     #[test]
     fn a_shared_edge_called_boundary_on_both_sides_is_reported() {
-        let mut mesh = sound_mesh();
+        let mut mesh = valid_mesh();
         let (a, b) = pair(&mesh);
         mesh.triangles[a.index()].raw_neighbours[0] = Neighbour::BOUNDARY;
         mesh.triangles[b.index()].raw_neighbours[0] = Neighbour::BOUNDARY;
@@ -360,7 +363,7 @@ mod tests {
 
     #[test]
     fn a_hanging_node_is_reported() {
-        let mut mesh = sound_mesh();
+        let mut mesh = valid_mesh();
         let (a, b) = pair(&mesh);
         mesh.triangles[a.index()].raw_neighbours[0] = Neighbour::BOUNDARY;
         mesh.triangles[b.index()].raw_neighbours[0] = Neighbour::BOUNDARY;
@@ -371,7 +374,7 @@ mod tests {
 
     #[test]
     fn a_jump_of_two_levels_is_reported() {
-        let mut mesh = sound_mesh();
+        let mut mesh = valid_mesh();
         let (a, b) = pair(&mesh);
         mesh.triangles[a.index()] = with_level(mesh.triangles[a.index()], mesh.triangle(b).level() + 2);
         assert_reported(&mesh, |v| *v == Violation::LevelJump(a.min(b), a.max(b)));
@@ -379,7 +382,7 @@ mod tests {
 
     #[test]
     fn a_lost_area_is_reported() {
-        let mut mesh = sound_mesh();
+        let mut mesh = valid_mesh();
         let extent = mesh.lattice.extent();
         let corner = mesh.nodes.iter().position(|&n| n == extent).unwrap();
         mesh.nodes[corner].x -= 2;
@@ -391,7 +394,7 @@ mod tests {
 
     #[test]
     fn an_unused_node_and_one_on_top_of_another_are_reported() {
-        let mut mesh = sound_mesh();
+        let mut mesh = valid_mesh();
         let extra = NodeId::from_index(mesh.nodes.len());
         mesh.nodes.push(mesh.nodes[4]);
         assert_reported(&mesh, |v| *v == Violation::OrphanNode(extra));
@@ -400,7 +403,7 @@ mod tests {
 
     #[test]
     fn a_lost_bucket_is_reported() {
-        let mut mesh = sound_mesh();
+        let mut mesh = valid_mesh();
         mesh.triangles.swap(2, 5);
         assert_reported(&mesh, |v| *v == Violation::LostBucket(TriangleId(2)));
         assert_reported(&mesh, |v| *v == Violation::LostBucket(TriangleId(5)));
@@ -408,15 +411,15 @@ mod tests {
 
     #[test]
     fn a_wrong_entry_of_a_ledger_is_reported() {
-        let mut mesh = sound_mesh();
+        let mut mesh = valid_mesh();
         let elsewhere = mesh.triangles.iter().position(|t| !t.vertices.contains(&NodeId(4))).unwrap();
         mesh.triangle_at[4] = TriangleId::from_index(elsewhere);
         assert_eq!(mesh.violations(), [Violation::LostNode(NodeId(4))]);
-        let mut mesh = sound_mesh();
+        let mut mesh = valid_mesh();
         mesh.counts.0[7] += 1;
         let miscounted = Violation::Miscounted { level: 7, outside: false, noted: 1, counted: 0 };
         assert_eq!(mesh.violations(), [miscounted]);
-        let mut mesh = sound_mesh();
+        let mut mesh = valid_mesh();
         mesh.triangles[3].set_outside(true);
         assert_reported(&mesh, |v| matches!(v, Violation::Miscounted { outside: true, .. }));
     }

@@ -1,9 +1,10 @@
 use crate::geometry::LatticePoint;
 use crate::mesh::kernel::Mesh;
 
-/// A hash of a mesh's set of triangles, whatever their order and numbering.
+/// A hash of a mesh's set of triangles, independent of their order and numbering.
 ///
-/// Equal meshes have equal fingerprints; different ones differ but for a chance of 2⁻¹²⁸.
+/// Equal meshes have equal fingerprints. Different meshes have different ones unless the hashes collide,
+/// which must be expected to be rare but is not proved; it is no protection against a mesh made to collide.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Fingerprint(pub u128);
 

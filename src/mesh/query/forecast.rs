@@ -1,20 +1,31 @@
 //! What an update would do to a mesh, counted without doing it.
 //!
-//! A bisection makes one node, and a node names its bisection: the triangles that share the edge of which it is the middle, one
-//! or two. So a mesh is told apart from its coarse grid by a set of nodes, and an update by the nodes that come and those that
-//! go. The work is that of [`Updater`](crate::mesh::Updater), in the same order and for the same reasons; but where that one changes
-//! entries, this one notes nodes. Triangles that are not in the array are known by their corners alone: parent, children and
-//! the mirror image across the bisection edge follow from the lattice, as the head of `coarsen.rs` tells.
+//! A bisection makes one node, and a node names its bisection: the triangles that share the edge of which it
+//! is the middle, one or two. So a mesh is its coarse grid and a set of nodes, and an update is the nodes
+//! that come and those that go. The work is that of [`Updater`](crate::mesh::Updater), in the same order and
+//! for the same reasons; but where that one changes entries, this one notes nodes. Triangles that are not in
+//! the array are known by their corners alone: parent, children and the mirror image across the bisection
+//! edge follow from the lattice, as the head of `coarsen.rs` shows.
+//!
+//! ```text
+//!          o                 m comes: both triangles are bisected, so one node gained is two triangles gained
+//!        /   \               (one at the boundary); m goes: the two are put back
+//!      o---m---o
+//!        \   /               fates: m → comes | goes | stays
+//!          o
+//! ```
 
 use std::collections::HashMap;
 
 use crate::geometry::{Lattice, LatticePoint, LatticeRect};
 use crate::mesh::kernel::{Bitset, Limits, Mesh, Progress, RefineError, Search, TriangleId, WalkEnd};
 
-/// Counts what [`Updater`](crate::mesh::Updater) would do after a change of the rule, in slices, and leaves the mesh alone.
+/// Counts what [`Updater`](crate::mesh::Updater) would do after a change of the rule, in slices, and leaves
+/// the mesh alone.
 ///
-/// The mesh must be at rest: the one made from scratch by the rule as it was. It must not change until the count is done. Time
-/// and memory go with the triangles that touch the changed rectangle and those that would come and go.
+/// The mesh must be up to date: the one made from scratch by the rule as it was. It must not change until the
+/// count is done. Time and memory go with the triangles that touch the changed rectangle and those that would
+/// come and go.
 ///
 /// ```
 /// use meshbrush::geometry::{Lattice, Rect};
@@ -99,8 +110,8 @@ impl TreeTriangle {
         self.children().iter().map(counts).sum::<i64>() - counts(self)
     }
 
-    /// The triangle that this one is half of; its level must not be 0. Which of its ends is the parent's apex is what the
-    /// table at the head of `coarsen.rs` says, at even levels in units half as large.
+    /// The triangle that this one is half of; its level must not be 0. Which of its ends is the parent's apex
+    /// is what the table at the head of `coarsen.rs` says, at even levels in units half as large.
     fn parent(&self, lattice: &Lattice) -> Self {
         let ([first, second], middle) = (self.ends, self.apex);
         let unit = lattice.halvings() - self.level / 2;
@@ -179,8 +190,9 @@ impl Forecast {
 
     /// Counts until done or until `visits` triangles were looked at.
     ///
-    /// `exceeds` is the rule as it would be, asked by corners and level. It must be monotone, and answer as ever outside the area.
-    /// `is_in_domain` tells of any triangle, by the same, whether it lies in the domain.
+    /// `exceeds` is the rule as it would be, asked by corners and level. It must be monotone, and answer as
+    /// before outside the area. `is_in_domain` returns whether a triangle, by corners and level, lies in the
+    /// domain.
     ///
     /// # Errors
     /// When a target is finer than the lattice. The triangle budget is not looked at: the caller compares.
@@ -226,7 +238,8 @@ impl Forecast {
         if let Some(id) = self.search.found() {
             self.search.spread_from(mesh, id, &mut self.reached);
             self.asked.push(TreeTriangle::of(mesh, id));
-            // Where a triangle round it was bisected, the newest vertex is looked at once that one is put back.
+            // Where a triangle around it was bisected, the newest vertex is looked at once that one is put
+            // back.
             if mesh.star_of(id).is_some() {
                 self.loose.push(id);
             }
@@ -235,8 +248,8 @@ impl Forecast {
         }
     }
 
-    /// Notes that a triangle is bisected, and first whatever must be to keep the mesh compatible. Each of the chain is one level
-    /// above the one before.
+    /// Notes that a triangle is bisected, and before it those that must be to keep the mesh compatible. Each
+    /// of the chain is one level above the one before.
     fn bisect(&mut self, mesh: &Mesh, triangle: TreeTriangle, gain: impl Fn(&TreeTriangle) -> i64) {
         self.chain.push(triangle);
         while let Some(&triangle) = self.chain.last() {

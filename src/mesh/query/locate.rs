@@ -26,7 +26,7 @@ pub enum Location {
     },
     /// On a node.
     OnVertex {
-        /// The triangle with the lowest index among those round the node.
+        /// The triangle with the lowest index among those around the node.
         triangle: TriangleId,
         /// The node.
         node: NodeId,
@@ -54,8 +54,9 @@ impl Location {
 impl Mesh {
     /// Finds the triangle that contains a point in world coordinates (Algorithm 15).
     ///
-    /// The answer is exact for the point's lattice coordinates ([`Lattice::lattice_from_world`](crate::geometry::Lattice::lattice_from_world)).
-    /// The walk starts in a descendant of the coarse triangle round the point (Algorithm 14) and never leaves that coarse
+    /// The answer is exact for the point's lattice coordinates
+    /// ([`Lattice::lattice_from_world`](crate::geometry::Lattice::lattice_from_world)). The walk starts in a
+    /// descendant of the coarse triangle around the point (Algorithm 14) and never leaves that coarse
     /// triangle, as no edge on its rim has the point strictly beyond: holes cannot trap it.
     pub fn locate(&self, point: DVec2) -> Location {
         let p = self.lattice.lattice_from_world(point);
@@ -77,7 +78,8 @@ impl Mesh {
             .unwrap_or(Location::OutsideDomain)
     }
 
-    /// Coarse triangles that contain a point in lattice coordinates (Algorithm 14): one, or up to six round a coarse node.
+    /// Coarse triangles that contain a point in lattice coordinates (Algorithm 14): one, or up to six around
+    /// a coarse node.
     fn coarse_numbers_round(&self, p: DVec2) -> impl Iterator<Item = usize> {
         let [columns, rows] = self.lattice.cells();
         let steps = f64::from(self.lattice.cell_steps());
@@ -95,8 +97,8 @@ impl Mesh {
         })
     }
 
-    /// Where a point lies that was found in triangle `id` on the given sides of its edges; ties go to the lowest index of the
-    /// domain.
+    /// Where a point lies that was found in triangle `id` on the given sides of its edges; ties go to the
+    /// lowest index of the domain.
     pub(super) fn lowest_round(&self, id: TriangleId, sides: [Side; 3]) -> Location {
         let triangle = self.triangle(id);
         let on = sides.map(|side| side == Side::On);
@@ -131,7 +133,8 @@ impl Mesh {
     }
 }
 
-/// Cells of a row of `count` whose closure contains `x`, measured in cells: one, or two where `x` is a whole number.
+/// Cells of a row of `count` whose closure contains `x`, measured in cells: one, or two where `x` is a whole
+/// number.
 fn closed_cells(x: f64, count: u32) -> std::ops::RangeInclusive<u32> {
     let cell = x.floor();
     let last = (cell as u32).min(count - 1);

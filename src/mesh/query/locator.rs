@@ -4,16 +4,17 @@ use super::Location;
 use crate::geometry::LatticePoint;
 use crate::mesh::kernel::{Mesh, TriangleId, WalkEnd, make_room};
 
-/// A search tree over a mesh, for many queries: the report's virtual buckets (Section 7.1), carried on until no walk is
-/// left.
+/// A search tree over a mesh, for many queries: the report's virtual buckets (Section 7.1), carried on until
+/// no walk is left.
 ///
-/// Every triangle of a mesh is half a square of the lattice (at even levels) or half of each of two squares (at odd
-/// levels). The tree divides the coarse cells into quarters until each square is cut by at most one diagonal, and keeps
-/// the triangle on either side. A query goes down to its square and compares with the diagonal, exactly, and never
-/// touches the mesh. The uppermost divisions are made everywhere at once, as a table. Together they take about 5 bytes a
-/// triangle at even levels and 10 at odd ones.
+/// Every triangle of a mesh is half a square of the lattice (at even levels) or half of each of two squares
+/// (at odd levels). The tree divides the coarse cells into quarters until each square is cut by at most one
+/// diagonal, and keeps the triangle on either side. A query goes down to its square and compares with the
+/// diagonal, exactly, and never touches the mesh. The uppermost divisions are made everywhere at once, as a
+/// table. Together they take about 5 bytes a triangle at even levels and 10 at odd ones.
 ///
-/// Points on the rim of a square or on its diagonal are found by a walk from there, and those outside by the plain walk.
+/// Points on the rim of a square or on its diagonal are found by a walk from there, and those outside by the
+/// plain walk.
 pub struct Locator<'m> {
     mesh: &'m Mesh,
     /// Squares along a row of the table.
@@ -84,8 +85,8 @@ impl Square {
         self.above = (self.above & !FLAG) | if half.rising { FLAG } else { 0 };
     }
 
-    /// The triangle at offset (u, v) from the lower left corner, both strictly between 0 and `side`; `None` for a hole, and
-    /// on the diagonal.
+    /// The triangle at offset (u, v) from the lower left corner, both strictly between 0 and `side`; `None`
+    /// for a hole, and on the diagonal.
     #[inline]
     fn at(self, u: f64, v: f64, side: f64) -> Option<TriangleId> {
         // A rounded sum lies on the true side of `side`, or on it.
@@ -132,7 +133,7 @@ impl<'m> Locator<'m> {
         self.table = finer;
     }
 
-    /// The square of side 2^`bits` with the given corner, after whatever divisions it takes.
+    /// The square of side 2^`bits` with the given corner, after the divisions that this takes.
     fn square_mut(&mut self, origin: LatticePoint, bits: u32) -> &mut Square {
         let n = self.number(origin.x, origin.y);
         if bits >= self.side_bits {
@@ -188,8 +189,8 @@ impl<'m> Locator<'m> {
         Some((square, bits))
     }
 
-    /// The answer for a point on the rim or the diagonal of its square, by a short walk. `None` in and beside a hole, and
-    /// at the coarse nodes, where parts of the domain may touch that no walk joins.
+    /// The answer for a point on the rim or the diagonal of its square, by a short walk. `None` in and beside
+    /// a hole, and at the coarse nodes, where parts of the domain may touch that no walk joins.
     fn on_a_line(&self, square: Square, p: DVec2) -> Option<Location> {
         let at_coarse_node = p % f64::from(self.mesh.lattice.cell_steps()) == DVec2::ZERO;
         let hint = [square.below, square.above & !FLAG].into_iter().find(|&id| id != NOTHING)?;
@@ -214,8 +215,8 @@ fn divide(square: &mut Square, quarters: &mut Vec<[Square; 4]>) -> usize {
     })
 }
 
-/// The triangles with bisection edges too long for a square of depth 1, 2, and so on: levels 0; 1 and 2; 3 and 4, …
-/// padded to pairs, so that pair d lives in squares halved d times.
+/// The triangles with bisection edges too long for a square of depth 1, 2, and so on: levels 0; 1 and 2; 3
+/// and 4, … padded to pairs, so that pair d lives in squares halved d times.
 fn ids_by_level(mesh: &Mesh) -> Vec<Vec<TriangleId>> {
     let counts = mesh.level_counts();
     let mut by_level = vec![Vec::new()];

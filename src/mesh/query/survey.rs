@@ -1,4 +1,5 @@
-//! What kind of shape a mesh has: how many parts, how many holes; and what numbers its triangles have in files.
+//! What kind of shape a mesh has: how many parts, how many holes; and what numbers its triangles have in
+//! files.
 
 use crate::mesh::extract::{Numbering, RankBits};
 use crate::mesh::kernel::{Mesh, Progress};
@@ -38,7 +39,7 @@ impl Survey {
         }
     }
 
-    /// Looks at so many triangles more.
+    /// Looks at at most `visits` further triangles.
     pub fn advance(&mut self, mesh: &Mesh, visits: usize) -> Progress {
         let end = self.next.saturating_add(visits).min(mesh.triangles.len());
         for index in self.next..end {
@@ -76,8 +77,8 @@ impl Survey {
         let nodes = self.has_node.iter().filter(|&&has| has).count();
         let joined =
             (0..self.has_node.len()).filter(|&n| self.has_node[n] && self.by_corner.is_root(n)).count();
-        // Euler: nodes − edges + triangles = parts − holes, where parts that share a corner count as one. Each triangle has half
-        // of its edges, and the other half of those on the boundary.
+        // Euler: nodes − edges + triangles = parts − holes, where parts that share a corner count as one.
+        // Each triangle has half of its edges, and the other half of those on the boundary.
         let triangles = mesh.triangle_count();
         let edges = (3 * triangles + self.boundary_edges) / 2;
         Topology { nodes, parts, holes: joined + edges - nodes - triangles }
