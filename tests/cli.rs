@@ -276,8 +276,12 @@ fn a_region_is_meshed_as_its_boundary_asks() {
     };
     let fitted = folder.json("--region frame.geojson --spacing 1 --checks");
     assert_eq!(shape(&fitted), [12.0, 1.0, 12.0, 1.0, 1.0]);
-    // The usual diameter is that of level 7.
+    // The usual diameter is that of level 7, an eighth of the spacing, as the help says.
     assert_eq!((&fitted["max_level"], &fitted["violations"]), (&7.into(), &0.into()));
+    let eighth = folder.json("--region frame.geojson --spacing 1 --boundary-diameter 0.125");
+    assert_eq!(eighth["hash"], fitted["hash"]);
+    let help = folder.run("mesh --help").out.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(help.contains("when fitted [default: an eighth of the spacing]"), "{help}");
     assert_eq!(folder.json("--region frame.geojson --spacing 1 --boundary fitted")["hash"], fitted["hash"]);
     let coarser = folder.json("--region frame.geojson --spacing 1 --boundary-diameter 0.5 --checks");
     assert_eq!((&coarser["max_level"], &coarser["violations"]), (&3.into(), &0.into()));

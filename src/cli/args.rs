@@ -1,4 +1,4 @@
-//! Arguments as typed. What they mean, and whether they make sense, is for [`Job`](super::job::Job) to say.
+//! Arguments as typed. [`MeshRequest`](super::request::MeshRequest) interprets and checks them.
 
 use std::path::PathBuf;
 
@@ -22,7 +22,7 @@ pub enum Command {
     /// Build a mesh, write it to files, print a summary
     #[command(after_help = MESH_EXAMPLES)]
     Mesh(MeshArguments),
-    /// Build a mesh and find the triangle round each of a list of points
+    /// Build a mesh and find the triangle that contains each of a list of points
     ///
     /// Numbers of triangles and vertices, and the order of the vertices (anticlockwise, first the ends of the bisection edge), are those
     /// of the .node and .ele files that `mesh` writes from the same options.
@@ -82,7 +82,7 @@ pub struct InputArguments {
     #[arg(long, value_enum, default_value_t = BoundaryArgument::Fitted)]
     pub boundary: BoundaryArgument,
 
-    /// Largest diameter of triangles on the outline, when fitted [default: an eleventh of the spacing]
+    /// Largest diameter of triangles on the outline, when fitted [default: an eighth of the spacing]
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
     pub boundary_diameter: Option<f64>,
 
