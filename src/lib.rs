@@ -12,6 +12,7 @@ pub mod raster;
 pub mod field;
 pub mod domain;
 pub mod paint;
+pub mod build;
 pub mod document;
 pub mod io;
 pub mod colormap;

@@ -96,6 +96,6 @@ pub fn value_at(point: DVec2, document: &Document, follower: &Follower, quantity
 pub fn target_at(point: DVec2, field: &TargetField, paint: PaintRef, rule: RefinementRule) -> f64 {
     match rule {
         RefinementRule::Area => field.at(point).unwrap_or(f64::NAN),
-        RefinementRule::Vertex => field.target_at_node(paint, point),
+        RefinementRule::Vertex => field.target_at_node(Some(paint), point),
     }
 }

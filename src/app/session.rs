@@ -7,7 +7,8 @@ use glam::DVec2;
 
 use super::readout::{Quantity, Readout};
 use super::widgets::format;
-use crate::document::{Document, FollowError, Follower, MeshChange, Pricer, Setting, Stage};
+use crate::build::BuildError;
+use crate::document::{Document, Follower, MeshChange, Pricer, Setting, Stage};
 use crate::mesh::{Mesh, NodeId, Numbering, Progress, RefineError, Survey, Topology, TriangleId};
 use crate::paint::Brush;
 use crate::text::Bytes;
@@ -52,7 +53,7 @@ impl Session {
     ///
     /// # Errors
     /// When it has none.
-    pub fn new(mut document: Document) -> Result<Self, FollowError> {
+    pub fn new(mut document: Document) -> Result<Self, BuildError> {
         let began = Instant::now();
         let follower = Follower::new(&mut document)?;
         Ok(Self {
@@ -171,7 +172,7 @@ impl Session {
                 continue;
             }
             match self.follower.advance(&mut self.document, SLICE) {
-                Ok(Stage::InStep) => break false,
+                Ok(stage) if stage.is_settled() => break false,
                 Ok(_) if Instant::now() >= deadline => break true,
                 Ok(_) => {}
                 Err(error) => {
@@ -261,7 +262,7 @@ impl Session {
     }
 
     /// Takes back the setting that made a mesh impossible; where it is paint that did, the mesh stands still, and that is said.
-    fn take_back(&mut self, error: &FollowError) {
+    fn take_back(&mut self, error: &BuildError) {
         let revision = self.document.revision();
         if self.document.settings() != self.follower.settings() {
             self.document.reject_last();
@@ -281,12 +282,12 @@ impl Session {
 }
 
 /// What would help against an error, as a further sentence.
-fn advice(error: &FollowError) -> &'static str {
+fn advice(error: &BuildError) -> &'static str {
     match error {
-        FollowError::Refine(RefineError::TooFine { .. }) => {
+        BuildError::Refine(RefineError::TooFine { .. }) => {
             " Raise the smallest diameter, or mesh a smaller domain."
         }
-        FollowError::Refine(error) if error.is_over_budget() => {
+        BuildError::Refine(error) if error.is_over_budget() => {
             " Raise the smallest diameter, paint less, or raise the limit."
         }
         _ => "",
@@ -294,17 +295,17 @@ fn advice(error: &FollowError) -> &'static str {
 }
 
 /// What to say while the mesh does not show all that was painted.
-fn standstill(error: &FollowError) -> String {
+fn standstill(error: &BuildError) -> String {
     let kept = "what you painted is kept, but the mesh does not show all of it.";
     let helps = "in the Mesh panel or the smallest diameter, erase, or undo.";
     match error {
-        FollowError::Refine(RefineError::TooManyTriangles { limit }) => {
+        BuildError::Refine(RefineError::TooManyTriangles { limit }) => {
             let limit = format::count(*limit as u64);
             format!(
                 "The mesh stops at its limit of {limit} triangles: {kept} Raise the triangle budget {helps}"
             )
         }
-        FollowError::Refine(RefineError::TooMuchMemory { memory, .. }) => {
+        BuildError::Refine(RefineError::TooMuchMemory { memory, .. }) => {
             let limit = Bytes(memory.bytes);
             format!(
                 "The mesh stops at its limit of {limit} of memory: {kept} Raise the memory budget {helps}"

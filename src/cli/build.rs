@@ -1,242 +1,142 @@
-//! Refines a coarse mesh until the job's rule holds everywhere.
+//! Builds the mesh of a request, with progress on the terminal.
 
-use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use glam::DVec2;
 
 use super::failure::Failure;
-use super::job::Job;
-use super::sources::Start;
+use super::request::MeshRequest;
+use super::sources::read_spec;
 use super::terminal::Terminal;
-use crate::domain::{DomainOnLattice, Region};
-use crate::field::{
-    PaintRef, RefinementRule, Source, TargetField, TargetFieldSpec, Transfer, VertexRule, smallest_target,
-};
+use crate::build::{BuildStage, BuiltMesh, MeshBuilder, MeshSpec};
+use crate::domain::Region;
+use crate::field::{PaintRef, RefinementRule};
 use crate::io;
-use crate::mesh::{
-    CoarseError, Element, Extract, InvalidTarget, Limits, Mesh, Progress, Refiner, TriangleId,
-};
+use crate::mesh::{CoarseError, Extract, InvalidTarget, Limits, Mesh, Progress, TriangleId};
 use crate::paint::PaintRasters;
 use crate::text::Grouped;
 
-/// Triangles asked about, or pixels evaluated, between two looks at the clock.
+/// Triangles visited, or pixels sampled, between two updates of the progress line.
 const SLICE: usize = 1 << 18;
 
-/// A finished mesh, and the h̄ that it obeys.
-pub struct Built {
-    /// The mesh.
-    pub mesh: Mesh,
-    /// The domain as it was asked for.
-    pub domain: DomainOnLattice,
-    /// Its polygons, if it has some.
+/// A mesh that was asked for, and how it was made.
+pub struct FinishedMesh {
+    built: BuiltMesh,
+    /// The paint of a project.
+    paint: Option<PaintRasters>,
+    /// The polygons of the domain, if it has some.
     pub region: Option<Arc<Region>>,
-    /// Which points of a triangle count.
-    pub rule: RefinementRule,
-    /// Its target diameter.
-    pub target: Target,
     /// Time spent on refinement alone.
     pub refinement: Duration,
     /// Triangles that the level cap left coarser than their target.
     pub capped: usize,
 }
 
-/// h̄ as the rule sees it.
-pub enum Target {
-    /// Exactly what the sources ask for, at nodes.
-    ByVertex(PointTarget),
-    /// The sources by pixel.
-    ByArea {
-        /// The pixels.
-        field: Box<TargetField>,
-        /// h̄ where no source asks for anything, in world units.
-        unasked: f64,
-    },
-    /// What a document asks for, at nodes.
-    OfDocument {
-        /// Its sources.
-        field: Box<TargetField>,
-        /// Its paint.
-        layers: Box<PaintRasters>,
-    },
-}
-
-/// h̄ point by point.
-pub struct PointTarget {
-    sources: Vec<Source>,
-    transfer: Transfer,
-    unasked: f64,
-}
-
-impl PointTarget {
-    /// h̄ at a point, all in world units. Where it is impossible, the impossible value.
-    pub fn at(&self, point: DVec2) -> f64 {
-        match smallest_target(&self.sources, point, &self.transfer) {
-            Ok(f64::INFINITY) => self.unasked,
-            Ok(asked) => asked.clamp(self.transfer.h_min, self.transfer.h_max),
-            Err(InvalidTarget { value, .. }) => value,
-        }
-    }
-}
-
-impl Target {
-    /// h̄ at a point of the domain, in world units.
-    pub fn at(&self, point: DVec2) -> f64 {
-        match self {
-            Self::ByVertex(target) => target.at(point),
-            Self::ByArea { field, unasked } => {
-                field.at(point).filter(|asked| asked.is_finite()).unwrap_or(*unasked)
-            }
-            Self::OfDocument { field, layers } => field.target_at_node(layers.as_paint(), point),
-        }
+impl FinishedMesh {
+    /// The mesh.
+    pub fn mesh(&self) -> &Mesh {
+        &self.built.mesh
     }
 
-    /// h̄ at every node.
-    pub fn at_nodes(&self, mesh: &Extract) -> Vec<f64> {
-        mesh.world_nodes().map(|p| self.at(p)).collect()
+    /// Which points of a triangle count.
+    pub fn rule(&self) -> RefinementRule {
+        self.built.rule
     }
 
     /// Columns and rows of the pixels, if the rule goes by pixels.
     pub fn resolution(&self) -> Option<[u32; 2]> {
-        match self {
-            Self::ByVertex(_) | Self::OfDocument { .. } => None,
-            Self::ByArea { field, .. } => Some(field.spec().size),
+        match self.built.rule {
+            RefinementRule::Vertex => None,
+            RefinementRule::Area => Some(self.built.field.spec().size),
         }
+    }
+
+    /// h̄ at a point of the domain, both in world units, as the rule sees it. Where it is impossible, the impossible value.
+    pub fn target_at(&self, point: DVec2) -> f64 {
+        self.built.field.target_by_rule(self.built.rule, self.paint(), point)
+    }
+
+    /// h̄ at every node, in world units.
+    pub fn target_at_nodes(&self, extract: &Extract) -> Vec<f64> {
+        extract.world_nodes().map(|point| self.target_at(point)).collect()
     }
 
     /// The triangles whose diameter exceeds their target.
     ///
     /// # Errors
     /// When a target is impossible.
-    pub fn unsatisfied(
-        &self,
-        mesh: &Mesh,
-        domain: &DomainOnLattice,
-    ) -> Result<Vec<TriangleId>, InvalidTarget> {
-        match self {
-            Self::ByVertex(_) | Self::OfDocument { .. } => {
-                let mut rule = VertexRule::new(|p| self.at(p));
-                mesh.unsatisfied(|element| domain.exceeds(element, |element| rule.exceeds(element)))
-            }
-            Self::ByArea { field, .. } => {
-                mesh.unsatisfied(|element| domain.exceeds(element, |element| Ok(field.exceeds(element))))
-            }
-        }
+    pub fn unsatisfied(&self) -> Result<Vec<TriangleId>, InvalidTarget> {
+        self.built.unsatisfied(self.paint())
+    }
+
+    fn paint(&self) -> Option<PaintRef<'_>> {
+        self.paint.as_ref().map(PaintRasters::as_paint)
     }
 }
 
-/// Reads, lays the coarse grid and refines.
+/// Reads what the request names, and builds the mesh.
 ///
 /// # Errors
 /// When a file is of no use, the target is impossible somewhere, or a limit is reached.
-pub fn build(job: &Job, terminal: &mut Terminal) -> Result<Built, Failure> {
-    if let Some(path) = &job.project {
-        return build_project(path, job, terminal);
+pub fn build(request: &MeshRequest, terminal: &mut Terminal) -> Result<FinishedMesh, Failure> {
+    let (spec, paint) = read(request, terminal)?;
+    let region = spec.domain.region().cloned();
+    let mut builder = MeshBuilder::new(spec);
+    let refinement = run(&mut builder, paint.as_ref().map(PaintRasters::as_paint), terminal);
+    terminal.clear();
+    let (refinement, capped) = (refinement?, builder.capped());
+    let built = builder.finish();
+    if built.mesh.triangle_count() == 0 {
+        return Err(CoarseError::EmptyDomain { spacing: built.mesh.lattice().spacing() }.into());
     }
-    let start = Start::new(job)?;
-    for warning in &start.warnings {
-        terminal.say(&format!("meshbrush: note: {warning}"));
-    }
-    let Start { mut mesh, domain, region, sources, transfer, unasked, size, .. } = start;
-    let (target, refined) = match job.rule {
-        RefinementRule::Vertex => {
-            let target = PointTarget { sources, transfer, unasked };
-            let mut rule = VertexRule::new(|p| target.at(p));
-            let exceeds = |element: &Element| domain.exceeds(element, |element| rule.exceeds(element));
-            let refined = refine(&mut mesh, &job.limits, exceeds, terminal);
-            (Target::ByVertex(target), refined)
-        }
-        RefinementRule::Area => {
-            let field = fill(TargetFieldSpec { sources, transfer, size }, None, &mesh, terminal)?;
-            let exceeds = |element: &Element| domain.exceeds(element, |element| Ok(field.exceeds(element)));
-            let refined = refine(&mut mesh, &job.limits, exceeds, terminal);
-            (Target::ByArea { field: Box::new(field), unasked }, refined)
-        }
-    };
-    let (refinement, capped) = refined?;
-    Built { mesh, domain, region, rule: job.rule, target, refinement, capped }.sorted_out(terminal)
+    Ok(FinishedMesh { built, paint, region, refinement, capped })
 }
 
-/// Does with a saved document what the window does with an open one.
-fn build_project(path: &Path, job: &Job, terminal: &mut Terminal) -> Result<Built, Failure> {
+/// What to mesh: that of a saved document, as the window does, or what the options describe.
+fn read(request: &MeshRequest, terminal: &mut Terminal) -> Result<(MeshSpec, Option<PaintRasters>), Failure> {
+    let Some(path) = &request.project else {
+        let (spec, notes) = read_spec(request)?;
+        for note in &notes {
+            terminal.say(&format!("meshbrush: note: {note}"));
+        }
+        return Ok((spec, None));
+    };
     let document = io::project::read(path)?;
     let settings = document.settings();
-    let max_triangles = job.asked_budget.unwrap_or(settings.max_triangles);
-    let limits = Limits { max_triangles, ..job.limits };
-    let domain = settings.domain_on_lattice().map_err(CoarseError::from)?;
-    let admits = |node| domain.admits(node);
-    let mut mesh = Mesh::coarse_grid(domain.lattice(), admits, &limits)?;
-    let paint = document.paint().as_paint();
-    let field = fill(settings.field_spec(), Some(paint), &mesh, terminal)?;
-    let (target, refined) = match settings.rule {
-        RefinementRule::Vertex => {
-            let mut rule = VertexRule::new(|p| field.target_at_node(paint, p));
-            let exceeds = |element: &Element| domain.exceeds(element, |element| rule.exceeds(element));
-            let refined = refine(&mut mesh, &limits, exceeds, terminal);
-            let layers = Box::new(document.paint().clone());
-            (Target::OfDocument { field: Box::new(field), layers }, refined)
-        }
-        RefinementRule::Area => {
-            let exceeds = |element: &Element| domain.exceeds(element, |element| Ok(field.exceeds(element)));
-            let refined = refine(&mut mesh, &limits, exceeds, terminal);
-            (Target::ByArea { field: Box::new(field), unasked: settings.transfer.h_max }, refined)
-        }
-    };
-    let (refinement, capped) = refined?;
-    let region = settings.domain.region().cloned();
-    Built { mesh, domain, region, rule: settings.rule, target, refinement, capped }.sorted_out(terminal)
+    let max_triangles = request.asked_budget.unwrap_or(settings.max_triangles);
+    let limits = Limits { max_triangles, ..request.limits };
+    let spec = MeshSpec { limits, ..settings.mesh_spec().map_err(CoarseError::from)? };
+    Ok((spec, Some(document.paint().clone())))
 }
 
-impl Built {
-    /// The refined mesh without what lies outside the domain.
-    fn sorted_out(mut self, terminal: &mut Terminal) -> Result<Self, Failure> {
-        terminal.clear();
-        let Self { mesh, domain, .. } = &mut self;
-        if domain.is_fitted() {
-            mesh.classify(0..mesh.raw_triangle_count(), |element| domain.excludes(element));
-            if mesh.triangle_count() == 0 {
-                return Err(CoarseError::EmptyDomain { spacing: mesh.lattice().spacing() }.into());
-            }
-        }
-        Ok(self)
-    }
-}
-
-/// Samples the sources, and paint where there is some.
-fn fill(
-    spec: TargetFieldSpec,
+/// Builds in slices. Returns the time spent on refinement.
+fn run(
+    builder: &mut MeshBuilder,
     paint: Option<PaintRef>,
-    mesh: &Mesh,
     terminal: &mut Terminal,
-) -> Result<TargetField, Failure> {
+) -> Result<Duration, Failure> {
     let start = Instant::now();
-    let pixels = spec.size[0] as usize * spec.size[1] as usize;
-    let mut field = TargetField::new(spec, mesh.lattice());
-    let mut done = 0;
-    let mut fill_slice = || match paint {
-        Some(paint) => field.fill(paint, SLICE),
-        None => field.fill_unpainted(SLICE),
-    };
-    // Every slice fills at least one row: this ends.
-    while fill_slice()? == Progress::More {
-        done += SLICE;
-        terminal.progress(start, || format!("{} of {} pixels", Grouped(done.min(pixels)), Grouped(pixels)));
+    let mut refinement = Duration::ZERO;
+    loop {
+        let (stage, slice_start) = (builder.stage(), Instant::now());
+        let progress = builder.advance(paint, SLICE)?;
+        if matches!(stage, BuildStage::Refining { .. }) {
+            refinement += slice_start.elapsed();
+        }
+        if progress == Progress::Done {
+            return Ok(refinement);
+        }
+        terminal.progress(start, || describe(builder.stage()));
     }
-    Ok(field)
 }
 
-/// Refines in slices. Returns the time it took and the count of triangles left to the level cap.
-fn refine(
-    mesh: &mut Mesh,
-    limits: &Limits,
-    mut exceeds: impl FnMut(&Element) -> Result<bool, InvalidTarget>,
-    terminal: &mut Terminal,
-) -> Result<(Duration, usize), Failure> {
-    let start = Instant::now();
-    let mut refiner = Refiner::new(mesh, *limits);
-    while refiner.advance(mesh, &mut exceeds, SLICE)? == Progress::More {
-        terminal.progress(start, || format!("{} triangles", Grouped(mesh.raw_triangle_count())));
+fn describe(stage: BuildStage) -> String {
+    match stage {
+        BuildStage::Indexing => "indexing the outline".into(),
+        BuildStage::Sampling { pixels, of } => format!("{} of {} pixels", Grouped(pixels), Grouped(of)),
+        BuildStage::Refining { triangles } | BuildStage::Classifying { triangles } => {
+            format!("{} triangles", Grouped(triangles))
+        }
     }
-    Ok((start.elapsed(), refiner.capped()))
 }

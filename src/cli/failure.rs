@@ -1,6 +1,7 @@
 use std::io;
 use std::path::PathBuf;
 
+use crate::build::BuildError;
 use crate::field::TransferError;
 use crate::io::ReadError;
 use crate::mesh::{CoarseError, InvalidTarget, RefineError};
@@ -17,12 +18,9 @@ pub enum Failure {
     /// A file given as input is of no use.
     #[error(transparent)]
     Read(#[from] ReadError),
-    /// No coarse mesh.
-    #[error(transparent)]
-    Coarse(#[from] CoarseError),
-    /// The refinement could not end.
+    /// There is no mesh.
     #[error("{0}{advice}", advice = advice(.0))]
-    Refine(#[from] RefineError),
+    Build(#[from] BuildError),
     /// A file could not be written.
     #[error("{} cannot be written: {problem}.", file.display())]
     Write {
@@ -55,19 +53,31 @@ impl Failure {
 }
 
 /// What would help, as a further sentence.
-fn advice(error: &RefineError) -> &'static str {
+fn advice(error: &BuildError) -> &'static str {
     match error {
-        RefineError::InvalidTarget(_) => "",
-        RefineError::TooManyTriangles { .. } => {
+        BuildError::Refine(RefineError::TooManyTriangles { .. }) => {
             " Raise the smallest diameter, or the limit with --max-triangles."
         }
-        RefineError::TooMuchMemory { .. } => " Raise the smallest diameter, or the limit with --max-memory.",
-        RefineError::TooFine { .. } => " Raise the smallest diameter, or mesh a smaller domain.",
+        BuildError::Refine(RefineError::TooMuchMemory { .. }) => {
+            " Raise the smallest diameter, or the limit with --max-memory."
+        }
+        BuildError::Refine(RefineError::TooFine { .. }) => {
+            " Raise the smallest diameter, or mesh a smaller domain."
+        }
+        BuildError::Refine(RefineError::InvalidTarget(_))
+        | BuildError::Coarse(_)
+        | BuildError::InvalidTarget(_) => "",
+    }
+}
+
+impl From<CoarseError> for Failure {
+    fn from(error: CoarseError) -> Self {
+        Self::Build(error.into())
     }
 }
 
 impl From<InvalidTarget> for Failure {
     fn from(error: InvalidTarget) -> Self {
-        Self::Refine(error.into())
+        Self::Build(error.into())
     }
 }

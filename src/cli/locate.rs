@@ -5,19 +5,19 @@ use std::io::{self, BufWriter, Write};
 use glam::DVec2;
 
 use super::args::LocateArguments;
-use super::build::{Target, build};
+use super::build::{FinishedMesh, build};
 use super::failure::Failure;
-use super::job::{Job, parse_formula};
-use super::mesh::{input_files, note_capped};
+use super::mesh::note_capped;
 use super::output::check_place;
+use super::request::{MeshRequest, parse_formula};
 use super::terminal::Terminal;
 use crate::field::Formula;
 use crate::io::{Number, points, write_file};
-use crate::mesh::{Cell, Extract, Location, Locator, Mesh, NodeId, TriangleId, barycentric, interpolate};
+use crate::mesh::{Cell, Extract, Location, Locator, NodeId, TriangleId, barycentric, interpolate};
 
 const HEADER: &str = "x,y,where,triangle,level,v1,v2,v3,zeta1,zeta2,zeta3,value";
 
-/// One point for this many triangles pays for a search tree.
+/// With more than one point for this many triangles, building a search tree pays off.
 const TRIANGLES_PER_POINT: usize = 16;
 
 /// Runs the command. `out` is standard output.
@@ -25,17 +25,17 @@ const TRIANGLES_PER_POINT: usize = 16;
 /// # Errors
 /// With the reason, when the arguments make no sense or the work failed.
 pub fn run(typed: &LocateArguments, out: &mut dyn Write, terminal: &mut Terminal) -> Result<(), Failure> {
-    let job = Job::new(&typed.input)?;
+    let request = MeshRequest::new(&typed.input)?;
     let quantity = typed.quantity.as_deref().map(|text| parse_formula("--quantity", text)).transpose()?;
     if let Some(path) = &typed.output {
-        let inputs = [input_files(&job), vec![typed.points.clone()]].concat();
+        let inputs = [request.input_files(), vec![typed.points.clone()]].concat();
         check_place(path, &inputs)?;
     }
     let points = points::read(&typed.points)?;
-    let built = build(&job, terminal)?;
-    note_capped(&built, terminal);
-    let extract = built.mesh.extract();
-    let answers = Answers { mesh: &built.mesh, extract, target: &built.target, quantity: quantity.as_ref() };
+    let finished = build(&request, terminal)?;
+    note_capped(&finished, terminal);
+    let extract = finished.mesh().extract();
+    let answers = Answers { finished: &finished, extract, quantity: quantity.as_ref() };
     match &typed.output {
         Some(path) => write_file(path, |out| answers.write(&points, out))
             .map_err(|error| Failure::Write { file: path.clone(), problem: error.to_string() }),
@@ -46,25 +46,26 @@ pub fn run(typed: &LocateArguments, out: &mut dyn Write, terminal: &mut Terminal
     }
 }
 
-/// What answers are made from.
+/// What the answers are computed from.
 struct Answers<'a> {
-    mesh: &'a Mesh,
-    /// What files get of the mesh: ids are those that a file would have.
+    finished: &'a FinishedMesh,
+    /// The mesh as files have it: ids are those of a file.
     extract: Extract<'a>,
-    target: &'a Target,
+    /// What to interpolate instead of h̄.
     quantity: Option<&'a Formula>,
 }
 
 impl Answers<'_> {
     /// One row for each point, in their order.
     fn write(&self, points: &[DVec2], out: &mut dyn Write) -> io::Result<()> {
-        let many = points.len() > self.mesh.raw_triangle_count() / TRIANGLES_PER_POINT;
-        let locator = many.then(|| Locator::new(self.mesh));
+        let mesh = self.finished.mesh();
+        let many = points.len() > mesh.raw_triangle_count() / TRIANGLES_PER_POINT;
+        let locator = many.then(|| Locator::new(mesh));
         writeln!(out, "{HEADER}")?;
         for &point in points {
             let location = match &locator {
                 Some(locator) => locator.locate(point),
-                None => self.mesh.locate(point),
+                None => mesh.locate(point),
             };
             write!(out, "{},{},{}", Number(point.x), Number(point.y), name(&location))?;
             match location.triangle() {
@@ -75,13 +76,13 @@ impl Answers<'_> {
         Ok(())
     }
 
-    /// The columns from `triangle` on. Vertices stand as files have them, ζ likewise: whoever joins the row with a file's has each
-    /// ζ at its corner.
+    /// The columns from `triangle` on. Vertices and ζ are in the order of the vertices in files, so that each ζ belongs to the vertex
+    /// in the same place.
     fn write_triangle(&self, point: DVec2, id: TriangleId, out: &mut dyn Write) -> io::Result<()> {
         let place = self.extract.place_of(id).expect("a point is found in triangles of the domain only");
         let Cell { corners, level, .. } = self.extract.cell(place);
         let nodes = corners.map(NodeId::from_index);
-        let at = self.mesh.lattice().lattice_from_world(point);
+        let at = self.finished.mesh().lattice().lattice_from_world(point);
         let zeta = barycentric(nodes.map(|node| self.extract.node(node)), at);
         let value = interpolate(zeta, nodes.map(|node| self.value_at(self.extract.world(node))));
         let [a, b, c] = corners;
@@ -92,7 +93,7 @@ impl Answers<'_> {
     fn value_at(&self, node: DVec2) -> f64 {
         match self.quantity {
             Some(formula) => formula.eval(node.x, node.y),
-            None => self.target.at(node),
+            None => self.finished.target_at(node),
         }
     }
 }

@@ -1,15 +1,14 @@
 //! `meshbrush mesh`: build, check, write, summarise.
 
 use std::io::Write;
-use std::path::PathBuf;
 
 use glam::DVec2;
 
 use super::args::MeshArguments;
-use super::build::{Built, build};
+use super::build::{FinishedMesh, build};
 use super::failure::Failure;
-use super::job::{Job, SourceSpec, parse_formula};
-use super::output::{Output, Wanted};
+use super::output::{Output, RequestedLook};
+use super::request::{MeshRequest, parse_formula};
 use super::summary::Summary;
 use super::terminal::Terminal;
 use crate::field::Formula;
@@ -17,7 +16,7 @@ use crate::io::{MeshData, NodeValues};
 use crate::mesh::{Extract, TriangleId};
 use crate::text::Grouped;
 
-/// Broken invariants that are printed one by one; the others are counted.
+/// How many broken invariants are printed one by one; the rest are counted.
 const SHOWN_VIOLATIONS: usize = 20;
 
 /// Runs the command. `out` is standard output.
@@ -25,21 +24,23 @@ const SHOWN_VIOLATIONS: usize = 20;
 /// # Errors
 /// With the reason, when the arguments make no sense or the work failed.
 pub fn run(typed: &MeshArguments, out: &mut dyn Write, terminal: &mut Terminal) -> Result<(), Failure> {
-    let job = Job::new(&typed.input)?;
-    let look = Wanted::new(&typed.picture)?;
+    let request = MeshRequest::new(&typed.input)?;
+    let look = RequestedLook::new(&typed.picture)?;
     let quantity = typed.quantity.as_deref().map(|text| parse_formula("--quantity", text)).transpose()?;
     let outputs = typed.output.iter().map(|path| Output::new(path)).collect::<Result<Vec<_>, _>>()?;
-    let inputs = input_files(&job);
+    let inputs = request.input_files();
     outputs.iter().try_for_each(|output| output.check_places(&inputs))?;
-    let built = build(&job, terminal)?;
-    let violations =
-        if typed.checks { Some(report_violations(&built, job.limits.max_level, terminal)?) } else { None };
-    let summary = Summary::of(&built, violations);
+    let finished = build(&request, terminal)?;
+    let violations = match typed.checks {
+        true => Some(report_violations(&finished, request.limits.max_level, terminal)?),
+        false => None,
+    };
+    let summary = Summary::of(&finished, violations);
     if !typed.json {
         terminal.say(&summary.for_people());
     }
-    note_capped(&built, terminal);
-    write_files(&outputs, &built, look, quantity.as_ref(), terminal)?;
+    note_capped(&finished, terminal);
+    write_files(&outputs, &finished, look, quantity.as_ref(), terminal)?;
     if typed.json {
         let json = serde_json::to_string(&summary).map_err(|e| Failure::Print(e.into()))?;
         writeln!(out, "{json}").and_then(|()| out.flush()).map_err(Failure::Print)?;
@@ -53,38 +54,29 @@ pub fn run(typed: &MeshArguments, out: &mut dyn Write, terminal: &mut Terminal) 
     }
 }
 
-/// The files that the job reads.
-pub fn input_files(job: &Job) -> Vec<PathBuf> {
-    let path = |source: &SourceSpec| match source {
-        SourceSpec::Raster(raster) => Some(raster.path.clone()),
-        _ => None,
-    };
-    job.sources.iter().filter_map(path).chain(job.region.clone()).chain(job.project.clone()).collect()
-}
-
-/// Says when triangles are coarser than asked for, because of the level cap.
-pub fn note_capped(built: &Built, terminal: &mut Terminal) {
-    if built.capped > 0 {
-        let count = Grouped(built.capped);
+/// Tells the user when triangles are coarser than asked for, because of the level cap.
+pub fn note_capped(finished: &FinishedMesh, terminal: &mut Terminal) {
+    if finished.capped > 0 {
+        let count = Grouped(finished.capped);
         terminal
             .say(&format!("meshbrush: note: --max-level left {count} triangles coarser than their target."));
     }
 }
 
-/// Checks every invariant, prints what is broken, and returns how much is.
+/// Checks every invariant, prints the violations, and returns their number.
 fn report_violations(
-    built: &Built,
+    finished: &FinishedMesh,
     max_level: Option<u32>,
     terminal: &mut Terminal,
 ) -> Result<usize, Failure> {
-    let broken = built.mesh.violations();
+    let mesh = finished.mesh();
+    let broken = mesh.violations();
     for violation in broken.iter().take(SHOWN_VIOLATIONS) {
         terminal.say(&format!("check: {violation}"));
     }
-    // Triangles at the level cap are as they were asked for.
-    let below_cap = |id: &TriangleId| max_level.is_none_or(|cap| built.mesh.triangle(*id).level() < cap);
-    let too_coarse =
-        built.target.unsatisfied(&built.mesh, &built.domain)?.iter().filter(|id| below_cap(id)).count();
+    // Triangles at the level cap count as satisfied.
+    let below_cap = |id: &TriangleId| max_level.is_none_or(|cap| mesh.triangle(*id).level() < cap);
+    let too_coarse = finished.unsatisfied()?.iter().filter(|id| below_cap(id)).count();
     if too_coarse > 0 {
         let count = Grouped(too_coarse);
         terminal.say(&format!("check: {count} triangles exceed their target diameter (Eq. 14)"));
@@ -98,17 +90,17 @@ fn report_violations(
 
 fn write_files(
     outputs: &[Output],
-    built: &Built,
-    look: Wanted,
+    finished: &FinishedMesh,
+    look: RequestedLook,
     quantity: Option<&Formula>,
     terminal: &mut Terminal,
 ) -> Result<(), Failure> {
-    let Built { mesh, target, .. } = built;
+    let mesh = finished.mesh();
     let look = look.for_mesh(mesh);
     let extract = mesh.extract();
     let (mut target_diameter, mut quantities) = (Vec::new(), Vec::new());
     if outputs.iter().any(Output::wants_node_data) {
-        target_diameter = target.at_nodes(&extract);
+        target_diameter = finished.target_at_nodes(&extract);
         quantities.extend(quantity.map(|formula| evaluated(formula, &extract)).transpose()?);
     }
     let data = MeshData { target_diameter: &target_diameter, quantities: &quantities };

@@ -1,4 +1,4 @@
-//! The command line: arguments as typed (`args`), the job they mean (`job`), running it.
+//! The command line: arguments as typed (`args`), the request that they make (`request`), running it.
 //!
 //! Results go to standard output, everything else to standard error. Exit status 0: done; 1: the work failed, with a
 //! sentence; 2: wrong usage.
@@ -6,10 +6,10 @@
 mod args;
 mod build;
 mod failure;
-mod job;
 mod locate;
 mod mesh;
 mod output;
+mod request;
 mod sources;
 mod summary;
 mod terminal;

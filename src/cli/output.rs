@@ -1,4 +1,4 @@
-//! Output files: checks before the work, and how pictures look.
+//! Output files: checks before the work, and the look of pictures.
 
 use std::path::{Path, PathBuf};
 
@@ -18,16 +18,16 @@ pub struct Output {
 }
 
 impl Output {
-    /// A file whose ending says what to write.
+    /// A file; its extension decides the format.
     ///
     /// # Errors
-    /// When the ending is unknown.
+    /// When the extension is unknown.
     pub fn new(path: &Path) -> Result<Self, Failure> {
         let format = ExportFormat::of(path).map_err(|error| Failure::Usage(format!("-o {error}")))?;
         Ok(Self { path: path.to_owned(), format })
     }
 
-    /// Finds out before the work whether its files can be put there at all.
+    /// Checks before the work whether its files can be written there.
     ///
     /// # Errors
     /// Those of [`check_place`], for each of its files.
@@ -40,11 +40,11 @@ impl Output {
         self.format.wants_node_data()
     }
 
-    /// Writes the file, or the four files of `.node`, and returns their names. `extract` is that of `mesh`, and `data` belongs
-    /// to its nodes.
+    /// Writes the file, or the four files of `.node`, and returns their names. `extract` is that of `mesh`, and `data` is in the
+    /// order of its nodes.
     ///
     /// # Errors
-    /// When the file system says no. What was there before is then still there.
+    /// When the file cannot be written. What was there before is kept then.
     pub fn write(
         &self,
         mesh: &Mesh,
@@ -61,7 +61,7 @@ fn failed(path: &Path, problem: String) -> Failure {
     Failure::Write { file: path.to_owned(), problem }
 }
 
-/// Finds out before the work whether a file can be put there at all.
+/// Checks before the work whether a file can be written there.
 ///
 /// # Errors
 /// When its folder does not exist, it is a folder itself, or it is one of the input files.
@@ -79,9 +79,9 @@ pub fn check_place(path: &Path, inputs: &[PathBuf]) -> Result<(), Failure> {
     Ok(())
 }
 
-/// How pictures are to look, before there is a mesh.
+/// The look that is asked for, before there is a mesh.
 #[derive(Debug)]
-pub struct Wanted {
+pub struct RequestedLook {
     width: u32,
     height: Option<u32>,
     edges: bool,
@@ -89,11 +89,11 @@ pub struct Wanted {
     ground: Ground,
 }
 
-impl Wanted {
-    /// What the arguments ask for.
+impl RequestedLook {
+    /// The look that the arguments describe.
     ///
     /// # Errors
-    /// When the size or the name of the colour map makes no sense.
+    /// When the size or the name of the colour map is invalid.
     pub fn new(typed: &PictureArguments) -> Result<Self, Failure> {
         let colormap: Colormap =
             typed.colormap.parse().map_err(|e| Failure::Usage(format!("--colormap: {e}")))?;

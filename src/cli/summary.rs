@@ -1,8 +1,8 @@
-//! What the finished mesh is, in numbers: for a person, and for a program.
+//! The figures of the finished mesh, as text and as JSON.
 
 use serde::Serialize;
 
-use super::build::Built;
+use super::build::FinishedMesh;
 use crate::domain::Region;
 use crate::field::RefinementRule;
 use crate::mesh::Topology;
@@ -11,24 +11,24 @@ use crate::text::Grouped;
 /// The figures of a mesh; its JSON is the answer of `--json`.
 #[derive(Debug, Serialize)]
 pub struct Summary {
-    /// How many.
+    /// Number of triangles.
     pub triangles: usize,
-    /// How many.
+    /// Number of nodes.
     pub nodes: usize,
     /// The deepest level.
     pub max_level: usize,
     /// Triangles at each level, from 0.
     pub levels: Vec<usize>,
-    /// The mesh's fingerprint, 32 hexadecimal digits: equal for equal meshes, whatever their order.
+    /// The mesh's fingerprint, 32 hexadecimal digits: equal for equal meshes, in any order of triangles.
     pub hash: String,
     /// Seconds of refinement, without reading and writing.
     pub seconds: f64,
     /// The area of the mesh, in square world units.
     pub area: f64,
-    /// What the outline of a region became.
+    /// How the mesh renders the outline of a region.
     #[serde(flatten)]
     pub outline: Option<Outline>,
-    /// Side δ of a coarse cell as it came out, in world units.
+    /// Side δ of a coarse cell, in world units.
     pub spacing: f64,
     /// "vertex" or "area".
     pub rule: &'static str,
@@ -44,7 +44,7 @@ pub struct Summary {
     diameters: Vec<f64>,
 }
 
-/// A region beside the mesh that was made of it.
+/// A region compared with its mesh.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Outline {
     /// The area that the polygons cover, in square world units.
@@ -53,7 +53,7 @@ pub struct Outline {
     pub region_holes: usize,
     /// Holes of the mesh.
     pub holes: usize,
-    /// Parts of the mesh that edges join.
+    /// Edge-connected parts of the mesh.
     pub parts: usize,
 }
 
@@ -81,26 +81,26 @@ impl Outline {
 
 impl Summary {
     /// The figures of a mesh.
-    pub fn of(built: &Built, violations: Option<usize>) -> Self {
-        let mesh = &built.mesh;
+    pub fn of(finished: &FinishedMesh, violations: Option<usize>) -> Self {
+        let mesh = finished.mesh();
         let levels = mesh.level_counts();
-        let topology = built.region.as_ref().map(|_| mesh.topology());
+        let topology = finished.region.as_ref().map(|_| mesh.topology());
         Self {
             triangles: mesh.triangle_count(),
             nodes: topology.map_or(mesh.raw_nodes().len(), |topology| topology.nodes),
             area: mesh.area(),
-            outline: built
+            outline: finished
                 .region
                 .as_ref()
                 .zip(topology)
                 .map(|(region, topology)| Outline::of(region, topology)),
             max_level: levels.len() - 1,
             hash: mesh.fingerprint().to_string(),
-            seconds: built.refinement.as_secs_f64(),
+            seconds: finished.refinement.as_secs_f64(),
             spacing: mesh.lattice().spacing(),
-            rule: if built.rule == RefinementRule::Vertex { "vertex" } else { "area" },
-            resolution: built.target.resolution(),
-            capped: built.capped,
+            rule: if finished.rule() == RefinementRule::Vertex { "vertex" } else { "area" },
+            resolution: finished.resolution(),
+            capped: finished.capped,
             violations,
             diameters: (0..levels.len()).map(|level| mesh.diameter(level as u32)).collect(),
             levels,

@@ -1,46 +1,71 @@
+//! Keeps field and mesh in step with a document.
+//!
+//! ```text
+//!                     paint                      settings
+//!        ┌──────────────────────────┐  ┌─────────────────────────────┐
+//!        │                          ▼  │                             ▼
+//!    ┌────────┐    done    ┌──────────────┐   vertex rule    ┌──────────────┐
+//!    │ InStep │ ◀───────── │   Updating   │ ───────────────▶ │  Rebuilding  │ ──┐ newer settings:
+//!    └────────┘            └──────────────┘ ◀─── shown ───── └──────────────┘ ◀─┘ shown, then the next
+//!        │                        ▲
+//!        │ outline                │ indexed
+//!        ▼                        │
+//!    ┌──────────────────────────────┐         error, cancel   ┌────────┐
+//!    │      FollowingOutline        │      (any state) ─────▶ │ GaveUp │ ── next edit ──▶ (any state)
+//!    └──────────────────────────────┘                         └────────┘
+//! ```
+//!
+//! Every edit may arrive in every state; [`Follower::advance`] first chooses the state for the document as it is, then does one
+//! slice of work there.
+
 use std::sync::Arc;
 
-use super::cut::Cut;
-use super::job::{Finished, Job};
-use super::stage::{FollowError, Stage};
-use super::{Document, Repainted, Settings};
+use super::outline_update::OutlineUpdate;
+use super::rebuild::Rebuild;
+use super::shown::Shown;
+use super::{Document, Repainted, Settings, Stage};
+use crate::build::{BuildError, Parts};
 use crate::domain::DomainOnLattice;
-use crate::field::{RefinementRule, TargetField};
-use crate::mesh::{Changes, Element, Mesh, Progress, RefineError, Updater};
-use crate::raster::PixelRect;
+use crate::field::TargetField;
+use crate::mesh::{Changes, Mesh, MeshCopy, Progress};
 
 /// Keeps field and mesh in step with a document, in slices.
 ///
-/// Paint changes the mesh where it is, and nowhere else ([`Updater`]): the mesh is conforming and can be drawn after every
-/// slice, and at rest it is the one that would be made from scratch. Everything else (settings, and every edit under the
-/// vertex rule, which cannot be undone locally) leads to a mesh made anew beside the one that is shown; the two change places
-/// when the new one is whole.
+/// Paint changes the mesh where it is, and nowhere else ([`Updater`](crate::mesh::Updater)): the mesh is conforming and can be
+/// drawn after every slice, and once in step it is the one made from scratch. So does an edit of the outline of a fitted domain.
+/// For everything else (settings, and every edit under the vertex rule, which cannot be undone locally) another mesh is built
+/// beside the one that is shown; the two change places when the new one is whole.
 #[derive(Clone, Debug)]
 pub struct Follower {
-    settings: Settings,
-    domain: DomainOnLattice,
-    field: TargetField,
-    mesh: Arc<Mesh>,
-    /// Work on the shown mesh; idle under the vertex rule.
-    updater: Updater,
-    /// What it changed since [`Self::take_change`] was last called.
-    changes: Option<Changes>,
+    shown: Shown,
+    state: FollowState,
+    /// What became of the shown mesh since [`Self::take_change`] was last called.
+    change: Option<MeshChange>,
     revision: u64,
-    /// Another mesh is shown since [`Self::take_change`] was last called.
-    replaced: bool,
-    /// The shown mesh no longer is the one of its settings and field: the next work makes it anew.
-    lost_step: bool,
-    /// All of the paint changed: the field is to be filled anew.
-    refill: bool,
-    /// What was painted and is not yet in the field.
-    unread: Vec<PixelRect>,
-    job: Option<Job>,
-    /// Another outline, on its way to the shown mesh.
-    cut: Option<Cut>,
-    /// The revision of the document that could not be met: not tried again.
-    given_up_on: Option<u64>,
     /// Why the shown mesh is not the document's, until it is.
-    stopped: Option<FollowError>,
+    stopped: Option<BuildError>,
+}
+
+/// What is being done, with the data of that work only.
+#[derive(Clone, Debug)]
+enum FollowState {
+    /// Nothing: field and mesh are up to date with what was last seen of the document.
+    InStep,
+    /// Paint is read into the shown field, and the shown mesh is updated where that changed.
+    Updating {
+        /// The mesh that will be updated, while somebody else holds the shown one.
+        copy: Option<MeshCopy>,
+    },
+    /// Another outline is compared with that of the shown mesh and indexed.
+    FollowingOutline(Box<OutlineUpdate>),
+    /// Another mesh is built beside the shown one.
+    Rebuilding(Box<Rebuild>),
+    /// Nothing, as long as the document has this revision.
+    GaveUp {
+        revision: u64,
+        /// Whether the work was cancelled; otherwise it failed, see [`Follower::stopped`].
+        cancelled: bool,
+    },
 }
 
 /// What became of the shown mesh.
@@ -57,55 +82,44 @@ impl Follower {
     ///
     /// # Errors
     /// When the document has no mesh.
-    pub fn new(document: &mut Document) -> Result<Self, FollowError> {
+    pub fn new(document: &mut Document) -> Result<Self, BuildError> {
         document.take_repainted();
-        let mut job = Job::new(document.settings(), false, None)?;
-        while job.advance(document, None, usize::MAX)? == Progress::More {}
-        let Finished { settings, domain, field, mesh } = job.finished();
-        let field = field.expect("the first job fills a field of its own");
-        let updater = Updater::new(settings.limits());
+        let spec = document.settings().mesh_spec()?;
+        let mut first = Rebuild::new(document.settings(), spec, Parts::default());
+        while first.advance(document, usize::MAX)? == Progress::More {}
         Ok(Self {
-            settings,
-            domain,
-            field,
-            mesh: Arc::new(mesh),
-            updater,
-            changes: None,
+            shown: first.finish(),
+            state: FollowState::InStep,
+            change: Some(MeshChange::Replaced),
             revision: 0,
-            replaced: true,
-            lost_step: false,
-            refill: false,
-            unread: Vec::new(),
-            job: None,
-            cut: None,
-            given_up_on: None,
             stopped: None,
         })
     }
 
     /// The shown mesh: conforming at all times.
     pub fn mesh(&self) -> &Mesh {
-        &self.mesh
+        &self.shown.mesh
     }
 
-    /// The shown mesh as it is, to be kept by work that takes longer than a frame.
+    /// The shown mesh as it is, for work that takes longer than a frame. It does not change while it is held; the follower goes
+    /// on with a copy.
     pub fn shared_mesh(&self) -> Arc<Mesh> {
-        self.mesh.clone()
+        self.shown.mesh.clone()
     }
 
     /// The domain on the lattice of the shown mesh.
     pub fn domain(&self) -> &DomainOnLattice {
-        &self.domain
+        &self.shown.domain
     }
 
-    /// h̄ as the document has it, once in step.
+    /// h̄ of the shown mesh; that of the document, once in step.
     pub fn field(&self) -> &TargetField {
-        &self.field
+        &self.shown.field
     }
 
     /// The settings that mesh and field were made from.
     pub fn settings(&self) -> &Settings {
-        &self.settings
+        &self.shown.settings
     }
 
     /// Grows whenever the shown mesh changes.
@@ -115,226 +129,195 @@ impl Follower {
 
     /// What became of the shown mesh since this was last asked.
     pub fn take_change(&mut self) -> Option<MeshChange> {
-        let within = self.changes.take().map(MeshChange::Within);
-        if std::mem::take(&mut self.replaced) { Some(MeshChange::Replaced) } else { within }
+        self.change.take()
     }
 
-    /// What is left to do.
+    /// What is being done.
     pub fn stage(&self) -> Stage {
-        match &self.job {
-            // What is left is not tried before the document changes.
-            None if self.given_up_on.is_some() => Stage::InStep,
-            None if self.cut.is_some() => Stage::Outlining,
-            None if !self.unread.is_empty() || self.lost_step => Stage::Filling,
-            None if self.updater.is_done() => Stage::InStep,
-            None => Stage::Refining { triangles: self.mesh.raw_triangle_count() },
-            Some(job) => job.stage(),
+        match &self.state {
+            FollowState::InStep => Stage::InStep,
+            FollowState::Updating { copy: Some(copy) } => Stage::Copying { triangles: copy.triangles() },
+            FollowState::Updating { copy: None } if self.shown.has_unread_paint() => Stage::Sampling,
+            FollowState::Updating { copy: None } => {
+                Stage::Refining { triangles: self.mesh().raw_triangle_count() }
+            }
+            FollowState::FollowingOutline(_) => Stage::Indexing,
+            FollowState::Rebuilding(rebuild) => rebuild.stage(),
+            FollowState::GaveUp { cancelled: true, .. } => Stage::GaveUp(None),
+            FollowState::GaveUp { cancelled: false, .. } => Stage::GaveUp(self.stopped.clone()),
         }
     }
 
-    /// Why the shown mesh is not that of the document: a budget was met, or a target that cannot be. It stays until mesh and
-    /// document agree, also while another edit is being tried.
-    pub fn stopped(&self) -> Option<&FollowError> {
+    /// Why the shown mesh is not that of the document: a limit was reached, or a target is impossible. The reason stays until mesh
+    /// and document agree, also while another edit is tried.
+    pub fn stopped(&self) -> Option<&BuildError> {
         self.stopped.as_ref()
     }
 
-    /// Whether field and mesh are those of the document as it is: nothing to do, and nothing given up.
+    /// Whether field and mesh are those of the document as it is.
     pub fn is_in_step(&self, document: &Document) -> bool {
-        self.stage() == Stage::InStep
-            && self.given_up_on.is_none()
-            && self.settings == *document.settings()
+        matches!(self.state, FollowState::InStep)
+            && self.shown.settings == *document.settings()
             && document.repainted == Repainted::Within(Vec::new())
     }
 
-    /// Gives up the work under way. The document may then differ from the mesh, until its next change.
+    /// Gives up the work that is left. The mesh may then differ from the document's, until the document's next change.
     pub fn cancel(&mut self, document: &Document) {
-        if !self.updater.is_done() {
-            self.updater.cancel();
-            self.lost_step = true;
+        if !self.is_in_step(document) {
+            self.shown.cancel();
+            self.state = FollowState::GaveUp { revision: document.revision(), cancelled: true };
         }
-        self.give_up(document);
     }
 
-    fn give_up(&mut self, document: &Document) {
-        (self.job, self.cut) = (None, None);
-        self.given_up_on = Some(document.revision());
-    }
-
-    /// Takes over what changed in the document, and does one slice of work: about `visits` pixels or triangles.
+    /// Takes over what changed in the document, and does one slice of work: about `budget` edges, pixels or triangles.
     ///
-    /// A change of settings begins anew. Paint joins the work under way.
+    /// Paint joins the work under way. Another mesh in the making is finished and shown before the next one with newer settings is
+    /// begun, so that the mesh keeps moving while a setting is dragged.
     ///
     /// # Errors
     /// When the document has no mesh. The shown one stays, conforming, and the document is not tried again until it changes.
-    pub fn advance(&mut self, document: &mut Document, visits: usize) -> Result<Stage, FollowError> {
+    pub fn advance(&mut self, document: &mut Document, budget: usize) -> Result<Stage, BuildError> {
         self.take_over_paint(document);
-        if self.given_up_on == Some(document.revision()) {
-            return Ok(Stage::InStep);
-        }
-        self.given_up_on = None;
-        let result = self.work(document, visits);
-        match &result {
-            Ok(Stage::InStep) => self.stopped = None,
-            Ok(_) => {}
-            Err(error) => {
+        if !matches!(self.state, FollowState::GaveUp { revision, .. } if revision == document.revision()) {
+            if let Err(error) = self.work(document, budget) {
                 self.stopped = Some(error.clone());
-                self.give_up(document);
+                self.state = FollowState::GaveUp { revision: document.revision(), cancelled: false };
+                return Err(error);
             }
         }
-        result
-    }
-
-    /// Takes over settings that the shown mesh obeys as it is, if these are such: those that it was made from, after a change
-    /// there and back, and other budgets that it keeps. What a former budget stopped goes on.
-    fn takes_over(&mut self, wanted: &Settings) -> bool {
-        let (max_triangles, max_memory) = (wanted.max_triangles, wanted.max_memory);
-        let with_budgets = Settings { max_triangles, max_memory, ..self.settings.clone() };
-        let limits = wanted.limits();
-        let fits = self.mesh.raw_triangle_count() <= limits.most_triangles();
-        let obeyed = !self.lost_step && fits && with_budgets == *wanted;
-        if obeyed {
-            self.settings = with_budgets;
-            self.updater.set_limits(limits);
-            self.job = None;
-        }
-        obeyed
-    }
-
-    fn work(&mut self, document: &Document, visits: usize) -> Result<Stage, FollowError> {
-        let wanted = document.settings();
-        let differs = *wanted != *self.job.as_ref().map_or(&self.settings, |job| &job.settings);
-        let cuts = differs && self.follows_domain(wanted);
-        if !cuts {
-            self.cut = None;
-        }
-        let outdated = if differs {
-            !cuts && !self.takes_over(wanted)
-        } else {
-            self.job.is_none() && self.lost_step && self.unread.is_empty()
-        };
-        if outdated {
-            let reuse_field = self.reuses_field(wanted) && self.unread.is_empty();
-            self.job = Some(Job::new(wanted, reuse_field, self.laid_domain(wanted))?);
-        }
-        match (&mut self.job, self.cut.take()) {
-            (Some(job), _) => {
-                if job.advance(document, Some(&self.field), visits)? == Progress::Done {
-                    self.show();
-                }
-            }
-            (None, Some(cut)) => self.cut(cut, wanted, visits),
-            (None, None) => self.update(document, visits)?,
+        if matches!(self.state, FollowState::InStep) {
+            self.stopped = None;
         }
         Ok(self.stage())
-    }
-
-    /// One slice of work on the shown field and mesh.
-    fn update(&mut self, document: &Document, visits: usize) -> Result<(), RefineError> {
-        if let Some(area) = self.unread.pop() {
-            let (now, later) = area.split_after(visits);
-            self.unread.extend(later);
-            let changed = self.field.update(document.paint().as_paint(), now);
-            match self.settings.rule {
-                RefinementRule::Area => {
-                    changed.iter().for_each(|&area| self.updater.add(self.field.lattice_rect(area)))
-                }
-                RefinementRule::Vertex => self.lost_step = true,
-            }
-            return Ok(());
-        }
-        if self.updater.is_done() {
-            return Ok(());
-        }
-        let (field, domain) = (&self.field, &self.domain);
-        let mesh = Arc::make_mut(&mut self.mesh);
-        let exceeds = |element: &Element| domain.exceeds(element, |element| Ok(field.exceeds(element)));
-        let result = self.updater.advance(mesh, exceeds, visits);
-        if let Some(changes) = self.updater.take_changes() {
-            self.revision += 1;
-            if domain.is_fitted() || mesh.outside_count() > 0 {
-                for ids in &changes.triangles {
-                    mesh.classify(ids.clone(), |element| domain.excludes(element));
-                }
-            }
-            match &mut self.changes {
-                Some(earlier) => earlier.extend(&changes, mesh),
-                None => self.changes = Some(changes),
-            }
-        }
-        result.map(|_| ())
-    }
-
-    /// Begins to take over a domain of another outline, if the shown mesh can follow it in place. A cut that has begun goes on to its
-    /// end: what came since is the next one.
-    fn follows_domain(&mut self, wanted: &Settings) -> bool {
-        if self.job.is_some() || self.lost_step || !Cut::is_possible(&self.settings, wanted) {
-            return false;
-        }
-        if self.cut.is_none() {
-            self.cut = Cut::begin(&self.settings, wanted, self.mesh.lattice());
-        }
-        true
-    }
-
-    /// One slice of a cut; at its end the mesh begins to follow, and the cut that came since begins.
-    fn cut(&mut self, mut cut: Cut, wanted: &Settings, visits: usize) {
-        if cut.advance(visits) == Progress::More {
-            self.cut = Some(cut);
-            return;
-        }
-        self.settings = cut.settings.clone();
-        let (domain, areas) = cut.finished();
-        self.domain = domain;
-        areas.into_iter().for_each(|area| self.updater.add_and_tell(area));
-        if self.settings != *wanted {
-            self.follows_domain(wanted);
-        }
-    }
-
-    fn show(&mut self) {
-        let Some(mut job) = self.job.take() else { return };
-        self.unread = std::mem::take(&mut job.repainted);
-        let Finished { settings, domain, field, mesh } = job.finished();
-        self.updater = Updater::new(settings.limits());
-        (self.settings, self.domain) = (settings, domain);
-        if let Some(field) = field {
-            self.field = field;
-        }
-        self.mesh = Arc::new(mesh);
-        self.revision += 1;
-        self.replaced = true;
-        self.changes = None;
-        (self.lost_step, self.refill) = (false, false);
-    }
-
-    /// Whether the shown field is made from the same things as `wanted` asks for.
-    fn reuses_field(&self, wanted: &Settings) -> bool {
-        !self.refill
-            && self.field.spec() == &wanted.field_spec()
-            && wanted.lattice().as_ref() == Ok(self.mesh.lattice())
-    }
-
-    /// The wanted domain on the lattice, where the shown mesh has it.
-    fn laid_domain(&self, wanted: &Settings) -> Option<DomainOnLattice> {
-        let same =
-            wanted.domain == self.settings.domain && wanted.lattice().as_ref() == Ok(self.mesh.lattice());
-        same.then(|| self.domain.with_boundary(wanted.boundary))
     }
 
     fn take_over_paint(&mut self, document: &mut Document) {
         match document.take_repainted() {
             Repainted::Within(areas) => {
-                if let Some(job) = &mut self.job {
-                    job.repainted.extend(&areas);
+                if let FollowState::Rebuilding(rebuild) = &mut self.state {
+                    rebuild.repaint(&areas);
                 }
-                self.unread.extend(areas);
+                self.shown.repaint(areas);
             }
             Repainted::Everything => {
-                (self.job, self.cut) = (None, None);
-                self.unread.clear();
-                self.lost_step = true;
-                self.refill = true;
+                self.state = FollowState::InStep;
+                self.shown.replace_paint();
             }
+        }
+    }
+
+    /// Chooses the state for the document as it is, and does one slice of work there.
+    fn work(&mut self, document: &Document, budget: usize) -> Result<(), BuildError> {
+        let wanted = document.settings();
+        self.state = match self.chosen_state(wanted)? {
+            FollowState::Updating { copy } => self.update(copy, document, budget)?,
+            FollowState::FollowingOutline(update) => self.follow_outline(update, wanted, budget)?,
+            FollowState::Rebuilding(rebuild) => self.rebuild(rebuild, document, budget)?,
+            idle @ (FollowState::InStep | FollowState::GaveUp { .. }) => idle,
+        };
+        Ok(())
+    }
+
+    /// The present state, if its work is still of use for the wanted settings; otherwise the next.
+    fn chosen_state(&mut self, wanted: &Settings) -> Result<FollowState, BuildError> {
+        let state = std::mem::replace(&mut self.state, FollowState::InStep);
+        let shown = &self.shown;
+        let goes_on = match &state {
+            FollowState::InStep | FollowState::GaveUp { .. } => false,
+            FollowState::Updating { .. } => {
+                shown.settings == *wanted && shown.obeys(wanted) && shown.has_updates()
+            }
+            // An update of the outline that has begun is finished; what came since is the next one.
+            FollowState::FollowingOutline(_) => shown.can_follow_outline(wanted),
+            FollowState::Rebuilding(rebuild) => {
+                let triangles = shown.mesh.raw_triangle_count();
+                rebuild.is_for(wanted)
+                    || (!shown.obeys(wanted) && rebuild.is_worth_finishing(wanted, triangles))
+            }
+        };
+        if goes_on { Ok(state) } else { self.next_state(wanted) }
+    }
+
+    /// The state that leads to the wanted settings, when no work is under way.
+    fn next_state(&mut self, wanted: &Settings) -> Result<FollowState, BuildError> {
+        if self.shown.obeys(wanted) {
+            self.shown.adopt(wanted);
+            let updates = self.shown.has_updates();
+            return Ok(if updates { FollowState::Updating { copy: None } } else { FollowState::InStep });
+        }
+        if self.shown.reads_paint_first(wanted) {
+            return Ok(FollowState::Updating { copy: None });
+        }
+        if let Some(update) = self.shown.follow_outline(wanted) {
+            return Ok(FollowState::FollowingOutline(Box::new(update)));
+        }
+        Ok(FollowState::Rebuilding(Box::new(self.shown.rebuild(wanted)?)))
+    }
+
+    /// One slice of updates of the shown field and mesh.
+    fn update(
+        &mut self,
+        mut copy: Option<MeshCopy>,
+        document: &Document,
+        budget: usize,
+    ) -> Result<FollowState, BuildError> {
+        if self.shown.has_unread_paint() {
+            self.shown.read_paint(document.paint().as_paint(), budget);
+        } else {
+            let result = self.shown.update_mesh(&mut copy, budget);
+            // What changed before an error is shown too.
+            self.note_changes();
+            result?;
+        }
+        if self.shown.has_updates() {
+            return Ok(FollowState::Updating { copy });
+        }
+        self.next_state(document.settings())
+    }
+
+    /// One slice of work on another outline; at its end the mesh begins to follow.
+    fn follow_outline(
+        &mut self,
+        mut update: Box<OutlineUpdate>,
+        wanted: &Settings,
+        budget: usize,
+    ) -> Result<FollowState, BuildError> {
+        if update.advance(budget) == Progress::More {
+            return Ok(FollowState::FollowingOutline(update));
+        }
+        self.shown.take_outline(*update);
+        self.next_state(wanted)
+    }
+
+    /// One slice of work on another mesh; at its end that is shown.
+    fn rebuild(
+        &mut self,
+        mut rebuild: Box<Rebuild>,
+        document: &Document,
+        budget: usize,
+    ) -> Result<FollowState, BuildError> {
+        let wanted = document.settings();
+        match rebuild.advance(document, budget) {
+            Ok(Progress::More) => return Ok(FollowState::Rebuilding(rebuild)),
+            Ok(Progress::Done) => {
+                self.shown = rebuild.finish();
+                self.revision += 1;
+                self.change = Some(MeshChange::Replaced);
+            }
+            Err(error) if rebuild.is_up_to_date(wanted) => return Err(error),
+            // It may be possible with the present settings and paint.
+            Err(_) => {}
+        }
+        self.next_state(wanted)
+    }
+
+    fn note_changes(&mut self) {
+        let Some(changes) = self.shown.take_changes() else { return };
+        self.revision += 1;
+        match &mut self.change {
+            Some(MeshChange::Replaced) => {}
+            Some(MeshChange::Within(earlier)) => earlier.extend(&changes, &self.shown.mesh),
+            None => self.change = Some(MeshChange::Within(changes)),
         }
     }
 }

@@ -1,15 +1,16 @@
 //! What the user edits: settings and paint, with the inverse of every edit. A [`Follower`] derives field and
 //! mesh from it; these are never saved.
 
-mod cut;
 mod edits;
 mod examples;
 mod follower;
 mod history;
-mod job;
+mod outline_update;
 mod pricer;
+mod rebuild;
 mod setting;
 mod settings;
+mod shown;
 mod stage;
 
 use glam::DVec2;
@@ -21,7 +22,7 @@ pub use history::History;
 pub use pricer::{Price, Pricer};
 pub use setting::{Setting, SettingKind};
 pub use settings::{Base, LEAST_MEMORY, MAX_COARSE_TRIANGLES, RESOLUTIONS, Settings, SettingsError};
-pub use stage::{FollowError, Stage};
+pub use stage::Stage;
 
 use crate::mesh::Progress;
 use crate::paint::{Brush, PaintRasters, Stroke};

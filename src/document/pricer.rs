@@ -1,8 +1,7 @@
-use std::convert::Infallible;
-
 use glam::DVec2;
 
 use super::{Document, Follower};
+use crate::build::RefinementCriterion;
 use crate::field::RefinementRule;
 use crate::mesh::{Forecast, Progress};
 use crate::paint::{Brush, Dab};
@@ -188,11 +187,9 @@ fn price_so_far(
     follower: &Follower,
     visits: usize,
 ) -> Option<Price> {
-    let (field, domain) = (follower.field(), follower.domain());
-    let exceeds = |corners, level| {
-        let by_field = || Ok::<_, Infallible>(field.would_exceed(levels, corners, level));
-        domain.exceeds_at(corners, level, by_field).unwrap_or(false)
-    };
+    let domain = follower.domain();
+    let criterion = RefinementCriterion::by_area(domain, follower.field());
+    let exceeds = |corners, level| criterion.would_exceed(levels, corners, level);
     let belongs = |corners, _| !domain.excludes_at(corners);
     let progress = forecast.advance(follower.mesh(), exceeds, belongs, visits);
     let [added, removed] = [forecast.added(), forecast.removed()];

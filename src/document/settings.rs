@@ -1,10 +1,11 @@
 use std::sync::Arc;
 
-use crate::domain::{BoundaryTreatment, Domain, DomainOnLattice};
+use crate::build::{FieldSampling, MeshSpec};
+use crate::domain::{BoundaryTreatment, Domain};
 use crate::field::{
     Formula, RefinementRule, Source, TargetFieldSpec, Transfer, TransferError, checked_target,
 };
-use crate::geometry::{GridError, Lattice};
+use crate::geometry::{GridError, Lattice, Rect};
 use crate::mesh::{Limits, MemoryLimit};
 use crate::raster::{MAX_SIDE, Raster};
 use crate::text::Bytes;
@@ -151,14 +152,6 @@ impl Settings {
         Lattice::covering(self.domain.bounds, self.spacing, MAX_COARSE_TRIANGLES)
     }
 
-    /// The domain on that lattice.
-    ///
-    /// # Errors
-    /// As [`Self::lattice`].
-    pub fn domain_on_lattice(&self) -> Result<DomainOnLattice, GridError> {
-        Ok(DomainOnLattice::new(&self.domain, self.boundary, &self.lattice()?))
-    }
-
     /// Columns and rows of the field: the resolution along the longer side, square pixels as nearly as may be.
     pub fn raster_size(&self) -> [u32; 2] {
         let size = self.domain.bounds.size();
@@ -173,12 +166,70 @@ impl Settings {
             Base::Formula(formula) => Source::TargetFormula(formula.clone()),
             Base::RiskImage { raster, .. } => Source::RiskRaster(raster.clone()),
         };
-        TargetFieldSpec { sources: vec![source], transfer: self.transfer, size: self.raster_size() }
+        let (transfer, size) = (self.transfer, self.raster_size());
+        TargetFieldSpec { sources: vec![source], transfer, unasked: transfer.h_max, size }
+    }
+
+    /// What to mesh, but for the paint.
+    ///
+    /// # Errors
+    /// As [`Self::lattice`].
+    pub fn mesh_spec(&self) -> Result<MeshSpec, GridError> {
+        Ok(MeshSpec {
+            domain: self.domain.clone(),
+            boundary: self.boundary,
+            lattice: self.lattice()?,
+            field: self.field_spec(),
+            rule: self.rule,
+            sampling: FieldSampling::Always,
+            limits: self.limits(),
+        })
     }
 
     /// What the mesh may cost.
     pub fn limits(&self) -> Limits {
         let max_memory = Some(MemoryLimit::for_two_meshes(self.max_memory));
         Limits { max_triangles: self.max_triangles, max_level: None, max_memory }
+    }
+}
+
+impl Settings {
+    /// Most triangles unless the user says otherwise: 760 MB.
+    pub const MAX_TRIANGLES: usize = 20_000_000;
+    /// Most memory for meshes unless the user says otherwise, in bytes: enough for a little more than [`Self::MAX_TRIANGLES`].
+    pub const MAX_MEMORY: usize = 2_000_000_000;
+
+    /// The usual settings for a domain: lengths in proportion to its longer side.
+    pub fn for_domain(name: String, domain: Domain) -> Self {
+        let (usual, extent) = (Self::default(), domain.bounds.size().max_element());
+        let Transfer { h_min, h_max, shape } = usual.transfer;
+        let spacing = usual.spacing * extent;
+        Self {
+            name,
+            domain,
+            spacing,
+            boundary: BoundaryTreatment::usual(spacing),
+            transfer: Transfer { h_min: h_min * extent, h_max: h_max * extent, shape },
+            base: Base::Constant(h_max * extent),
+            ..usual
+        }
+    }
+}
+
+impl Default for Settings {
+    /// The unit square, 24 coarse cells a side, nothing refined but what is painted.
+    fn default() -> Self {
+        Self {
+            name: "Untitled".into(),
+            domain: Domain::rectangle(Rect::UNIT),
+            spacing: 1.0 / 24.0,
+            boundary: BoundaryTreatment::usual(1.0 / 24.0),
+            transfer: Transfer { h_min: 0.0024, h_max: 0.2, shape: 1.0 },
+            base: Base::Constant(0.2),
+            rule: RefinementRule::Area,
+            resolution: 1024,
+            max_triangles: Self::MAX_TRIANGLES,
+            max_memory: Self::MAX_MEMORY,
+        }
     }
 }

@@ -1,31 +1,32 @@
-use crate::mesh::{CoarseError, InvalidTarget, RefineError};
+use crate::build::BuildError;
 
-/// How far a [`Follower`](super::Follower) is behind its document.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// What a [`Follower`](super::Follower) is doing to bring the mesh in step with its document.
+#[derive(Clone, Debug, PartialEq)]
 pub enum Stage {
-    /// Not at all.
+    /// Nothing: field and mesh are those of the document.
     InStep,
-    /// The outline of the domain is being laid on the lattice.
-    Outlining,
-    /// The field is being sampled.
-    Filling,
-    /// The mesh is being refined; so far it has this many triangles.
+    /// The outline of the domain is indexed on the lattice.
+    Indexing,
+    /// h̄ is sampled by pixel.
+    Sampling,
+    /// The mesh is copied, because somebody else holds it; so far this many triangles.
+    Copying {
+        /// Triangles so far.
+        triangles: usize,
+    },
+    /// The mesh is refined; so far it has this many triangles.
     Refining {
         /// Triangles so far.
         triangles: usize,
     },
+    /// Nothing, until the document changes: the mesh is not that of the document. The reason, or `None` where the work was
+    /// cancelled.
+    GaveUp(Option<BuildError>),
 }
 
-/// Why no mesh could be made of a document. The former mesh is still shown.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum FollowError {
-    /// The coarse grid is impossible, or empty.
-    #[error(transparent)]
-    Coarse(#[from] CoarseError),
-    /// h̄ is no length somewhere.
-    #[error(transparent)]
-    InvalidTarget(#[from] InvalidTarget),
-    /// A limit was reached.
-    #[error(transparent)]
-    Refine(#[from] RefineError),
+impl Stage {
+    /// Whether nothing is left to do before the document changes: in step, or given up.
+    pub fn is_settled(&self) -> bool {
+        matches!(self, Self::InStep | Self::GaveUp(_))
+    }
 }

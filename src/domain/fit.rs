@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use super::laying::RegionLaying;
+use super::region_builder::RegionOnLatticeBuilder;
 use super::{Domain, RegionOnLattice};
 use crate::field::Formula;
 use crate::geometry::{Lattice, LatticePoint, Rect};
@@ -23,61 +23,65 @@ pub enum BoundaryTreatment {
 }
 
 impl BoundaryTreatment {
-    /// A start: coarse enough to be quick, fine enough to see the shape. `spacing` is δ̄ in world units.
+    /// A start: coarse enough to be quick, fine enough to see the shape. The diameter is that of level 7, an eighth of the spacing
+    /// δ̄; both are in world units.
     pub fn usual(spacing: f64) -> Self {
         Self::Fitted { diameter: bisection_edge_length(spacing, 7) }
     }
 }
 
-/// A domain on its way to a [`DomainOnLattice`], in slices.
+/// Indexes a domain on a lattice, in slices.
 #[derive(Clone, Debug)]
-pub struct DomainLaying {
+pub struct DomainOnLatticeBuilder {
     /// All but the region.
-    laid: DomainOnLattice,
+    indexed: DomainOnLattice,
     boundary: BoundaryTreatment,
-    region: Option<RegionLaying>,
+    region: Option<RegionOnLatticeBuilder>,
 }
 
-impl DomainLaying {
-    /// Begins to lay a domain on a lattice that covers its bounds.
+impl DomainOnLatticeBuilder {
+    /// The work for a domain on a lattice that covers its bounds.
     pub fn new(domain: &Domain, boundary: BoundaryTreatment, lattice: &Lattice) -> Self {
         let formula = domain.formula().cloned();
-        let laid =
+        let indexed =
             DomainOnLattice { bounds: domain.bounds, lattice: *lattice, formula, region: None, fitted: None };
-        let region = domain.region().map(|region| RegionLaying::new(region, lattice));
-        Self { laid, boundary, region }
+        let region = domain.region().map(|region| RegionOnLatticeBuilder::new(region, lattice));
+        Self { indexed, boundary, region }
     }
 
-    /// About so many edges of the outline.
-    pub fn advance(&mut self, visits: usize) -> Progress {
-        self.region.as_mut().map_or(Progress::Done, |region| region.advance(visits))
+    /// One slice of work: about `budget` edges of the outline.
+    pub fn advance(&mut self, budget: usize) -> Progress {
+        self.region.as_mut().map_or(Progress::Done, |region| region.advance(budget))
     }
 
-    /// The domain, laid; what is left to do is done at once.
-    pub fn finished(self) -> DomainOnLattice {
-        let region = self.region.map(|region| Arc::new(region.finished()));
-        DomainOnLattice { region, ..self.laid }.with_boundary(self.boundary)
+    /// The domain. Work that is left is done in one go.
+    pub fn finish(self) -> DomainOnLattice {
+        let region = self.region.map(|region| Arc::new(region.finish()));
+        DomainOnLattice { region, ..self.indexed }.with_boundary(self.boundary)
     }
 }
 
-/// A domain laid on the lattice of a mesh: what the coarse grid, the refinement rule and [`Mesh::classify`](crate::mesh::Mesh::classify) ask.
+/// A domain on the lattice of a mesh: what the coarse grid, the refinement criterion and
+/// [`Mesh::classify`](crate::mesh::Mesh::classify) ask.
 #[derive(Clone, Debug)]
 pub struct DomainOnLattice {
     bounds: Rect,
     lattice: Lattice,
     formula: Option<Formula>,
+    /// Shared, so that a copy costs nothing.
     region: Option<Arc<RegionOnLattice>>,
-    /// The level at the boundary, where that is met by refinement.
+    /// The level that triangles on the boundary must have, where the mesh is fitted to it.
     fitted: Option<u32>,
 }
 
 impl DomainOnLattice {
-    /// Lays a domain on a lattice that covers its bounds. Only a region can be fitted; a formula is met as in the report.
+    /// Indexes a domain on a lattice that covers its bounds, in one go. Only a region can be fitted; a formula is met as in the
+    /// report.
     pub fn new(domain: &Domain, boundary: BoundaryTreatment, lattice: &Lattice) -> Self {
-        DomainLaying::new(domain, boundary, lattice).finished()
+        DomainOnLatticeBuilder::new(domain, boundary, lattice).finish()
     }
 
-    /// The same domain on the same lattice, with its boundary met in another way.
+    /// The same domain on the same lattice, with another treatment of its boundary.
     pub fn with_boundary(&self, boundary: BoundaryTreatment) -> Self {
         let fitted = match boundary {
             BoundaryTreatment::Fitted { diameter } if self.region.is_some() => {
@@ -88,12 +92,7 @@ impl DomainOnLattice {
         Self { fitted, ..self.clone() }
     }
 
-    /// The lattice, for the coarse grid of a mesh of this domain.
-    pub fn lattice(&self) -> &Lattice {
-        &self.lattice
-    }
-
-    /// Whether the boundary is met by refinement, and triangles outside are to be sorted out at the end.
+    /// Whether the mesh is fitted to the boundary: refined along it, with the triangles outside marked.
     pub fn is_fitted(&self) -> bool {
         self.fitted.is_some()
     }

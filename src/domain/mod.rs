@@ -3,9 +3,9 @@
 mod comparison;
 mod edge;
 mod fit;
-mod laying;
 mod on_lattice;
 mod region;
+mod region_builder;
 mod cut_shape;
 mod tangle;
 
@@ -17,7 +17,7 @@ use crate::text::Grouped;
 
 pub use comparison::RegionComparison;
 pub use cut_shape::CutShape;
-pub use fit::{BoundaryTreatment, DomainLaying, DomainOnLattice};
+pub use fit::{BoundaryTreatment, DomainOnLattice, DomainOnLatticeBuilder};
 pub use on_lattice::RegionOnLattice;
 pub use region::{Polygon, Region, Ring, corners, signed_area};
 use tangle::check_tangle;

@@ -221,7 +221,7 @@ mod tests {
     use glam::{DVec2, dvec2};
 
     use super::*;
-    use crate::domain::laying::RegionLaying;
+    use crate::domain::region_builder::RegionOnLatticeBuilder;
     use crate::domain::{Polygon, Region, Ring};
     use crate::geometry::Rect;
     use crate::mesh::{Limits, Mesh, Progress, TriangleId};
@@ -307,9 +307,9 @@ mod tests {
             let lattice = *mesh.lattice();
             // At times so little room that squares are larger than coarse cells.
             let most = 1 << random.u32(0..12);
-            let mut laying = RegionLaying::within(&region, &lattice, most);
-            while laying.advance(random.usize(1..300)) == Progress::More {}
-            let sorted = laying.finished();
+            let mut builder = RegionOnLatticeBuilder::within(&region, &lattice, most);
+            while builder.advance(random.usize(1..300)) == Progress::More {}
+            let sorted = builder.finish();
             let all = 0..mesh.raw_triangle_count();
             mesh.classify(all, |element| {
                 let touched = cut_by_brute_force(&region, &lattice, element.corners);
@@ -350,7 +350,7 @@ mod tests {
             &Limits::default(),
         )
         .unwrap();
-        let sorted = RegionLaying::new(&whole, mesh.lattice()).finished();
+        let sorted = RegionOnLatticeBuilder::new(&whole, mesh.lattice()).finish();
         mesh.classify(0..32, |element| {
             assert!(
                 !sorted.cuts(element.corners, element.triangle.level())

@@ -1,6 +1,7 @@
 //! h̄, the target diameter: formulas, rasters and paint, and the rules that compare a triangle with it.
 
 pub mod formula;
+mod samples;
 mod source;
 mod target_field;
 mod transfer;

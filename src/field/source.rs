@@ -24,7 +24,7 @@ pub enum Source {
 impl Source {
     /// The target diameter at a point in world units; rasters ask for nothing (infinity) beyond their edge.
     ///
-    /// Unchecked: a formula may give NaN or less than zero. See [`checked_target`].
+    /// Unchecked: a formula may give NaN or a value below zero. See [`checked_target`].
     pub fn target(&self, point: DVec2, transfer: &impl RiskToDiameter) -> f64 {
         match self {
             Self::Constant(diameter) => *diameter,
@@ -52,13 +52,13 @@ impl Source {
     }
 }
 
-/// The smallest target diameter that any of the sources asks for at a point; infinite where none does.
+/// The smallest target diameter that any of the sources asks for at a point in world units; infinite where none does.
 ///
 /// # Errors
 /// When a source gives NaN, infinity, zero or less. Only a raster may ask for nothing, beyond its edge or where it has no
 /// value.
-pub fn smallest_target(
-    sources: &[Source],
+pub fn smallest_target<'a>(
+    sources: impl IntoIterator<Item = &'a Source>,
     point: DVec2,
     transfer: &impl RiskToDiameter,
 ) -> Result<f64, InvalidTarget> {
@@ -72,10 +72,10 @@ pub fn smallest_target(
     Ok(smallest)
 }
 
-/// Passes a target diameter on when a mesh can meet it: a positive, finite length.
+/// Returns a target diameter that a mesh can meet: a positive, finite length. Both arguments are in world units.
 ///
 /// # Errors
-/// With the point (in world units) and the value, otherwise.
+/// With the point and the value, when no mesh can meet it.
 #[inline]
 pub fn checked_target(value: f64, at: DVec2) -> Result<f64, InvalidTarget> {
     if value > 0.0 && value.is_finite() { Ok(value) } else { Err(InvalidTarget { at, value }) }

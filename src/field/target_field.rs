@@ -1,5 +1,6 @@
 use glam::DVec2;
 
+use super::samples::SourceSamples;
 use super::{RiskToDiameter, Source, Transfer, TransferTable, smallest_target};
 use crate::geometry::{Lattice, LatticePoint, LatticeRect};
 use crate::mesh::{Element, InvalidTarget, Progress, bisection_edge_length, level_for_diameter};
@@ -21,11 +22,13 @@ pub struct TargetFieldSpec {
     pub sources: Vec<Source>,
     /// From risk to diameter; its ends bound h̄ everywhere.
     pub transfer: Transfer,
-    /// Columns and rows.
+    /// h̄ where neither a source nor paint asks for a diameter, in world units.
+    pub unasked: f64,
+    /// Columns and rows of the pixels.
     pub size: [u32; 2],
 }
 
-/// The painted layers, each a raster over the same rectangle.
+/// The paint, each kind a raster over the same rectangle.
 #[derive(Clone, Copy)]
 pub struct PaintRef<'a> {
     /// Risk, 0 to 1.
@@ -34,43 +37,59 @@ pub struct PaintRef<'a> {
     pub diameter: &'a Raster,
 }
 
-/// h̄ over a domain, by pixel: the minimum of all sources and of what is painted, within \[h_min, h_max\].
+/// h̄ over a domain: the minimum of all sources and of what is painted, within \[h_min, h_max\].
 ///
-/// Beside each diameter stands the level that it needs, in a mipmap of maxima: the area rule asks that mipmap and no
-/// formula. Filled in slices ([`Self::fill`]) and kept up to date by rectangles ([`Self::update`]).
+/// By pixel, each diameter stands beside the level that it needs, in a max-mipmap: the area rule asks that mipmap and no
+/// formula ([`Self::exceeds`]). The pixels are sampled in slices ([`Self::advance`]) and kept up to date by rectangles
+/// ([`Self::update`]). The vertex rule evaluates the sources at nodes instead ([`Self::target_at_node`]), and needs no pixels.
 #[derive(Clone, Debug)]
 pub struct TargetField {
     spec: TargetFieldSpec,
     table: TransferTable,
     lattice: Lattice,
-    /// The smallest diameter that the sources ask for.
-    base: Raster,
+    samples: SourceSamples,
     target: Raster,
     levels: MaxMipmap<u8>,
     on_lattice: RasterOnLattice,
     diameter_of_level: [f64; 64],
-    filled_rows: u32,
+    sampled_rows: u32,
 }
 
 /// The level written where no level up to 63 is fine enough. The refinement then ends at the lattice, with an error.
 const BEYOND: u8 = u8::MAX;
-/// Pixels along a side of the squares in which changed levels are told: smaller ones fit better, larger ones are fewer.
+/// Side of the blocks, in pixels, in which changed levels are reported: smaller blocks fit better, larger ones are fewer.
 const BLOCK: u32 = 16;
 
 impl TargetField {
-    /// A field over the bounds of `lattice`, yet to be filled. Until then it asks for nothing.
+    /// A field over the bounds of `lattice`, not sampled yet. Until then it asks for nothing.
     pub fn new(spec: TargetFieldSpec, lattice: &Lattice) -> Self {
+        let samples = SourceSamples::new(&spec, lattice.bounds());
+        Self::with_samples(spec, lattice, samples)
+    }
+
+    /// As [`Self::new`]; sources that `earlier` has sampled too, over the same bounds and pixels, are not evaluated again.
+    ///
+    /// So a change of the coarse spacing evaluates nothing, and a change of the transfer curve only the sources of risk.
+    pub fn reusing(spec: TargetFieldSpec, lattice: &Lattice, earlier: &Self) -> Self {
+        if earlier.lattice.bounds() != lattice.bounds() {
+            return Self::new(spec, lattice);
+        }
+        let samples = SourceSamples::reusing(&spec, lattice.bounds(), &earlier.samples, &earlier.spec);
+        Self::with_samples(spec, lattice, samples)
+    }
+
+    fn with_samples(spec: TargetFieldSpec, lattice: &Lattice, samples: SourceSamples) -> Self {
         let (bounds, size) = (lattice.bounds(), spec.size);
         Self {
             table: TransferTable::new(&spec.transfer),
             lattice: *lattice,
+            samples,
             // Zeros cost nothing until they are written over, slice by slice.
-            base: Raster::filled(bounds, size, 0.0),
             target: Raster::filled(bounds, size, 0.0),
             levels: MaxMipmap::filled(size, 0),
             on_lattice: RasterOnLattice::new(lattice, size),
             diameter_of_level: std::array::from_fn(|l| bisection_edge_length(lattice.spacing(), l as u32)),
-            filled_rows: 0,
+            sampled_rows: 0,
             spec,
         }
     }
@@ -90,50 +109,54 @@ impl TargetField {
         &self.levels
     }
 
-    /// Evaluates the sources and the paint row by row, about `pixels` of them.
+    /// Whether every pixel is sampled.
+    pub fn is_sampled(&self) -> bool {
+        self.sampled_rows == self.spec.size[1]
+    }
+
+    /// How many pixels are sampled so far.
+    pub fn sampled_pixels(&self) -> usize {
+        self.sampled_rows as usize * self.spec.size[0] as usize
+    }
+
+    /// How often a source was evaluated at a pixel to make this field: not at all where samples were reused.
+    pub fn evaluations(&self) -> u64 {
+        self.samples.evaluations()
+    }
+
+    /// Samples the sources and the paint row by row, about `pixels` of them.
     ///
     /// # Errors
     /// When a source gives NaN, infinity, zero or less at some pixel. The field is then of no use.
-    pub fn fill(&mut self, paint: PaintRef, pixels: usize) -> Result<Progress, InvalidTarget> {
-        self.fill_rows(Some(paint), pixels)
-    }
-
-    /// As [`Self::fill`] where nothing is painted.
-    ///
-    /// # Errors
-    /// As [`Self::fill`].
-    pub fn fill_unpainted(&mut self, pixels: usize) -> Result<Progress, InvalidTarget> {
-        self.fill_rows(None, pixels)
-    }
-
-    fn fill_rows(&mut self, paint: Option<PaintRef>, pixels: usize) -> Result<Progress, InvalidTarget> {
+    pub fn advance(&mut self, paint: Option<PaintRef>, pixels: usize) -> Result<Progress, InvalidTarget> {
         let [columns, rows] = self.spec.size;
-        let first = self.filled_rows;
+        let first = self.sampled_rows;
         let slice_rows = (pixels / columns as usize).clamp(1, rows as usize) as u32;
         let last = (first + slice_rows).min(rows);
         let slice = PixelRect { min: [0, first], max: [columns, last] };
-        let pixel_center = self.base.pixel_centers();
-        for (x, y) in slice.pixels() {
-            let point = pixel_center(x, y);
-            let value = smallest_target(&self.spec.sources, point, &self.table)?;
-            self.base.set(x, y, f32_not_below(value));
+        if !slice.is_empty() {
+            self.samples.sample(&self.spec, &self.table, self.target.pixel_centers(), slice)?;
+            self.sampled_rows = last;
+            self.refresh(paint, slice);
         }
-        self.filled_rows = last;
-        self.refresh(paint, slice);
-        Ok(if last == rows { Progress::Done } else { Progress::More })
+        if !self.is_sampled() {
+            return Ok(Progress::More);
+        }
+        self.samples.complete();
+        Ok(Progress::Done)
     }
 
-    /// Takes over what changed in the painted layers within `area`. Rows not yet filled are left to [`Self::fill`].
+    /// Takes over what changed in the paint within `area`. Rows that are not sampled yet are left to [`Self::advance`].
     ///
     /// Returns small rectangles that hold all pixels that now ask for another level: only triangles that touch them may get
-    /// another answer by the area rule. The next dab of a stroke covers the last one but for a crescent, and paint over what is
-    /// fine already changes no level at all.
+    /// another answer by the area rule. Most of a dab covers the dab before it, and paint over what is fine already changes no
+    /// level at all.
     pub fn update(&mut self, paint: PaintRef, area: PixelRect) -> Vec<PixelRect> {
         self.refresh(Some(paint), area)
     }
 
     fn refresh(&mut self, paint: Option<PaintRef>, area: PixelRect) -> Vec<PixelRect> {
-        let area = PixelRect { min: area.min, max: [area.max[0], area.max[1].min(self.filled_rows)] };
+        let area = PixelRect { min: area.min, max: [area.max[0], area.max[1].min(self.sampled_rows)] };
         let columns = (area.min[0]..area.max[0]).step_by(BLOCK as usize);
         let rows = (area.min[1]..area.max[1]).step_by(BLOCK as usize);
         let mut changed = Vec::new();
@@ -150,11 +173,18 @@ impl TargetField {
         let mut levels = [0; (BLOCK * BLOCK) as usize];
         let place = |x: u32, y: u32| ((y - block.min[1]) * BLOCK + x - block.min[0]) as usize;
         let mut changed = PixelRect { min: [0, 0], max: [0, 0] };
+        // Most pixels ask for the same as the pixel before them.
+        let mut last = ([f32::NAN; 3], 0.0, 0);
         for (x, y) in block.pixels() {
             let painted = paint.map_or([0.0, f32::INFINITY], |p| [p.risk.get(x, y), p.diameter.get(x, y)]);
-            let diameter = self.diameter_with(x, y, painted);
-            self.target.set(x, y, diameter as f32);
-            let level = self.level_for(diameter);
+            let asked = [self.samples.get(x, y), painted[0], painted[1]];
+            if asked != last.0 {
+                let diameter = self.diameter_with(x, y, painted);
+                // To the nearest: this is for display and output. Levels are found from the diameter in f64.
+                last = (asked, diameter as f32, self.level_for(diameter));
+            }
+            let (_, diameter, level) = last;
+            self.target.set(x, y, diameter);
             levels[place(x, y)] = level;
             if level != self.levels.get(x, y) {
                 changed = changed.union(&PixelRect { min: [x, y], max: [x + 1, y + 1] });
@@ -164,9 +194,9 @@ impl TargetField {
         changed
     }
 
-    /// h̄ of a pixel, with so much risk and so small a diameter painted on it.
+    /// h̄ of a pixel in world units, with this risk and diameter painted on it.
     fn diameter_with(&self, x: u32, y: u32, [risk, diameter]: [f32; 2]) -> f64 {
-        let mut asked = f64::from(self.base.get(x, y)).min(f64::from(diameter));
+        let mut asked = f64::from(self.samples.get(x, y)).min(f64::from(diameter));
         if risk > 0.0 {
             asked = asked.min(self.table.diameter(f64::from(risk)));
         }
@@ -195,18 +225,32 @@ impl TargetField {
         self.on_lattice.any_above(levels, corners, level as u8)
     }
 
-    /// h̄ at a node, for the vertex rule: sources are asked at the very point and not by pixel.
+    /// h̄ at a node, for the vertex rule: the sources are evaluated at the point itself, not by pixel.
     ///
-    /// A value that no mesh can meet (NaN, infinity, zero or less) comes out as it is, for the rule to refuse.
-    pub fn target_at_node(&self, paint: PaintRef, point: DVec2) -> f64 {
-        let asked = match smallest_target(&self.spec.sources, point, &self.spec.transfer) {
+    /// A value that no mesh can meet (NaN, infinity, zero or less) is returned as it is, for the rule to refuse.
+    pub fn target_at_node(&self, paint: Option<PaintRef>, point: DVec2) -> f64 {
+        let mut asked = match smallest_target(&self.spec.sources, point, &self.spec.transfer) {
             Ok(asked) => asked,
             Err(invalid) => return invalid.value,
         };
-        let painted = paint.diameter.sample(point).map_or(f64::INFINITY, f64::from);
-        let risk =
-            paint.risk.sample(point).map_or(f64::INFINITY, |risk| self.table.diameter(f64::from(risk)));
-        asked.min(painted).min(risk).clamp(self.spec.transfer.h_min, self.spec.transfer.h_max)
+        if let Some(PaintRef { risk, diameter }) = paint {
+            let painted = diameter.sample(point).map_or(f64::INFINITY, f64::from);
+            let by_risk =
+                risk.sample(point).map_or(f64::INFINITY, |risk| self.table.diameter(f64::from(risk)));
+            asked = asked.min(painted).min(by_risk);
+        }
+        if asked == f64::INFINITY {
+            return self.spec.unasked;
+        }
+        asked.clamp(self.spec.transfer.h_min, self.spec.transfer.h_max)
+    }
+
+    /// h̄ at a point in world units, as `rule` sees it: what files and the inspector show.
+    pub fn target_by_rule(&self, rule: RefinementRule, paint: Option<PaintRef>, point: DVec2) -> f64 {
+        match rule {
+            RefinementRule::Area => self.at(point).unwrap_or(self.spec.unasked),
+            RefinementRule::Vertex => self.target_at_node(paint, point),
+        }
     }
 
     /// The part of the lattice on which [`Self::exceeds`] may answer differently once the pixels of `area` have changed.
@@ -214,9 +258,10 @@ impl TargetField {
         self.on_lattice.lattice_rect(area)
     }
 
-    /// h̄ at a point in world units, `None` outside the field.
+    /// h̄ of the pixel at a point, both in world units; `None` outside the field.
     pub fn at(&self, point: DVec2) -> Option<f64> {
-        self.target.sample(point).map(f64::from)
+        let target = f64::from(self.target.sample(point)?);
+        Some(if target.is_finite() { target } else { self.spec.unasked })
     }
 
     /// The level that a triangle of the given diameter in world units has.
@@ -237,17 +282,19 @@ mod tests {
     use crate::geometry::Rect;
 
     #[test]
-    fn only_pixels_that_ask_for_another_level_are_told() {
+    fn only_pixels_that_ask_for_another_level_are_reported() {
         let (bounds, size) = (Rect::UNIT, [70, 50]);
         let lattice = Lattice::covering(bounds, 0.25, 1000).unwrap();
         let transfer = Transfer { h_min: 0.01, h_max: 0.2, shape: 1.0 };
-        let spec = TargetFieldSpec { sources: vec![Source::Constant(0.05)], transfer, size };
+        let spec = TargetFieldSpec { sources: vec![Source::Constant(0.05)], transfer, unasked: 0.2, size };
         let mut field = TargetField::new(spec.clone(), &lattice);
         let (mut risk, mut diameter) =
             (Raster::filled(bounds, size, 0.0), Raster::filled(bounds, size, f32::INFINITY));
-        while field.fill(PaintRef { risk: &risk, diameter: &diameter }, 100).unwrap() == Progress::More {}
+        while field.advance(Some(PaintRef { risk: &risk, diameter: &diameter }), 100).unwrap()
+            == Progress::More
+        {}
         let mut random = fastrand::Rng::with_seed(14);
-        let mut told = 0;
+        let mut reported = 0;
         for _ in 0..300 {
             let min = [random.u32(..70), random.u32(..50)];
             let max = [random.u32(min[0]..70) + 1, random.u32(min[1]..50) + 1];
@@ -266,15 +313,16 @@ mod tests {
             for (x, y) in risk.all().pixels() {
                 assert!(before.get(x, y) == field.levels().get(x, y) || within(x, y), "{x}, {y}");
             }
-            let mut anew = TargetField::new(spec.clone(), &lattice);
-            anew.fill(PaintRef { risk: &risk, diameter: &diameter }, usize::MAX).unwrap();
-            assert!(risk.all().pixels().all(|(x, y)| anew.levels().get(x, y) == field.levels().get(x, y)));
+            let mut from_scratch = TargetField::new(spec.clone(), &lattice);
+            from_scratch.advance(Some(PaintRef { risk: &risk, diameter: &diameter }), usize::MAX).unwrap();
+            let same = |(x, y)| from_scratch.levels().get(x, y) == field.levels().get(x, y);
+            assert!(risk.all().pixels().all(same));
             for rect in &changed {
                 assert!(rect.pixels().any(|(x, y)| before.get(x, y) != field.levels().get(x, y)), "{rect:?}");
             }
             assert_eq!(field.update(PaintRef { risk: &risk, diameter: &diameter }, area), []);
-            told += changed.len();
+            reported += changed.len();
         }
-        assert!(told > 300, "{told}");
+        assert!(reported > 300, "{reported}");
     }
 }

@@ -27,8 +27,8 @@ mod query;
 
 pub use extract::{BoundaryEdge, Cell, Extract, MeshEdge, Numbering};
 pub use kernel::{
-    Changes, CoarseError, Element, InvalidTarget, Limits, MOST_TRIANGLES, MemoryLimit, Mesh, Neighbour,
-    NodeId, Orientation, Progress, RefineError, Refiner, Triangle, TriangleId, Updater,
+    Changes, CoarseError, Element, InvalidTarget, Limits, MOST_TRIANGLES, MemoryLimit, Mesh, MeshCopy,
+    Neighbour, NodeId, Orientation, Progress, RefineError, Refiner, Triangle, TriangleId, Updater,
     bisection_edge_length, level_for_diameter,
 };
 pub use query::{

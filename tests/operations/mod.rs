@@ -7,7 +7,8 @@ use std::ops::Range;
 use std::path::Path;
 
 use glam::{DVec2, dvec2};
-use meshbrush::document::{Base, Document, FollowError, Follower, MeshChange, Setting, Settings, Stage};
+use meshbrush::build::BuildError;
+use meshbrush::document::{Base, Document, Follower, MeshChange, Setting, Settings, Stage};
 use meshbrush::domain::{BoundaryTreatment, CutShape, Domain, DomainShape, corners};
 use meshbrush::field::{Formula, RefinementRule, Transfer};
 use meshbrush::geometry::{LatticePoint, Rect};
@@ -323,13 +324,13 @@ impl Driver {
         }
         let stage = self.follower.advance(&mut self.document, visits).unwrap_or_else(|error| {
             self.refused(&error);
-            Stage::Filling
+            Stage::Sampling
         });
-        stage == Stage::InStep
+        stage.is_settled()
     }
 
     /// As the window does: a setting that cannot be met is taken back, paint stays.
-    fn refused(&mut self, error: &FollowError) {
+    fn refused(&mut self, error: &BuildError) {
         assert!(error.to_string().ends_with('.'), "{error}");
         if self.document.settings() != self.follower.settings() {
             self.document.reject_last();

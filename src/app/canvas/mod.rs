@@ -283,9 +283,12 @@ impl App {
             Stage::Refining { triangles } => {
                 Some(("Refining", format!("{} triangles", format::count(triangles as u64))))
             }
-            Stage::Outlining => Some(("Laying the outline", String::new())),
-            Stage::Filling => Some(("Sampling the field", String::new())),
-            Stage::InStep => None,
+            Stage::Copying { triangles } => {
+                Some(("Copying the mesh", format!("{} triangles", format::count(triangles as u64))))
+            }
+            Stage::Indexing => Some(("Indexing the outline", String::new())),
+            Stage::Sampling => Some(("Sampling the field", String::new())),
+            Stage::InStep | Stage::GaveUp(_) => None,
         }
     }
 

@@ -91,9 +91,11 @@ impl App {
             Stage::InStep => {
                 self.session.last_update().map_or(NONE.into(), |time| format::time(time.as_secs_f64()))
             }
-            Stage::Outlining => "outlining".into(),
-            Stage::Filling => "sampling".into(),
-            Stage::Refining { triangles } => format::count(triangles as u64),
+            Stage::Indexing => "indexing".into(),
+            Stage::Sampling => "sampling".into(),
+            Stage::Copying { triangles } | Stage::Refining { triangles } => format::count(triangles as u64),
+            Stage::GaveUp(None) => "cancelled".into(),
+            Stage::GaveUp(Some(_)) => "stopped".into(),
         }
     }
 }

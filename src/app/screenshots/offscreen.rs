@@ -10,7 +10,6 @@ use egui_wgpu::{RenderState, RendererOptions, ScreenDescriptor, WgpuConfiguratio
 
 use super::super::App;
 use super::super::command::Command;
-use crate::document::Stage;
 use crate::mesh::Progress;
 use crate::render::Image;
 use crate::render::gpu::{device_descriptor, read_back};
@@ -69,7 +68,7 @@ impl OffscreenWindow {
         while quiet < SETTLING_FRAMES {
             self.frame();
             let session = self.app.session();
-            let rests = session.stage() == Stage::InStep
+            let rests = session.stage().is_settled()
                 && session.pricer().progress() == Progress::Done
                 && !self.app.is_cutting();
             quiet = if rests { quiet + 1 } else { 0 };

@@ -6,6 +6,7 @@ mod changes;
 mod classify;
 mod coarse;
 mod coarsen;
+mod copy;
 mod element;
 mod errors;
 mod ids;
@@ -25,6 +26,7 @@ use crate::geometry::{LATTICE_BITS, Lattice, LatticePoint};
 
 pub use changes::Changes;
 pub use coarse::CoarseError;
+pub use copy::MeshCopy;
 pub use element::{Element, Progress};
 pub use errors::{InvalidTarget, RefineError};
 pub use ids::{Neighbour, NodeId, TriangleId};

@@ -1,4 +1,4 @@
-//! Arguments as meant: every value checked on its own, every formula compiled, nothing read yet.
+//! What the arguments ask for: every value checked on its own, every formula compiled, no file read yet.
 
 use std::path::{Path, PathBuf};
 
@@ -7,38 +7,37 @@ use glam::DVec2;
 use super::args::{BoundaryArgument, InputArguments, RuleArgument};
 use super::failure::Failure;
 use crate::document::LEAST_MEMORY;
+use crate::domain::BoundaryTreatment;
 use crate::field::{Formula, RefinementRule, Transfer};
 use crate::geometry::Rect;
 use crate::mesh::{Limits, MOST_TRIANGLES, MemoryLimit};
 use crate::raster::MAX_SIDE;
 use crate::text::Grouped;
 
-/// A mesh to be made.
+/// A mesh that is asked for.
 #[derive(Debug)]
-pub struct Job {
-    /// A saved document, which says everything but the limits.
+pub struct MeshRequest {
+    /// A saved document, which decides everything but the limits.
     pub project: Option<PathBuf>,
-    /// The budget of triangles, if one was asked for.
+    /// The triangle budget, where one is given; else it is the project's.
     pub asked_budget: Option<usize>,
-    /// `None` for wherever the rasters lie, or the unit square.
+    /// `None` for the rectangle that the rasters cover, or the unit square.
     pub domain: Option<Rect>,
     /// The domain is where this is not 0.
     pub inside: Option<Formula>,
     /// The domain is what the polygons of this file cover.
     pub region: Option<PathBuf>,
-    /// Whether the mesh is fitted to the outline of a region.
-    pub fitted: bool,
-    /// The diameter to fit it with, in world units.
-    pub boundary_diameter: Option<f64>,
+    /// How the mesh meets the outline of a region; `None` for the usual treatment at the spacing.
+    pub boundary: Option<BoundaryTreatment>,
     /// Longest side of a coarse cell, in world units.
     pub spacing: Option<f64>,
-    /// All that asks for small triangles.
+    /// All sources of target diameters.
     pub sources: Vec<SourceSpec>,
-    /// Bounds of the target diameter, in world units.
+    /// Lower bound of the target diameter, in world units.
     pub h_min: Option<f64>,
-    /// As [`Self::h_min`].
+    /// Upper bound of the target diameter, in world units.
     pub h_max: Option<f64>,
-    /// Exponent of the risk.
+    /// Exponent of the risk, dimensionless.
     pub transfer_shape: f64,
     /// Which points of a triangle count.
     pub rule: RefinementRule,
@@ -59,12 +58,12 @@ pub enum SourceSpec {
     Raster(RasterSpec),
 }
 
-/// A raster that is not read yet.
+/// A raster file, before it is read.
 #[derive(Debug)]
 pub struct RasterSpec {
-    /// Where it is.
+    /// The file.
     pub path: PathBuf,
-    /// How to read it.
+    /// Its format.
     pub format: RasterFormat,
     /// What its values mean.
     pub meaning: Meaning,
@@ -75,7 +74,7 @@ pub struct RasterSpec {
 pub enum RasterFormat {
     /// An image over the domain's bounding box.
     Png,
-    /// A grid with its own placement.
+    /// A grid that says which rectangle it covers.
     Asc,
 }
 
@@ -88,10 +87,10 @@ pub enum Meaning {
     Risk,
 }
 
-/// Most triangles when nobody says how many.
+/// Most triangles unless `--max-triangles` says otherwise.
 const USUAL_BUDGET: usize = 50_000_000;
 
-impl Job {
+impl MeshRequest {
     /// Checks the arguments one by one and against each other.
     ///
     /// # Errors
@@ -99,17 +98,13 @@ impl Job {
     pub fn new(typed: &InputArguments) -> Result<Self, Failure> {
         let sources = sources(typed)?;
         let by_pixels = sources.iter().any(|source| matches!(source, SourceSpec::Raster(_)));
-        let job = Self {
+        let request = Self {
             project: typed.project.clone(),
             asked_budget: typed.max_triangles,
             domain: typed.domain.as_deref().map(parse_domain).transpose()?,
             inside: typed.inside.as_deref().map(|text| parse_formula("--inside", text)).transpose()?,
             region: typed.region.clone(),
-            fitted: typed.boundary == BoundaryArgument::Fitted,
-            boundary_diameter: typed
-                .boundary_diameter
-                .map(|value| length("--boundary-diameter", value))
-                .transpose()?,
+            boundary: boundary(typed)?,
             spacing: typed.spacing.map(|value| length("--spacing", value)).transpose()?,
             sources,
             h_min: typed.h_min.map(|value| length("--h-min", value)).transpose()?,
@@ -124,9 +119,8 @@ impl Job {
             resolution: typed.resolution.map(resolution).transpose()?,
             limits: limits(typed)?,
         };
-        job.check_bounds()?;
-        job.check_boundary()?;
-        Ok(job)
+        request.check_bounds()?;
+        Ok(request)
     }
 
     /// Whether some source needs both ends of the scale from --h-min to --h-max.
@@ -134,17 +128,14 @@ impl Job {
         self.sources.iter().any(SourceSpec::uses_scale)
     }
 
-    /// The diameter at the outline means something only where there is one to fit.
-    fn check_boundary(&self) -> Result<(), Failure> {
-        let Some(diameter) = self.boundary_diameter else { return Ok(()) };
-        let problem = if self.region.is_none() {
-            "it is for the outline of a domain from a file. Name that with --region, or leave it out"
-        } else if !self.fitted {
-            "with --boundary report nothing is refined along the outline. Take --boundary fitted, or leave it out"
-        } else {
-            return Ok(());
+    /// The files that are to be read.
+    pub fn input_files(&self) -> Vec<PathBuf> {
+        let path = |source: &SourceSpec| match source {
+            SourceSpec::Raster(raster) => Some(raster.path.clone()),
+            SourceSpec::Target(_) | SourceSpec::Risk(_) => None,
         };
-        Err(Failure::Usage(format!("--boundary-diameter {diameter}: {problem}.")))
+        let rasters = self.sources.iter().filter_map(path);
+        rasters.chain(self.region.clone()).chain(self.project.clone()).collect()
     }
 
     fn check_bounds(&self) -> Result<(), Failure> {
@@ -153,7 +144,7 @@ impl Job {
                 "Risk and images need --h-min, the target diameter where the risk is 1 or the image black";
             return Err(Failure::Usage(format!("{problem}. The size of the finest detail is a good start.")));
         }
-        // Where an end is left open, the other stands in for it: only the rest is checked then.
+        // Where one end is not given, the other takes its place: only the rest is checked then.
         let h_min = self.h_min.or(self.h_max).unwrap_or(1.0);
         let h_max = self.h_max.unwrap_or(h_min);
         Transfer { h_min, h_max, shape: self.transfer_shape }.checked()?;
@@ -169,6 +160,26 @@ impl SourceSpec {
             Self::Raster(raster) => raster.meaning == Meaning::Risk || raster.format == RasterFormat::Png,
         }
     }
+}
+
+/// The boundary treatment; `None` where it is the usual one, which depends on the spacing. A diameter at the outline makes sense
+/// only where there is an outline, and where the mesh is fitted to it.
+fn boundary(typed: &InputArguments) -> Result<Option<BoundaryTreatment>, Failure> {
+    let given = typed.boundary_diameter.map(|value| length("--boundary-diameter", value)).transpose()?;
+    let Some(diameter) = given else {
+        return Ok(match typed.boundary {
+            BoundaryArgument::Report => Some(BoundaryTreatment::Report),
+            BoundaryArgument::Fitted => None,
+        });
+    };
+    let problem = if typed.region.is_none() {
+        "it is for the outline of a domain from a file. Name that with --region, or leave it out"
+    } else if typed.boundary == BoundaryArgument::Report {
+        "with --boundary report nothing is refined along the outline. Take --boundary fitted, or leave it out"
+    } else {
+        return Ok(Some(BoundaryTreatment::Fitted { diameter }));
+    };
+    Err(Failure::Usage(format!("--boundary-diameter {diameter}: {problem}.")))
 }
 
 fn sources(typed: &InputArguments) -> Result<Vec<SourceSpec>, Failure> {
@@ -200,7 +211,7 @@ fn raster(option: &str, path: &Path, meaning: Meaning) -> Result<RasterSpec, Fai
     Ok(RasterSpec { path: path.to_owned(), format, meaning })
 }
 
-/// The ending of a file name in lower case, without the dot; empty if there is none.
+/// The extension of a file name in lower case, without the dot; empty if there is none.
 pub fn ending(path: &Path) -> String {
     path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase()).unwrap_or_default()
 }
@@ -208,7 +219,7 @@ pub fn ending(path: &Path) -> String {
 /// Compiles a formula.
 ///
 /// # Errors
-/// With the mistake and, on lines of their own, the formula and carets under the mistake.
+/// With the mistake and, on separate lines, the formula and carets under the mistake.
 pub fn parse_formula(option: &str, text: &str) -> Result<Formula, Failure> {
     Formula::parse(text).map_err(|mistake| {
         let pointer = mistake.pointer().replace('\n', "\n    ");
@@ -261,7 +272,7 @@ fn limits(typed: &InputArguments) -> Result<Limits, Failure> {
     Ok(Limits { max_triangles, max_level: typed.max_level, max_memory: bytes.map(MemoryLimit::for_one_mesh) })
 }
 
-/// Bytes of a size as typed: a number with a unit, in powers of 1000, or of 1024 where it has an i.
+/// Bytes of a size as typed: a number with a unit, in powers of 1000, or of 1024 for units with an i.
 fn memory(typed: &str) -> Result<usize, Failure> {
     let wrong = |rule: &str| Failure::Usage(format!("--max-memory {typed}: {rule}, such as 500MB or 2GB."));
     let text = typed.trim();
@@ -280,6 +291,6 @@ fn memory(typed: &str) -> Result<usize, Failure> {
     };
     let number: f64 = number.trim().parse().map_err(|_| wrong("give a size with its unit"))?;
     let bytes = number * unit;
-    // NaN is refused here too; what is too large for a count of bytes is no limit.
+    // Refuses NaN too. A size beyond `usize` is no limit.
     if bytes >= LEAST_MEMORY as f64 { Ok(bytes as usize) } else { Err(wrong("choose 1MB at least")) }
 }

@@ -1,4 +1,4 @@
-//! A region being laid on the lattice of a mesh, in slices.
+//! Builds the index of a region on the lattice of a mesh, in slices.
 
 use std::sync::Arc;
 
@@ -17,9 +17,9 @@ const MOST_SQUARES: usize = 1 << 20;
 /// Most places of edges in squares, about.
 const MOST_ENTRIES: u64 = 1 << 26;
 
-/// A region on its way to a [`RegionOnLattice`].
+/// Builds a [`RegionOnLattice`].
 #[derive(Clone, Debug)]
-pub(super) struct RegionLaying {
+pub(super) struct RegionOnLatticeBuilder {
     region: Arc<Region>,
     lattice: Lattice,
     most_entries: u64,
@@ -27,7 +27,7 @@ pub(super) struct RegionLaying {
     length: u64,
     /// How often the root squares are halved.
     halvings: u32,
-    laid: RegionOnLattice,
+    index: RegionOnLattice,
     step: Step,
 }
 
@@ -45,7 +45,7 @@ enum Step {
     Done,
 }
 
-impl RegionLaying {
+impl RegionOnLatticeBuilder {
     pub(super) fn new(region: &Arc<Region>, lattice: &Lattice) -> Self {
         Self::within(region, lattice, MOST_ENTRIES)
     }
@@ -58,30 +58,30 @@ impl RegionLaying {
             most_entries,
             length: 0,
             halvings: 0,
-            laid: RegionOnLattice::without_edges(lattice),
+            index: RegionOnLattice::without_edges(lattice),
             step: Step::Moving(EdgeCursor::default()),
         }
     }
 
-    /// About so many edges or squares.
-    pub(super) fn advance(&mut self, visits: usize) -> Progress {
+    /// One slice of work: about `budget` edges or squares.
+    pub(super) fn advance(&mut self, budget: usize) -> Progress {
         self.step = match self.step {
-            Step::Moving(cursor) => self.move_corners(cursor, visits),
-            Step::Counting(first) => self.count_squares(first, visits),
-            Step::Sorting(first) => self.sort_edges(first, visits),
-            Step::Filling(first) => self.fill_rows(first, visits),
+            Step::Moving(cursor) => self.move_corners(cursor, budget),
+            Step::Counting(first) => self.count_squares(first, budget),
+            Step::Sorting(first) => self.sort_edges(first, budget),
+            Step::Filling(first) => self.fill_rows(first, budget),
             Step::Done => Step::Done,
         };
         if matches!(self.step, Step::Done) { Progress::Done } else { Progress::More }
     }
 
-    /// The region, laid.
-    pub(super) fn finished(mut self) -> RegionOnLattice {
+    /// The index. Work that is left is done in one go.
+    pub(super) fn finish(mut self) -> RegionOnLattice {
         while self.advance(usize::MAX) == Progress::More {}
-        self.laid
+        self.index
     }
 
-    fn move_corners(&mut self, mut cursor: EdgeCursor, visits: usize) -> Step {
+    fn move_corners(&mut self, mut cursor: EdgeCursor, budget: usize) -> Step {
         let extent = self.lattice.extent();
         let place = |p: DVec2| {
             let p = self.lattice.nearest(p);
@@ -90,7 +90,7 @@ impl RegionLaying {
         let sides = [[0, i64::from(extent.x)], [0, i64::from(extent.y)]];
         let on_side =
             |[a, b]: [[i64; 2]; 2], axis: usize| a[axis] == b[axis] && sides[axis].contains(&a[axis]);
-        for _ in 0..visits {
+        for _ in 0..budget {
             let Some(edge) = cursor.next(&self.region) else {
                 self.choose_squares();
                 return Step::Counting(0);
@@ -99,7 +99,7 @@ impl RegionLaying {
             if ends[0] != ends[1] {
                 let edge = Edge { ends, on_frame: on_side(ends, 0) || on_side(ends, 1) };
                 self.length += edge.length();
-                self.laid.edges.push(edge);
+                self.index.edges.push(edge);
             }
         }
         Step::Moving(cursor)
@@ -107,9 +107,9 @@ impl RegionLaying {
 
     /// How large the squares are at the root of the tree, and how small they get.
     fn choose_squares(&mut self) {
-        let Self { laid, length, most_entries, .. } = self;
+        let Self { index, length, most_entries, .. } = self;
         let (cells, root_bits) = (self.lattice.cells(), self.lattice.halvings());
-        let wanted = (SQUARES_PER_EDGE * laid.edges.len()).clamp(1 << 12, MOST_SQUARES);
+        let wanted = (SQUARES_PER_EDGE * index.edges.len()).clamp(1 << 12, MOST_SQUARES);
         let roots = cells[0] as usize * cells[1] as usize;
         let mut halvings = 0;
         while halvings < root_bits && (roots << (2 * (halvings + 1))) <= wanted {
@@ -119,29 +119,29 @@ impl RegionLaying {
         while halvings > 0 && *length >> (root_bits - halvings) > *most_entries {
             halvings -= 1;
         }
-        (laid.cells, laid.root_bits) = (cells, root_bits);
-        while *length >> laid.root_bits > *most_entries && laid.cells != [1, 1] {
-            (laid.cells, laid.root_bits) = (laid.cells.map(|n| n.div_ceil(2)), laid.root_bits + 1);
+        (index.cells, index.root_bits) = (cells, root_bits);
+        while *length >> index.root_bits > *most_entries && index.cells != [1, 1] {
+            (index.cells, index.root_bits) = (index.cells.map(|n| n.div_ceil(2)), index.root_bits + 1);
         }
         self.halvings = halvings;
         let [columns, rows] = self.counts();
-        self.laid.ends = vec![0; columns as usize * rows as usize];
+        self.index.ends = vec![0; columns as usize * rows as usize];
     }
 
     /// Columns and rows of the smallest squares.
     fn counts(&self) -> [u32; 2] {
-        self.laid.cells.map(|n| n << self.halvings)
+        self.index.cells.map(|n| n << self.halvings)
     }
 
     /// Binary logarithm of their side in lattice steps.
     fn bits(&self) -> u32 {
-        self.laid.root_bits - self.halvings
+        self.index.root_bits - self.halvings
     }
 
-    fn count_squares(&mut self, first: usize, visits: usize) -> Step {
+    fn count_squares(&mut self, first: usize, budget: usize) -> Step {
         let (counts, bits) = (self.counts(), self.bits());
-        let RegionOnLattice { edges, ends, .. } = &mut self.laid;
-        let end = first.saturating_add(visits).min(edges.len());
+        let RegionOnLattice { edges, ends, .. } = &mut self.index;
+        let end = first.saturating_add(budget).min(edges.len());
         for edge in &edges[first..end] {
             edge.squares_touched(counts, bits, |square| ends[square] += 1);
         }
@@ -153,14 +153,14 @@ impl RegionLaying {
             // For now, where its part begins.
             count += std::mem::replace(end, count);
         }
-        self.laid.edges_of_square = vec![0; count as usize];
+        self.index.edges_of_square = vec![0; count as usize];
         Step::Sorting(0)
     }
 
-    fn sort_edges(&mut self, first: usize, visits: usize) -> Step {
+    fn sort_edges(&mut self, first: usize, budget: usize) -> Step {
         let (counts, bits) = (self.counts(), self.bits());
-        let RegionOnLattice { edges, ends, edges_of_square, .. } = &mut self.laid;
-        let end = first.saturating_add(visits).min(edges.len());
+        let RegionOnLattice { edges, ends, edges_of_square, .. } = &mut self.index;
+        let end = first.saturating_add(budget).min(edges.len());
         for (n, edge) in edges.iter().enumerate().take(end).skip(first) {
             edge.squares_touched(counts, bits, |square| {
                 edges_of_square[ends[square] as usize] = n as u32;
@@ -170,14 +170,14 @@ impl RegionLaying {
         if end < edges.len() {
             return Step::Sorting(end);
         }
-        self.laid.layers = vec![Layer { columns: counts[0], states: Vec::with_capacity(ends.len()) }];
+        self.index.layers = vec![Layer { columns: counts[0], states: Vec::with_capacity(ends.len()) }];
         Step::Filling(0)
     }
 
     /// Finds the states of the smallest squares along the middle of each row, and at the end those of the others from them.
-    fn fill_rows(&mut self, first: u32, visits: usize) -> Step {
+    fn fill_rows(&mut self, first: u32, budget: usize) -> Step {
         let [columns, rows] = self.counts();
-        let at_once = (visits / columns as usize).clamp(1, rows as usize) as u32;
+        let at_once = (budget / columns as usize).clamp(1, rows as usize) as u32;
         let end = first.saturating_add(at_once).min(rows);
         for row in first..end {
             self.fill_row(row);
@@ -194,8 +194,8 @@ impl RegionLaying {
         let mut inside = false;
         for column in 0..columns {
             let square = row as usize * columns as usize + column as usize;
-            self.laid.inside_at_left.push(inside);
-            let state = match (self.laid.edges_in(square).next().is_some(), inside) {
+            self.index.inside_at_left.push(inside);
+            let state = match (self.index.edges_in(square).next().is_some(), inside) {
                 (true, _) => State::Cut,
                 (false, true) => State::Inside,
                 (false, false) => State::Outside,
@@ -203,7 +203,7 @@ impl RegionLaying {
             if state == State::Cut {
                 inside ^= self.crossings_of_middle(column, row) % 2 == 1;
             }
-            self.laid.layers[0].states.push(state);
+            self.index.layers[0].states.push(state);
         }
     }
 
@@ -215,16 +215,16 @@ impl RegionLaying {
         let height = middle_of_row(i64::from(row), bits);
         let square = row as usize * columns as usize + column as usize;
         let crossing = |edge: &&Edge| edge.crosses_between(left, right, [i64::MAX, height]);
-        self.laid.edges_in(square).filter(crossing).count()
+        self.index.edges_in(square).filter(crossing).count()
     }
 
     fn join_squares(&mut self) {
         for depth in (0..self.halvings).rev() {
-            let [columns, rows] = self.laid.cells.map(|n| n << depth);
-            let finer = &self.laid.layers[0];
+            let [columns, rows] = self.index.cells.map(|n| n << depth);
+            let finer = &self.index.layers[0];
             let squares = (0..rows).flat_map(|row| (0..columns).map(move |column| [column, row]));
             let layer = Layer { columns, states: squares.map(|square| finer.joined(square)).collect() };
-            self.laid.layers.insert(0, layer);
+            self.index.layers.insert(0, layer);
         }
     }
 }

@@ -1,0 +1,279 @@
+use std::sync::Arc;
+
+use super::{MeshSpec, RefinementCriterion};
+use crate::domain::{DomainOnLattice, DomainOnLatticeBuilder};
+use crate::field::{PaintRef, RefinementRule, TargetField, VertexRule};
+use crate::geometry::GridError;
+use crate::mesh::{CoarseError, Element, InvalidTarget, Mesh, Progress, RefineError, Refiner, TriangleId};
+
+/// Makes the mesh of a [`MeshSpec`] in slices.
+///
+/// ```text
+///  index the outline ──▶ coarse grid ──▶ sample h̄ ──▶ refine ──▶ classify ──▶ done
+///  (polygons only)                       (by pixel)              (fitted only)
+/// ```
+#[derive(Clone, Debug)]
+pub struct MeshBuilder {
+    spec: MeshSpec,
+    /// The field, sampled or not, where it was given.
+    given_field: Option<Arc<TargetField>>,
+    /// `None` once an error has ended the work.
+    step: Option<Step>,
+    /// Triangles that the level cap left coarser than their target.
+    capped: usize,
+}
+
+/// What is being done, with all that it needs.
+#[derive(Clone, Debug)]
+enum Step {
+    /// The outline is indexed on the lattice.
+    Index(DomainOnLatticeBuilder),
+    /// The coarse grid comes next.
+    Grid(DomainOnLattice),
+    /// h̄ is sampled by pixel.
+    Sample {
+        domain: DomainOnLattice,
+        mesh: Mesh,
+        field: Arc<TargetField>,
+    },
+    Refine(Box<Refinement>),
+    /// Triangles outside a fitted domain are marked; those before `first` are done.
+    Classify {
+        built: BuiltMesh,
+        first: usize,
+    },
+    Done(BuiltMesh),
+}
+
+#[derive(Clone, Debug)]
+struct Refinement {
+    built: BuiltMesh,
+    refiner: Refiner,
+    vertex_rule: VertexRule,
+}
+
+/// A mesh, and what decided it.
+#[derive(Clone, Debug)]
+pub struct BuiltMesh {
+    /// The domain on the lattice of the mesh.
+    pub domain: DomainOnLattice,
+    /// h̄.
+    pub field: Arc<TargetField>,
+    /// Which points of a triangle count.
+    pub rule: RefinementRule,
+    /// The mesh. Triangles outside a fitted domain are marked.
+    pub mesh: Mesh,
+}
+
+/// What a builder may take over from an earlier mesh.
+#[derive(Clone, Debug, Default)]
+pub struct Parts {
+    /// The domain of the spec on the lattice of the spec, with any treatment of the boundary.
+    pub domain: Option<DomainOnLattice>,
+    /// The field of the spec on the lattice of the spec: complete, with the present paint, or not sampled yet.
+    pub field: Option<Arc<TargetField>>,
+}
+
+/// What a builder is busy with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BuildStage {
+    /// The outline of the domain is indexed on the lattice.
+    Indexing,
+    /// h̄ is sampled by pixel.
+    Sampling {
+        /// Pixels so far.
+        pixels: usize,
+        /// All pixels.
+        of: usize,
+    },
+    /// The mesh is refined; so far it has this many triangles.
+    Refining {
+        /// Triangles so far.
+        triangles: usize,
+    },
+    /// Triangles outside the domain are marked.
+    Classifying {
+        /// Triangles of the mesh.
+        triangles: usize,
+    },
+}
+
+/// Why there is no mesh.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum BuildError {
+    /// The coarse grid is impossible, or empty.
+    #[error(transparent)]
+    Coarse(#[from] CoarseError),
+    /// h̄ is no length somewhere.
+    #[error(transparent)]
+    InvalidTarget(#[from] InvalidTarget),
+    /// The refinement met a limit.
+    #[error(transparent)]
+    Refine(#[from] RefineError),
+}
+
+impl From<GridError> for BuildError {
+    fn from(error: GridError) -> Self {
+        Self::Coarse(error.into())
+    }
+}
+
+impl MeshBuilder {
+    /// Work from scratch.
+    pub fn new(spec: MeshSpec) -> Self {
+        Self::from_parts(spec, Parts::default())
+    }
+
+    /// Work that takes over what an earlier mesh has already. The parts must be those of `spec`.
+    pub fn from_parts(spec: MeshSpec, parts: Parts) -> Self {
+        let step = match parts.domain {
+            Some(domain) => Step::Grid(domain.with_boundary(spec.boundary)),
+            None => Step::Index(DomainOnLatticeBuilder::new(&spec.domain, spec.boundary, &spec.lattice)),
+        };
+        Self { spec, given_field: parts.field, step: Some(step), capped: 0 }
+    }
+
+    /// What the mesh is made from.
+    pub fn spec(&self) -> &MeshSpec {
+        &self.spec
+    }
+
+    /// What is being done.
+    pub fn stage(&self) -> BuildStage {
+        let triangles = self.triangles();
+        match &self.step {
+            None | Some(Step::Index(_)) => BuildStage::Indexing,
+            Some(Step::Sample { field, .. }) => {
+                let [columns, rows] = field.spec().size.map(|side| side as usize);
+                BuildStage::Sampling { pixels: field.sampled_pixels(), of: columns * rows }
+            }
+            Some(Step::Grid(_) | Step::Refine(_)) => BuildStage::Refining { triangles },
+            Some(Step::Classify { .. } | Step::Done(_)) => BuildStage::Classifying { triangles },
+        }
+    }
+
+    /// How many triangles the mesh has so far.
+    pub fn triangles(&self) -> usize {
+        let mesh = match &self.step {
+            None | Some(Step::Index(_) | Step::Grid(_)) => return 0,
+            Some(Step::Sample { mesh, .. }) => mesh,
+            Some(Step::Refine(refinement)) => &refinement.built.mesh,
+            Some(Step::Classify { built, .. } | Step::Done(built)) => &built.mesh,
+        };
+        mesh.raw_triangle_count()
+    }
+
+    /// How many triangles asked for more than [`Limits::max_level`](crate::mesh::Limits) allows.
+    pub fn capped(&self) -> usize {
+        self.capped
+    }
+
+    /// One slice of work: about `budget` edges, pixels or triangles. The coarse grid is made in one go.
+    ///
+    /// `paint` belongs to the field; it must have the bounds of the domain and the size of the field.
+    ///
+    /// # Errors
+    /// When the spec has no mesh.
+    ///
+    /// # Panics
+    /// When it is called again after an error.
+    pub fn advance(&mut self, paint: Option<PaintRef>, budget: usize) -> Result<Progress, BuildError> {
+        let step = self.step.take().expect("work that failed cannot go on");
+        let next = match step {
+            Step::Index(mut index) => match index.advance(budget) {
+                Progress::More => Step::Index(index),
+                Progress::Done => Step::Grid(index.finish()),
+            },
+            Step::Grid(domain) => self.begin_field(domain)?,
+            Step::Sample { domain, mesh, mut field } => {
+                // Not shared before it is sampled, so nothing is copied.
+                match Arc::make_mut(&mut field).advance(paint, budget)? {
+                    Progress::More => Step::Sample { domain, mesh, field },
+                    Progress::Done => self.begin_refinement(domain, field, mesh),
+                }
+            }
+            Step::Refine(mut refinement) => match refinement.advance(paint, budget)? {
+                Progress::More => Step::Refine(refinement),
+                Progress::Done => {
+                    self.capped = refinement.refiner.capped();
+                    refinement.built.begin_classification()
+                }
+            },
+            Step::Classify { built, first } => built.classify(first, budget),
+            Step::Done(built) => Step::Done(built),
+        };
+        let progress = if matches!(next, Step::Done(_)) { Progress::Done } else { Progress::More };
+        self.step = Some(next);
+        Ok(progress)
+    }
+
+    /// The mesh.
+    ///
+    /// # Panics
+    /// When the work is not done.
+    pub fn finish(self) -> BuiltMesh {
+        match self.step {
+            Some(Step::Done(built)) => built,
+            _ => panic!("the mesh is finished once `advance` returns `Progress::Done`"),
+        }
+    }
+
+    fn begin_field(&mut self, domain: DomainOnLattice) -> Result<Step, BuildError> {
+        let MeshSpec { lattice, limits, .. } = &self.spec;
+        let mesh = Mesh::coarse_grid(lattice, |node| domain.admits(node), limits)?;
+        let field = match self.given_field.take() {
+            Some(field) => field,
+            None => Arc::new(TargetField::new(self.spec.field.clone(), lattice)),
+        };
+        if self.spec.samples_field() && !field.is_sampled() {
+            return Ok(Step::Sample { domain, mesh, field });
+        }
+        Ok(self.begin_refinement(domain, field, mesh))
+    }
+
+    fn begin_refinement(&self, domain: DomainOnLattice, field: Arc<TargetField>, mesh: Mesh) -> Step {
+        let refiner = Refiner::new(&mesh, self.spec.limits);
+        let built = BuiltMesh { domain, field, rule: self.spec.rule, mesh };
+        Step::Refine(Box::new(Refinement { built, refiner, vertex_rule: VertexRule::default() }))
+    }
+}
+
+impl Refinement {
+    fn advance(&mut self, paint: Option<PaintRef>, budget: usize) -> Result<Progress, RefineError> {
+        let BuiltMesh { domain, field, rule, mesh } = &mut self.built;
+        let known = std::mem::take(&mut self.vertex_rule);
+        let mut criterion = RefinementCriterion::new(domain, field, *rule, paint).resumed(known);
+        let progress = self.refiner.advance(mesh, |element| criterion.exceeds(element), budget);
+        self.vertex_rule = criterion.into_vertex_rule();
+        progress
+    }
+}
+
+impl BuiltMesh {
+    /// The criterion that the mesh satisfies, for the paint that it was made with.
+    pub fn criterion<'a>(&'a self, paint: Option<PaintRef<'a>>) -> RefinementCriterion<'a> {
+        RefinementCriterion::new(&self.domain, &self.field, self.rule, paint)
+    }
+
+    /// The triangles whose diameter exceeds their target, for the paint that the mesh was made with.
+    ///
+    /// # Errors
+    /// When a target is impossible.
+    pub fn unsatisfied(&self, paint: Option<PaintRef>) -> Result<Vec<TriangleId>, InvalidTarget> {
+        let mut criterion = self.criterion(paint);
+        self.mesh.unsatisfied(|element: &Element| criterion.exceeds(element))
+    }
+
+    fn begin_classification(self) -> Step {
+        if self.domain.is_fitted() { Step::Classify { built: self, first: 0 } } else { Step::Done(self) }
+    }
+
+    /// Marks about `budget` of the triangles outside a fitted domain, from `first` on.
+    fn classify(mut self, first: usize, budget: usize) -> Step {
+        let Self { domain, mesh, .. } = &mut self;
+        let all = mesh.raw_triangle_count();
+        let end = first.saturating_add(budget).min(all);
+        mesh.classify(first..end, |element| domain.excludes(element));
+        if end == all { Step::Done(self) } else { Step::Classify { built: self, first: end } }
+    }
+}

@@ -1,0 +1,85 @@
+//! Another mesh, built beside the shown one.
+
+use super::shown::Shown;
+use super::{Base, Document, Settings, Stage};
+use crate::build::{BuildError, BuildStage, MeshBuilder, MeshSpec, Parts};
+use crate::mesh::Progress;
+use crate::raster::PixelRect;
+
+/// Builds the mesh of a document, in slices.
+#[derive(Clone, Debug)]
+pub(super) struct Rebuild {
+    /// The settings of the document when it began.
+    settings: Settings,
+    builder: MeshBuilder,
+    /// What was painted since it began: field and mesh are updated there once they are shown.
+    repainted: Vec<PixelRect>,
+}
+
+/// A rebuild for outdated settings is finished up to this many triangles, besides twice those of the shown mesh.
+const MOST_OUTDATED: usize = 500_000;
+
+impl Rebuild {
+    /// Work for the given settings, described by `spec`, and the present paint. The parts are those that an earlier mesh has
+    /// already.
+    pub(super) fn new(settings: &Settings, spec: MeshSpec, parts: Parts) -> Self {
+        let builder = MeshBuilder::from_parts(spec, parts);
+        Self { settings: settings.clone(), builder, repainted: Vec::new() }
+    }
+
+    /// Notes what was painted meanwhile.
+    pub(super) fn repaint(&mut self, areas: &[PixelRect]) {
+        self.repainted.extend(areas);
+    }
+
+    pub(super) fn is_for(&self, settings: &Settings) -> bool {
+        self.settings == *settings
+    }
+
+    /// Whether an error of this work is one of the document as it is: nothing has changed since it began.
+    pub(super) fn is_up_to_date(&self, wanted: &Settings) -> bool {
+        self.is_for(wanted) && self.repainted.is_empty()
+    }
+
+    /// Whether to finish and show the mesh although the document has other settings by now. Then the mesh keeps moving while a
+    /// slider or a handle is dragged; a restart at each move would never get to the end.
+    ///
+    /// Not so where the result would be of no interest, as for another domain or document, or would take too long.
+    pub(super) fn is_worth_finishing(&self, wanted: &Settings, shown_triangles: usize) -> bool {
+        let Settings { name, domain, rule, resolution, base, .. } = &self.settings;
+        let similar = *name == wanted.name
+            && *domain == wanted.domain
+            && *rule == wanted.rule
+            && *resolution == wanted.resolution
+            && is_same_kind(base, &wanted.base);
+        similar && self.builder.triangles() <= 2 * shown_triangles + MOST_OUTDATED
+    }
+
+    /// One slice of work: about `budget` edges, pixels or triangles.
+    pub(super) fn advance(&mut self, document: &Document, budget: usize) -> Result<Progress, BuildError> {
+        self.builder.advance(Some(document.paint().as_paint()), budget)
+    }
+
+    pub(super) fn stage(&self) -> Stage {
+        match self.builder.stage() {
+            BuildStage::Indexing => Stage::Indexing,
+            BuildStage::Sampling { .. } => Stage::Sampling,
+            BuildStage::Refining { triangles } | BuildStage::Classifying { triangles } => {
+                Stage::Refining { triangles }
+            }
+        }
+    }
+
+    /// Once done: the mesh, to be shown.
+    pub(super) fn finish(self) -> Shown {
+        Shown::new(self.settings, self.builder.finish(), self.repainted)
+    }
+}
+
+/// Whether one base can have become the other by the drag of a slider, or while a formula is typed.
+fn is_same_kind(a: &Base, b: &Base) -> bool {
+    match (a, b) {
+        (Base::Constant(_), Base::Constant(_)) | (Base::Formula(_), Base::Formula(_)) => true,
+        _ => a == b,
+    }
+}
