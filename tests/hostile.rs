@@ -1,4 +1,5 @@
-//! Files that are cut, empty, immense or made to hurt: each is a result or a sentence, and neither a panic nor all memory.
+//! Damaged, empty, huge and malicious files: reading each gives a result or an error sentence, without a
+//! panic and without taking all memory.
 
 use std::fmt::Write;
 use std::io::Cursor;
@@ -12,7 +13,7 @@ use meshbrush::io::{asc, geojson, points};
 
 const NAME: &str = "the file";
 
-/// What a reader says to a file, without what it reads.
+/// Reads a file and returns the error sentence, if there is one.
 type Reader = fn(&[u8]) -> Result<(), String>;
 
 fn read_geojson(bytes: &[u8]) -> Result<(), String> {
@@ -42,7 +43,7 @@ fn read_formula(bytes: &[u8]) -> Result<(), String> {
 const GEOJSON: &str = r#"{"type":"FeatureCollection","features":[{"type":"Feature","properties":{"a":[1,{"b":null}]},
 "geometry":{"type":"MultiPolygon","coordinates":[[[[0,0],[4,0,9],[4e0,4],[0,0]],[[1,1],[2,1],[2,1.5]]]]}}]}"#;
 
-/// A small valid file of each kind with its reader.
+/// A small valid file of each format with its reader.
 fn samples() -> Vec<(Vec<u8>, Reader)> {
     let mut png = Vec::new();
     let mut encoder = png::Encoder::new(&mut png, 5, 4);
@@ -69,7 +70,7 @@ fn assert_sentence(said: Result<(), String>) {
 }
 
 #[test]
-fn every_prefix_is_a_result_or_a_sentence() {
+fn every_prefix_gives_a_result_or_a_sentence() {
     for (file, read) in samples() {
         assert_eq!(read(&file), Ok(()));
         (0..file.len()).for_each(|end| assert_sentence(read(&file[..end])));
@@ -78,7 +79,7 @@ fn every_prefix_is_a_result_or_a_sentence() {
 }
 
 #[test]
-fn every_changed_byte_is_a_result_or_a_sentence() {
+fn every_changed_byte_gives_a_result_or_a_sentence() {
     for (file, read) in samples() {
         let mut changed = file.clone();
         for at in 0..file.len() {
@@ -100,12 +101,12 @@ fn said(file: &str) -> String {
 }
 
 #[test]
-fn immense_outlines_are_refused_before_they_take_memory() {
+fn outlines_that_are_too_large_are_refused_before_they_take_memory() {
     let many = polygon(&format!("[[{}[0,0]]]", "[1,2],".repeat(10_000_000)));
     assert!(
         said(&many).contains("more than 1,000,000 corners, which is the limit. Simplify the outline first")
     );
-    // Not one polygon with too many corners, but too many polygons.
+    // Too many corners in all, with few in each polygon.
     let mut parts = String::from(r#"{"type":"GeometryCollection","geometries":["#);
     for k in 0..350_000 {
         write!(parts, "{},", polygon(&format!("[[[{k},0],[{k},1],[{k}.5,1]]]"))).unwrap();
@@ -125,10 +126,10 @@ fn immense_outlines_are_refused_before_they_take_memory() {
 fn an_odd_outline_covers_what_an_even_odd_rule_says() {
     let area = |rings: &str| {
         let polygons = geojson::from_bytes(polygon(rings).as_bytes(), Path::new(NAME)).unwrap();
-        // Corners lie on a fine grid, not always just where they were.
+        // Rounded: corners are moved to a fine grid.
         Domain::of_polygons(&polygons).map(|domain| (domain.region().unwrap().area() * 1e5).round() / 1e5)
     };
-    // Either way round, closed or not, with a hole that runs like its ring.
+    // Clockwise or not, closed or not, and with a hole of either direction.
     assert_eq!(area("[[[0,0],[4,0],[4,4],[0,4],[0,0]]]"), Ok(16.0));
     assert_eq!(area("[[[0,4],[4,4],[4,0],[0,0]]]"), Ok(16.0));
     assert_eq!(area("[[[0,0],[4,0],[4,4],[0,4]],[[1,1],[3,1],[3,3],[1,3]]]"), Ok(12.0));
@@ -148,8 +149,8 @@ fn an_odd_outline_covers_what_an_even_odd_rule_says() {
 }
 
 #[test]
-fn a_picture_that_swells_is_refused_or_stays_within_its_size() {
-    // Megabytes of rows in a small file, for an image of one pixel: what is too much is not unpacked.
+fn a_picture_with_too_much_data_is_refused_or_stays_within_its_size() {
+    // A small file with megabytes of rows for an image of one pixel: the surplus is not unpacked.
     let mut file = Vec::new();
     let mut encoder = png::Encoder::new(&mut file, 8000, 8000);
     encoder.set_color(png::ColorType::Grayscale);
@@ -171,6 +172,6 @@ fn a_picture_that_swells_is_refused_or_stays_within_its_size() {
     };
     assert_eq!(with_size(1).ok(), Some([1, 1]));
     assert!(with_size(8192).is_err(), "rows are missing");
-    assert!(with_size(8193).unwrap_err().to_string().contains("8,193 × 8,193 pixels cannot be taken"));
+    assert!(with_size(8193).unwrap_err().to_string().contains("8,193 × 8,193 pixels cannot be read"));
     assert!(with_size(u32::MAX >> 1).is_err() && with_size(0).is_err());
 }

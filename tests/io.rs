@@ -116,7 +116,7 @@ fn numbers<T: std::str::FromStr>(line: &str) -> Vec<T> {
 }
 
 #[test]
-fn vtu_comes_back() {
+fn vtu_reads_back() {
     for sample in Sample::all() {
         let file = sample.written(vtu::write);
         let found = read_vtu(&file);
@@ -207,7 +207,7 @@ fn vtu_marks_the_boundary_and_is_smaller_than_its_arrays() {
 }
 
 #[test]
-fn csv_comes_back() {
+fn csv_reads_back() {
     for sample in Sample::all() {
         let file = String::from_utf8(sample.written(csv::write)).unwrap();
         let mut lines = file.lines();
@@ -241,7 +241,7 @@ fn csv_comes_back() {
 }
 
 #[test]
-fn node_ele_and_neigh_come_back() {
+fn node_ele_and_neigh_read_back() {
     for sample in Sample::all() {
         let text = |bytes| String::from_utf8(bytes).unwrap();
         let nodes = text(sample.written(node::write));
@@ -293,7 +293,7 @@ fn node_ele_and_neigh_come_back() {
 }
 
 #[test]
-fn two_dm_comes_back_with_its_boundary() {
+fn two_dm_reads_back_with_its_boundary() {
     for sample in Sample::all() {
         let (found, strings) = read_2dm(&String::from_utf8(sample.written(sms::write)).unwrap());
         assert_eq!(found.nodes.len(), sample.mesh.raw_nodes().len());
@@ -305,7 +305,7 @@ fn two_dm_comes_back_with_its_boundary() {
 }
 
 #[test]
-fn a_nodestring_keeps_to_one_piece_of_the_outside() {
+fn a_nodestring_stays_at_one_piece_of_the_outside() {
     // Left out are the six triangles round each of two nodes; the hexagons touch in the node between them.
     let left_out = [dvec2(0.375, 0.5), dvec2(0.625, 0.5)];
     let sample = Sample::new(Rect::UNIT, 0.125, |p| !left_out.contains(&p), 0.5);
@@ -357,7 +357,7 @@ fn assert_strings_follow_the_boundary(mesh: &Mesh, strings: &[Vec<usize>]) {
 }
 
 #[test]
-fn stl_comes_back() {
+fn stl_reads_back() {
     for sample in Sample::all() {
         let file = sample.written(stl::write);
         let triangles = sample.mesh.raw_triangle_count();
@@ -379,7 +379,7 @@ fn stl_comes_back() {
 }
 
 #[test]
-fn stl_refuses_a_mesh_that_it_would_flatten() {
+fn stl_refuses_a_mesh_with_triangles_too_small_for_its_numbers() {
     let far = Rect::new(dvec2(5e6, 5e6), dvec2(5e6 + 1.0, 5e6 + 1.0));
     let sample = Sample::new(far, 0.25, |_| true, 0.01);
     let failed = stl::write(&mut Vec::new(), &sample.mesh.extract(), &sample.data()).unwrap_err();
@@ -409,7 +409,7 @@ fn assert_neighbours(
 }
 
 #[test]
-fn msh_comes_back_with_its_boundary() {
+fn msh_reads_back_with_its_boundary() {
     for sample in Sample::all() {
         let file = String::from_utf8(sample.written(msh::write)).unwrap();
         let (found, boundary) = read_msh(&file);
@@ -479,7 +479,7 @@ fn read_msh(file: &str) -> (Found, Vec<[usize; 2]>) {
 }
 
 #[test]
-fn obj_comes_back() {
+fn obj_reads_back() {
     for sample in Sample::all() {
         let file = String::from_utf8(sample.written(obj::write)).unwrap();
         let mut found = Found::default();
@@ -516,7 +516,7 @@ fn obj_comes_back() {
 fn svg_shows_every_triangle_and_every_edge_once() {
     let colors = LevelColors::new(Colormap::Viridis, Ground::Dark, 12);
     for sample in Sample::all() {
-        let style = svg::Style {
+        let style = svg::SvgStyle {
             size: [800, 600],
             level_colors: colors.as_table(),
             background: [1, 2, 3],

@@ -1,4 +1,4 @@
-//! Files being read and written tell how far they are, and leave everything as it was when that is cancelled.
+//! Readers and writers report their progress, and leave the old files untouched when cancelled.
 
 use std::fs;
 use std::io::{self, Write};
@@ -32,7 +32,7 @@ fn files(folder: &Path) -> Vec<(String, Vec<u8>)> {
     files
 }
 
-/// A mesh of so many triangles that every format takes several blocks.
+/// A mesh with enough triangles for several blocks in every format.
 fn mesh() -> (Mesh, Vec<f64>) {
     let limits = Limits::default();
     let mut mesh =
@@ -47,7 +47,7 @@ fn data(targets: &[f64]) -> MeshData<'_> {
     MeshData { target_diameter: targets, quantities: &[] }
 }
 
-/// A project with a picture, polygons and paint, and more of each than a block.
+/// A project with a picture, polygons and paint, each larger than a block.
 fn large_project() -> Project {
     let sea = fs::read(concat!(env!("CARGO_MANIFEST_DIR"), "/assets/aegean_sea.geojson")).unwrap();
     let sea = geojson::from_bytes(&sea, Path::new("sea")).unwrap();
@@ -58,7 +58,7 @@ fn large_project() -> Project {
     project
 }
 
-/// An output that cancels the meter when it has taken so many bytes.
+/// An output that cancels the meter after `after` bytes.
 struct Cancelling<'a, W> {
     inner: W,
     meter: &'a Meter,
@@ -81,7 +81,7 @@ impl<W: Write> Write for Cancelling<'_, W> {
 }
 
 #[test]
-fn a_meter_that_knows_how_much_there_is_ends_there() {
+fn a_meter_with_a_total_ends_at_it() {
     let folder = folder("whole");
     let (mesh, targets) = mesh();
     for (ending, format) in MeshFormat::ALL {
@@ -110,7 +110,7 @@ fn a_meter_that_knows_how_much_there_is_ends_there() {
     project::read_metered(&file, &meter).unwrap();
     let (done, total) = (meter.done(), meter.total().unwrap());
     assert_eq!(total, 2 * fs::metadata(&file).unwrap().len());
-    // Names and sizes of the parts are not unpacked.
+    // The names and sizes of the parts are read, but not unpacked.
     assert!(done < total && total - done < 1000, "{done} of {total}");
 
     let meter = Meter::default();
@@ -122,7 +122,7 @@ fn a_meter_that_knows_how_much_there_is_ends_there() {
 }
 
 #[test]
-fn a_cancelled_read_says_so() {
+fn a_cancelled_read_is_an_error() {
     let folder = folder("read");
     let file = folder.join("a.meshbrush");
     write_file_metered(&file, &Meter::default(), |out| project::write(out, &large_project())).unwrap();
@@ -140,12 +140,12 @@ fn a_cancelled_read_says_so() {
 }
 
 #[test]
-fn a_cancelled_export_leaves_what_was_there() {
+fn a_cancelled_export_leaves_the_old_files() {
     let folder = folder("export");
     let (mesh, targets) = mesh();
     let mesh = mesh.extract();
     for name in ["vtu", "msh", "obj", "stl", "node", "ele", "neigh", "edge", "2dm", "csv"] {
-        fs::write(folder.join("mesh").with_extension(name), format!("the former {name}")).unwrap();
+        fs::write(folder.join("mesh").with_extension(name), format!("old {name}")).unwrap();
     }
     let before = files(&folder);
     for (ending, format) in MeshFormat::ALL {
@@ -169,11 +169,11 @@ fn a_cancelled_export_leaves_what_was_there() {
 }
 
 #[test]
-fn a_cancelled_save_leaves_what_was_there() {
+fn a_cancelled_save_leaves_the_old_file() {
     let folder = folder("save");
     let file = folder.join("a.meshbrush");
     let project = large_project();
-    fs::write(&file, "the former project").unwrap();
+    fs::write(&file, "an old project").unwrap();
     let before = files(&folder);
     // Before the first part, and between two of them.
     for after in [0, 1] {

@@ -104,7 +104,7 @@ fn documents() -> Vec<Document> {
 }
 
 #[test]
-fn what_is_saved_is_what_is_opened_and_saved_again_it_has_the_same_bytes() {
+fn a_saved_project_opens_equal_and_saves_to_the_same_bytes() {
     for document in documents() {
         let project = Project::of(&document);
         let bytes = bytes_of(&project);
@@ -119,7 +119,7 @@ fn what_is_saved_is_what_is_opened_and_saved_again_it_has_the_same_bytes() {
 }
 
 #[test]
-fn polygons_come_back_corner_by_corner() {
+fn saved_polygons_open_with_equal_corners() {
     let mut random = fastrand::Rng::with_seed(23);
     for _ in 0..1000 {
         let domain = polygons(&mut random);
@@ -137,7 +137,7 @@ fn polygons_come_back_corner_by_corner() {
 }
 
 #[test]
-fn an_opened_project_has_the_mesh_that_it_was_saved_with() {
+fn an_opened_project_has_the_mesh_of_the_saved_one() {
     for mut document in documents().into_iter().skip(1).step_by(14) {
         let mut back = opened(&bytes_of(&Project::of(&document))).unwrap().into_document().unwrap();
         let [before, after] =
@@ -201,7 +201,7 @@ fn meshed(arguments: &[&str]) -> Result<serde_json::Value, String> {
 }
 
 #[test]
-fn the_command_line_makes_the_mesh_that_the_window_shows() {
+fn the_command_line_and_the_window_make_the_same_mesh() {
     let file = folder("cli").join(NAME);
     let path = file.to_str().unwrap();
     let mut rules = Vec::new();
@@ -225,7 +225,7 @@ fn the_command_line_makes_the_mesh_that_the_window_shows() {
 }
 
 #[test]
-fn settings_are_text_for_a_person_and_any_tool_unpacks_them() {
+fn settings_are_readable_text_and_unzip_unpacks_them() {
     let folder = folder("unzip");
     let file = folder.join(NAME);
     let document = &documents()[3];
@@ -256,7 +256,7 @@ fn small() -> Project {
 }
 
 #[test]
-fn every_cut_is_told() {
+fn every_cut_is_refused() {
     let bytes = bytes_of(&small());
     for length in 0..bytes.len() {
         let error = opened(&bytes[..length]).err().unwrap_or_else(|| panic!("cut at {length}"));
@@ -265,25 +265,25 @@ fn every_cut_is_told() {
 }
 
 #[test]
-fn a_flipped_bit_is_told_or_harms_nothing() {
+fn a_flipped_bit_is_refused_or_changes_nothing() {
     let project = small();
     let bytes = bytes_of(&project);
-    let mut told = 0;
+    let mut refused = 0;
     for place in 0..bytes.len() {
         for bit in 0..8 {
             let mut damaged = bytes.clone();
             damaged[place] ^= 1 << bit;
             match opened(&damaged) {
                 Ok(opened) => assert!(opened == project, "bit {bit} of byte {place}"),
-                Err(_) => told += 1,
+                Err(_) => refused += 1,
             }
         }
     }
-    assert!(told > 6 * bytes.len(), "{told} of {}", 8 * bytes.len());
+    assert!(refused > 6 * bytes.len(), "{refused} of {}", 8 * bytes.len());
 }
 
 #[test]
-fn garbage_is_told() {
+fn garbage_is_refused() {
     let bytes = bytes_of(&small());
     let mut random = fastrand::Rng::with_seed(11);
     for _ in 0..20_000 {
@@ -301,8 +301,8 @@ fn garbage_is_told() {
     }
 }
 
-/// The project with its settings changed as text, in an archive whose checksums are right.
-fn retold(change: impl Fn(&str) -> String) -> Vec<u8> {
+/// The small project with the text of its settings changed, in an archive with valid checksums.
+fn rewritten(change: impl Fn(&str) -> String) -> Vec<u8> {
     let bytes = bytes_of(&small());
     let parts = unpacked(&bytes);
     packed(parts.into_iter().map(|(name, content)| match name.as_str() {
@@ -311,7 +311,7 @@ fn retold(change: impl Fn(&str) -> String) -> Vec<u8> {
     }))
 }
 
-/// Parts of an archive as the program writes it, by the local headers alone.
+/// The parts of an archive that the program wrote, read by the local headers alone.
 fn unpacked(mut bytes: &[u8]) -> Vec<(String, Vec<u8>)> {
     let mut parts = Vec::new();
     while bytes.starts_with(b"PK\x03\x04") {
@@ -348,29 +348,29 @@ fn packed(parts: impl IntoIterator<Item = (String, Vec<u8>)>) -> Vec<u8> {
     out
 }
 
-fn told(bytes: &[u8], words: &[&str]) {
-    let Err(error) = opened(bytes) else { panic!("no word about {words:?}") };
+fn refused(bytes: &[u8], words: &[&str]) {
+    let Err(error) = opened(bytes) else { panic!("it was read, without an error about {words:?}") };
     for word in words {
         assert!(error.contains(word), "{word} in: {error}");
     }
 }
 
 #[test]
-fn what_other_tools_pack_again_is_opened() {
-    assert!(opened(&retold(str::to_owned)).unwrap() == small());
+fn archives_packed_by_other_tools_are_opened() {
+    assert!(opened(&rewritten(str::to_owned)).unwrap() == small());
 }
 
 #[test]
 fn a_newer_version_is_named() {
-    let newer = retold(|text| {
+    let newer = rewritten(|text| {
         let newer = text.replace("\"version\": 1", "\"version\": 7, \"seasons\": [1, 2]");
         newer.replace(concat!("Meshbrush ", env!("CARGO_PKG_VERSION")), "Meshbrush 9.9")
     });
-    told(&newer, &[NAME, "settings.json", "Meshbrush 9.9", "version 7", "up to version 1"]);
+    refused(&newer, &[NAME, "settings.json", "Meshbrush 9.9", "version 7", "up to version 1"]);
 }
 
 #[test]
-fn settings_that_cannot_be_are_told_with_their_place() {
+fn errors_in_settings_name_their_place() {
     let cases: &[(&str, &str, &[&str])] = &[
         ("\"version\": 1", "\"version\": 1, \"seasons\": 4", &["line 3", "seasons"]),
         ("\"spacing\"", "\"spacing\": 1e999, \"spacings\"", &["settings.json"]),
@@ -386,20 +386,20 @@ fn settings_that_cannot_be_are_told_with_their_place() {
         ("\"spacing\": 0.0", "\"spacing\": 0.000000000", &["coarse"]),
     ];
     for (from, to, words) in cases {
-        told(
-            &retold(|text| {
+        refused(
+            &rewritten(|text| {
                 assert!(text.contains(from), "{from}: {text}");
                 text.replacen(from, to, 1)
             }),
             words,
         );
     }
-    told(&retold(|_| "{".repeat(100_000)), &["line 1"]);
-    told(&retold(|_| String::new()), &["settings.json"]);
+    refused(&rewritten(|_| "{".repeat(100_000)), &["line 1"]);
+    refused(&rewritten(|_| String::new()), &["settings.json"]);
 }
 
 #[test]
-fn a_sentence_stays_short_whatever_the_file_says() {
+fn errors_stay_short_for_long_values() {
     let long = "m".repeat(100_000);
     for [from, to] in [
         ["Meshbrush project", &long],
@@ -408,7 +408,7 @@ fn a_sentence_stays_short_whatever_the_file_says() {
         ["\"spacing\"", &format!("\"{long}\"")],
         ["\"area\"", &format!("\"{long}\"")],
     ] {
-        let bytes = retold(|text| {
+        let bytes = rewritten(|text| {
             assert!(text.contains(from), "{from}: {text}");
             text.replacen(from, to, 1).replacen(
                 "\"version\": 1",
@@ -430,7 +430,7 @@ fn a_sentence_stays_short_whatever_the_file_says() {
         ["\"h_min\": ", "\"h_min\": 1e300"],
         ["\"fitted_with_diameter\": ", "\"fitted_with_diameter\": -1e300"],
     ] {
-        let bytes = retold(|text| {
+        let bytes = rewritten(|text| {
             assert!(text.contains(from), "{from}: {text}");
             let (before, after) = text.split_once(from).expect("just seen");
             let rest = if from.ends_with(": ") { &after[after.find([',', '\n']).unwrap()..] } else { after };
@@ -446,13 +446,13 @@ fn a_sentence_stays_short_whatever_the_file_says() {
 }
 
 #[test]
-fn sizes_that_are_announced_take_no_memory() {
+fn declared_sizes_take_no_memory() {
     let bytes = bytes_of(&small());
     let directory = bytes.windows(4).rposition(|four| four == b"PK\x01\x02").unwrap();
     // The paint announces 3 GB.
     let mut bomb = bytes.clone();
     bomb[directory + 24..directory + 28].copy_from_slice(&3_000_000_000u32.to_le_bytes());
-    told(&bomb, &["paint.tiles", "3000000000"]);
+    refused(&bomb, &["paint.tiles", "3000000000"]);
     // The settings are 64 MB of blanks, packed in 64 kB.
     let mut blanks = flate2::write::DeflateEncoder::new(Vec::new(), flate2::Compression::best());
     std::io::Write::write_all(&mut blanks, &vec![b' '; 64 << 20]).unwrap();
@@ -461,23 +461,23 @@ fn sizes_that_are_announced_take_no_memory() {
     bomb[at + 10] = 8;
     for declared in [64 << 20, 1000u32] {
         bomb[at + 24..at + 28].copy_from_slice(&declared.to_le_bytes());
-        told(&bomb, &["settings.json"]);
+        refused(&bomb, &["settings.json"]);
     }
 }
 
 #[test]
-fn files_that_are_none_are_told() {
-    told(b"", &["empty"]);
-    told(b"PK", &["no Meshbrush project"]);
-    told(&[0x89, b'P', b'N', b'G'], &["no Meshbrush project"]);
-    told(&packed([("readme.txt".to_owned(), b"hello".to_vec())]), &["no settings.json"]);
+fn files_that_are_not_projects_are_refused() {
+    refused(b"", &["empty"]);
+    refused(b"PK", &["not a Meshbrush project"]);
+    refused(&[0x89, b'P', b'N', b'G'], &["not a Meshbrush project"]);
+    refused(&packed([("readme.txt".to_owned(), b"hello".to_vec())]), &["no settings.json"]);
     let error = project::read(&folder("none").join("absent.meshbrush")).unwrap_err().to_string();
     assert!(error.contains("absent.meshbrush"), "{error}");
     assert!(project::read(Path::new("/dev/zero")).is_err());
 }
 
 #[test]
-fn paint_that_nobody_painted_is_told() {
+fn paint_with_impossible_values_is_refused() {
     let mut parts = unpacked(&bytes_of(&small()));
     let (_, paint) = parts.last_mut().unwrap();
     let sound = paint.clone();
@@ -485,10 +485,10 @@ fn paint_that_nobody_painted_is_told() {
         let (_, paint) = parts.last_mut().unwrap();
         paint.copy_from_slice(&sound);
         paint[place] = value;
-        told(&packed(parts.clone()), &["paint.tiles", "not written by Meshbrush"]);
+        refused(&packed(parts.clone()), &["paint.tiles", "Meshbrush did not write this file"]);
     }
     parts.last_mut().unwrap().1.push(0);
-    told(&packed(parts.clone()), &["paint.tiles"]);
+    refused(&packed(parts.clone()), &["paint.tiles"]);
 }
 
 fn folder(name: &str) -> PathBuf {

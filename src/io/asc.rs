@@ -1,8 +1,8 @@
-//! `.asc`: the ESRI ASCII grid, a raster that knows where it lies.
+//! `.asc`: the ESRI ASCII grid, a raster with its own placement.
 //!
-//! A header of names and numbers (`ncols`, `nrows`, `xllcorner` or `xllcenter`, `yllcorner` or `yllcenter`, `cellsize` or `dx` and
-//! `dy`, and perhaps `NODATA_value`), then the values, the top row first. Case, line breaks and the order of the header are
-//! free.
+//! A header of names and numbers (`ncols`, `nrows`, `xllcorner` or `xllcenter`, `yllcorner` or `yllcenter`,
+//! `cellsize` or `dx` and `dy`, and perhaps `NODATA_value`), then the values, the top row first. Case, line
+//! breaks and the order of the header do not matter.
 
 use std::collections::HashMap;
 use std::fs::File;
@@ -16,20 +16,20 @@ use super::{Flaw, ReadError};
 use crate::geometry::Rect;
 use crate::raster::{MAX_SIDE, Raster};
 
-/// Reads a grid with its own placement. Pixels without a value (`NODATA_value`) are NaN.
+/// Reads a grid. Pixels without a value (`NODATA_value`) are NaN.
 ///
 /// # Errors
-/// When the file cannot be read, breaks a rule of the format (with the line), or has more than [`MAX_SIDE`] pixels along a
-/// side.
+/// When the file cannot be read, breaks a rule of the format (with the line), or has more than [`MAX_SIDE`]
+/// pixels along a side.
 pub fn read(path: &Path) -> Result<Raster, ReadError> {
     let read = File::open(path).map_err(PlacedFlaw::from).and_then(|file| parse(BufReader::new(file)));
     read.map_err(|flaw| flaw.in_file(path))
 }
 
-/// As [`read`], from bytes.
+/// Reads a grid as [`read`] does, from bytes. Errors call the file `name`.
 ///
 /// # Errors
-/// As [`read`]; the file is then called as given.
+/// As [`read`].
 pub fn from_bytes(bytes: &[u8], name: &Path) -> Result<Raster, ReadError> {
     parse(bytes).map_err(|flaw| flaw.in_file(name))
 }
@@ -41,7 +41,7 @@ fn parse(source: impl BufRead) -> Result<Raster, PlacedFlaw> {
     let bounds = header.bounds([columns, rows])?;
     let no_data = header.number("nodata_value");
     let count = columns as usize * rows as usize;
-    // Grows with the values that really come: a header alone takes no memory.
+    // Grows with the values in the file: a header alone takes no memory.
     let mut values = Vec::new();
     let mut next = Some(first_value);
     while let Some(word) = next {
@@ -60,7 +60,7 @@ fn parse(source: impl BufRead) -> Result<Raster, PlacedFlaw> {
     Ok(Raster::from_values(bounds, [columns, rows], bottom_row_first))
 }
 
-/// Names in lower case, with their numbers.
+/// The names of the header in lower case, with their numbers.
 struct Header(HashMap<String, f64>);
 
 const NAMES: [&str; 10] = [
@@ -77,7 +77,8 @@ const NAMES: [&str; 10] = [
 ];
 
 impl Header {
-    /// Reads names and numbers up to the first word that is a number where a name might stand; returns that word too.
+    /// Reads names and numbers up to the first number in the place of a name, which is the first value;
+    /// returns it, too.
     fn parse(words: &mut Words<impl BufRead>) -> Result<(Self, String), PlacedFlaw> {
         let mut known = HashMap::new();
         loop {
@@ -93,9 +94,9 @@ impl Header {
                     .at(words.line));
             }
             let value = words.required()?;
-            // A name can come only once, so that the loop is bounded by the list of names.
+            // Each name is allowed once, so the loop is bounded by the list of names.
             if known.insert(lower, number(&value, words.line)?).is_some() {
-                return Err(Flaw::Syntax(format!("`{name}` comes twice in the header.")).at(words.line));
+                return Err(Flaw::Syntax(format!("`{name}` is twice in the header.")).at(words.line));
             }
         }
     }
@@ -140,15 +141,14 @@ impl Header {
 }
 
 fn number(word: &str, line: usize) -> Result<f64, PlacedFlaw> {
-    // Some programs write a decimal comma, as their computer's language has it.
+    // Some programs write a decimal comma, depending on the language of the system.
     let parsed = word.parse().or_else(|_| word.replace(',', ".").parse());
-    parsed
-        .ok()
-        .filter(|value: &f64| value.is_finite())
-        .ok_or_else(|| Flaw::Syntax(format!("`{word}` stands where a number is expected.")).at(line))
+    parsed.ok().filter(|value: &f64| value.is_finite()).ok_or_else(|| {
+        Flaw::Syntax(format!("`{word}` is not a number, and a number is expected here.")).at(line)
+    })
 }
 
-/// A value as a raster keeps it.
+/// A value in single precision, as rasters have it.
 fn single(value: f64, line: usize) -> Result<f32, PlacedFlaw> {
     let single = value as f32;
     if single.is_finite() {
@@ -156,17 +156,21 @@ fn single(value: f64, line: usize) -> Result<f32, PlacedFlaw> {
     }
     let problem =
         format!("the value {value:e} is too large: a raster has single precision, up to {:.1e}", f32::MAX);
-    Err(Flaw::Syntax(problem + ". Where no value is meant, name it with NODATA_value in the header.")
-        .at(line))
+    Err(Flaw::Syntax(
+        problem + ". If it marks pixels without a value, name it with NODATA_value in the header.",
+    )
+    .at(line))
 }
 
-/// Words between white space, with the line that the last one stands in.
+/// Words between white space.
 struct Words<R> {
     source: R,
+    /// The line of the last word, counted from one.
     line: usize,
 }
 
-/// Longer than any number that a program writes. Keeps a file without white space from filling the memory.
+/// Longer than any number that a program writes, in bytes. Without a limit a file without white space would
+/// fill the memory.
 const LONGEST_WORD: usize = 400;
 
 impl<R: BufRead> Words<R> {
@@ -177,7 +181,7 @@ impl<R: BufRead> Words<R> {
     /// The next word, `None` at the end of the file.
     fn next(&mut self) -> Result<Option<String>, PlacedFlaw> {
         let mut word = Vec::new();
-        // Every turn takes a byte or stops; so does the end of the file.
+        // Each iteration consumes a byte or stops, and the end of the file stops it, too.
         while let Some(&byte) = self.source.fill_buf()?.first() {
             if byte.is_ascii_whitespace() {
                 if !word.is_empty() {
@@ -195,7 +199,7 @@ impl<R: BufRead> Words<R> {
         let text = String::from_utf8_lossy(&word);
         if word.len() > LONGEST_WORD || word.contains(&0) {
             let start: String = text.chars().take(20).collect();
-            let problem = format!("`{}…` is not text of an ESRI ASCII grid.", start.escape_debug());
+            let problem = format!("`{}…` is not a word of an ESRI ASCII grid.", start.escape_debug());
             return Err(Flaw::Syntax(problem).at(self.line));
         }
         Ok((!word.is_empty()).then(|| text.into_owned()))
@@ -211,7 +215,7 @@ mod tests {
     }
 
     #[test]
-    fn a_grid_lies_where_its_header_says_with_its_top_row_on_top() {
+    fn a_grid_lies_where_its_header_says_and_its_first_row_is_the_top_row() {
         let raster =
             parsed("NCOLS 3\nnrows 2\nxllcorner 10\nyllcorner -4\ncellsize 2\nnodata_value -9999\n1 2 3\n4 -9999 6\n")
                 .unwrap();
@@ -229,23 +233,23 @@ mod tests {
     }
 
     #[test]
-    fn mistakes_are_named_with_their_line() {
+    fn errors_name_their_line() {
         let header = "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\n";
         for (text, expected) in [
             (String::new(), ", line 1: the file ends too early"),
             ("P5 3 3".into(), ", line 1: `P5` is not part of the header"),
-            ("ncols 2\nncols 2\n".into(), ", line 2: `ncols` comes twice"),
-            ("ncols 2\nnrows two\n".into(), ", line 2: `two` stands where a number"),
+            ("ncols 2\nncols 2\n".into(), ", line 2: `ncols` is twice"),
+            ("ncols 2\nnrows two\n".into(), ", line 2: `two` is not a number"),
             ("ncols 2\nnrows 2\n1 2 3 4".into(), ": the header has no `cellsize`."),
             ("ncols 2.5\nnrows 2\n1".into(), ": ncols and nrows are whole numbers, and 2.5 is not."),
-            ("ncols 9e9 nrows 9e9 1".into(), ": 9,000,000,000 × 9,000,000,000 pixels cannot be taken"),
+            ("ncols 9e9 nrows 9e9 1".into(), ": 9,000,000,000 × 9,000,000,000 pixels cannot be read"),
             (header.replace("size 1", "size 0") + "1 2\n3 4", ": with cells of 0 × 0"),
             (format!("{header}1 2\n3"), ", line 7: the file ends too early"),
-            (format!("{header}1 2\n3 x"), ", line 7: `x` stands where a number"),
-            (format!("{header}1 2\n3 NaN"), ", line 7: `NaN` stands where a number"),
+            (format!("{header}1 2\n3 x"), ", line 7: `x` is not a number"),
+            (format!("{header}1 2\n3 NaN"), ", line 7: `NaN` is not a number"),
             (format!("{header}1 2\n3 4\n5"), ", line 8: there are more values"),
             (format!("{header}1 2\n3 -9e99"), ", line 7: the value -9e99 is too large"),
-            ("1".repeat(10_000), ", line 1: `11111111111111111111…` is not text"),
+            ("1".repeat(10_000), ", line 1: `11111111111111111111…` is not a word"),
         ] {
             let message = parsed(&text).unwrap_err();
             assert!(message.starts_with(expected), "{text:.60} gave {message}");

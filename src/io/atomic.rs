@@ -5,20 +5,20 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::Meter;
 
-/// Makes a folder, and those that it lies in, where they are not there yet.
+/// Creates a folder and its parents, as far as they do not exist.
 ///
 /// # Errors
-/// Those of the file system.
+/// Errors of the file system.
 pub fn make_folder(path: &Path) -> io::Result<()> {
     fs::create_dir_all(path)
 }
 
-/// Whether there is something at a place.
+/// Whether a file or folder exists at a path.
 pub fn exists(path: &Path) -> bool {
     path.exists()
 }
 
-/// Why no file can be put at a place whatever is written there, as the end of a sentence; `None` where one may try.
+/// Why no file can be written at a path, as the end of a sentence; `None` if nothing is known against it.
 pub fn obstacle(path: &Path) -> Option<String> {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     if !folder.is_dir() {
@@ -27,20 +27,20 @@ pub fn obstacle(path: &Path) -> Option<String> {
     path.is_dir().then(|| "a folder has this name".to_owned())
 }
 
-/// Writes a file as a whole or not at all.
+/// Writes a file completely or not at all.
 ///
-/// The content goes to a temporary file in the same folder, which then takes the place of `path`: whatever was there stays
-/// untouched until all is written. Where `path` names something other than a file (a pipe, `/dev/stdout`), it is written
-/// directly.
+/// The content goes to a temporary file in the same folder, which then replaces `path`: the old file is
+/// untouched until everything is written. If `path` is not a regular file (a pipe, `/dev/stdout`), it is
+/// written directly.
 ///
 /// # Errors
-/// Those of the file system and of `write`. The temporary file is then removed.
+/// Errors of the file system and of `write`. The temporary file is then removed.
 pub fn write_file(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
     write_file_metered(path, &Meter::default(), write)
 }
 
-/// As [`write_file`], but ends without a trace when the meter was cancelled before the file takes its place. What `write` writes is not
-/// counted here: it knows better when it is done.
+/// Writes a file as [`write_file`] does, and leaves no trace if the meter is cancelled before the file is in
+/// its place. The bytes of `write` are not counted here: `write` counts what it works on.
 ///
 /// # Errors
 /// As [`write_file`], and when the work was cancelled.
@@ -52,28 +52,29 @@ pub fn write_file_metered(
     put_in_place([Draft::write(path, meter, write)?], meter)
 }
 
-/// Puts files that belong together in their places, all of them or, if the work was cancelled, none.
+/// Moves files that belong together to their places: all of them, or none if the work was cancelled.
 ///
 /// # Errors
-/// When the work was cancelled, and those of the file system. Where these come between two files, the former are already in their places.
+/// When the work was cancelled, and errors of the file system. After an error of the file system the files
+/// before it are already in their places.
 pub(super) fn put_in_place(drafts: impl IntoIterator<Item = Draft>, meter: &Meter) -> io::Result<()> {
     let drafts: Vec<Draft> = drafts.into_iter().collect();
     meter.check()?;
     drafts.into_iter().try_for_each(Draft::put_in_place)
 }
 
-/// A file that is written, but not yet in its place. It is removed if it never gets there.
+/// A file that is written but not yet in its place. Dropping it removes the temporary file.
 pub(super) struct Draft {
     target: PathBuf,
-    /// `None` where something other than a file was written directly.
+    /// `None` if the target is not a regular file and was written directly.
     temporary: Option<PathBuf>,
 }
 
 impl Draft {
-    /// Writes what is to become the file at `path`, onto the disk.
+    /// Writes the content of the file at `path` to a temporary file, and waits until it is on the disk.
     ///
     /// # Errors
-    /// Those of the file system and of `write`, and when the work was cancelled.
+    /// Errors of the file system and of `write`, and when the work was cancelled.
     pub fn write(
         path: &Path,
         meter: &Meter,
@@ -82,7 +83,7 @@ impl Draft {
         if let Some(obstacle) = obstacle(path) {
             return Err(io::Error::other(obstacle));
         }
-        // A link stays a link: what it points to is replaced.
+        // A link stays a link: the file that it points to is replaced.
         let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
         let before = fs::metadata(&target).ok();
         if before.as_ref().is_some_and(|m| !m.is_file() && !m.is_dir()) {
@@ -91,13 +92,13 @@ impl Draft {
         }
         let temporary = beside(&target)?;
         let file = File::options().write(true).create_new(true).open(&temporary)?;
-        // From here on the temporary file goes with the draft.
+        // From here on dropping the draft removes the temporary file.
         let draft = Self { target, temporary: Some(temporary) };
         let file = filled(file, write)?;
         if let Some(before) = before {
             file.set_permissions(before.permissions())?;
         }
-        // The disk can take seconds.
+        // The next call can take seconds.
         meter.check()?;
         file.sync_all()?;
         Ok(draft)
@@ -115,7 +116,7 @@ impl Draft {
 impl Drop for Draft {
     fn drop(&mut self) {
         if let Some(temporary) = &self.temporary {
-            // The first error is the one to report.
+            // An error of this is not reported: the error before it is the cause.
             let _ = fs::remove_file(temporary);
         }
     }
@@ -127,10 +128,11 @@ fn filled(file: File, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> i
     out.into_inner().map_err(io::IntoInnerError::into_error)
 }
 
-/// A name in the same folder that neither two runs of the program nor two writes of one share.
+/// A name in the same folder that is unique among all runs of the program and all writes of each run.
 fn beside(target: &Path) -> io::Result<PathBuf> {
     static WRITES: AtomicU64 = AtomicU64::new(0);
-    let name = target.file_name().ok_or_else(|| io::Error::other("that is not the name of a file"))?;
+    let name =
+        target.file_name().ok_or_else(|| io::Error::other("the path does not end in the name of a file"))?;
     let (run, write) = (std::process::id(), WRITES.fetch_add(1, Ordering::Relaxed));
     let mut hidden = std::ffi::OsString::from(".");
     hidden.push(name);
@@ -168,7 +170,7 @@ mod tests {
     }
 
     #[test]
-    fn a_write_that_is_cancelled_at_any_point_leaves_the_old_file_and_nothing_else() {
+    fn a_cancelled_write_leaves_the_old_file_and_nothing_else() {
         let folder = folder("cancelled");
         let path = folder.join("mesh.csv");
         fs::write(&path, "old").unwrap();
@@ -192,7 +194,7 @@ mod tests {
     }
 
     #[test]
-    fn files_that_belong_together_take_their_places_together() {
+    fn files_that_belong_together_are_replaced_together() {
         let folder = folder("together");
         let paths = ["a", "b"].map(|name| folder.join(name));
         let meter = Meter::default();

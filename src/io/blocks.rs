@@ -1,4 +1,5 @@
-//! VTK's way to store a compressed array: blocks, each compressed by itself, after a table of their sizes.
+//! A compressed array as VTK stores it: blocks that are compressed independently, after a table of their
+//! sizes.
 
 use std::io::{self, Write};
 
@@ -7,14 +8,13 @@ use flate2::write::ZlibEncoder;
 
 use super::Meter;
 
-/// Bytes of a block before compression. A larger one compresses hardly better.
+/// Bytes of a block before compression. Larger blocks compress hardly better.
 pub const BLOCK: usize = 1 << 18;
 
-/// Takes the bytes of an array and hands on one compressed block after another, so that memory holds one block only.
+/// Compresses the bytes of an array block by block, with one block in memory at a time.
 ///
-/// The meter counts the bytes of the array and not what is handed on: the first pass takes as long as the second.
-///
-/// The same bytes always give the same blocks: what is counted in one pass can be announced and then written in another.
+/// The meter counts the bytes before compression. The same bytes always give the same blocks: a first pass
+/// can measure them, and a second pass writes them.
 pub struct Blocks<'a, F> {
     meter: &'a Meter,
     raw: Vec<u8>,
@@ -23,21 +23,21 @@ pub struct Blocks<'a, F> {
 }
 
 impl<'a, F: FnMut(&[u8]) -> io::Result<()>> Blocks<'a, F> {
-    /// `take` gets each compressed block.
+    /// Compresses into `take`, which receives one compressed block after the other.
     pub fn new(meter: &'a Meter, take: F) -> Self {
         Self { meter, raw: Vec::with_capacity(BLOCK), compressed: Vec::new(), take }
     }
 
-    /// Hands on what is left in the last block.
+    /// Compresses the rest as the last block.
     ///
     /// # Errors
-    /// Those of `take`, and when the work was cancelled.
+    /// Errors of `take`, and when the work was cancelled.
     pub fn finish(mut self) -> io::Result<()> {
-        if self.raw.is_empty() { Ok(()) } else { self.hand_on() }
+        if self.raw.is_empty() { Ok(()) } else { self.compress_block() }
     }
 
-    fn hand_on(&mut self) -> io::Result<()> {
-        // Quick: the higher levels take several times as long for a tenth less.
+    fn compress_block(&mut self) -> io::Result<()> {
+        // Higher levels take several times as long for files a tenth smaller.
         let mut encoder = ZlibEncoder::new(std::mem::take(&mut self.compressed), Compression::fast());
         encoder.write_all(&self.raw)?;
         self.compressed = encoder.finish()?;
@@ -54,7 +54,7 @@ impl<F: FnMut(&[u8]) -> io::Result<()>> Write for Blocks<'_, F> {
         let taken = bytes.len().min(BLOCK - self.raw.len());
         self.raw.extend_from_slice(&bytes[..taken]);
         if self.raw.len() == BLOCK {
-            self.hand_on()?;
+            self.compress_block()?;
         }
         Ok(taken)
     }

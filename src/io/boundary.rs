@@ -3,8 +3,9 @@ use std::f64::consts::TAU;
 
 use crate::mesh::{Extract, NodeId};
 
-/// The boundary as closed lines, every edge once: nodes in order, each the start of an edge with the domain to the left, the last
-/// edge leading back to the first node. Where the boundary touches itself in a node, a line keeps to one piece of what is outside.
+/// The boundary as closed loops that contain each boundary edge once. A loop is a list of nodes; each edge
+/// runs from a node to the next, the last one back to the first, with the domain on its left. Where the
+/// boundary touches itself in a node, a loop stays at the same piece of the outside.
 pub fn boundary_loops(mesh: &Extract) -> Vec<Vec<usize>> {
     let edges: Vec<[usize; 2]> = mesh.boundary_edges().map(|edge| edge.ends).collect();
     let mut leaving: HashMap<usize, Vec<usize>> = HashMap::new();
@@ -21,7 +22,7 @@ pub fn boundary_loops(mesh: &Extract) -> Vec<Vec<usize>> {
     for start in 0..edges.len() {
         let mut nodes = Vec::new();
         let mut edge = Some(start);
-        // Ends: every turn takes an edge that was not taken.
+        // Ends: each iteration takes an edge that was not taken before.
         while let Some(now) = edge.filter(|&now| !std::mem::replace(&mut drawn[now], true)) {
             nodes.push(edges[now][0]);
             edge = next(now);
@@ -33,7 +34,8 @@ pub fn boundary_loops(mesh: &Extract) -> Vec<Vec<usize>> {
     loops
 }
 
-/// The angle at the middle one of three nodes, on the right of the way from the first to the last: what is outside there.
+/// The angle of the outside at the middle one of three nodes: on the right of the path from the first to the
+/// last.
 fn outer_angle(mesh: &Extract, nodes: [usize; 3]) -> f64 {
     let [from, at, to] = nodes.map(|node| mesh.node(NodeId::from_index(node)).as_dvec2());
     let (back, onward) = (from - at, to - at);

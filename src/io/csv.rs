@@ -1,8 +1,9 @@
-//! `.csv`: a table with one row for each triangle, complete in itself.
+//! `.csv`: a table with one row for each triangle that contains all data of the triangle.
 //!
-//! Columns: `triangle` and its `level`; the nodes `v1,v2,v3`, anticlockwise, the first two the ends of the bisection edge; the
-//! triangles `n1,n2,n3` across the edges, the first across the bisection edge and then anticlockwise, empty at the boundary;
-//! the corners `x1,y1,x2,y2,x3,y3`; and h̄ there, `target1,target2,target3`. Ids count from zero.
+//! Columns: `triangle` and its `level`; its nodes `v1,v2,v3`, anticlockwise, the first two are the ends of
+//! the bisection edge; the triangles `n1,n2,n3` across its edges, first across the bisection edge and then
+//! anticlockwise, empty at the boundary; its corners `x1,y1,x2,y2,x3,y3`; and h̄ at the corners,
+//! `target1,target2,target3`. Numbers start at zero.
 
 use std::io::{self, Write};
 
@@ -11,10 +12,10 @@ use crate::mesh::{Extract, NodeId};
 
 const HEADER: &str = "triangle,level,v1,v2,v3,n1,n2,n3,x1,y1,x2,y2,x3,y3,target1,target2,target3";
 
-/// Writes one row for each triangle. Quantities other than h̄ follow as `name1,name2,name3`.
+/// Writes the table. Quantities other than h̄ follow as columns `name1,name2,name3`.
 ///
 /// # Errors
-/// Those of `out`.
+/// Errors of `out`.
 pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Result<()> {
     write!(out, "{HEADER}")?;
     for NodeValues { name, .. } in data.quantities {

@@ -1,3 +1,5 @@
+//! Errors of readers: the file, the place in it, and the flaw there.
+
 use std::fmt;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -26,7 +28,7 @@ pub enum Place {
     Whole,
     /// A line, counted from one.
     Line(usize),
-    /// A file within the file, and the line there if it is one of text.
+    /// A part of an archive, and the line in it if it is text.
     Part(&'static str, Option<usize>),
 }
 
@@ -44,28 +46,28 @@ impl fmt::Display for Place {
 /// What is wrong with a file.
 #[derive(Debug, thiserror::Error)]
 pub enum Flaw {
-    /// The operating system says no.
+    /// An error of the operating system.
     #[error("cannot be read ({0})")]
     Io(#[from] io::Error),
-    /// The file ends before everything it promises has come.
+    /// The file ends before all announced data.
     #[error("the file ends too early; it seems to be cut off. Copy or export it again.")]
     CutOff,
-    /// What was stored and what is found differ.
-    #[error("the file is damaged: what it holds and its checksum do not agree. Use another copy.")]
+    /// The content and its checksum differ.
+    #[error("the file is damaged: its content does not match its checksum. Use another copy.")]
     Damaged,
-    /// The decoder of images refuses it.
+    /// The PNG decoder refuses it.
     #[error("this is not a PNG image that can be read ({0}). Export it again as PNG.")]
     Png(String),
-    /// A raster that would take too much memory.
+    /// A raster with too many pixels, or none.
     #[error(
-        "{} × {} pixels cannot be taken: a raster has 1 to {} pixels along each side. Scale it \
+        "{} × {} pixels cannot be read: a raster has 1 to {} pixels along each side. Scale it \
          first.",
         Grouped(*columns as usize), Grouped(*rows as usize), Grouped(MAX_SIDE as usize)
     )]
     Size {
-        /// Columns that the file announces.
+        /// Columns, as announced.
         columns: u64,
-        /// Rows that the file announces.
+        /// Rows, as announced.
         rows: u64,
     },
     /// The text breaks a rule of its format; the sentence says which.
@@ -74,7 +76,7 @@ pub enum Flaw {
 }
 
 impl Flaw {
-    /// The flaw, at a line counted from one.
+    /// The flaw with its line, counted from one.
     pub(super) fn at(self, line: usize) -> PlacedFlaw {
         PlacedFlaw { place: Place::Line(line), flaw: self }
     }
@@ -86,7 +88,7 @@ impl From<Cancelled> for Flaw {
     }
 }
 
-/// A flaw before it is known which file has it.
+/// A flaw with its place, before the file is known.
 #[derive(Debug)]
 pub(super) struct PlacedFlaw {
     pub(super) place: Place,
@@ -94,7 +96,7 @@ pub(super) struct PlacedFlaw {
 }
 
 impl PlacedFlaw {
-    /// The flaw as one of a file within the file.
+    /// The flaw as one in a part of an archive.
     pub(super) fn within(self, part: &'static str) -> Self {
         let line = if let Place::Line(line) = self.place { Some(line) } else { None };
         Self { place: Place::Part(part, line), flaw: self.flaw }
@@ -111,7 +113,7 @@ impl<F: Into<Flaw>> From<F> for PlacedFlaw {
     }
 }
 
-/// At most so many characters of what stands in a file, which may be a whole file long.
+/// At most `most` characters of a text from a file, escaped; the text may be as long as the file.
 pub(super) fn shown(most: usize, text: &str) -> String {
     let start: String = text.chars().take(most).collect();
     let more = if text.chars().nth(most).is_some() { "…" } else { "" };

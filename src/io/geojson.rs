@@ -17,17 +17,19 @@ use crate::text::Grouped;
 /// Largest file read.
 const MOST_BYTES: u64 = 256 << 20;
 
-/// Reads every polygon of a file: of a geometry, a feature, or a collection of either. Other geometries are passed over.
+/// Reads every polygon of a file: of a geometry, a feature, or a collection of either. Other geometries are
+/// ignored.
 ///
-/// Coordinates are taken as they are, the first as x and the second as y.
+/// Coordinates are not projected: the first is x and the second y. Rings come without the repeated last
+/// position.
 ///
 /// # Errors
-/// When the file cannot be read, is no GeoJSON, has no polygon, or more corners than a domain can have.
+/// When the file cannot be read, is not GeoJSON, has no polygon, or more than [`MOST_CORNERS`] corners.
 pub fn read(path: &Path) -> Result<Vec<Polygon>, ReadError> {
     read_metered(path, &Meter::default())
 }
 
-/// As [`read`], with the bytes of the file counted.
+/// Reads as [`read`] does, and counts the bytes of the file.
 ///
 /// # Errors
 /// As [`read`], and when the work was cancelled.
@@ -38,7 +40,7 @@ pub fn read_metered(path: &Path, meter: &Meter) -> Result<Vec<Polygon>, ReadErro
         if bytes > MOST_BYTES {
             let limit = MOST_BYTES >> 20;
             return Err(Flaw::Syntax(format!(
-                "{} MiB are too much for an outline: the limit is {limit} MiB. Keep the polygons only, and simplify them.",
+                "the file has {} MiB, and the limit for an outline is {limit} MiB. Keep only the polygons, and simplify them.",
                 bytes >> 20
             ))
             .into());
@@ -54,15 +56,15 @@ pub fn read_metered(path: &Path, meter: &Meter) -> Result<Vec<Polygon>, ReadErro
     read.map_err(|flaw| flaw.in_file(path))
 }
 
-/// As [`read`], from bytes.
+/// Reads as [`read`] does, from bytes. Errors call the file `name`.
 ///
 /// # Errors
-/// As [`read`]; the file is then called as given.
+/// As [`read`].
 pub fn from_bytes(bytes: &[u8], name: &Path) -> Result<Vec<Polygon>, ReadError> {
     parse(bytes).map_err(|flaw| flaw.in_file(name))
 }
 
-/// As [`read`], from anything that can be read.
+/// Reads as [`read`] does, from any input.
 pub(super) fn parse(input: impl Read) -> Result<Vec<Polygon>, PlacedFlaw> {
     let mut json = serde_json::Deserializer::from_reader(input);
     let object = Object::deserialize(&mut json).map_err(placed)?;
@@ -76,16 +78,17 @@ pub(super) fn parse(input: impl Read) -> Result<Vec<Polygon>, PlacedFlaw> {
     Ok(polygons)
 }
 
-/// Writes polygons as one geometry, a ring to a line. What [`read`] makes of it is equal, bit for bit.
+/// Writes polygons as one geometry with one line for each ring. [`read`] returns the same polygons bit for
+/// bit.
 ///
 /// # Errors
-/// Those of `out`.
+/// Errors of `out`.
 pub fn write(out: &mut dyn Write, polygons: &[Polygon]) -> io::Result<()> {
     writeln!(out, "{{\"type\":\"MultiPolygon\",\"coordinates\":[")?;
     for (i, polygon) in polygons.iter().enumerate() {
         writeln!(out, "{}[", if i == 0 { "" } else { "," })?;
         for (j, ring) in polygon.iter().enumerate() {
-            // A ring ends where it began.
+            // The format repeats the first position at the end.
             let closed: Vec<[f64; 2]> = ring.iter().chain(ring.first()).map(|p| p.to_array()).collect();
             write!(out, "{}", if j == 0 { "" } else { "," })?;
             serde_json::to_writer(&mut *out, &closed)?;
@@ -102,11 +105,11 @@ fn no_polygon(others: &[String]) -> String {
         None => "it has no geometry".into(),
     };
     format!(
-        "a domain needs a Polygon or a MultiPolygon, and {found}. Export the area and not its points or lines."
+        "a domain needs a Polygon or a MultiPolygon, and {found}. Export the area, not its points or lines."
     )
 }
 
-/// What serde_json says, at its line.
+/// The error of serde_json with its line.
 fn placed(error: serde_json::Error) -> PlacedFlaw {
     let line = error.line();
     if error.is_eof() {
@@ -117,10 +120,10 @@ fn placed(error: serde_json::Error) -> PlacedFlaw {
     }
     let text = error.to_string();
     let problem = text.split(" at line ").next().unwrap_or(&text);
-    Flaw::Syntax(format!("this is no GeoJSON that can be read: {problem}.")).at(line.max(1))
+    Flaw::Syntax(format!("this is not valid GeoJSON: {problem}.")).at(line.max(1))
 }
 
-/// Any object of the format; what it has beyond this is passed over.
+/// Any object of the format. Other members are ignored.
 #[derive(Deserialize)]
 struct Object {
     #[serde(rename = "type")]
@@ -129,21 +132,22 @@ struct Object {
     coordinates: Option<Coordinates>,
     #[serde(default)]
     geometry: Option<Box<Self>>,
-    #[serde(default, deserialize_with = "objects_of_use")]
+    #[serde(default, deserialize_with = "with_polygons")]
     geometries: Vec<Self>,
-    #[serde(default, deserialize_with = "objects_of_use")]
+    #[serde(default, deserialize_with = "with_polygons")]
     features: Vec<Self>,
 }
 
 impl Object {
-    fn is_of_use(&self) -> bool {
+    fn has_polygons(&self) -> bool {
         let mut inner = self.geometry.as_deref().into_iter().chain(&self.geometries).chain(&self.features);
-        self.kind.ends_with("Polygon") || inner.any(Self::is_of_use)
+        self.kind.ends_with("Polygon") || inner.any(Self::has_polygons)
     }
 }
 
-/// The objects of a list that have polygons, and the first of the others, to be named: a file may have millions of points.
-fn objects_of_use<'de, D: Deserializer<'de>>(json: D) -> Result<Vec<Object>, D::Error> {
+/// The objects of a list that have polygons, and its first object, to be named in an error. The others are
+/// dropped: a file may have millions of points.
+fn with_polygons<'de, D: Deserializer<'de>>(json: D) -> Result<Vec<Object>, D::Error> {
     json.deserialize_seq(Objects)
 }
 
@@ -159,7 +163,7 @@ impl<'de> Visitor<'de> for Objects {
     fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Vec<Object>, A::Error> {
         let mut objects: Vec<Object> = Vec::new();
         while let Some(object) = list.next_element::<Object>()? {
-            if objects.is_empty() || object.is_of_use() {
+            if objects.is_empty() || object.has_polygons() {
                 objects.push(object);
             }
         }
@@ -167,7 +171,8 @@ impl<'de> Visitor<'de> for Objects {
     }
 }
 
-/// Ends when the nesting does, which the parser bounds.
+/// Collects polygons, and the kind of the first other geometry. The recursion is bounded, as the parser
+/// bounds the nesting.
 fn collect(object: Object, polygons: &mut Vec<Polygon>, others: &mut Vec<String>) -> Result<(), String> {
     let Object { kind, coordinates, geometry, geometries, features } = object;
     match (kind.as_str(), coordinates) {
@@ -182,19 +187,21 @@ fn collect(object: Object, polygons: &mut Vec<Polygon>, others: &mut Vec<String>
     inner.into_iter().try_for_each(|object| collect(object, polygons, others))
 }
 
-/// Nested lists of positions, as long as they are not too many: no list of lists is kept in between.
+/// The positions of nested lists in one flat list: nested vectors would take several times the memory while
+/// reading.
 #[derive(Default)]
 struct Coordinates {
     positions: Vec<DVec2>,
-    /// Where rings end among the positions, and polygons among the rings.
+    /// The end of each ring in `positions`, and of each polygon in `ring_ends`.
     ring_ends: Vec<usize>,
     polygon_ends: Vec<usize>,
-    /// How deep the positions lie: 1 for a position by itself, 3 for a list of rings. 0 while nothing was met.
+    /// How deep the positions are nested: 1 for a single position, 3 for a list of rings; 0 without
+    /// positions.
     depth: usize,
 }
 
 impl Coordinates {
-    /// The polygons, if the positions lie as deep as they must.
+    /// The polygons, if the positions are nested `depth` deep.
     fn polygons(mut self, kind: &str, depth: usize) -> Result<Vec<Polygon>, String> {
         if self.positions.is_empty() {
             return Ok(Vec::new());
@@ -218,7 +225,7 @@ impl Coordinates {
         Ok(self.polygon_ends.iter().copied().map(polygon).filter(|polygon| !polygon.is_empty()).collect())
     }
 
-    /// The rings, without the first position again at the end.
+    /// The rings, without the repeated last position.
     fn rings(&self) -> Vec<Vec<DVec2>> {
         let mut start = 0;
         let ring = |&end: &usize| {
@@ -240,17 +247,17 @@ impl<'de> Deserialize<'de> for Coordinates {
     }
 }
 
-/// Deepest nesting that means something: the positions of a MultiPolygon.
+/// The deepest nesting of the format: the positions of a MultiPolygon.
 const DEEPEST: usize = 4;
 
-/// A list of numbers, or of lists; what is met goes to the coordinates.
+/// Reads a list of numbers or of lists into the coordinates.
 struct List<'a>(&'a mut Coordinates);
 
-/// What a value turned out to be.
+/// A value that was read.
 #[derive(Clone, Copy, PartialEq)]
 enum Met {
     Number(f64),
-    /// A list whose positions lie so deep; 0 where it is empty.
+    /// A list with positions nested this deep; 0 if it has none.
     List(usize),
 }
 
@@ -302,7 +309,7 @@ impl<'de> Visitor<'de> for List<'_> {
                     numbers += 1;
                 }
                 Met::List(inner) if depth > 0 && inner > 0 && inner != depth => {
-                    return Err(A::Error::custom("lists of different depth stand side by side"));
+                    return Err(A::Error::custom("a list has elements that are nested to different depths"));
                 }
                 Met::List(inner) => {
                     depth = depth.max(inner);
@@ -311,7 +318,7 @@ impl<'de> Visitor<'de> for List<'_> {
             }
         }
         if numbers > 0 && lists > 0 {
-            return Err(A::Error::custom("numbers and lists stand side by side"));
+            return Err(A::Error::custom("a list has both numbers and lists"));
         }
         let depth = if depth > 0 { depth + 1 } else { usize::from(numbers > 0) };
         self.0.close(position, numbers, depth).map_err(A::Error::custom)?;
@@ -320,7 +327,7 @@ impl<'de> Visitor<'de> for List<'_> {
 }
 
 impl Coordinates {
-    /// A list has ended in which positions lie `depth` deep.
+    /// Ends a list with positions nested `depth` deep.
     fn close(&mut self, position: DVec2, numbers: usize, depth: usize) -> Result<(), String> {
         match depth {
             0 => {}
@@ -332,7 +339,7 @@ impl Coordinates {
             _ => return Err("lists are nested deeper than those of a MultiPolygon".into()),
         }
         if self.positions.len() > MOST_CORNERS {
-            let help = "Simplify the outline first, to the detail that the mesh is to have";
+            let help = "Simplify the outline first, to the detail that the mesh needs";
             return Err(format!(
                 "a polygon has more than {} corners, which is the limit. {help}",
                 Grouped(MOST_CORNERS)

@@ -1,12 +1,17 @@
-//! `.journal`: unsaved work, kept gesture by gesture for the case that the program ends without a word.
+//! `.journal`: unsaved work, stored gesture by gesture in case the program crashes.
 //!
-//! Eight bytes of magic, then records: kind (1 byte), seconds since 1970 (8), length of the content (4), CRC-32 of all these and
-//! the content (4), content; numbers little-endian. The first record is a whole project with the file that it belongs to; then
-//! come the tiles and the settings that each gesture changed, and now and then a mark that nothing is unsaved. What follows the first record that is not
-//! whole is passed over: the program ended while it wrote.
+//! Eight bytes of magic, then records:
 //!
-//! Whoever writes a journal holds a lock on it, which the operating system lets go when the program ends, however it ends. So a
-//! journal without a lock is one that was left behind.
+//! ```text
+//! kind (1 byte) | seconds since 1970 (8) | length of the content (4) | CRC-32 of all the rest (4) | content
+//! ```
+//!
+//! Numbers are little-endian. The first record is a whole project with the path of its file. Then come the
+//! tiles and settings after each gesture that changed them, and a mark whenever nothing is unsaved. Reading
+//! stops at the first incomplete record: the program ended while writing it.
+//!
+//! The program that writes a journal holds a lock on it, which the operating system releases when the program
+//! ends in any way. So a journal without a lock was left behind.
 
 use std::fs::{self, File};
 use std::io::{self, Read, Write};
@@ -19,9 +24,9 @@ use crate::paint::Tiles;
 const MAGIC: &[u8; 8] = b"MBJOUR01";
 const HEAD: usize = 17;
 const ENDING: &str = "journal";
-/// Largest journal read: the largest project and as much again.
+/// Largest journal read: twice the size of the largest project.
 const MOST_BYTES: u64 = 1 << 30;
-/// Growth after which a journal is better begun anew.
+/// Growth after which a new journal would be smaller.
 const MOST_GROWTH: u64 = 64 << 20;
 
 const WHOLE: u8 = 1;
@@ -38,17 +43,17 @@ pub struct Journal {
 }
 
 impl Journal {
-    /// Begins a journal in a folder, which is made where it is not there. It is whole and locked when this returns, and on the
-    /// disk after [`Syncing::wait`].
+    /// Begins a journal in a folder, which is created if necessary. When this returns, the journal is
+    /// complete and locked; it is on the disk after [`Syncing::wait`].
     ///
-    /// `home` is the file that the project belongs to; `time` in seconds since 1970.
+    /// `home` is the project's file, if it has one; `time` is in seconds since 1970.
     ///
     /// # Errors
-    /// Those of the file system.
+    /// Errors of the file system.
     pub fn begin(folder: &Path, project: &Project, home: Option<&Path>, time: u64) -> io::Result<Self> {
         fs::create_dir_all(folder)?;
         let (file, part) = new_file(folder)?;
-        // Nobody looks at it before it has its name, and by then it is locked.
+        // Locked before it gets the name by which journals are found.
         file.try_lock().map_err(io::Error::other)?;
         let path = part.with_extension(ENDING);
         let mut journal = Self { file, path, grown: 0 };
@@ -67,51 +72,51 @@ impl Journal {
         Ok(journal)
     }
 
-    /// Adds tiles as they are after a gesture.
+    /// Adds the tiles that a gesture changed, as they are after it.
     ///
     /// # Errors
-    /// Those of the file system.
+    /// Errors of the file system.
     pub fn add_tiles(&mut self, tiles: &Tiles, time: u64) -> io::Result<()> {
         let mut content = Vec::new();
         project::write_tiles(&mut content, tiles)?;
         self.append(TILES, time, &content)
     }
 
-    /// Adds settings as they are after a gesture that left the size of the layers alone.
+    /// Adds the settings after a gesture that did not change the size of the paint.
     ///
     /// # Errors
-    /// Those of the file system.
+    /// Errors of the file system.
     pub fn add_settings(&mut self, settings: Settings, time: u64) -> io::Result<()> {
         let mut content = Vec::new();
         project::write(&mut content, &Project { settings, tiles: Tiles::new() })?;
         self.append(SETTINGS, time, &content)
     }
 
-    /// Notes that nothing is unsaved now, and which file the project belongs to.
+    /// Marks that nothing is unsaved, and which file the project belongs to.
     ///
     /// # Errors
-    /// Those of the file system.
+    /// Errors of the file system.
     pub fn mark_clean(&mut self, home: Option<&Path>, time: u64) -> io::Result<()> {
         self.append(CLEAN, time, &home_bytes(home))
     }
 
-    /// To wait for the disk elsewhere, while the journal goes on.
+    /// A handle to wait for the disk on another thread.
     ///
     /// # Errors
-    /// Those of the file system.
+    /// Errors of the file system.
     pub fn syncing(&self) -> io::Result<Syncing> {
         self.file.try_clone().map(Syncing)
     }
 
-    /// Whether so much was added that a new journal would be smaller.
+    /// Whether so much was added that a new journal would be much smaller.
     pub fn is_long(&self) -> bool {
         self.grown > MOST_GROWTH
     }
 
-    /// Takes the journal away.
+    /// Deletes the journal.
     ///
     /// # Errors
-    /// Those of the file system.
+    /// Errors of the file system.
     pub fn remove(self) -> io::Result<()> {
         fs::remove_file(&self.path)
     }
@@ -124,26 +129,26 @@ impl Journal {
         record.extend(checksum(&record, content).to_le_bytes());
         record.extend(content);
         self.grown += record.len() as u64;
-        // In one call: what was written when the program is killed is in the system's hands.
+        // In one call: what is written before the program is killed belongs to the system and is not lost.
         self.file.write_all(&record)
     }
 }
 
-/// A journal on its way to the disk.
+/// A journal whose bytes are being written to the disk.
 #[derive(Debug)]
 pub struct Syncing(File);
 
 impl Syncing {
-    /// Waits until all that was added so far is on the disk: seconds, where that is busy.
+    /// Waits until everything added so far is on the disk, which can take seconds.
     ///
     /// # Errors
-    /// Those of the file system.
+    /// Errors of the file system.
     pub fn wait(&self) -> io::Result<()> {
         self.0.sync_data()
     }
 }
 
-/// A file that is not there yet, under a name that no other process takes.
+/// Creates a file under a name that no other process uses.
 fn new_file(folder: &Path) -> io::Result<(File, PathBuf)> {
     let mut n = 0;
     loop {
@@ -166,37 +171,37 @@ fn checksum(head: &[u8], content: &[u8]) -> u32 {
     crc.finalize()
 }
 
-/// The length of a path and the path, as UTF-8; a path that is none is left out.
+/// The length of a path and the path in UTF-8; empty without a path, or if it is not UTF-8.
 fn home_bytes(home: Option<&Path>) -> Vec<u8> {
     let text = home.and_then(Path::to_str).unwrap_or_default();
     [&(text.len() as u32).to_le_bytes(), text.as_bytes()].concat()
 }
 
-/// Work that a program left behind. It stays locked as long as this is kept.
+/// Unsaved work that a program left behind. The journal is locked until this is dropped.
 #[derive(Debug)]
 pub struct Abandoned {
-    /// The document as it was after the last whole gesture.
+    /// The document after the last complete record.
     pub project: Project,
-    /// The file that it belongs to, if it was ever saved.
+    /// The project's file, if it was ever saved.
     pub home: Option<PathBuf>,
-    /// When that gesture ended, in seconds since 1970.
+    /// The time of that record, in seconds since 1970.
     pub time: u64,
     path: PathBuf,
     _lock: File,
 }
 
 impl Abandoned {
-    /// Takes the journal away: what it kept is lost, or kept elsewhere.
+    /// Deletes the journal.
     ///
     /// # Errors
-    /// Those of the file system.
+    /// Errors of the file system.
     pub fn remove(self) -> io::Result<()> {
         fs::remove_file(&self.path)
     }
 }
 
-/// The unsaved work in a folder that no running program holds. Journals in which nothing is unsaved are removed; what cannot be
-/// read is passed over and left there.
+/// The unsaved work of the journals in a folder that no running program has locked. Journals without unsaved
+/// work are deleted, and journals that cannot be read are left there.
 pub fn abandoned(folder: &Path) -> Vec<Abandoned> {
     let Ok(entries) = fs::read_dir(folder) else { return Vec::new() };
     let mut paths: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
@@ -212,14 +217,14 @@ fn taken_over(path: PathBuf) -> Option<Abandoned> {
     (&file).take(MOST_BYTES).read_to_end(&mut bytes).ok()?;
     let kept = Kept::parse(&bytes)?;
     if kept.clean {
-        let _ = fs::remove_file(&path); // another start will try again
+        let _ = fs::remove_file(&path); // the next start tries again
         return None;
     }
     let Kept { project, home, time, .. } = kept;
     Some(Abandoned { project, home, time, path, _lock: file })
 }
 
-/// What a journal says at its end.
+/// The content of a journal.
 struct Kept {
     project: Project,
     home: Option<PathBuf>,
@@ -228,7 +233,7 @@ struct Kept {
 }
 
 impl Kept {
-    /// `None` when not even the first record is whole.
+    /// `None` if the first record is incomplete.
     fn parse(bytes: &[u8]) -> Option<Self> {
         let mut rest = bytes.strip_prefix(MAGIC)?;
         let (kind, time, content) = next_record(&mut rest)?;
@@ -264,7 +269,7 @@ impl Kept {
     }
 }
 
-/// Kind, time and content of the next record, if it is whole.
+/// Kind, time and content of the next record, if it is complete.
 fn next_record<'a>(rest: &mut &'a [u8]) -> Option<(u8, u64, &'a [u8])> {
     let (head, after) = rest.split_first_chunk::<HEAD>()?;
     let [kind, middle @ .., _, _, _, _] = head;
@@ -319,7 +324,7 @@ mod tests {
     }
 
     #[test]
-    fn what_was_whole_at_any_cut_is_kept() {
+    fn a_journal_cut_anywhere_has_all_complete_records() {
         let folder = folder("cuts");
         let mut document = example();
         let mut journal = Journal::begin(&folder, &Project::of(&document), None, 100).unwrap();
@@ -370,7 +375,7 @@ mod tests {
     }
 
     #[test]
-    fn only_what_nobody_holds_and_is_unsaved_is_offered() {
+    fn only_unlocked_journals_with_unsaved_work_are_offered() {
         let folder = folder("offered");
         let mut document = example();
         let home = Path::new("/tmp/threats.meshbrush");

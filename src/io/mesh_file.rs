@@ -5,7 +5,7 @@ use super::atomic::{Draft, put_in_place};
 use super::{Counted, MeshData, Meter, csv, msh, node, obj, sms, stl, vtu, write_file_metered};
 use crate::mesh::Extract;
 
-/// A format that carries a mesh with its data.
+/// A file format for a mesh with its data.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MeshFormat {
     /// VTK's unstructured grid.
@@ -14,18 +14,18 @@ pub enum MeshFormat {
     Msh,
     /// Wavefront.
     Obj,
-    /// Triangles alone.
+    /// Triangles without shared nodes.
     Stl,
     /// Triangle's four files: nodes, elements, neighbours and edges.
     Node,
     /// SMS.
     Sms,
-    /// A row for each triangle.
+    /// A table with a row for each triangle.
     Csv,
 }
 
 impl MeshFormat {
-    /// All formats, each with the ending that chooses it.
+    /// All formats with their file name extensions, in lower case and without the dot.
     pub const ALL: [(&'static str, Self); 7] = [
         ("vtu", Self::Vtu),
         ("msh", Self::Msh),
@@ -36,12 +36,12 @@ impl MeshFormat {
         ("csv", Self::Csv),
     ];
 
-    /// The format that an ending (without the dot, in lower case) chooses.
+    /// The format of an extension, in lower case and without the dot.
     pub fn from_ending(ending: &str) -> Option<Self> {
         Self::ALL.iter().find(|(known, _)| *known == ending).map(|&(_, format)| format)
     }
 
-    /// The files that are written where `path` is asked for, `path` first.
+    /// The files that an export to `path` writes, `path` first.
     pub fn files(self, path: &Path) -> Vec<PathBuf> {
         let beside: &[&str] = if self == Self::Node { &["ele", "neigh", "edge"] } else { &[] };
         std::iter::once(path.to_owned())
@@ -49,12 +49,12 @@ impl MeshFormat {
             .collect()
     }
 
-    /// Writes a mesh, and returns the names of the files written: [`Self::files`]. The meter knows how much there is in all only for `.vtu`
-    /// and `.stl`.
+    /// Writes a mesh, and returns the paths of the files: [`Self::files`]. The meter knows the number of
+    /// bytes in all only for `.vtu` and `.stl`.
     ///
     /// # Errors
-    /// When the file system says no, or the work was cancelled. What was there before is then still there, unless the file
-    /// system says no between two of Triangle's four files.
+    /// Errors of the file system, and when the work was cancelled. The old files are then untouched, except
+    /// for Triangle's four files if the file system fails between two of them.
     pub fn write(
         self,
         path: &Path,
@@ -83,9 +83,12 @@ impl MeshFormat {
     }
 }
 
-/// Triangle's four files. None takes its place before all are written: they would not fit each other.
+/// Writes Triangle's four files. None replaces an old file before all are written: they would not match each
+/// other.
 fn write_node_files(files: &[PathBuf], mesh: &Extract, data: &MeshData, meter: &Meter) -> io::Result<()> {
-    let [nodes, elements, neighbours, edges] = files else { unreachable!("there are four of them") };
+    let [nodes, elements, neighbours, edges] = files else {
+        unreachable!("`.node` comes with three other files")
+    };
     let drafts = [
         Draft::write(nodes, meter, |out| node::write(&mut meter.count(out), mesh, data))?,
         Draft::write(elements, meter, |out| node::write_elements(&mut meter.count(out), mesh))?,

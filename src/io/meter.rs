@@ -2,20 +2,20 @@ use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
-/// Bytes between two looks at a meter: soon enough for a person, seldom enough to cost nothing.
+/// Bytes between two checks of a meter: often enough for a person, rare enough to cost nothing.
 const BLOCK: u64 = 1 << 16;
 
-/// How far long work has come, for whoever waits for it, and a way to make it end early.
+/// Counts the progress of work on a file, and cancels it.
 ///
-/// Clones are one meter: one goes to the thread that works, another stays with who watches. Bytes are those of a file, or those that
-/// go into one before they are packed; either way work is over when as many are done as were expected.
+/// Clones are the same meter: one thread works with one, another reads or cancels it. Bytes are those of a
+/// file, or those before compression; in both cases the work is complete when the expected number is done.
 #[derive(Clone, Debug, Default)]
 pub struct Meter(Arc<Readings>);
 
 #[derive(Debug, Default)]
 struct Readings {
     done: AtomicU64,
-    /// 0 where it is not known.
+    /// 0 if it is not known.
     total: AtomicU64,
     cancelled: AtomicBool,
 }
@@ -27,23 +27,23 @@ pub struct Cancelled;
 
 impl From<Cancelled> for io::Error {
     fn from(cancelled: Cancelled) -> Self {
-        // Not `Interrupted`: std tries that again.
+        // Not `Interrupted`: std repeats calls that fail with it.
         Self::other(cancelled)
     }
 }
 
 impl Meter {
-    /// Makes the work end at its next look at the meter.
+    /// Cancels the work: it ends at its next check.
     pub fn cancel(&self) {
         self.0.cancelled.store(true, Ordering::Relaxed);
     }
 
-    /// Whether somebody cancelled the work. It may be done all the same, if that came too late.
+    /// Whether the work was cancelled. It may still complete, if it was cancelled after the last check.
     pub fn is_cancelled(&self) -> bool {
         self.0.cancelled.load(Ordering::Relaxed)
     }
 
-    /// To be asked between the steps of work that takes long.
+    /// Call this between the steps of long work.
     ///
     /// # Errors
     /// When the work was cancelled.
@@ -51,12 +51,12 @@ impl Meter {
         if self.is_cancelled() { Err(Cancelled) } else { Ok(()) }
     }
 
-    /// Says how many bytes there will be in all.
+    /// Sets the number of bytes in all.
     pub fn expect(&self, bytes: u64) {
         self.0.total.store(bytes, Ordering::Relaxed);
     }
 
-    /// Counts bytes as done.
+    /// Adds to the number of bytes done.
     ///
     /// # Errors
     /// When the work was cancelled.
@@ -65,17 +65,17 @@ impl Meter {
         self.check()
     }
 
-    /// Bytes done so far.
+    /// The number of bytes done.
     pub fn done(&self) -> u64 {
         self.0.done.load(Ordering::Relaxed)
     }
 
-    /// Bytes in all, if that is known.
+    /// The number of bytes in all, if it is known.
     pub fn total(&self) -> Option<u64> {
         Some(self.0.total.load(Ordering::Relaxed)).filter(|&total| total > 0)
     }
 
-    /// The same input or output, with its bytes counted.
+    /// Wraps an input or output to count its bytes.
     pub fn count<T>(&self, inner: T) -> Counted<T> {
         Counted { inner, meter: self.clone(), uncounted: 0, begun: false }
     }
@@ -83,20 +83,20 @@ impl Meter {
 
 /// An input or an output whose bytes a [`Meter`] counts.
 ///
-/// Once the work is cancelled it fails with [`Cancelled`] as an [`io::Error`]: at the first call, when it is flushed, and otherwise within
-/// 64 KiB.
+/// Once the work is cancelled, it fails with [`Cancelled`] as an [`io::Error`]: at the first call, when it is
+/// flushed, and otherwise within 64 KiB.
 #[derive(Debug)]
 pub struct Counted<T> {
     inner: T,
     meter: Meter,
-    /// Bytes that the meter does not know of yet.
+    /// Bytes not yet added to the meter.
     uncounted: u64,
     begun: bool,
 }
 
 impl<T> Counted<T> {
-    /// Looks at the meter before the first byte, and whenever a block is full.
-    fn look(&mut self) -> io::Result<()> {
+    /// Updates and checks the meter before the first byte and after each block.
+    fn check(&mut self) -> io::Result<()> {
         if self.uncounted < BLOCK && std::mem::replace(&mut self.begun, true) {
             return Ok(());
         }
@@ -106,14 +106,14 @@ impl<T> Counted<T> {
 
 impl<T> Drop for Counted<T> {
     fn drop(&mut self) {
-        // Whoever cancelled hears of it elsewhere.
+        // Ignored: the work is over, and a later check reports that it was cancelled.
         let _ = self.meter.add(self.uncounted);
     }
 }
 
 impl<R: Read> Read for Counted<R> {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
-        self.look()?;
+        self.check()?;
         let read = self.inner.read(buffer)?;
         self.uncounted += read as u64;
         Ok(read)
@@ -128,14 +128,14 @@ impl<S: Seek> Seek for Counted<S> {
 
 impl<W: Write> Write for Counted<W> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.look()?;
+        self.check()?;
         let written = self.inner.write(bytes)?;
         self.uncounted += written as u64;
         Ok(written)
     }
 
     fn write_all(&mut self, bytes: &[u8]) -> io::Result<()> {
-        self.look()?;
+        self.check()?;
         self.inner.write_all(bytes)?;
         self.uncounted += bytes.len() as u64;
         Ok(())
@@ -151,7 +151,7 @@ impl<W: Write> Write for Counted<W> {
 mod tests {
     use super::*;
 
-    /// Larger than a few blocks, and no multiple of one.
+    /// Several blocks and a part of one.
     const BYTES: usize = 5 * BLOCK as usize + 77;
 
     #[test]
@@ -172,7 +172,7 @@ mod tests {
     }
 
     #[test]
-    fn once_cancelled_nothing_is_begun_and_what_is_begun_ends_within_a_block() {
+    fn cancelled_work_does_not_begin_and_ends_within_a_block() {
         let meter = Meter::default();
         let mut out = meter.count(Vec::new());
         let mut input = meter.count(io::repeat(1));
@@ -190,11 +190,11 @@ mod tests {
     }
 
     #[test]
-    fn the_error_says_what_happened_and_is_not_tried_again() {
+    fn the_error_says_that_the_work_was_cancelled_and_std_does_not_retry() {
         let meter = Meter::default();
         meter.cancel();
         let mut all = Vec::new();
-        // `read_to_end` would go on for ever after `Interrupted`.
+        // After `Interrupted`, `read_to_end` would never end.
         let error = meter.count(io::repeat(1)).read_to_end(&mut all).unwrap_err();
         assert_eq!(error.to_string(), "it was cancelled");
         assert!(error.get_ref().is_some_and(|inner| inner.is::<Cancelled>()));

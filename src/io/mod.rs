@@ -1,14 +1,15 @@
 //! Files, one module per format.
 //!
-//! A mesh writer is a function `write(out, mesh, data)`; the mesh is an [`Extract`](crate::mesh::Extract). What every format keeps to:
+//! A mesh writer is a function `write(out, mesh, data)`; the mesh is an [`Extract`](crate::mesh::Extract).
+//! All formats agree on this:
 //!
-//! - nodes and triangles stand in the order that they have there, unless the format says otherwise;
+//! - nodes and triangles are in the order of the extract, unless the format says otherwise;
 //! - a triangle's vertices run anticlockwise, the first two being the ends of its bisection edge;
-//! - coordinates and h̄ are in world units; numbers are the shortest that read back as the same f64;
-//! - counting starts at zero, except in `.msh`, `.obj` and `.2dm`, where the format starts at one.
+//! - coordinates and h̄ are in world units; a number is the shortest text that reads back as the same f64;
+//! - numbers of nodes and triangles start at zero, except in `.msh`, `.obj` and `.2dm`, which start at one.
 //!
-//! What can take longer than a frame has a form that takes a [`Meter`], `_metered` where there is a plain one too: it counts, and it
-//! fails with [`Cancelled`] once the meter was cancelled.
+//! A function that can take longer than a frame takes a [`Meter`], or has a variant `…_metered` that does: it
+//! counts bytes, and fails with [`Cancelled`] once the meter is cancelled.
 
 pub mod asc;
 mod atomic;
@@ -37,16 +38,16 @@ pub use error::{Flaw, Place, ReadError};
 pub use mesh_file::MeshFormat;
 pub use meter::{Cancelled, Counted, Meter};
 
-/// What is written beside the mesh itself. The level of each triangle comes from the mesh.
+/// The data that is written with a mesh. The level of each triangle comes from the mesh.
 #[derive(Clone, Copy, Debug)]
 pub struct MeshData<'a> {
-    /// h̄ at each node, in world units.
+    /// h̄ at each node, in world units, in the order of the extract's nodes.
     pub target_diameter: &'a [f64],
-    /// Further values at the nodes.
+    /// Further values at the nodes, in the same order.
     pub quantities: &'a [NodeValues],
 }
 
-/// A value at each node, with the name that it has in files.
+/// A value at each node, and its name in files.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NodeValues {
     /// Letters, digits and underscores.

@@ -1,8 +1,8 @@
-//! `.msh`: Gmsh 4.1 in text form, with the physical groups that solvers ask for.
+//! `.msh`: Gmsh 4.1 in text form, with the physical groups that solvers need.
 //!
-//! The triangles are the physical surface `domain` (1), the boundary edges the physical curve `boundary` (2), with the domain to
-//! their left. h̄ and the quantities are node data, `level` is element data. Tags count from one, triangles first: the tag of
-//! a triangle is its id plus one.
+//! The triangles are the physical surface `domain` (1), the boundary edges the physical curve `boundary` (2)
+//! with the domain on the left. h̄ and the quantities are node data, `level` is element data. Tags count from
+//! one, triangles first: the tag of a triangle is its id plus one.
 
 use std::io::{self, Write};
 
@@ -16,7 +16,7 @@ const TRIANGLE: u8 = 2;
 /// Writes the mesh with its boundary.
 ///
 /// # Errors
-/// Those of `out`.
+/// Errors of `out`.
 pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Result<()> {
     writeln!(out, "$MeshFormat\n4.1 0 8\n$EndMeshFormat")?;
     writeln!(out, "$PhysicalNames\n2\n1 2 \"boundary\"\n2 1 \"domain\"\n$EndPhysicalNames")?;
@@ -26,7 +26,7 @@ pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Resul
     for (name, values) in data.node_values() {
         write_values(out, "NodeData", name, values.iter().copied())?;
     }
-    // meshio wants element data for all elements or for none: a boundary edge has its triangle's level.
+    // meshio requires element data for all elements or none: a boundary edge gets the level of its triangle.
     let lines = mesh.boundary_edges().map(|edge| edge.level);
     let levels = mesh.triangles().iter().map(|triangle| triangle.level()).chain(lines).map(f64::from);
     write_values(out, "ElementData", "level", levels)

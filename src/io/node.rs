@@ -1,7 +1,8 @@
-//! `.node`, `.ele`, `.neigh` and `.edge`: the formats of Shewchuk's Triangle, four files that belong together.
+//! `.node`, `.ele`, `.neigh` and `.edge`: the formats of Shewchuk's Triangle, four files that belong
+//! together.
 //!
-//! Counting starts at zero. Node attributes are h̄ and then the quantities; the boundary marker is 1 on the boundary. The
-//! attribute of an element is its level. Neighbour i lies opposite corner i; −1 is the boundary.
+//! Numbers start at zero. Node attributes are h̄ and then the quantities; the boundary marker is 1 on the
+//! boundary. The attribute of an element is its level. Neighbour i is opposite corner i; −1 is the boundary.
 //! `.edge` has all edges, with marker 1 on the boundary and 0 elsewhere.
 
 use std::io::{self, Write};
@@ -12,7 +13,7 @@ use crate::mesh::Extract;
 /// Writes the `.node` file: coordinates, h̄, quantities and boundary marker of each node.
 ///
 /// # Errors
-/// Those of `out`.
+/// Errors of `out`.
 pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Result<()> {
     let on_boundary = mesh.on_boundary();
     writeln!(out, "{} 2 {} 1", mesh.nodes().len(), data.node_values().count())?;
@@ -29,7 +30,7 @@ pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Resul
 /// Writes the `.ele` file: corners and level of each triangle.
 ///
 /// # Errors
-/// Those of `out`.
+/// Errors of `out`.
 pub fn write_elements(out: &mut impl Write, mesh: &Extract) -> io::Result<()> {
     writeln!(out, "{} 3 1", mesh.triangles().len())?;
     for (id, cell) in mesh.cells().enumerate() {
@@ -42,7 +43,7 @@ pub fn write_elements(out: &mut impl Write, mesh: &Extract) -> io::Result<()> {
 /// Writes the `.neigh` file: the triangle opposite each corner.
 ///
 /// # Errors
-/// Those of `out`.
+/// Errors of `out`.
 pub fn write_neighbours(out: &mut impl Write, mesh: &Extract) -> io::Result<()> {
     writeln!(out, "{} 3", mesh.triangles().len())?;
     for (id, cell) in mesh.cells().enumerate() {
@@ -52,10 +53,10 @@ pub fn write_neighbours(out: &mut impl Write, mesh: &Extract) -> io::Result<()> 
     Ok(())
 }
 
-/// Writes the `.edge` file: the ends of each edge, and whether it is one of the boundary.
+/// Writes the `.edge` file: the ends of each edge, and whether it is on the boundary.
 ///
 /// # Errors
-/// Those of `out`.
+/// Errors of `out`.
 pub fn write_edges(out: &mut impl Write, mesh: &Extract) -> io::Result<()> {
     writeln!(out, "{} 1", mesh.edges().count())?;
     for (id, edge) in mesh.edges().enumerate() {

@@ -1,7 +1,7 @@
 //! `.obj`: Wavefront, for modelling and drawing programs. The mesh lies in the plane z = 0, facing up.
 //!
-//! Triangles are grouped by level (`g level_3`), within a group in the mesh's order. h̄ is the texture coordinate u of its
-//! node. Counting starts at one. The format has no place for further quantities.
+//! Triangles are grouped by level (`g level_3`), within a group in the order of the mesh. h̄ is the texture
+//! coordinate u of a node. Numbers start at one. The format has no place for further quantities.
 
 use std::io::{self, Write};
 
@@ -11,7 +11,7 @@ use crate::mesh::Extract;
 /// Writes the mesh, one group for each level.
 ///
 /// # Errors
-/// Those of `out`.
+/// Errors of `out`.
 pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Result<()> {
     writeln!(out, "# Meshbrush: {} nodes, {} triangles", mesh.nodes().len(), mesh.triangles().len())?;
     writeln!(out, "# texture coordinate u: target diameter; groups: level")?;
@@ -21,7 +21,7 @@ pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Resul
     for &target in data.target_diameter {
         writeln!(out, "vt {} 0", Number(target))?;
     }
-    // The mesh is gone through for each level: lists by level would be a second copy of it.
+    // One pass over the mesh for each level: lists by level would be a second copy of it.
     for (level, _) in mesh.level_counts().into_iter().enumerate().filter(|(_, count)| *count > 0) {
         writeln!(out, "g level_{level}")?;
         for cell in mesh.cells().filter(|cell| cell.level as usize == level) {

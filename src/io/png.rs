@@ -13,29 +13,29 @@ use super::{Flaw, Meter, ReadError};
 use crate::geometry::Rect;
 use crate::raster::{MAX_SIDE, Raster};
 
-/// What a transparent pixel shows.
+/// The colour behind transparent pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Behind {
-    /// As on black: where nothing is painted, the value is 0.
+    /// Black: a fully transparent pixel has the value 0.
     Black,
-    /// As on white: where nothing is painted, the value is 1.
+    /// White: a fully transparent pixel has the value 1.
     White,
 }
 
 /// Reads an image as values from 0 (black) to 1 (white), over the given rectangle.
 ///
-/// Grey and coloured images with 1 to 16 bits, palettes and transparency are understood. A colour counts as its luma
-/// (Rec. 709 weights on the stored values); grey values are taken as they are, without gamma. The top row of the image
-/// is the last row of the raster.
+/// Grey and coloured images with 1 to 16 bits, palettes and transparency are read. A colour becomes its luma
+/// (Rec. 709 weights on the stored values); grey values are used as stored, without gamma. The top row of the
+/// image is the last row of the raster.
 ///
 /// # Errors
-/// When the file cannot be read, is not a PNG image, is cut off, or has more than [`MAX_SIDE`] pixels along a side. The
-/// size is checked before memory is taken.
+/// When the file cannot be read, is not a PNG image, is cut off, or has more than [`MAX_SIDE`] pixels along a
+/// side. The size is checked before memory is allocated.
 pub fn read(path: &Path, bounds: Rect, behind: Behind) -> Result<Raster, ReadError> {
     read_metered(path, bounds, behind, &Meter::default())
 }
 
-/// As [`read`], with the bytes of the file counted.
+/// Reads as [`read`] does, and counts the bytes of the file.
 ///
 /// # Errors
 /// As [`read`], and when the work was cancelled.
@@ -47,13 +47,13 @@ pub fn read_metered(path: &Path, bounds: Rect, behind: Behind, meter: &Meter) ->
     decoded.map_err(|flaw| flaw.in_file(path))
 }
 
-/// As [`read`], from bytes that need not be a file.
+/// Reads as [`read`] does, from any source of bytes.
 ///
 /// # Errors
 /// As [`read`].
 pub fn decode(source: impl BufRead + Seek, bounds: Rect, behind: Behind) -> Result<Raster, Flaw> {
     let mut decoder = Decoder::new(source);
-    // Palettes and low depths become 8 bits, a transparent colour becomes an alpha channel.
+    // Palettes and low depths become 8 bits, a transparent colour an alpha channel.
     decoder.set_transformations(Transformations::EXPAND);
     let header = decoder.read_header_info()?;
     let size = [header.width, header.height];
@@ -61,9 +61,9 @@ pub fn decode(source: impl BufRead + Seek, bounds: Rect, behind: Behind) -> Resu
         return Err(Flaw::Size { columns: size[0].into(), rows: size[1].into() });
     }
     let mut reader = decoder.read_info()?;
-    // The decoder takes three bytes a colour for granted.
+    // The decoder relies on three bytes for each colour.
     if reader.info().palette.as_ref().is_some_and(|palette| palette.len() % 3 != 0) {
-        return Err(Flaw::Png("its palette is no list of colours".into()));
+        return Err(Flaw::Png("its palette is not a list of colours".into()));
     }
     let mut bytes = vec![0; reader.output_buffer_size().ok_or(DecodingError::LimitsExceeded)?];
     let frame = reader.next_frame(&mut bytes)?;
@@ -112,12 +112,12 @@ impl From<DecodingError> for Flaw {
 /// Writes a picture of `size` pixels, four bytes each (red, green, blue, opacity), the top row first.
 ///
 /// # Errors
-/// Those of `out`, and when the count of bytes does not fit `size`.
+/// Errors of `out`, and when the number of bytes does not match `size`.
 pub fn write(out: &mut impl Write, size: [u32; 2], rgba: &[u8]) -> io::Result<()> {
     encode(Encoder::new(out, size[0], size[1]), ColorType::Rgba, rgba)
 }
 
-/// As [`write()`] for an opaque picture that is written once and loaded often: takes its time to make the file small.
+/// Writes an opaque picture as [`write()`] does, in a smaller file and more slowly.
 ///
 /// # Errors
 /// As [`write()`].
@@ -167,7 +167,7 @@ mod tests {
     }
 
     #[test]
-    fn every_kind_of_pixel_becomes_a_value_from_0_to_1() {
+    fn every_pixel_format_becomes_a_value_from_0_to_1() {
         use BitDepth::{Eight, One, Sixteen, Two};
         use ColorType::{Grayscale, GrayscaleAlpha, Indexed, Rgb, Rgba};
         let black =
@@ -191,7 +191,7 @@ mod tests {
     #[test]
     fn every_cut_is_an_error() {
         let file = encoded(ColorType::Rgb, BitDepth::Eight, [8, 8], &[77; 192]);
-        // Without its last 12 bytes, the end mark, the picture is complete all the same.
+        // Without the last 12 bytes, the end marker, the picture is still complete.
         for length in 0..file.len() - 12 {
             let cut = decode(Cursor::new(&file[..length]), Rect::UNIT, Behind::Black);
             assert!(cut.is_err(), "cut at {length}");
@@ -199,7 +199,7 @@ mod tests {
     }
 
     #[test]
-    fn an_immense_image_is_refused_by_its_header() {
+    fn an_image_that_is_too_large_is_refused_by_its_header() {
         let mut file = encoded(ColorType::Rgba, BitDepth::Sixteen, [1, 1], &[0; 8]);
         file[16..24].copy_from_slice(&[0, 1, 0x86, 0xa0, 0, 1, 0x86, 0xa0]);
         let crc = crc32(&file[12..29]);
@@ -211,7 +211,7 @@ mod tests {
     #[test]
     fn a_palette_that_ends_within_a_color_is_refused() {
         let mut file = encoded(ColorType::Indexed, BitDepth::Two, [3, 1], &[0b0001_1000]);
-        // From nine bytes of colours the last is taken out.
+        // Of nine bytes of colours the last one is removed.
         let at = file.windows(4).position(|name| name == b"PLTE").unwrap();
         file[at - 1] = 8;
         let crc = crc32(&file[at..at + 12]);

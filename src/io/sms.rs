@@ -1,8 +1,9 @@
-//! `.2dm`: a mesh of SMS, which TUFLOW, BASEMENT, QGIS and other programs of hydraulics read.
+//! `.2dm`: the mesh format of SMS, read by TUFLOW, BASEMENT, QGIS and other programs for hydraulics.
 //!
-//! z is the first quantity, the ground's height as a rule, and 0 if there is none. All elements have material 1: levels are no
-//! materials, and a solver wants each material described. Nodestrings follow the boundary with the domain to their left, each
-//! closed by its first node. Counting starts at one.
+//! z is the first quantity, usually the height of the ground, and 0 without quantities. All elements have
+//! material 1: a solver needs a description of each material, so levels are not written as materials.
+//! Nodestrings are the loops of the boundary with the domain on the left; each ends with its first node.
+//! Numbers start at one.
 
 use std::io::{self, Write};
 
@@ -10,13 +11,13 @@ use super::boundary::boundary_loops;
 use super::{MeshData, Number};
 use crate::mesh::Extract;
 
-/// Nodes of a nodestring that stand on a line.
+/// Nodes of a nodestring in one line.
 const NODES_A_LINE: usize = 10;
 
 /// Writes elements, nodes, and a nodestring for each loop of the boundary.
 ///
 /// # Errors
-/// Those of `out`.
+/// Errors of `out`.
 pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Result<()> {
     writeln!(out, "MESH2D\nMESHNAME \"Meshbrush\"\nNUM_MATERIALS_PER_ELEM 1")?;
     for (id, cell) in (1..).zip(mesh.cells()) {
@@ -27,13 +28,13 @@ pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Resul
         let z = data.quantities.first().map_or(0.0, |quantity| quantity.values[node]);
         writeln!(out, "ND {} {} {} {}", node + 1, Number(p.x), Number(p.y), Number(z))?;
     }
-    for (id, round) in (1..).zip(boundary_loops(mesh)) {
-        write_nodestring(out, id, &round)?;
+    for (id, nodes) in (1..).zip(boundary_loops(mesh)) {
+        write_nodestring(out, id, &nodes)?;
     }
     Ok(())
 }
 
-/// The last node is negative, and the string's own number follows it.
+/// The last node is negative, and the number of the nodestring follows it.
 fn write_nodestring(out: &mut impl Write, id: usize, nodes: &[usize]) -> io::Result<()> {
     for line in nodes.chunks(NODES_A_LINE) {
         write!(out, "NS")?;

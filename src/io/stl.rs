@@ -1,21 +1,22 @@
-//! `.stl`: binary, for printing and for programs that read nothing else. The mesh lies in the plane z = 0, facing up.
+//! `.stl` in binary form, for printing and for programs that read only this. The mesh lies in the plane z =
+//! 0, facing up.
 //!
-//! The format knows triangles only: no nodes that they share, no level, no h̄. Its numbers have seven digits; a mesh that
-//! would lose triangles by that is refused.
+//! The format has triangles only: no shared nodes, no level, no h̄. Its numbers have seven digits; a mesh
+//! with triangles too small for that is refused.
 
 use std::io::{self, Write};
 
 use super::MeshData;
 use crate::mesh::{Extract, NodeId};
 
-/// Must not begin with "solid": programs take that for the text form.
+/// Must not begin with "solid", which marks the text form.
 const TITLE: &[u8] = b"Meshbrush";
 
-/// Bytes of the title and the count, and of a triangle.
+/// Bytes of the header (title and number of triangles), and of a triangle.
 const HEAD: u64 = 84;
 const TRIANGLE: u64 = 50;
 
-/// How many bytes the file of a mesh has.
+/// The size of the file in bytes.
 pub fn bytes(mesh: &Extract) -> u64 {
     HEAD + TRIANGLE * mesh.triangles().len() as u64
 }
@@ -23,7 +24,8 @@ pub fn bytes(mesh: &Extract) -> u64 {
 /// Writes the triangles, in the mesh's order, each anticlockwise.
 ///
 /// # Errors
-/// Those of `out`, and when f32 is too coarse for the coordinates, or `u32` too small for the count.
+/// Errors of `out`, when f32 is too coarse for the coordinates, and when there are more triangles than `u32`
+/// counts.
 pub fn write(out: &mut impl Write, mesh: &Extract, _: &MeshData) -> io::Result<()> {
     let count = u32::try_from(mesh.triangles().len()).map_err(io::Error::other)?;
     let mut title = [b' '; 80];

@@ -1,32 +1,33 @@
-//! `.svg`: the mesh as a vector drawing, small and exact.
+//! `.svg`: the mesh as an exact vector drawing in a small file.
 //!
-//! A path for the triangles of each level and one for their edges, in steps of whole numbers: lattice coordinates, divided by
-//! the power of two that all nodes of a path share: small steps take few digits. The drawing is exact at any magnification. Edges get thinner with their
-//! triangles, so that a dense region reads as its level and not as black.
+//! One path for the triangles of each level and one for their edges. Coordinates are whole numbers relative
+//! to the previous point: lattice coordinates divided by the largest power of two that divides all nodes of
+//! the path, which takes few digits and is exact at any magnification. Edges get thinner with their
+//! triangles, so that a dense region shows the colour of its level and not black.
 
 use std::io::{self, Write};
 
 use crate::geometry::LatticePoint;
 use crate::mesh::{Extract, NodeId, bisection_edge_length};
 
-/// How a mesh is drawn.
+/// Size and colours of the drawing.
 #[derive(Clone, Copy, Debug)]
-pub struct Style<'a> {
+pub struct SvgStyle<'a> {
     /// Width and height in pixels.
     pub size: [u32; 2],
     /// Red, green, blue and opacity by level.
     pub level_colors: &'a [[u8; 4]; 64],
-    /// Behind the mesh.
+    /// Red, green and blue behind the mesh.
     pub background: [u8; 3],
-    /// Whether edges are drawn, in black that lets half of the fill through.
+    /// Whether edges are drawn, in black with an opacity of one half.
     pub edges: bool,
 }
 
-/// Writes the drawing. Colours come from outside, so that files know no colour table.
+/// Writes the drawing. The colours come from the caller: `io` does not depend on the colour tables.
 ///
 /// # Errors
-/// Those of `out`.
-pub fn write(out: &mut impl Write, mesh: &Extract, style: &Style) -> io::Result<()> {
+/// Errors of `out`.
+pub fn write(out: &mut impl Write, mesh: &Extract, style: &SvgStyle) -> io::Result<()> {
     let page = Page::of(mesh);
     let [width, height] = style.size;
     writeln!(
@@ -50,8 +51,8 @@ pub fn write(out: &mut impl Write, mesh: &Extract, style: &Style) -> io::Result<
     writeln!(out, "</svg>")
 }
 
-fn write_levels(out: &mut impl Write, mesh: &Extract, page: &Page, style: &Style) -> io::Result<()> {
-    // The mesh is gone through for each level: lists by level would be a second copy of it.
+fn write_levels(out: &mut impl Write, mesh: &Extract, page: &Page, style: &SvgStyle) -> io::Result<()> {
+    // One pass over the mesh for each level: lists by level would be a second copy of it.
     for (level, _) in mesh.level_counts().into_iter().enumerate().filter(|(_, count)| *count > 0) {
         let [r, g, b, _] = style.level_colors[level.min(63)];
         let triangles = mesh.triangles().iter().filter(|triangle| triangle.level() as usize == level);
@@ -60,7 +61,8 @@ fn write_levels(out: &mut impl Write, mesh: &Extract, page: &Page, style: &Style
         let mut pen = Pen::default();
         for triangle in triangles {
             let [a, b] = triangle.bisection_edge();
-            // Along the two legs, and the closing line is the bisection edge: legs are often level or upright, and short.
+            // The two legs are drawn and the bisection edge closes the path: legs are often horizontal or
+            // vertical, which is shorter.
             let [a, apex, b] = [a, triangle.apex(), b].map(|node| page.place(mesh, node, scale));
             pen.move_to(out, a)?;
             pen.line_to(out, apex)?;
@@ -72,9 +74,9 @@ fn write_levels(out: &mut impl Write, mesh: &Extract, page: &Page, style: &Style
     Ok(())
 }
 
-/// All edges once, by the finer of the two triangles that share them. Widths are chosen in pixels and written
-/// in units of the path: programs do not agree on lines that stay thin in an enlarged path.
-fn write_edges(out: &mut impl Write, mesh: &Extract, page: &Page, style: &Style) -> io::Result<()> {
+/// Writes each edge once, at the level of the finer one of its triangles. Widths are chosen in pixels and
+/// written in units of the path, as programs disagree on the width of lines in a scaled path.
+fn write_edges(out: &mut impl Write, mesh: &Extract, page: &Page, style: &SvgStyle) -> io::Result<()> {
     writeln!(
         out,
         "<g id=\"edges\" fill=\"none\" stroke=\"#000\" stroke-opacity=\"0.5\" stroke-linecap=\"round\" \
@@ -98,19 +100,19 @@ fn write_edges(out: &mut impl Write, mesh: &Extract, page: &Page, style: &Style)
     writeln!(out, "</g>")
 }
 
-/// Every edge, with the level that it is drawn at.
+/// Every edge once, with its level.
 fn edges<'a>(mesh: &'a Extract) -> impl Iterator<Item = (u32, [NodeId; 2])> + Clone + 'a {
     mesh.triangles().iter().enumerate().flat_map(move |(index, triangle)| {
         let edges = triangle.edge_nodes().into_iter().zip(triangle.raw_neighbours);
         edges.filter_map(move |((from, to), across)| match across.triangle() {
-            Some(other) if other.index() < index => None, // the other triangle has drawn it
+            Some(other) if other.index() < index => None, // listed with the other triangle
             Some(other) => Some((triangle.level().max(mesh.triangles()[other.index()].level()), [from, to])),
             None => Some((triangle.level(), [from, to])),
         })
     })
 }
 
-/// The lattice as a page: y grows downwards, and the unit is the coarsest that all nodes are multiples of.
+/// The lattice as a page: y grows downwards, and the unit is the largest that all nodes are multiples of.
 struct Page {
     width: u32,
     height: u32,
@@ -125,21 +127,21 @@ impl Page {
         Self { width: x >> shift, height: y >> shift, shift }
     }
 
-    /// How many units of the page, a power of two, all these nodes are multiples of.
+    /// The largest power of two, in units of the page, that all these nodes are multiples of.
     fn scale_for(&self, mesh: &Extract, nodes: impl Iterator<Item = NodeId>) -> u32 {
         let bits = nodes.map(|node| mesh.node(node)).fold(0, |bits, node| bits | node.x | node.y);
         let common = (bits >> self.shift) | self.width | self.height;
         1 << common.trailing_zeros()
     }
 
-    /// Where a node is, `scale` units of the page being one.
+    /// The place of a node, in units of `scale` units of the page.
     fn place(&self, mesh: &Extract, node: NodeId, scale: u32) -> [i64; 2] {
         let LatticePoint { x, y } = mesh.node(node);
         [x >> self.shift, self.height - (y >> self.shift)].map(|place| i64::from(place / scale))
     }
 }
 
-/// The attribute that enlarges a path; nothing where there is nothing to do.
+/// The attribute that scales a path; nothing for a scale of one.
 struct Transform(u32);
 
 impl std::fmt::Display for Transform {
@@ -148,7 +150,7 @@ impl std::fmt::Display for Transform {
     }
 }
 
-/// Writes a path in steps from where it stands: short numbers.
+/// Writes a path in relative coordinates, which are short.
 #[derive(Default)]
 struct Pen {
     at: [i64; 2],
@@ -175,7 +177,7 @@ impl Pen {
         }
     }
 
-    /// Draws a line between two places, from where the pen is if that is one of them.
+    /// Draws a line between two places, from the pen's own place if that is one of them.
     fn join(&mut self, out: &mut impl Write, ends: [[i64; 2]; 2]) -> io::Result<()> {
         let [from, to] = if self.at == ends[1] { [ends[1], ends[0]] } else { ends };
         if !self.moved || self.at != from {
@@ -184,14 +186,14 @@ impl Pen {
         self.line_to(out, to)
     }
 
-    /// Draws back to `start`, where the triangle began.
+    /// Closes the path with a line back to `start`, its first place.
     fn close(&mut self, out: &mut impl Write, start: [i64; 2]) -> io::Result<()> {
         self.at = start;
         write!(out, "z")
     }
 }
 
-/// A number after another: a minus sign parts them as well as a space.
+/// A number after another: a minus sign separates them, too, and a space is not needed.
 struct Next(i64);
 
 impl std::fmt::Display for Next {

@@ -1,10 +1,11 @@
-//! `.vtu`: an unstructured grid for VTK and ParaView, as XML with raw binary data appended, compressed by zlib.
+//! `.vtu`: an unstructured grid for VTK and ParaView, as XML with appended binary data, compressed by zlib.
 //!
-//! Point data: `target_diameter` (h̄), the quantities, and `boundary`, which is 1 on the boundary and 0 elsewhere; cell data:
-//! `level`. ParaView, VTK, PyVista and meshio read it.
+//! Point data: `target_diameter` (h̄), the quantities, and `boundary`, which is 1 on the boundary and 0
+//! elsewhere; cell data: `level`. ParaView, VTK, PyVista and meshio read it.
 //!
-//! The header says where each array begins, hence how long those before it are when compressed. So every array is compressed
-//! twice, first to count and then to write: that costs time, but memory holds one block and the output may be a pipe.
+//! The header has the offset of each array, and so depends on the compressed sizes of the arrays before it.
+//! Therefore every array is compressed twice, first to measure and then to write: that costs time, but only
+//! one block is in memory, and the output may be a pipe.
 
 use std::io::{self, Write};
 
@@ -17,14 +18,14 @@ const VTK_TRIANGLE: u8 = 5;
 
 type WriteBytes<'a> = Box<dyn Fn(&mut dyn Write) -> io::Result<()> + 'a>;
 
-/// One array of the file: how the header describes it, and how its bytes are written.
+/// One array of the file: its description in the header, and a function that writes its bytes.
 struct Array<'a> {
     name: &'a str,
     kind: &'static str,
     components: usize,
     bytes: usize,
     write: WriteBytes<'a>,
-    /// Bytes of each block after compression.
+    /// Bytes of each block after compression, once measured.
     compressed: Vec<u64>,
 }
 
@@ -40,7 +41,7 @@ impl<'a> Array<'a> {
         Self { name, kind, components, bytes: values * N, write, compressed: Vec::new() }
     }
 
-    /// Compresses the array, and keeps the sizes alone.
+    /// Compresses the array to find the sizes of its blocks.
     fn measure(&mut self, meter: &Meter) -> io::Result<()> {
         let mut sizes = Vec::new();
         self.compress(meter, |block| {
@@ -57,19 +58,19 @@ impl<'a> Array<'a> {
         blocks.finish()
     }
 
-    /// The table of sizes before the blocks: how many blocks, the size of a block and of the last one (0 if it is whole) before
-    /// compression, and the size of each after it.
+    /// The table before the blocks: the number of blocks, the size of a block and of the last one (0 if it is
+    /// full) before compression, and the size of each block after compression.
     fn table(&self) -> impl Iterator<Item = u64> {
         let start = [self.compressed.len(), BLOCK, self.bytes % BLOCK].map(|n| n as u64);
         start.into_iter().chain(self.compressed.iter().copied())
     }
 
-    /// Bytes in the file, with the table.
+    /// Bytes in the file, the table included.
     fn length(&self) -> u64 {
         (size_of::<u64>() * self.table().count()) as u64 + self.compressed.iter().sum::<u64>()
     }
 
-    /// The element of the header; `offset` is in bytes from the start of the appended data.
+    /// Writes the element of the header; `offset` is in bytes from the start of the appended data.
     fn describe(&self, out: &mut impl Write, offset: u64) -> io::Result<()> {
         let Self { name, kind, components, .. } = self;
         let components =
@@ -89,12 +90,13 @@ impl<'a> Array<'a> {
 /// Writes the mesh as a VTK unstructured grid.
 ///
 /// # Errors
-/// Those of `out`.
+/// Errors of `out`.
 pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Result<()> {
     write_metered(out, mesh, data, &Meter::default())
 }
 
-/// As [`write()`]; counted are the bytes of the arrays before compression, in each of the two passes.
+/// Writes as [`write()`] does, and counts the bytes of the arrays before compression, once in each of the two
+/// passes.
 ///
 /// # Errors
 /// As [`write()`], and when the work was cancelled.

@@ -138,8 +138,8 @@ impl Look {
         software::draw(mesh, &camera, &Style { edges: self.edges, ..style }, None, &[])
     }
 
-    fn for_svg(&self, lattice: &Lattice) -> svg::Style<'_> {
-        svg::Style {
+    fn for_svg(&self, lattice: &Lattice) -> svg::SvgStyle<'_> {
+        svg::SvgStyle {
             size: self.size(lattice),
             level_colors: self.level_colors.as_table(),
             background: self.ground.canvas(),

@@ -188,7 +188,7 @@ fn what_cannot_be_opened_or_saved_is_told_and_changes_nothing() {
         ("cut.meshbrush", &sound[..sound.len() / 2], "cut off"),
         ("empty.meshbrush", b"", "empty"),
         ("text.txt", b"hello", ".meshbrush"),
-        ("picture.meshbrush", b"\x89PNG", "no Meshbrush project"),
+        ("picture.meshbrush", b"\x89PNG", "not a Meshbrush project"),
     ];
     let mut window = window();
     let version = document(&window).version();

@@ -1,8 +1,8 @@
-//! The container: a ZIP archive of a few parts, of the plainest kind that every tool reads.
+//! The container: a ZIP archive of a few parts, of the simplest kind, which every tool reads.
 //!
-//! Written: deflated entries with their sizes and CRC-32 in the local header, no dates, no extra fields: the same parts give the
-//! same bytes. Read: what other tools make of that too (stored entries, extra fields, another order), as long as it is not
-//! encrypted and below 4 GiB.
+//! Written are deflated entries with sizes and CRC-32 in the local header and without dates or extra fields,
+//! so that equal parts give equal bytes. Read are also archives that other tools repacked (stored entries,
+//! extra fields, another order), if they are not encrypted and below 4 GiB.
 
 use std::io::{self, Read, Write};
 
@@ -20,36 +20,37 @@ const END: u32 = u32::from_le_bytes(*b"PK\x05\x06");
 const END_BYTES: usize = 22;
 const CENTRAL_BYTES: usize = 46;
 const LOCAL_BYTES: usize = 30;
-/// Most parts that are looked at.
+/// Most parts of an archive that is read.
 const MOST_PARTS: usize = 64;
 const DEFLATED: u16 = 8;
-/// 1 January 1980, the first day that the format knows.
+/// 1 January 1980, the first date of the format.
 const NO_DATE: u16 = 0x21;
 
-/// A part, packed.
+/// A packed part.
 #[derive(Debug)]
 pub struct Part<'a> {
     packed: &'a [u8],
     method: u16,
-    /// Bytes once unpacked, as declared.
+    /// The number of unpacked bytes, as declared.
     size: u64,
     crc: u32,
 }
 
-/// The parts of an archive, with their names.
+/// The parts of an archive with their names.
 #[derive(Debug)]
 pub struct Archive<'a>(Vec<(&'a str, Part<'a>)>);
 
 impl<'a> Archive<'a> {
-    /// Finds the parts. Nothing is unpacked yet.
+    /// Reads the directory without unpacking anything.
     ///
     /// # Errors
-    /// When the bytes are no archive, are cut off, or use what is not understood.
+    /// When the bytes are not an archive, are cut off or damaged, or use features of the format that are not
+    /// supported.
     pub fn open(bytes: &'a [u8]) -> Result<Self, Flaw> {
         if !bytes.starts_with(&LOCAL.to_le_bytes()) {
             return Err(Flaw::Syntax(match bytes {
                 [] => "the file is empty. Use another copy.".into(),
-                _ => "this is no Meshbrush project.".into(),
+                _ => "this is not a Meshbrush project.".into(),
             }));
         }
         let end = bytes[end_record(bytes).ok_or(Flaw::CutOff)?..].as_ref();
@@ -72,22 +73,22 @@ impl<'a> Archive<'a> {
         Ok(Self(parts))
     }
 
-    /// The part with a name.
+    /// The part with this name.
     pub fn part(&self, name: &str) -> Option<&Part<'a>> {
         self.0.iter().find(|(other, _)| *other == name).map(|(_, part)| part)
     }
 }
 
 impl<'a> Part<'a> {
-    /// The part's bytes, as they are unpacked; counted are those of the file. Memory is taken for what is read and not for what is
-    /// declared.
+    /// A reader that unpacks the part. The meter counts the packed bytes. Memory is allocated for what is
+    /// read, not for what is declared.
     ///
     /// # Errors
-    /// When it declares more than `most` bytes.
+    /// When the part declares more than `most` bytes.
     pub fn unpack(&self, most: u64, meter: &Meter) -> Result<Unpacking<'a>, Flaw> {
         if self.size > most {
             return Err(Flaw::Syntax(format!(
-                "{} bytes are announced, and at most {most} can belong here.",
+                "it declares {} bytes, and {most} is the limit here.",
                 self.size
             )));
         }
@@ -99,7 +100,7 @@ impl<'a> Part<'a> {
         Ok(Unpacking { bytes, left: self.size, crc: Hasher::new(), expected: self.crc })
     }
 
-    /// All of a part's bytes.
+    /// All bytes of the part.
     ///
     /// # Errors
     /// As [`Self::unpack`], and when the bytes are damaged.
@@ -112,7 +113,7 @@ impl<'a> Part<'a> {
     }
 }
 
-/// A part that is being unpacked; no more comes out than was declared.
+/// Unpacks a part, and no more bytes than declared.
 pub struct Unpacking<'a> {
     bytes: Box<dyn Read + 'a>,
     left: u64,
@@ -131,23 +132,23 @@ impl Read for Unpacking<'_> {
 }
 
 impl Unpacking<'_> {
-    /// Whether everything that was declared has been read.
+    /// Whether all declared bytes were read.
     pub fn is_at_end(&self) -> bool {
         self.left == 0
     }
 
-    /// Ends the reading.
+    /// Checks the part after its last byte.
     ///
     /// # Errors
-    /// When bytes are left, or what came is not what was stored.
+    /// When bytes are left, or the checksum does not match.
     pub fn finish(mut self) -> Result<(), Flaw> {
         let surplus = self.bytes.read(&mut [0]).map_err(|_| Flaw::Damaged)?;
-        let sound = self.left == 0 && surplus == 0 && self.crc.finalize() == self.expected;
-        if sound { Ok(()) } else { Err(Flaw::Damaged) }
+        let valid = self.left == 0 && surplus == 0 && self.crc.finalize() == self.expected;
+        if valid { Ok(()) } else { Err(Flaw::Damaged) }
     }
 }
 
-/// Where the end record begins: its comment must reach the end of the file exactly.
+/// The position of the end record, whose comment must end exactly at the end of the file.
 fn end_record(bytes: &[u8]) -> Option<usize> {
     let last = bytes.len().checked_sub(END_BYTES)?;
     let first = last.saturating_sub(usize::from(u16::MAX));
@@ -158,7 +159,7 @@ fn end_record(bytes: &[u8]) -> Option<usize> {
     })
 }
 
-/// One entry of the directory: its name, its part, and what follows it there.
+/// Reads one entry of the directory: its name, its part, and the rest of the directory.
 fn entry<'a>(
     bytes: &'a [u8],
     directory: &'a [u8],
@@ -178,7 +179,7 @@ fn entry<'a>(
     let text = str::from_utf8(name).map_err(|_| Flaw::Damaged)?;
     if flags & 1 != 0 || !matches!(method, 0 | DEFLATED) || [packed, size].contains(&u32::MAX) {
         return Err(Flaw::Syntax(format!(
-            "\"{}\" in it is encrypted or packed in a way that projects do not use. Unpack it and pack it plainly.",
+            "\"{}\" in it is encrypted or packed with a method that projects do not use. Pack it again without encryption.",
             shown(40, text)
         )));
     }
@@ -200,7 +201,7 @@ fn u32_at(bytes: &[u8], at: usize) -> Result<u32, Flaw> {
     bytes.get(at..).and_then(|rest| rest.first_chunk()).map(|b| u32::from_le_bytes(*b)).ok_or(Flaw::Damaged)
 }
 
-/// An archive being written, part by part.
+/// Writes an archive part by part.
 pub struct ArchiveWriter<W> {
     out: W,
     written: u32,
@@ -209,15 +210,16 @@ pub struct ArchiveWriter<W> {
 }
 
 impl<W: Write> ArchiveWriter<W> {
-    /// An archive with no part yet.
+    /// An archive without parts.
     pub fn new(out: W) -> Self {
         Self { out, written: 0, directory: Vec::new(), count: 0 }
     }
 
-    /// Adds a part; counted are its bytes before they are packed.
+    /// Adds a part. The meter counts its bytes before packing.
     ///
     /// # Errors
-    /// Those of the output and of `write`, when the archive would pass 4 GiB, and when the work was cancelled.
+    /// Errors of the output and of `write`, when the archive would pass 4 GiB, and when the work was
+    /// cancelled.
     pub fn add(
         &mut self,
         name: &str,
@@ -228,7 +230,8 @@ impl<W: Write> ArchiveWriter<W> {
         write(&mut meter.count(&mut packing))?;
         let (packed, size, crc) = packing.finish()?;
         let (packed_size, size) = (small(packed.len() as u64)?, small(size)?);
-        // From "version needed" to "length of extra fields": alike in both headers. Bit 11: the name is UTF-8.
+        // The fields from "version needed" to "length of extra fields" are the same in both headers. Bit 11:
+        // the name is UTF-8.
         let mut common = Vec::new();
         for word in [20, 1 << 11, DEFLATED, 0, NO_DATE] {
             common.extend(u16::to_le_bytes(word));
@@ -250,10 +253,10 @@ impl<W: Write> ArchiveWriter<W> {
         Ok(())
     }
 
-    /// Writes the directory, which makes the archive whole.
+    /// Writes the directory, which completes the archive.
     ///
     /// # Errors
-    /// Those of the output.
+    /// Errors of the output.
     pub fn finish(mut self) -> io::Result<()> {
         let mut end = END.to_le_bytes().to_vec();
         for word in [0, 0, self.count, self.count] {
@@ -269,10 +272,13 @@ impl<W: Write> ArchiveWriter<W> {
 }
 
 fn small(bytes: u64) -> io::Result<u32> {
-    u32::try_from(bytes).ok().filter(|&n| n < u32::MAX).ok_or_else(|| io::Error::other("it would pass 4 GiB"))
+    u32::try_from(bytes)
+        .ok()
+        .filter(|&n| n < u32::MAX)
+        .ok_or_else(|| io::Error::other("it would be larger than 4 GiB"))
 }
 
-/// Bytes on their way into an archive.
+/// Packs the bytes of a part.
 pub struct Packing {
     packed: DeflateEncoder<Vec<u8>>,
     crc: Hasher,
@@ -280,12 +286,12 @@ pub struct Packing {
 }
 
 impl Packing {
-    /// Nothing yet.
+    /// A part without bytes.
     pub fn new() -> Self {
         Self { packed: DeflateEncoder::new(Vec::new(), Compression::new(4)), crc: Hasher::new(), size: 0 }
     }
 
-    /// The packed bytes; the count and the CRC-32 of what went in.
+    /// The packed bytes, and the number and CRC-32 of the bytes before packing.
     fn finish(self) -> io::Result<(Vec<u8>, u64, u32)> {
         Ok((self.packed.finish()?, self.size, self.crc.finalize()))
     }

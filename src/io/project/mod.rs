@@ -1,20 +1,20 @@
 //! `.meshbrush`: a document in one file.
 //!
-//! A ZIP archive, so that every tool can look into it, with these parts in this order:
+//! A ZIP archive, so that every tool can inspect it, with these parts in this order:
 //!
-//! | part | what | when |
-//! |---|---|---|
-//! | `settings.json` | `format`, `version`, who wrote it, and all settings, as text for a person; numbers read back exactly | always |
-//! | `domain.geojson` | the polygons of the domain, in world units | the domain has some |
-//! | `base.risk` | the base field's picture, 32-bit floats row by row from the lowest | the base is a picture |
-//! | `paint.tiles` | painted tiles of 64 × 64 pixels: column and row (16 bits each, little-endian), a byte with bit 0 for risk and bit 1 for diameter, and the pixels of each of these | always |
+//! - `settings.json`: `format`, `version`, the program that wrote it, and all settings; numbers read back exactly.
+//! - `domain.geojson`, if the domain has polygons: their corners in world units.
+//! - `base.risk`, if the base field is a picture: 32-bit floats, row by row from the lowest.
+//! - `paint.tiles`: the painted tiles of 64 × 64 pixels. Each has its column and row (16 bits each, little-endian), a
+//!   byte with bit 0 for risk and bit 1 for diameter, and the pixels of each of these.
 //!
-//! Pixels are four runs of bytes, the most significant bytes of all numbers first: they pack in half the room. Tiles stand in
-//! order of column, then row; blank ones are left out. The archive's CRC-32 tells damage. There are no dates: the same document
-//! gives the same bytes, and saving what was opened gives the file again. History is not saved.
+//! Pixels are stored as four planes of bytes, the most significant bytes of all numbers first, which packs to
+//! half the size. Tiles are ordered by column, then row; blank tiles are omitted. The CRC-32 of the archive
+//! detects damage. There are no dates: equal documents give equal bytes, and saving a project that was just
+//! opened gives the same file. The history is not saved.
 //!
-//! The version grows when an older program could no longer read the file as it is meant, which holds for any field that it
-//! does not know. Programs read all versions up to their own.
+//! The version grows whenever an older program could not read the file correctly, which includes any new
+//! field. A program reads all versions up to its own.
 
 mod archive;
 mod pixels;
@@ -34,7 +34,7 @@ use crate::raster::Raster;
 use archive::{Archive, ArchiveWriter, Part};
 use settings::{Parts, Saved};
 
-/// What a project's file name ends in.
+/// The extension of project files.
 pub const ENDING: &str = "meshbrush";
 
 /// The version that is written, and the newest that is read.
@@ -46,34 +46,35 @@ const DOMAIN: &str = "domain.geojson";
 const BASE: &str = "base.risk";
 const PAINT: &str = "paint.tiles";
 
-/// Largest file read: twice what the largest picture takes.
+/// Largest file read: twice the size of the largest picture.
 const MOST_BYTES: u64 = 512 << 20;
-/// Most bytes of settings; formulas are far shorter.
+/// Most bytes of the settings, far more than the longest formulas need.
 const MOST_SETTINGS: u64 = 1 << 20;
-/// Most bytes of polygons: more than a million corners take.
+/// Most bytes of the polygons, more than a million corners need.
 const MOST_POLYGONS: u64 = 128 << 20;
 
-/// What is saved of a document.
+/// The saved part of a document.
 ///
-/// Only painted tiles are copied, so that one can be taken between two frames and written beside them.
+/// It has copies of the painted tiles only, so making one is quick enough for a frame, and another thread can
+/// write it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Project {
-    /// Everything but paint.
+    /// Everything except paint.
     pub settings: Settings,
-    /// Paint. What is not here is blank.
+    /// The paint by tiles. Other tiles are blank.
     pub tiles: Tiles,
 }
 
 impl Project {
-    /// A document as it is now, a stroke under way included.
+    /// The current state of a document, the current stroke included.
     pub fn of(document: &Document) -> Self {
         Self { settings: document.settings().clone(), tiles: document.paint().painted_tiles() }
     }
 
-    /// The document, without history.
+    /// The document, with an empty history.
     ///
     /// # Errors
-    /// A sentence, when the settings cannot be met.
+    /// A sentence for a person, when the settings are out of range.
     pub fn into_document(self) -> Result<Document, String> {
         let settings = self.settings.checked().map_err(|error| error.to_string())?;
         let mut layers = PaintRasters::blank(settings.domain.bounds, settings.raster_size());
@@ -85,8 +86,8 @@ impl Project {
 /// Reads a document.
 ///
 /// # Errors
-/// When the file cannot be read, is no project, is cut off or damaged, was written by a newer program, or holds what no document
-/// can have.
+/// When the file cannot be read, is not a project, is cut off or damaged, was written by a newer program, or
+/// has values that no document can have.
 pub fn read(path: &Path) -> Result<Document, ReadError> {
     read_metered(path, &Meter::default())
 }
@@ -103,9 +104,10 @@ pub fn read_metered(path: &Path, meter: &Meter) -> Result<Document, ReadError> {
         meter.count(file.take(MOST_BYTES + 1)).read_to_end(&mut bytes)?;
         if bytes.len() as u64 > MOST_BYTES {
             let limit = MOST_BYTES >> 20;
-            return Err(
-                Flaw::Syntax(format!("a project has at most {limit} MiB, and this file is larger.")).into()
-            );
+            return Err(Flaw::Syntax(format!(
+                "the file is larger than {limit} MiB, the limit for a project."
+            ))
+            .into());
         }
         Ok(bytes)
     };
@@ -118,7 +120,7 @@ pub fn read_metered(path: &Path, meter: &Meter) -> Result<Document, ReadError> {
     project.into_document().map_err(|problem| PlacedFlaw::from(Flaw::Syntax(problem)).in_file(path))
 }
 
-/// As [`read`], from bytes; the file is then called `name`.
+/// Reads a project from bytes. Errors call the file `name`.
 ///
 /// # Errors
 /// As [`read`].
@@ -129,18 +131,18 @@ pub fn from_bytes(bytes: &[u8], name: &Path) -> Result<Project, ReadError> {
 /// Writes a project.
 ///
 /// # Errors
-/// Those of `out`.
+/// Errors of `out`.
 pub fn write(out: &mut dyn Write, project: &Project) -> io::Result<()> {
     write_parts(out, &parts(project), &Meter::default())
 }
 
-/// As [`write()`]; counted are the bytes before they are packed.
+/// Writes a project as [`write()`] does, and counts the bytes before packing.
 ///
 /// # Errors
 /// As [`write()`], and when the work was cancelled.
 pub fn write_metered(out: &mut dyn Write, project: &Project, meter: &Meter) -> io::Result<()> {
     let parts = parts(project);
-    // Packing takes far longer than to see how much there is to pack.
+    // Packing takes far longer than this pass, which finds the number of bytes.
     let size = Meter::default();
     for (_, write) in &parts {
         write(&mut size.count(io::sink()))?;
@@ -150,7 +152,7 @@ pub fn write_metered(out: &mut dyn Write, project: &Project, meter: &Meter) -> i
     write_parts(out, &parts, meter)
 }
 
-/// A part of the archive: its name, and how its bytes are written.
+/// A part of the archive: its name, and a function that writes its bytes.
 type ToWrite<'a> = (&'static str, Box<dyn Fn(&mut dyn Write) -> io::Result<()> + 'a>);
 
 fn parts(project: &Project) -> Vec<ToWrite<'_>> {
@@ -196,19 +198,19 @@ fn parse(bytes: &[u8], meter: &Meter) -> Result<Project, PlacedFlaw> {
     Ok(Project { settings, tiles })
 }
 
-/// Writes nothing but tiles, blank ones too.
+/// Writes an archive of tiles alone, blank ones included.
 ///
 /// # Errors
-/// Those of `out`.
+/// Errors of `out`.
 pub(super) fn write_tiles(out: &mut dyn Write, tiles: &Tiles) -> io::Result<()> {
     let tiles: ToWrite = (PAINT, Box::new(|out| pixels::write_tiles(out, tiles)));
     write_parts(out, &[tiles], &Meter::default())
 }
 
-/// Reads tiles of layers with the given columns and rows.
+/// Reads an archive of tiles of rasters with `size` = [columns, rows].
 ///
 /// # Errors
-/// When they are damaged, or do not fit.
+/// When it is damaged, or a tile lies outside the rasters.
 pub(super) fn read_tiles(bytes: &[u8], size: [u32; 2]) -> Result<Tiles, Flaw> {
     unpacked_tiles(&Archive::open(bytes)?, size, &Meter::default())
 }
@@ -222,7 +224,7 @@ fn unpacked_tiles(archive: &Archive, size: [u32; 2], meter: &Meter) -> Result<Ti
 }
 
 fn part<'b, 'a>(archive: &'b Archive<'a>, name: &'static str) -> Result<&'b Part<'a>, PlacedFlaw> {
-    let missing = || Flaw::Syntax(format!("this is no Meshbrush project: there is no {name} in it.")).into();
+    let missing = || Flaw::Syntax(format!("this is not a Meshbrush project: it has no {name}.")).into();
     archive.part(name).ok_or_else(missing)
 }
 
@@ -230,7 +232,7 @@ fn in_part(flaw: Flaw, part: &'static str) -> PlacedFlaw {
     PlacedFlaw::from(flaw).within(part)
 }
 
-/// The parts that settings ask for.
+/// Unpacks the parts that the settings refer to.
 struct Packed<'b, 'a> {
     archive: &'b Archive<'a>,
     meter: &'b Meter,

@@ -1,4 +1,5 @@
-//! Pixels as bytes: f32 by planes, so that what is alike in neighbouring numbers stands together and packs well.
+//! Pixels as bytes: f32 in four planes. Neighbouring numbers often have equal high bytes, and equal bytes in
+//! a row pack well.
 
 use std::io::{self, Read, Write};
 
@@ -8,72 +9,77 @@ use crate::geometry::Rect;
 use crate::paint::{TILE, TilePixels, TilePlace, Tiles, tile_area};
 use crate::raster::Raster;
 
-/// PaintRasters that a tile has something on.
+/// The rasters on which a tile has paint, as bits of one byte.
 const RISK: u8 = 1;
 const DIAMETER: u8 = 2;
 
-/// Most bytes that the tiles of layers with the given columns and rows take.
+/// Most bytes of the tiles of rasters with `size` = [columns, rows].
 pub fn most_tile_bytes(size: [u32; 2]) -> u64 {
     let [columns, rows] = size.map(|side| u64::from(side.div_ceil(TILE)));
     columns * rows * (5 + 8 * u64::from(TILE * TILE))
 }
 
-/// Writes tiles: column, row, which layers, and the pixels of these. A layer that is blank there is left out.
+/// Writes tiles: column, row, a byte for the rasters with paint, and the pixels of these rasters.
 ///
 /// # Errors
-/// Those of `out`.
+/// Errors of `out`.
 pub fn write_tiles(out: &mut dyn Write, tiles: &Tiles) -> io::Result<()> {
     for (&place, TilePixels { risk, diameter }) in tiles {
-        let layers = RISK * u8::from(risk.iter().any(|&r| r != 0.0))
+        let painted = RISK * u8::from(risk.iter().any(|&r| r != 0.0))
             + DIAMETER * u8::from(diameter.iter().any(|d| d.is_finite()));
         for n in place {
             out.write_all(&(n as u16).to_le_bytes())?;
         }
-        out.write_all(&[layers])?;
-        if layers & RISK != 0 {
+        out.write_all(&[painted])?;
+        if painted & RISK != 0 {
             write_floats(out, risk)?;
         }
-        if layers & DIAMETER != 0 {
+        if painted & DIAMETER != 0 {
             write_floats(out, diameter)?;
         }
     }
     Ok(())
 }
 
-/// Reads tiles of layers with the given columns and rows, to the end.
+/// Reads all tiles of rasters with `size` = [columns, rows].
 ///
 /// # Errors
-/// When one lies beyond the layers or out of order, or has a value that cannot be painted.
+/// When a tile lies outside the rasters or is out of order, or has a value that cannot be painted.
 pub fn read_tiles(input: &mut Unpacking, size: [u32; 2]) -> Result<Tiles, Flaw> {
     let tiles_along = size.map(|side| side.div_ceil(TILE));
     let mut tiles = Tiles::new();
     while !input.is_at_end() {
         let mut head = [0; 5];
         input.read_exact(&mut head).map_err(|_| Flaw::Damaged)?;
-        let [a, b, c, d, layers] = head;
+        let [a, b, c, d, painted] = head;
         let place: TilePlace = [[a, b], [c, d]].map(|n| u32::from(u16::from_le_bytes(n)));
         let in_order = tiles.last_key_value().is_none_or(|(&last, _)| last < place);
-        if place[0] >= tiles_along[0] || place[1] >= tiles_along[1] || !in_order || layers > RISK + DIAMETER {
+        if place[0] >= tiles_along[0] || place[1] >= tiles_along[1] || !in_order || painted > RISK + DIAMETER
+        {
             return Err(Flaw::Syntax(format!(
-                "the paint has a tile at column {}, row {} that does not belong there: the file was not written by Meshbrush.",
+                "the paint has a tile at column {}, row {} that is outside or out of order: Meshbrush did not write this file.",
                 place[0], place[1]
             )));
         }
         let count = tile_area(place, size).pixels().count();
-        let mut layer = |bit, blank, sound: fn(f32) -> bool, name| {
-            if layers & bit == 0 { Ok(vec![blank; count]) } else { read_floats(input, count, sound, name) }
+        let mut pixels = |bit, blank, is_valid: fn(f32) -> bool, name| {
+            if painted & bit == 0 {
+                Ok(vec![blank; count])
+            } else {
+                read_floats(input, count, is_valid, name)
+            }
         };
-        let risk = layer(RISK, 0.0, is_risk, "risk")?.into();
-        let diameter = layer(DIAMETER, f32::INFINITY, |d| d > 0.0, "diameter")?.into();
+        let risk = pixels(RISK, 0.0, is_risk, "risk")?.into();
+        let diameter = pixels(DIAMETER, f32::INFINITY, |d| d > 0.0, "diameter")?.into();
         tiles.insert(place, TilePixels { risk, diameter });
     }
     Ok(tiles)
 }
 
-/// Writes a raster row by row.
+/// Writes a raster row by row from the lowest.
 ///
 /// # Errors
-/// Those of `out`.
+/// Errors of `out`.
 pub fn write_raster(out: &mut dyn Write, raster: &Raster) -> io::Result<()> {
     raster.values().chunks_exact(raster.size()[0] as usize).try_for_each(|row| write_floats(out, row))
 }
@@ -81,7 +87,7 @@ pub fn write_raster(out: &mut dyn Write, raster: &Raster) -> io::Result<()> {
 /// Reads a raster of risks.
 ///
 /// # Errors
-/// When the bytes end too early, or a value is no risk.
+/// When the bytes end too early, or a value is not between 0 and 1.
 pub fn read_risks(input: &mut Unpacking, bounds: Rect, size: [u32; 2]) -> Result<Raster, Flaw> {
     let mut values = Vec::new();
     for _ in 0..size[1] {
@@ -94,7 +100,7 @@ fn is_risk(value: f32) -> bool {
     (0.0..=1.0).contains(&value)
 }
 
-/// Numbers as four runs of bytes, the most significant bytes first.
+/// Writes numbers as four planes of bytes, the most significant bytes first.
 fn write_floats(out: &mut dyn Write, values: &[f32]) -> io::Result<()> {
     for plane in 0..4 {
         let bytes: Vec<u8> = values.iter().map(|value| value.to_be_bytes()[plane]).collect();
@@ -106,16 +112,16 @@ fn write_floats(out: &mut dyn Write, values: &[f32]) -> io::Result<()> {
 fn read_floats(
     input: &mut Unpacking,
     count: usize,
-    sound: fn(f32) -> bool,
+    is_valid: fn(f32) -> bool,
     name: &str,
 ) -> Result<Vec<f32>, Flaw> {
     let mut bytes = vec![0; 4 * count];
     input.read_exact(&mut bytes).map_err(|_| Flaw::Damaged)?;
     let value = |i| f32::from_be_bytes([0, 1, 2, 3].map(|plane| bytes[plane * count + i]));
     let values: Vec<f32> = (0..count).map(value).collect();
-    match values.iter().find(|&&value| !sound(value)) {
+    match values.iter().find(|&&value| !is_valid(value)) {
         Some(value) => Err(Flaw::Syntax(format!(
-            "a {name} of {value} was never painted: the file was not written by Meshbrush."
+            "a {name} of {value} cannot be painted: Meshbrush did not write this file."
         ))),
         None => Ok(values),
     }

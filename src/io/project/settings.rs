@@ -1,4 +1,4 @@
-//! `settings.json`: everything about a project that a person can read.
+//! `settings.json`: the part of a project in readable text.
 
 use std::sync::Arc;
 
@@ -16,7 +16,7 @@ use crate::mesh::MOST_TRIANGLES;
 use crate::raster::{MAX_SIDE, Raster};
 use crate::text::{Grouped, Number};
 
-/// What every version of the format begins with.
+/// The fields that every version of the format has.
 #[derive(Deserialize)]
 struct Head {
     format: String,
@@ -25,7 +25,7 @@ struct Head {
     written_by: String,
 }
 
-/// The file as it is; lengths are in world units.
+/// The content of the file; lengths are in world units.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Saved {
@@ -58,7 +58,7 @@ struct SavedDomain {
 enum SavedShape {
     Whole,
     Formula(String),
-    /// The polygons stand in a part of their own.
+    /// Polygons, which are in the part `domain.geojson`.
     Polygons,
 }
 
@@ -99,7 +99,7 @@ enum SavedRule {
     Area,
 }
 
-/// What stands in other parts, as far as the settings ask for it.
+/// Access to the other parts that the settings refer to.
 pub(super) trait Parts {
     /// The polygons of the domain.
     fn polygons(&mut self) -> Result<Vec<Polygon>, PlacedFlaw>;
@@ -152,12 +152,15 @@ impl Saved {
         }
     }
 
-    /// Reads the text; what is of a newer version is said to be so.
+    /// Reads the text.
+    ///
+    /// # Errors
+    /// When it is not valid, or of a newer version: then the error says by which program.
     pub(super) fn parse(text: &[u8]) -> Result<Self, PlacedFlaw> {
         let head: Head = serde_json::from_slice(text).map_err(placed)?;
         if head.format != FORMAT {
             return Err(Flaw::Syntax(format!(
-                "its format is \"{}\" and not {FORMAT:?}.",
+                "its format is \"{}\" instead of {FORMAT:?}.",
                 shown(40, &head.format)
             ))
             .into());
@@ -179,11 +182,11 @@ impl Saved {
         serde_json::from_slice(text).map_err(placed)
     }
 
-    /// The settings, checked.
+    /// The settings, after all checks.
     pub(super) fn into_settings(self, parts: &mut impl Parts) -> Result<Settings, PlacedFlaw> {
         if !(2..=MOST_TRIANGLES).contains(&self.max_triangles) {
             return Err(Flaw::Syntax(format!(
-                "\"max_triangles\" is {}, and a budget lies between 2 and {}.",
+                "\"max_triangles\" is {}, and a budget must be between 2 and {}.",
                 Grouped(self.max_triangles),
                 Grouped(MOST_TRIANGLES)
             ))
@@ -246,25 +249,25 @@ fn rect(of: &str, [x0, y0, x1, y1]: [f64; 4]) -> Result<Rect, PlacedFlaw> {
     }
     let [x0, y0, x1, y1] = [x0, y0, x1, y1].map(Number);
     Err(Flaw::Syntax(format!(
-        "the bounds {x0}, {y0}, {x1}, {y1} of \"{of}\" are no rectangle: the first corner is the lower left one."
+        "the bounds {x0}, {y0}, {x1}, {y1} of \"{of}\" are not a rectangle: the first corner is the lower left one."
     ))
     .into())
 }
 
 fn formula(of: &str, text: &str) -> Result<Formula, PlacedFlaw> {
     Formula::parse(text)
-        .map_err(|mistake| Flaw::Syntax(format!("the formula of \"{of}\" cannot be used. {mistake}")).into())
+        .map_err(|mistake| Flaw::Syntax(format!("the formula of \"{of}\" is not valid. {mistake}")).into())
 }
 
 fn sentence(error: impl std::fmt::Display) -> PlacedFlaw {
     Flaw::Syntax(error.to_string()).into()
 }
 
-/// What serde_json says, at its line.
+/// The error of serde_json with its line.
 fn placed(error: serde_json::Error) -> PlacedFlaw {
     let text = error.to_string();
     let problem = text.split(" at line ").next().unwrap_or(&text);
-    // It repeats names and values of the file, however long.
+    // The text repeats names and values of the file, which may be long.
     let problem: String = problem.chars().take(300).collect();
-    Flaw::Syntax(format!("these settings cannot be read: {problem}.")).at(error.line().max(1))
+    Flaw::Syntax(format!("the settings are not valid: {problem}.")).at(error.line().max(1))
 }
