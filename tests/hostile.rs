@@ -112,7 +112,7 @@ fn outlines_that_are_too_large_are_refused_before_they_take_memory() {
         write!(parts, "{},", polygon(&format!("[[[{k},0],[{k},1],[{k}.5,1]]]"))).unwrap();
     }
     parts.replace_range(parts.len() - 1.., "]}");
-    assert!(said(&parts).contains("have 1,050,000 corners, and at most 1,000,000"));
+    assert!(said(&parts).contains("have 1,050,000 corners, and the limit is 1,000,000"));
     let point = r#"{"type":"Feature","geometry":{"type":"Point","coordinates":[1,2]}},"#;
     let points =
         format!(r#"{{"type":"FeatureCollection","features":[{}{{"type":"x"}}]}}"#, point.repeat(300_000));

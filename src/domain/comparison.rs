@@ -1,4 +1,4 @@
-//! Where two regions differ, found in slices.
+//! Finds where two regions differ, in slices.
 
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -10,30 +10,37 @@ use super::region::EdgeCursor;
 use crate::geometry::Rect;
 use crate::mesh::Progress;
 
-/// Compares two regions in the same frame, by their edges.
+/// Compares two regions in the same frame by their edges.
 ///
-/// Across an edge that both have, in the same direction, both begin or both end. So whatever lies in one of them only is enclosed
-/// by edges that the other has not, and these touch each other.
+/// An edge that both regions have, in the same direction, has both of them on its left. So a part that
+/// belongs to one region only is enclosed by edges of which the other has no equal, and these edges touch
+/// each other.
 ///
-/// An edit mostly leaves the edges in their order: those that both have at the beginning are passed over, and so are those at the
-/// end of the ring in which they first differ. Only what is left is looked up.
+/// An edit keeps most edges in their order. So equal edges at the beginning are skipped, and equal edges at
+/// the end of the first ring that differs; only the rest is looked up in a table:
+///
+/// ```text
+/// before  =========|~~~~~~~~~~|=====|.........      =  skipped: equal edges in both
+/// after   =========|~~~~~|=====|..............      ~  looked up: rest of the first ring that differs
+///                  ring ends here   ^               .  looked up: all later rings
+/// ```
 #[derive(Clone, Debug)]
 pub struct RegionComparison {
     regions: [Arc<Region>; 2],
     pass: Pass,
-    /// What is not passed over, of both regions: of the ring in which they first differ, and behind it.
-    left: [[Edges; 2]; 2],
-    /// What is left of the present pass.
+    /// The edges that are not skipped, of both regions: in the first ring that differs, and after that ring.
+    rest: [[Edges; 2]; 2],
+    /// The edges that the current pass has not visited.
     to_visit: [Edges; 2],
-    /// How often each edge before has not been met after.
-    unmet: HashMap<EdgeKey, u32>,
+    /// How many edges of the region before still have no equal in the region after, by their ends.
+    unmatched: HashMap<EdgeKey, u32>,
     areas: Areas,
 }
 
-/// Some edges of a region, one after the other.
+/// Consecutive edges of a region.
 #[derive(Clone, Copy, Debug)]
 struct Edges {
-    /// Before the first of them.
+    /// The position before the first edge.
     first: EdgeCursor,
     count: usize,
 }
@@ -45,23 +52,23 @@ impl Edges {
     }
 }
 
-/// What is done.
+/// The passes over the edges, in their order.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Pass {
-    /// Equal edges at the beginning are passed over.
-    Beginning,
-    /// Equal edges at the end of a ring are.
-    Ending,
-    /// The edges before are noted.
-    Noting,
-    /// The edges after are met: new ones are found.
-    Meeting,
-    /// The edges before are gone through again: lost ones are found.
-    Missing,
+    /// Skips equal edges at the beginning.
+    SkipFirst,
+    /// Skips equal edges at the end of the first ring that differs.
+    SkipLast,
+    /// Counts the edges of the region before in the table.
+    Count,
+    /// Looks up the edges of the region after: those without an equal are new.
+    Match,
+    /// Looks up the edges of the region before again: those left in the table were removed.
+    FindRemoved,
     Done,
 }
 
-/// The bits of both ends.
+/// The bits of the coordinates of both ends.
 type EdgeKey = [u64; 4];
 
 fn key([from, to]: [DVec2; 2]) -> EdgeKey {
@@ -69,88 +76,89 @@ fn key([from, to]: [DVec2; 2]) -> EdgeKey {
 }
 
 impl RegionComparison {
-    /// Begins to compare.
+    /// Begins the comparison of a region before an edit with the region after it.
     pub fn new(before: Arc<Region>, after: Arc<Region>) -> Self {
         let all = |region: &Region| Edges { first: EdgeCursor::default(), count: region.corner_count() };
         let none = Edges { first: EdgeCursor::default(), count: 0 };
         Self {
-            left: [[none, all(&before)], [none, all(&after)]],
+            rest: [[none, all(&before)], [none, all(&after)]],
             to_visit: [none; 2],
             regions: [before, after],
-            pass: Pass::Beginning,
-            unmet: HashMap::new(),
+            pass: Pass::SkipFirst,
+            unmatched: HashMap::new(),
             areas: Areas::default(),
         }
     }
 
-    /// Goes through about so many edges.
-    pub fn advance(&mut self, visits: usize) -> Progress {
-        for _ in 0..visits {
-            let goes_on = match self.pass {
-                Pass::Beginning => self.pass_over_first(),
-                Pass::Ending => self.pass_over_last(),
-                Pass::Noting | Pass::Meeting | Pass::Missing => self.visit(),
+    /// Compares about `edges` edges.
+    pub fn advance(&mut self, edges: usize) -> Progress {
+        for _ in 0..edges {
+            let found = match self.pass {
+                Pass::SkipFirst => self.skip_first(),
+                Pass::SkipLast => self.skip_last(),
+                Pass::Count | Pass::Match | Pass::FindRemoved => self.visit(),
                 Pass::Done => return Progress::Done,
             };
-            if !goes_on {
+            if !found {
                 self.next_pass();
             }
         }
         Progress::More
     }
 
-    /// Passes an edge over that both regions have next.
-    fn pass_over_first(&mut self) -> bool {
-        let mut rest = self.left.map(|[_, rest]| rest);
+    /// Skips the next edge, if it is equal in both regions.
+    fn skip_first(&mut self) -> bool {
+        let mut rest = self.rest.map(|[_, rest]| rest);
         let [before, after] = [0, 1].map(|n| rest[n].next(&self.regions[n]).map(key));
         let equal = before.is_some() && before == after;
         if equal {
-            [self.left[0][1], self.left[1][1]] = rest;
+            [self.rest[0][1], self.rest[1][1]] = rest;
         }
         equal
     }
 
-    /// Parts what is left of the present rings from what is behind them.
-    fn part_rings(&mut self) {
-        for (region, left) in self.regions.iter().zip(&mut self.left) {
+    /// Splits the rest of both regions into the rest of the current ring and the edges after that ring.
+    fn split_at_ring(&mut self) {
+        for (region, left) in self.regions.iter().zip(&mut self.rest) {
             let [_, rest] = *left;
             let in_ring = rest.first.left_in_ring(region);
-            let behind = Edges { first: rest.first.behind_ring(region), count: rest.count - in_ring };
+            let behind = Edges { first: rest.first.after_ring(region), count: rest.count - in_ring };
             *left = [Edges { count: in_ring, ..rest }, behind];
         }
     }
 
-    /// Passes an edge over that both regions have at the end of the ring.
-    fn pass_over_last(&mut self) -> bool {
+    /// Skips the last edge of the ring, if it is equal in both regions.
+    fn skip_last(&mut self) -> bool {
         let last = |n: usize| -> Option<EdgeKey> {
-            let Edges { first, count } = self.left[n][0];
+            let Edges { first, count } = self.rest[n][0];
             Some(key(first.edge_in_ring(&self.regions[n], count.checked_sub(1)?)))
         };
         let equal = last(0).is_some() && last(0) == last(1);
         if equal {
-            self.left.iter_mut().for_each(|[ring, _]| ring.count -= 1);
+            self.rest.iter_mut().for_each(|[ring, _]| ring.count -= 1);
         }
         equal
     }
 
-    /// Looks the next edge of the present pass up.
+    /// Visits the next edge of the current pass. Returns whether there was one.
     fn visit(&mut self) -> bool {
-        let region = &self.regions[usize::from(self.pass == Pass::Meeting)];
+        let region = &self.regions[usize::from(self.pass == Pass::Match)];
         let [ring, behind] = &mut self.to_visit;
         let Some(edge) = ring.next(region).or_else(|| behind.next(region)) else { return false };
-        if self.pass == Pass::Noting {
-            *self.unmet.entry(key(edge)).or_default() += 1;
+        if self.pass == Pass::Count {
+            *self.unmatched.entry(key(edge)).or_default() += 1;
             return true;
         }
-        let was_unmet = match self.unmet.get_mut(&key(edge)) {
+        let was_unmatched = match self.unmatched.get_mut(&key(edge)) {
             Some(count) if *count > 0 => {
                 *count -= 1;
                 true
             }
             _ => false,
         };
-        // Then an edge after is one before, and an edge before was found nowhere after.
-        if was_unmet == (self.pass == Pass::Missing) {
+        // In `Match` an edge that was not in the table is new; in `FindRemoved` one that still is was
+        // removed.
+        if was_unmatched == (self.pass == Pass::FindRemoved) {
             self.areas.add(Rect::spanning(edge[0], edge[1]));
         }
         true
@@ -158,29 +166,29 @@ impl RegionComparison {
 
     fn next_pass(&mut self) {
         self.pass = match self.pass {
-            Pass::Beginning => Pass::Ending,
-            Pass::Ending => Pass::Noting,
-            Pass::Noting => Pass::Meeting,
-            Pass::Meeting => Pass::Missing,
-            Pass::Missing | Pass::Done => Pass::Done,
+            Pass::SkipFirst => Pass::SkipLast,
+            Pass::SkipLast => Pass::Count,
+            Pass::Count => Pass::Match,
+            Pass::Match => Pass::FindRemoved,
+            Pass::FindRemoved | Pass::Done => Pass::Done,
         };
-        if self.pass == Pass::Ending {
-            self.part_rings();
+        if self.pass == Pass::SkipLast {
+            self.split_at_ring();
         }
-        self.to_visit = self.left[usize::from(self.pass == Pass::Meeting)];
+        self.to_visit = self.rest[usize::from(self.pass == Pass::Match)];
     }
 
-    /// Once done: rectangles that hold every point which lies in one of the regions and not in the other, and every edge of which the
-    /// other has not the same. World units.
+    /// When the comparison is done: rectangles in world units that contain every point of exactly one of the
+    /// regions, and every edge that only one of them has.
     pub fn areas(&self) -> &[Rect] {
         &self.areas.rects
     }
 }
 
-/// Longest list of areas; beyond it they become one.
+/// Most rectangles; beyond that they are joined into one.
 const MOST_AREAS: usize = 64;
 
-/// Rectangles that do not touch each other.
+/// A set of rectangles that do not touch each other.
 #[derive(Clone, Debug, Default)]
 struct Areas {
     rects: Vec<Rect>,
@@ -188,7 +196,7 @@ struct Areas {
 
 impl Areas {
     fn add(&mut self, mut area: Rect) {
-        // The joined one may touch what neither did.
+        // The union may touch rectangles that neither part touched.
         while let Some(touched) = self.rects.iter().position(|other| touch(other, &area)) {
             area = area.union(&self.rects.swap_remove(touched));
         }
@@ -199,7 +207,7 @@ impl Areas {
     }
 }
 
-/// Whether two closed rectangles have a point in common.
+/// Whether two closed rectangles intersect.
 fn touch(a: &Rect, b: &Rect) -> bool {
     a.min.cmple(b.max).all() && b.min.cmple(a.max).all()
 }

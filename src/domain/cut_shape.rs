@@ -1,4 +1,4 @@
-//! Shapes that are added to a domain or taken away from it.
+//! Shapes that are added to a domain or removed from it.
 
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -7,38 +7,40 @@ use glam::{DVec2, dvec2};
 
 use super::{Domain, DomainShape, Ring};
 
-/// A shape to cut with, in world units.
+/// A shape to add to a domain or to remove from it, in world units.
 #[derive(Clone, Debug, PartialEq)]
 pub enum CutShape {
-    /// What a round brush sweeps over along a line of straight pieces; one point makes a disc.
+    /// The points within `radius` of a polyline; a single point makes a disc.
     Stroke {
-        /// Where the middle of the brush goes.
+        /// The centre of the brush, point by point.
         path: Vec<DVec2>,
-        /// Half the brush's width.
+        /// The radius of the brush.
         radius: f64,
     },
-    /// What a ring encloses.
+    /// The points that a ring encloses an odd number of times.
     Ring(Ring),
 }
 
-/// Corners of a disc: its edge is a 500th of the radius off at most.
+/// Corners of a disc. The polygon deviates from the circle by a 500th of the radius at most.
 const DISC_CORNERS: usize = 48;
 
 impl CutShape {
-    /// Goes on as `next` does, where both are strokes with the same brush, one from where the other ends; tells whether that is so.
+    /// Appends `next`, if both are strokes with the same radius and `next` begins where this one ends.
+    /// Returns whether it was appended.
     pub fn join(&mut self, next: &Self) -> bool {
         match (self, next) {
-            (Self::Stroke { path, radius }, Self::Stroke { path: further, radius: same })
-                if radius == same && path.last() == further.first() =>
+            (Self::Stroke { path, radius }, Self::Stroke { path: next_path, radius: next_radius })
+                if radius == next_radius && path.last() == next_path.first() =>
             {
-                path.extend_from_slice(&further[1..]);
+                path.extend_from_slice(&next_path[1..]);
                 true
             }
             _ => false,
         }
     }
 
-    /// Rings that together enclose the shape, all anticlockwise but a [`Self::Ring`], which runs as it does.
+    /// Rings whose union is the shape. Those of a stroke run anticlockwise; a [`Self::Ring`] keeps its
+    /// direction.
     pub fn rings(&self) -> Vec<Ring> {
         match self {
             Self::Ring(ring) => vec![ring.clone()],
@@ -50,21 +52,21 @@ impl CutShape {
     }
 }
 
-/// All points within `radius` of a straight piece, anticlockwise.
+/// The points within `radius` of a segment, anticlockwise.
 fn capsule(from: DVec2, to: DVec2, radius: f64) -> Ring {
     let along = (to - from).normalize_or(DVec2::X);
     let half = DISC_CORNERS / 2;
     let point = |centre: DVec2, k: usize| {
         let angle = TAU * k as f64 / DISC_CORNERS as f64;
-        // From the right-hand side of the direction of travel round its end.
+        // From the right-hand side of the direction around the end.
         centre + radius * along.rotate(dvec2(libm::sin(angle), -libm::cos(angle)))
     };
     (0..=half).map(|k| point(to, k)).chain((half..=DISC_CORNERS).map(|k| point(from, k))).collect()
 }
 
 impl Domain {
-    /// The domain with a shape added to it or taken away, within its bounds; `None` for a domain given by a formula, which has no
-    /// outline to edit.
+    /// The domain with a shape added or removed, within its bounds; `None` for a domain given by a formula,
+    /// which has no outline to edit.
     pub fn reshaped(&self, cut_shape: &CutShape, adds: bool) -> Option<Self> {
         let (region, rings) = (self.as_region()?, cut_shape.rings());
         let region = if adds { region.with(&rings) } else { region.without(&rings) };

@@ -1,4 +1,5 @@
-//! Ω, the domain: a rectangle, or the part of it that a formula or polygons say; and how the mesh meets its boundary.
+//! Ω, the domain: a rectangle or a part of it, given by a formula or by polygons; and how the mesh meets its
+//! boundary.
 
 mod comparison;
 mod edge;
@@ -7,7 +8,7 @@ mod on_lattice;
 mod region;
 mod region_builder;
 mod cut_shape;
-mod tangle;
+mod complexity;
 
 use std::sync::Arc;
 
@@ -16,68 +17,68 @@ use crate::geometry::Rect;
 use crate::text::Grouped;
 
 pub use comparison::RegionComparison;
+use complexity::check_complexity;
+pub use complexity::{MOST_CORNERS, MOST_CROSSINGS};
 pub use cut_shape::CutShape;
 pub use fit::{BoundaryTreatment, DomainOnLattice, DomainOnLatticeBuilder};
 pub use on_lattice::RegionOnLattice;
 pub use region::{Polygon, Region, Ring, corners, signed_area};
-use tangle::check_tangle;
-pub use tangle::{MOST_CORNERS, MOST_CROSSINGS};
 
 /// A domain in world units.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Domain {
     /// The rectangle that the coarse grid covers.
     pub bounds: Rect,
-    /// Which part of it is meant.
+    /// The part of the rectangle.
     pub shape: DomainShape,
 }
 
-/// Why polygons make no domain.
+/// Why polygons are not a valid domain.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum RegionError {
-    /// They cover nothing.
+    /// They cover no area.
     #[error("The polygons cover no area: a ring needs three corners that are not on one line.")]
     NoArea,
-    /// Sides are beyond f64.
-    #[error("The polygons reach too far: the width and the height round them must be finite numbers.")]
+    /// Their width or height is not finite.
+    #[error("The polygons reach too far: their width and height must be finite numbers.")]
     TooLarge,
-    /// More corners than can be worked with.
+    /// Too many corners.
     #[error(
-        "The polygons have {} corners, and at most {} can be worked with. Simplify the outline first, to the detail that the \
-         mesh is to have.",
+        "The polygons have {} corners, and the limit is {}. Simplify the outline first, to the detail that the \
+         mesh needs.",
         Grouped(*corners), Grouped(MOST_CORNERS)
     )]
     TooManyCorners {
         /// Corners of all rings.
         corners: usize,
     },
-    /// Edges cross all over.
+    /// Too many crossings of edges.
     #[error(
-        "The rings cross themselves or each other more than {} times, so that nobody could say what they enclose. Check that \
-         the points come in the order of the outline.",
+        "The rings cross themselves or each other more than {} times, which is the limit. Check that the points are in \
+         the order of the outline.",
         Grouped(MOST_CROSSINGS)
     )]
-    Tangled,
-    /// Too many edges are too long.
+    TooManyCrossings,
+    /// Too many long edges: the overlay would take too much memory.
     #[error(
-        "Of the polygons' {} edges so many reach across so much of the width that they cannot be worked with. Simplify the \
-         outline first, or cut it into pieces.",
+        "Too many of the {} edges of the polygons are long compared with the width. Simplify the outline first, or \
+         divide it into several domains.",
         Grouped(*edges)
     )]
-    Sprawling {
+    TooManyLongEdges {
         /// Edges of all rings.
         edges: usize,
     },
 }
 
-/// Which part of a rectangle is meant.
+/// A part of a rectangle.
 #[derive(Clone, Debug, PartialEq)]
 pub enum DomainShape {
     /// All of it.
     Whole,
     /// Where the formula is neither zero nor NaN.
     Formula(Formula),
-    /// What polygons cover.
+    /// The part that polygons cover.
     Region(Arc<Region>),
 }
 
@@ -87,27 +88,28 @@ impl Domain {
         Self { bounds, shape: DomainShape::Whole }
     }
 
-    /// What polygons cover; the bounds are the rectangle round them, so that straight sides along it are met exactly.
+    /// The domain that polygons cover. Its bounds are their bounding rectangle, so that the mesh meets
+    /// straight sides along it exactly.
     ///
     /// # Errors
-    /// When they cover nothing, or too much lies too close together to tell what.
+    /// When they cover no area, or are too large or too complex.
     pub fn of_polygons(polygons: &[Polygon]) -> Result<Self, RegionError> {
         let points = polygons.iter().flatten().flatten().map(|&p| Rect::new(p, p));
         let bounds = points.reduce(|a, b| a.union(&b)).filter(Rect::is_proper).ok_or(RegionError::NoArea)?;
         if !bounds.size().is_finite() {
             return Err(RegionError::TooLarge);
         }
-        check_tangle(polygons, &bounds)?;
+        check_complexity(polygons, &bounds)?;
         Self::of_region(Region::new(polygons, bounds))
     }
 
-    /// The domain whose [`Region::polygons`] these are, in `bounds`, which must be proper. It comes back corner by corner; other
-    /// polygons are taken as by [`Self::of_polygons`].
+    /// The domain with exactly these polygons in `bounds`, which must be proper, if they are the
+    /// [`Region::polygons`] of a region. Other polygons are overlaid as in [`Self::of_polygons`].
     ///
     /// # Errors
     /// As [`Self::of_polygons`].
     pub fn of_stored_polygons(polygons: Vec<Polygon>, bounds: Rect) -> Result<Self, RegionError> {
-        check_tangle(&polygons, &bounds)?;
+        check_complexity(&polygons, &bounds)?;
         Self::of_region(Region::stored(polygons, bounds))
     }
 
@@ -118,7 +120,7 @@ impl Domain {
         Ok(Self { bounds: *region.frame(), shape: DomainShape::Region(Arc::new(region)) })
     }
 
-    /// The polygons, if the domain has some.
+    /// The region, if the domain is given by polygons.
     pub fn region(&self) -> Option<&Arc<Region>> {
         match &self.shape {
             DomainShape::Region(region) => Some(region),
@@ -126,7 +128,7 @@ impl Domain {
         }
     }
 
-    /// The polygons, or the whole rectangle as one; `None` for a formula.
+    /// The region, or the whole rectangle as one; `None` for a formula.
     pub fn as_region(&self) -> Option<Arc<Region>> {
         match &self.shape {
             DomainShape::Region(region) => Some(region.clone()),
@@ -135,7 +137,7 @@ impl Domain {
         }
     }
 
-    /// The formula, if the domain has one.
+    /// The formula, if the domain is given by one.
     pub fn formula(&self) -> Option<&Formula> {
         match &self.shape {
             DomainShape::Formula(formula) => Some(formula),
@@ -143,7 +145,7 @@ impl Domain {
         }
     }
 
-    /// The domain with other bounds. Polygons are cut off where these are smaller.
+    /// The domain with other bounds. Polygons are clipped to them.
     pub fn with_bounds(&self, bounds: Rect) -> Self {
         let shape = match &self.shape {
             DomainShape::Region(region) if bounds.is_proper() => {

@@ -1,4 +1,4 @@
-//! Domains with an outline: polygons with holes.
+//! Regions: polygons with holes in a rectangle, and their overlay.
 
 use glam::DVec2;
 use i_overlay::core::fill_rule::FillRule;
@@ -9,7 +9,7 @@ use i_overlay::i_float::int::point::IntPoint;
 
 use crate::geometry::Rect;
 
-/// A closed line of straight edges; the last point is joined to the first. World units.
+/// A closed polyline in world units; an edge joins the last point to the first, which is not repeated.
 pub type Ring = Vec<DVec2>;
 
 /// An outer ring, then the rings of its holes.
@@ -17,22 +17,24 @@ pub type Polygon = Vec<Ring>;
 
 /// The part of a rectangle, its *frame*, that polygons cover.
 ///
-/// Outer rings run anticlockwise and holes clockwise; no two edges cross. Points lie on a fine grid over the frame, so that an
-/// edit leaves every edge that it does not meet exactly as it was.
+/// Outer rings run anticlockwise and holes clockwise; no two edges cross. Points lie on a fine grid over the
+/// frame: so an edit leaves every edge that it does not touch unchanged, bit for bit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Region {
     frame: Rect,
-    /// Compared before the polygons: few regions of the same area differ.
+    /// In square world units. Declared before the polygons, so that it is compared first: regions that differ
+    /// rarely have equal areas.
     area: f64,
     polygons: Vec<Polygon>,
 }
 
-// All numbers are finite. Two `Arc`s of the same region are thereby equal without a look at its corners.
+// `PartialEq` compares all data, and no number is NaN. With `Eq`, `Arc<Region>` compares pointers before the
+// data, so that comparing settings that share a region takes no time.
 impl Eq for Region {}
 
 impl Region {
-    /// What the polygons cover within `frame`. They may overlap, and each may run either way or cross itself: a point is covered
-    /// by a polygon that it cannot leave without crossing its rings an odd number of times.
+    /// The region that the polygons cover within `frame`. They may overlap, and each may have either
+    /// direction or cross itself: a polygon covers the points that its rings enclose an odd number of times.
     ///
     /// `frame` must be proper and all points finite.
     pub fn new(polygons: &[Polygon], frame: Rect) -> Self {
@@ -45,10 +47,11 @@ impl Region {
         Self::cut_to_frame(&grid, &contours)
     }
 
-    /// A region from the polygons of one. Where they are not, what they cover.
+    /// The region with exactly these polygons, if they are valid polygons of a region; otherwise the region
+    /// that they cover.
     ///
-    /// Making a region twice moves a corner now and then, where edges nearly touch: so polygons that need no putting right are
-    /// left alone.
+    /// Another overlay would move a corner here and there, where edges nearly touch. So valid polygons are
+    /// not overlaid.
     pub(super) fn stored(polygons: Vec<Polygon>, frame: Rect) -> Self {
         let stored = Self::of_simple(frame, polygons);
         let grid = Grid::over(&frame);
@@ -61,8 +64,8 @@ impl Region {
         let within = |ring: &Ring| ring.len() > 2 && ring.iter().all(|&p| frame.contains(p)) && on_grid(ring);
         // Overlaps and crossings would count twice in one of the areas.
         let alike = (stored.area() - covered).abs() <= 1e-6 * covered;
-        let sound = stored.polygons.iter().all(turned) && stored.rings().all(within) && alike;
-        if sound { stored } else { Self::new(&stored.polygons, frame) }
+        let valid = stored.polygons.iter().all(turned) && stored.rings().all(within) && alike;
+        if valid { stored } else { Self::new(&stored.polygons, frame) }
     }
 
     fn of_simple(frame: Rect, polygons: Vec<Polygon>) -> Self {
@@ -74,12 +77,12 @@ impl Region {
         grid.region(overlay(contours, &[grid.contour(&corners(&grid.frame))], OverlayOperation::BOTH))
     }
 
-    /// The rectangle that the region is part of.
+    /// The rectangle of which the region is a part, in world units.
     pub fn frame(&self) -> &Rect {
         &self.frame
     }
 
-    /// The polygons. None overlap.
+    /// The polygons, which do not overlap.
     pub fn polygons(&self) -> &[Polygon] {
         &self.polygons
     }
@@ -89,18 +92,18 @@ impl Region {
         self.polygons.is_empty()
     }
 
-    /// All rings, outer ones and holes.
+    /// All rings, those of holes included.
     pub fn rings(&self) -> impl Iterator<Item = &Ring> {
         self.polygons.iter().flatten()
     }
 
-    /// All edges, with the region to the left.
+    /// All edges as [from, to], with the region on the left.
     pub fn edges(&self) -> impl Iterator<Item = [DVec2; 2]> {
         let mut cursor = EdgeCursor::default();
         std::iter::from_fn(move || cursor.next(self))
     }
 
-    /// How many corners the rings have.
+    /// The number of corners, which is also the number of edges.
     pub fn corner_count(&self) -> usize {
         self.rings().map(Vec::len).sum()
     }
@@ -110,7 +113,7 @@ impl Region {
         self.rings().map(|ring| size_of::<Ring>() + size_of_val(&**ring)).sum()
     }
 
-    /// How many holes the polygons have.
+    /// The number of holes.
     pub fn hole_count(&self) -> usize {
         self.polygons.iter().map(|rings| rings.len() - 1).sum()
     }
@@ -120,12 +123,12 @@ impl Region {
         self.area
     }
 
-    /// The region with whatever one of the rings encloses added, within the frame.
+    /// The union with the points that at least one of the rings encloses, within the frame.
     pub fn with(&self, rings: &[Ring]) -> Self {
         self.combined(rings, OverlayOperation::EITHER)
     }
 
-    /// The region without whatever one of the rings encloses.
+    /// The difference from the points that at least one of the rings encloses.
     pub fn without(&self, rings: &[Ring]) -> Self {
         self.combined(rings, OverlayOperation::FIRST_ONLY)
     }
@@ -138,13 +141,13 @@ impl Region {
         grid.region(overlay(&grid.contours_of(self), &within, rule))
     }
 
-    /// The region in another frame, cut off where that is smaller.
+    /// The region in another frame, clipped to it.
     pub fn reframed(&self, frame: Rect) -> Self {
         Self::new(&self.polygons, frame)
     }
 }
 
-/// A place between the edges of a region, or before or behind all of them.
+/// A position between two edges of a region, or before the first or after the last.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct EdgeCursor {
     polygon: usize,
@@ -153,7 +156,7 @@ pub(super) struct EdgeCursor {
 }
 
 impl EdgeCursor {
-    /// Moves on over an edge of the region, and returns it with the region to the left.
+    /// Moves past the next edge and returns it, with the region on its left.
     pub(super) fn next(&mut self, region: &Region) -> Option<[DVec2; 2]> {
         loop {
             let rings = region.polygons.get(self.polygon)?;
@@ -169,17 +172,17 @@ impl EdgeCursor {
         }
     }
 
-    /// How many edges of the present ring are still to come.
+    /// The number of edges after the cursor in its ring.
     pub(super) fn left_in_ring(&self, region: &Region) -> usize {
         self.ring_of(region).map_or(0, |ring| ring.len() - self.corner)
     }
 
-    /// The place behind all of these.
-    pub(super) fn behind_ring(&self, region: &Region) -> Self {
+    /// The position after the last edge of the ring.
+    pub(super) fn after_ring(&self, region: &Region) -> Self {
         Self { corner: self.corner + self.left_in_ring(region), ..*self }
     }
 
-    /// One of these, the next one being number 0.
+    /// An edge after the cursor in its ring; number 0 is the next one.
     pub(super) fn edge_in_ring(&self, region: &Region, number: usize) -> [DVec2; 2] {
         let ring = self.ring_of(region).expect("there is an edge, so there is a ring");
         [ring[self.corner + number], ring[(self.corner + number + 1) % ring.len()]]
@@ -200,22 +203,23 @@ pub fn corners(rect: &Rect) -> Ring {
 pub fn signed_area(ring: &[DVec2]) -> f64 {
     let Some(&origin) = ring.first() else { return 0.0 };
     let ends = ring.iter().skip(1).chain(ring.first());
-    // From a corner of the ring: coordinates in the millions would cost digits.
+    // Relative to a corner of the ring: large coordinates would cost digits.
     0.5 * ring.iter().zip(ends).map(|(&a, &b)| (a - origin).perp_dot(b - origin)).sum::<f64>()
 }
 
 type Contour = Vec<IntPoint<i64>>;
 type Shape = Vec<Contour>;
 
-/// Which points the result of an overlay has.
+/// Which points belong to the result of an overlay.
 #[derive(Clone, Copy)]
 struct OverlayOperation(OverlayRule, FillRule);
 
 impl OverlayOperation {
-    /// Those enclosed an odd number of times by the first; those of either.
+    /// Points of either one; of a single set, points that its rings enclose an odd number of times.
     const EITHER: Self = Self(OverlayRule::Union, FillRule::EvenOdd);
-    /// Those of both; parts of the first may overlap.
+    /// Points of both; contours of the first may overlap.
     const BOTH: Self = Self(OverlayRule::Intersect, FillRule::NonZero);
+    /// Points of the first only.
     const FIRST_ONLY: Self = Self(OverlayRule::Difference, FillRule::EvenOdd);
 }
 
@@ -225,14 +229,15 @@ fn overlay(
     OverlayOperation(rule, fill): OverlayOperation,
 ) -> Vec<Shape> {
     let corners = first.iter().chain(second).map(Vec::len).sum();
-    // As geographic standards want it: a hole that touches another ring at one point stays a hole.
+    // As the OGC standard requires: a hole that touches another ring at one point stays a hole.
     let mut overlay = Overlay::new_custom(corners, IntOverlayOptions::ogc(), Solver::default());
     overlay.add_source(first, ShapeType::Subject);
     overlay.add_source(second, ShapeType::Clip);
     overlay.overlay(rule, fill)
 }
 
-/// The grid that the corners of a region lie on: 2³⁰ steps along each side of the frame, or as many as f64 can tell apart.
+/// The grid of the corners of a region: 2³⁰ steps along each side of the frame, or fewer if f64 cannot
+/// distinguish them.
 struct Grid {
     frame: Rect,
     steps: f64,
@@ -246,7 +251,7 @@ impl Grid {
         let reach = frame.min.abs().max(frame.max.abs()).max_element();
         let ulp = reach.next_up() - reach;
         let mut steps = f64::from(1 << GRID_BITS);
-        // Powers of two: a step is as exact as the side, and what is on the grid stays where it is.
+        // A power of two: a step is as exact as the side, and points on the grid keep their coordinates.
         while steps > 2.0 && (frame.size() / steps).min_element() < 4.0 * ulp {
             steps /= 2.0;
         }
@@ -255,7 +260,7 @@ impl Grid {
 
     fn contour(&self, ring: &[DVec2]) -> Contour {
         let nearest = |p: &DVec2| {
-            // Far beyond the frame nothing is kept anyway.
+            // Points far outside the frame are clipped later anyway.
             let steps = ((*p - self.frame.min) / self.step).clamp(DVec2::splat(-1e12), DVec2::splat(1e12));
             IntPoint::new((steps.x + 0.5).floor() as i64, (steps.y + 0.5).floor() as i64)
         };
@@ -311,7 +316,7 @@ mod tests {
     }
 
     #[test]
-    fn winding_overlaps_and_crossings_are_put_right() {
+    fn winding_overlaps_and_crossings_are_resolved() {
         let centre = DVec2::splat(0.5);
         let hole = square(centre, 0.125);
         let mut clockwise = square(centre, 0.25);
@@ -329,7 +334,7 @@ mod tests {
     }
 
     #[test]
-    fn an_edit_leaves_distant_edges_as_they_were_and_tells_where_it_changed_something() {
+    fn an_edit_leaves_distant_edges_unchanged_and_the_comparison_finds_it() {
         let frame = Rect::new(dvec2(4.0e6, -7.0e6), dvec2(4.0e6 + 900.0, -7.0e6 + 700.0));
         let ring = (0..200).map(|k| f64::from(k) * 0.03141).map(|angle| {
             frame.center()
@@ -337,7 +342,7 @@ mod tests {
         });
         let region = Region::new(&[vec![ring.collect()]], frame);
         let again = region.reframed(frame);
-        assert_eq!(again, region, "what is on the grid stays where it is");
+        assert_eq!(again, region, "points on the grid keep their coordinates");
         let dab = square(frame.center() + dvec2(300.0, 0.0), 10.0);
         for edited in [region.with(slice::from_ref(&dab)), region.without(slice::from_ref(&dab))] {
             let areas = areas_changed(&region, &edited);
@@ -353,7 +358,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_is_left_of_a_region_without_its_frame() {
+    fn removing_the_whole_frame_leaves_an_empty_region() {
         let region = unit(&[vec![square(DVec2::splat(0.5), 0.3)]]);
         assert!(region.without(&[square(DVec2::splat(0.5), 5.0)]).is_empty());
         assert_eq!(region.with(&[square(DVec2::splat(0.5), 5.0)]).area(), 1.0);

@@ -2,11 +2,12 @@
 //!
 //! A ZIP archive, so that every tool can inspect it, with these parts in this order:
 //!
-//! - `settings.json`: `format`, `version`, the program that wrote it, and all settings; numbers read back exactly.
+//! - `settings.json`: `format`, `version`, the program that wrote it, and all settings; numbers read back
+//!   exactly.
 //! - `domain.geojson`, if the domain has polygons: their corners in world units.
 //! - `base.risk`, if the base field is a picture: 32-bit floats, row by row from the lowest.
-//! - `paint.tiles`: the painted tiles of 64 × 64 pixels. Each has its column and row (16 bits each, little-endian), a
-//!   byte with bit 0 for risk and bit 1 for diameter, and the pixels of each of these.
+//! - `paint.tiles`: the painted tiles of 64 × 64 pixels. Each has its column and row (16 bits each,
+//!   little-endian), a byte with bit 0 for risk and bit 1 for diameter, and the pixels of each of these.
 //!
 //! Pixels are stored as four planes of bytes, the most significant bytes of all numbers first, which packs to
 //! half the size. Tiles are ordered by column, then row; blank tiles are omitted. The CRC-32 of the archive

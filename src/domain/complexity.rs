@@ -1,4 +1,5 @@
-//! Whether polygons can be made sense of in reasonable time: the edges of most cross never, those of some cross everywhere.
+//! Refuses polygons whose overlay would take too much time or memory: too many corners, crossings or long
+//! edges.
 
 use glam::DVec2;
 
@@ -8,22 +9,26 @@ use crate::geometry::Rect;
 /// Most corners that the polygons of a domain may have together.
 pub const MOST_CORNERS: usize = 1_000_000;
 
-/// How often the edges of a domain's polygons may cross.
+/// Most crossings of the edges of a domain's polygons.
 pub const MOST_CROSSINGS: usize = 200_000;
 
-/// Squares that edges are sorted into number one for each edge at most, and along a side so many that about this many entries of
-/// squares and edges come of it: the teeth of a comb get few rows and many columns.
+/// Edges are sorted into squares: one square for each edge at most, in so many columns and rows that there
+/// are about this many pairs of a square and an edge. The teeth of a comb get few rows and many columns.
 const MOST_ENTRIES: f64 = 8e6;
-/// Most pairs of edges that are looked at. Where more lie in the same squares every k-th is, and a crossing counts k times.
+/// Most pairs of edges that are tested. If the squares have more pairs, every k-th is tested and a crossing
+/// counts k times.
 const MOST_PAIRS: usize = 100_000_000;
 
-/// Refuses polygons that are too many or too tangled to be overlaid.
-pub(super) fn check_tangle(polygons: &[Polygon], bounds: &Rect) -> Result<(), RegionError> {
+/// Refuses polygons that are too complex to overlay.
+///
+/// # Errors
+/// The limit that they exceed.
+pub(super) fn check_complexity(polygons: &[Polygon], bounds: &Rect) -> Result<(), RegionError> {
     let corners = polygons.iter().flatten().map(Vec::len).sum();
     if corners > MOST_CORNERS {
         return Err(RegionError::TooManyCorners { corners });
     }
-    // To the unit square.
+    // Into the unit square.
     let place = |p: DVec2| (p - bounds.min) / bounds.size();
     let edges: Vec<[DVec2; 2]> =
         polygons.iter().flatten().flat_map(|ring| edges_of(ring)).map(|ends| ends.map(place)).collect();
@@ -38,14 +43,15 @@ pub(super) fn check_tangle(polygons: &[Polygon], bounds: &Rect) -> Result<(), Re
             let others = square[..n].iter().skip(n % step).step_by(step);
             crossings += step * others.filter(|&&(_, b)| cross(edges[a as usize], edges[b as usize])).count();
             if crossings > MOST_CROSSINGS {
-                return Err(RegionError::Tangled);
+                return Err(RegionError::TooManyCrossings);
             }
         }
     }
-    // The overlay takes 72 bytes for each column that an edge passes through, of as many columns as the root of the edges.
+    // The overlay takes 72 bytes for each column that an edge passes through; it has as many columns as the
+    // square root of the number of edges.
     let width: f64 = edges.iter().map(|[from, to]| (to.x - from.x).abs()).sum();
     if width * (edges.len() as f64).sqrt() > MOST_ENTRIES {
-        return Err(RegionError::Sprawling { edges: edges.len() });
+        return Err(RegionError::TooManyLongEdges { edges: edges.len() });
     }
     Ok(())
 }
@@ -69,7 +75,7 @@ fn edges_of(ring: &[DVec2]) -> impl Iterator<Item = [DVec2; 2]> {
     ring.iter().zip(ring.iter().skip(1).chain(ring.first())).map(|(&from, &to)| [from, to])
 }
 
-/// Each edge with the numbers of the squares round it, column by column.
+/// Pairs of a square and an edge that passes through it or near it, column by column of each edge.
 fn sorted_into_squares(edges: &[[DVec2; 2]], [columns, rows]: [f64; 2]) -> Vec<(u32, u32)> {
     let mut entries = Vec::new();
     for (n, edge) in edges.iter().enumerate() {
@@ -78,7 +84,7 @@ fn sorted_into_squares(edges: &[[DVec2; 2]], [columns, rows]: [f64; 2]) -> Vec<(
         let column = |x: f64| x.floor().clamp(0.0, columns - 1.0);
         let (first, end) = (column(left.x), column(right.x));
         for column in first as u32..=end as u32 {
-            // The part of the edge in this column, a little beyond its ends.
+            // The part of the edge in this column, extended a little at both ends.
             let at = |x: f64| {
                 let part = (x - left.x) / (right.x - left.x);
                 if part.is_finite() { left.y + part.clamp(0.0, 1.0) * (right.y - left.y) } else { left.y }
@@ -95,7 +101,8 @@ fn sorted_into_squares(edges: &[[DVec2; 2]], [columns, rows]: [f64; 2]) -> Vec<(
     entries
 }
 
-/// Whether two edges cross at a point inside both. To rounding: this is a measure, and decides no geometry.
+/// Whether two edges cross at an inner point of both, up to rounding: this is an estimate and decides no
+/// geometry.
 fn cross([a, b]: [DVec2; 2], [c, d]: [DVec2; 2]) -> bool {
     let turn = |p: DVec2, q: DVec2, r: DVec2| (q - p).perp_dot(r - p);
     turn(a, b, c) * turn(a, b, d) < 0.0 && turn(c, d, a) * turn(c, d, b) < 0.0
@@ -112,8 +119,8 @@ mod tests {
     }
 
     #[test]
-    fn a_tangle_is_refused_and_a_long_outline_is_not() {
-        assert_eq!(Domain::of_polygons(&[vec![zigzag(20_000)]]), Err(RegionError::Tangled));
+    fn crossing_edges_are_refused_and_a_long_outline_is_not() {
+        assert_eq!(Domain::of_polygons(&[vec![zigzag(20_000)]]), Err(RegionError::TooManyCrossings));
         assert!(Domain::of_polygons(&[vec![zigzag(50)]]).is_ok());
         let round = |k: usize| f64::from(k as u32) * std::f64::consts::TAU / 400_000.0;
         let coast = |k: usize| {
@@ -128,14 +135,14 @@ mod tests {
         assert!(Domain::of_polygons(&[vec![comb(100_000)]]).is_ok(), "long edges that never cross");
         let lying = comb(100_000).iter().map(|p| dvec2(p.y, p.x)).collect();
         let error = Domain::of_polygons(&[vec![lying]]).unwrap_err();
-        assert_eq!(error, RegionError::Sprawling { edges: 200_002 });
+        assert_eq!(error, RegionError::TooManyLongEdges { edges: 200_002 });
         let too_many = vec![vec![DVec2::ZERO; MOST_CORNERS], vec![DVec2::ONE]];
         let error = Domain::of_polygons(&[too_many]).unwrap_err();
         assert_eq!(error, RegionError::TooManyCorners { corners: MOST_CORNERS + 1 });
     }
 
     #[test]
-    fn nothing_encloses_nothing() {
+    fn polygons_without_area_are_refused() {
         let line = vec![vec![DVec2::ZERO, DVec2::ONE, dvec2(2.0, 2.0)]];
         for polygons in [vec![], vec![vec![]], vec![vec![vec![DVec2::ONE]]], vec![line]] {
             assert_eq!(Domain::of_polygons(&polygons), Err(RegionError::NoArea));
