@@ -1,9 +1,13 @@
+//! The transfer curve from risk to target diameter.
+
 use crate::text::Number;
 
-/// How risk becomes a target diameter: from `h_max` at risk 0 down to `h_min` at risk 1, on a logarithmic scale.
+/// The curve from risk to target diameter, from `h_max` at risk 0 down to `h_min` at risk 1:
 ///
-/// `shape` bends the curve: at 1 equal steps of risk divide the diameter by equal factors; above 1 only high risk
-/// refines; below 1 low risk refines already.
+/// h̄(risk) = h_max · (h_min / h_max)^(risk^shape)
+///
+/// With shape 1, equal steps of risk divide the diameter by equal factors. Above 1 only high risk refines;
+/// below 1 low risk refines already.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Transfer {
     /// Target diameter at risk 1, in world units.
@@ -14,18 +18,18 @@ pub struct Transfer {
     pub shape: f64,
 }
 
-/// Why no transfer curve could be made.
+/// Why the numbers of a transfer curve are not valid.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum TransferError {
-    /// A diameter is not a positive, finite length.
-    #[error("The {name} diameter {} is not a length: it must be positive and finite.", Number(*value))]
+    /// A diameter is not positive or not finite.
+    #[error("The {name} diameter {} is not valid: it must be positive and finite.", Number(*value))]
     Diameter {
         /// "smallest" or "largest".
         name: &'static str,
         /// The value as given.
         value: f64,
     },
-    /// The diameters are the wrong way round.
+    /// The smallest diameter is above the largest.
     #[error("The smallest diameter {} is above the largest, {}: exchange them.", Number(*h_min), Number(*h_max))]
     Reversed {
         /// As given.
@@ -33,14 +37,14 @@ pub enum TransferError {
         /// As given.
         h_max: f64,
     },
-    /// The exponent is not usable.
-    #[error("The shape {} of the transfer curve must lie between 0.05 and 20; 1 is even.", Number(*.0))]
+    /// The exponent is out of range.
+    #[error("The shape {} of the transfer curve must be between 0.05 and 20; 1 gives equal steps.", Number(*.0))]
     Shape(f64),
 }
 
-/// What turns a risk into a target diameter: the curve itself, or its table.
+/// Turns a risk into a target diameter: the curve itself or its table.
 pub trait RiskToDiameter {
-    /// The target diameter for a risk between 0 and 1; risks beyond are cut off. NaN gives NaN.
+    /// The target diameter in world units for a risk, which is clamped to 0 to 1. NaN gives NaN.
     fn diameter(&self, risk: f64) -> f64;
 }
 
@@ -48,7 +52,7 @@ impl Transfer {
     /// Checks that the curve falls from a finite `h_max` to a positive `h_min`.
     ///
     /// # Errors
-    /// Naming the number that is out of its range.
+    /// Names the number that is out of range.
     pub fn checked(self) -> Result<Self, TransferError> {
         for (name, value) in [("smallest", self.h_min), ("largest", self.h_max)] {
             if !(value > 0.0 && value.is_finite()) {
@@ -68,7 +72,7 @@ impl Transfer {
 impl RiskToDiameter for Transfer {
     fn diameter(&self, risk: f64) -> f64 {
         if risk.is_nan() {
-            risk // a power of 1 would hide it
+            risk // with equal ends the curve would give a number: pow(1, NaN) is 1
         } else if risk <= 0.0 {
             self.h_max
         } else if risk >= 1.0 {
@@ -80,7 +84,7 @@ impl RiskToDiameter for Transfer {
     }
 }
 
-/// A [`Transfer`] as a table, for rasters of a million pixels.
+/// A [`Transfer`] as a table, to convert millions of pixels.
 #[derive(Clone, Debug)]
 pub struct TransferTable {
     knots: Vec<f64>,
@@ -89,7 +93,7 @@ pub struct TransferTable {
 const STEPS: usize = 2048;
 
 impl TransferTable {
-    /// Tabulates the curve at equal steps of risk.
+    /// Samples the curve at equal steps of risk.
     pub fn new(transfer: &Transfer) -> Self {
         let knots = (0..=STEPS).map(|i| transfer.diameter(i as f64 / STEPS as f64)).collect();
         Self { knots }
@@ -97,7 +101,7 @@ impl TransferTable {
 }
 
 impl RiskToDiameter for TransferTable {
-    /// Linear between the knots; exact at risk 0 and 1.
+    /// Interpolates linearly between the knots; exact at risk 0 and 1.
     #[inline]
     fn diameter(&self, risk: f64) -> f64 {
         if risk.is_nan() {
@@ -117,7 +121,7 @@ mod tests {
     const EVEN: Transfer = Transfer { h_min: 0.01, h_max: 1.0, shape: 1.0 };
 
     #[test]
-    fn the_curve_meets_both_ends_and_falls_evenly_between() {
+    fn the_curve_has_both_ends_and_equal_steps_between() {
         assert_eq!(EVEN.diameter(0.0), 1.0);
         assert_eq!(EVEN.diameter(1.0), 0.01);
         assert!((EVEN.diameter(0.5) - 0.1).abs() < 1e-15);
@@ -127,11 +131,11 @@ mod tests {
     }
 
     #[test]
-    fn the_table_stays_close_to_the_curve_and_within_its_ends() {
+    fn the_table_is_close_to_the_curve_and_within_its_ends() {
         for shape in [0.3, 1.0, 4.0] {
             let curve = Transfer { shape, ..EVEN };
             let table = TransferTable::new(&curve);
-            // Below the first knot a steep curve is cut by the straight line from h_max.
+            // Before the first knots the linear interpolation of a steep curve is less accurate.
             for i in 5..=10_000 {
                 let risk = f64::from(i) / 10_000.0;
                 let (exact, quick) = (curve.diameter(risk), table.diameter(risk));
@@ -142,7 +146,7 @@ mod tests {
     }
 
     #[test]
-    fn curves_that_make_no_sense_are_refused() {
+    fn curves_with_values_out_of_range_are_refused() {
         for bad in [
             Transfer { h_min: 0.0, ..EVEN },
             Transfer { h_min: f64::NAN, ..EVEN },

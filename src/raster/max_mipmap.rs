@@ -1,23 +1,41 @@
+//! The max-mipmap: is a value above a limit under this triangle?
+
 use super::{PixelRect, Raster};
 use crate::geometry::{Lattice, LatticePoint, LatticeRect};
 
 /// Maxima of a raster over squares of 1, 2 × 2, 4 × 4 … pixels.
 ///
-/// Answers "is there a value above this one under this triangle?" with early exits both ways, and is kept up to date in
-/// time proportional to the pixels that change.
+/// ```text
+/// level 2          level 1           level 0: the raster
+///                                    +---+---+---+---+
+/// +-------+        +---+---+         | 0 | 3 | 1 | 0 |
+/// |       |        | 3 | 1 |         +---+---+---+---+
+/// |   7   |  <---  +---+---+  <---   | 2 | 0 | 0 | 1 |      each value is the maximum of the
+/// |       |        | 5 | 7 |         +---+---+---+---+      up to four values that it covers
+/// +-------+        +---+---+         | 5 | 0 | 0 | 0 |      on the level below
+///                                    +---+---+---+---+
+///                                    | 1 | 0 | 7 | 4 |
+///                                    +---+---+---+---+
+/// ```
+///
+/// A query descends from the level where the triangle spans about two squares. It skips a square whose
+/// maximum is not above the limit, or that does not touch the triangle; it ends at a square within the
+/// triangle whose maximum is above. An update takes time proportional to the pixels that change.
 #[derive(Clone, Debug)]
 pub struct MaxMipmap<T = u8> {
-    /// From the raster itself (0) to a single value.
-    layers: Vec<Layer<T>>,
+    /// From the raster itself (level 0) to a single value.
+    levels: Vec<MipmapLevel<T>>,
 }
 
+/// The maxima over squares of one size, row by row from the lowest.
 #[derive(Clone, Debug)]
-struct Layer<T> {
+struct MipmapLevel<T> {
+    /// [columns, rows].
     size: [u32; 2],
     values: Vec<T>,
 }
 
-impl<T: Copy> Layer<T> {
+impl<T: Copy> MipmapLevel<T> {
     #[inline]
     fn get(&self, x: u32, y: u32) -> T {
         self.values[y as usize * self.size[0] as usize + x as usize]
@@ -25,54 +43,55 @@ impl<T: Copy> Layer<T> {
 }
 
 impl<T: Copy + PartialOrd> MaxMipmap<T> {
-    /// The mipmap over a grid of one value; `size` is columns and rows.
+    /// The mipmap over a raster with the same value everywhere; `size` is [columns, rows].
     ///
     /// # Panics
     /// When a side is zero.
     pub fn filled(size: [u32; 2], value: T) -> Self {
         assert!(size.iter().all(|&side| side > 0), "sides are checked where a raster is read");
-        let mut layers = Vec::new();
+        let mut levels = Vec::new();
         let mut size = size;
         loop {
-            layers.push(Layer { size, values: vec![value; size[0] as usize * size[1] as usize] });
+            levels.push(MipmapLevel { size, values: vec![value; size[0] as usize * size[1] as usize] });
             if size == [1, 1] {
-                return Self { layers };
+                return Self { levels };
             }
             size = size.map(|side| side.div_ceil(2));
         }
     }
 
-    /// Columns and rows of the grid.
+    /// [columns, rows] of the raster.
     pub fn size(&self) -> [u32; 2] {
-        self.layers[0].size
+        self.levels[0].size
     }
 
-    /// The value of a pixel.
+    /// The value of the pixel in column `x` and row `y`.
     ///
     /// # Panics
-    /// Beyond the grid.
+    /// May panic when the pixel is outside the raster: only the index of the value is checked.
     pub fn get(&self, x: u32, y: u32) -> T {
-        self.layers[0].get(x, y)
+        self.levels[0].get(x, y)
     }
 
-    /// The largest value of all.
+    /// The largest value of the raster.
     pub fn max(&self) -> T {
-        self.layers.last().map(|top| top.values[0]).expect("a mipmap has at least one layer")
+        self.levels.last().map(|top| top.values[0]).expect("a mipmap has at least one level")
     }
 
-    /// Sets every pixel of `area` to what `value` gives for its column and row, and brings the maxima up to date.
+    /// Sets every pixel of `area` to `value(column, row)`, and updates the maxima above.
     pub fn update(&mut self, area: PixelRect, mut value: impl FnMut(u32, u32) -> T) {
         if area.is_empty() {
             return;
         }
-        let columns = self.layers[0].size[0] as usize;
+        let columns = self.levels[0].size[0] as usize;
         for (x, y) in area.pixels() {
-            self.layers[0].values[y as usize * columns + x as usize] = value(x, y);
+            self.levels[0].values[y as usize * columns + x as usize] = value(x, y);
         }
+        // On each level, the squares above the changed ones.
         let mut area = area;
-        for k in 1..self.layers.len() {
+        for k in 1..self.levels.len() {
             area = PixelRect { min: area.min.map(|v| v / 2), max: area.max.map(|v| v.div_ceil(2)) };
-            let (below, above) = self.layers.split_at_mut(k);
+            let (below, above) = self.levels.split_at_mut(k);
             let (fine, coarse) = (&below[k - 1], &mut above[0]);
             let columns = coarse.size[0] as usize;
             for (x, y) in area.pixels() {
@@ -82,28 +101,28 @@ impl<T: Copy + PartialOrd> MaxMipmap<T> {
     }
 }
 
-fn max_of_four<T: Copy + PartialOrd>(fine: &Layer<T>, x: u32, y: u32) -> T {
+fn max_of_four<T: Copy + PartialOrd>(fine: &MipmapLevel<T>, x: u32, y: u32) -> T {
     let (right, top) = ((x + 1).min(fine.size[0] - 1), (y + 1).min(fine.size[1] - 1));
     let larger = |a: T, b: T| if b > a { b } else { a };
     larger(larger(fine.get(x, y), fine.get(right, y)), larger(fine.get(x, top), fine.get(right, top)))
 }
 
-/// How the pixels of a raster lie on a lattice that covers the same rectangle.
+/// The map between the pixels of a raster and a lattice over the same rectangle.
 ///
-/// Lattice and pixel coordinates are brought to a common unit by multiplying, never dividing, so that whether a closed
-/// pixel meets a closed triangle is decided exactly.
+/// Lattice and pixel coordinates are multiplied to a common unit, never divided. So whether a closed pixel
+/// touches a closed triangle is decided exactly.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RasterOnLattice {
-    /// Common units in a lattice step, along both axes.
+    /// Common units per lattice step, along both axes.
     per_step: i64,
-    /// Common units in a pixel, along x and y.
+    /// Common units per pixel, along x and y.
     per_pixel: [i64; 2],
-    /// Pixels in a lattice step, along x and y, rounded.
+    /// Pixels per lattice step, along x and y, rounded.
     pixels_per_step: [f64; 2],
 }
 
 impl RasterOnLattice {
-    /// For a raster of `size` columns and rows over the bounds of `lattice`.
+    /// For a raster of `size` = [columns, rows] over the bounds of `lattice`.
     pub fn new(lattice: &Lattice, size: [u32; 2]) -> Self {
         let extent = lattice.extent();
         let [columns, rows] = size.map(i64::from);
@@ -114,8 +133,8 @@ impl RasterOnLattice {
         Self { per_step: columns * rows, per_pixel, pixels_per_step }
     }
 
-    /// The smallest rectangle of the lattice that holds the closed pixels of `area`: all triangles that meet one of them touch
-    /// it.
+    /// The smallest lattice rectangle that contains the closed pixels of `area`. Every triangle that touches
+    /// one of these pixels touches the rectangle.
     pub fn lattice_rect(&self, area: PixelRect) -> LatticeRect {
         let low =
             |pixel: u32, per_pixel: i64| (i64::from(pixel) * per_pixel).div_euclid(self.per_step) as u32;
@@ -129,9 +148,9 @@ impl RasterOnLattice {
         }
     }
 
-    /// Whether some pixel that meets the closed triangle has a value above `limit`.
+    /// Whether a pixel that touches the closed triangle has a value above `limit`.
     ///
-    /// The triangle is one of a mesh: its edges run along axes and diagonals of the lattice.
+    /// The triangle must be one of a mesh: its edges are parallel to the axes and diagonals of the lattice.
     #[inline]
     pub fn any_above<T: Copy + PartialOrd>(
         &self,
@@ -145,63 +164,64 @@ impl RasterOnLattice {
         let size = mipmap.size();
         let (x0, x1) = self.closed_pixels(0, corners.map(|c| c.x), size[0]);
         let (y0, y1) = self.closed_pixels(1, corners.map(|c| c.y), size[1]);
-        // Start where the triangle spans two squares at most along both axes; the top layer has one, so this ends.
-        let mut layer = (x1 - x0).max(y1 - y0).checked_ilog2().unwrap_or(0);
-        while (x1 >> layer) - (x0 >> layer) > 1 || (y1 >> layer) - (y0 >> layer) > 1 {
-            layer += 1;
+        // Start on the level where the triangle spans at most two squares along both axes. This ends: the top
+        // level has one square.
+        let mut level = (x1 - x0).max(y1 - y0).checked_ilog2().unwrap_or(0);
+        while (x1 >> level) - (x0 >> level) > 1 || (y1 >> level) - (y0 >> level) > 1 {
+            level += 1;
         }
-        let (x0, x1, y0, y1) = (x0 >> layer, x1 >> layer, y0 >> layer, y1 >> layer);
-        let layer = layer as usize;
-        let above = |x, y| mipmap.layers[layer].get(x, y) > limit;
-        // Most triangles are answered here.
+        let (x0, x1, y0, y1) = (x0 >> level, x1 >> level, y0 >> level, y1 >> level);
+        let level = level as usize;
+        let above = |x, y| mipmap.levels[level].get(x, y) > limit;
+        // Most queries end here: none of the four squares has a maximum above the limit.
         if !(above(x0, y0) | above(x1, y0) | above(x0, y1) | above(x1, y1)) {
             return false;
         }
         let shape = Octagon::around(corners, self.per_step);
-        (y0..=y1).any(|y| (x0..=x1).any(|x| self.search(mipmap, &shape, limit, layer, x, y)))
+        (y0..=y1).any(|y| (x0..=x1).any(|x| self.search(mipmap, &shape, limit, level, x, y)))
     }
 
-    /// First and last pixel along an axis whose closure meets a triangle with the given coordinates on it.
+    /// The first and last pixel along an axis that touch a triangle with these lattice coordinates.
     #[inline]
     fn closed_pixels(&self, axis: usize, [a, b, c]: [u32; 3], count: u32) -> (u32, u32) {
         let pixels = |steps: u32| f64::from(steps) * self.pixels_per_step[axis];
-        // A lattice coordinate in pixels is a fraction of at most 2^30 parts, and known here to within 2^-39: so a margin
-        // of 2^-32 tells whole numbers, lines between two pixels, from all others.
+        // A lattice coordinate in pixels is a multiple of 2^-30 or coarser, and computed to within 2^-39. So
+        // a margin of 2^-32 separates whole numbers, the lines between pixels, from all others.
         let margin = 1.0 / f64::from(1u32 << 31) / 2.0;
         let first = (pixels(a.min(b).min(c)) - margin) as u32; // no less than zero
         let last = (pixels(a.max(b).max(c)) + margin) as u32;
         (first, last.min(count - 1))
     }
 
-    /// Descends into one square of a layer. The depth is that of the mipmap.
+    /// Searches one square of a level. The recursion is as deep as the mipmap.
     fn search<T: Copy + PartialOrd>(
         &self,
         mipmap: &MaxMipmap<T>,
         shape: &Octagon,
         limit: T,
-        layer: usize,
+        level: usize,
         x: u32,
         y: u32,
     ) -> bool {
-        if mipmap.layers[layer].get(x, y) <= limit {
+        if mipmap.levels[level].get(x, y) <= limit {
             return false;
         }
-        let square = self.square(layer, x, y);
-        if !shape.meets(&square) {
+        let square = self.square(level, x, y);
+        if !shape.intersects(&square) {
             return false;
         }
-        if layer == 0 || shape.holds(&square) {
+        if level == 0 || shape.contains(&square) {
             return true;
         }
-        let finer = mipmap.layers[layer - 1].size;
+        let finer = mipmap.levels[level - 1].size;
         let (right, top) = ((2 * x + 1).min(finer[0] - 1), (2 * y + 1).min(finer[1] - 1));
-        (2 * y..=top).any(|y| (2 * x..=right).any(|x| self.search(mipmap, shape, limit, layer - 1, x, y)))
+        (2 * y..=top).any(|y| (2 * x..=right).any(|x| self.search(mipmap, shape, limit, level - 1, x, y)))
     }
 
-    fn square(&self, layer: usize, x: u32, y: u32) -> Octagon {
+    fn square(&self, level: usize, x: u32, y: u32) -> Octagon {
         let side = |n: u32, per_pixel: i64| {
-            let low = i64::from(n) << layer;
-            Span { low: low * per_pixel, high: (low + (1 << layer)) * per_pixel }
+            let low = i64::from(n) << level;
+            Span { low: low * per_pixel, high: (low + (1 << level)) * per_pixel }
         };
         let (x, y) = (side(x, self.per_pixel[0]), side(y, self.per_pixel[1]));
         let sum = Span { low: x.low + y.low, high: x.high + y.high };
@@ -210,7 +230,7 @@ impl RasterOnLattice {
     }
 }
 
-/// A closed range, in common units.
+/// A closed interval in common units.
 #[derive(Clone, Copy)]
 struct Span {
     low: i64,
@@ -225,20 +245,21 @@ impl Span {
     }
 
     #[inline]
-    fn meets(&self, other: &Self) -> bool {
+    fn intersects(&self, other: &Self) -> bool {
         self.low <= other.high && other.low <= self.high
     }
 
     #[inline]
-    fn holds(&self, other: &Self) -> bool {
+    fn contains(&self, other: &Self) -> bool {
         self.low <= other.low && other.high <= self.high
     }
 }
 
-/// A convex shape by its extent along x, y, x + y and x − y.
+/// A convex shape by its extents along x, y, x + y and x − y.
 ///
-/// A triangle of a mesh is exactly the points within its four extents, and a square too; two such shapes meet when all four
-/// extents do (the separating axis is always one of the four).
+/// A triangle of a mesh is exactly the set of points within its four extents, and so is a square. Two such
+/// shapes intersect exactly when their extents intersect along all four directions: a separating axis is
+/// always one of them.
 struct Octagon {
     x: Span,
     y: Span,
@@ -260,19 +281,19 @@ impl Octagon {
     }
 
     #[inline]
-    fn meets(&self, other: &Self) -> bool {
-        self.x.meets(&other.x)
-            && self.y.meets(&other.y)
-            && self.sum.meets(&other.sum)
-            && self.difference.meets(&other.difference)
+    fn intersects(&self, other: &Self) -> bool {
+        self.x.intersects(&other.x)
+            && self.y.intersects(&other.y)
+            && self.sum.intersects(&other.sum)
+            && self.difference.intersects(&other.difference)
     }
 
     #[inline]
-    fn holds(&self, other: &Self) -> bool {
-        self.x.holds(&other.x)
-            && self.y.holds(&other.y)
-            && self.sum.holds(&other.sum)
-            && self.difference.holds(&other.difference)
+    fn contains(&self, other: &Self) -> bool {
+        self.x.contains(&other.x)
+            && self.y.contains(&other.y)
+            && self.sum.contains(&other.sum)
+            && self.difference.contains(&other.difference)
     }
 }
 
@@ -291,9 +312,9 @@ mod tests {
     use crate::mesh::{Limits, Mesh, TriangleId};
     use glam::{DVec2, dvec2};
 
-    /// The plain meaning of "the closed pixel meets the closed triangle", by clipping in rational arithmetic: the
-    /// pixel's polygon is cut by each edge of the triangle, and something must be left.
-    fn meets_by_clipping(
+    /// Whether the closed pixel touches the closed triangle, independent of the product: no line along an
+    /// edge of either one separates them, in exact arithmetic.
+    fn touches_by_separating_lines(
         lattice: &Lattice,
         size: [u32; 2],
         corners: [LatticePoint; 3],
@@ -342,7 +363,7 @@ mod tests {
                 mipmap.update(PixelRect { min: [x, y], max: [x + 1, y + 1] }, |_, _| 1);
                 for id in (0..mesh.raw_triangle_count()).map(TriangleId::from_index) {
                     let corners = mesh.corners(id);
-                    let expected = meets_by_clipping(mesh.lattice(), size, corners, x, y);
+                    let expected = touches_by_separating_lines(mesh.lattice(), size, corners, x, y);
                     assert_eq!(
                         on.any_above(&mipmap, corners, 0),
                         expected,
@@ -355,7 +376,7 @@ mod tests {
     }
 
     #[test]
-    fn updates_of_parts_leave_the_mipmap_as_if_made_anew() {
+    fn partial_updates_equal_a_mipmap_made_from_scratch() {
         let mut random = fastrand::Rng::with_seed(8);
         let size = [37, 21];
         let mut raster = Raster::filled(Rect::UNIT, size, 0u8);
@@ -368,8 +389,8 @@ mod tests {
             mipmap.update(area, |x, y| raster.get(x, y));
             assert_eq!(mipmap.max(), *raster.values().iter().max().unwrap());
         }
-        let anew = MaxMipmap::from(&raster);
-        for (a, b) in mipmap.layers.iter().zip(&anew.layers) {
+        let from_scratch = MaxMipmap::from(&raster);
+        for (a, b) in mipmap.levels.iter().zip(&from_scratch.levels) {
             assert_eq!(a.values, b.values);
         }
     }

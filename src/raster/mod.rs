@@ -1,4 +1,5 @@
-//! A row-major grid of values over a rectangle, and the hierarchy of maxima that answers questions about triangles.
+//! Rasters: row-major grids of values over a rectangle, the lowest row first; and the max-mipmap, which finds
+//! the maximum under a triangle.
 
 mod max_mipmap;
 
@@ -8,10 +9,10 @@ use crate::geometry::Rect;
 
 pub use max_mipmap::{MaxMipmap, RasterOnLattice};
 
-/// Most pixels along a side of a raster, so that pixel and lattice coordinates multiply exactly in 64 bits.
+/// Most pixels along a side of a raster: products of pixel and lattice coordinates then fit 64 bits.
 pub const MAX_SIDE: u32 = 8192;
 
-/// A half-open rectangle of pixels.
+/// A half-open rectangle of pixels. Column 0 is the leftmost, row 0 the lowest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PixelRect {
     /// First column and row.
@@ -26,12 +27,13 @@ impl PixelRect {
         self.min[0] >= self.max[0] || self.min[1] >= self.max[1]
     }
 
-    /// Whether a pixel lies in it, by column and row.
+    /// Whether the pixel in column `x` and row `y` lies in it.
     pub fn contains(&self, x: u32, y: u32) -> bool {
         (self.min[0]..self.max[0]).contains(&x) && (self.min[1]..self.max[1]).contains(&y)
     }
 
-    /// Cuts off whole rows, about `count` pixels of them and one row at least; the rest, if there is one.
+    /// Splits off the lowest rows, at least one and about `count` pixels. Returns these rows and the rest, if
+    /// there is one.
     pub fn split_after(self, count: usize) -> (Self, Option<Self>) {
         let columns = self.max[0].saturating_sub(self.min[0]).max(1) as usize;
         let rows = (count / columns).clamp(1, u32::MAX as usize) as u32;
@@ -40,7 +42,7 @@ impl PixelRect {
         (Self { max: [self.max[0], cut], ..self }, (!rest.is_empty()).then_some(rest))
     }
 
-    /// The smallest rectangle that holds both.
+    /// The smallest rectangle that contains both.
     pub fn union(&self, other: &Self) -> Self {
         if self.is_empty() {
             return *other;
@@ -53,13 +55,24 @@ impl PixelRect {
         Self { min: [x0, y0], max: [x1, y1] }
     }
 
-    /// Column and row of every pixel, row by row.
+    /// (column, row) of every pixel, row by row from the lowest.
     pub fn pixels(self) -> impl Iterator<Item = (u32, u32)> {
         (self.min[1]..self.max[1]).flat_map(move |y| (self.min[0]..self.max[0]).map(move |x| (x, y)))
     }
 }
 
-/// A grid of values over a world rectangle, constant within each pixel. The first row is the lowest.
+/// A grid of values over a rectangle in world units, constant within each pixel. Values are stored row by
+/// row, the lowest row first, each from left to right:
+///
+/// ```text
+///        bounds.max
+///   +---+---+---+
+///   | 3 | 4 | 5 |   row 1        values[row * size[0] + column]
+///   +---+---+---+
+///   | 0 | 1 | 2 |   row 0        size = [columns, rows] = [3, 2]
+///   +---+---+---+
+/// bounds.min
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Raster<T = f32> {
     bounds: Rect,
@@ -68,7 +81,7 @@ pub struct Raster<T = f32> {
 }
 
 impl<T: Copy> Raster<T> {
-    /// A raster of one value; `size` is columns and rows.
+    /// A raster with the same value everywhere; `size` is [columns, rows].
     ///
     /// # Panics
     /// When a side is zero or above [`MAX_SIDE`].
@@ -76,10 +89,10 @@ impl<T: Copy> Raster<T> {
         Self::from_values(bounds, size, vec![value; size[0] as usize * size[1] as usize])
     }
 
-    /// A raster with the given values, row by row from the lowest.
+    /// A raster with the given values, row by row from the lowest; `size` is [columns, rows].
     ///
     /// # Panics
-    /// When a side is zero or above [`MAX_SIDE`], or the count of values is not columns times rows.
+    /// When a side is zero or above [`MAX_SIDE`], or the number of values is not columns times rows.
     pub fn from_values(bounds: Rect, size: [u32; 2], values: Vec<T>) -> Self {
         assert!(
             size.iter().all(|side| (1..=MAX_SIDE).contains(side)),
@@ -94,7 +107,7 @@ impl<T: Copy> Raster<T> {
         self.bounds
     }
 
-    /// Columns and rows.
+    /// [columns, rows].
     pub fn size(&self) -> [u32; 2] {
         self.size
     }
@@ -112,14 +125,14 @@ impl<T: Copy> Raster<T> {
     /// The values of an area, row by row from the lowest.
     ///
     /// # Panics
-    /// When the area reaches beyond the raster.
+    /// When the area is not within the raster.
     pub fn rows(&self, area: PixelRect) -> impl Iterator<Item = &[T]> {
         let [first, last] = [area.min[1], area.max[1]].map(|y| y as usize * self.size[0] as usize);
         let columns = area.min[0] as usize..area.max[0] as usize;
         self.values[first..last].chunks_exact(self.size[0] as usize).map(move |row| &row[columns.clone()])
     }
 
-    /// As [`Self::rows`], to be changed.
+    /// The values of an area as [`Self::rows`] gives them, mutable.
     ///
     /// # Panics
     /// As [`Self::rows`].
@@ -131,24 +144,24 @@ impl<T: Copy> Raster<T> {
             .map(move |row| &mut row[columns.clone()])
     }
 
-    /// Every pixel.
+    /// The rectangle of all pixels.
     pub fn all(&self) -> PixelRect {
         PixelRect { min: [0, 0], max: self.size }
     }
 
-    /// The value of a pixel by column and row.
+    /// The value of the pixel in column `x` and row `y`.
     ///
     /// # Panics
-    /// Beyond the raster.
+    /// May panic when the pixel is outside the raster: only the index of the value is checked.
     #[inline]
     pub fn get(&self, x: u32, y: u32) -> T {
         self.values[y as usize * self.size[0] as usize + x as usize]
     }
 
-    /// Changes a pixel by column and row.
+    /// Sets the pixel in column `x` and row `y`.
     ///
     /// # Panics
-    /// Beyond the raster.
+    /// As [`Self::get`].
     #[inline]
     pub fn set(&mut self, x: u32, y: u32, value: T) {
         self.values[y as usize * self.size[0] as usize + x as usize] = value;
@@ -159,30 +172,31 @@ impl<T: Copy> Raster<T> {
         self.bounds.size() / DVec2::new(f64::from(self.size[0]), f64::from(self.size[1]))
     }
 
-    /// The middle of a pixel in world units.
+    /// The centre of a pixel in world units.
     #[inline]
     pub fn pixel_center(&self, x: u32, y: u32) -> DVec2 {
         self.pixel_centers()(x, y)
     }
 
-    /// [`Self::pixel_center`] for many pixels.
+    /// [`Self::pixel_center`] as a function, for many pixels.
     #[inline]
     pub fn pixel_centers(&self) -> impl Fn(u32, u32) -> DVec2 + use<T> {
         let (min, pixel) = (self.bounds.min, self.pixel_size());
         move |x, y| min + DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5) * pixel
     }
 
-    /// Columns and rows, as real numbers, of a point in world units.
+    /// A point in world units in units of pixels: its whole part is (column, row).
     pub fn pixel_from_world(&self, point: DVec2) -> DVec2 {
         (point - self.bounds.min) / self.pixel_size()
     }
 
-    /// The value under a point, `None` outside. On a line between pixels, the pixel right of or above it.
+    /// The value at a point in world units, `None` outside the bounds. On a line between pixels the right or
+    /// upper pixel counts.
     pub fn sample(&self, point: DVec2) -> Option<T> {
         Some(self.get(self.pixel_under(point, 0)?, self.pixel_under(point, 1)?))
     }
 
-    /// The pixels whose middle may lie in a world rectangle: those that it touches, within the raster.
+    /// The pixels of the raster that touch a rectangle in world units.
     pub fn pixels_touching(&self, area: &Rect) -> PixelRect {
         let low = self.pixel_from_world(area.min).floor();
         let high = self.pixel_from_world(area.max).floor() + 1.0;
@@ -192,14 +206,15 @@ impl<T: Copy> Raster<T> {
         PixelRect { min: clamp(low), max: clamp(high) }
     }
 
-    /// This raster over another rectangle and size: each new pixel takes the value under its middle, or `outside`.
+    /// This raster over other bounds and with another size, by the nearest value: each new pixel takes the
+    /// value at its centre, or `outside` where this raster has none.
     pub fn resampled(&self, bounds: Rect, size: [u32; 2], outside: T) -> Self {
         let mut new = Self::filled(bounds, size, outside);
-        // Column and row of a pixel do not depend on each other: each is looked up once.
+        // The old column depends on the new column only, and so does the row: each is looked up once.
         let column_under = |x| self.pixel_under(new.pixel_center(x, 0), 0);
         let row_under = |y| self.pixel_under(new.pixel_center(0, y), 1);
         let rows: Vec<_> = (0..size[1]).map(row_under).collect();
-        // Those within this raster follow each other.
+        // The new columns within this raster are consecutive.
         let left = (0..size[0]).take_while(|&x| column_under(x).is_none()).count();
         let columns: Vec<u32> = (left as u32..size[0]).map_while(column_under).collect();
         let (old_width, width) = (self.size[0] as usize, size[0] as usize);
@@ -207,6 +222,7 @@ impl<T: Copy> Raster<T> {
             let Some(row) = *row else { continue };
             let (done, rest) = new.values.split_at_mut(y * width);
             let to = &mut rest[left..left + columns.len()];
+            // Enlarging gives runs of equal rows: copy the row before.
             if y > 0 && rows[y - 1] == Some(row) {
                 to.copy_from_slice(&done[(y - 1) * width + left..][..columns.len()]);
                 continue;
@@ -217,7 +233,7 @@ impl<T: Copy> Raster<T> {
         new
     }
 
-    /// Column (axis 0) or row (axis 1) under a point, `None` outside.
+    /// Column (axis 0) or row (axis 1) at a point in world units, `None` outside the bounds.
     fn pixel_under(&self, point: DVec2, axis: usize) -> Option<u32> {
         let inside = (self.bounds.min[axis]..=self.bounds.max[axis]).contains(&point[axis]);
         inside.then(|| (self.pixel_from_world(point)[axis] as u32).min(self.size[axis] - 1))
@@ -231,7 +247,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn each_new_pixel_takes_the_value_under_its_middle() {
+    fn resampling_takes_the_value_at_the_centre_of_each_new_pixel() {
         let mut random = fastrand::Rng::with_seed(9);
         let (mut inside, mut outside) = (0, 0);
         for _ in 0..300 {

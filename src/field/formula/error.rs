@@ -1,4 +1,4 @@
-//! A mistake in a formula: its place, a sentence, and a picture of both.
+//! A mistake in a formula: a sentence, its place, and the text with carets under the place.
 
 use std::ops::Range;
 
@@ -27,8 +27,8 @@ impl ParseError {
         self.span.clone()
     }
 
-    /// Two lines to show in a fixed-width font: the formula, or some 70 columns of it round the
-    /// mistake, and carets under the mistake.
+    /// Two lines for a fixed-width font: the formula, or about 70 columns of it around the mistake, and
+    /// carets under the mistake.
     ///
     /// ```
     /// # use meshbrush::field::formula::Formula;
@@ -51,7 +51,7 @@ pub(super) fn quote(text: &str) -> String {
 
 /// Columns of the formula that a pointer shows, not counting an ellipsis at either end.
 const POINTER_COLUMNS: usize = 68;
-/// Columns of the mistake that a pointer shows before it gives room to what stands round it.
+/// Columns of the mistake that a pointer shows at most; the other columns show the text around it.
 const CARET_COLUMNS: usize = 30;
 
 fn draw_pointer(source: &str, span: &Range<usize>) -> String {
@@ -67,9 +67,9 @@ fn draw_pointer(source: &str, span: &Range<usize>) -> String {
     format!("{before}{marked}{after}\n{indent}{carets}")
 }
 
-/// The bytes to show: the mistake, then what stands round it, a character on each side in turn.
+/// The range of bytes to show: the mistake, extended by one character on each side in turn.
 ///
-/// Ends: every turn takes at least one of the columns left or stops at both ends of the text.
+/// Ends: each iteration takes at least one column, or stops at the limit or at both ends of the text.
 fn window(source: &str, span: &Range<usize>) -> Range<usize> {
     let cost = |c: char| char_columns(printable(c)).max(1);
     let mut shown = span.start..span.start;

@@ -6,13 +6,13 @@
 //!
 //! | written | meaning |
 //! |---|---|
-//! | `a or b`, `a \|\| b` | 1 where either is true, else 0; `b` is left out where `a` decides |
-//! | `a and b`, `a && b` | 1 where both are true, else 0; `b` is left out where `a` decides |
-//! | `not a` | 1 where `a` is 0, else 0; loose, so `not x < 1` is `not (x < 1)` |
-//! | `<` `<=` `>` `>=` `==` `!=` | 1 or 0; a chain such as `0 < x <= 1` means what it says |
+//! | `a or b`, `a \|\| b` | 1 if either is true, else 0; `b` is not evaluated if `a` decides |
+//! | `a and b`, `a && b` | 1 if both are true, else 0; `b` is not evaluated if `a` decides |
+//! | `not a` | 1 if `a` is 0, else 0; binds loosely: `not x < 1` is `not (x < 1)` |
+//! | `<` `<=` `>` `>=` `==` `!=` | 1 or 0; a chain such as `0 < x <= 1` is `0 < x and x <= 1` |
 //! | `+` `-` | from left to right |
 //! | `*` `/` `%` | from left to right; `%` takes the sign of its right side, as in Python |
-//! | `-a` `+a` `!a` | `-2^2` is −4; `!` is `not`, binding like a sign |
+//! | `-a` `+a` `!a` | `-2^2` is −4; `!` is `not`, and binds like a sign |
 //! | `a^b`, `a**b` | from right to left: `2^3^2` is 512 |
 //!
 //! A *value* is a number (`1`, `.5`, `1e-3`), a coordinate (`x`, `y`, and the polar `r` and `theta`),
@@ -83,9 +83,8 @@ impl Formula {
 
     /// The value at the point (x, y), in world units.
     ///
-    /// Whether the value makes sense is the caller's to check: `sqrt(-1)` is NaN, `1/0` is infinite,
-    /// and both are returned as they are. NaN passes through `min`, `max` and `clamp`, so it is not
-    /// lost there; a comparison with it is 0 (`!=` is 1).
+    /// The caller must check the value: `sqrt(-1)` is NaN, `1/0` is infinite, and both are returned. `min`,
+    /// `max` and `clamp` of NaN are NaN; a comparison with NaN is 0, except `!=`, which is 1.
     pub fn eval(&self, x: f64, y: f64) -> f64 {
         self.program.run(x, y)
     }

@@ -1,11 +1,20 @@
-//! A compiled formula: instructions in postfix order for a machine with one accumulator and a stack.
+//! A compiled formula: instructions in postfix order for a stack machine with an accumulator.
 
 /// One instruction.
 ///
-/// The accumulator holds the newest value, the stack the older ones. A *load* first pushes the
-/// accumulator; an operation with n operands takes n − 1 of them from the stack, the last operand
-/// being the accumulator. Skips only go forward, by a count of instructions after their own, so
-/// every program ends and a piece of a program can be run or moved by itself.
+/// The accumulator holds the newest value, the stack the older ones. A *load* first pushes the accumulator;
+/// an operation with n operands pops n − 1 of them from the stack, the last operand is the accumulator. Skips
+/// only go forward, by a number of instructions after their own: so every program ends, and a part of a
+/// program can be run or moved.
+///
+/// ```text
+/// 2 * x + 1        acc      stack
+/// Number(2)        2        [–]          the first load pushes the unused initial value
+/// X                x        [–, 2]
+/// Multiply         2x       [–]
+/// Number(1)        1        [–, 2x]
+/// Add              2x + 1   [–]
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Op {
     /// Loads a number.
@@ -48,9 +57,9 @@ pub(super) enum Op {
     SkipIfZero(u32),
     /// Skips always.
     Skip(u32),
-    /// `and`: a false left side is the answer, 0; a true one is taken off.
+    /// `and`: a left side of 0 is the result, 0, and skips the right side; otherwise it is dropped.
     SkipIfFalse(u32),
-    /// `or`: a true left side is the answer, 1; a false one is taken off.
+    /// `or`: a left side other than 0 gives the result 1 and skips the right side; otherwise it is dropped.
     SkipIfTrue(u32),
 }
 
@@ -66,7 +75,7 @@ pub(super) enum Compare {
 }
 
 impl Compare {
-    /// The instruction for a comparison that stands alone.
+    /// The instruction for a comparison outside a chain.
     pub(super) fn op(self) -> Op {
         match self {
             Self::Less => Op::Less,
@@ -90,9 +99,9 @@ impl Compare {
     }
 }
 
-/// Stack of nearly every formula; clearing a small one costs nothing.
+/// Slots of the stack for nearly every formula; clearing a small stack costs nothing.
 const SMALL_STACK: usize = 16;
-/// Stack of any formula the parser lets through: at most two slots a nesting level, and one.
+/// Slots for any formula that the parser accepts: at most two for each level of nesting, and one.
 pub(super) const LARGE_STACK: usize = 512;
 const _: () = assert!(2 * super::MAX_NESTING < LARGE_STACK);
 
@@ -132,11 +141,15 @@ impl Program {
     }
 }
 
-/// Runs a piece of code that needs `slots` stack slots and leaves one value.
+/// Runs code that needs `slots` slots of the stack and leaves one value in the accumulator.
 pub(super) fn run(code: &[Op], slots: usize, x: f64, y: f64) -> f64 {
     if slots <= SMALL_STACK { run_on::<SMALL_STACK>(code, x, y) } else { run_on::<LARGE_STACK>(code, x, y) }
 }
 
+/// Runs code with a stack of `SLOTS` slots.
+///
+/// Longer than other functions by design: one line for each instruction, around one accumulator and one stack
+/// that separate functions would have to pass on.
 fn run_on<const SLOTS: usize>(code: &[Op], x: f64, y: f64) -> f64 {
     let mut stack = [0.0; SLOTS];
     let mut top = 0; // number of values on the stack
@@ -162,13 +175,15 @@ fn run_on<const SLOTS: usize>(code: &[Op], x: f64, y: f64) -> f64 {
         };
     }
 
-    // Ends: `at` grows by at least one each time.
+    // Ends: `at` grows by at least one in each iteration.
     while let Some(&op) = code.get(at) {
         at += 1;
         match op {
+            // Values.
             Op::Number(value) => load!(value),
             Op::X => load!(x),
             Op::Y => load!(y),
+            // Operations on the accumulator, then on the stack and the accumulator.
             Op::Negate => acc = -acc,
             Op::Not => acc = truth(acc == 0.0),
             Op::Truth => acc = truth(acc != 0.0),
@@ -186,12 +201,14 @@ fn run_on<const SLOTS: usize>(code: &[Op], x: f64, y: f64) -> f64 {
             Op::GreaterEqual => compare!(>=),
             Op::Equal => compare!(==),
             Op::NotEqual => compare!(!=),
+            // Chains of comparisons: the result so far is on the stack, the middle value in the accumulator.
             Op::FirstLink(sign) => stack[top - 1] = truth(sign.holds(stack[top - 1], acc)),
             Op::NextLink(sign) => {
                 let middle = pop!();
                 stack[top - 1] *= truth(sign.holds(middle, acc));
             }
             Op::Drop => acc = pop!(),
+            // Functions.
             Op::One(function) => acc = function(acc),
             Op::Two(function) => acc = function(pop!(), acc),
             Op::Three(function) => {
@@ -199,6 +216,7 @@ fn run_on<const SLOTS: usize>(code: &[Op], x: f64, y: f64) -> f64 {
                 let first = pop!();
                 acc = function(first, second, acc);
             }
+            // Branches.
             Op::SkipIfZero(count) => {
                 at += if acc == 0.0 { count as usize } else { 0 };
                 acc = pop!();
