@@ -56,7 +56,7 @@ impl Sample {
         ]
     }
 
-    /// A square of so many triangles that their arrays take several blocks.
+    /// A square with enough triangles for arrays of several blocks.
     fn fine() -> Self {
         Self::new(Rect::UNIT, 0.005, |_| true, 0.001)
     }
@@ -306,7 +306,7 @@ fn two_dm_reads_back_with_its_boundary() {
 
 #[test]
 fn a_nodestring_stays_at_one_piece_of_the_outside() {
-    // Left out are the six triangles round each of two nodes; the hexagons touch in the node between them.
+    // Without the six triangles around each of two nodes; the two hexagons touch in the node between them.
     let left_out = [dvec2(0.375, 0.5), dvec2(0.625, 0.5)];
     let sample = Sample::new(Rect::UNIT, 0.125, |p| !left_out.contains(&p), 0.5);
     let (_, strings) = read_2dm(&String::from_utf8(sample.written(sms::write)).unwrap());
@@ -558,7 +558,7 @@ fn svg_shows_every_triangle_and_every_edge_once() {
                         })
                     })
                     .collect();
-                // Drawn over the apex; either way round.
+                // Drawn over the apex, in either direction.
                 let [a, apex, b] = triangle.try_into().unwrap();
                 let turn = (found.nodes[b] - found.nodes[a]).perp_dot(found.nodes[apex] - found.nodes[a]);
                 found.triangles.push(if turn > 0.0 { [a, b, apex] } else { [b, a, apex] });

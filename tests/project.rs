@@ -376,7 +376,7 @@ fn errors_in_settings_name_their_place() {
         ("\"spacing\"", "\"spacing\": 1e999, \"spacings\"", &["settings.json"]),
         ("\"columns\": 2", "\"columns\": 100000", &["100,000 × 2", "8,192"]),
         ("\"columns\": 2", "\"columns\": 8192", &["base.risk", "checksum"]),
-        ("\"columns\": 2", "\"columns\": 1", &["base.risk", "at most 8"]),
+        ("\"columns\": 2", "\"columns\": 1", &["base.risk", "8 is the limit"]),
         ("\"resolution\": 16", "\"resolution\": 4000000000", &["4,000,000,000", "2,048"]),
         ("\"resolution\": 16", "\"resolution\": 2048", &["paint.tiles"]),
         ("\"max_triangles\": ", "\"max_triangles\": 999", &["max_triangles"]),
@@ -480,10 +480,10 @@ fn files_that_are_not_projects_are_refused() {
 fn paint_with_impossible_values_is_refused() {
     let mut parts = unpacked(&bytes_of(&small()));
     let (_, paint) = parts.last_mut().unwrap();
-    let sound = paint.clone();
+    let valid = paint.clone();
     for (place, value) in [(0, 1), (2, 9), (4, 200), (5, 0x7f), (5, 0xbf)] {
         let (_, paint) = parts.last_mut().unwrap();
-        paint.copy_from_slice(&sound);
+        paint.copy_from_slice(&valid);
         paint[place] = value;
         refused(&packed(parts.clone()), &["paint.tiles", "Meshbrush did not write this file"]);
     }

@@ -1,4 +1,4 @@
-//! A grid with its own placement.
+//! ESRI ASCII grids.
 
 #![no_main]
 

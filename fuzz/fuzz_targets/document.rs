@@ -1,4 +1,4 @@
-//! A document edited as a fuzzer's bytes say, the follower cut where they say.
+//! Edits of a document, and slices of the follower's work, both from the fuzzer's bytes.
 
 #![no_main]
 

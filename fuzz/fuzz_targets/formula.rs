@@ -1,10 +1,10 @@
-//! A formula as typed: compiled, pointed at where it is wrong, and evaluated.
+//! Formulas: compiled and evaluated, or refused with a pointer to the mistake.
 
 #![no_main]
 
 use meshbrush::field::Formula;
 
-/// Where two of these meet, something goes wrong first.
+/// Coordinates at which functions are most likely to fail.
 const ODD: [f64; 8] = [0.0, -0.0, 1.0, -2.5, 1e300, 5e-324, f64::INFINITY, f64::NAN];
 
 libfuzzer_sys::fuzz_target!(|text: &str| match Formula::parse(text) {

@@ -1,4 +1,4 @@
-//! A file of polygons, and meshes of what they cover.
+//! Files of polygons, and meshes of the domains that they cover.
 
 #![no_main]
 
@@ -9,7 +9,7 @@ use meshbrush::geometry::Lattice;
 use meshbrush::io::geojson;
 use meshbrush::mesh::{Limits, Mesh};
 
-/// Small: a fuzzer wants many files a second.
+/// Few, so that many files are tried in a second.
 const MOST_TRIANGLES: usize = 3000;
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
@@ -26,16 +26,16 @@ libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
 fn check_mesh(domain: &Domain, boundary: BoundaryTreatment, spacing: f64) {
     let limits = Limits { max_triangles: MOST_TRIANGLES, ..Limits::default() };
     let Ok(lattice) = Lattice::covering(domain.bounds, spacing, MOST_TRIANGLES) else { return };
-    let laid = DomainOnLattice::new(domain, boundary, &lattice);
-    let Ok(mut mesh) = Mesh::coarse_grid(&lattice, |node| laid.admits(node), &limits) else {
+    let domain_on_lattice = DomainOnLattice::new(domain, boundary, &lattice);
+    let Ok(mut mesh) = Mesh::coarse_grid(&lattice, |node| domain_on_lattice.admits(node), &limits) else {
         return;
     };
-    // Where the budget ends it, the mesh must be whole all the same.
-    let refined = mesh.refine(&limits, |element| laid.exceeds(element, |_| Ok(false)));
-    mesh.classify(0..mesh.raw_triangle_count(), |element| laid.excludes(element));
+    // After the budget stops refinement, the mesh must still be valid.
+    let refined = mesh.refine(&limits, |element| domain_on_lattice.exceeds(element, |_| Ok(false)));
+    mesh.classify(0..mesh.raw_triangle_count(), |element| domain_on_lattice.excludes(element));
     assert_eq!(mesh.violations(), []);
     if refined.is_ok() {
-        assert_eq!(mesh.unsatisfied(|element| laid.exceeds(element, |_| Ok(false))), Ok(vec![]));
+        assert_eq!(mesh.unsatisfied(|element| domain_on_lattice.exceeds(element, |_| Ok(false))), Ok(vec![]));
     }
     let topology = mesh.topology();
     assert_eq!(topology.nodes, mesh.extract().nodes().len());

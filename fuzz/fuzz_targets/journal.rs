@@ -1,4 +1,5 @@
-//! A journal that was left behind: bytes as they are, and records with right checksums around changed parts of projects.
+//! Journals that were left behind: raw bytes, and records with valid checksums around changed parts of
+//! projects.
 
 #![no_main]
 
@@ -24,10 +25,11 @@ libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
     let found = journal::abandoned(&folder);
     assert!(found.len() <= 1);
     found.into_iter().for_each(|abandoned| hold(abandoned.project));
-    let _ = fs::remove_file(&file); // one in which nothing is unsaved is gone already
+    let _ = fs::remove_file(&file); // a journal without unsaved work is deleted already
 });
 
-/// A journal with a whole sample and records after it: each is a kind, a length, and the edits of its parts or its bytes.
+/// A journal with a complete sample and further records: each has a kind, a length, and edits of its parts or
+/// its bytes.
 fn records(mut bytes: &[u8]) -> Vec<u8> {
     let mut journal = MAGIC.to_vec();
     append(&mut journal, 1, 0, &[&[0; 4][..], &packed(&SAMPLE)].concat());
@@ -36,7 +38,7 @@ fn records(mut bytes: &[u8]) -> Vec<u8> {
         let (edits, rest) = rest.split_at(usize::from(length).min(rest.len()));
         let mut parts = SAMPLE.clone();
         match kind % 6 {
-            // Tiles alone, at times with parts that have no business there.
+            // Tiles alone, sometimes with parts that do not belong there.
             2 => drop(parts.drain(..parts.len() - 1)),
             3 => {
                 append(&mut journal, 3, time, edits);

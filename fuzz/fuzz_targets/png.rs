@@ -1,4 +1,4 @@
-//! An image as a raster.
+//! PNG images.
 
 #![no_main]
 

@@ -1,4 +1,4 @@
-//! A table of points.
+//! Tables of points.
 
 #![no_main]
 

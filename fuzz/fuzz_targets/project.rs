@@ -1,4 +1,5 @@
-//! A project: bytes as they are, parts of its own behind right checksums, and a sound project with its parts or bytes changed.
+//! Projects: raw bytes, an archive of the fuzzer's own parts, and a valid project with changed parts or
+//! bytes.
 
 #![no_main]
 
@@ -9,7 +10,7 @@ use std::path::Path;
 use meshbrush::io::project;
 use packing::{SAMPLE, change, hold, packed};
 
-/// Between the parts that a fuzzer writes itself.
+/// Separates the parts in the fuzzer's input.
 const BETWEEN: &[u8] = b"\n==\n";
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
@@ -30,7 +31,8 @@ libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
     }
 });
 
-/// What opens is a document, and saving it is a fixed point; what does not is told in a sentence.
+/// A project that opens is a document, and saving and opening it changes nothing; otherwise the error is a
+/// sentence.
 fn check(bytes: &[u8]) {
     let name = Path::new("fuzz.meshbrush");
     match project::from_bytes(bytes, name) {

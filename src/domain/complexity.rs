@@ -122,10 +122,10 @@ mod tests {
     fn crossing_edges_are_refused_and_a_long_outline_is_not() {
         assert_eq!(Domain::of_polygons(&[vec![zigzag(20_000)]]), Err(RegionError::TooManyCrossings));
         assert!(Domain::of_polygons(&[vec![zigzag(50)]]).is_ok());
-        let round = |k: usize| f64::from(k as u32) * std::f64::consts::TAU / 400_000.0;
+        let angle = |k: usize| f64::from(k as u32) * std::f64::consts::TAU / 400_000.0;
         let coast = |k: usize| {
-            let radius = 1.0 + 0.1 * libm::sin(40_000.0 * round(k));
-            radius * dvec2(libm::cos(round(k)), libm::sin(round(k)))
+            let radius = 1.0 + 0.1 * libm::sin(40_000.0 * angle(k));
+            radius * dvec2(libm::cos(angle(k)), libm::sin(angle(k)))
         };
         assert!(Domain::of_polygons(&[vec![(0..400_000).map(coast).collect()]]).is_ok());
         let tooth = |k: usize| [dvec2(k as f64, 1.0), dvec2(k as f64 + 0.5, 9000.0)];

@@ -317,9 +317,9 @@ mod tests {
             painted(&mut paint, brush, &[at]);
             for (x, y) in before.risk.all().pixels() {
                 let was = [before.risk.get(x, y), before.diameter.get(x, y)];
-                let told = if dab.area().contains(x, y) { dab.pixel(&before, x, y) } else { was };
-                assert_eq!([paint.risk.get(x, y), paint.diameter.get(x, y)], told);
-                changed += usize::from(told != was);
+                let predicted = if dab.area().contains(x, y) { dab.pixel(&before, x, y) } else { was };
+                assert_eq!([paint.risk.get(x, y), paint.diameter.get(x, y)], predicted);
+                changed += usize::from(predicted != was);
             }
         }
         assert!(changed > 10_000, "{changed}");

@@ -1,4 +1,5 @@
-//! Projects put together from parts that a fuzzer's bytes have changed. Checksums are right, so that they get behind them.
+//! Packs parts that the fuzzer changed into projects with valid checksums, so that reading does not stop at
+//! the checksum.
 
 use std::io::Read;
 use std::path::Path;
@@ -19,7 +20,7 @@ pub type Parts = Vec<(String, Vec<u8>)>;
 /// The parts of a small project that has all of them, and several tiles.
 pub static SAMPLE: LazyLock<Parts> = LazyLock::new(|| unpacked(&bytes_of(&sample())));
 
-/// Numbers that decide something somewhere.
+/// Numbers at the limits of formats and checks.
 const NUMBERS: [&str; 16] = [
     "0",
     "-0.0",
@@ -64,7 +65,7 @@ pub fn bytes_of(project: &Project) -> Vec<u8> {
     bytes
 }
 
-/// Holds a project that was read, and the document that it is, to saving and opening without a change.
+/// Asserts that a project that was read, and its document, save and open without a change.
 pub fn hold(project: Project) {
     assert!(project.settings.clone().checked().is_ok_and(|settings| settings == project.settings));
     saved_again(&project);
@@ -82,7 +83,7 @@ fn saved_again(project: &Project) {
     assert!(bytes_of(&again) == bytes);
 }
 
-/// Changes parts as four bytes each say: where, how, and with what.
+/// Changes parts; four bytes of input say where, how, and to what.
 pub fn change(parts: &mut Parts, edits: &[u8]) {
     for &[which, a, b, value] in edits.as_chunks().0 {
         let count = parts.len();
@@ -98,7 +99,7 @@ pub fn change(parts: &mut Parts, edits: &[u8]) {
     }
 }
 
-/// Puts another number where text has its n-th.
+/// Replaces the n-th number of a text.
 fn replace_number(text: &mut Vec<u8>, n: usize, number: &str) {
     let is_digit = |byte: &u8| byte.is_ascii_digit() || b".-e".contains(byte);
     let begins = |&i: &usize| text[i].is_ascii_digit() && (i == 0 || !is_digit(&text[i - 1]));
@@ -109,7 +110,7 @@ fn replace_number(text: &mut Vec<u8>, n: usize, number: &str) {
     }
 }
 
-/// Parts of an archive as the program writes it, by the local headers alone.
+/// The parts of an archive that the program wrote, read by the local headers alone.
 fn unpacked(mut bytes: &[u8]) -> Parts {
     let mut parts = Vec::new();
     while bytes.starts_with(b"PK\x03\x04") {

@@ -1,4 +1,4 @@
-//! The words a formula may use: functions, coordinates and constants.
+//! The names in formulas: functions, coordinates and constants.
 
 use std::f64::consts;
 
@@ -11,12 +11,12 @@ pub(super) enum Form {
     Fixed(u32, Op),
     /// Two values or more, joined by the instruction from left to right.
     Join(Op),
-    /// `if(c, a, b)`, which evaluates only the branch it takes.
+    /// `if(c, a, b)`, which evaluates only one branch.
     If,
 }
 
 impl Form {
-    /// Values that wait on the stack while the one after `count` others is computed.
+    /// The number of values on the stack while the value after `count` others is computed.
     pub(super) fn held(self, count: usize) -> usize {
         match self {
             Self::Fixed(..) => count,
@@ -26,11 +26,11 @@ impl Form {
     }
 }
 
-/// A function, with what the help says of it.
+/// A function and its help text.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Function {
     pub(super) form: Form,
-    /// As called: the name up to the parenthesis, and what the values are.
+    /// A call: the name up to the parenthesis, and the names of the values.
     pub(super) call: &'static str,
     meaning: &'static str,
 }
@@ -57,7 +57,7 @@ const fn function(call: &'static str, form: Form, meaning: &'static str) -> Func
     Function { form, call, meaning }
 }
 
-/// In the order the help shows them.
+/// All functions, in the order of the help.
 #[rustfmt::skip] // one line a function
 pub(super) const FUNCTIONS: &[Function] = &[
     function("if(c, a, b)", Form::If, "a where c is true, else b"),
@@ -96,7 +96,7 @@ pub(super) const FUNCTIONS: &[Function] = &[
     two("mod(a, b)", modulo, "a % b: what is left of a after whole steps of b, with the sign of b"),
 ];
 
-/// A name that stands for a value by itself.
+/// A name of a value.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Noun {
     X,
@@ -106,7 +106,7 @@ pub(super) enum Noun {
     Number(f64),
 }
 
-/// Coordinates and constants, in the order the help shows them.
+/// Coordinates and constants, in the order of the help.
 pub(super) const NOUNS: &[(&str, Noun)] = &[
     ("x", Noun::X),
     ("y", Noun::Y),
@@ -121,7 +121,7 @@ pub(super) const NOUNS: &[(&str, Noun)] = &[
     ("τ", Noun::Number(consts::TAU)),
 ];
 
-/// What other tools call a thing, and what to write here.
+/// Names from other tools, and what to write here.
 const ELSEWHERE: &[(&str, &str)] = &[
     ("log", "`ln(v)` for base e or `log10(v)` for base 10"),
     ("lg", "`log10(v)`"),
@@ -157,7 +157,7 @@ const ELSEWHERE: &[(&str, &str)] = &[
     ("z", "the formula in `x` and `y`"),
 ];
 
-/// Every function: how it is called, and what it gives. For a help page or a completion list.
+/// Every function as (call, meaning), for a help page or a completion list.
 ///
 /// ```
 /// use meshbrush::field::formula::functions;
@@ -200,7 +200,7 @@ fn nearest(name: &str) -> Option<&'static str> {
         .map(|(.., advice)| advice)
 }
 
-/// Letters to insert, drop, replace or swap with their neighbour to get from `a` to `b`.
+/// The number of letters to insert, remove, replace or swap with their neighbour to get from `a` to `b`.
 ///
 /// The work is the product of the lengths; `b` is a known word, and an `a` over 24 letters is far
 /// from all of them.
@@ -255,12 +255,12 @@ fn fract(v: f64) -> f64 {
     v - v.floor()
 }
 
-/// `hi` where the limits are the wrong way round; `f64::clamp` would panic.
+/// `hi` if the limits are reversed; `f64::clamp` would panic.
 fn clamp(v: f64, lo: f64, hi: f64) -> f64 {
     min(max(v, lo), hi)
 }
 
-/// Exact at both ends.
+/// Linear interpolation, exact at both ends.
 fn mix(a: f64, b: f64, t: f64) -> f64 {
     a * (1.0 - t) + b * t
 }
@@ -275,7 +275,7 @@ fn step(edge: f64, v: f64) -> f64 {
     }
 }
 
-/// A step where `lo` equals `hi`, instead of 0/0.
+/// A smooth step; if `lo` equals `hi` a sharp one, instead of 0/0.
 fn smoothstep(lo: f64, hi: f64, v: f64) -> f64 {
     if lo == hi {
         return step(lo, v);

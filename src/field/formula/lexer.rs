@@ -1,11 +1,11 @@
-//! Text to tokens.
+//! Splits a formula into tokens.
 
 use std::ops::Range;
 
 use super::error::{ParseError, quote};
 use super::program::Compare;
 
-/// The smallest meaningful piece of a formula.
+/// The smallest meaningful part of a formula.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Token<'a> {
     Number(f64),
@@ -29,7 +29,7 @@ pub(super) enum Token<'a> {
     End,
 }
 
-/// Signs, longer before shorter where one begins another.
+/// Signs. A sign comes before those that are its beginning.
 const SIGNS: &[(&str, Token)] = &[
     ("&&", Token::And),
     ("||", Token::Or),
@@ -108,7 +108,7 @@ impl<'a> Lexer<'a> {
         Self { source, at: 0 }
     }
 
-    /// The next token and its bytes; [`Token::End`] for ever at the end.
+    /// The next token and its range of bytes; always [`Token::End`] at the end.
     pub(super) fn next(&mut self) -> Result<(Token<'a>, Range<usize>), ParseError> {
         let rest = &self.source[self.at..];
         let text = rest.trim_start();
@@ -162,8 +162,8 @@ impl<'a> Lexer<'a> {
     }
 }
 
-/// Bytes of the number at the start of `text`: digits with at most one point, then perhaps an
-/// exponent. 0 if there is none. An `e` with no digits after it is left for the next token.
+/// Bytes of the number at the start of `text`: digits with at most one point, then an optional exponent;
+/// 0 if there is none. An `e` without digits after it belongs to the next token.
 fn number_length(text: &str) -> usize {
     let digits = |from: usize| {
         let rest = &text.as_bytes()[from..];
@@ -189,7 +189,7 @@ fn number_length(text: &str) -> usize {
     end
 }
 
-/// Bytes of the name at the start of `text`: a letter or `_`, then those, digits and accents.
+/// Bytes of the name at the start of `text`: a letter or `_`, then letters, `_`, digits and accents.
 fn name_length(text: &str) -> usize {
     let begins = |c: char| c.is_alphabetic() || c == '_';
     let goes_on = |c: char| begins(c) || c.is_ascii_digit() || ('\u{300}'..='\u{36f}').contains(&c);

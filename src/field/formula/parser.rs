@@ -1,7 +1,7 @@
-//! Tokens to a program, in one pass: every operator is emitted as soon as its operands were read.
+//! Compiles tokens to a program in one pass: an operator is emitted as soon as its operands are read.
 //!
-//! No tree is built, so a sum of ten thousand terms needs no more stack than a sum of two; only
-//! nesting does, and that is bounded.
+//! No tree is built, so a sum of ten thousand terms needs no more stack than a sum of two. Only nesting needs
+//! stack, and nesting is limited.
 
 use std::ops::Range;
 
@@ -16,7 +16,8 @@ pub const MAX_LENGTH: usize = 64 * 1024;
 /// The deepest nesting, counting parentheses, calls, signs, and right sides of operators.
 pub const MAX_NESTING: usize = 200;
 
-/// Precedences, from the loosest; an operator takes what binds at least as tightly as its own plus one.
+/// Precedences, from the loosest. The right side of an operator binds at least as tightly as the operator's
+/// own precedence plus one.
 mod binding {
     pub(super) const ANYTHING: u8 = 0;
     pub(super) const OR: u8 = 1;
@@ -55,18 +56,18 @@ pub(super) fn compile(source: &str) -> Result<Program, ParseError> {
     Ok(Program::new(parser.code, value.slots))
 }
 
-/// A part of the formula whose instructions stand at the end of the code.
+/// A part of the formula whose instructions are at the end of the code.
 #[derive(Clone, Copy)]
 struct Value {
     /// Index of its first instruction.
     start: usize,
     /// Whether it uses no coordinate.
     constant: bool,
-    /// Stack slots it needs.
+    /// The stack slots that it needs.
     slots: usize,
 }
 
-/// The values of a call, in the code and in the text.
+/// The values of a call, in code and text.
 struct Arguments {
     start: usize,
     count: usize,
@@ -81,7 +82,7 @@ struct Arguments {
 struct Parser<'a> {
     source: &'a str,
     lexer: Lexer<'a>,
-    /// The token to be read next, and its place.
+    /// The next token and its place.
     token: Token<'a>,
     span: Range<usize>,
     code: Vec<Op>,
@@ -89,7 +90,7 @@ struct Parser<'a> {
 }
 
 impl<'a> Parser<'a> {
-    /// Goes to the next token; answers the place of the one left.
+    /// Advances to the next token, and returns the place of the former one.
     fn advance(&mut self) -> Result<Range<usize>, ParseError> {
         let (token, span) = self.lexer.next()?;
         self.token = token;
@@ -121,7 +122,7 @@ impl<'a> Parser<'a> {
         let op = match token {
             Token::And => return self.decided(left, binding, Op::SkipIfFalse),
             Token::Or => return self.decided(left, binding, Op::SkipIfTrue),
-            // From right to left: the right side may hold further powers.
+            // Right-associative: the right side may contain further powers.
             Token::Power => {
                 let right = self.expression(binding)?;
                 return Ok(self.join(left, right, Op::Two(power)));
@@ -136,7 +137,7 @@ impl<'a> Parser<'a> {
         Ok(self.join(left, right, op))
     }
 
-    /// `left and right`, `left or right`: the right side is skipped where the left one decides.
+    /// `left and right`, `left or right`: the right side is skipped if the left side decides.
     fn decided(&mut self, left: Value, binding: u8, skip: fn(u32) -> Op) -> Result<Value, ParseError> {
         let at = self.emit(skip(0));
         let right = self.expression(binding + 1)?;
@@ -161,7 +162,7 @@ impl<'a> Parser<'a> {
         }
         self.emit(Op::FirstLink(sign));
         let mut direction = sign;
-        // Ends: every turn reads a token.
+        // Ends: each iteration reads a token.
         while let Token::Compare(sign) = self.token {
             direction = self.chain_direction(direction, sign)?;
             self.advance()?;
@@ -174,7 +175,7 @@ impl<'a> Parser<'a> {
         Ok(self.finish(chain.start, chain.constant, chain.slots))
     }
 
-    /// Checks that a chain of comparisons runs one way; answers which.
+    /// Checks that all signs of a chain of comparisons have the same direction, and returns it.
     fn chain_direction(&self, before: Compare, next: Compare) -> Result<Compare, ParseError> {
         use Compare::{Equal, Less, LessEqual, NotEqual};
         let rising = |sign| matches!(sign, Less | LessEqual);
@@ -205,14 +206,14 @@ impl<'a> Parser<'a> {
             Token::Plus => self.prefix(binding::POWER, None),
             Token::Not if floor <= binding::NOT => self.prefix(binding::NOT, Some(Op::Not)),
             Token::Not => {
-                let message = "`not` needs parentheses round it here: `(not v)`.";
+                let message = "`not` needs parentheses around it here: `(not v)`.";
                 Err(self.mistake(self.span.clone(), message))
             }
             _ => Err(self.value_expected()),
         }
     }
 
-    /// Reads a sign or `not`, and what it applies to.
+    /// Reads a sign or `not`, and its operand.
     fn prefix(&mut self, floor: u8, op: Option<Op>) -> Result<Value, ParseError> {
         self.advance()?;
         let value = self.expression(floor)?;
@@ -265,7 +266,7 @@ impl<'a> Parser<'a> {
         })
     }
 
-    /// Reads a function's values in parentheses, and emits what the function does with them.
+    /// Reads a function's values in parentheses, and emits its instructions.
     fn call(&mut self, function: &Function, name: Range<usize>) -> Result<Value, ParseError> {
         let values = self.arguments(function.form)?;
         self.check_count(function, values.count, &name, values.end)?;
@@ -281,12 +282,12 @@ impl<'a> Parser<'a> {
         Ok(self.finish(values.start, values.constant, values.slots))
     }
 
-    /// Reads values from the opening parenthesis to the closing one, however many there are.
+    /// Reads any number of values from the opening parenthesis to the closing one.
     fn arguments(&mut self, form: Form) -> Result<Arguments, ParseError> {
         let open = self.advance()?;
         let mut values =
             Arguments { start: self.code.len(), count: 0, constant: true, slots: 1, skips: [0; 2], end: 0 };
-        // Ends: every turn reads a token.
+        // Ends: each iteration reads a token.
         while values.count > 0 || self.token != Token::Close {
             let value = self.expression(binding::ANYTHING)?;
             values.constant &= value.constant;
@@ -336,7 +337,7 @@ impl<'a> Parser<'a> {
         Err(self.mistake(name.clone(), message))
     }
 
-    /// Emits an instruction; answers its index.
+    /// Emits an instruction, and returns its index.
     fn emit(&mut self, op: Op) -> usize {
         self.code.push(op);
         self.code.len() - 1
@@ -352,14 +353,14 @@ impl<'a> Parser<'a> {
         self.finish(left.start, left.constant && right.constant, slots)
     }
 
-    /// Instructions between the one at `at` and the end of the code. Fits: the text has at most
-    /// [`MAX_LENGTH`] bytes, and no token makes more than three instructions.
+    /// The number of instructions after the one at `at`. It fits 32 bits: the text has at most [`MAX_LENGTH`]
+    /// bytes, and no token makes more than three instructions.
     fn distance_from(&self, at: usize) -> u32 {
         (self.code.len() - at - 1) as u32
     }
 
-    /// Ends a value. One without coordinates is run now, by the machine that runs the others, and
-    /// leaves only its result.
+    /// Ends a value. A value without coordinates is evaluated now, by the same interpreter, and replaced by
+    /// its result.
     fn finish(&mut self, start: usize, constant: bool, slots: usize) -> Value {
         if !constant {
             return Value { start, constant, slots };
@@ -400,7 +401,7 @@ impl<'a> Parser<'a> {
         self.mistake(span, format!("There is no {}; {advice}.", quote(name)))
     }
 
-    /// The mistake when a value is followed by what neither goes on with it nor ends it.
+    /// The mistake of a token after a value that neither continues nor ends it.
     fn unexpected_after_value(&self) -> ParseError {
         let found = self.found();
         let message = match self.token {
@@ -433,7 +434,7 @@ fn infix_binding(token: Token) -> Option<u8> {
     }
 }
 
-/// What to write for a word that other languages put between two values.
+/// What to write instead of a word that is an operator in other languages.
 fn operator_word(name: &str) -> Option<&'static str> {
     match name.to_lowercase().as_str() {
         "and" => Some("`and` in small letters"),

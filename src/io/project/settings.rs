@@ -83,7 +83,7 @@ struct SavedTransfer {
 enum SavedBase {
     Constant(f64),
     Formula(String),
-    /// The pixels stand in a part of their own.
+    /// A picture, whose pixels are in the part `base.risk`.
     RiskImage {
         name: String,
         bounds: [f64; 4],
