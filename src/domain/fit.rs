@@ -147,10 +147,10 @@ impl DomainOnLattice {
         by_field: impl FnOnce() -> Result<bool, E>,
     ) -> Result<bool, E> {
         let (Some(fitted), Some(region)) = (self.fitted, &self.region) else { return by_field() };
-        if level < fitted && region.cuts(corners, level) {
+        if level < fitted && region.outline_crosses(corners, level) {
             return Ok(true);
         }
-        Ok(by_field()? && !region.misses(corners, level))
+        Ok(by_field()? && !region.lies_outside(corners, level))
     }
 
     /// As [`Self::excludes`], for a triangle by its corners.

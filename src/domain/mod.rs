@@ -2,7 +2,7 @@
 //! boundary.
 
 mod comparison;
-mod edge;
+mod outline_edge;
 mod fit;
 mod on_lattice;
 mod region;
@@ -49,7 +49,7 @@ pub enum RegionError {
         Grouped(*corners), Grouped(MOST_CORNERS)
     )]
     TooManyCorners {
-        /// Corners of all rings.
+        /// TriangleExtents of all rings.
         corners: usize,
     },
     /// Too many crossings of edges.

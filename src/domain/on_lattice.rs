@@ -1,51 +1,76 @@
-//! A region as the mesh asks about it: exactly, in lattice coordinates.
+//! The region index: a region in lattice coordinates, in a quadtree that finds its edges and answers exactly.
 
-use super::edge::{Corners, Edge};
+use super::outline_edge::{OutlineEdge, TriangleExtents};
 use crate::geometry::{Lattice, LatticePoint, LatticeRect};
 
-/// A region with its corners moved to the nearest points of a mesh's lattice, and a tree of squares to find its edges by.
+/// A region with its corners moved to the nearest points of a mesh's lattice, and a quadtree to find its
+/// edges.
 ///
-/// A square of the tree is outside, inside, or *cut*: an edge has a point in common with it, rim included. The smallest squares
-/// that are cut know their edges. All answers are exact for the region as it lies on the lattice.
+/// The squares of the tree are aligned with the coarse cells and with the bisection tree: two levels of
+/// bisection halve a square once. So every triangle of the mesh lies in one square of about its own size.
 ///
-/// Edges along the sides of the grid are no *boundary*: the mesh ends there anyway.
+/// ```text
+/// root: one square        level 1               level 2, the smallest       a smallest crossed square
+/// for each coarse cell                          squares
+/// +---------------+       +-------+-------+     +---+---+---+---+           +-------------+
+/// |               |       |       |       |     | O | O | O | O |           |     \       |
+/// |               |       |   O   |   X   |     +---+---+---+---+           |      \      |
+/// |               |       |       |       |     | O | O | X | X |           s-------*--+  |
+/// |       X       |       +-------+-------+     +---+---+---+---+           |        \ |  |
+/// |               |       |       |       |     | O | X | I | I |           |         \p  |
+/// |               |       |   X   |   I   |     +---+---+---+---+           |          \  |
+/// |               |       |       |       |     | X | X | I | I |           +-------------+
+/// +---------------+       +-------+-------+     +---+---+---+---+
+///
+/// O outside, I inside, X crossed by an edge     s: stored state; the path to p crosses one edge (*)
+/// ```
+///
+/// A square is outside, inside, or *crossed*: an edge touches it, its sides included. The smallest crossed
+/// squares list their edges. Whether a point in one of them lies inside follows from the state at the middle
+/// of the square's left side and the number of edges crossed on the way from there to the point.
+///
+/// All answers are exact for the region with its corners on the lattice. Edges along the sides of the grid do
+/// not count as *outline*: the mesh ends there anyway.
 #[derive(Clone, Debug)]
 pub struct RegionOnLattice {
-    /// Squares along x and y at the root, one for each coarse cell or for several.
+    /// Squares along x and y at the root, one for each coarse cell or for several cells together.
     pub(super) cells: [u32; 2],
     /// Binary logarithm of the side of a root square, in lattice steps.
     pub(super) root_bits: u32,
-    /// The tree, root first: side lengths halve from one entry to the next.
-    pub(super) layers: Vec<Layer>,
-    pub(super) edges: Vec<Edge>,
-    /// For each smallest square whether its left rim lies inside, half way up.
+    /// The levels of the tree, root first. The side of a square halves from one level to the next.
+    pub(super) levels: Vec<TreeLevel>,
+    pub(super) edges: Vec<OutlineEdge>,
+    /// For each smallest square, whether the middle of its left side lies inside.
     pub(super) inside_at_left: Vec<bool>,
-    /// For each smallest square the end of its part of `edges_of_square`.
+    /// For each smallest square, the end of its part of `edges_of_square`; it begins at the end of the square
+    /// before.
     pub(super) ends: Vec<u32>,
+    /// Indices into `edges`, square by square.
     pub(super) edges_of_square: Vec<u32>,
 }
 
-/// Squares of one size, row by row from below.
+/// The squares of one size, row by row from the lowest.
 #[derive(Clone, Debug)]
-pub(super) struct Layer {
+pub(super) struct TreeLevel {
     pub(super) columns: u32,
-    pub(super) states: Vec<State>,
+    pub(super) states: Vec<SquareState>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum State {
+pub(super) enum SquareState {
     Outside,
     Inside,
-    Cut,
+    /// An edge touches it.
+    Crossed,
 }
 
 impl RegionOnLattice {
-    /// The grid, before any edge is laid on it.
+    /// The index before any edge is added.
     pub(super) fn without_edges(lattice: &Lattice) -> Self {
         Self {
             cells: lattice.cells(),
             root_bits: lattice.halvings(),
-            layers: Vec::new(),
+            levels: Vec::new(),
             edges: Vec::new(),
             inside_at_left: Vec::new(),
             ends: Vec::new(),
@@ -53,89 +78,98 @@ impl RegionOnLattice {
         }
     }
 
-    /// Whether a point of the closed region lies at a lattice point.
+    /// Whether a lattice point lies in the closed region.
     pub fn contains(&self, p: LatticePoint) -> bool {
         let p = [i64::from(p.x), i64::from(p.y)];
         let square = self.square_of(p);
         match self.smallest().states[square] {
-            State::Outside => false,
-            State::Inside => true,
-            State::Cut => {
+            SquareState::Outside => false,
+            SquareState::Inside => true,
+            SquareState::Crossed => {
                 self.edges_in(square).any(|edge| edge.holds(p)) || self.is_inside([p[0], p[1]].map(|c| c * 3))
             }
         }
     }
 
-    /// Whether a triangle of the mesh, given by corners and level, has no point in common with the region.
-    pub fn misses(&self, corners: [LatticePoint; 3], level: u32) -> bool {
-        match self.meets(corners, level, &|_| true) {
-            Meeting::Cut => false,
-            Meeting::Uncut(inside) => !inside,
+    /// Whether a triangle of the mesh, given by its corners and level, does not touch the region.
+    pub fn lies_outside(&self, corners: [LatticePoint; 3], level: u32) -> bool {
+        match self.relation_to(corners, level, &|_| true) {
+            Relation::Crossed => false,
+            Relation::Uncrossed(inside) => !inside,
         }
     }
 
-    /// Whether the boundary has a point in common with a triangle of the mesh.
-    pub fn cuts(&self, corners: [LatticePoint; 3], level: u32) -> bool {
-        self.meets(corners, level, &|edge| !edge.on_frame) == Meeting::Cut
+    /// Whether the outline touches a triangle of the mesh, given by its corners and level.
+    pub fn outline_crosses(&self, corners: [LatticePoint; 3], level: u32) -> bool {
+        self.relation_to(corners, level, &|edge| !edge.on_frame) == Relation::Crossed
     }
 
-    /// Whether the centroid of a triangle lies in the region. On an edge, the side does not matter but is always the same.
+    /// Whether the centroid of a triangle lies in the region. A centroid on an edge counts to one side,
+    /// always the same.
     pub fn has_centroid_of(&self, corners: [LatticePoint; 3]) -> bool {
         self.is_inside(thrice_centroid(corners))
     }
 
-    /// Goes down the tree from the smallest square that holds the triangle.
-    fn meets(&self, corners: [LatticePoint; 3], level: u32, counts: &impl Fn(&Edge) -> bool) -> Meeting {
-        let depth = (level as usize / 2).min(self.layers.len() - 1);
+    /// Finds how the edges for which `counts` is true lie to a triangle.
+    fn relation_to(
+        &self,
+        corners: [LatticePoint; 3],
+        level: u32,
+        counts: &impl Fn(&OutlineEdge) -> bool,
+    ) -> Relation {
+        // The smallest square that contains the triangle is on this level of the tree.
+        let depth = (level as usize / 2).min(self.levels.len() - 1);
         let centroid = thrice_centroid(corners);
         let side = 3 << (self.root_bits as usize - depth);
         let square = [(centroid[0] / side) as u32, (centroid[1] / side) as u32];
         match self.state(depth, square) {
-            State::Outside => return Meeting::Uncut(false),
-            State::Inside => return Meeting::Uncut(true),
-            State::Cut => {}
+            SquareState::Outside => return Relation::Uncrossed(false),
+            SquareState::Inside => return Relation::Uncrossed(true),
+            SquareState::Crossed => {}
         }
-        let triangle = Corners::of(corners);
-        if self.cut_within(depth, square, corners, &triangle, counts) {
-            Meeting::Cut
+        // In a crossed square the edges decide, and without an edge at the triangle any of its points.
+        let triangle = TriangleExtents::of(corners);
+        if self.crossed_within(depth, square, corners, &triangle, counts) {
+            Relation::Crossed
         } else {
-            Meeting::Uncut(self.is_inside(centroid))
+            Relation::Uncrossed(self.is_inside(centroid))
         }
     }
 
-    /// Whether an edge that counts touches the triangle, somewhere in a square of the tree.
-    fn cut_within(
+    /// Whether an edge that counts touches the triangle within a square of the tree. The recursion is as deep
+    /// as the tree.
+    fn crossed_within(
         &self,
         depth: usize,
         [column, row]: [u32; 2],
         corners: [LatticePoint; 3],
-        triangle: &Corners,
-        counts: &impl Fn(&Edge) -> bool,
+        triangle: &TriangleExtents,
+        counts: &impl Fn(&OutlineEdge) -> bool,
     ) -> bool {
         let square = [column, row];
-        if self.state(depth, square) != State::Cut || !self.rect(depth, square).touches(corners) {
+        if self.state(depth, square) != SquareState::Crossed || !self.rect(depth, square).touches(corners) {
             return false;
         }
-        if depth + 1 == self.layers.len() {
+        if depth + 1 == self.levels.len() {
             let square = row as usize * self.smallest().columns as usize + column as usize;
             return self.edges_in(square).any(|edge| counts(edge) && edge.touches(triangle));
         }
         let quarters = [[0, 0], [1, 0], [0, 1], [1, 1]];
         quarters.iter().any(|[x, y]| {
-            self.cut_within(depth + 1, [2 * column + x, 2 * row + y], corners, triangle, counts)
+            self.crossed_within(depth + 1, [2 * column + x, 2 * row + y], corners, triangle, counts)
         })
     }
 
-    /// Whether a point lies inside, given by three times its coordinates: by the edges between it and the middle of the left rim
-    /// of its square, first across and then up or down.
+    /// Whether a point, given by three times its coordinates, lies inside: by the edges that a path crosses
+    /// from the middle of its square's left side to the point, first horizontally and then vertically.
     fn is_inside(&self, thrice: [i64; 2]) -> bool {
         let square = self.square_of(thrice.map(|c| c.div_euclid(3)));
         match self.smallest().states[square] {
-            State::Outside => return false,
-            State::Inside => return true,
-            State::Cut => {}
+            SquareState::Outside => return false,
+            SquareState::Inside => return true,
+            SquareState::Crossed => {}
         }
-        let [left, height] = self.middle_of_left_rim(square);
+        let [left, height] = self.middle_of_left_side(square);
         let between = self.edges_in(square).filter(|edge| {
             edge.crosses_between(left, i64::MAX, [thrice[0], height])
                 != edge.crosses_beside(thrice[0], height, thrice[1])
@@ -143,8 +177,8 @@ impl RegionOnLattice {
         self.inside_at_left[square] ^ (between.count() % 2 == 1)
     }
 
-    /// Where the state of a smallest square is known from, in thirds of a step.
-    fn middle_of_left_rim(&self, square: usize) -> [i64; 2] {
+    /// The middle of a smallest square's left side, in thirds of a lattice step.
+    fn middle_of_left_side(&self, square: usize) -> [i64; 2] {
         let (bits, columns) = (self.smallest_bits(), self.smallest().columns as usize);
         let (column, row) = ((square % columns) as i64, (square / columns) as i64);
         // Left of the grid there are no edges.
@@ -152,22 +186,22 @@ impl RegionOnLattice {
         [left, middle_of_row(row, bits)]
     }
 
-    fn smallest(&self) -> &Layer {
-        self.layers.last().expect("there is a root")
+    fn smallest(&self) -> &TreeLevel {
+        self.levels.last().expect("there is a root")
     }
 
     fn smallest_bits(&self) -> u32 {
-        self.root_bits - (self.layers.len() as u32 - 1)
+        self.root_bits - (self.levels.len() as u32 - 1)
     }
 
-    pub(super) fn edges_in(&self, square: usize) -> impl Iterator<Item = &Edge> {
+    pub(super) fn edges_in(&self, square: usize) -> impl Iterator<Item = &OutlineEdge> {
         let start = if square == 0 { 0 } else { self.ends[square - 1] as usize };
         self.edges_of_square[start..self.ends[square] as usize].iter().map(|&n| &self.edges[n as usize])
     }
 
-    fn state(&self, depth: usize, [column, row]: [u32; 2]) -> State {
-        let layer = &self.layers[depth];
-        layer.states[row as usize * layer.columns as usize + column as usize]
+    fn state(&self, depth: usize, [column, row]: [u32; 2]) -> SquareState {
+        let tree_level = &self.levels[depth];
+        tree_level.states[row as usize * tree_level.columns as usize + column as usize]
     }
 
     fn rect(&self, depth: usize, square: [u32; 2]) -> LatticeRect {
@@ -176,39 +210,42 @@ impl RegionOnLattice {
         LatticeRect { min: corner(square), max: corner(square.map(|n| n + 1)) }
     }
 
-    /// The smallest square that holds a point of the grid; on a rim the upper and the right one, as far as there is one.
+    /// The smallest square that contains a point of the grid; on a side between two squares the upper or
+    /// right one.
     fn square_of(&self, point: [i64; 2]) -> usize {
-        let (layer, bits) = (self.smallest(), self.smallest_bits());
-        let rows = layer.states.len() / layer.columns as usize;
+        let (tree_level, bits) = (self.smallest(), self.smallest_bits());
+        let rows = tree_level.states.len() / tree_level.columns as usize;
         let at = |c: i64, count: usize| ((c >> bits).max(0) as usize).min(count - 1);
-        at(point[1], rows) * layer.columns as usize + at(point[0], layer.columns as usize)
+        at(point[1], rows) * tree_level.columns as usize + at(point[0], tree_level.columns as usize)
     }
 }
 
-/// How a triangle meets the edges that count.
+/// How edges lie to a triangle.
 #[derive(PartialEq)]
-enum Meeting {
-    /// One of them touches it.
-    Cut,
-    /// None does; whether the triangle lies inside.
-    Uncut(bool),
+enum Relation {
+    /// An edge touches it.
+    Crossed,
+    /// None does. Whether the triangle lies inside.
+    Uncrossed(bool),
 }
 
-impl Layer {
-    /// The state of four squares together.
-    pub(super) fn joined(&self, [column, row]: [u32; 2]) -> State {
+impl TreeLevel {
+    /// The state of four squares of this level as one square of the level above.
+    pub(super) fn joined(&self, [column, row]: [u32; 2]) -> SquareState {
         let first = (2 * row * self.columns + 2 * column) as usize;
         let above = first + self.columns as usize;
         let [a, b, c, d] = [first, first + 1, above, above + 1].map(|n| self.states[n]);
-        if a == b && b == c && c == d { a } else { State::Cut }
+        if a == b && b == c && c == d { a } else { SquareState::Crossed }
     }
 }
 
-/// Half a side up in a row of squares, in thirds of a step: no corner lies at that height where the side is one step.
+/// The height of the middle of a row of squares, in thirds of a step. If a side is one step, no corner has
+/// this height.
 pub(super) fn middle_of_row(row: i64, bits: u32) -> i64 {
     ((3 * (2 * row + 1)) << bits) / 2
 }
 
+/// Three times the centroid, which is a whole number.
 fn thrice_centroid(corners: [LatticePoint; 3]) -> [i64; 2] {
     let sum = |c: fn(&LatticePoint) -> u32| corners.iter().map(|p| i64::from(c(p))).sum();
     [sum(|p| p.x), sum(|p| p.y)]
@@ -226,7 +263,8 @@ mod tests {
     use crate::geometry::Rect;
     use crate::mesh::{Limits, Mesh, Progress, TriangleId};
 
-    /// A star with a hole, with corners on and off the lattice, and a strip along the left side of the frame.
+    /// A star with a hole, with some corners on coarse lattice points, and a strip along the left side of the
+    /// frame.
     fn region(random: &mut fastrand::Rng) -> Region {
         let ring = |centre: DVec2, radius: f64, points: usize, random: &mut fastrand::Rng| -> Ring {
             let at = |k: usize, random: &mut fastrand::Rng| {
@@ -245,7 +283,7 @@ mod tests {
         Region::new(&[star, strip], Rect::UNIT)
     }
 
-    /// By all edges, one after the other, in i128: shares nothing but the corners.
+    /// Inside, and on an edge: tested with all edges in i128. Shares only the corners with the index.
     fn brute_force(region: &Region, lattice: &Lattice, p: [i128; 2], scale: i128) -> (bool, bool) {
         let place = |p: DVec2| {
             let p = lattice.nearest(p);
@@ -290,7 +328,7 @@ mod tests {
     }
 
     #[test]
-    fn every_answer_is_that_of_brute_force() {
+    fn every_answer_equals_that_of_brute_force() {
         let mut random = fastrand::Rng::with_seed(11);
         let (mut cut, mut inside, mut outside, mut on_edge) = (0, 0, 0, 0);
         for _ in 0..60 {
@@ -305,11 +343,11 @@ mod tests {
                 mesh.refine_triangle(TriangleId::from_index(random.usize(..mesh.raw_triangle_count())));
             }
             let lattice = *mesh.lattice();
-            // At times so little room that squares are larger than coarse cells.
+            // Sometimes with so few entries that squares are larger than coarse cells.
             let most = 1 << random.u32(0..12);
             let mut builder = RegionOnLatticeBuilder::within(&region, &lattice, most);
             while builder.advance(random.usize(1..300)) == Progress::More {}
-            let sorted = builder.finish();
+            let index = builder.finish();
             let all = 0..mesh.raw_triangle_count();
             mesh.classify(all, |element| {
                 let touched = cut_by_brute_force(&region, &lattice, element.corners);
@@ -318,20 +356,20 @@ mod tests {
                 let (centroid_in, centroid_on) =
                     brute_force(&region, &lattice, [sum(|p| p.x), sum(|p| p.y)], 3);
                 assert_eq!(
-                    sorted.misses(element.corners, element.triangle.level()),
+                    index.lies_outside(element.corners, element.triangle.level()),
                     !touched && !centroid_in
                 );
-                assert!(centroid_on || sorted.has_centroid_of(element.corners) == centroid_in);
-                assert!(!sorted.cuts(element.corners, element.triangle.level()) || touched);
-                cut += usize::from(sorted.cuts(element.corners, element.triangle.level()));
+                assert!(centroid_on || index.has_centroid_of(element.corners) == centroid_in);
+                assert!(!index.outline_crosses(element.corners, element.triangle.level()) || touched);
+                cut += usize::from(index.outline_crosses(element.corners, element.triangle.level()));
                 inside += usize::from(!touched && centroid_in);
-                outside += usize::from(sorted.misses(element.corners, element.triangle.level()));
+                outside += usize::from(index.lies_outside(element.corners, element.triangle.level()));
                 !centroid_in
             });
             for node in mesh.raw_nodes() {
                 let (inside, on) =
                     brute_force(&region, &lattice, [i128::from(node.x), i128::from(node.y)], 1);
-                assert_eq!(sorted.contains(*node), inside || on, "{node:?}");
+                assert_eq!(index.contains(*node), inside || on, "{node:?}");
                 on_edge += usize::from(on);
             }
         }
@@ -342,7 +380,7 @@ mod tests {
     }
 
     #[test]
-    fn sides_of_the_frame_are_no_boundary() {
+    fn sides_of_the_frame_do_not_count_as_outline() {
         let whole = Arc::new(Region::new(&[vec![crate::domain::corners(&Rect::UNIT)]], Rect::UNIT));
         let mut mesh = Mesh::coarse_grid(
             &Lattice::covering(Rect::UNIT, 0.25, 1_000_000).unwrap(),
@@ -350,15 +388,15 @@ mod tests {
             &Limits::default(),
         )
         .unwrap();
-        let sorted = RegionOnLatticeBuilder::new(&whole, mesh.lattice()).finish();
+        let index = RegionOnLatticeBuilder::new(&whole, mesh.lattice()).finish();
         mesh.classify(0..32, |element| {
             assert!(
-                !sorted.cuts(element.corners, element.triangle.level())
-                    && !sorted.misses(element.corners, element.triangle.level())
-                    && sorted.has_centroid_of(element.corners)
+                !index.outline_crosses(element.corners, element.triangle.level())
+                    && !index.lies_outside(element.corners, element.triangle.level())
+                    && index.has_centroid_of(element.corners)
             );
             false
         });
-        assert!(mesh.raw_nodes().iter().all(|&node| sorted.contains(node)));
+        assert!(mesh.raw_nodes().iter().all(|&node| index.contains(node)));
     }
 }

@@ -5,8 +5,8 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::Region;
-use super::edge::Edge;
-use super::on_lattice::{Layer, RegionOnLattice, State, middle_of_row};
+use super::on_lattice::{RegionOnLattice, SquareState, TreeLevel, middle_of_row};
+use super::outline_edge::OutlineEdge;
 use super::region::EdgeCursor;
 use crate::geometry::Lattice;
 use crate::mesh::Progress;
@@ -34,7 +34,7 @@ pub(super) struct RegionOnLatticeBuilder {
 /// What is being done.
 #[derive(Clone, Copy, Debug)]
 enum Step {
-    /// Corners are moved to the nearest lattice points.
+    /// TriangleExtents are moved to the nearest lattice points.
     Moving(EdgeCursor),
     /// The squares that each edge touches are counted, this edge next.
     Counting(usize),
@@ -97,7 +97,7 @@ impl RegionOnLatticeBuilder {
             };
             let ends = edge.map(place);
             if ends[0] != ends[1] {
-                let edge = Edge { ends, on_frame: on_side(ends, 0) || on_side(ends, 1) };
+                let edge = OutlineEdge { ends, on_frame: on_side(ends, 0) || on_side(ends, 1) };
                 self.length += edge.length();
                 self.index.edges.push(edge);
             }
@@ -170,7 +170,7 @@ impl RegionOnLatticeBuilder {
         if end < edges.len() {
             return Step::Sorting(end);
         }
-        self.index.layers = vec![Layer { columns: counts[0], states: Vec::with_capacity(ends.len()) }];
+        self.index.levels = vec![TreeLevel { columns: counts[0], states: Vec::with_capacity(ends.len()) }];
         Step::Filling(0)
     }
 
@@ -196,14 +196,14 @@ impl RegionOnLatticeBuilder {
             let square = row as usize * columns as usize + column as usize;
             self.index.inside_at_left.push(inside);
             let state = match (self.index.edges_in(square).next().is_some(), inside) {
-                (true, _) => State::Cut,
-                (false, true) => State::Inside,
-                (false, false) => State::Outside,
+                (true, _) => SquareState::Crossed,
+                (false, true) => SquareState::Inside,
+                (false, false) => SquareState::Outside,
             };
-            if state == State::Cut {
+            if state == SquareState::Crossed {
                 inside ^= self.crossings_of_middle(column, row) % 2 == 1;
             }
-            self.index.layers[0].states.push(state);
+            self.index.levels[0].states.push(state);
         }
     }
 
@@ -214,17 +214,18 @@ impl RegionOnLatticeBuilder {
         let right = if column + 1 == columns { i64::MAX } else { 3 * (i64::from(column + 1) << bits) };
         let height = middle_of_row(i64::from(row), bits);
         let square = row as usize * columns as usize + column as usize;
-        let crossing = |edge: &&Edge| edge.crosses_between(left, right, [i64::MAX, height]);
+        let crossing = |edge: &&OutlineEdge| edge.crosses_between(left, right, [i64::MAX, height]);
         self.index.edges_in(square).filter(crossing).count()
     }
 
     fn join_squares(&mut self) {
         for depth in (0..self.halvings).rev() {
             let [columns, rows] = self.index.cells.map(|n| n << depth);
-            let finer = &self.index.layers[0];
+            let finer = &self.index.levels[0];
             let squares = (0..rows).flat_map(|row| (0..columns).map(move |column| [column, row]));
-            let layer = Layer { columns, states: squares.map(|square| finer.joined(square)).collect() };
-            self.index.layers.insert(0, layer);
+            let tree_level =
+                TreeLevel { columns, states: squares.map(|square| finer.joined(square)).collect() };
+            self.index.levels.insert(0, tree_level);
         }
     }
 }

@@ -1,22 +1,24 @@
-//! An edge of a region in lattice coordinates, and what it meets: all exact.
+//! An edge of an outline in lattice coordinates, with exact tests against triangles, points and lines.
 
 use crate::geometry::LatticePoint;
 
-/// An edge of the region.
+/// An edge of a region, with the region on its left.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Edge {
+pub(super) struct OutlineEdge {
+    /// In lattice coordinates.
     pub(super) ends: [[i64; 2]; 2],
     /// Whether it lies along a side of the grid.
     pub(super) on_frame: bool,
 }
 
-/// A triangle of a mesh, with its extents along x, y, x + y and x − y: across the directions that its sides can have.
-pub(super) struct Corners {
+/// A triangle of a mesh, with its extents along x, y, x + y and x − y: perpendicular to the directions of its
+/// sides.
+pub(super) struct TriangleExtents {
     places: [[i64; 2]; 3],
     extents: [[i64; 2]; 4],
 }
 
-impl Corners {
+impl TriangleExtents {
     pub(super) fn of(corners: [LatticePoint; 3]) -> Self {
         let places = corners.map(|p| [i64::from(p.x), i64::from(p.y)]);
         let along = |measure: fn([i64; 2]) -> i64| {
@@ -28,10 +30,10 @@ impl Corners {
     }
 }
 
-impl Edge {
-    /// Whether the edge has a point in common with a closed triangle: no line along a side of the triangle, nor one along the
-    /// edge, separates them.
-    pub(super) fn touches(&self, triangle: &Corners) -> bool {
+impl OutlineEdge {
+    /// Whether the edge touches a closed triangle: no line along a side of the triangle or along the edge
+    /// separates them.
+    pub(super) fn touches(&self, triangle: &TriangleExtents) -> bool {
         let [[ax, ay], [bx, by]] = self.ends;
         let apart = |[low, high]: [i64; 2], a: i64, b: i64| a.max(b) < low || a.min(b) > high;
         let [x, y, sum, difference] = triangle.extents;
@@ -47,7 +49,7 @@ impl Edge {
         !(sides.iter().all(|&s| s > 0) || sides.iter().all(|&s| s < 0))
     }
 
-    /// How far it goes along x and y together.
+    /// Its extent along x plus its extent along y, in lattice steps.
     pub(super) fn length(&self) -> u64 {
         let [[ax, ay], [bx, by]] = self.ends;
         ax.abs_diff(bx) + ay.abs_diff(by)
@@ -60,8 +62,8 @@ impl Edge {
         between(ax, bx, px) && between(ay, by, py) && (bx - ax) * (py - ay) == (by - ay) * (px - ax)
     }
 
-    /// Whether the edge crosses the horizontal line through a point, left of the point, and from `left` on up to but without
-    /// `right`. Everything in thirds of a lattice step. An end at the line counts as below it.
+    /// Whether the edge crosses the horizontal line through a point, left of the point and within
+    /// `left..right`. All numbers are in thirds of a lattice step. An end on the line counts as below it.
     pub(super) fn crosses_between(&self, left: i64, right: i64, [px, py]: [i64; 2]) -> bool {
         let [[ax, ay], [bx, by]] = self.ends.map(|end| end.map(|c| 3 * c));
         if (ay <= py) == (by <= py) {
@@ -80,8 +82,9 @@ impl Edge {
         is_left_of(px) && is_left_of(right) && (left == i64::MIN || !is_left_of(left))
     }
 
-    /// Whether the edge crosses the vertical line just left of `px` between two heights. Everything in thirds of a lattice step;
-    /// heights are a hair above what they say, less than the line is left of `px`, as [`Self::crosses_between`] has it.
+    /// Whether the edge crosses the vertical line just left of `px` between two heights. All numbers are in
+    /// thirds of a lattice step. To agree with [`Self::crosses_between`], the heights are infinitesimally
+    /// higher than given, by less than the line is left of `px`.
     pub(super) fn crosses_beside(&self, px: i64, from: i64, to: i64) -> bool {
         let [[ax, ay], [bx, by]] = self.ends.map(|end| end.map(|c| 3 * c));
         if (ax < px) == (bx < px) {
@@ -96,7 +99,8 @@ impl Edge {
         is_above(from) != is_above(to)
     }
 
-    /// Calls `touched` for every square of a grid that the edge has a point in common with, rim included.
+    /// Calls `touched` for every square of a grid that the edge touches, sides included. `counts` is
+    /// [columns, rows], `bits` the binary logarithm of a square's side; squares are numbered row by row.
     pub(super) fn squares_touched(&self, counts: [u32; 2], bits: u32, mut touched: impl FnMut(usize)) {
         let [[ax, ay], [bx, by]] = self.ends;
         let (low, high) = ([ax.min(bx), ay.min(by)], [ax.max(bx), ay.max(by)]);
@@ -104,7 +108,7 @@ impl Edge {
         let last = |c: i64, count: u32| (c >> bits).min(i64::from(count) - 1);
         for row in first(low[1])..=last(high[1], counts[1]) {
             let (bottom, top) = (row << bits, (row + 1) << bits);
-            // The part of the edge at these heights, and the columns round it.
+            // The part of the edge at these heights, and the columns that it may touch.
             let (from, to) = self.columns_between(bottom, top);
             for column in first(from.max(low[0]))..=last(to.min(high[0]), counts[0]) {
                 touched(row as usize * counts[0] as usize + column as usize);
@@ -112,7 +116,7 @@ impl Edge {
         }
     }
 
-    /// The least and the greatest x of the part of the edge between two heights, rounded outwards.
+    /// The smallest and largest x of the part of the edge between two heights, rounded outwards.
     fn columns_between(&self, bottom: i64, top: i64) -> (i64, i64) {
         let [[ax, ay], [bx, by]] = self.ends;
         if ay == by {
@@ -123,7 +127,8 @@ impl Edge {
             let (run, rise) = (i128::from(bx - ax) * i128::from(height - ay), i128::from(by - ay));
             let floor = run.div_euclid(rise);
             let exact = run.rem_euclid(rise) == 0;
-            // A negative divisor rounds up instead of down: a step either way holds the point.
+            // A negative divisor rounds up instead of down: the interval of one step to both sides contains
+            // the exact value.
             (ax + floor as i64 - i64::from(!exact), ax + floor as i64 + i64::from(!exact))
         };
         let ((l0, h0), (l1, h1)) = (at(bottom), at(top));
