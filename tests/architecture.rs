@@ -227,6 +227,37 @@ fn only_the_window_speaks_egui() {
     }
 }
 
+/// Files of the window that may name a tool: the file, and why. All others read the table of tools.
+const NAMES_A_TOOL: [(&str, &str); 6] = [
+    ("src/app/canvas/mod.rs", "Space and the middle button pan with every tool"),
+    ("src/app/catalog.rs", "the modes of the domain tool are commands"),
+    ("src/app/execute.rs", "some commands belong to one tool"),
+    ("src/app/panels/brush.rs", "brush and eraser share a section"),
+    ("src/app/panels/domain.rs", "the section shows the tool's settings while it is selected"),
+    ("src/app/screenshots/mod.rs", "pictures of single tools"),
+];
+
+#[test]
+fn a_tool_is_one_file_and_one_entry_of_the_table() {
+    let window = rooms().into_iter().filter(|file| file.path.starts_with("src/app/"));
+    let window = window.filter(|file| !file.path.starts_with("src/app/tools/"));
+    let tools =
+        ["BRUSH", "ERASER", "QUERY", "DOMAIN", "PAN"].map(|tool| format!("crate::app::tools::{tool}"));
+    let tools: Vec<&str> = tools.iter().map(String::as_str).collect();
+    let listed: Vec<String> = NAMES_A_TOOL.iter().map(|(file, _)| (*file).to_owned()).collect();
+    let (mut found, mut met) = (Vec::new(), Vec::new());
+    for file in window {
+        let (path, names) = (file.path.clone(), named([file], &tools));
+        if listed.contains(&path) && !names.is_empty() {
+            met.push(path);
+        } else {
+            found.extend(names);
+        }
+    }
+    assert_none(found, "keys, menus, panels and canvas read the table of tools:");
+    assert_needed(&listed, &met, "NAMES_A_TOOL");
+}
+
 #[test]
 fn unsafe_code_is_in_one_file() {
     let others = read_src().into_iter().filter(|file| file.path != "src/mesh/kernel/memory.rs");

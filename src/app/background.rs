@@ -1,27 +1,63 @@
 //! Files being read and written off the window's thread: how far each is, and how it is cancelled.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread;
 use std::time::{Duration, Instant};
 
 use eframe::egui::Context;
 
-use super::App;
 use super::busy::Busy;
-use super::session::Notice;
+use super::command::Command;
+use crate::document::Document;
 use crate::io::{self, Meter};
 
-/// How often a window that nothing else happens in shows how far the work is.
+/// How often an otherwise idle window shows the progress of work.
 const PACE: Duration = Duration::from_millis(150);
-/// How long a window that is taken away waits for what is being written.
+/// How long a window that is being closed waits for files that are being written.
 const LAST_WAIT: Duration = Duration::from_secs(5);
 
-/// What is to be done in the window once the work is over.
-pub type Finish = Box<dyn FnOnce(&mut App) + Send>;
+/// What a piece of work came to. `execute::finish` applies it to the window.
+pub enum Outcome {
+    /// Commands to run.
+    Commands(Vec<Command>),
+    /// Something to tell the user.
+    News(String),
+    /// A file was not read. Edits that would have been lost for it are still there, and are asked about again.
+    NotRead(String),
+    /// A file was not written. A window that was about to close stays open, so that the message is seen.
+    NotWritten(String),
+    /// A project was read.
+    Opened {
+        /// Where it is.
+        path: PathBuf,
+        /// What is in it.
+        document: Box<Document>,
+        /// The version of the document that it replaces.
+        replaces: u64,
+    },
+    /// This version of the document was saved.
+    Saved {
+        /// Where to.
+        path: PathBuf,
+        /// The version.
+        version: u64,
+    },
+    /// Saving was cancelled: a sentence about it.
+    SavingCancelled(String),
+    /// The document was not saved: a sentence about it.
+    NotSaved(String),
+}
 
-/// What work is for.
+impl Outcome {
+    /// A file was not read, for this reason.
+    pub fn not_read(problem: impl std::fmt::Display) -> Self {
+        Self::NotRead(problem.to_string())
+    }
+}
+
+/// The purpose of work.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Aim {
     /// A file is read. Cancelled, it is forgotten at once.
@@ -42,11 +78,11 @@ impl Aim {
     }
 }
 
-/// Names work as long as the window is open.
+/// Identifies work as long as the window is open.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct WorkId(u64);
 
-/// Work under way.
+/// A file being read or written.
 struct Work {
     id: WorkId,
     aim: Aim,
@@ -56,7 +92,7 @@ struct Work {
     busy: Busy,
 }
 
-/// How far work is, to be shown.
+/// The progress of one piece of work, as it is shown.
 pub struct Row {
     pub id: WorkId,
     /// `Reading coast.geojson`.
@@ -64,59 +100,77 @@ pub struct Row {
     pub meter: Meter,
 }
 
-/// All work under way off the window's thread.
+/// All work on other threads.
 pub struct Background {
     ctx: Context,
-    sender: Sender<(WorkId, Finish)>,
-    receiver: Receiver<(WorkId, Finish)>,
+    sender: Sender<(WorkId, Outcome)>,
+    receiver: Receiver<(WorkId, Outcome)>,
     works: Vec<Work>,
-    begun: u64,
+    started: u64,
 }
 
 impl Background {
     /// Nothing yet, in the window of `ctx`.
     pub fn new(ctx: &Context) -> Self {
         let (sender, receiver) = channel();
-        Self { ctx: ctx.clone(), sender, receiver, works: Vec::new(), begun: 0 }
+        Self { ctx: ctx.clone(), sender, receiver, works: Vec::new(), started: 0 }
     }
 
-    /// Begins work on a file. It looks at its meter often; what it returns is done in the window, unless it only read and was cancelled.
-    pub fn start(&mut self, aim: Aim, path: &Path, work: impl FnOnce(&Meter) -> Finish + Send + 'static) {
-        self.begun += 1;
-        let (id, meter, name) = (WorkId(self.begun), Meter::default(), name_of(path));
+    /// Starts work on a file. It checks its meter often; its outcome is applied, unless it only read and was cancelled.
+    pub fn start(&mut self, aim: Aim, path: &Path, work: impl FnOnce(&Meter) -> Outcome + Send + 'static) {
+        self.started += 1;
+        let (id, meter, name) = (WorkId(self.started), Meter::default(), name_of(path));
         let (sender, ctx, watched) = (self.sender.clone(), self.ctx.clone(), meter.clone());
         let what = format!("{} {name}", aim.doing());
-        self.works.push(Work { id, aim, name, meter, busy: Busy::default() });
+        self.works.push(Work { id, aim, name, meter, busy: Busy::now() });
         thread::spawn(move || {
-            // A mistake of ours must not leave the window waiting for ever.
-            let finish = catch_unwind(AssertUnwindSafe(|| work(&watched))).unwrap_or_else(|_| {
-                let problem = format!("{what} failed by a mistake in Meshbrush. The document is as it was.");
-                not_written(problem)
+            // A panic must not leave the window waiting for ever.
+            let outcome = catch_unwind(AssertUnwindSafe(|| work(&watched))).unwrap_or_else(|_| {
+                let problem =
+                    format!("{what} failed because of a bug in Meshbrush. The document is unchanged.");
+                Outcome::NotWritten(problem)
             });
             // The window may have closed in the meantime.
-            let _ = sender.send((id, finish));
+            let _ = sender.send((id, outcome));
             ctx.request_repaint();
         });
     }
 
-    /// Takes work that is over from the list, and returns what is to be done now.
-    fn finished(&mut self) -> Option<Finish> {
+    /// Removes one finished piece of work from the list, and returns its outcome.
+    pub fn take_finished(&mut self) -> Option<Outcome> {
         loop {
-            let (id, finish) = self.receiver.try_recv().ok()?;
+            let (id, outcome) = self.receiver.try_recv().ok()?;
             if let Some(at) = self.works.iter().position(|work| work.id == id) {
                 self.works.remove(at);
-                return Some(finish);
+                return Some(outcome);
             }
         }
     }
 
-    /// Names of files that are being written and wanted.
+    /// Cancels work. What was being read is forgotten at once; what is being written ends once nothing is left of it.
+    /// Returns what it was for, and the name of its file.
+    pub fn cancel(&mut self, id: WorkId) -> Option<(Aim, String)> {
+        let at = self.works.iter().position(|work| work.id == id)?;
+        let (aim, name) = (self.works[at].aim, self.works[at].name.clone());
+        self.works[at].meter.cancel();
+        if aim == Aim::Read {
+            self.works.remove(at);
+        }
+        Some((aim, name))
+    }
+
+    /// Whether anything is being written.
+    fn writes(&self) -> bool {
+        self.works.iter().any(|work| work.aim != Aim::Read)
+    }
+
+    /// Names of files that are being written, without cancelled ones.
     pub fn being_written(&self) -> impl Iterator<Item = &str> {
         let wanted = |work: &&Work| work.aim != Aim::Read && !work.meter.is_cancelled();
         self.works.iter().filter(wanted).map(|work| work.name.as_str())
     }
 
-    /// Whether the document is being saved, even if that was cancelled and has not ended yet.
+    /// Whether the document is being saved, including a cancelled save that has not ended yet.
     pub fn saves(&self) -> bool {
         self.works.iter().any(|work| matches!(work.aim, Aim::Save(_)))
     }
@@ -126,88 +180,38 @@ impl Background {
         self.works.iter().any(|work| work.aim == Aim::Save(version) && !work.meter.is_cancelled())
     }
 
-    /// What to show of the work that takes longer than a moment, or of all. To be asked in every frame.
-    pub fn rows(&mut self, all: bool) -> Vec<Row> {
-        let mut rows = Vec::new();
-        for Work { id, aim, name, meter, busy } in &mut self.works {
-            if busy.is_long(true) || all {
-                let doing = if meter.is_cancelled() { "Cancelling" } else { aim.doing() };
-                rows.push(Row { id: *id, what: format!("{doing} {name}"), meter: meter.clone() });
-            }
-        }
-        rows
+    /// The progress of work that takes longer than a moment, or of all work.
+    pub fn rows(&self, all: bool) -> Vec<Row> {
+        let shown = self.works.iter().filter(|work| all || work.busy.is_long());
+        let row = |work: &Work| {
+            let doing = if work.meter.is_cancelled() { "Cancelling" } else { work.aim.doing() };
+            Row { id: work.id, what: format!("{doing} {}", work.name), meter: work.meter.clone() }
+        };
+        shown.map(row).collect()
     }
 
-    /// Lets the window show how work gets on. Without any it rests.
+    /// Repaints the window at times while there is work.
     pub fn keep_awake(&self) {
         if !self.works.is_empty() {
             self.ctx.request_repaint_after(PACE);
         }
     }
-}
 
-impl App {
-    /// Does in the window what is to be done after work that is over.
-    pub(super) fn take_in_background(&mut self) {
-        while let Some(finish) = self.background.finished() {
-            finish(self);
-        }
-    }
-
-    /// Gives work up. What was to be read is forgotten; of what is being written one hears once nothing is left of it.
-    pub(super) fn cancel_work(&mut self, id: WorkId) {
-        let works = &mut self.background.works;
-        let Some(at) = works.iter().position(|work| work.id == id) else { return };
-        works[at].meter.cancel();
-        match works[at].aim {
-            Aim::Read => {
-                let name = works.remove(at).name;
-                let text = format!("Reading {name} was cancelled. The document is as it was.");
-                self.session.set_notice(Some(Notice { failed: false, text }));
-                self.project.keep_edits();
-            }
-            Aim::Export => {}
-            Aim::Save(_) => self.project.give_saving_up(),
-        }
-    }
-
-    /// Waits for what is being written, when the window is gone already.
-    pub(super) fn wait_for_writing(&mut self) {
-        let start = Instant::now();
-        while self.background.works.iter().any(|work| work.aim != Aim::Read) && start.elapsed() < LAST_WAIT {
-            self.take_in_background();
+    /// Waits a little for the next outcome, while anything is being written and `start` is not too long ago. Returns whether
+    /// to go on waiting.
+    pub fn wait_for_writing(&self, start: Instant) -> bool {
+        let waits = self.writes() && start.elapsed() < LAST_WAIT;
+        if waits {
             thread::sleep(Duration::from_millis(5));
         }
+        waits
     }
 }
 
-/// Shows a sentence.
-pub fn told(text: String) -> Finish {
-    Box::new(|app| app.session.set_notice(Some(Notice { failed: false, text })))
-}
-
-/// Says why a file was not read. Edits that were to go for it are still there, and are asked about again.
-pub fn not_read(problem: impl std::fmt::Display) -> Finish {
-    let problem = problem.to_string();
-    Box::new(|app| {
-        app.project.keep_edits();
-        app.session.report(problem);
-    })
-}
-
-/// Says why a file was not written. A window that was to close stays open, so that it is seen.
-pub fn not_written(problem: impl std::fmt::Display) -> Finish {
-    let problem = problem.to_string();
-    Box::new(|app| {
-        app.project.stay();
-        app.session.report(problem);
-    })
-}
-
-/// What to say of a file that was not written because somebody cancelled that.
+/// Says that writing a file was cancelled.
 pub fn cancelled(aim: Aim, path: &Path) -> String {
     let left =
-        if io::exists(path) { "The file that was there is as it was." } else { "No file was written." };
+        if io::exists(path) { "The file that was there is unchanged." } else { "No file was written." };
     format!("{} {} was cancelled. {left}", aim.doing(), name_of(path))
 }
 

@@ -1,21 +1,27 @@
 use std::time::{Duration, Instant};
 
-/// Work shorter than this shows no progress bar: it would only flicker.
+/// Work shorter than this shows no progress: it would only flicker.
 const MOMENT: Duration = Duration::from_millis(250);
 
-/// Tells work that takes a moment from work that takes long.
+/// Tells long work from work of a moment.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Busy {
     since: Option<Instant>,
 }
 
 impl Busy {
-    /// Whether the work under way has been so for longer than a moment. To be asked in every frame.
-    pub fn is_long(&mut self, working: bool) -> bool {
-        if !working {
-            self.since = None;
-            return false;
-        }
-        self.since.get_or_insert_with(Instant::now).elapsed() > MOMENT
+    /// Work that begins now.
+    pub fn now() -> Self {
+        Self { since: Some(Instant::now()) }
+    }
+
+    /// Notes whether there is work. Call it every frame.
+    pub fn note(&mut self, working: bool) {
+        self.since = working.then(|| self.since.unwrap_or_else(Instant::now));
+    }
+
+    /// Whether the work has taken longer than a moment.
+    pub fn is_long(&self) -> bool {
+        self.since.is_some_and(|since| since.elapsed() > MOMENT)
     }
 }

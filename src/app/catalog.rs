@@ -1,114 +1,117 @@
-//! The list of commands that have a name: what menus, shortcuts and the palette offer.
+//! The commands that have a title: what menus, keys and the palette offer.
 
-use eframe::egui::{Key, Modifiers, ThemePreference};
+use eframe::egui::{Key, KeyboardShortcut, Modifiers, ThemePreference};
 
-use super::App;
-use super::command::{Command, DomainCommand, Entry, Menu};
-use super::tools::{DomainToolMode, PaintKind, Tool};
+use super::command::{Command, DomainCommand};
+use super::dialogs::FileRequest;
+use super::frame::FrameState;
+use super::tools::{DOMAIN, DomainToolMode, PaintKind, TOOLS};
 use super::view::FieldOverlay;
 use crate::colormap::Colormap;
 use crate::document::Example;
 
-/// Every named command, in menu order, as it stands now.
-pub fn catalog(app: &App) -> Vec<Entry> {
-    [file(app), edit(app), tool(app), view(app), examples(), help()].concat()
+/// Every command with a title, in menu order, with its present state.
+pub fn catalog(state: &FrameState<'_>) -> Vec<CatalogItem> {
+    [file(state), edit(state), tool(state), view(state), examples(), help()].concat()
 }
 
-fn file(app: &App) -> Vec<Entry> {
+fn file(state: &FrameState<'_>) -> Vec<CatalogItem> {
     use Menu::File;
-    let mut entries = vec![
-        Entry::new(File, "New", Command::New).ctrl(Key::N),
-        Entry::new(File, "Open…", Command::AskToOpen).ctrl(Key::O),
-        Entry::new(File, "Save", Command::Save).ctrl(Key::S),
-        Entry::new(File, "Save as…", Command::AskWhereToSave)
+    let mut items = vec![
+        CatalogItem::new(File, "New", Command::New).ctrl(Key::N),
+        CatalogItem::new(File, "Open…", Command::Ask(FileRequest::Open)).ctrl(Key::O),
+        CatalogItem::new(File, "Save", Command::Save).ctrl(Key::S),
+        CatalogItem::new(File, "Save as…", Command::Ask(FileRequest::Save))
             .keys(Modifiers::COMMAND | Modifiers::SHIFT, Key::S),
-        Entry::new(File, "Open picture as risk…", Command::AskForImage).group(),
-        Entry::new(File, "Open domain…", Command::AskForDomain)
+        CatalogItem::new(File, "Open picture as risk…", Command::Ask(FileRequest::OpenImage)).group(),
+        CatalogItem::new(File, "Open domain…", Command::Ask(FileRequest::OpenDomain))
             .keys(Modifiers::COMMAND | Modifiers::SHIFT, Key::O),
-        Entry::new(File, "Export mesh…", Command::AskForExport).ctrl(Key::E),
+        CatalogItem::new(File, "Export mesh…", Command::Ask(FileRequest::Export)).ctrl(Key::E),
     ];
-    for (i, path) in app.project.recent().iter().enumerate() {
+    for (i, path) in state.project.recent().iter().enumerate() {
         let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
-        let entry = Entry::new(File, format!("Open recent {name}"), Command::Open(path.clone()));
-        entries.push(if i == 0 { entry.group() } else { entry });
+        let item = CatalogItem::new(File, format!("Open recent {name}"), Command::Open(path.clone()));
+        items.push(if i == 0 { item.group() } else { item });
     }
-    entries.push(Entry::new(File, "Quit", Command::Quit).ctrl(Key::Q).group());
-    entries
+    items.push(CatalogItem::new(File, "Quit", Command::Quit).ctrl(Key::Q).group());
+    items
 }
 
-fn edit(app: &App) -> Vec<Entry> {
+fn edit(state: &FrameState<'_>) -> Vec<CatalogItem> {
     use Menu::Edit;
-    let history = app.session.document().history();
+    let history = state.session.document().history();
     let named = |verb: &str, title: Option<&str>| match title {
         Some(title) => format!("{verb} {title}"),
         None => verb.to_owned(),
     };
     let undo = named("Undo", history.undo_title());
     let redo = named("Redo", history.redo_title());
-    let can_undo = history.undo_title().is_some() || app.session.document().stroke().is_some();
+    let can_undo = history.undo_title().is_some() || state.session.document().stroke().is_some();
     let can_redo = history.redo_title().is_some();
     vec![
-        Entry::new(Edit, undo, Command::Undo).ctrl(Key::Z).enabled(can_undo),
-        Entry::new(Edit, redo, Command::Redo)
+        CatalogItem::new(Edit, undo, Command::Undo).ctrl(Key::Z).enabled(can_undo),
+        CatalogItem::new(Edit, redo, Command::Redo)
             .keys(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z)
             .enabled(can_redo),
-        Entry::new(Edit, "Clear paint", Command::ClearPaint).keys(Modifiers::COMMAND, Key::Backspace).group(),
-        Entry::new(Edit, "Let go", Command::Escape).key(Key::Escape),
+        CatalogItem::new(Edit, "Clear paint", Command::ClearPaint)
+            .keys(Modifiers::COMMAND, Key::Backspace)
+            .group(),
+        CatalogItem::new(Edit, "Cancel or deselect", Command::Escape).key(Key::Escape),
     ]
 }
 
-fn tool(app: &App) -> Vec<Entry> {
+fn tool(state: &FrameState<'_>) -> Vec<CatalogItem> {
     use Menu::Tool as InTool;
-    let tools = &app.tools;
-    let tool = |title: &str, tool, key| {
-        Entry::new(InTool, title, Command::Use(tool)).key(key).checked(tools.tool == tool)
-    };
+    let tools = state.tools;
     let kind =
-        |title: &str, kind| Entry::new(InTool, title, Command::Paint(kind)).checked(tools.kind == kind);
+        |title: &str, kind| CatalogItem::new(InTool, title, Command::Paint(kind)).checked(tools.kind == kind);
     let harder = |title: &str, step: f64, key| {
         let hardness = (tools.hardness + step).clamp(0.0, 1.0);
-        Entry::new(InTool, title, Command::BrushHardness(hardness)).keys(Modifiers::SHIFT, key)
+        CatalogItem::new(InTool, title, Command::BrushHardness(hardness)).keys(Modifiers::SHIFT, key)
     };
-    let mut entries = vec![
-        tool("Brush", Tool::Brush, Key::B),
-        tool("Eraser", Tool::Eraser, Key::E),
-        tool("Query", Tool::Query, Key::Q),
-        tool("Domain", Tool::Domain, Key::D),
-        tool("Pan", Tool::Pan, Key::H),
+    let mut items: Vec<CatalogItem> = (TOOLS.iter())
+        .map(|tool| {
+            let item = CatalogItem::new(InTool, tool.name, Command::Use(tool)).key(tool.key);
+            item.checked(tools.tool == *tool)
+        })
+        .collect();
+    items.extend([
         kind("Paint risk", PaintKind::Risk).key(Key::R).group(),
         kind("Paint target diameter", PaintKind::Diameter).key(Key::T),
-        Entry::new(InTool, "Larger brush", Command::ScaleBrush(1.15)).key(Key::CloseBracket).group(),
-        Entry::new(InTool, "Smaller brush", Command::ScaleBrush(1.0 / 1.15)).key(Key::OpenBracket),
+        CatalogItem::new(InTool, "Larger brush", Command::ScaleBrush(1.15)).key(Key::CloseBracket).group(),
+        CatalogItem::new(InTool, "Smaller brush", Command::ScaleBrush(1.0 / 1.15)).key(Key::OpenBracket),
         harder("Harder brush", 0.1, Key::CloseCurlyBracket),
         harder("Softer brush", -0.1, Key::OpenCurlyBracket),
-    ];
-    let shape = |title: &str, shape| {
-        let taken = tools.tool == Tool::Domain && tools.domain_shape == shape;
-        Entry::new(InTool, title, Command::Domain(DomainCommand::Shape(shape))).checked(taken)
-    };
-    entries.extend([
-        shape("Cut domain with the brush", DomainToolMode::Brush).group(),
-        shape("Cut domain with a rectangle", DomainToolMode::Rectangle),
-        shape("Cut domain with a polygon", DomainToolMode::Polygon),
-        shape("Draw the frame of the domain", DomainToolMode::Frame),
-        Entry::new(InTool, "Add to the domain", Command::Domain(DomainCommand::Adds(!tools.domain_adds)))
-            .key(Key::X)
-            .checked(tools.domain_adds),
     ]);
-    let drawing = !app.outline.is_empty();
-    if drawing {
-        entries.push(
-            Entry::new(InTool, "Close the polygon", Command::Domain(DomainCommand::CloseOutline))
-                .key(Key::Enter),
-        );
-    }
+    items.extend(domain_tool(state));
     for (i, key) in DIGITS.into_iter().enumerate() {
         let percent = 10 * (i + 1);
         let command = Command::BrushStrength(percent as f64 / 100.0);
-        let entry = Entry::new(InTool, format!("Strength {percent} %"), command).key(key);
-        entries.push(if i == 0 { entry.group() } else { entry });
+        let item = CatalogItem::new(InTool, format!("Strength {percent} %"), command).key(key);
+        items.push(if i == 0 { item.group() } else { item });
     }
-    entries
+    items
+}
+
+fn domain_tool(state: &FrameState<'_>) -> Vec<CatalogItem> {
+    let tools = state.tools;
+    let item = |title: &str, command| CatalogItem::new(Menu::Tool, title, Command::Domain(command));
+    let mode = |title: &str, mode| {
+        let current = tools.tool == &DOMAIN && tools.domain.mode == mode;
+        item(title, DomainCommand::Mode(mode)).checked(current)
+    };
+    let adds = tools.domain.adds;
+    let mut items = vec![
+        mode("Cut domain with the brush", DomainToolMode::Brush).group(),
+        mode("Cut domain with a rectangle", DomainToolMode::Rectangle),
+        mode("Cut domain with a polygon", DomainToolMode::Polygon),
+        mode("Draw the frame of the domain", DomainToolMode::Frame),
+        item("Add to the domain", DomainCommand::Adds(!adds)).key(Key::X).checked(adds),
+    ];
+    if !tools.domain.corners.is_empty() {
+        items.push(item("Close the polygon", DomainCommand::ClosePolygon).key(Key::Enter));
+    }
+    items
 }
 
 const DIGITS: [Key; 10] = [
@@ -124,43 +127,162 @@ const DIGITS: [Key; 10] = [
     Key::Num0,
 ];
 
-fn view(app: &App) -> Vec<Entry> {
+fn view(state: &FrameState<'_>) -> Vec<CatalogItem> {
     use Menu::View;
-    let view = &app.view;
+    let view = state.view;
     let overlay = |title: &str, overlay| {
-        Entry::new(View, title, Command::Overlay(overlay)).checked(view.overlay == overlay)
+        // The key of the overlay that is shown hides it.
+        let shown = view.overlay == overlay;
+        let next = if shown { FieldOverlay::None } else { overlay };
+        CatalogItem::new(View, title, Command::SetOverlay(next)).checked(shown)
     };
-    let theme =
-        |title: &str, theme| Entry::new(View, title, Command::Theme(theme)).checked(app.theme == theme);
-    let mut entries = vec![
-        Entry::new(View, "Fit domain", Command::Fit).key(Key::Home),
-        Entry::new(View, "Zoom in", Command::Zoom(1.5)).key(Key::Plus),
-        Entry::new(View, "Zoom out", Command::Zoom(1.0 / 1.5)).key(Key::Minus),
-        Entry::new(View, "Edges", Command::ToggleEdges).key(Key::G).checked(view.edges).group(),
+    let theme = |title: &str, theme| {
+        CatalogItem::new(View, title, Command::Theme(theme)).checked(view.theme == theme)
+    };
+    let mut items = vec![
+        CatalogItem::new(View, "Fit domain", Command::Fit).key(Key::Home),
+        CatalogItem::new(View, "Zoom in", Command::Zoom(1.5)).key(Key::Plus),
+        CatalogItem::new(View, "Zoom out", Command::Zoom(1.0 / 1.5)).key(Key::Minus),
+        CatalogItem::new(View, "Edges", Command::ToggleEdges).key(Key::G).checked(view.edges).group(),
         overlay("No overlay", FieldOverlay::None).group(),
         overlay("Overlay risk", FieldOverlay::Risk).key(Key::O),
         overlay("Overlay target", FieldOverlay::Target).keys(Modifiers::SHIFT, Key::O),
     ];
     for (i, map) in Colormap::ALL.into_iter().enumerate() {
         let title = format!("{} colours", map.name());
-        let entry = Entry::new(View, title, Command::Colormap(map)).checked(view.colormap == map);
-        entries.push(if i == 0 { entry.group() } else { entry });
+        let item = CatalogItem::new(View, title, Command::Colormap(map)).checked(view.colormap == map);
+        items.push(if i == 0 { item.group() } else { item });
     }
-    entries.extend([
+    items.extend([
         theme("Dark theme", ThemePreference::Dark).group(),
         theme("Light theme", ThemePreference::Light),
         theme("Theme of the desktop", ThemePreference::System),
-        Entry::new(View, "Panels", Command::TogglePanels).key(Key::Tab).checked(view.panels).group(),
-        Entry::new(View, "Find a command…", Command::Palette).ctrl(Key::P),
+        CatalogItem::new(View, "Panels", Command::TogglePanels).key(Key::Tab).checked(view.panels).group(),
+        CatalogItem::new(View, "Find a command…", Command::Palette).ctrl(Key::P),
     ]);
-    entries
+    items
 }
 
-fn examples() -> Vec<Entry> {
-    let entry = |example: Example| Entry::new(Menu::Examples, example.name(), Command::OpenExample(example));
-    Example::ALL.map(entry).into()
+fn examples() -> Vec<CatalogItem> {
+    let item =
+        |example: Example| CatalogItem::new(Menu::Examples, example.name(), Command::OpenExample(example));
+    Example::ALL.map(item).into()
 }
 
-fn help() -> Vec<Entry> {
-    vec![Entry::new(Menu::Help, "About Meshbrush", Command::About)]
+fn help() -> Vec<CatalogItem> {
+    vec![CatalogItem::new(Menu::Help, "About Meshbrush", Command::About)]
+}
+
+/// The menu that a command is in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Menu {
+    /// Documents and files.
+    File,
+    /// History and paint.
+    Edit,
+    /// Tools and the brush.
+    Tool,
+    /// What is shown.
+    View,
+    /// Documents that come with the program.
+    Examples,
+    /// About.
+    Help,
+}
+
+impl Menu {
+    /// All menus, from left to right, with their names.
+    pub const ALL: [(Self, &'static str); 6] = [
+        (Self::File, "File"),
+        (Self::Edit, "Edit"),
+        (Self::Tool, "Tool"),
+        (Self::View, "View"),
+        (Self::Examples, "Examples"),
+        (Self::Help, "Help"),
+    ];
+}
+
+/// A command with its title, its menu and its key.
+#[derive(Clone, Debug)]
+pub struct CatalogItem {
+    /// Its menu.
+    pub menu: Menu,
+    /// Its title in menus and in the palette.
+    pub title: String,
+    /// Its shortcut.
+    pub shortcut: Option<KeyboardShortcut>,
+    /// What it does.
+    pub command: Command,
+    /// Whether it can be run now.
+    pub enabled: bool,
+    /// Whether it is the current choice of several.
+    pub checked: bool,
+    /// Whether a separator is above it.
+    pub begins_group: bool,
+}
+
+impl CatalogItem {
+    /// A command that is enabled, without a key.
+    pub fn new(menu: Menu, title: impl Into<String>, command: Command) -> Self {
+        Self {
+            menu,
+            title: title.into(),
+            shortcut: None,
+            command,
+            enabled: true,
+            checked: false,
+            begins_group: false,
+        }
+    }
+
+    /// With a plain key.
+    pub fn key(self, key: Key) -> Self {
+        self.keys(Modifiers::NONE, key)
+    }
+
+    /// With a key and Ctrl (Cmd on a Mac).
+    pub fn ctrl(self, key: Key) -> Self {
+        self.keys(Modifiers::COMMAND, key)
+    }
+
+    /// With a key and modifiers.
+    pub fn keys(mut self, modifiers: Modifiers, key: Key) -> Self {
+        self.shortcut = Some(KeyboardShortcut::new(modifiers, key));
+        self
+    }
+
+    /// Only where `enabled`.
+    pub fn enabled(mut self, enabled: bool) -> Self {
+        self.enabled = enabled;
+        self
+    }
+
+    /// Marked where `checked`.
+    pub fn checked(mut self, checked: bool) -> Self {
+        self.checked = checked;
+        self
+    }
+
+    /// With a separator above it.
+    pub fn group(mut self) -> Self {
+        self.begins_group = true;
+        self
+    }
+}
+
+/// A shortcut as menus and the palette show it.
+pub fn shortcut_text(shortcut: &KeyboardShortcut) -> String {
+    let mut text = String::new();
+    if shortcut.modifiers.command {
+        text += "Ctrl+";
+    }
+    if shortcut.modifiers.shift {
+        text += "Shift+";
+    }
+    text + match shortcut.logical_key {
+        Key::OpenCurlyBracket => "[",
+        Key::CloseCurlyBracket => "]",
+        Key::Escape => "Esc",
+        key => key.symbol_or_name(),
+    }
 }

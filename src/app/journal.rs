@@ -1,4 +1,4 @@
-//! Unsaved work, kept gesture by gesture off the window's thread, and offered back after a crash.
+//! Unsaved work, recorded gesture by gesture on another thread, and offered for restoring after a crash.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -9,15 +9,16 @@ use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
 use eframe::egui::Context;
 
-use super::App;
 use super::command::Command;
+use super::project::ProjectFile;
+use super::session::Session;
 use super::widgets::{Answer, ConfirmDialog};
 use crate::document::{Edits, Settings};
 use crate::io::journal::{self, Abandoned};
 use crate::io::project::Project;
 use crate::paint::Tiles;
 
-/// What is to be written.
+/// What the thread writes.
 enum Entry {
     /// Everything, and the file that it belongs to.
     Whole(Box<Project>, Option<PathBuf>),
@@ -27,9 +28,9 @@ enum Entry {
     Settings(Box<Settings>),
     /// Nothing is unsaved.
     Clean(Option<PathBuf>),
-    /// What was taken over need not be kept any longer.
+    /// The work of an earlier run is no longer needed.
     Forget(Box<Abandoned>),
-    /// The end; the journal is taken away, or left for the next start.
+    /// The end; the journal is deleted, or left for the next start.
     End { remove: bool },
 }
 
@@ -39,15 +40,15 @@ pub struct JournalKeeper {
     thread: Option<JoinHandle<()>>,
     found: Receiver<Abandoned>,
     problems: Receiver<String>,
-    /// The journal has grown so long that it is better begun anew.
+    /// The journal is so long that it should start again with the whole document.
     wants_whole: Arc<AtomicBool>,
-    /// What is offered at present.
+    /// The work of an earlier run that the user is asked about.
     offered: Option<Abandoned>,
     broken: bool,
 }
 
 impl JournalKeeper {
-    /// Begins in the given folder, and looks there for what earlier runs have left behind.
+    /// Starts a journal in a folder, and looks there for what earlier runs left behind.
     pub fn new(folder: PathBuf, ctx: &Context) -> Self {
         let (sender, entries) = channel();
         let (problem_sender, problems) = channel();
@@ -62,7 +63,7 @@ impl JournalKeeper {
             window.request_repaint();
         });
         let window = ctx.clone();
-        let tell = move |result: std::io::Result<()>| {
+        let report = move |result: std::io::Result<()>| {
             if let Err(problem) = result {
                 let _ = problem_sender.send(problem.to_string());
                 window.request_repaint();
@@ -70,35 +71,70 @@ impl JournalKeeper {
         };
         let thread = thread::spawn(move || {
             let (disk, written) = channel();
-            let also_tell = tell.clone();
-            let waiting = thread::spawn(move || also_tell(wait_for_disk(&written)));
-            tell(keep(&folder, &entries, &wants, disk));
-            let _ = waiting.join(); // nothing is left to be done about a panic there
+            let also_report = report.clone();
+            let waiting = thread::spawn(move || also_report(wait_for_disk(&written)));
+            report(keep(&folder, &entries, &wants, disk));
+            let _ = waiting.join(); // a panic there changes nothing here
         });
         Self { sender, thread: Some(thread), found, problems, wants_whole, offered: None, broken: false }
     }
 
-    /// Whether a question is on the screen.
+    /// Whether the user is being asked about the work of an earlier run.
     pub fn is_asking(&self) -> bool {
         self.offered.is_some()
     }
 
+    /// Offers the next work that an earlier run left behind.
+    pub fn offer_next(&mut self) {
+        if self.offered.is_none() {
+            self.offered = self.found.try_recv().ok();
+        }
+    }
+
+    /// Takes the answer about the work of an earlier run, and returns the command to run now.
+    pub fn answer(&mut self, answer: Answer) -> Option<Command> {
+        if answer == Answer::Confirmed {
+            // It stays offered: the user may still decide to keep the current document.
+            return self.offered.as_ref().map(|_| Command::Restore);
+        }
+        let left = self.offered.take()?;
+        if answer == Answer::Alternative {
+            self.forget(left);
+        }
+        None
+    }
+
+    /// Takes the work that is offered, to restore it.
+    pub fn take_offered(&mut self) -> Option<Abandoned> {
+        self.offered.take()
+    }
+
+    /// Deletes what an earlier run left behind, once everything recorded so far is on the disk.
+    pub fn forget(&self, left: Abandoned) {
+        self.enter(Entry::Forget(Box::new(left)));
+    }
+
+    /// Records that nothing is unsaved.
+    pub fn note_saved(&self, project: &ProjectFile) {
+        self.enter(Entry::Clean(project.path().map(Path::to_owned)));
+    }
+
     fn enter(&self, entry: Entry) {
-        // A thread that ended has said why.
+        // A thread that ended has reported its problem.
         let _ = self.sender.send(entry);
     }
 
-    /// Waits until all is written; then the journal is removed, or left for the next start.
+    /// Waits until everything is written; then deletes the journal, or leaves it for the next start.
     pub fn end(&mut self, remove: bool) {
         self.enter(Entry::End { remove });
         if let Some(thread) = self.thread.take() {
-            let _ = thread.join(); // nothing is left to be done about a panic there
+            let _ = thread.join(); // a panic there changes nothing here
         }
     }
 }
 
-/// Writes entries as they come, until the end. It never waits for the disk: what is handed to the system
-/// outlives the program.
+/// Writes entries as they come, until the end. It never waits for the disk: what the system has been given outlives the
+/// program.
 fn keep(
     folder: &Path,
     entries: &Receiver<Entry>,
@@ -123,13 +159,13 @@ fn keep(
         }
         wants_whole.store(journal.as_ref().is_some_and(journal::Journal::is_long), Ordering::Relaxed);
         let syncing = journal.as_ref().map(journal::Journal::syncing).transpose()?;
-        // A thread that ended has said why.
+        // A thread that ended has reported its problem.
         let _ = disk.send(ToDisk { syncing, outdated });
     }
     Ok(())
 }
 
-/// A journal that has come so far, and what may go once it is on the disk.
+/// What to bring to the disk, and what to delete then.
 struct ToDisk {
     syncing: Option<journal::Syncing>,
     outdated: Option<Outdated>,
@@ -140,13 +176,13 @@ enum Outdated {
     Left(Box<Abandoned>),
 }
 
-/// How long nothing must have been written before the disk is waited for: the system lets nobody write to a
-/// file in that time, and the next gesture would be lost if the program were killed.
+/// How long nothing must have been written before the thread waits for the disk. The system blocks writes to a file in that
+/// time, and the next gesture would be lost if the program were killed.
 const QUIET: Duration = Duration::from_secs(1);
-/// How long it is put off at most.
+/// The longest that this is put off.
 const LONGEST_DELAY: Duration = Duration::from_secs(30);
 
-/// Waits for the disk: once for all that has come in the meantime.
+/// Waits for the disk, once for everything that came in the meantime.
 fn wait_for_disk(written: &Receiver<ToDisk>) -> std::io::Result<()> {
     while let Ok(first) = written.recv() {
         let start = Instant::now();
@@ -174,96 +210,53 @@ fn now() -> u64 {
     SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |time| time.as_secs())
 }
 
-impl App {
-    /// Hands what was edited to the journal, once a gesture has ended.
-    pub(super) fn follow_journal(&mut self) {
-        let edited = self.is_edited();
-        let Some(keeper) = &mut self.journal else { return };
-        if let Ok(problem) = keeper.problems.try_recv() {
-            keeper.broken = true;
-            let text = "Unsaved work is no longer kept for the case of a crash";
-            self.session.report(format!("{text}: {problem}. Save the project from time to time."));
+/// Hands finished gestures to the journal.
+pub fn record(keeper: &mut JournalKeeper, session: &mut Session, project: &ProjectFile) {
+    let edited = project.is_edited(session);
+    if let Ok(problem) = keeper.problems.try_recv() {
+        keeper.broken = true;
+        let text = "Unsaved work is no longer kept in case of a crash";
+        session.report(format!("{text}: {problem}. Save the project from time to time."));
+    }
+    let document = session.document_mut();
+    if keeper.broken || document.is_in_gesture() {
+        return;
+    }
+    let edits = document.take_edits();
+    if edits.is_empty() {
+        return;
+    }
+    let Edits { settings, all_paint, tiles } = edits;
+    if all_paint || keeper.wants_whole.load(Ordering::Relaxed) {
+        let home = project.path().map(Path::to_owned);
+        keeper.enter(Entry::Whole(Box::new(Project::of(document)), home));
+    } else {
+        if !tiles.is_empty() {
+            keeper.enter(Entry::Tiles(document.paint().tiles(tiles)));
         }
-        let document = self.session.document_mut();
-        if keeper.broken || document.is_in_gesture() {
-            return;
-        }
-        let edits = document.take_edits();
-        if edits.is_empty() {
-            return;
-        }
-        let Edits { settings, all_paint, tiles } = edits;
-        if all_paint || keeper.wants_whole.load(Ordering::Relaxed) {
-            let home = self.project.path().map(Path::to_owned);
-            keeper.enter(Entry::Whole(Box::new(Project::of(document)), home));
-        } else {
-            if !tiles.is_empty() {
-                keeper.enter(Entry::Tiles(document.paint().tiles(tiles)));
-            }
-            if settings {
-                keeper.enter(Entry::Settings(Box::new(document.settings().clone())));
-            }
-        }
-        if !edited {
-            self.note_clean();
+        if settings {
+            keeper.enter(Entry::Settings(Box::new(document.settings().clone())));
         }
     }
+    if !edited {
+        keeper.note_saved(project);
+    }
+}
 
-    /// Tells the journal when nothing is unsaved.
-    pub(super) fn note_clean(&mut self) {
-        let clean = !self.is_edited();
-        if let (Some(keeper), true) = (&self.journal, clean) {
-            keeper.enter(Entry::Clean(self.project.path().map(Path::to_owned)));
-        }
+/// Asks whether to restore what an earlier run left behind.
+pub fn question(ctx: &Context, keeper: &JournalKeeper, project: &ProjectFile, commands: &mut Vec<Command>) {
+    if project.is_asking() || project.is_leaving() {
+        // The user chose to restore, and decides first about the current document.
+        return;
     }
-
-    /// Offers what an earlier run has left behind.
-    pub(super) fn recovery_ui(&mut self, ctx: &Context) {
-        let Some(keeper) = &mut self.journal else { return };
-        if keeper.offered.is_none() {
-            keeper.offered = keeper.found.try_recv().ok();
-        }
-        if self.project.is_asking() || self.project.is_leaving() {
-            // "Restore" was chosen, and first it is decided what becomes of the current document.
-            return;
-        }
-        let Some(left) = &keeper.offered else { return };
-        let name = &left.project.settings.name;
-        let home = left.home.as_deref().and_then(Path::file_name);
-        let name = home.map_or(name.clone(), |home| home.to_string_lossy().into_owned());
-        let body = format!(
-            "“{name}” was not saved when Meshbrush ended unexpectedly, {}.",
-            ago(now().saturating_sub(left.time))
-        );
-        let dialog = ConfirmDialog::new("Restore unsaved work?", &body, "Restore");
-        let Some(answer) = dialog.alternative("Discard").cancel("Later").show(ctx) else { return };
-        match answer {
-            // It stays offered: the command may be cancelled to keep the current document.
-            Answer::Confirmed => self.commands.push(Command::Restore),
-            Answer::Alternative => {
-                if let Some(left) = keeper.offered.take() {
-                    keeper.enter(Entry::Forget(Box::new(left)));
-                }
-            }
-            Answer::Cancelled => keeper.offered = None,
-        }
-    }
-
-    /// Opens the work that is offered, and keeps it in this run's journal from now on.
-    pub(super) fn restore(&mut self) {
-        let Some(left) = self.journal.as_mut().and_then(|keeper| keeper.offered.take()) else { return };
-        let document = match left.project.clone().into_document() {
-            Ok(document) => document,
-            Err(problem) => return self.session.report(problem),
-        };
-        self.show_document(document);
-        let version = self.session.document().version();
-        self.project.belongs_to(left.home.clone(), version, false);
-        self.follow_journal();
-        if let Some(keeper) = &self.journal {
-            keeper.enter(Entry::Forget(Box::new(left)));
-        }
-    }
+    let Some(left) = &keeper.offered else { return };
+    let name = &left.project.settings.name;
+    let home = left.home.as_deref().and_then(Path::file_name);
+    let name = home.map_or(name.clone(), |home| home.to_string_lossy().into_owned());
+    let ago = ago(now().saturating_sub(left.time));
+    let body = format!("“{name}” was not saved when Meshbrush ended unexpectedly, {ago}.");
+    let dialog = ConfirmDialog::new("Restore unsaved work?", &body, "Restore");
+    commands.extend(dialog.alternative("Discard").cancel("Later").show(ctx).map(Command::AnswerRecovery));
 }
 
 /// A time in the past, in words.
@@ -283,7 +276,7 @@ mod tests {
     use super::ago;
 
     #[test]
-    fn times_are_told_in_the_largest_unit() {
+    fn a_time_is_given_in_its_largest_unit() {
         for (seconds, words) in [
             (0, "less than a minute ago"),
             (60, "1 minute ago"),

@@ -1,17 +1,16 @@
-//! The file that the document belongs to: opening it, saving it, and asking before something would be lost.
+//! The file that the document belongs to: opening it, saving it, and asking before edits would be lost.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use eframe::egui::{Context, ViewportCommand};
 
-use super::App;
-use super::background::{Aim, cancelled, not_read};
+use super::background::{Aim, Background, Outcome, cancelled};
 use super::command::Command;
-use super::files::{FileRequest, listed};
-use super::session::Notice;
+use super::files::listed;
+use super::frame::FrameState;
+use super::session::Session;
 use super::widgets::{Answer, ConfirmDialog};
-use crate::document::Document;
 use crate::io;
 use crate::io::project::{ENDING, Project};
 use crate::render::export::ExportFormat;
@@ -24,22 +23,22 @@ const RECENT_KEY: &str = "recent files";
 /// The document's file, and what of the document is saved.
 pub struct ProjectFile {
     path: Option<PathBuf>,
-    /// The version of the document that was opened, or saved last; `None` if it is in no file.
+    /// The version of the document that was opened or saved last; `None` if no file has it.
     saved_version: Option<u64>,
     recent: Vec<PathBuf>,
-    /// The command that would lose edits, while it is asked what to do with them.
+    /// The command that would lose edits, while the user is asked about them.
     leaving: Option<Command>,
     /// The command that waits until the document is saved.
     after_saving: Option<Command>,
-    /// The version that may be lost: somebody said so.
+    /// The version whose edits the user agreed to lose.
     given_up: Option<u64>,
-    /// Files that are there already, while it is asked whether they are to be replaced, and the command that
-    /// does it.
+    /// Existing files, while the user is asked whether to replace them, and the command that replaces them.
     replacing: Option<(Vec<PathBuf>, Command)>,
-    /// Where to save once more when the present saving is done.
+    /// Where to save again after the current save.
     save_again: Option<PathBuf>,
     /// The window closes once everything is written.
     closing: bool,
+    /// The title that the desktop was given.
     window_title: String,
 }
 
@@ -60,7 +59,7 @@ impl ProjectFile {
         }
     }
 
-    /// Where the document was saved or opened.
+    /// The file that the document was opened from or saved to.
     pub fn path(&self) -> Option<&Path> {
         self.path.as_deref()
     }
@@ -75,22 +74,21 @@ impl ProjectFile {
         self.leaving.is_some() || self.replacing.is_some()
     }
 
-    /// Takes the list of files from where the window keeps it.
-    pub fn remember(&mut self, storage: &dyn eframe::Storage) {
+    /// Loads the list of recent files from the window's own storage.
+    pub fn load(&mut self, storage: &dyn eframe::Storage) {
         self.recent = eframe::get_value(storage, RECENT_KEY).unwrap_or_default();
         self.recent.truncate(MOST_RECENT);
     }
 
-    /// Puts it there.
+    /// Stores it there.
     pub fn store(&self, storage: &mut dyn eframe::Storage) {
-        // What has no text cannot be stored; the others are.
+        // A path that is not valid Unicode cannot be stored.
         let named: Vec<&PathBuf> = self.recent.iter().filter(|path| path.to_str().is_some()).collect();
         eframe::set_value(storage, RECENT_KEY, &named);
     }
 
-    /// The document is another one now, or belongs to another file. `saved` tells that the file has that
-    /// version.
-    pub(super) fn belongs_to(&mut self, path: Option<PathBuf>, version: u64, saved: bool) {
+    /// Notes that the document is another one, or belongs to another file; `saved` if the file has this version.
+    pub fn belongs_to(&mut self, path: Option<PathBuf>, version: u64, saved: bool) {
         self.saved_version = saved.then_some(version);
         if let Some(path) = &path {
             self.recent.retain(|other| other != path);
@@ -100,28 +98,244 @@ impl ProjectFile {
         self.path = path;
     }
 
-    /// Whether the window, or the document, is left once something is written.
+    /// Whether the window or the document closes once something is written.
     pub fn is_leaving(&self) -> bool {
         self.closing || self.after_saving.is_some()
     }
 
-    /// Edits that were given up are asked about again.
-    pub(super) fn keep_edits(&mut self) {
+    /// Asks again about edits that the user agreed to lose.
+    pub fn keep_edits(&mut self) {
         self.given_up = None;
     }
 
-    /// Forgets that anybody wanted to leave: something went wrong on the way.
-    pub(super) fn stay(&mut self) {
+    /// Keeps the window and the document open: something failed.
+    pub fn stay(&mut self) {
         self.keep_edits();
         self.after_saving = None;
         self.closing = false;
     }
 
-    /// Forgets what was to come after saving, too.
-    pub(super) fn give_saving_up(&mut self) {
+    /// Keeps them open, and does not save again.
+    pub fn cancel_saving(&mut self) {
         self.stay();
         self.save_again = None;
     }
+
+    /// Whether edits would be lost if the document closed now.
+    pub fn is_edited(&self, session: &Session) -> bool {
+        let document = session.document();
+        document.stroke().is_some() || session.is_cutting() || self.saved_version != Some(document.version())
+    }
+
+    /// Whether the document may close: it has no unsaved edits, or the user agreed to lose them.
+    pub fn may_leave(&self, session: &Session) -> bool {
+        !self.is_edited(session) || self.given_up == Some(session.document().version())
+    }
+
+    /// Returns the command, unless the user must be asked first about unsaved edits.
+    pub fn ask_before_leaving(
+        &mut self,
+        command: Command,
+        session: &mut Session,
+        background: &Background,
+    ) -> Option<Command> {
+        if !leaves(&command) || self.may_leave(session) {
+            return Some(command);
+        }
+        let document = session.document();
+        let saving = document.stroke().is_none() && background.saves_version(document.version());
+        if saving {
+            announce_closing(&command, session, background);
+            self.after_saving = Some(command);
+        } else {
+            self.leaving = Some(command);
+        }
+        None
+    }
+
+    /// Name of the document: that of its file, if it has one.
+    pub fn document_name(&self, session: &Session) -> String {
+        match self.path().and_then(Path::file_stem) {
+            Some(stem) => stem.to_string_lossy().into_owned(),
+            None => session.document().settings().name.clone(),
+        }
+    }
+
+    /// The document's name, for the menu bar.
+    pub fn title(&self, session: &Session) -> String {
+        let edited = if self.is_edited(session) { " — edited" } else { "" };
+        format!("{}{edited}", self.document_name(session))
+    }
+
+    /// Keeps the window's title up to date.
+    pub fn set_window_title(&mut self, session: &Session, ctx: &Context) {
+        let mark = if self.is_edited(session) { "• " } else { "" };
+        let title = format!("{mark}{} — Meshbrush", self.document_name(session));
+        if title != self.window_title {
+            ctx.send_viewport_cmd(ViewportCommand::Title(title.clone()));
+            self.window_title = title;
+        }
+    }
+
+    /// Keeps the window open as long as something would be lost with it. Returns the command that closes it, once it may.
+    pub fn handle_close_request(
+        &mut self,
+        session: &mut Session,
+        background: &Background,
+        ctx: &Context,
+    ) -> Option<Command> {
+        let writes = background.being_written().next().is_some();
+        if !ctx.input(|input| input.viewport().close_requested()) {
+            let closes = self.closing && !writes;
+            self.closing &= !closes;
+            return closes.then_some(Command::Quit);
+        }
+        if !self.may_leave(session) || writes {
+            ctx.send_viewport_cmd(ViewportCommand::CancelClose);
+            if let Some(quit) = self.ask_before_leaving(Command::Quit, session, background) {
+                announce_closing(&quit, session, background);
+                self.closing = true;
+            }
+        }
+        None
+    }
+
+    /// Forgets what was to follow saving, where nothing is being saved.
+    pub fn forget_saving(&mut self, background: &Background, asks_for_path: bool) {
+        if !background.saves() && !asks_for_path && self.replacing.is_none() {
+            self.after_saving = None;
+        }
+    }
+
+    /// Takes the answer about unsaved edits, and returns the command to run now.
+    pub fn answer_leaving(&mut self, answer: Answer, session: &mut Session) -> Option<Command> {
+        let command = self.leaving.take()?;
+        match answer {
+            Answer::Confirmed => {
+                self.after_saving = Some(command);
+                Some(Command::Save)
+            }
+            Answer::Alternative => {
+                session.document_mut().end_stroke();
+                self.given_up = Some(session.document().version());
+                Some(command)
+            }
+            Answer::Cancelled => None,
+        }
+    }
+
+    /// Takes the answer about existing files, and returns the command to run now.
+    pub fn answer_replacing(&mut self, answer: Answer) -> Option<Command> {
+        let (_, command) = self.replacing.take()?;
+        (answer == Answer::Confirmed).then_some(command)
+    }
+
+    /// The command that saves to a path that was typed. Asks before it replaces another file.
+    pub fn save_as(&mut self, path: PathBuf) -> Option<Command> {
+        let path = with_ending(path);
+        if io::exists(&path) && self.path() != Some(&path) {
+            self.replacing = Some((vec![path.clone()], Command::SaveTo(path)));
+            return None;
+        }
+        Some(Command::SaveTo(path))
+    }
+
+    /// The command that exports to a path that was typed. Asks before it replaces other files.
+    pub fn export_as(&mut self, path: PathBuf) -> Option<Command> {
+        let files = ExportFormat::of(&path).map_or(Vec::new(), |format| format.files(&path));
+        let existing: Vec<PathBuf> = files.into_iter().filter(|file| io::exists(file)).collect();
+        if existing.is_empty() || existing.iter().any(|file| io::obstacle(file).is_some()) {
+            return Some(Command::Export(path));
+        }
+        self.replacing = Some((existing, Command::Export(path)));
+        None
+    }
+
+    /// Saves the document as it is now, on another thread.
+    pub fn save_to(&mut self, path: PathBuf, session: &mut Session, background: &mut Background) {
+        let path = with_ending(path);
+        if background.saves() {
+            self.save_again = Some(path);
+            return;
+        }
+        let document = session.document_mut();
+        document.end_stroke();
+        document.end_gesture();
+        let (project, version) = (Project::of(document), document.version());
+        let (aim, file) = (Aim::Save(version), path.clone());
+        background.start(aim, &path, move |meter| {
+            let write = |out: &mut dyn Write| io::project::write_metered(out, &project, meter);
+            match io::write_file_metered(&file, meter, write) {
+                Ok(()) => Outcome::Saved { path: file, version },
+                Err(_) if meter.is_cancelled() => Outcome::SavingCancelled(cancelled(aim, &file)),
+                Err(error) => Outcome::NotSaved(format!("{} could not be saved: {error}.", file.display())),
+            }
+        });
+    }
+
+    /// Starts the save that was asked for during the last one.
+    pub fn save_again(&mut self, session: &mut Session, background: &mut Background) {
+        if let Some(path) = self.save_again.take() {
+            self.save_to(path, session, background);
+        }
+    }
+
+    /// The command that waited until the document is saved.
+    pub fn take_after_saving(&mut self) -> Option<Command> {
+        self.after_saving.take()
+    }
+}
+
+/// Whether a command closes the document.
+fn leaves(command: &Command) -> bool {
+    matches!(
+        command,
+        Command::New
+            | Command::OpenExample(_)
+            | Command::OpenProject(_)
+            | Command::OpenDomain(_)
+            | Command::NewWith(_)
+            | Command::Restore
+            | Command::Quit
+    )
+}
+
+/// Says that the window stays open until the files are written.
+fn announce_closing(command: &Command, session: &mut Session, background: &Background) {
+    if *command == Command::Quit {
+        let names = background.being_written().collect::<Vec<_>>().join(", ");
+        session.tell(format!("Meshbrush closes as soon as this is written: {names}."));
+    }
+}
+
+/// Asks about unsaved edits and existing files.
+pub fn questions(ctx: &Context, state: &FrameState<'_>, asks_for_path: bool, commands: &mut Vec<Command>) {
+    let project = state.project;
+    if project.leaving.is_some() && project.replacing.is_none() && !asks_for_path {
+        let question = format!("Save changes to “{}”?", project.document_name(state.session));
+        let dialog = ConfirmDialog::new(&question, "Unsaved changes will be lost.", "Save");
+        commands.extend(dialog.alternative("Do not save").show(ctx).map(Command::AnswerLeaving));
+    }
+    if let Some((files, _)) = &project.replacing {
+        let (question, body) = match &files[..] {
+            [file] => (format!("Replace {}?", file.display()), "Its present contents will be lost.".into()),
+            _ => (
+                format!("Replace {} files?", files.len()),
+                format!("The present contents of {} will be lost.", listed(files)),
+            ),
+        };
+        let dialog = ConfirmDialog::new(&question, &body, "Replace").danger();
+        commands.extend(dialog.show(ctx).map(Command::AnswerReplacing));
+    }
+}
+
+/// Reads a project, which is shown once it is read.
+pub fn open_project(session: &Session, background: &mut Background, path: &Path) {
+    let (file, replaces) = (path.to_owned(), session.document().version());
+    background.start(Aim::Read, path, move |meter| match io::project::read_metered(&file, meter) {
+        Ok(document) => Outcome::Opened { path: file, document: Box::new(document), replaces },
+        Err(error) => Outcome::not_read(error),
+    });
 }
 
 /// What opening a file means, by its ending.
@@ -138,256 +352,6 @@ pub fn open_command(path: PathBuf) -> Result<Command, String> {
             "{} cannot be opened: a project ends in .{ENDING}, a domain of polygons in .geojson, a greyscale picture of risk in .png.",
             path.display()
         )),
-    }
-}
-
-impl App {
-    /// Whether something would be lost if the document went now.
-    pub(super) fn is_edited(&self) -> bool {
-        let document = self.session.document();
-        document.stroke().is_some()
-            || !self.cutter.is_idle()
-            || self.project.saved_version != Some(document.version())
-    }
-
-    /// Whether the document is being saved as it is now.
-    fn is_being_saved(&self) -> bool {
-        let document = self.session.document();
-        document.stroke().is_none() && self.background.saves_version(document.version())
-    }
-
-    pub(super) fn may_leave(&self) -> bool {
-        !self.is_edited() || self.project.given_up == Some(self.session.document().version())
-    }
-
-    /// The command, unless it is to be asked first what becomes of unsaved edits.
-    pub(super) fn asked_before_leaving(&mut self, command: Command) -> Option<Command> {
-        let leaves = matches!(
-            command,
-            Command::New
-                | Command::OpenExample(_)
-                | Command::OpenProject(_)
-                | Command::OpenDomain(_)
-                | Command::NewWith(_)
-                | Command::Restore
-                | Command::Quit
-        );
-        if leaves && !self.may_leave() {
-            if self.is_being_saved() {
-                self.say_when_it_closes(&command);
-                self.project.after_saving = Some(command);
-            } else {
-                self.project.leaving = Some(command);
-            }
-            return None;
-        }
-        Some(command)
-    }
-
-    /// Name of the document: that of its file, if it has one.
-    pub(super) fn document_name(&self) -> String {
-        match self.project.path().and_then(Path::file_stem) {
-            Some(stem) => stem.to_string_lossy().into_owned(),
-            None => self.session.document().settings().name.clone(),
-        }
-    }
-
-    /// Everything about files that goes on from frame to frame.
-    pub(super) fn project_ui(&mut self, ctx: &Context) {
-        let dropped = ctx.input(|input| input.raw.dropped_files.clone());
-        self.commands.extend(dropped.iter().map(|file| Command::Open(file.path().to_owned())));
-        self.close_once_written(ctx);
-        if !self.background.saves() && !self.files.is_asking() && self.project.replacing.is_none() {
-            // Nobody saved after all.
-            self.project.after_saving = None;
-        }
-        self.leaving_ui(ctx);
-        self.replacing_ui(ctx);
-        let mark = if self.is_edited() { "• " } else { "" };
-        let title = format!("{mark}{} — Meshbrush", self.document_name());
-        if title != self.project.window_title {
-            ctx.send_viewport_cmd(ViewportCommand::Title(title.clone()));
-            self.project.window_title = title;
-        }
-    }
-
-    /// Keeps the window open until nothing would be lost with it.
-    fn close_once_written(&mut self, ctx: &Context) {
-        let writes = self.background.being_written().next().is_some();
-        if !ctx.input(|input| input.viewport().close_requested()) {
-            if self.project.closing && !writes {
-                self.project.closing = false;
-                self.commands.push(Command::Quit);
-            }
-        } else if !self.may_leave() || writes {
-            ctx.send_viewport_cmd(ViewportCommand::CancelClose);
-            if let Some(quit) = self.asked_before_leaving(Command::Quit) {
-                self.say_when_it_closes(&quit);
-                self.project.closing = true;
-            }
-        }
-    }
-
-    fn say_when_it_closes(&mut self, command: &Command) {
-        if *command == Command::Quit {
-            let names = self.background.being_written().collect::<Vec<_>>().join(", ");
-            let text = format!("Meshbrush closes as soon as this is written: {names}.");
-            self.session.set_notice(Some(Notice { failed: false, text }));
-        }
-    }
-
-    fn leaving_ui(&mut self, ctx: &Context) {
-        let Some(command) = self.project.leaving.clone() else { return };
-        if self.project.replacing.is_some() || self.files.is_asking() {
-            return;
-        }
-        let question = format!("Save changes to “{}”?", self.document_name());
-        let dialog = ConfirmDialog::new(&question, "What is not saved will be lost.", "Save");
-        let Some(answer) = dialog.alternative("Do not save").show(ctx) else { return };
-        self.project.leaving = None;
-        match answer {
-            Answer::Confirmed => {
-                self.save();
-                self.project.after_saving = Some(command);
-            }
-            Answer::Alternative => {
-                self.session.document_mut().end_stroke();
-                self.project.given_up = Some(self.session.document().version());
-                self.commands.push(command);
-            }
-            Answer::Cancelled => {}
-        }
-    }
-
-    fn replacing_ui(&mut self, ctx: &Context) {
-        let Some((files, command)) = self.project.replacing.clone() else { return };
-        let (question, body) = match &files[..] {
-            [file] => {
-                (format!("Replace {}?", file.display()), "What is in the file now will be lost.".into())
-            }
-            _ => (
-                format!("Replace {} files?", files.len()),
-                format!("What is in {} now will be lost.", listed(&files)),
-            ),
-        };
-        let Some(answer) = ConfirmDialog::new(&question, &body, "Replace").danger().show(ctx) else { return };
-        self.project.replacing = None;
-        if answer == Answer::Confirmed {
-            self.execute(command, ctx);
-        }
-    }
-
-    /// Opens any file that can be opened.
-    pub(super) fn open_file(&mut self, path: PathBuf) {
-        match open_command(path) {
-            Ok(command) => self.commands.push(command),
-            Err(problem) => self.session.report(problem),
-        }
-    }
-
-    /// Reads a project; it is shown once it is read.
-    pub(super) fn open_project(&mut self, path: PathBuf) {
-        let (file, over) = (path.clone(), self.session.document().version());
-        self.background.start(Aim::Read, &path, move |meter| match io::project::read_metered(&file, meter) {
-            Ok(document) => Box::new(move |app| app.show_project(file, document, over)),
-            Err(error) => not_read(error),
-        });
-    }
-
-    /// Saves to the document's file, or asks where.
-    pub(super) fn save(&mut self) {
-        match self.project.path.clone() {
-            Some(path) => self.save_to(path),
-            None => self.files.ask(FileRequest::Save),
-        }
-    }
-
-    /// Saves to a file that somebody typed: not over another one without a question.
-    pub(super) fn save_as(&mut self, path: PathBuf) {
-        let path = with_ending(path);
-        if io::exists(&path) && self.project.path() != Some(&path) {
-            self.project.replacing = Some((vec![path.clone()], Command::SaveTo(path)));
-        } else {
-            self.save_to(path);
-        }
-    }
-
-    /// Exports to a file that somebody typed: not over others without a question.
-    pub(super) fn export_as(&mut self, path: PathBuf, ctx: &Context) {
-        let files = ExportFormat::of(&path).map_or(Vec::new(), |format| format.files(&path));
-        let there: Vec<PathBuf> = files.into_iter().filter(|file| io::exists(file)).collect();
-        if there.is_empty() || there.iter().any(|file| io::obstacle(file).is_some()) {
-            self.execute(Command::Export(path), ctx);
-        } else {
-            self.project.replacing = Some((there, Command::Export(path)));
-        }
-    }
-
-    /// Saves the document as it is now, while painting goes on.
-    pub(super) fn save_to(&mut self, path: PathBuf) {
-        let path = with_ending(path);
-        if self.background.saves() {
-            self.project.save_again = Some(path);
-            return;
-        }
-        let document = self.session.document_mut();
-        document.end_stroke();
-        document.end_gesture();
-        let (project, version) = (Project::of(document), document.version());
-        let (aim, file) = (Aim::Save(version), path.clone());
-        self.background.start(aim, &path, move |meter| {
-            let write = |out: &mut dyn Write| io::project::write_metered(out, &project, meter);
-            match io::write_file_metered(&file, meter, write) {
-                Ok(()) => Box::new(move |app| app.note_saved(file, version)),
-                Err(_) if meter.is_cancelled() => {
-                    let text = cancelled(aim, &file);
-                    Box::new(move |app| app.note_cancelled(text))
-                }
-                Err(error) => {
-                    let problem = format!("{} could not be saved: {error}.", file.display());
-                    Box::new(move |app| app.note_not_saved(problem))
-                }
-            }
-        });
-    }
-
-    fn show_project(&mut self, path: PathBuf, document: Document, over: u64) {
-        if over != self.session.document().version() {
-            let problem = "was not opened, as the document was edited in the meantime. Open it again.";
-            self.session.report(format!("{} {problem}", path.display()));
-            return;
-        }
-        self.show_document(document);
-        self.project.belongs_to(Some(path), self.session.document().version(), true);
-    }
-
-    fn note_saved(&mut self, path: PathBuf, version: u64) {
-        let text = format!("Saved to {}.", path.display());
-        self.project.belongs_to(Some(path), version, true);
-        self.session.set_notice(Some(Notice { failed: false, text }));
-        self.note_clean();
-        self.save_again();
-        if !self.background.saves() {
-            // Edits made since are asked about again.
-            self.commands.extend(self.project.after_saving.take());
-        }
-    }
-
-    fn note_cancelled(&mut self, text: String) {
-        self.session.set_notice(Some(Notice { failed: false, text }));
-        // Asked for after the cancelling.
-        self.save_again();
-    }
-
-    fn note_not_saved(&mut self, problem: String) {
-        self.project.give_saving_up();
-        self.session.report(problem);
-    }
-
-    fn save_again(&mut self) {
-        if let Some(path) = self.project.save_again.take() {
-            self.save_to(path);
-        }
     }
 }
 

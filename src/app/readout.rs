@@ -1,4 +1,4 @@
-//! What the query tool reads out of a mesh.
+//! What the inspector shows of a point.
 
 use glam::DVec2;
 
@@ -15,18 +15,18 @@ pub enum Quantity {
     Risk,
 }
 
-/// Everything about one point and the triangle round it.
+/// Everything about one point and the triangle around it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Readout {
     /// The point in world units.
     pub point: DVec2,
     /// Where it lies.
     pub location: Location,
-    /// The triangle round it, if any.
+    /// The triangle around it, if any.
     pub triangle: Option<TriangleReadout>,
 }
 
-/// A triangle, and what interpolation makes of a quantity in it.
+/// A triangle, and a quantity interpolated in it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TriangleReadout {
     /// Its id.
@@ -92,7 +92,7 @@ pub fn value_at(point: DVec2, document: &Document, follower: &Follower, quantity
     }
 }
 
-/// h̄ as a rule sees it, in world units: by pixel, or at the very point.
+/// h̄ as a rule sees it, in world units: by pixel, or exactly at the point.
 pub fn target_at(point: DVec2, field: &TargetField, paint: PaintRef, rule: RefinementRule) -> f64 {
     match rule {
         RefinementRule::Area => field.at(point).unwrap_or(f64::NAN),

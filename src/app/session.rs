@@ -1,14 +1,18 @@
-//! The document, the mesh that follows it, and the point that was asked about.
+//! The document, the mesh that follows it, edits on their way to the document, and the queried point.
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+use eframe::egui::Context;
 use glam::DVec2;
 
+use super::cuts::CutQueue;
 use super::readout::{Quantity, Readout};
 use super::widgets::format;
 use crate::build::BuildError;
 use crate::document::{Document, Follower, MeshChange, Pricer, Setting, Stage};
+use crate::domain::CutShape;
+use crate::geometry::Rect;
 use crate::mesh::{Mesh, NodeId, Numbering, Progress, RefineError, Survey, Topology, TriangleId};
 use crate::paint::Brush;
 use crate::text::Bytes;
@@ -19,40 +23,41 @@ const SLICE: usize = 2048;
 /// A message that stays on the canvas until it is dismissed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Notice {
-    /// Whether something failed, or is just to be known.
+    /// Whether it reports a failure; else it is news.
     pub failed: bool,
     /// A sentence.
     pub text: String,
 }
 
-/// What the window works on.
+/// A document and its mesh in the window.
 pub struct Session {
     document: Document,
     follower: Follower,
     pricer: Pricer,
+    cuts: CutQueue,
     queried: Option<DVec2>,
     notice: Option<Notice>,
-    /// That the mesh stopped short of the document: shown as long as this is so.
+    /// Says that the mesh stopped short of the document, as long as that is so.
     standing: Option<Notice>,
     work: Duration,
     last_update: Option<Duration>,
     survey: Surveyed,
 }
 
-/// The shape of the mesh, and the numbers in its files, as far as they are known.
+/// Parts and holes of the mesh, and the numbers in its files, once they are counted.
 #[derive(Default)]
 struct Surveyed {
-    /// The revision of the mesh that the rest is about.
+    /// The revision of the mesh that the rest describes.
     revision: Option<u64>,
     under_way: Option<Survey>,
     found: Option<(Topology, Numbering)>,
 }
 
 impl Session {
-    /// Opens a document, and makes its mesh in one go.
+    /// Opens a document and builds its mesh in one step.
     ///
     /// # Errors
-    /// When it has none.
+    /// When no mesh can be built for it.
     pub fn new(mut document: Document) -> Result<Self, BuildError> {
         let began = Instant::now();
         let follower = Follower::new(&mut document)?;
@@ -60,6 +65,7 @@ impl Session {
             document,
             follower,
             pricer: Pricer::default(),
+            cuts: CutQueue::default(),
             queried: None,
             notice: None,
             standing: None,
@@ -79,7 +85,7 @@ impl Session {
         &mut self.document
     }
 
-    /// Field and mesh as far as they are in step.
+    /// Field and mesh as far as they are up to date.
     pub fn follower(&self) -> &Follower {
         &self.follower
     }
@@ -89,7 +95,7 @@ impl Session {
         self.follower.mesh()
     }
 
-    /// The mesh on the screen, for work that outlasts a frame.
+    /// The mesh on the screen, for work on another thread.
     pub fn shared_mesh(&self) -> Arc<Mesh> {
         self.follower.shared_mesh()
     }
@@ -99,33 +105,38 @@ impl Session {
         self.mesh().level_counts()
     }
 
-    /// Time that the last whole update took, all slices together.
+    /// Time of the last complete update, the sum of its slices.
     pub fn last_update(&self) -> Option<Duration> {
         self.last_update
     }
 
-    /// What is left to do.
+    /// The present stage of the update.
     pub fn stage(&self) -> Stage {
         self.follower.stage()
     }
 
-    /// The message to be shown.
+    /// The message on the canvas.
     pub fn notice(&self) -> Option<&Notice> {
         self.notice.as_ref().or(self.standing.as_ref())
     }
 
-    /// Whether the message to be shown cannot be dismissed: it goes once mesh and document agree.
+    /// Whether the message cannot be dismissed. It disappears once mesh and document agree.
     pub fn notice_stands(&self) -> bool {
         self.notice.is_none() && self.standing.is_some()
     }
 
-    /// Shows a message, or none.
-    pub fn set_notice(&mut self, notice: Option<Notice>) {
-        self.notice = notice;
+    /// Shows news.
+    pub fn tell(&mut self, text: String) {
+        self.notice = Some(Notice { failed: false, text });
     }
 
-    /// Takes away what was only to be known; what failed stays until it is dismissed.
-    pub fn put_news_away(&mut self) {
+    /// Dismisses the message, except one that says that the mesh stopped short of the document.
+    pub fn dismiss_notice(&mut self) {
+        self.notice = None;
+    }
+
+    /// Dismisses news; a failure stays until the user dismisses it.
+    pub fn dismiss_news(&mut self) {
         self.notice.take_if(|notice| !notice.failed);
     }
 
@@ -134,7 +145,7 @@ impl Session {
         self.notice = Some(Notice { failed: true, text: failure.to_string() });
     }
 
-    /// Changes a setting; what cannot be met is reported, and the document stays as it was.
+    /// Changes a setting. What cannot be met is reported, and the document stays as it was.
     pub fn set(&mut self, setting: Setting) {
         match self.document.set(setting) {
             Ok(()) => self.notice = None,
@@ -142,28 +153,112 @@ impl Session {
         }
     }
 
-    /// Gives up the update under way. The document keeps what was edited; the notice says that the mesh lags behind.
+    /// Adds a shape to the domain (`true`) or removes it.
+    pub fn reshape(&mut self, cut_shape: CutShape, adds: bool) {
+        if self.document.settings().domain.formula().is_some() {
+            self.report(
+                "The domain is given by a formula, and a formula has no outline to cut. Empty the row \"Domain where\" to \
+                 start from the whole rectangle.",
+            );
+        } else {
+            self.cuts.reshape(cut_shape, adds);
+        }
+    }
+
+    /// Gives the domain other bounds, in world units, as a gesture of its own.
+    pub fn set_bounds(&mut self, bounds: Rect) {
+        if self.document.settings().domain.region().is_some() {
+            self.cuts.set_bounds(bounds);
+        } else {
+            self.set(Setting::Bounds(bounds));
+        }
+        self.end_gesture();
+    }
+
+    /// Ends a gesture with a setting, after the cuts that belong to it.
+    pub fn end_gesture(&mut self) {
+        self.cuts.end_gesture(&mut self.document);
+    }
+
+    /// Whether cuts of the domain have not reached the document yet.
+    pub fn is_cutting(&self) -> bool {
+        !self.cuts.is_idle()
+    }
+
+    /// The shapes that are not cut yet.
+    pub fn pending_cuts(&self) -> impl Iterator<Item = &CutShape> {
+        self.cuts.shapes()
+    }
+
+    /// Takes finished cuts into the document, waiting for them up to `patience`. Returns whether any are left.
+    pub fn advance_cuts(&mut self, patience: Duration, ctx: &Context) -> bool {
+        match self.cuts.advance(&mut self.document, patience, ctx) {
+            Ok(left) => left,
+            Err(error) => {
+                self.report(error);
+                self.is_cutting()
+            }
+        }
+    }
+
+    /// Takes back the last gesture. One that has not reached the document is dropped.
+    pub fn undo(&mut self) {
+        if !self.cuts.discard(&mut self.document) {
+            self.document.undo();
+        }
+    }
+
+    /// Does the last undone gesture again.
+    pub fn redo(&mut self) {
+        self.cuts.discard(&mut self.document);
+        self.document.redo();
+    }
+
+    /// Drops the cut in progress: all of it, where the brush is still down.
+    pub fn drop_cut(&mut self) {
+        let begun = self.document.is_in_gesture();
+        self.cuts.discard(&mut self.document);
+        if begun {
+            self.document.undo();
+        }
+    }
+
+    /// Replaces the document by another one. This cannot be undone.
+    pub fn replace_document(&mut self, document: Document) {
+        self.cuts.discard(&mut self.document);
+        self.document.replace_with(document);
+        self.queried = None;
+        self.notice = None;
+    }
+
+    /// Stops the cuts in progress, or else the update of the mesh. The document keeps the edits that reached it; the notice
+    /// says that the mesh lags behind.
     pub fn cancel_update(&mut self) {
+        if self.is_cutting() {
+            self.cuts.discard(&mut self.document);
+            return;
+        }
         self.follower.cancel(&self.document);
         let text =
             "The mesh was not updated: it still shows an earlier state. The next edit brings it up to date.";
-        self.notice = Some(Notice { failed: false, text: text.into() });
+        self.tell(text.into());
     }
 
-    /// Asks about a point in world units, or about none.
+    /// Queries a point in world units, or none.
     pub fn query(&mut self, point: Option<DVec2>) {
         self.queried = point;
     }
 
-    /// What is to be said of the queried point, in the present mesh.
+    /// The queried point and the triangle around it in the mesh on the screen.
     pub fn readout(&self, quantity: Quantity) -> Option<Readout> {
         self.queried.map(|point| Readout::at(point, &self.document, &self.follower, quantity))
     }
 
-    /// Draws the stroke under way, and brings field and mesh nearer to the document until `deadline`; tells whether work is left.
+    /// Draws the current stroke, and brings field and mesh closer to the document, until `deadline`. Returns whether work is
+    /// left.
     ///
-    /// What turns out to be impossible is reported. A setting that caused it is taken back; paint stays, to be undone or
-    /// thinned out by whoever painted it.
+    /// Reports what turns out to be impossible. A setting that caused it is taken back; paint stays, for the user to undo or
+    /// erase.
     pub fn follow(&mut self, deadline: Instant) -> bool {
         let began = Instant::now();
         let revision = self.follower.revision();
@@ -210,7 +305,7 @@ impl Session {
         self.in_files(id, Numbering::node).map(NodeId::index)
     }
 
-    /// Where everything is in the domain, files have the ids of the mesh.
+    /// Where the domain has no outline, files have the ids of the mesh.
     fn in_files<I>(&self, id: I, number: fn(&Numbering, I) -> Option<I>) -> Option<I> {
         if self.mesh().outside_count() == 0 {
             return Some(id);
@@ -223,12 +318,14 @@ impl Session {
         self.survey.found.as_ref().filter(|_| self.survey.revision == Some(self.follower.revision()))
     }
 
-    /// Counts parts, holes and numbers until `deadline`, where the mesh is at rest and has them; tells whether work is left.
+    /// Counts parts, holes and numbers of the mesh until `deadline`. Returns whether work is left.
     fn survey(&mut self, deadline: Instant) -> bool {
         let mesh = self.follower.mesh();
         let revision = Some(self.follower.revision());
         if self.survey.revision != revision {
-            let under_way = (mesh.outside_count() > 0).then(|| Survey::new(mesh));
+            // Without an outline no parts and holes are shown, and files have the ids of the mesh.
+            let has_outline = self.document.settings().domain.region().is_some();
+            let under_way = (has_outline || mesh.outside_count() > 0).then(|| Survey::new(mesh));
             self.survey = Surveyed { revision, under_way, found: None };
         }
         let Some(survey) = &mut self.survey.under_way else { return false };
@@ -242,7 +339,7 @@ impl Session {
         false
     }
 
-    /// Works out what a dab would cost, until `deadline`, and tells whether work is left. `None` gives up.
+    /// Computes the price of a dab until `deadline`. Returns whether work is left. `None` cancels.
     pub fn price_dab(&mut self, dab: Option<(Brush, DVec2)>, deadline: Instant) -> bool {
         self.pricer.ask(dab, &self.document, &self.follower);
         while self.pricer.progress() == Progress::More && Instant::now() < deadline {
@@ -251,17 +348,17 @@ impl Session {
         self.pricer.progress() == Progress::More
     }
 
-    /// What the dab asked about would cost.
+    /// The price of the dab under the pointer.
     pub fn pricer(&self) -> &Pricer {
         &self.pricer
     }
 
-    /// What became of the mesh since this was last asked.
+    /// The change of the mesh since the last call.
     pub fn take_mesh_change(&mut self) -> Option<MeshChange> {
         self.follower.take_change()
     }
 
-    /// Takes back the setting that made a mesh impossible; where it is paint that did, the mesh stands still, and that is said.
+    /// Takes back the setting that made a mesh impossible. If paint did, the mesh stops, and a message says so.
     fn take_back(&mut self, error: &BuildError) {
         let revision = self.document.revision();
         if self.document.settings() != self.follower.settings() {
@@ -294,7 +391,7 @@ fn advice(error: &BuildError) -> &'static str {
     }
 }
 
-/// What to say while the mesh does not show all that was painted.
+/// The message while the mesh does not show all paint.
 fn standstill(error: &BuildError) -> String {
     let kept = "what you painted is kept, but the mesh does not show all of it.";
     let helps = "in the Mesh panel or the smallest diameter, erase, or undo.";

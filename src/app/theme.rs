@@ -363,7 +363,7 @@ fn widget_visuals(tokens: &Tokens) -> Widgets {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::app::canvas::NUMBER_DISC;
+    use crate::app::canvas::marks::NUMBER_DISC;
     use crate::colormap::{Colormap, LevelColors};
 
     /// Relative luminance as WCAG 2 defines it.

@@ -1,15 +1,18 @@
 //! How the document is looked at. Nothing here changes it.
 
+use eframe::egui::{Context, Theme, ThemePreference};
 use glam::DVec2;
 
+use super::command::Command;
 use super::readout::Quantity;
 use crate::colormap::{Colormap, Ground, LevelColors};
 use crate::document::Settings;
-use crate::mesh::level_for_diameter;
+use crate::geometry::Lattice;
+use crate::mesh::{TriangleId, level_for_diameter};
 use crate::render::export::Look;
 use crate::scene::{Camera, Style};
 
-/// What is laid over the mesh.
+/// What is drawn over the mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FieldOverlay {
     /// Nothing.
@@ -31,14 +34,18 @@ pub struct View {
     pub ground: Ground,
     /// Whether edges are drawn.
     pub edges: bool,
-    /// What is laid over the mesh.
+    /// What is drawn over the mesh.
     pub overlay: FieldOverlay,
     /// Whether the panels are shown.
     pub panels: bool,
-    /// A level to be seen alone, while the pointer is on it in the legend.
+    /// A level that is shown alone, while the pointer is on it in the legend.
     pub lone_level: Option<u32>,
-    /// What the inspector reads out.
+    /// A neighbour of the queried triangle, while the pointer is on it in the inspector.
+    pub hovered_neighbour: Option<TriangleId>,
+    /// What the inspector interpolates.
     pub quantity: Quantity,
+    /// Dark, light, or as the desktop has it.
+    pub theme: ThemePreference,
 }
 
 impl Default for View {
@@ -51,14 +58,16 @@ impl Default for View {
             overlay: FieldOverlay::None,
             panels: true,
             lone_level: None,
+            hovered_neighbour: None,
             quantity: Quantity::TargetDiameter,
+            theme: ThemePreference::Dark,
         }
     }
 }
 
 impl View {
-    /// The colours of all levels. They span the levels that the settings can ask for and not those that today's mesh
-    /// has, so that a level keeps its colour while one paints.
+    /// The colours of all levels. They span the levels that the settings can ask for, not those of the present mesh, so
+    /// that a level keeps its colour while the user paints.
     pub fn level_colors(&self, settings: &Settings) -> LevelColors {
         LevelColors::new(self.colormap, self.ground, deepest_level(settings))
     }
@@ -85,19 +94,70 @@ impl View {
         }
     }
 
-    /// Zooms by `factor` about the middle of the canvas.
-    pub fn zoom(&mut self, factor: f64) {
-        if let Some(camera) = &mut self.camera {
-            *camera = camera.zoomed(factor, camera.half_size_px());
+    /// Runs a command about the view.
+    pub fn execute(&mut self, command: Command, ctx: &Context) {
+        match command {
+            Command::Fit => self.camera = None,
+            Command::LookAt(point) => self.move_camera(|camera| camera.centered_on(point)),
+            Command::Zoom(factor) => self.move_camera(|camera| camera.zoomed(factor, camera.half_size_px())),
+            Command::ZoomAt(factor, px) => self.move_camera(|camera| camera.zoomed(factor, px)),
+            Command::Pan(delta_px) => self.move_camera(|camera| camera.panned(delta_px)),
+            Command::ToggleEdges => self.edges = !self.edges,
+            Command::SetOverlay(overlay) => self.overlay = overlay,
+            Command::Colormap(map) => self.colormap = map,
+            Command::ShowLevel(level) => self.lone_level = level,
+            Command::HighlightNeighbour(id) => self.hovered_neighbour = id,
+            Command::Inspect(quantity) => self.quantity = quantity,
+            Command::Theme(theme) => self.set_theme(theme, ctx),
+            Command::TogglePanels => self.toggle_panels(),
+            other => unreachable!("{other:?} is not about the view"),
         }
     }
 
-    /// Puts a point of the world in the middle.
-    pub fn look_at(&mut self, point: DVec2) {
-        self.camera = self.camera.map(|camera| camera.centered_on(point));
+    fn move_camera(&mut self, moved: impl FnOnce(Camera) -> Camera) {
+        self.camera = self.camera.map(moved);
     }
 
-    /// Puts a point of the world in the middle, where it is not in sight already.
+    /// Chooses a theme. It shows from the next frame on.
+    pub fn set_theme(&mut self, theme: ThemePreference, ctx: &Context) {
+        self.theme = theme;
+        ctx.set_theme(theme);
+        ctx.request_repaint();
+    }
+
+    fn toggle_panels(&mut self) {
+        self.panels = !self.panels;
+        // Nothing in a hidden panel is under the pointer.
+        (self.lone_level, self.hovered_neighbour) = (None, None);
+    }
+
+    /// Resizes the camera to a canvas. Where there is no camera yet, or the domain has other bounds, it shows the whole domain
+    /// with a margin, and leaves `below_px` pixels for hints below.
+    pub fn fit_camera(&mut self, lattice: &Lattice, size_px: [u32; 2], margin_px: f64, below_px: f64) {
+        let bounds = lattice.bounds();
+        self.camera = Some(match self.camera {
+            Some(camera) if camera.lattice().bounds() == bounds => {
+                camera.resized(size_px).on_lattice(lattice)
+            }
+            _ => {
+                let above_hint = [size_px[0], size_px[1].saturating_sub(below_px as u32)];
+                let fitted = Camera::fit(lattice, bounds, above_hint, margin_px);
+                fitted.resized(size_px).panned(DVec2::new(0.0, -0.5 * below_px))
+            }
+        });
+    }
+
+    /// Takes up the ground of the theme that is shown.
+    pub fn follow_theme(&mut self, ctx: &Context) {
+        self.ground = if ctx.theme() == Theme::Dark { Ground::Dark } else { Ground::Light };
+    }
+
+    /// World units of one pixel.
+    pub fn world_per_px(&self) -> f64 {
+        self.camera.map_or(1e-4, |camera| 1.0 / camera.px_per_world())
+    }
+
+    /// Puts a point of the world in the middle, where it is out of sight.
     pub fn reveal(&mut self, point: DVec2) {
         if let Some(camera) = &mut self.camera
             && !camera.visible_world().contains(point)

@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
+use crate::render::export::ExportFormat;
+
 /// Paint where detail matters; the mesh follows the brush.
 ///
 /// Without a command the window opens.
@@ -168,16 +170,28 @@ pub enum RuleArgument {
     Area,
 }
 
+/// The help of `--output`, with the ending of every format.
+fn output_help() -> String {
+    let endings: String = ExportFormat::endings().map(|ending| format!(" .{ending}")).collect();
+    format!("File to write, may be repeated:{endings}")
+}
+
+fn output_long_help() -> String {
+    let help = output_help();
+    format!(
+        "{help}\n\nFiles carry the level of each triangle and the target diameter at each node; pictures do not. Beside \
+         .node, the files .ele, .neigh and .edge are written."
+    )
+}
+
 /// `meshbrush mesh`.
 #[derive(Debug, Args)]
 pub struct MeshArguments {
     #[command(flatten)]
     pub input: InputArguments,
 
-    /// File to write, may be repeated: .vtu .msh .obj .stl .node (with .ele, .neigh and .edge) .2dm .csv .svg .png
-    ///
-    /// Files carry the level of each triangle and the target diameter at each node; pictures do not.
     #[arg(short, long = "output", value_name = "FILE", help_heading = "Output")]
+    #[arg(help = output_help(), long_help = output_long_help())]
     pub output: Vec<PathBuf>,
 
     /// A further value at the nodes, as a formula in x and y; `quantity` in .vtu, .msh, .csv and .node, z in .2dm

@@ -1,4 +1,4 @@
-//! Joins egui and the renderer: the one file of the window that speaks wgpu.
+//! Connects egui and the renderer: the only file of the window that uses wgpu.
 
 use std::sync::Arc;
 
@@ -11,7 +11,7 @@ use crate::mesh::Progress;
 use crate::render::gpu::{GpuError, GpuRenderer, MeshMirror, emulates_gpu};
 use crate::scene::{Camera, Overlay, Style};
 
-/// Bytes of a mesh that travel to the GPU in one frame: about 2 ms.
+/// Bytes of a mesh that are sent to the GPU in one frame: about 2 ms.
 const BYTES_PER_FRAME: usize = 16 << 20;
 
 /// The canvas's share of egui's GPU resources.
@@ -21,7 +21,7 @@ struct CanvasResources {
     failed: Option<GpuError>,
 }
 
-/// Says who draws the mesh, `gpu` or `software`; unset, the GPU does where there is one.
+/// Environment variable that says what draws the mesh: `gpu` or `software`. By default the GPU does, if there is one.
 const DRAW_VARIABLE: &str = "MESHBRUSH_DRAW";
 
 /// Draws meshes on the canvas.
@@ -34,9 +34,9 @@ pub struct CanvasGpu {
 
 /// What of the follower's mesh the GPU still lacks.
 struct Sending {
-    /// The mesh on the screen is another one than the follower's: all of it is to be sent.
+    /// The follower has another mesh than the one on the screen: all of it must be sent.
     behind: bool,
-    /// The revision that could not be taken in: not tried again.
+    /// The revision that the GPU could not hold. It is not tried again.
     refused: Option<u64>,
 }
 
@@ -62,8 +62,7 @@ impl CanvasGpu {
         self.in_software = true;
     }
 
-    /// Brings what the GPU knows of mesh and overlay up to date, and tells whether some of it is left to send. The former
-    /// mesh stays on the screen until all of the new one is there.
+    /// Sends changes of mesh and overlay to the GPU. The former mesh stays on the screen until the new one is complete.
     ///
     /// # Errors
     /// When the GPU cannot hold the mesh, or could not draw the last frame.
@@ -79,7 +78,7 @@ impl CanvasGpu {
         let Some(CanvasResources { renderer, failed }) = renderer.callback_resources.get_mut() else {
             return Ok(Progress::Done);
         };
-        // Before anything can fail: a change is told once.
+        // Before anything can fail: each change is reported once.
         let sent = match self.in_software {
             true => Ok(Progress::Done),
             false => self.sending.send(renderer.mirror_mut(), follower, change),

@@ -8,12 +8,12 @@ use super::super::tools::Tools;
 use crate::colormap::Ground;
 use crate::domain::CutShape;
 use crate::mesh::{Mesh, TriangleId};
-use crate::scene::{Camera, Highlights, Outline, highlight_outlines};
+use crate::scene::{Camera, Highlights, Outline as HighlightOutline, highlight_outlines};
 
 /// Side of a triangle in points below which its number would not fit.
 const SMALLEST_NUMBERED: f64 = 26.0;
 
-/// Ground of a neighbour's number, on whatever the triangle's colour is.
+/// Ground of a neighbour's number, on any colour of its triangle.
 pub const NUMBER_DISC: Color32 = Color32::from_black_alpha(225);
 
 /// Draws the selected triangle, its neighbours and the one under the pointer.
@@ -32,7 +32,7 @@ pub fn paint_highlights(
     for (i, (neighbour, [r, g, b])) in highlights.neighbours.iter().zip(Ground::Dark.neighbours()).enumerate()
     {
         if let Some(id) = *neighbour
-            && let Some(at) = middle_with_room(painter, rect, mesh, camera, id)
+            && let Some(at) = middle_if_large(painter, rect, mesh, camera, id)
         {
             // On a dark disc in either theme.
             painter.circle_filled(at, 9.0, NUMBER_DISC);
@@ -42,7 +42,7 @@ pub fn paint_highlights(
     }
 }
 
-fn outline_shape(outline: &Outline, rect: Rect, px_per_point: f32) -> Shape {
+fn outline_shape(outline: &HighlightOutline, rect: Rect, px_per_point: f32) -> Shape {
     let points = outline.polygon.iter().map(|&[x, y]| rect.min + vec2(x, y) / px_per_point).collect();
     let stroke = Stroke::new(outline.line_width_px / px_per_point, color(outline.line));
     Shape::convex_polygon(points, color(outline.fill), stroke)
@@ -52,8 +52,8 @@ fn color([r, g, b, a]: [u8; 4]) -> Color32 {
     Color32::from_rgba_unmultiplied(r, g, b, a)
 }
 
-/// The middle of a triangle, where there is room for a number.
-fn middle_with_room(
+/// The middle of a triangle, if it is large enough for a number.
+fn middle_if_large(
     painter: &Painter,
     rect: Rect,
     mesh: &Mesh,
@@ -74,7 +74,7 @@ pub fn paint_point(painter: &Painter, at: Pos2) {
     painter.circle(at, 3.5, Color32::WHITE, Stroke::new(1.5, Color32::from_black_alpha(200)));
 }
 
-/// The ring of the brush: white on a dark halo, so that it is seen on any colour, and a thinner one for the hardness.
+/// The ring of the brush: white on a dark halo, visible on any colour, and a thinner ring for the hardness.
 pub fn paint_brush_ring(painter: &Painter, at: Pos2, tools: &Tools, points_per_world: f32) {
     let radius = (tools.radius as f32 * points_per_world).max(2.0);
     let halo = Color32::from_black_alpha(130);
@@ -102,7 +102,7 @@ pub fn paint_line_preview(painter: &Painter, from: Pos2, to: Pos2) {
     painter.extend(Shape::dashed_line(&ends, Stroke::new(1.5, Color32::WHITE), 6.0, 4.0));
 }
 
-/// Shortest piece of an outline that is drawn, in points: what is shorter is not seen.
+/// Shortest edge of an outline that is drawn, in points: a shorter one cannot be seen.
 const SHORTEST_PIECE: f32 = 0.7;
 
 /// A ring of the domain's outline, thin and light on a dark halo.
@@ -119,28 +119,28 @@ pub fn paint_outline(painter: &Painter, corners: impl Iterator<Item = Pos2>) {
     }
 }
 
-/// What of a ring passes near a view. It is cut where it turns back: a line drawn through there would end in a spike far beyond the
-/// corner.
+/// The pieces of a ring near a view. The ring is split where it turns back: a line drawn around such a corner would end in
+/// a spike far beyond it.
 fn visible_pieces(ring: &[Pos2], view: Rect) -> Vec<Vec<Pos2>> {
     let mut pieces: Vec<Vec<Pos2>> = Vec::new();
-    let mut goes_on = false;
+    let mut continues = false;
     for (i, &from) in ring.iter().enumerate() {
         let [to, next] = [i + 1, i + 2].map(|i| ring[i % ring.len()]);
         if !Rect::from_two_pos(from, to).intersects(view) {
-            goes_on = false;
+            continues = false;
             continue;
         }
         match pieces.last_mut() {
-            Some(piece) if goes_on => piece.push(to),
+            Some(piece) if continues => piece.push(to),
             _ => pieces.push(vec![from, to]),
         }
-        goes_on = (to - from).normalized().dot((next - to).normalized()) > -0.5;
+        continues = (to - from).normalized().dot((next - to).normalized()) > -0.5;
     }
     pieces
 }
 
-/// A shape that is not cut yet: an outline, or what the brush has swept over.
-pub fn paint_stencil(painter: &Painter, cut_shape: &CutShape, at: &impl Fn(DVec2) -> Pos2) {
+/// A shape that is not cut yet: a ring, or the path of the brush.
+pub fn paint_cut_shape(painter: &Painter, cut_shape: &CutShape, at: &dyn Fn(DVec2) -> Pos2) {
     let (path, radius) = match cut_shape {
         CutShape::Ring(ring) => return paint_outline(painter, ring.iter().map(|&corner| at(corner))),
         CutShape::Stroke { path, radius } => (path, *radius),
@@ -154,7 +154,7 @@ pub fn paint_stencil(painter: &Painter, cut_shape: &CutShape, at: &impl Fn(DVec2
     };
 }
 
-/// A polygon whose corners are still being set: the next edge follows the pointer, and the first corner closes it.
+/// An open polygon: its next edge follows the pointer, and a click on the first corner closes it.
 pub fn paint_open_polygon(painter: &Painter, corners: &[Pos2], pointer: Option<Pos2>) {
     let Some(&first) = corners.first() else { return };
     for edge in corners.windows(2) {
@@ -167,7 +167,7 @@ pub fn paint_open_polygon(painter: &Painter, corners: &[Pos2], pointer: Option<P
     painter.circle(first, 4.5, Color32::WHITE, Stroke::new(1.5, Color32::from_black_alpha(200)));
 }
 
-/// The rectangle that is to become the domain.
+/// A rectangle that is being drawn.
 pub fn paint_frame(painter: &Painter, frame: Rect) {
     painter.rect_stroke(frame, 0.0, Stroke::new(3.5, Color32::from_black_alpha(130)), StrokeKind::Middle);
     painter.rect_stroke(frame, 0.0, Stroke::new(1.5, Color32::WHITE), StrokeKind::Middle);

@@ -1,315 +1,324 @@
-//! The canvas: the mesh, what is drawn over it, and what the pointer does there.
+//! The canvas: the mesh, what is drawn over it, and gestures of the pointer on it.
 
+mod floats;
 mod gpu;
-mod input;
-mod marks;
+pub mod marks;
 mod overlay;
 mod price;
 
-use std::time::Instant;
-
-use eframe::egui::{self, Align2, CursorIcon, Rect, Response, Sense, Ui, vec2};
+use eframe::egui::{self, Context, CursorIcon, Event, Id, Key, PointerButton, Rect, Response, Sense, Ui};
+use glam::DVec2;
 
 pub use gpu::CanvasGpu;
-pub use input::Gesture;
-#[cfg(test)]
-pub use marks::NUMBER_DISC;
-pub use overlay::OverlayColors;
+use overlay::OverlayColors;
 
-use glam::{DVec2, dvec2};
-
-use super::background::Row;
+use super::busy::Busy;
 use super::command::Command;
-use super::cutting::PATIENCE;
+use super::frame::FrameState;
+use super::session::Session;
 use super::theme::tokens;
-use super::tools::Tool;
-use super::widgets::{Banner, BannerAnswer, bytes_row, format, hint_pill, paint_floating, progress_row};
-use super::{ALL_THE_TIME, App, FRAME_BUDGET};
-use crate::document::Stage;
-use crate::geometry::Rect as WorldRect;
+use super::tools::{Gesture, OverMesh, PAN, Panning, Pointer, Press, Tools};
+use super::view::View;
+use crate::geometry::Lattice;
 use crate::mesh::Progress;
-use crate::scene::{Camera, Highlights};
-use input::Pointer;
+use crate::paint::Brush;
+use crate::scene::Highlights;
 
-/// Free room round the domain when it is fitted, in points.
-const FIT_MARGIN: f64 = 24.0;
-/// More of it below, where hints are, in points.
-const HINT_ROOM: f64 = 32.0;
+/// Free space around the domain when it is fitted, in points.
+const FIT_MARGIN: f32 = 24.0;
+/// Additional space below it, where hints are, in points.
+const HINT_HEIGHT: f32 = 32.0;
+/// Share by which one point of scrolling zooms; a notch of a wheel scrolls by about 50 points.
+const ZOOM_PER_POINT: f64 = 0.004;
 /// Name by which tests and screen readers find the canvas.
 pub const CANVAS_NAME: &str = "Mesh canvas";
 
-impl App {
-    /// The canvas with everything on it. Edits made here reach the mesh before it is drawn: it follows within the frame.
-    pub(super) fn canvas_ui(&mut self, ui: &mut Ui) {
+/// What the canvas keeps from frame to frame.
+pub struct Canvas {
+    gpu: Option<CanvasGpu>,
+    overlay_colors: OverlayColors,
+    /// The widget of the last frame, and where it was.
+    shown: Option<(Id, Rect)>,
+    /// What floated over it in the last frame and takes clicks.
+    floats: Vec<Rect>,
+    gesture: Option<Box<dyn Gesture>>,
+    pointer: Option<DVec2>,
+    mesh_work: Busy,
+}
+
+impl Canvas {
+    /// A canvas. Without `gpu` it stays empty.
+    pub fn new(gpu: Option<CanvasGpu>) -> Self {
+        Self {
+            gpu,
+            overlay_colors: OverlayColors::default(),
+            shown: None,
+            floats: Vec::new(),
+            gesture: None,
+            pointer: None,
+            mesh_work: Busy::default(),
+        }
+    }
+
+    /// Draws in software from now on.
+    pub fn draw_in_software(&mut self) {
+        if let Some(gpu) = &mut self.gpu {
+            gpu.draw_in_software();
+        }
+    }
+
+    /// Where the pointer is, in world units, while it is on the canvas or in a gesture.
+    pub fn pointer(&self) -> Option<DVec2> {
+        self.pointer
+    }
+
+    /// Where the canvas was in the last frame, in points.
+    pub fn rect(&self) -> Option<Rect> {
+        self.shown.map(|(_, rect)| rect)
+    }
+
+    /// Ends a gesture that Escape ends. Returns whether there was one.
+    pub fn end_gesture_on_escape(&mut self) -> bool {
+        self.gesture.take_if(|gesture| gesture.ends_on_escape()).is_some()
+    }
+
+    /// Notes whether there is work on the mesh.
+    pub fn note_work(&mut self, session: &Session) {
+        self.mesh_work.note(floats::work_on_mesh(session).is_some());
+    }
+}
+
+/// Input.
+impl Canvas {
+    /// Turns the events of this frame into commands, in their order, so that a quick stroke keeps every point that the mouse
+    /// reported. The canvas is where it was in the last frame.
+    pub fn take_input(
+        &mut self,
+        ctx: &Context,
+        view: &mut View,
+        tools: &Tools,
+        lattice: &Lattice,
+        commands: &mut Vec<Command>,
+    ) {
+        let Some((id, rect)) = self.shown else { return };
+        let Some(response) = ctx.read_response(id) else { return };
+        fit_camera(view, lattice, rect, ctx.pixels_per_point());
+        let Some(camera) = view.camera else { return };
+        let mut pointer = Pointer { rect, camera, tools, px_per_point: f64::from(ctx.pixels_per_point()) };
+        self.take_events(ctx, &response, &mut pointer, commands);
+        if response.contains_pointer() {
+            zoom(ctx, &mut pointer, commands);
+        }
+        let at = response.hover_pos().or(response.interact_pointer_pos());
+        self.pointer = at.map(|at| pointer.world(at));
+    }
+
+    fn take_events(
+        &mut self,
+        ctx: &Context,
+        response: &Response,
+        pointer: &mut Pointer<'_>,
+        commands: &mut Vec<Command>,
+    ) {
+        for event in ctx.input(|input| input.events.clone()) {
+            match event {
+                Event::PointerButton { pos, button, pressed: true, modifiers } => {
+                    let free = !self.floats.iter().any(|float| float.contains(pos));
+                    let on_canvas = response.contains_pointer() && pointer.rect.contains(pos) && free;
+                    if on_canvas && self.gesture.is_none() {
+                        self.gesture = press(ctx, Press { at: pos, modifiers }, button, pointer, commands);
+                    }
+                }
+                Event::PointerMoved(pos) => {
+                    if let Some(gesture) = &mut self.gesture {
+                        gesture.moved(pos, pointer, commands);
+                    }
+                }
+                Event::PointerButton { pos, button, pressed: false, .. } => {
+                    if let Some(gesture) = self.gesture.take_if(|gesture| gesture.button() == button) {
+                        gesture.released(pos, pointer, commands);
+                    }
+                }
+                Event::WindowFocused(false) => self.interrupt(commands),
+                _ => {}
+            }
+        }
+        // Released without an event, as in another window.
+        if !ctx.input(|input| input.pointer.any_down()) {
+            self.interrupt(commands);
+        }
+    }
+
+    /// Ends the gesture where it is.
+    fn interrupt(&mut self, commands: &mut Vec<Command>) {
+        if let Some(gesture) = self.gesture.take() {
+            gesture.interrupted(commands);
+        }
+    }
+
+    /// The dab that a click would paint at the pointer; none where a click does something else.
+    pub fn hovered_dab(&self, ctx: &Context, tools: &Tools) -> Option<(Brush, DVec2)> {
+        let (id, _) = self.shown?;
+        let at = ctx.read_response(id)?.hover_pos()?;
+        let free = self.gesture.is_none() && !self.floats.iter().any(|float| float.contains(at));
+        let plain = ctx.input(|input| {
+            let keys = input.modifiers.shift || input.modifiers.alt || input.modifiers.command;
+            !keys && !input.key_down(Key::Space) && !input.pointer.any_down()
+        });
+        tools.brush().zip(self.pointer).filter(|_| free && plain)
+    }
+}
+
+/// Begins the gesture of a press: panning by Space or the middle button, else the tool's.
+fn press(
+    ctx: &Context,
+    press: Press,
+    button: PointerButton,
+    pointer: &Pointer<'_>,
+    commands: &mut Vec<Command>,
+) -> Option<Box<dyn Gesture>> {
+    let panning = || Some(Box::new(Panning { last: press.at, button }) as Box<dyn Gesture>);
+    match button {
+        PointerButton::Middle => panning(),
+        PointerButton::Primary if space_is_down(ctx) => panning(),
+        PointerButton::Primary => (pointer.tools.tool.press)(&press, pointer, commands),
+        _ => None,
+    }
+}
+
+fn space_is_down(ctx: &Context) -> bool {
+    ctx.input(|input| input.key_down(Key::Space)) && !ctx.egui_wants_keyboard_input()
+}
+
+/// Zooms about the pointer by the wheel or by pinching.
+fn zoom(ctx: &Context, pointer: &mut Pointer<'_>, commands: &mut Vec<Command>) {
+    let (scrolled, pinched, at) = ctx.input(|input| {
+        let scrolled = f64::from(input.smooth_scroll_delta().y);
+        (scrolled, f64::from(input.zoom_delta()), input.pointer.hover_pos())
+    });
+    let factor = pinched * (scrolled * ZOOM_PER_POINT).exp();
+    if let Some(at) = at
+        && factor != 1.0
+    {
+        let px = pointer.px(at);
+        pointer.camera = pointer.camera.zoomed(factor, px);
+        commands.push(Command::ZoomAt(factor, px));
+    }
+}
+
+/// Fits the view's camera to a canvas of the given rectangle in points.
+fn fit_camera(view: &mut View, lattice: &Lattice, rect: Rect, px_per_point: f32) {
+    let size = (rect.size() * px_per_point).round();
+    let [margin, below] = [FIT_MARGIN, HINT_HEIGHT].map(|points| f64::from((points * px_per_point).round()));
+    view.fit_camera(lattice, [size.x as u32, size.y as u32], margin, below);
+}
+
+/// Drawing.
+impl Canvas {
+    /// Takes the space that is left for the canvas, and fits the camera to it. Returns `None` where there is no room to draw.
+    pub fn layout(&mut self, ui: &mut Ui, view: &mut View, lattice: &Lattice) -> Option<Response> {
         let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
         response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, CANVAS_NAME));
         ui.painter().rect_filled(rect, 0.0, tokens(ui).canvas);
         if rect.width() < 1.0 || rect.height() < 1.0 {
+            return None;
+        }
+        if self.shown.is_none() {
+            // The pointer can act on the canvas from the next frame on.
+            ui.ctx().request_repaint();
+        }
+        self.shown = Some((response.id, rect));
+        view.follow_theme(ui.ctx());
+        fit_camera(view, lattice, rect, ui.pixels_per_point());
+        Some(response)
+    }
+
+    /// Sends the changes of the mesh to the GPU, and draws it.
+    pub fn draw_mesh(&mut self, ui: &Ui, session: &mut Session, view: &View, commands: &mut Vec<Command>) {
+        let change = session.take_mesh_change();
+        let (Some(gpu), Some(camera), Some((_, rect))) = (&mut self.gpu, view.camera, self.shown) else {
             return;
-        }
-        self.canvas_rect = rect;
-        let mut camera = self.camera_for(rect, ui.pixels_per_point());
-        let mut commands = std::mem::take(&mut self.commands);
-        self.follow_pointer(ui, &response, &mut camera, &mut commands);
-        self.view.camera = Some(camera);
-        if !commands.is_empty() {
-            // The panels of this frame were drawn before.
-            ui.ctx().request_repaint();
-        }
-        for command in commands {
-            self.execute(command, ui.ctx());
-        }
-        // What is shown on the way would depend on the machine's speed.
-        let [budget, patience] = if self.reproducible { [ALL_THE_TIME; 2] } else { [FRAME_BUDGET, PATIENCE] };
-        let deadline = Instant::now() + budget;
-        let cuts = self.follow_cuts(ui.ctx(), patience);
-        let follows = self.session.follow(deadline);
-        if self.session.price_dab(self.hovered_dab(ui, &response), deadline) || follows || cuts {
-            ui.ctx().request_repaint();
-        }
-        // Commands may have moved the view or changed the grid.
-        let camera = self.camera_for(rect, ui.pixels_per_point());
-        self.view.camera = Some(camera);
-        self.paint_mesh(ui, rect, camera);
-        self.paint_marks(ui, &response, &camera);
-        self.float_over(ui, rect);
-        if let Some(pointer) = response.hover_pos() {
-            let points_per_world = camera.px_per_world() as f32 / ui.pixels_per_point();
-            self.show_price(ui, rect, pointer, self.tools.radius as f32 * points_per_world);
-        }
-    }
-
-    /// The camera, fitted where there is none yet or the domain is another one.
-    fn camera_for(&self, rect: Rect, px_per_point: f32) -> Camera {
-        let size = (rect.size() * px_per_point).round();
-        let size_px = [size.x as u32, size.y as u32];
-        let lattice = self.session.mesh().lattice();
-        let bounds = lattice.bounds();
-        match self.view.camera {
-            Some(camera) if camera.lattice().bounds() == bounds => {
-                camera.resized(size_px).on_lattice(lattice)
-            }
-            _ => {
-                let [margin, below] =
-                    [FIT_MARGIN, HINT_ROOM].map(|points| (points * f64::from(px_per_point)).round());
-                let above_hint = [size_px[0], size_px[1].saturating_sub(below as u32)];
-                let fitted = Camera::fit(lattice, bounds, above_hint, margin);
-                fitted.resized(size_px).panned(dvec2(0.0, -0.5 * below))
-            }
-        }
-    }
-
-    fn follow_pointer(
-        &mut self,
-        ui: &Ui,
-        response: &Response,
-        camera: &mut Camera,
-        commands: &mut Vec<Command>,
-    ) {
-        let px_per_point = f64::from(ui.pixels_per_point());
-        let (rect, covered, tools) = (response.rect, &self.floats[..], &self.tools);
-        let first_corner = self.outline.first().copied();
-        let mut pointer = Pointer { rect, camera, covered, tools, px_per_point, first_corner };
-        pointer.follow_events(ui, response, &mut self.gesture, commands);
-        let over = response.hover_pos().or(response.interact_pointer_pos());
-        let before = self.pointer_world;
-        self.pointer_world = over.map(|at| pointer.world(at));
-        if self.pointer_world != before {
-            // The status bar of this frame was drawn before.
-            ui.ctx().request_repaint();
-        }
-        if response.contains_pointer() || self.gesture != Gesture::None {
-            ui.ctx().set_cursor_icon(self.cursor(ui));
-        }
-    }
-
-    fn cursor(&self, ui: &Ui) -> CursorIcon {
-        let pans = self.tools.tool == Tool::Pan || ui.input(|input| input.key_down(egui::Key::Space));
-        match self.gesture {
-            Gesture::Panning { .. } => CursorIcon::Grabbing,
-            _ if pans => CursorIcon::Grab,
-            _ if self.tools.has_ring() => CursorIcon::None,
-            _ => CursorIcon::Crosshair,
-        }
-    }
-
-    fn paint_mesh(&mut self, ui: &Ui, rect: Rect, camera: Camera) {
-        let change = self.session.take_mesh_change();
-        let Some(gpu) = &mut self.gpu else { return };
-        let settings = self.session.follower().settings();
-        let colors = self.view.level_colors(settings);
-        let (document, follower) = (self.session.document(), self.session.follower());
-        let overlay = self.overlay_colors.overlay(self.view.overlay, document, follower, colors);
-        let style = self.view.style(settings, ui.pixels_per_point());
+        };
+        let settings = session.follower().settings();
+        let (document, follower) = (session.document(), session.follower());
+        let colors = view.level_colors(settings);
+        let overlay = self.overlay_colors.overlay(view.overlay, document, follower, colors);
+        let style = view.style(settings, ui.pixels_per_point());
         match gpu.sync(follower, change, overlay.as_ref(), &camera, &style) {
             Ok(Progress::Done) => {}
             Ok(Progress::More) => ui.ctx().request_repaint(),
-            Err(error) => self.session.report(error),
+            Err(error) => commands.push(Command::Report(error.to_string())),
         }
         ui.painter().add(gpu.shape(rect, camera, style));
     }
 
-    fn paint_marks(&self, ui: &Ui, response: &Response, camera: &Camera) {
+    /// Draws highlights, what the tool shows, the brush ring and the price beside it, and sets the cursor.
+    pub fn draw_marks(&self, ui: &Ui, response: &Response, state: &FrameState<'_>) {
+        let Some(camera) = state.view.camera else { return };
         let (rect, px_per_point) = (response.rect, ui.pixels_per_point());
         let painter = ui.painter_at(rect);
-        let mesh = self.session.mesh();
-        let readout = self.session.readout(self.view.quantity);
-        let selected = readout.as_ref().and_then(|readout| readout.location.triangle());
-        let hovering = self.tools.tool == Tool::Query && self.gesture == Gesture::None;
-        let hovered = self.pointer_world.filter(|_| hovering).and_then(|p| mesh.locate(p).triangle());
-        let mut highlights = selected.map_or(Highlights::default(), |id| Highlights::around(mesh, id));
-        highlights.hovered = hovered.or(self.hovered_neighbour);
-        marks::paint_highlights(&painter, rect, mesh, camera, &highlights, self.view.ground);
-        let at = |world| marks::point_from_px(rect, camera.screen_from_world(world), px_per_point);
-        if let Some(readout) = readout {
-            marks::paint_point(&painter, at(readout.point));
+        let highlights = self.highlights(state);
+        marks::paint_highlights(
+            &painter,
+            rect,
+            state.session.mesh(),
+            &camera,
+            &highlights,
+            state.view.ground,
+        );
+        let screen = camera.screen_map();
+        let screen_from_world = |world| marks::point_from_px(rect, screen(world), px_per_point);
+        if let Some(readout) = state.readout {
+            marks::paint_point(&painter, screen_from_world(readout.point));
         }
-        if self.tools.tool == Tool::Domain {
-            let screen = camera.screen_map();
-            let at = |world| marks::point_from_px(rect, screen(world), px_per_point);
-            self.paint_outlines(&painter, &at, response.hover_pos());
+        let pointer = response.hover_pos();
+        let over = OverMesh { painter: &painter, screen_from_world: &screen_from_world, pointer };
+        (state.tools.tool.paint)(state, &over);
+        if let Some(gesture) = &self.gesture {
+            gesture.paint(&painter);
         }
-        if let Gesture::Framing { from, to, .. } = self.gesture {
-            marks::paint_frame(&painter, Rect::from_two_pos(from, to));
-        }
-        if let Some(pointer) = response.hover_pos().filter(|_| self.tools.has_ring()) {
-            let points_per_world = camera.px_per_world() as f32 / px_per_point;
-            self.paint_brush(ui, &painter, pointer, self.last_painted.map(at), points_per_world);
-        }
-    }
-
-    /// The outline of the domain, and the polygon that is being set.
-    fn paint_outlines(
-        &self,
-        painter: &egui::Painter,
-        at: &impl Fn(DVec2) -> egui::Pos2,
-        pointer: Option<egui::Pos2>,
-    ) {
-        if let Some(region) = self.session.document().settings().domain.region() {
-            for ring in region.rings() {
-                marks::paint_outline(painter, ring.iter().map(|&corner| at(corner)));
+        if let Some(pointer) = pointer {
+            let radius = state.tools.radius as f32 * camera.px_per_world() as f32 / px_per_point;
+            if state.tools.has_ring() {
+                self.draw_ring(ui, &over, pointer, state.tools, radius);
             }
+            price::show(ui, state, rect, pointer, radius);
         }
-        for cut_shape in self.cutter.cut_shapes() {
-            marks::paint_stencil(painter, cut_shape, at);
+        if response.contains_pointer() || self.gesture.is_some() {
+            ui.ctx().set_cursor_icon(self.cursor(ui.ctx(), state.tools));
         }
-        let corners: Vec<egui::Pos2> = self.outline.iter().map(|&corner| at(corner)).collect();
-        marks::paint_open_polygon(painter, &corners, pointer);
     }
 
-    /// The ring of the brush, and with Shift held the line that a click would paint from `last`.
-    fn paint_brush(
-        &self,
-        ui: &Ui,
-        painter: &egui::Painter,
-        pointer: egui::Pos2,
-        last: Option<egui::Pos2>,
-        points_per_world: f32,
-    ) {
-        if let Gesture::Sizing { from, dragged: true, .. } = self.gesture {
-            return marks::paint_brush_ring(painter, from, &self.tools, points_per_world);
+    fn highlights(&self, state: &FrameState<'_>) -> Highlights {
+        let mesh = state.session.mesh();
+        let selected = state.readout.and_then(|readout| readout.location.triangle());
+        let mut highlights = selected.map_or(Highlights::default(), |id| Highlights::around(mesh, id));
+        let hovering = state.tools.tool.highlights_hovered && self.gesture.is_none();
+        let hovered = state.pointer.filter(|_| hovering).and_then(|point| mesh.locate(point).triangle());
+        highlights.hovered = hovered.or(state.view.hovered_neighbour);
+        highlights
+    }
+
+    /// The brush ring, and with Shift held the line that a click would paint.
+    fn draw_ring(&self, ui: &Ui, over: &OverMesh<'_>, pointer: egui::Pos2, tools: &Tools, radius: f32) {
+        if let Some(center) = self.gesture.as_ref().and_then(|gesture| gesture.ring_center()) {
+            return marks::paint_brush_ring(over.painter, center, tools, radius);
         }
-        if let Some(last) = last
-            && self.tools.paints()
+        if let Some(last) = tools.last_painted.filter(|_| tools.paints())
             && ui.input(|input| input.modifiers.shift)
         {
-            marks::paint_line_preview(painter, last, pointer);
+            marks::paint_line_preview(over.painter, (over.screen_from_world)(last), pointer);
         }
-        marks::paint_brush_ring(painter, pointer, &self.tools, points_per_world);
+        marks::paint_brush_ring(over.painter, pointer, tools, radius);
     }
 
-    /// Message, progress and hint, over the canvas.
-    fn float_over(&mut self, ui: &mut Ui, rect: Rect) {
-        let inner = rect.shrink(12.0);
-        self.floats.clear();
-        self.show_notice(ui, inner);
-        let works = self.show_progress(ui, inner);
-        let hints = self.hints.for_tool(self.tools.tool, self.tools.kind);
-        // In a small window there is no room for both below.
-        if !hints.is_empty() && !works && self.session.notice().is_none() {
-            hint_pill(ui, inner.left_bottom(), Align2::LEFT_BOTTOM, inner, hints);
+    fn cursor(&self, ctx: &Context, tools: &Tools) -> CursorIcon {
+        if let Some(cursor) = self.gesture.as_ref().and_then(|gesture| gesture.cursor()) {
+            return cursor;
         }
-    }
-
-    fn show_notice(&mut self, ui: &mut Ui, inner: Rect) {
-        let Some(notice) = self.session.notice().cloned() else { return };
-        let width = inner.width().min(640.0);
-        let place =
-            Rect::from_center_size(egui::pos2(inner.center().x, inner.top() + 40.0), vec2(width, 80.0));
-        let mut child = ui.new_child(egui::UiBuilder::new().max_rect(place));
-        let banner = if notice.failed { Banner::error(&notice.text) } else { Banner::info(&notice.text) };
-        let stands = self.session.notice_stands();
-        let banner = if stands { banner.standing().action("Undo") } else { banner };
-        let answer = banner.show(&mut child);
-        self.floats.push(child.min_rect());
-        match answer {
-            BannerAnswer::Open => {}
-            BannerAnswer::Acted => {
-                self.commands.push(Command::Undo);
-                ui.ctx().request_repaint();
-            }
-            BannerAnswer::Dismissed => self.session.set_notice(None),
+        if ctx.input(|input| input.key_down(Key::Space)) {
+            return PAN.cursor;
         }
-    }
-
-    /// How far each work is, once it has taken longer than a moment: that on the mesh lowest, then that on files. Tells whether any is
-    /// shown.
-    fn show_progress(&mut self, ui: &mut Ui, inner: Rect) -> bool {
-        let size = vec2(inner.width().min(360.0), 36.0);
-        let first = Rect::from_min_size(inner.right_bottom() - size, size);
-        let mut place = first;
-        let above = |place: Rect| place.translate(vec2(0.0, -size.y - 8.0));
-        let on_mesh = self.work_on_mesh();
-        let long = self.busy.is_long(on_mesh.is_some());
-        if let Some((what, done)) = on_mesh.filter(|_| long) {
-            if progress_row(&mut self.card(ui, place), what, &done) {
-                self.cancel_update();
-            }
-            place = above(place);
-        }
-        for Row { id, what, meter } in self.background.rows(self.project.is_leaving()) {
-            if bytes_row(&mut self.card(ui, place), &what, meter.done(), meter.total()) {
-                self.cancel_work(id);
-            }
-            place = above(place);
-        }
-        place != first
-    }
-
-    /// What is being done to bring the mesh up to date, and how far it is.
-    fn work_on_mesh(&self) -> Option<(&'static str, String)> {
-        match self.session.stage() {
-            _ if !self.cutter.is_idle() => Some(("Cutting the outline", String::new())),
-            Stage::Refining { triangles } => {
-                Some(("Refining", format!("{} triangles", format::count(triangles as u64))))
-            }
-            Stage::Copying { triangles } => {
-                Some(("Copying the mesh", format!("{} triangles", format::count(triangles as u64))))
-            }
-            Stage::Indexing => Some(("Indexing the outline", String::new())),
-            Stage::Sampling => Some(("Sampling the field", String::new())),
-            Stage::InStep | Stage::GaveUp(_) => None,
-        }
-    }
-
-    /// A ground over the canvas for a row of widgets, which takes the clicks there.
-    fn card(&mut self, ui: &mut Ui, place: Rect) -> Ui {
-        self.floats.push(place);
-        paint_floating(ui, place);
-        let row =
-            place.with_min_x(place.left() + 12.0).with_max_x(place.right() - 4.0).shrink2(vec2(0.0, 4.0));
-        ui.new_child(egui::UiBuilder::new().max_rect(row))
-    }
-
-    /// Where a point of the world is on the screen, once there was a frame.
-    pub fn on_screen(&self, world: DVec2) -> Option<egui::Pos2> {
-        let (camera, rect) = (self.view.camera?, self.canvas_rect);
-        let px_per_point = camera.size_px()[0] as f32 / rect.width();
-        Some(marks::point_from_px(rect, camera.screen_from_world(world), px_per_point))
-    }
-
-    /// The part of the world on the canvas.
-    pub fn visible_world(&self) -> Option<WorldRect> {
-        self.view.camera.map(|camera| camera.visible_world())
+        if tools.has_ring() { CursorIcon::None } else { tools.tool.cursor }
     }
 }

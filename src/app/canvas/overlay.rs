@@ -1,4 +1,4 @@
-//! The field as colours, to be laid over the mesh.
+//! The field as colours, drawn over the mesh.
 
 use super::super::view::FieldOverlay;
 use crate::colormap::LevelColors;
@@ -8,7 +8,7 @@ use crate::scene::Overlay;
 /// How strongly h̄ covers the mesh, 0 to 1.
 const TARGET_OPACITY: f32 = 0.75;
 
-/// The colours of an overlay, made anew only when what they show has changed.
+/// The colours of an overlay, computed again only when what they show has changed.
 #[derive(Debug, Default)]
 pub struct OverlayColors {
     rgba: Vec<[u8; 4]>,

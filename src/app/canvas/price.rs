@@ -1,50 +1,33 @@
 //! The tag beside the brush ring: what a click there would add or free.
 
-use eframe::egui::{Align2, Color32, Key, Pos2, Rect, Response, Ui, Vec2, vec2};
-use glam::DVec2;
+use eframe::egui::{Align2, Color32, Pos2, Rect, Ui, Vec2, vec2};
 
-use super::super::App;
-use super::super::theme::{Tokens, tokens};
-use super::super::widgets::{floating_tag, format, tag_size};
-use super::Gesture;
+use crate::app::frame::FrameState;
+use crate::app::theme::{Tokens, tokens};
+use crate::app::widgets::{floating_tag, format, tag_size};
 use crate::document::{Price, Settings};
 use crate::mesh::Progress;
-use crate::paint::Brush;
 
-/// Room between ring and tag, in points.
+/// Space between ring and tag, in points.
 const GAP: f32 = 14.0;
-/// The tag is no farther from the pointer than this: beyond, it stands within the ring.
+/// The tag is no farther from the pointer than this, in points: in a larger ring it is inside.
 const FARTHEST: f32 = 120.0;
 
-impl App {
-    /// The dab that a click would make where the pointer hovers: none where a click does something else.
-    pub(super) fn hovered_dab(&self, ui: &Ui, response: &Response) -> Option<(Brush, DVec2)> {
-        let plain = ui.input(|input| {
-            let keys = input.modifiers.shift || input.modifiers.alt || input.modifiers.command;
-            !keys && !input.key_down(Key::Space) && !input.pointer.any_down()
-        });
-        let paints = plain && self.tools.paints() && self.gesture == Gesture::None;
-        let free = |at| !self.floats.iter().any(|float| float.contains(at));
-        let hovers = response.hover_pos().is_some_and(free) && !self.asks_something();
-        self.pointer_world.filter(|_| paints && hovers).map(|at| (self.tools.brush(), at))
-    }
-
-    /// Shows the tag beside a ring of the given radius in points.
-    pub(super) fn show_price(&self, ui: &Ui, canvas: Rect, pointer: Pos2, radius: f32) {
-        let pricer = self.session.pricer();
-        let t = tokens(ui);
-        let count = self.session.mesh().raw_triangle_count();
-        let (text, color) = match (pricer.price(), pricer.progress()) {
-            (Some(price), _) => tag(price, count, self.session.document().settings(), t),
-            // Whether there is such a frame depends on the machine's speed.
-            (None, Progress::More) if self.reproducible => return,
-            (None, Progress::More) => ("counting …".to_owned(), t.faint),
-            (None, Progress::Done) => return,
-        };
-        let bounds = canvas.shrink(8.0);
-        let (anchor, align) = place(bounds, pointer, radius, tag_size(ui, &text));
-        floating_tag(ui, anchor, align, bounds, &text, color);
-    }
+/// Shows the tag beside a ring of the given radius in points.
+pub fn show(ui: &Ui, state: &FrameState<'_>, canvas: Rect, pointer: Pos2, radius: f32) {
+    let pricer = state.session.pricer();
+    let t = tokens(ui);
+    let count = state.session.mesh().raw_triangle_count();
+    let (text, color) = match (pricer.price(), pricer.progress()) {
+        (Some(price), _) => tag(price, count, state.session.document().settings(), t),
+        // Whether there is such a frame depends on the machine's speed.
+        (None, Progress::More) if state.reproducible => return,
+        (None, Progress::More) => ("counting …".to_owned(), t.faint),
+        (None, Progress::Done) => return,
+    };
+    let bounds = canvas.shrink(8.0);
+    let (anchor, align) = place(bounds, pointer, radius, tag_size(ui, &text));
+    floating_tag(ui, anchor, align, bounds, &text, color);
 }
 
 /// What the tag says of a price, on a mesh of `count` triangles.
@@ -82,8 +65,8 @@ fn place(bounds: Rect, pointer: Pos2, radius: f32, size: Vec2) -> (Pos2, Align2)
 
 #[cfg(test)]
 mod tests {
-    use super::super::super::theme::DARK;
     use super::*;
+    use crate::app::theme::DARK;
     use eframe::egui::pos2;
 
     #[test]

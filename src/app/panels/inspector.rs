@@ -1,110 +1,139 @@
-use eframe::egui::Ui;
+//! The inspector: the queried point and the triangle around it.
 
-use super::super::App;
-use super::super::command::Command;
-use super::super::readout::{Quantity, Readout, TriangleReadout};
-use super::super::theme::tokens;
-use super::super::widgets::{Chip, Icon, Section, chips, empty_state, format, segmented, value_row};
-use crate::mesh::{Location, Neighbour, Orientation};
+use eframe::egui::{Color32, Ui};
+use glam::DVec2;
 
-impl App {
-    pub(super) fn inspector_ui(&mut self, ui: &mut Ui) {
-        let readout = self.session.readout(self.view.quantity);
-        let title = match readout.as_ref().and_then(|readout| readout.location.triangle()) {
-            Some(id) => format!("Triangle {}", number(self.session.triangle_number(id))),
-            None => "Triangle".to_owned(),
-        };
-        Section::new(&title).id("inspector").show(ui, |ui| match readout {
-            None => {
-                let text =
-                    "Click the mesh with the query tool (Q): triangle, neighbours and values appear here.";
-                empty_state(ui, Icon::QUERY, "Nothing asked yet", text, None);
-            }
-            Some(Readout { triangle: Some(triangle), location, point }) => {
-                self.triangle_ui(ui, &triangle, location, point);
-            }
-            Some(readout) => nowhere_ui(ui, &readout),
-        });
-    }
+use super::Panel;
+use crate::app::command::Command;
+use crate::app::frame::FrameState;
+use crate::app::readout::{Quantity, Readout, TriangleReadout};
+use crate::app::session::Session;
+use crate::app::theme::tokens;
+use crate::app::widgets::{Chip, Icon, Section, chips, empty_state, format, segmented, value_row};
+use crate::mesh::{Location, Neighbour, Orientation, TriangleId};
 
-    fn triangle_ui(
-        &mut self,
-        ui: &mut Ui,
-        triangle: &TriangleReadout,
-        location: Location,
-        point: glam::DVec2,
-    ) {
-        let orientation = match triangle.orientation {
-            Orientation::Clockwise => "clockwise",
-            Orientation::Anticlockwise => "anticlockwise",
-        };
-        let step = self.view.camera.map_or(1e-4, |camera| 1.0 / camera.px_per_world());
-        let place =
-            |p: glam::DVec2| format!("{} {}", format::coordinate(p.x, step), format::coordinate(p.y, step));
-        let turn = value_row(ui, "Level · orientation", &format!("{} · {orientation}", triangle.level));
-        turn.on_hover_text("Which way v₁ v₂ v₃ run, as bisection left them. In files all run anticlockwise.");
-        value_row(ui, "Diameter", &format::length(triangle.diameter));
-        value_row(ui, "Point", &place(point));
-        if let Some(on) = where_on(location) {
-            value_row(ui, "Lies", on);
+/// The queried triangle, its neighbours, and a quantity in it.
+pub static INSPECTOR: Panel = Panel { name: "inspector", only_with_tool: false, show };
+
+fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
+    let title = match state.readout.and_then(|readout| readout.location.triangle()) {
+        Some(id) => format!("Triangle {}", number(state.session.triangle_number(id))),
+        None => "Triangle".to_owned(),
+    };
+    let section = Section::new(&title).id("inspector").show(ui, |ui| match state.readout {
+        None => {
+            let text = "Click the mesh with the query tool (Q): triangle, neighbours and values appear here.";
+            empty_state(ui, Icon::QUERY, "No query yet", text);
+            None
         }
-        let [a, b, c] = triangle.zeta.map(|zeta| format::fixed(zeta, 3));
-        value_row(ui, "ζ₁ ζ₂ ζ₃", &format!("{a} {b} {c}"));
-        self.neighbours_ui(ui, triangle);
-        self.quantity_ui(ui, triangle);
-        ui.add_space(4.0);
-        for (i, (node, corner)) in triangle.vertices.iter().enumerate() {
-            let label = format!("v{} · {}", ["₁", "₂", "₃"][i], number(self.session.node_number(*node)));
-            value_row(ui, &label, &place(*corner));
+        Some(Readout { triangle: Some(triangle), location, point }) => {
+            triangle_rows(ui, state, triangle, *location, *point, commands)
         }
-    }
-
-    /// The three neighbours as chips in their colours on the canvas; a click goes there.
-    fn neighbours_ui(&mut self, ui: &mut Ui, triangle: &TriangleReadout) {
-        let colors = tokens(ui).neighbours;
-        ui.add_space(4.0);
-        chips(ui, |ui| {
-            for (i, neighbour) in triangle.neighbours.iter().enumerate() {
-                self.neighbour_chip(ui, i, *neighbour, colors[i]);
-            }
-        });
-        ui.add_space(4.0);
-    }
-
-    fn neighbour_chip(&mut self, ui: &mut Ui, i: usize, neighbour: Neighbour, color: eframe::egui::Color32) {
-        let name = ["Bisection neighbour", "Second neighbour", "Third neighbour"][i];
-        let text = neighbour.triangle().map_or("edge".into(), |id| number(self.session.triangle_number(id)));
-        let response = Chip::new(color, &text, name).enabled(neighbour.triangle().is_some()).show(ui);
-        if let Some(id) = neighbour.triangle() {
-            if response.clicked() {
-                self.commands.push(Command::QueryTriangle(id));
-            }
-            if response.hovered() {
-                self.hovered_neighbour = Some(id);
-            }
+        Some(readout) => {
+            no_triangle(ui, readout);
+            None
         }
-    }
-
-    fn quantity_ui(&mut self, ui: &mut Ui, triangle: &TriangleReadout) {
-        let choices = [(Quantity::TargetDiameter, "h̄"), (Quantity::Risk, "Risk")];
-        segmented(ui, "Quantity", &mut self.view.quantity, &choices);
-        let number = |value: f64| format::significant(value, 4);
-        let [a, b, c] = triangle.at_vertices.map(number);
-        value_row(ui, "At v₁ v₂ v₃", &format!("{a} {b} {c}"));
-        value_row(ui, "Interpolated", &number(triangle.interpolated));
-        let difference = triangle.interpolated - triangle.exact;
-        let sign = match difference {
-            d if d < 0.0 => "−",
-            d if d > 0.0 => "+",
-            _ => "",
-        };
-        let exact =
-            format!("{} ({sign}{})", number(triangle.exact), format::significant(difference.abs(), 2));
-        value_row(ui, "True (difference)", &exact);
+    });
+    let hovered = section.flatten();
+    if hovered != state.view.hovered_neighbour {
+        commands.push(Command::HighlightNeighbour(hovered));
     }
 }
 
-/// A number as files have it; a sign of more to come until it is counted.
+/// Everything about a triangle. Returns the neighbour under the pointer.
+fn triangle_rows(
+    ui: &mut Ui,
+    state: &FrameState<'_>,
+    triangle: &TriangleReadout,
+    location: Location,
+    point: DVec2,
+    commands: &mut Vec<Command>,
+) -> Option<TriangleId> {
+    let orientation = match triangle.orientation {
+        Orientation::Clockwise => "clockwise",
+        Orientation::Anticlockwise => "anticlockwise",
+    };
+    let step = state.view.world_per_px();
+    let place = |p: DVec2| format!("{} {}", format::coordinate(p.x, step), format::coordinate(p.y, step));
+    let turn = value_row(ui, "Level · orientation", &format!("{} · {orientation}", triangle.level));
+    turn.on_hover_text(
+        "The order of v₁ v₂ v₃, as bisection made it. In files all triangles are anticlockwise.",
+    );
+    value_row(ui, "Diameter", &format::length(triangle.diameter));
+    value_row(ui, "Point", &place(point));
+    if let Some(on) = where_on(location) {
+        value_row(ui, "Lies", on);
+    }
+    let [a, b, c] = triangle.zeta.map(|zeta| format::fixed(zeta, 3));
+    value_row(ui, "ζ₁ ζ₂ ζ₃", &format!("{a} {b} {c}"));
+    let hovered = neighbour_chips(ui, state.session, triangle, commands);
+    quantity_rows(ui, state.view.quantity, triangle, commands);
+    ui.add_space(4.0);
+    for (i, (node, corner)) in triangle.vertices.iter().enumerate() {
+        let label = format!("v{} · {}", ["₁", "₂", "₃"][i], number(state.session.node_number(*node)));
+        value_row(ui, &label, &place(*corner));
+    }
+    hovered
+}
+
+/// The three neighbours as chips in their colours on the canvas; a click queries one. Returns the one under the pointer.
+fn neighbour_chips(
+    ui: &mut Ui,
+    session: &Session,
+    triangle: &TriangleReadout,
+    commands: &mut Vec<Command>,
+) -> Option<TriangleId> {
+    let colors = tokens(ui).neighbours;
+    ui.add_space(4.0);
+    let mut hovered = None;
+    chips(ui, |ui| {
+        for (i, neighbour) in triangle.neighbours.iter().enumerate() {
+            hovered = neighbour_chip(ui, session, i, *neighbour, colors[i], commands).or(hovered);
+        }
+    });
+    ui.add_space(4.0);
+    hovered
+}
+
+fn neighbour_chip(
+    ui: &mut Ui,
+    session: &Session,
+    i: usize,
+    neighbour: Neighbour,
+    color: Color32,
+    commands: &mut Vec<Command>,
+) -> Option<TriangleId> {
+    let name = ["Bisection neighbour", "Second neighbour", "Third neighbour"][i];
+    let text = neighbour.triangle().map_or("edge".into(), |id| number(session.triangle_number(id)));
+    let response = Chip::new(color, &text, name).enabled(neighbour.triangle().is_some()).show(ui);
+    let id = neighbour.triangle()?;
+    if response.clicked() {
+        commands.push(Command::QueryTriangle(id));
+    }
+    response.hovered().then_some(id)
+}
+
+fn quantity_rows(ui: &mut Ui, shown: Quantity, triangle: &TriangleReadout, commands: &mut Vec<Command>) {
+    let mut quantity = shown;
+    let choices = [(Quantity::TargetDiameter, "h̄"), (Quantity::Risk, "Risk")];
+    if segmented(ui, "Quantity", &mut quantity, &choices).changed() {
+        commands.push(Command::Inspect(quantity));
+    }
+    let number = |value: f64| format::significant(value, 4);
+    let [a, b, c] = triangle.at_vertices.map(number);
+    value_row(ui, "At v₁ v₂ v₃", &format!("{a} {b} {c}"));
+    value_row(ui, "Interpolated", &number(triangle.interpolated));
+    let difference = triangle.interpolated - triangle.exact;
+    let sign = match difference {
+        d if d < 0.0 => "−",
+        d if d > 0.0 => "+",
+        _ => "",
+    };
+    let exact = format!("{} ({sign}{})", number(triangle.exact), format::significant(difference.abs(), 2));
+    value_row(ui, "True (difference)", &exact);
+}
+
+/// The number that files give a triangle or node; `…` until it is counted.
 fn number(number: Option<usize>) -> String {
     number.map_or("…".into(), |number| format::count(number as u64))
 }
@@ -118,11 +147,11 @@ fn where_on(location: Location) -> Option<&'static str> {
     }
 }
 
-fn nowhere_ui(ui: &mut Ui, readout: &Readout) {
+fn no_triangle(ui: &mut Ui, readout: &Readout) {
     let text = match readout.location {
         Location::OutsideDomain => "The point lies in a hole of the domain, or beyond its outline.",
         Location::Invalid => "The point is not a number.",
         _ => "The point lies outside the domain.",
     };
-    empty_state(ui, Icon::QUERY, "No triangle here", text, None);
+    empty_state(ui, Icon::QUERY, "No triangle here", text);
 }

@@ -1,98 +1,130 @@
-//! The panels round the canvas. A panel reads the app and sends commands; it changes nothing itself.
+//! The panels around the canvas. A panel is a function of the state that it shows; it changes nothing, but sends commands.
+//!
+//! What is being typed or set up in a control, and is no setting yet, is in egui's memory.
 
+mod bars;
 mod brush;
 mod domain;
 mod field;
+mod formula;
 mod inspector;
 mod levels;
 mod mesh;
-mod menu;
 mod status;
-mod tools;
 mod transfer;
 mod view;
 
-use eframe::egui::{self, Frame, Margin, Panel, ScrollArea, Ui};
+use eframe::egui::{self, Frame, Id, Margin, Response, RichText, ScrollArea, Ui};
 
-pub use field::FieldTexts;
+pub use brush::BRUSH;
+pub use domain::DOMAIN;
+pub use inspector::INSPECTOR;
 
-use super::App;
-use super::theme::{metrics, tokens};
+use super::command::Command;
+use super::frame::FrameState;
+use super::theme::{font, metrics, tokens};
 use super::tools::Tool;
+use super::widgets;
+use crate::document::Setting;
 
-impl App {
-    /// All panels, from the rim inwards.
-    pub(super) fn panels_ui(&mut self, ui: &mut Ui) {
-        // Hidden panels have nothing under the pointer either.
-        self.hovered_neighbour = None;
-        self.view.lone_level = None;
-        let t = *tokens(ui);
-        let bar = Frame::new().fill(t.window).inner_margin(Margin::symmetric(metrics::PANEL_MARGIN as i8, 2));
-        // The row of a menu bar stands at the top of its room.
-        let above = ((metrics::MENU_BAR - metrics::ROW) / 2.0) as i8;
-        let menu = bar.inner_margin(Margin::symmetric(metrics::PANEL_MARGIN as i8, above));
-        Panel::top("menu").frame(menu).exact_size(metrics::MENU_BAR).show(ui, |ui| self.menu_ui(ui));
-        Panel::bottom("status").frame(bar).exact_size(metrics::STATUS_BAR).show(ui, |ui| self.status_ui(ui));
-        if self.view.panels {
-            let strip = Frame::new().fill(t.panel).inner_margin(Margin::symmetric(6, 10));
-            let width = metrics::TOOL + 12.0;
-            Panel::left("tools")
-                .frame(strip)
-                .resizable(false)
-                .exact_size(width)
-                .show(ui, |ui| self.tools_ui(ui));
-            // The scroll bar runs in the margin.
-            let side = Frame::new().fill(t.panel);
-            let width = metrics::PANEL_WIDTH;
-            Panel::right("side")
-                .frame(side)
-                .resizable(false)
-                .exact_size(width)
-                .show(ui, |ui| self.side_ui(ui));
-        }
+/// A section of the side panel.
+pub struct Panel {
+    /// Identifies it.
+    pub name: &'static str,
+    /// Whether it is shown only while a tool that lists it is selected.
+    pub only_with_tool: bool,
+    /// Draws it.
+    pub show: fn(&mut Ui, &FrameState<'_>, &mut Vec<Command>),
+}
+
+/// All sections of the side panel, from the top. Those of the selected tool move to the top.
+pub static PANELS: [&Panel; 8] = [
+    &BRUSH,
+    &transfer::TRANSFER,
+    &levels::LEVELS,
+    &INSPECTOR,
+    &field::FIELD,
+    &mesh::MESH,
+    &DOMAIN,
+    &view::VIEW,
+];
+
+/// Draws all panels, from the rim inwards.
+pub fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
+    let t = *tokens(ui);
+    let bar = Frame::new().fill(t.window).inner_margin(Margin::symmetric(metrics::PANEL_MARGIN as i8, 2));
+    // egui puts the row of a menu bar at its top: the margin centres it.
+    let above = ((metrics::MENU_BAR - metrics::ROW) / 2.0) as i8;
+    let menu = bar.inner_margin(Margin::symmetric(metrics::PANEL_MARGIN as i8, above));
+    egui::Panel::top("menu")
+        .frame(menu)
+        .exact_size(metrics::MENU_BAR)
+        .show(ui, |ui| bars::menu_bar(ui, state, commands));
+    egui::Panel::bottom("status")
+        .frame(bar)
+        .exact_size(metrics::STATUS_BAR)
+        .show(ui, |ui| status::status_bar(ui, state));
+    if !state.view.panels {
+        return;
     }
+    egui::Panel::left("tools")
+        .frame(Frame::new().fill(t.panel).inner_margin(Margin::symmetric(6, 10)))
+        .resizable(false)
+        .exact_size(metrics::TOOL + 12.0)
+        .show(ui, |ui| bars::tool_strip(ui, state, commands));
+    // The scroll bar is in the margin.
+    egui::Panel::right("side")
+        .frame(Frame::new().fill(t.panel))
+        .resizable(false)
+        .exact_size(metrics::PANEL_WIDTH)
+        .show(ui, |ui| side_panel(ui, state, commands));
+}
 
-    fn side_ui(&mut self, ui: &mut Ui) {
-        let margin = Margin::symmetric(metrics::PANEL_MARGIN as i8, 0);
-        let mut area = ScrollArea::vertical().auto_shrink(false);
-        if std::mem::replace(&mut self.panel_of, self.tools.tool) != self.tools.tool {
-            // What belongs to the new tool stands first: it is to be seen.
-            area = area.vertical_scroll_offset(0.0);
-        }
-        area.show(ui, |ui| {
-            Frame::new().inner_margin(margin).show(ui, |ui| self.sections_ui(ui));
+fn side_panel(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
+    let margin = Margin::symmetric(metrics::PANEL_MARGIN as i8, 0);
+    let mut area = ScrollArea::vertical().auto_shrink(false);
+    if tool_changed(ui, state.tools.tool) {
+        // Its sections are at the top.
+        area = area.vertical_scroll_offset(0.0);
+    }
+    area.show(ui, |ui| {
+        Frame::new().inner_margin(margin).show(ui, |ui| {
+            for panel in sections(state.tools.tool) {
+                (panel.show)(ui, state, commands);
+            }
+            ui.add_space(metrics::PANEL_MARGIN);
         });
-    }
+    });
+}
 
-    /// What belongs to the tool in hand stands first.
-    fn sections_ui(&mut self, ui: &mut Ui) {
-        if self.tools.paints() {
-            self.brush_ui(ui);
-        }
-        if self.tools.tool == Tool::Domain {
-            self.domain_ui(ui);
-        }
-        if self.tools.tool == Tool::Query {
-            self.inspector_ui(ui);
-        }
-        self.transfer_ui(ui);
-        self.levels_ui(ui);
-        if self.tools.tool != Tool::Query {
-            self.inspector_ui(ui);
-        }
-        self.field_ui(ui);
-        self.mesh_ui(ui);
-        if self.tools.tool != Tool::Domain {
-            self.domain_ui(ui);
-        }
-        self.view_ui(ui);
-        ui.add_space(metrics::PANEL_MARGIN);
-    }
+/// Whether another tool is selected than in the last frame.
+fn tool_changed(ui: &Ui, tool: Tool) -> bool {
+    let id = Id::unique("tool of the side panel");
+    let before = ui.data_mut(|data| std::mem::replace(data.get_temp_mut_or(id, tool.name), tool.name));
+    before != tool.name
+}
 
-    /// Ends the gesture of a setting when the control was let go.
-    fn settle(&mut self, response: &egui::Response) {
-        if super::widgets::edit_done(response) {
-            self.commands.push(super::command::Command::EndGesture);
-        }
+/// The sections to show, those of the tool first.
+fn sections(tool: Tool) -> impl Iterator<Item = &'static Panel> {
+    let of_tool = |panel: &&Panel| tool.panels.iter().any(|own| own.name == panel.name);
+    let others = PANELS.into_iter().filter(move |panel| !panel.only_with_tool && !of_tool(panel));
+    tool.panels.iter().copied().chain(others)
+}
+
+/// Sends the end of a gesture when a control was released.
+fn end_gesture_when_released(response: &Response, commands: &mut Vec<Command>) {
+    if widgets::edit_done(response) {
+        commands.push(Command::EndGesture);
     }
+}
+
+/// Sends a setting as a gesture of its own.
+fn set_once(setting: Setting, commands: &mut Vec<Command>) {
+    commands.extend([Command::Set(setting), Command::EndGesture]);
+}
+
+/// A remark in small print.
+fn remark(ui: &mut Ui, text: &str) {
+    ui.label(RichText::new(text).font(font::caption()).color(tokens(ui).faint));
+    ui.add_space(4.0);
 }

@@ -1,4 +1,4 @@
-//! The pictures of the repository, painted by the program itself: no display, no hand.
+//! The pictures of the repository, drawn by the program itself without a display.
 
 mod offscreen;
 
@@ -10,13 +10,13 @@ use glam::{DVec2, dvec2};
 use super::SMALLEST_SIZE;
 use super::WINDOW_SIZE;
 use super::command::{Command, DomainCommand};
-use super::tools::{DomainToolMode, PaintKind, Tool};
+use super::tools::{DomainToolMode, PaintKind, QUERY};
 use crate::document::{Base, Example, Setting};
 use crate::field::{Formula, RefinementRule};
 use crate::io;
 use offscreen::OffscreenWindow;
 
-/// A picture: its name, the size of the window in points, pixels for a point, and what a person does before it is taken.
+/// A picture: its name, the size of the window in points, pixels for a point, and what happens before it is taken.
 struct Scene {
     name: &'static str,
     size: [f32; 2],
@@ -62,7 +62,7 @@ impl Scene {
     }
 }
 
-/// The first example, about to be painted on, with a triangle that was asked about.
+/// The first example, about to be painted on, with a queried triangle.
 fn window(window: &mut OffscreenWindow) {
     window.send(Command::Query(dvec2(0.651, 0.464)));
     point_at(window, dvec2(0.56, 0.66));
@@ -71,7 +71,7 @@ fn window(window: &mut OffscreenWindow) {
 /// A triangle at the end of the route, and its neighbours.
 fn query(window: &mut OffscreenWindow) {
     let place = dvec2(0.6472, 0.1368);
-    window.send(Command::Use(Tool::Query));
+    window.send(Command::Use(&QUERY));
     look_at(window, place, 7.0);
     window.send(Command::Query(place));
     point_at(window, place + dvec2(0.012, 0.028));
@@ -80,22 +80,22 @@ fn query(window: &mut OffscreenWindow) {
 /// Figure 1 of the report.
 fn diamond(window: &mut OffscreenWindow) {
     window.send(Command::OpenExample(Example::Diamond));
-    window.send(Command::Use(Tool::Query));
+    window.send(Command::Use(&QUERY));
     window.send(Command::Query(dvec2(6.3, 2.3)));
 }
 
 /// Slope as risk, close enough to see triangles.
 fn terrain(window: &mut OffscreenWindow) {
     window.send(Command::OpenExample(Example::Terrain));
-    window.send(Command::Use(Tool::Query));
+    window.send(Command::Use(&QUERY));
     look_at(window, dvec2(20.2, 19.8), 5.0);
     window.send(Command::Query(dvec2(22.1, 19.2)));
 }
 
-/// A sea fitted to its coast, about to be cut.
+/// A sea with its mesh fitted to the coast, about to be cut.
 fn aegean(window: &mut OffscreenWindow) {
     window.send(Command::OpenExample(Example::Aegean));
-    window.send(Command::Domain(DomainCommand::Shape(DomainToolMode::Brush)));
+    window.send(Command::Domain(DomainCommand::Mode(DomainToolMode::Brush)));
     window.send(Command::BrushRadius(0.2));
     point_at(window, dvec2(25.25, 38.1));
 }
@@ -107,15 +107,15 @@ fn light(window: &mut OffscreenWindow) {
     point_at(window, dvec2(0.43, 0.73));
 }
 
-/// Thirty levels and more round a point, by a formula.
+/// More than thirty levels around a point, by a formula.
 fn deep(window: &mut OffscreenWindow) {
     let place = dvec2(0.3127, 0.6183);
-    let formula = Formula::parse("max(1e-8, 0.3*hypot(x - 0.3127, y - 0.6183))").expect("a sound formula");
+    let formula = Formula::parse("max(1e-8, 0.3*hypot(x - 0.3127, y - 0.6183))").expect("a valid formula");
     window.send(Command::New);
     window.send(Command::Set(Setting::RefinementRule(RefinementRule::Vertex)));
     window.send(Command::Set(Setting::SmallestDiameter(1e-8)));
     window.send(Command::Set(Setting::Base(Base::Formula(formula))));
-    window.send(Command::Use(Tool::Query));
+    window.send(Command::Use(&QUERY));
     look_at(window, place, 2e5);
     window.send(Command::Query(place + dvec2(1.1e-6, 0.7e-6)));
 }
@@ -126,7 +126,7 @@ fn palette(window: &mut OffscreenWindow) {
     window.event(Event::Text("over".into()));
 }
 
-/// As small as the window can be, painting a diameter.
+/// The smallest window, painting a diameter.
 fn smallest(window: &mut OffscreenWindow) {
     window.send(Command::Paint(PaintKind::Diameter));
     point_at(window, dvec2(0.9, 0.5));
@@ -145,5 +145,5 @@ fn look_at(window: &mut OffscreenWindow, world: DVec2, factor: f64) {
 
 /// Where a point of the world is on the screen.
 fn on_screen(window: &OffscreenWindow, world: DVec2) -> Pos2 {
-    window.app().on_screen(world).unwrap_or_default()
+    window.screen_from_world(world).unwrap_or_default()
 }

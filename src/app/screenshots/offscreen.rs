@@ -1,6 +1,6 @@
-//! A window that nobody sees: the app's frames without a display, painted into a texture.
+//! An invisible window: the app's frames without a display, drawn into a texture.
 //!
-//! It does what eframe does for a real window, and nothing more: input in, shapes out, egui's renderer paints them.
+//! It does what eframe does for a real window, and nothing more: it passes input in, and draws the shapes that come out.
 
 use std::sync::Arc;
 
@@ -8,18 +8,21 @@ use eframe::egui::{Context, Event, FullOutput, Pos2, RawInput, Rect, Vec2, Viewp
 use eframe::{egui_wgpu, wgpu};
 use egui_wgpu::{RenderState, RendererOptions, ScreenDescriptor, WgpuConfiguration, WgpuSetup};
 
-use super::super::App;
-use super::super::command::Command;
+use glam::DVec2;
+
+use crate::app::App;
+use crate::app::canvas::marks::point_from_px;
+use crate::app::command::Command;
 use crate::mesh::Progress;
 use crate::render::Image;
 use crate::render::gpu::{device_descriptor, read_back};
 
-/// Seconds from frame to frame. Time is counted and not measured: the same input gives the same picture.
+/// Seconds from frame to frame. Time is counted, not measured, so that the same input gives the same picture.
 const FRAME: f64 = 1.0 / 60.0;
-/// Frames until animations, such as those of tooltips and menus, have surely ended.
+/// Frames after which all animations, such as those of tooltips and menus, have ended.
 const SETTLING_FRAMES: u32 = 30;
 
-/// The app in a window that nobody sees.
+/// The app in an invisible window.
 pub struct OffscreenWindow {
     app: App,
     ctx: Context,
@@ -45,18 +48,19 @@ impl OffscreenWindow {
         Ok(window)
     }
 
-    /// The app.
-    pub fn app(&self) -> &App {
-        &self.app
+    /// Where a point in world units is on the screen, in points.
+    pub fn screen_from_world(&self, world: DVec2) -> Option<Pos2> {
+        let px = self.app.view.camera?.screen_from_world(world);
+        Some(point_from_px(self.app.canvas.rect()?, px, self.px_per_point))
     }
 
-    /// Carries out a command, and whatever follows from it.
+    /// Runs a command and everything that follows from it.
     pub fn send(&mut self, command: Command) {
         self.app.send(command);
         self.settle();
     }
 
-    /// Something that a person does, and whatever follows from it.
+    /// Passes an event in, and runs everything that follows from it.
     pub fn event(&mut self, event: Event) {
         self.events.push(event);
         self.settle();
@@ -67,11 +71,11 @@ impl OffscreenWindow {
         let mut quiet = 0;
         while quiet < SETTLING_FRAMES {
             self.frame();
-            let session = self.app.session();
-            let rests = session.stage().is_settled()
+            let session = &self.app.session;
+            let is_settled = session.stage().is_settled()
                 && session.pricer().progress() == Progress::Done
-                && !self.app.is_cutting();
-            quiet = if rests { quiet + 1 } else { 0 };
+                && !session.is_cutting();
+            quiet = if is_settled { quiet + 1 } else { 0 };
         }
     }
 
@@ -87,8 +91,10 @@ impl OffscreenWindow {
         };
         let viewport = input.viewports.entry(ViewportId::ROOT).or_default();
         viewport.native_pixels_per_point = Some(self.px_per_point);
-        self.app.catch_tab(&self.ctx, &mut input);
-        let mut output = self.ctx.run_ui(input, |ui| self.app.show(ui));
+        let mut output = self.ctx.run_ui(input, |ui| {
+            self.app.advance(ui.ctx());
+            self.app.draw(ui);
+        });
         self.take_textures(&mut output);
         output
     }
@@ -150,7 +156,7 @@ fn render_state() -> Result<RenderState, String> {
     }
     let instance = pollster::block_on(config.wgpu_setup.new_instance());
     let opened = RenderState::create(&config, &instance, None, RendererOptions::PREDICTABLE);
-    pollster::block_on(opened).map_err(|_| super::super::NO_DRIVER.to_owned())
+    pollster::block_on(opened).map_err(|_| crate::app::NO_DRIVER.to_owned())
 }
 
 fn begin_pass(encoder: &mut wgpu::CommandEncoder, view: &wgpu::TextureView) -> wgpu::RenderPass<'static> {

@@ -12,7 +12,7 @@ use super::{
     price_tag, release, send, set, settings, stroke, triangles, type_into, window, window_of,
 };
 use crate::app::command::Command;
-use crate::app::tools::Tool;
+use crate::app::tools::{BRUSH, DOMAIN, ERASER, PAN, QUERY};
 use crate::document::{Setting, Settings};
 use crate::field::RefinementRule;
 
@@ -44,7 +44,7 @@ fn the_brush_shows_its_price_before_the_click_and_the_price_is_true() {
         "hovering changes nothing"
     );
     let mut seen = BTreeSet::new();
-    for tool in [Tool::Brush, Tool::Eraser] {
+    for tool in [&BRUSH, &ERASER] {
         send(&mut window, Command::Use(tool));
         for place in [FREE, FREE - dvec2(0.03, 0.02), dvec2(0.02, 0.97), FREE] {
             let (told, change) = told_and_true(&mut window, place);
@@ -61,11 +61,11 @@ fn the_brush_shows_its_price_before_the_click_and_the_price_is_true() {
 fn the_price_is_asked_only_where_a_click_paints_a_dab() {
     let mut window = window();
     assert!(hover(&mut window, FREE).is_some());
-    for tool in [Tool::Query, Tool::Domain, Tool::Pan] {
+    for tool in [&QUERY, &DOMAIN, &PAN] {
         send(&mut window, Command::Use(tool));
         assert_eq!(price_tag(&window), None, "{tool:?}");
     }
-    send(&mut window, Command::Use(Tool::Brush));
+    send(&mut window, Command::Use(&BRUSH));
     assert!(price_tag(&window).is_some());
     for modifiers in [Modifiers::SHIFT, Modifiers::ALT] {
         window.event(Event::ModifiersChanged(modifiers));
@@ -93,7 +93,7 @@ fn a_price_past_the_budget_says_so() {
     set(&mut window, Setting::MaxTriangles(count + 100));
     let tag = hover(&mut window, FREE).unwrap();
     assert!(tag.starts_with('+') && tag.ends_with(" triangles, over the budget"), "{tag}");
-    send(&mut window, Command::Use(Tool::Eraser));
+    send(&mut window, Command::Use(&ERASER));
     assert!(!price_tag(&window).unwrap().contains("budget"));
 }
 

@@ -15,7 +15,7 @@ struct State {
     strength: f64,
     levels: f64,
     mode: u8,
-    transfer: Transfer,
+    transfer: CurveValues,
     formula: String,
     broken: String,
     name: String,
@@ -25,10 +25,11 @@ struct State {
     spacing: f64,
     limit: f64,
     chosen: Option<usize>,
-    palette: CommandPalette,
+    palette: bool,
     answer: Option<Answer>,
     asking: bool,
     clicks: Vec<String>,
+    hovered_level: Option<u32>,
     done: usize,
 }
 
@@ -39,7 +40,7 @@ impl Default for State {
             strength: 0.8,
             levels: 10.0,
             mode: 0,
-            transfer: Transfer { h_max: 0.2, h_min: 0.0024, shape: 1.6 },
+            transfer: CurveValues { h_max: 0.2, h_min: 0.0024, shape: 1.6 },
             formula: "if(abs(x)+abs(y)<0.4, 0.0125, 1)".into(),
             broken: "0.1 + sqr(x) * 3".into(),
             name: "radar threats".into(),
@@ -49,10 +50,11 @@ impl Default for State {
             spacing: 0.05,
             limit: 2_000_000.0,
             chosen: None,
-            palette: CommandPalette::default(),
+            palette: false,
             answer: None,
             asking: false,
             clicks: Vec::new(),
+            hovered_level: None,
             done: 0,
         }
     }
@@ -78,7 +80,7 @@ fn level_rows(ui: &Ui, count: u32) -> Vec<LevelRow> {
     (0..count).map(row).collect()
 }
 
-fn power(value: &Transfer, risk: f64) -> f64 {
+fn power(value: &CurveValues, risk: f64) -> f64 {
     value.h_max * (value.h_min / value.h_max).powf(risk.powf(value.shape))
 }
 
@@ -95,7 +97,7 @@ fn brush(ui: &mut Ui, state: &mut State) {
     Section::new("Brush").show(ui, |ui| {
         segmented(ui, "Brush mode", &mut state.mode, &[(0, "Risk"), (1, "Diameter")]);
         ui.add_space(4.0);
-        let size = SliderRow::new("Size", &mut state.size, 1e-3..=1.0).logarithmic().default(0.064).show(ui);
+        let size = SliderRow::new("Size", &mut state.size, 1e-3..=1.0).logarithmic().show(ui);
         state.done += usize::from(edit_done(&size));
         SliderRow::new("Strength", &mut state.strength, 0.0..=1.0).show(ui);
         SliderRow::new("Level cap", &mut state.levels, 0.0..=54.0).step(1.0).show(ui);
@@ -126,8 +128,7 @@ fn field(ui: &mut Ui, state: &mut State) {
 fn inspector(ui: &mut Ui, state: &mut State, levels: u32) {
     Section::new("Levels").note("37,987 triangles").show(ui, |ui| {
         let rows = level_rows(ui, levels);
-        let answer = LevelLegend::new(&rows).lit(Some(8)).show(ui);
-        state.clicks.extend(answer.clicked.map(|level| format!("level {level}")));
+        state.hovered_level = LevelLegend::new(&rows).lit(Some(8)).show(ui);
     });
     Section::new("Triangle 18,204").id("inspector").show(ui, |ui| {
         value_row(ui, "Level · orientation", "8 · anticlockwise");
@@ -187,13 +188,7 @@ fn messages(ui: &mut Ui, state: &mut State) {
         ui.add(ActionButton::new("Discard").kind(ButtonKind::Danger));
         ui.add_enabled(false, ActionButton::new("Disabled"));
     });
-    empty_state(
-        ui,
-        Icon::QUERY,
-        "No triangle selected",
-        "Click the mesh with the query tool.",
-        Some("Query tool"),
-    );
+    empty_state(ui, Icon::QUERY, "No triangle selected", "Click the mesh with the query tool.");
     for font in [theme::font::body(), theme::font::strong(), theme::font::value()] {
         let text = "h̄ ζ₁ ζ₂ ζ₃ → ↑ ↓ ℓ ≤ θ √2 δ̄ x² 0.4 −1,234 ∈ Ω";
         ui.label(egui::RichText::new(text).font(font));
@@ -256,7 +251,13 @@ fn gallery(ui: &mut Ui, state: &mut State, levels: u32) {
             ui.add_space(24.0);
         }
     });
-    state.chosen = state.palette.show(ui.ctx(), &COMMANDS).or(state.chosen);
+    if state.palette {
+        match command_palette(ui.ctx(), &COMMANDS) {
+            PaletteAnswer::Open => {}
+            PaletteAnswer::Closed => state.palette = false,
+            PaletteAnswer::Chosen(index) => (state.palette, state.chosen) = (false, Some(index)),
+        }
+    }
     if state.asking {
         let text = "“radar threats” has changes that are not saved. They will be lost.";
         let dialog =
@@ -359,7 +360,7 @@ fn pictures() {
             harness.render().unwrap().save(format!("{folder}/{name}{scale}.png")).unwrap();
         }
         let mut harness = harness_for(State::default(), shown, 54, 1.0, true);
-        harness.state_mut().palette.open();
+        harness.state_mut().palette = true;
         harness.run();
         harness.event(egui::Event::Text("sa".into()));
         harness.run();
@@ -506,9 +507,17 @@ fn a_segment_is_chosen_by_pointer_and_by_key() {
 }
 
 #[test]
-fn chips_levels_tools_and_cancel_answer_clicks() {
+fn the_legend_returns_the_level_under_the_pointer() {
     let mut harness = harness(State::default());
-    for name in ["Go to neighbour 2", "Level 9: 8,900 triangles", "Eraser"] {
+    harness.get_by_label("Level 9: 8,900 triangles").hover();
+    harness.run();
+    assert_eq!(harness.state().hovered_level, Some(9));
+}
+
+#[test]
+fn chips_tools_and_cancel_answer_clicks() {
+    let mut harness = harness(State::default());
+    for name in ["Go to neighbour 2", "Eraser"] {
         harness.get_by_label(name).click();
         harness.run();
     }
@@ -516,7 +525,7 @@ fn chips_levels_tools_and_cancel_answer_clicks() {
     harness.drag_at(cancel);
     harness.drop_at(cancel);
     harness.run();
-    assert_eq!(harness.state().clicks, ["neighbour 2", "level 9", "Eraser", "cancel"]);
+    assert_eq!(harness.state().clicks, ["neighbour 2", "Eraser", "cancel"]);
 }
 
 #[test]
@@ -629,7 +638,7 @@ fn a_banner_is_dismissed_or_acted_on() {
 
 fn opened_palette() -> Harness<'static, State> {
     let mut harness = harness(State::default());
-    harness.state_mut().palette.open();
+    harness.state_mut().palette = true;
     harness.run();
     harness
 }
@@ -643,7 +652,7 @@ fn the_palette_narrows_and_enter_chooses() {
     harness.key_press(egui::Key::Enter);
     harness.run();
     assert_eq!(harness.state().chosen, Some(5));
-    assert!(!harness.state().palette.is_open());
+    assert!(!harness.state().palette);
 }
 
 #[test]
@@ -655,7 +664,7 @@ fn the_palette_follows_arrows_and_the_pointer() {
     harness.key_press(egui::Key::Enter);
     harness.run();
     assert_eq!(harness.state().chosen, Some(2));
-    harness.state_mut().palette.open();
+    harness.state_mut().palette = true;
     harness.run();
     harness.get_by_role_and_label(Role::MenuItem, "Fit view").click();
     harness.run();
@@ -670,10 +679,10 @@ fn the_palette_keeps_what_is_disabled_and_closes_by_escape() {
     harness.key_press(egui::Key::Enter);
     harness.run();
     assert_eq!(harness.state().chosen, None);
-    assert!(harness.state().palette.is_open());
+    assert!(harness.state().palette);
     harness.key_press(egui::Key::Escape);
     harness.run();
-    assert!(!harness.state().palette.is_open());
+    assert!(!harness.state().palette);
 }
 
 fn asked() -> Harness<'static, State> {

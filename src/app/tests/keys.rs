@@ -10,23 +10,17 @@ use super::{
     stroke, wheel, window, window_of,
 };
 use crate::app::command::Command;
-use crate::app::tools::Tool;
+use crate::app::tools::{BRUSH, TOOLS};
 
 #[test]
-fn letters_take_tools_in_hand() {
+fn a_tool_is_selected_by_its_key_and_by_its_button() {
     let mut window = window();
-    for (letter, tool) in [
-        (Key::E, Tool::Eraser),
-        (Key::Q, Tool::Query),
-        (Key::H, Tool::Pan),
-        (Key::D, Tool::Domain),
-        (Key::B, Tool::Brush),
-    ] {
-        key(&mut window, Modifiers::NONE, letter);
+    for tool in TOOLS.into_iter().rev() {
+        key(&mut window, Modifiers::NONE, tool.key);
         assert_eq!(window.state().tools().tool, tool);
     }
-    for (name, tool) in [("Eraser", Tool::Eraser), ("Query", Tool::Query), ("Brush", Tool::Brush)] {
-        let buttons = window.get_all_by_role_and_label(Role::Button, name);
+    for tool in TOOLS {
+        let buttons = window.get_all_by_role_and_label(Role::Button, tool.name);
         let leftmost = buttons.min_by(|a, b| a.rect().left().total_cmp(&b.rect().left())).unwrap();
         leftmost.click();
         window.run();
@@ -35,7 +29,7 @@ fn letters_take_tools_in_hand() {
 }
 
 #[test]
-fn a_tool_taken_in_hand_brings_its_section_into_view() {
+fn the_section_of_a_selected_tool_comes_into_view() {
     let mut window = window_of(vec2(900.0, 600.0));
     let panel = canvas(&window).right_center() + vec2(100.0, 0.0);
     wheel(&mut window, panel, -2000.0);
@@ -121,7 +115,7 @@ fn keys_typed_into_a_field_stay_there() {
     window.run();
     key(&mut window, Modifiers::COMMAND, Key::Z);
     key(&mut window, Modifiers::COMMAND, Key::Backspace);
-    assert_eq!(window.state().tools().tool, Tool::Brush);
+    assert_eq!(window.state().tools().tool, &BRUSH);
     assert!(window.state().view().edges);
     assert_eq!(window.state().tools().paint_strength, 0.8);
     assert_eq!(

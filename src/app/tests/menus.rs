@@ -7,7 +7,7 @@ use eframe::egui::{Event, Key, Modifiers, pos2, vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 use super::{FREE, Window, choose, click, key, open_menu, selected, wheel, window, window_of};
-use crate::app::tools::Tool;
+use crate::app::tools::QUERY;
 
 #[test]
 fn the_palette_finds_and_runs_a_command() {
@@ -16,7 +16,7 @@ fn the_palette_finds_and_runs_a_command() {
     window.event(Event::Text("quer".into()));
     window.run();
     key(&mut window, Modifiers::NONE, Key::Enter);
-    assert_eq!(window.state().tools().tool, Tool::Query);
+    assert_eq!(window.state().tools().tool, &QUERY);
     assert!(window.query_by_label("Command").is_none(), "it closes");
     key(&mut window, Modifiers::COMMAND, Key::P);
     assert!(window.query_by_label("Command").is_some());
@@ -81,7 +81,7 @@ fn escape_closes_what_is_open_first() {
     choose(&mut window, "Help", "About Meshbrush");
     assert!(window.query_by_label_contains("Maubach").is_some());
     key(&mut window, Modifiers::NONE, Key::B);
-    assert_eq!(window.state().tools().tool, Tool::Query, "a dialog keeps the keys");
+    assert_eq!(window.state().tools().tool, &QUERY, "a dialog keeps the keys");
     key(&mut window, Modifiers::NONE, Key::Escape);
     assert!(window.query_by_label_contains("Maubach").is_none());
     assert!(selected(&window).is_some(), "the queried triangle is let go by the next Escape");

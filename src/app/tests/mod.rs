@@ -3,6 +3,7 @@
 #[cfg(unix)]
 mod background;
 mod budget;
+mod commands;
 mod domain;
 mod files;
 mod gallery;
@@ -27,8 +28,12 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use glam::{DVec2, dvec2};
 
+use crate::app::App;
+use crate::app::canvas::CANVAS_NAME;
 use crate::app::command::Command;
-use crate::app::{App, CANVAS_NAME};
+use crate::app::session::Session;
+use crate::app::tools::Tools;
+use crate::app::view::View;
 use crate::document::{Document, Setting, Settings};
 use crate::mesh::{Fingerprint, TriangleId};
 
@@ -293,4 +298,23 @@ fn paint(window: &mut Window, x: f64) {
 
 fn document(window: &Window) -> &Document {
     window.state().session().document()
+}
+
+/// What only tests look at.
+impl App {
+    fn session(&self) -> &Session {
+        &self.session
+    }
+
+    fn tools(&self) -> &Tools {
+        &self.tools
+    }
+
+    fn view(&self) -> &View {
+        &self.view
+    }
+
+    fn is_cutting(&self) -> bool {
+        self.session.is_cutting()
+    }
 }

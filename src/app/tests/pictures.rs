@@ -81,10 +81,10 @@ fn an_overlay_and_the_light_theme_are_seen_on_the_canvas() {
     window.run();
     let at = on_screen(&window, dvec2(0.72, 0.74));
     let plain = picture(&mut window);
-    send(&mut window, Command::Overlay(FieldOverlay::Risk));
+    send(&mut window, Command::SetOverlay(FieldOverlay::Risk));
     let [r, g, _] = pixel(&picture(&mut window), at);
     assert!(r > g, "risk is warm");
-    send(&mut window, Command::Overlay(FieldOverlay::Risk));
+    send(&mut window, Command::SetOverlay(FieldOverlay::Risk));
     assert_eq!(pixel(&picture(&mut window), at), pixel(&plain, at), "the same command takes it away");
     choose(&mut window, "View", "Light theme");
     let light = picture(&mut window);

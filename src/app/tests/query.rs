@@ -7,14 +7,14 @@ use glam::dvec2;
 
 use super::{TALL, click, entries, key, selected, send, value_of, window, window_of};
 use crate::app::command::Command;
-use crate::app::tools::Tool;
+use crate::app::tools::QUERY;
 use crate::document::Example;
 use crate::mesh::Location;
 
 #[test]
 fn a_click_shows_the_triangle_and_each_chip_goes_to_its_neighbour() {
     let mut window = window_of(TALL);
-    assert!(window.query_by_label_contains("Nothing asked yet").is_some());
+    assert!(window.query_by_label_contains("No query yet").is_some());
     key(&mut window, Modifiers::NONE, Key::Q);
     click(&mut window, dvec2(0.71, 0.735), Modifiers::NONE);
     let mesh = window.state().session().mesh();
@@ -35,14 +35,14 @@ fn a_click_shows_the_triangle_and_each_chip_goes_to_its_neighbour() {
     }
     key(&mut window, Modifiers::NONE, Key::Escape);
     assert_eq!(selected(&window), None, "Escape lets go");
-    assert!(window.query_by_label_contains("Nothing asked yet").is_some());
+    assert!(window.query_by_label_contains("No query yet").is_some());
 }
 
 #[test]
 fn the_inspector_counts_as_files_do() {
     let mut window = window_of(TALL);
     send(&mut window, Command::OpenExample(Example::Aegean));
-    send(&mut window, Command::Use(Tool::Query));
+    send(&mut window, Command::Use(&QUERY));
     send(&mut window, Command::Query(dvec2(25.25, 38.1)));
     window.run();
     let mesh = window.state().session().mesh();

@@ -1,7 +1,7 @@
-//! Numbers as the window writes them, and as a person types them.
+//! Numbers as the window shows them, and as users type them.
 //!
 //! Digits are grouped by thousands with commas, the minus sign is `−`, and there are just enough digits. Numbers that
-//! change while one looks at them keep their number of decimals ([`fixed`], [`significant`]), so nothing jumps.
+//! change while they are shown keep their number of decimals ([`fixed`], [`significant`]), so nothing jumps.
 
 use crate::text::group_digits;
 
@@ -76,7 +76,7 @@ pub fn decimals_for(step: f64) -> usize {
     (-step.log10() - 1e-9).ceil().clamp(0.0, 15.0) as usize
 }
 
-/// A time in seconds, in the unit that suits it: `0.4 ms`, `37 ms`, `1.24 s`, `2 min 05 s`.
+/// A time in seconds, in a suitable unit: `0.4 ms`, `37 ms`, `1.24 s`, `2 min 05 s`.
 pub fn time(seconds: f64) -> String {
     let ms = seconds * 1e3;
     match seconds {
@@ -91,22 +91,12 @@ pub fn time(seconds: f64) -> String {
     }
 }
 
-/// A share from 0 to 1 as a percentage: `14.7 %`, `<0.1 %`.
-pub fn percent(share: f64) -> String {
-    match share * 100.0 {
-        p if !p.is_finite() => "–".to_owned(),
-        p if p > 0.0 && p < 0.1 => "<0.1 %".to_owned(),
-        p if p > 0.0 && p < 99.95 => format!("{p:.1} %"),
-        p => format!("{p:.0} %"),
-    }
-}
-
 /// `text` with spaces before it, so that it takes at least `width` characters.
 pub fn padded(text: &str, width: usize) -> String {
     format!("{text:>width$}")
 }
 
-/// What a person typed as a number, or `None` if it is not one.
+/// The number that a user typed, or `None` if the text is no number.
 ///
 /// Takes `−` and `-`, spaces and commas that group thousands, one comma as decimal sign, `1e-3`, and `unit` at the end.
 pub fn parse(text: &str, unit: &str) -> Option<f64> {
@@ -190,7 +180,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_shown_is_what_is_held() {
+    fn the_shown_number_is_the_rounded_value() {
         for value in [0.0637219, 12345.678, 9.9999, 1e-9, -3.24159] {
             assert_eq!(parse(&significant(value, 3), ""), Some(rounded(value, 3)));
         }
@@ -206,7 +196,7 @@ mod tests {
     }
 
     #[test]
-    fn times_take_the_unit_that_suits_them() {
+    fn times_have_a_suitable_unit() {
         for (seconds, text) in [
             (4e-4, "0.4 ms"),
             (1e-6, "<0.1 ms"),
@@ -220,14 +210,6 @@ mod tests {
         ] {
             assert_eq!(time(seconds), text);
         }
-    }
-
-    #[test]
-    fn shares_are_percentages() {
-        assert_eq!(percent(0.1473), "14.7 %");
-        assert_eq!(percent(0.0001), "<0.1 %");
-        assert_eq!(percent(0.0), "0 %");
-        assert_eq!(percent(1.0), "100 %");
     }
 
     #[test]

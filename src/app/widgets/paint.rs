@@ -1,4 +1,4 @@
-//! What the widgets share: text in a rectangle, the focus ring, a row's columns, keys.
+//! Drawing that the widgets share: text in a rectangle, the focus ring, a row's columns, keys.
 
 use std::sync::Arc;
 
@@ -51,7 +51,7 @@ fn at(ui: &Ui, anchor: Pos2, x: f32, galley: Arc<Galley>) {
     ui.painter().galley(corner, galley, Color32::PLACEHOLDER);
 }
 
-/// A ring round whatever has the keyboard's attention.
+/// A ring around the widget that has the focus.
 pub(super) fn focus_ring(ui: &Ui, response: &Response, rect: Rect, radius: u8) {
     if response.has_focus() {
         let stroke = Stroke::new(1.5, tokens(ui).accent);
@@ -86,8 +86,8 @@ impl Columns {
 }
 
 impl Columns {
-    /// The same where the name is longer than its column: the control leaves it some room, by whole steps of the grid.
-    pub fn with_room_for(self, ui: &Ui, name: &str) -> Self {
+    /// The columns for a longer name: the control gives up some width, in whole steps of the grid.
+    pub fn widened_for(self, ui: &Ui, name: &str) -> Self {
         let name = line(ui, name, font::body(), Color32::PLACEHOLDER).size().x;
         let missing = (name - self.label.width()).clamp(0.0, self.middle.width() / 2.0);
         let by = (missing / metrics::GRID).ceil() * metrics::GRID;
@@ -106,7 +106,7 @@ pub(super) fn row(ui: &mut Ui) -> Rect {
     ui.allocate_space(vec2(ui.available_width(), metrics::ROW)).1
 }
 
-/// Paints the name of a value. Where it is too long it ends in `…` and the pointer shows it whole.
+/// Paints the name of a value. A name that is too long ends in `…`; a tooltip shows all of it.
 pub(super) fn label(ui: &Ui, rect: Rect, text: &str, help: &str) {
     let galley = elided(ui, text, font::body(), tokens(ui).label, rect.width());
     let cut = galley.elided;

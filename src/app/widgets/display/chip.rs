@@ -7,7 +7,7 @@ use eframe::egui::{
 use super::paint;
 use crate::app::theme::{font, metrics, tokens};
 
-/// A chip: a coloured dot and a text, on which one may click.
+/// A chip: a coloured dot and a text, to click on.
 #[must_use = "call `show`"]
 pub struct Chip<'a> {
     color: Color32,
@@ -17,7 +17,7 @@ pub struct Chip<'a> {
 }
 
 impl<'a> Chip<'a> {
-    /// A chip with a dot in `color`; `name` tells the tooltip, tests and screen readers what a click does.
+    /// A chip with a dot in `color`; tooltip, tests and screen readers use `name`, which says what a click does.
     pub fn new(color: Color32, text: &'a str, name: &'a str) -> Self {
         Self { color, text, name, enabled: true }
     }

@@ -7,11 +7,16 @@ use egui_material_icons::icons as material;
 pub struct Icon(&'static str);
 
 impl Icon {
+    /// The icon with this code point in the icon font.
+    pub const fn new(codepoint: &'static str) -> Self {
+        Self(codepoint)
+    }
+
     /// Paint.
     pub const BRUSH: Self = Self(material::ICON_BRUSH.codepoint);
-    /// Take paint away.
+    /// Remove paint.
     pub const ERASER: Self = Self(material::ICON_INK_ERASER.codepoint);
-    /// Ask about a point.
+    /// Query a point.
     pub const QUERY: Self = Self(material::ICON_MY_LOCATION.codepoint);
     /// Edit the domain.
     pub const DOMAIN: Self = Self(material::ICON_HEXAGON.codepoint);

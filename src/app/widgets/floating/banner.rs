@@ -4,16 +4,16 @@ use eframe::egui::{
     self, Align, Color32, Layout, Margin, Rect, Role, Sense, Stroke, Ui, WidgetInfo, pos2, vec2,
 };
 
-use super::tool_button::{ActionButton, ToolButton};
 use super::{Icon, paint};
 use crate::app::theme::{font, metrics, tokens};
+use crate::app::widgets::{ActionButton, ToolButton};
 
 /// The kinds of [`Banner`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BannerKind {
     /// Something failed.
     Error,
-    /// Something to know.
+    /// News.
     Info,
 }
 
@@ -28,7 +28,7 @@ pub enum BannerAnswer {
     Acted,
 }
 
-/// A sentence with an icon, a cross to dismiss it and, if something helps, a button.
+/// A sentence with an icon, a cross to dismiss it, and possibly a button.
 #[must_use = "call `show`"]
 pub struct Banner<'a> {
     kind: BannerKind,
@@ -38,23 +38,23 @@ pub struct Banner<'a> {
 }
 
 impl<'a> Banner<'a> {
-    /// Something failed; `text` says what, why and what helps.
+    /// Something failed; `text` says what, why, and what helps.
     pub fn error(text: &'a str) -> Self {
         Self { kind: BannerKind::Error, text, action: None, stands: false }
     }
 
-    /// Something to know.
+    /// News.
     pub fn info(text: &'a str) -> Self {
         Self { kind: BannerKind::Info, text, action: None, stands: false }
     }
 
-    /// A button with what would help.
+    /// A button that helps.
     pub fn action(mut self, action: &'a str) -> Self {
         self.action = Some(action);
         self
     }
 
-    /// Without the cross: it goes when what it says is no longer so.
+    /// Without the cross: it disappears when it is no longer true.
     pub fn standing(mut self) -> Self {
         self.stands = true;
         self

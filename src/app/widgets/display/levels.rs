@@ -7,9 +7,9 @@ use eframe::egui::{
 use super::{format, paint};
 use crate::app::theme::{font, tokens};
 
-/// Height of a row where there is room.
+/// Height of a row where all fit.
 const ROW: f32 = 18.0;
-/// Height of a row where there is not; beyond that the rows scroll.
+/// Height of a row where they do not fit; smaller rows scroll instead.
 const SMALLEST_ROW: f32 = 14.0;
 /// Width of the column of levels.
 const LEVEL: f32 = 16.0;
@@ -27,55 +27,38 @@ pub struct LevelRow {
     pub diameter: f64,
 }
 
-/// What [`LevelLegend::show`] answers.
-pub struct LevelsResponse {
-    /// All rows.
-    pub response: Response,
-    /// The level under the pointer.
-    pub hovered: Option<u32>,
-    /// The level that was clicked.
-    pub clicked: Option<u32>,
-}
-
 /// Bars in the canvas's colours, the counts beside them.
 ///
-/// Bars are linear in the count. A row keeps its place whatever the counts are; the legend never gets shorter than
-/// [`LevelLegend::at_least`] rows, and beyond [`LevelLegend::max_height`] rows first move closer and then scroll.
+/// Bars are linear in the count. A row keeps its place whatever the counts are. Above [`LevelLegend::max_height`] rows first
+/// move closer together and then scroll.
 #[must_use = "call `show`"]
 pub struct LevelLegend<'a> {
     rows: &'a [LevelRow],
     lit: Option<u32>,
-    at_least: usize,
     max_height: f32,
 }
 
 impl<'a> LevelLegend<'a> {
     /// A legend of `rows`, from the top down.
     pub fn new(rows: &'a [LevelRow]) -> Self {
-        Self { rows, lit: None, at_least: 0, max_height: 360.0 }
+        Self { rows, lit: None, max_height: 360.0 }
     }
 
-    /// A level to light up, such as that of the triangle under the pointer.
+    /// Highlights a level, such as that of the triangle under the pointer.
     pub fn lit(mut self, level: Option<u32>) -> Self {
         self.lit = level;
         self
     }
 
-    /// Room for so many rows even if there are fewer, so that what follows does not jump.
-    pub fn at_least(mut self, rows: usize) -> Self {
-        self.at_least = rows;
-        self
-    }
-
-    /// The height in points from which on the rows scroll; 360 unless told.
+    /// The greatest height in points; 360 by default.
     pub fn max_height(mut self, height: f32) -> Self {
         self.max_height = height;
         self
     }
 
-    /// Shows the legend.
-    pub fn show(self, ui: &mut Ui) -> LevelsResponse {
-        let rows = self.rows.len().max(self.at_least).max(1) as f32;
+    /// Shows the legend, and returns the level under the pointer.
+    pub fn show(self, ui: &mut Ui) -> Option<u32> {
+        let rows = self.rows.len().max(1) as f32;
         let row_height = (self.max_height / rows).floor().clamp(SMALLEST_ROW, ROW);
         let height = (rows * row_height).min(self.max_height);
         let (_, rect) = ui.allocate_space(vec2(ui.available_width(), height));
@@ -88,37 +71,38 @@ impl<'a> LevelLegend<'a> {
             .inner
     }
 
-    fn rows_ui(&self, ui: &mut Ui, height: f32) -> LevelsResponse {
+    fn rows_ui(&self, ui: &mut Ui, height: f32) -> Option<u32> {
         let layout = Layout::of(ui, self.rows);
         let size = vec2(ui.available_width(), height * self.rows.len() as f32);
-        let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
+        let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
         let place = |i: usize| {
             Rect::from_min_size(pos2(rect.left(), rect.top() + height * i as f32), vec2(rect.width(), height))
         };
         let responses: Vec<_> =
             self.rows.iter().enumerate().map(|(i, row)| sense(ui, place(i), row)).collect();
-        let level_where = |pick: fn(&Response) -> bool| {
-            responses.iter().zip(self.rows).find(|(response, _)| pick(response)).map(|(_, row)| row.level)
-        };
-        let hovered = level_where(Response::hovered);
+        let hovered = responses
+            .iter()
+            .zip(self.rows)
+            .find(|(response, _)| response.hovered())
+            .map(|(_, row)| row.level);
         for (i, row) in self.rows.iter().enumerate() {
             let lit = hovered.or(self.lit) == Some(row.level);
             layout.paint(ui, place(i), row, lit, hovered.is_some() && !lit);
         }
-        LevelsResponse { response, hovered, clicked: level_where(Response::clicked) }
+        hovered
     }
 }
 
-/// Makes a row known to pointer, tests and screen readers. Rows take no focus: there may be more than fifty.
+/// Registers a row for the pointer, tests and screen readers. Rows take no focus: there may be more than fifty.
 fn sense(ui: &Ui, rect: Rect, row: &LevelRow) -> Response {
-    let response = ui.interact(rect, ui.scope_id().with(("level", row.level)), Sense::CLICK);
+    let response = ui.interact(rect, ui.scope_id().with(("level", row.level)), Sense::hover());
     let triangles = if row.count == 1 { "triangle" } else { "triangles" };
     let name = format!("Level {}: {} {triangles}", row.level, format::count(row.count));
     response.widget_info(|| WidgetInfo::labeled(Role::ListItem, true, &name));
     response.on_hover_text_at_pointer(format!("{name}\nDiameter {}", format::digits(row.diameter, 4)))
 }
 
-/// How the legend is divided: the widths depend on all rows.
+/// The widths of the legend's columns, which depend on all rows.
 struct Layout {
     total: f32,
     count: f32,

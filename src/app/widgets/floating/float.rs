@@ -1,4 +1,4 @@
-//! What floats over the canvas: tags with a price, the pill with a hint.
+//! Tags and hints over the canvas.
 
 use eframe::egui::emath::GuiRounding as _;
 use eframe::egui::{
@@ -35,7 +35,7 @@ pub fn tag_size(ui: &Ui, text: &str) -> Vec2 {
     (text.size() + vec2(20.0, 12.0)).ceil()
 }
 
-/// A piece of a hint.
+/// A part of a hint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Hint<'a> {
     /// Words.
@@ -55,7 +55,7 @@ pub fn hint_pill(ui: &Ui, anchor: Pos2, align: Align2, bounds: Rect, hints: &[Hi
     let response = ui.interact(rect, ui.scope_id().with("hint pill"), Sense::hover());
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, spoken(shown)));
     if ui.rect_contains_pointer(rect) {
-        // Whoever works there wants to see the mesh.
+        // The pointer is there: show the mesh.
         return response;
     }
     paint_floating(ui, rect);
@@ -73,14 +73,14 @@ pub fn hint_pill(ui: &Ui, anchor: Pos2, align: Align2, bounds: Rect, hints: &[Hi
 
 /// Space between keys, and between a key and what it does.
 const GAP: f32 = 5.0;
-/// Space behind words, where the next thing begins; a dot stands in it.
+/// Space after words, before the next hint; a dot is in it.
 const SEPARATION: f32 = 17.0;
 
 fn gap_after(hint: &Hint<'_>) -> f32 {
     if matches!(hint, Hint::Text(_)) { SEPARATION } else { GAP }
 }
 
-/// The ground of whatever floats over the canvas.
+/// The ground of a widget over the canvas.
 pub fn paint_floating(ui: &Ui, rect: Rect) {
     let t = tokens(ui);
     let edge = Stroke::new(1.0, t.edge);
@@ -108,7 +108,7 @@ fn width(ui: &Ui, hints: &[Hint<'_>]) -> f32 {
     pieces + gaps
 }
 
-/// The first hints, as many as fit into `room` points; never ends with keys that nothing explains.
+/// The first hints that fit into `room` points; the last one explains its keys.
 fn fitting<'a, 'b>(ui: &Ui, hints: &'a [Hint<'b>], room: f32) -> &'a [Hint<'b>] {
     let mut end = hints.len();
     while end > 1 && (width(ui, &hints[..end]) > room || matches!(hints[end - 1], Hint::Key(_))) {

@@ -13,45 +13,37 @@ use super::slider::{key_steps, requested_value};
 use super::{format, paint};
 use crate::app::theme::{font, metrics, tokens};
 
-/// Height of the plot; the numbers stand in a row below it.
+/// Height of the plot; the numbers are in a row below it.
 const HEIGHT: f32 = 104.0;
 /// Least width of the cell in which a number is typed.
 const CELL: f32 = 52.0;
-/// Room for the numbers of the axis.
+/// Width of the axis' numbers.
 const AXIS: f32 = 44.0;
 /// Radius of a handle.
 const HANDLE: f32 = 5.0;
-/// Pieces of which the curve is drawn.
+/// Number of segments that the curve is drawn with.
 const PIECES: usize = 64;
 
-/// What the curve editor edits.
+/// The values that the curve editor edits.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Transfer {
+pub struct CurveValues {
     /// Diameter at risk 0, in world units.
     pub h_max: f64,
     /// Diameter at risk 1, in world units; at most `h_max`.
     pub h_min: f64,
-    /// The curve's form, positive; what it means is the caller's formula.
+    /// The shape of the curve, positive; the caller's formula says what it means.
     pub shape: f64,
-}
-
-/// What [`TransferCurve::show`] answers.
-pub struct TransferResponse {
-    /// `changed` whenever a value did; [`super::edit_done`] tells when a gesture is complete.
-    pub response: Response,
-    /// The risk under the pointer.
-    pub hovered_risk: Option<f64>,
 }
 
 /// Diameter over risk: risk 0 to 1 from left to right, the diameter on a logarithmic axis of whole decades.
 ///
 /// The end points change `h_max` and `h_min`, the middle the shape; their numbers can be typed; a focused handle follows
-/// the arrow keys. `curve` gives the diameter of a [`Transfer`] at a risk; it must be monotone in the shape.
+/// the arrow keys. `curve` gives the diameter of a [`CurveValues`] at a risk; it must be monotone in the shape.
 /// The axis stays as it is while a handle is dragged.
 #[must_use = "call `show`"]
 pub struct TransferCurve<'a> {
-    value: &'a mut Transfer,
-    curve: &'a dyn Fn(&Transfer, f64) -> f64,
+    value: &'a mut CurveValues,
+    curve: &'a dyn Fn(&CurveValues, f64) -> f64,
     limits: RangeInclusive<f64>,
     shapes: RangeInclusive<f64>,
     mark: Option<f64>,
@@ -67,8 +59,8 @@ enum Handle {
 impl<'a> TransferCurve<'a> {
     /// An editor whose diameters stay within `limits` and whose shape within `shapes`, both positive.
     pub fn new(
-        value: &'a mut Transfer,
-        curve: &'a dyn Fn(&Transfer, f64) -> f64,
+        value: &'a mut CurveValues,
+        curve: &'a dyn Fn(&CurveValues, f64) -> f64,
         limits: RangeInclusive<f64>,
         shapes: RangeInclusive<f64>,
     ) -> Self {
@@ -81,8 +73,9 @@ impl<'a> TransferCurve<'a> {
         self
     }
 
-    /// Shows the editor over the full width.
-    pub fn show(mut self, ui: &mut Ui) -> TransferResponse {
+    /// Shows the editor over the full width. The response has `changed` when a value did; [`crate::app::widgets::edit_done`] says when a
+    /// gesture is complete.
+    pub fn show(mut self, ui: &mut Ui) -> Response {
         let before = *self.value;
         let (_, rect) = ui.allocate_space(vec2(ui.available_width(), HEIGHT));
         let id = ui.make_persistent_id("transfer curve");
@@ -104,10 +97,10 @@ impl<'a> TransferCurve<'a> {
         if *self.value != before {
             response.mark_changed();
         }
-        TransferResponse { response, hovered_risk }
+        response
     }
 
-    /// The axis of the last frame while a handle is dragged, else the whole decades round the values.
+    /// The axis of the last frame while a handle is dragged, else the whole decades around the values.
     fn axis(&self, ui: &Ui, id: Id) -> Axis {
         let kept = ui.data(|data| data.get_temp::<Axis>(id));
         kept.unwrap_or_else(|| Axis::around(self.value.h_min, self.value.h_max))
@@ -121,7 +114,7 @@ impl<'a> TransferCurve<'a> {
         }
     }
 
-    /// Feels for pointer and keys at a handle and changes the value.
+    /// Lets pointer and keys move a handle.
     fn handle(&mut self, ui: &Ui, id: Id, plot: &Plot, handle: Handle) -> Response {
         let id = id.with(handle.name());
         let place = Rect::from_center_size(self.position(plot, handle), vec2(20.0, 20.0));
@@ -192,7 +185,7 @@ impl<'a> TransferCurve<'a> {
 
     /// The diameter at risk ½ with another shape.
     fn middle(&self, shape: f64) -> f64 {
-        (self.curve)(&Transfer { shape, ..*self.value }, 0.5)
+        (self.curve)(&CurveValues { shape, ..*self.value }, 0.5)
     }
 
     /// The shape whose curve passes nearest to `diameter` at risk ½, by 40 halvings of the range's logarithm.
@@ -211,7 +204,7 @@ impl<'a> TransferCurve<'a> {
         plot.point(risk, (self.curve)(self.value, risk))
     }
 
-    /// The well, with a line and a number for each decade; not all have a number where they are close together.
+    /// The background, with a line for each decade and as many numbers as fit.
     fn paint_ground(&self, ui: &Ui, rect: Rect, plot: &Plot) {
         let t = tokens(ui);
         ui.painter().rect(rect, metrics::RADIUS_CONTROL, t.well, t.hairline(), StrokeKind::Inside);
@@ -359,7 +352,7 @@ impl Axis {
         Self { low, high: high.max(low + 1) }
     }
 
-    /// Every how many decades there is room for a number.
+    /// The number of decades from one number on the axis to the next.
     fn label_every(self) -> i32 {
         ((self.high - self.low) / 5 + 1).max(1)
     }
@@ -368,7 +361,7 @@ impl Axis {
         self.low..=self.high
     }
 
-    /// Where a diameter stands, 0 at the bottom, 1 at the top.
+    /// The place of a diameter, 0 at the bottom, 1 at the top.
     fn share(self, diameter: f64) -> f64 {
         let share = (diameter.log10() - f64::from(self.low)) / f64::from(self.high - self.low);
         if share.is_finite() { share.clamp(0.0, 1.0) } else { 0.0 }
@@ -418,13 +411,13 @@ fn area_under(points: &[Pos2], bottom: f32, color: Color32) -> Shape {
 mod tests {
     use super::*;
 
-    fn power(value: &Transfer, risk: f64) -> f64 {
+    fn power(value: &CurveValues, risk: f64) -> f64 {
         value.h_max * (value.h_min / value.h_max).powf(risk.powf(value.shape))
     }
 
     #[test]
     fn the_shape_is_found_for_a_point_of_the_curve() {
-        let mut value = Transfer { h_max: 0.2, h_min: 0.002, shape: 1.0 };
+        let mut value = CurveValues { h_max: 0.2, h_min: 0.002, shape: 1.0 };
         let curve = TransferCurve::new(&mut value, &power, 1e-4..=1.0, 0.1..=10.0);
         for shape in [0.2, 1.0, 3.7] {
             let through = curve.middle(shape);
@@ -435,11 +428,11 @@ mod tests {
 
     #[test]
     fn diameters_keep_their_order_and_limits() {
-        let mut value = Transfer { h_max: 0.2, h_min: 0.002, shape: 1.0 };
+        let mut value = CurveValues { h_max: 0.2, h_min: 0.002, shape: 1.0 };
         let mut curve = TransferCurve::new(&mut value, &power, 1e-4..=1.0, 0.1..=10.0);
         curve.assign(Handle::Min, 0.5);
         curve.assign(Handle::Max, 1e-9);
-        assert_eq!(value, Transfer { h_max: 0.2, h_min: 0.2, shape: 1.0 });
+        assert_eq!(value, CurveValues { h_max: 0.2, h_min: 0.2, shape: 1.0 });
     }
 
     #[test]

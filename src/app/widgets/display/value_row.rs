@@ -1,4 +1,4 @@
-//! A name and what it is worth, to read.
+//! A name and its value.
 
 use eframe::egui::{Response, Role, Sense, Ui, WidgetInfo};
 
@@ -7,7 +7,7 @@ use crate::app::theme::{font, tokens};
 
 /// A grey name at the left, a bright monospaced value at the right.
 ///
-/// Where both do not fit the value ends in `…` and the pointer shows it whole. Tests find the row by its name and read
+/// Where both do not fit the value ends in `…`; a tooltip shows all of it. Tests find the row by its name and read
 /// the value from it.
 pub fn value_row(ui: &mut Ui, label: &str, value: &str) -> Response {
     let t = tokens(ui);

@@ -1,4 +1,4 @@
-//! A text field that says what is wrong, and where.
+//! A text field that shows an error and its place.
 
 use eframe::egui::{
     self, Align2, FontId, Pos2, Rect, Response, Role, Sense, Shape, Stroke, StrokeKind, TextEdit, Ui,
@@ -73,7 +73,7 @@ impl<'a> TextRow<'a> {
         response
     }
 
-    /// The field in `rect`, and the x at which the error stands.
+    /// The field in `rect`, and the x of the error.
     fn field(&mut self, ui: &mut Ui, rect: Rect) -> (Response, Option<f32>) {
         let id = ui.make_persistent_id(("text", self.label));
         self.paint_ground(ui, rect, ui.memory(|memory| memory.has_focus(id)));
@@ -117,7 +117,7 @@ impl<'a> TextRow<'a> {
     }
 }
 
-/// The number of characters before `byte`; the whole text's where `byte` is beyond it.
+/// The number of characters before `byte`; that of the whole text if `byte` is beyond it.
 fn char_index(text: &str, byte: usize) -> usize {
     text.char_indices().take_while(|(start, _)| *start < byte).count()
 }

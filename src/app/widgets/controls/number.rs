@@ -14,7 +14,7 @@ use crate::app::theme::{font, metrics, tokens};
 pub(super) struct NumberCell<'a> {
     /// Keeps the focus while the cell moves.
     pub id: Id,
-    /// Where the number stands; its ground reaches a little further.
+    /// Where the number is; its background is slightly larger.
     pub rect: Rect,
     /// Name for tests and screen readers.
     pub name: &'a str,
@@ -26,7 +26,7 @@ pub(super) struct NumberCell<'a> {
     pub unit: &'a str,
     /// Left or right.
     pub align: Align,
-    /// Whether a ground is painted also while the pointer is elsewhere.
+    /// Whether the background is visible while the pointer is elsewhere.
     pub boxed: bool,
 }
 
@@ -45,7 +45,7 @@ impl NumberCell<'_> {
         (around, typed)
     }
 
-    /// Whether a person is typing a number.
+    /// Whether a number is being typed.
     pub fn is_edited(&self, ui: &Ui) -> bool {
         ui.memory(|memory| memory.has_focus(self.id))
     }
@@ -111,7 +111,7 @@ impl NumberCell<'_> {
         ui.painter().rect(self.ground(), metrics::RADIUS_CONTROL, t.field, edge, StrokeKind::Inside);
     }
 
-    /// Ends the edit, if there was one: the number that was typed, unless Escape was pressed or it is none.
+    /// Ends an edit. Returns the number that was typed, unless Escape was pressed or the text is no number.
     fn finish(&self, ui: &Ui) -> Option<f64> {
         let text = ui.data_mut(|data| data.remove_temp::<String>(self.id))?;
         let cancelled = ui.input(|input| input.key_pressed(egui::Key::Escape));
@@ -135,7 +135,6 @@ pub struct NumberRow<'a> {
     value: &'a mut f64,
     range: RangeInclusive<f64>,
     unit: &'a str,
-    digits: usize,
     integer: bool,
     help: &'a str,
 }
@@ -144,10 +143,10 @@ impl<'a> NumberRow<'a> {
     /// A row named `label`; any finite number is allowed.
     pub fn new(label: &'a str, value: &'a mut f64) -> Self {
         let range = f64::MIN..=f64::MAX;
-        Self { label, value, range, unit: "", digits: 6, integer: false, help: "" }
+        Self { label, value, range, unit: "", integer: false, help: "" }
     }
 
-    /// Numbers outside `range` are taken as its nearer end.
+    /// Numbers outside `range` become its nearer end.
     pub fn range(mut self, range: RangeInclusive<f64>) -> Self {
         self.range = range;
         self
@@ -156,12 +155,6 @@ impl<'a> NumberRow<'a> {
     /// Shown after the number.
     pub fn unit(mut self, unit: &'a str) -> Self {
         self.unit = unit;
-        self
-    }
-
-    /// The most significant digits shown; 6 unless told.
-    pub fn digits(mut self, digits: usize) -> Self {
-        self.digits = digits;
         self
     }
 
@@ -180,7 +173,7 @@ impl<'a> NumberRow<'a> {
     /// Shows the row.
     pub fn show(self, ui: &mut Ui) -> Response {
         let row = paint::row(ui);
-        let columns = paint::Columns::of(row).with_room_for(ui, self.label);
+        let columns = paint::Columns::of(row).widened_for(ui, self.label);
         paint::label(ui, columns.label, self.label, self.help);
         let (shown, exact) = (with_unit(&self.text(), self.unit), self.exact());
         let cell = NumberCell {
@@ -203,7 +196,7 @@ impl<'a> NumberRow<'a> {
     }
 
     fn text(&self) -> String {
-        if self.integer { format::fixed(*self.value, 0) } else { format::digits(*self.value, self.digits) }
+        if self.integer { format::fixed(*self.value, 0) } else { format::digits(*self.value, 6) }
     }
 
     fn exact(&self) -> String {
@@ -212,6 +205,6 @@ impl<'a> NumberRow<'a> {
 }
 
 /// `text` with its unit, if there is one.
-pub(super) fn with_unit(text: &str, unit: &str) -> String {
+fn with_unit(text: &str, unit: &str) -> String {
     if unit.is_empty() { text.to_owned() } else { format!("{text} {unit}") }
 }

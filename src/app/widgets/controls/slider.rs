@@ -5,7 +5,7 @@ use std::ops::RangeInclusive;
 use eframe::egui::{self, Align, Event, EventFilter, Id, Key, Rect, Response, Sense, Ui, WidgetInfo, pos2};
 use egui::accesskit::{Action, ActionData};
 
-use super::number::{NumberCell, with_unit};
+use super::number::NumberCell;
 use super::{format, paint};
 use crate::app::theme::tokens;
 
@@ -14,7 +14,7 @@ const THUMB: f32 = 6.0;
 /// Share of the track that an arrow key moves.
 const KEY_STEP: f64 = 0.01;
 
-/// How a value runs along a track.
+/// Maps values to places on a track.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Scale {
     low: f64,
@@ -29,7 +29,7 @@ impl Scale {
         Self { low, high, logarithmic: logarithmic && low > 0.0 }
     }
 
-    /// Where `value` stands, from 0 to 1.
+    /// The place of `value`, from 0 to 1.
     fn share(self, value: f64) -> f64 {
         let share = if self.logarithmic {
             (value / self.low).ln() / (self.high / self.low).ln()
@@ -53,10 +53,9 @@ impl Scale {
 
 /// A row with a name, a slider and its number.
 ///
-/// Values are in the caller's unit. What a drag sets is rounded to what is shown; typed numbers are kept exactly and may
-/// not leave the range. Arrow keys move by a hundredth of the track (with Shift by a tenth, Home and End to its ends),
-/// dragging with Shift is ten times finer, a double click restores the default.
-/// The response has `changed` whenever the value did; [`super::edit_done`] tells when a gesture is complete.
+/// Values are in the caller's unit. A drag sets the number that is shown; typed numbers are kept exactly, within the range. Arrow keys move by a hundredth of the track (with Shift by a tenth, Home and End to its ends),
+/// dragging with Shift is ten times finer.
+/// The response has `changed` whenever the value did; [`crate::app::widgets::edit_done`] says when a gesture is complete.
 #[must_use = "call `show`"]
 pub struct SliderRow<'a> {
     label: &'a str,
@@ -64,17 +63,13 @@ pub struct SliderRow<'a> {
     range: RangeInclusive<f64>,
     logarithmic: bool,
     step: Option<f64>,
-    unit: &'a str,
-    text: Option<&'a dyn Fn(f64) -> String>,
-    default: Option<f64>,
     help: &'a str,
 }
 
 impl<'a> SliderRow<'a> {
     /// A linear slider named `label` over `range`. The name must be unique in its section.
     pub fn new(label: &'a str, value: &'a mut f64, range: RangeInclusive<f64>) -> Self {
-        let (logarithmic, step, unit, text) = (false, None, "", None);
-        Self { label, value, range, logarithmic, step, unit, text, default: None, help: "" }
+        Self { label, value, range, logarithmic: false, step: None, help: "" }
     }
 
     /// Gives each factor of ten the same length. The range must be positive.
@@ -86,24 +81,6 @@ impl<'a> SliderRow<'a> {
     /// The value is a multiple of `step` above the range's start.
     pub fn step(mut self, step: f64) -> Self {
         self.step = Some(step);
-        self
-    }
-
-    /// Shown after the number; may be typed or left out.
-    pub fn unit(mut self, unit: &'a str) -> Self {
-        self.unit = unit;
-        self
-    }
-
-    /// Writes the value, instead of three significant digits (logarithmic) or hundredths of the range (linear).
-    pub fn text(mut self, text: &'a dyn Fn(f64) -> String) -> Self {
-        self.text = Some(text);
-        self
-    }
-
-    /// What a double click on the track restores.
-    pub fn default(mut self, value: f64) -> Self {
-        self.default = Some(value);
         self
     }
 
@@ -157,12 +134,11 @@ impl<'a> SliderRow<'a> {
     }
 
     fn shown(&self) -> String {
-        let text = match self.text {
-            Some(text) => text(*self.value),
-            None if self.logarithmic => format::significant(*self.value, 3),
-            None => format::fixed(*self.value, self.decimals()),
-        };
-        with_unit(&text, self.unit)
+        if self.logarithmic {
+            format::significant(*self.value, 3)
+        } else {
+            format::fixed(*self.value, self.decimals())
+        }
     }
 
     /// The track: pointer and keys change the value, then it is painted.
@@ -172,15 +148,12 @@ impl<'a> SliderRow<'a> {
         if let Some(share) = self.pointed_share(ui, &response, &range) {
             *self.value = self.snapped(self.scale().value(share));
         }
-        if response.double_clicked() {
-            *self.value = self.default.unwrap_or(*self.value);
-        }
         self.keys(ui, &response);
         self.paint_track(ui, &response, rect);
         response
     }
 
-    /// Where the pointer asks the thumb to be. Without Shift that is the pointer's place, else a tenth of its way.
+    /// Where the pointer puts the thumb: at its own place, or with Shift held a tenth of its movement away.
     fn pointed_share(&self, ui: &Ui, response: &Response, range: &RangeInclusive<f32>) -> Option<f64> {
         if !response.is_pointer_button_down_on() {
             return None;
@@ -207,7 +180,7 @@ impl<'a> SliderRow<'a> {
         }
     }
 
-    /// `moved`, or the next step in the direction of `steps` where rounding would swallow the move.
+    /// `moved`, or the next step in the direction of `steps` if rounding would undo the move.
     fn moved_at_least_a_step(&self, moved: f64, steps: f64) -> f64 {
         let snapped = self.snapped(moved);
         match self.step {
@@ -240,14 +213,14 @@ impl<'a> SliderRow<'a> {
             name: &format!("{} value", self.label),
             shown: &self.shown(),
             exact: &self.value.to_string(),
-            unit: self.unit,
+            unit: "",
             align: Align::Max,
             boxed: false,
         };
         cell.show(ui)
     }
 
-    /// Tells tests and screen readers what the slider is worth and how far it goes.
+    /// Reports value and range to tests and screen readers.
     fn declare(&self, ui: &Ui, response: &Response) {
         response.widget_info(|| WidgetInfo::slider(ui.is_enabled(), *self.value, self.label));
         ui.ctx().accesskit_node_builder(response.id, |node| {
@@ -261,7 +234,7 @@ impl<'a> SliderRow<'a> {
     }
 }
 
-/// The number that assistive technology asks for.
+/// The number that assistive technology set.
 pub(super) fn requested_value(ui: &Ui, id: Id) -> Option<f64> {
     ui.input(|input| {
         let numbers =
@@ -273,7 +246,7 @@ pub(super) fn requested_value(ui: &Ui, id: Id) -> Option<f64> {
     })
 }
 
-/// How many steps the keyboard asks for. Holds the arrow keys, which would else move the focus, while focused.
+/// The number of steps pressed on the keyboard. While focused it takes the arrow keys, which would otherwise move the focus.
 pub(super) fn key_steps(ui: &Ui, response: &Response) -> f64 {
     let requests = ui.input(|input| {
         input.num_accesskit_action_requests(response.id, Action::Increment) as f64
@@ -319,7 +292,7 @@ mod tests {
     }
 
     #[test]
-    fn a_scale_bears_odd_values() {
+    fn a_scale_handles_degenerate_values() {
         let scale = Scale::new(&(0.0..=0.0), false);
         assert_eq!(scale.share(f64::NAN), 0.0);
         assert_eq!(scale.value(0.5), 0.0);

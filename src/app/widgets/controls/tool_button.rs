@@ -32,7 +32,7 @@ impl<'a> ToolButton<'a> {
         self
     }
 
-    /// Whether this is the tool in hand.
+    /// Whether this is the selected tool.
     pub fn selected(mut self, selected: bool) -> Self {
         self.selected = selected;
         self
@@ -75,7 +75,7 @@ impl<'a> ToolButton<'a> {
 /// The kinds of [`ActionButton`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ButtonKind {
-    /// What one most likely wants.
+    /// The most likely choice.
     Main,
     /// Everything else.
     Quiet,
@@ -97,13 +97,13 @@ impl<'a> ActionButton<'a> {
         Self { text, name: text, kind: ButtonKind::Quiet }
     }
 
-    /// What it is called where the word alone does not tell it from others.
+    /// A longer name, for tests and screen readers, where the word alone is ambiguous.
     pub fn named(mut self, name: &'a str) -> Self {
         self.name = name;
         self
     }
 
-    /// How much it asks for attention.
+    /// How prominent it is.
     pub fn kind(mut self, kind: ButtonKind) -> Self {
         self.kind = kind;
         self

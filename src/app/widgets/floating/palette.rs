@@ -1,4 +1,4 @@
-//! The command palette: every command by a few of its letters.
+//! The command palette: finds a command by a few letters.
 
 use eframe::egui::{
     self, Align2, Context, Frame, Id, Key, Margin, Modifiers, Rect, Response, Role, Sense, TextEdit, Ui,
@@ -6,7 +6,7 @@ use eframe::egui::{
 };
 use egui::text::{LayoutJob, TextFormat};
 
-use super::fuzzy::{Match, fuzzy_match};
+use super::search::find;
 use super::{Icon, paint};
 use crate::app::theme::{font, metrics, tokens, tokens_of};
 
@@ -26,53 +26,52 @@ pub struct PaletteItem<'a> {
     pub enabled: bool,
 }
 
-/// A list of commands over the window that narrows while one types.
-///
-/// Up and Down move, Enter or a click chooses, Escape or a click outside closes.
-#[derive(Clone, Debug, Default)]
-pub struct CommandPalette {
-    open: bool,
+/// What [`command_palette`] answers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PaletteAnswer {
+    /// It is still open.
+    Open,
+    /// It was closed without a choice.
+    Closed,
+    /// The item with this index was chosen.
+    Chosen(usize),
+}
+
+/// The text typed so far and the selected row, kept in egui's memory while the palette is open.
+#[derive(Clone, Debug)]
+struct Palette {
     query: String,
     selected: usize,
-    /// The selected row must be scrolled into view: the keyboard moved it.
+    /// The keyboard moved the selection: scroll it into view.
     moved: bool,
 }
 
-impl CommandPalette {
-    /// Opens the palette with an empty query.
-    pub fn open(&mut self) {
-        *self = Self { open: true, moved: true, ..Self::default() };
+/// Shows a list of commands over the window that narrows as the user types.
+///
+/// Up and Down move, Enter or a click chooses, Escape or a click outside closes. Show it in every frame until it is closed
+/// or an item is chosen.
+pub fn command_palette(ctx: &Context, items: &[PaletteItem<'_>]) -> PaletteAnswer {
+    let id = Id::unique("command palette");
+    let kept = ctx.data(|data| data.get_temp::<Palette>(id));
+    let mut palette = kept.unwrap_or(Palette { query: String::new(), selected: 0, moved: true });
+    let area = egui::Modal::default_area(id).anchor(Align2::CENTER_TOP, vec2(0.0, 72.0));
+    let frame = Frame::popup(&ctx.global_style()).inner_margin(Margin::same(8));
+    let modal = egui::Modal::new(id).area(area).frame(frame).backdrop_color(tokens_of(ctx).scrim);
+    let shown = modal.show(ctx, |ui| palette.contents(ui, items));
+    let answer = match shown.inner {
+        Some(index) => PaletteAnswer::Chosen(index),
+        None if shown.should_close() => PaletteAnswer::Closed,
+        None => PaletteAnswer::Open,
+    };
+    if answer == PaletteAnswer::Open {
+        ctx.data_mut(|data| data.insert_temp(id, palette));
+    } else {
+        ctx.data_mut(|data| data.remove::<Palette>(id));
     }
+    answer
+}
 
-    /// Closes it without a choice.
-    pub fn close(&mut self) {
-        self.open = false;
-    }
-
-    /// Whether it is open; other shortcuts should rest then.
-    pub fn is_open(&self) -> bool {
-        self.open
-    }
-
-    /// Shows the palette, if it is open, and answers the index of the item that was chosen in this frame.
-    pub fn show(&mut self, ctx: &Context, items: &[PaletteItem<'_>]) -> Option<usize> {
-        if !self.open {
-            return None;
-        }
-        let area = egui::Modal::default_area(Id::unique("command palette"))
-            .anchor(Align2::CENTER_TOP, vec2(0.0, 72.0));
-        let frame = Frame::popup(&ctx.global_style()).inner_margin(Margin::same(8));
-        let modal = egui::Modal::new(Id::unique("command palette"))
-            .area(area)
-            .frame(frame)
-            .backdrop_color(tokens_of(ctx).scrim);
-        let shown = modal.show(ctx, |ui| self.contents(ui, items));
-        if shown.inner.is_some() || shown.should_close() {
-            self.open = false;
-        }
-        shown.inner
-    }
-
+impl Palette {
     fn contents(&mut self, ui: &mut Ui, items: &[PaletteItem<'_>]) -> Option<usize> {
         ui.set_width(WIDTH.min(ui.ctx().content_rect().width() - 64.0));
         ui.spacing_mut().item_spacing.y = 0.0;
@@ -111,7 +110,7 @@ impl CommandPalette {
         response.request_focus();
     }
 
-    /// Moves the selection, round the ends.
+    /// Moves the selection; it wraps at both ends.
     fn step(&mut self, keys: Keys, count: usize) {
         if count == 0 {
             self.selected = 0;
@@ -123,7 +122,12 @@ impl CommandPalette {
     }
 
     /// The rows; answers the index of the item that was clicked.
-    fn list(&mut self, ui: &mut Ui, items: &[PaletteItem<'_>], found: &[(usize, Match)]) -> Option<usize> {
+    fn list(
+        &mut self,
+        ui: &mut Ui,
+        items: &[PaletteItem<'_>],
+        found: &[(usize, Vec<usize>)],
+    ) -> Option<usize> {
         if found.is_empty() {
             let rect = ui.allocate_space(vec2(ui.available_width(), ROW)).1;
             let text = paint::line(ui, "No such command", font::body(), tokens(ui).label);
@@ -137,7 +141,12 @@ impl CommandPalette {
         clicked
     }
 
-    fn rows(&mut self, ui: &mut Ui, items: &[PaletteItem<'_>], found: &[(usize, Match)]) -> Option<usize> {
+    fn rows(
+        &mut self,
+        ui: &mut Ui,
+        items: &[PaletteItem<'_>],
+        found: &[(usize, Vec<usize>)],
+    ) -> Option<usize> {
         let pointer_moved = ui.input(|input| input.pointer.is_moving());
         let mut clicked = None;
         for (place, (index, matched)) in found.iter().enumerate() {
@@ -156,7 +165,7 @@ impl CommandPalette {
     }
 }
 
-/// The keys that steer the list, taken from the text field.
+/// The keys that move in the list, taken from the text field.
 #[derive(Clone, Copy)]
 struct Keys {
     up: usize,
@@ -174,15 +183,15 @@ impl Keys {
     }
 }
 
-/// The items that match, best first; in their own order where equally good.
-fn ranked(query: &str, items: &[PaletteItem<'_>]) -> Vec<(usize, Match)> {
-    let matches = items.iter().enumerate().filter_map(|(i, item)| Some((i, fuzzy_match(query, item.title)?)));
+/// The items that match, with the characters that do: those whose words begin so first, in their own order.
+fn ranked(query: &str, items: &[PaletteItem<'_>]) -> Vec<(usize, Vec<usize>)> {
+    let matches = items.iter().enumerate().filter_map(|(i, item)| Some((i, find(query, item.title)?)));
     let mut found: Vec<_> = matches.collect();
-    found.sort_by_key(|(_, matched)| std::cmp::Reverse(matched.score));
-    found
+    found.sort_by_key(|(_, found)| found.rank);
+    found.into_iter().map(|(i, found)| (i, found.places)).collect()
 }
 
-fn row(ui: &mut Ui, item: &PaletteItem<'_>, matched: &Match, selected: bool) -> Response {
+fn row(ui: &mut Ui, item: &PaletteItem<'_>, matched: &[usize], selected: bool) -> Response {
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::CLICK);
     response.widget_info(|| WidgetInfo::selected(Role::MenuItem, item.enabled, selected, item.title));
     if !ui.is_rect_visible(rect) {
@@ -196,17 +205,17 @@ fn row(ui: &mut Ui, item: &PaletteItem<'_>, matched: &Match, selected: bool) -> 
     response
 }
 
-fn paint_row(ui: &Ui, rect: Rect, item: &PaletteItem<'_>, matched: &Match, selected: bool) {
+fn paint_row(ui: &Ui, rect: Rect, item: &PaletteItem<'_>, matched: &[usize], selected: bool) {
     if selected {
         ui.painter().rect_filled(rect, metrics::RADIUS_CONTROL, tokens(ui).field);
     }
     let inner = rect.shrink2(vec2(10.0, 0.0));
     let room = inner.width() - paint::shortcut_width(ui, item.keys) - 16.0;
-    paint::at_left(ui, inner, title(ui, item.title, &matched.places, room));
+    paint::at_left(ui, inner, title(ui, item.title, matched, room));
     paint::shortcut_at_right(ui, inner, item.keys);
 }
 
-/// The title with the matched characters set off.
+/// The title with the matched characters highlighted.
 fn title(ui: &Ui, text: &str, places: &[usize], width: f32) -> std::sync::Arc<egui::Galley> {
     let t = tokens(ui);
     let plain = TextFormat::simple(font::body(), t.text);

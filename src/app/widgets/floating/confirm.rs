@@ -1,9 +1,9 @@
-//! A question that must be answered first.
+//! Dialogs and questions.
 
 use eframe::egui::{self, Align, Context, Frame, Id, Layout, Margin, RichText, Ui};
 
-use super::tool_button::{ActionButton, ButtonKind};
 use crate::app::theme::{font, tokens, tokens_of};
+use crate::app::widgets::{ActionButton, ButtonKind};
 
 /// How a [`ConfirmDialog`] was answered.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -12,11 +12,11 @@ pub enum Answer {
     Confirmed,
     /// Do the other thing.
     Alternative,
-    /// Leave everything as it is: the Cancel button, Escape, or a click outside.
+    /// Change nothing: the Cancel button, Escape, or a click outside.
     Cancelled,
 }
 
-/// What must be answered or closed first, over the dimmed window: every dialog has this ground.
+/// A dialog over the dimmed window, which must be answered or closed first.
 pub fn dialog<R>(ctx: &Context, name: &str, contents: impl FnOnce(&mut Ui) -> R) -> egui::ModalResponse<R> {
     let frame = Frame::popup(&ctx.global_style()).inner_margin(Margin::same(20));
     let modal = egui::Modal::new(Id::unique(name)).frame(frame).backdrop_color(tokens_of(ctx).scrim);
@@ -43,18 +43,18 @@ pub struct ConfirmDialog<'a> {
 }
 
 impl<'a> ConfirmDialog<'a> {
-    /// A question, what it is about, and the word on the button that confirms (a verb: `Discard`).
+    /// A question, an explanation, and the verb on the button that confirms (`Discard`).
     pub fn new(title: &'a str, body: &'a str, confirm: &'a str) -> Self {
         Self { title, body, confirm, alternative: None, cancel: "Cancel", danger: false }
     }
 
-    /// A third way, set apart at the left (`Do not save`).
+    /// A third answer, at the left (`Do not save`).
     pub fn alternative(mut self, text: &'a str) -> Self {
         self.alternative = Some(text);
         self
     }
 
-    /// The word on the button that changes nothing; `Cancel` unless told.
+    /// The word on the button that changes nothing; `Cancel` by default.
     pub fn cancel(mut self, text: &'a str) -> Self {
         self.cancel = text;
         self
@@ -66,7 +66,7 @@ impl<'a> ConfirmDialog<'a> {
         self
     }
 
-    /// Shows the dialog and answers how it was answered in this frame.
+    /// Shows the dialog and returns the answer given in this frame.
     pub fn show(self, ctx: &Context) -> Option<Answer> {
         let shown = dialog(ctx, "confirm dialog", |ui| self.contents(ui));
         let closed = shown.should_close().then_some(Answer::Cancelled);

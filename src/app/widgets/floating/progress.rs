@@ -2,19 +2,19 @@
 
 use eframe::egui::{self, Rect, Role, Sense, Ui, WidgetInfo, vec2};
 
-use super::tool_button::ActionButton;
 use super::{format, paint};
 use crate::app::theme::{font, metrics, tokens};
+use crate::app::widgets::ActionButton;
 
-/// What is done (`Refining`), how far it is (`1,126,079 triangles`) and a Cancel button; answers whether that was clicked.
+/// The kind of work (`Refining`), its progress (`1,126,079 triangles`) and a Cancel button. Returns whether that was clicked.
 ///
-/// There is no bar: how much there is to do is known only when it is done.
+/// There is no bar: the amount of work is not known before it is done.
 pub fn progress_row(ui: &mut Ui, what: &str, done: &str) -> bool {
     row(ui, what, done, None, "Cancel")
 }
 
-/// As [`progress_row`] for the bytes of a file: the share that is done, also as a bar, or without a `total` how many. There may be
-/// several at a time, so the button is named after what it cancels.
+/// As [`progress_row`] for the bytes of a file: the share that is done, also as a bar, or without a `total` the megabytes.
+/// There may be several rows, so the button is named after its work.
 pub fn bytes_row(ui: &mut Ui, what: &str, done: u64, total: Option<u64>) -> bool {
     let share = total.map(|total| (done as f64 / total.max(1) as f64).clamp(0.0, 1.0));
     let done = match share {
@@ -25,7 +25,7 @@ pub fn bytes_row(ui: &mut Ui, what: &str, done: u64, total: Option<u64>) -> bool
 }
 
 fn row(ui: &mut Ui, what: &str, done: &str, share: Option<f64>, cancel: &str) -> bool {
-    // As high as its button.
+    // As tall as its button.
     let (id, row) = ui.allocate_space(vec2(ui.available_width(), metrics::ROW + 4.0));
     let button = row.with_min_x(row.right() - 70.0);
     let left = row.with_max_x(button.left() - 12.0);

@@ -1,4 +1,4 @@
-//! A part of a panel: title, note, contents that fold away.
+//! A section of a panel: title, note, contents that fold away.
 
 use eframe::egui::{self, Rect, Response, Role, Sense, Ui, WidgetInfo, pos2, vec2};
 use egui::collapsing_header::CollapsingState;
@@ -15,14 +15,6 @@ pub struct Section<'a> {
     note: &'a str,
     id: &'a str,
     open: bool,
-}
-
-/// What [`Section::show`] answers.
-pub struct SectionResponse<R> {
-    /// The title's row.
-    pub header: Response,
-    /// What the contents returned; `None` while they are folded away.
-    pub inner: Option<R>,
 }
 
 impl<'a> Section<'a> {
@@ -49,8 +41,8 @@ impl<'a> Section<'a> {
         self
     }
 
-    /// Shows the section; `contents` runs only while it is open.
-    pub fn show<R>(self, ui: &mut Ui, contents: impl FnOnce(&mut Ui) -> R) -> SectionResponse<R> {
+    /// Shows the section. `contents` runs only while it is open; returns `None` while it is not.
+    pub fn show<R>(self, ui: &mut Ui, contents: impl FnOnce(&mut Ui) -> R) -> Option<R> {
         let id = ui.make_persistent_id(("section", self.id));
         let mut state = CollapsingState::load_with_default_open(ui.ctx(), id, self.open);
         ui.add_space(12.0);
@@ -65,7 +57,7 @@ impl<'a> Section<'a> {
         state.store(ui.ctx());
         ui.add_space(12.0 - metrics::ROW_GAP);
         divider(ui);
-        SectionResponse { header, inner }
+        inner
     }
 
     fn header(&self, ui: &mut Ui, id: egui::Id, open: bool) -> Response {

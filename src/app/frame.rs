@@ -1,0 +1,181 @@
+//! One frame: first everything changes, then everything is drawn.
+//!
+//! ```text
+//! advance   outcomes of work on files ─┐
+//!           commands sent before ──────┤
+//!           keys, dropped files ───────┼─→ commands, run one by one ─→ cuts, stroke, mesh, price, journal
+//!           pointer on the canvas ─────┘
+//! draw      panels ─→ canvas ─→ dialogs; they read a FrameState and send commands for the next frame
+//! ```
+//!
+//! `advance` also runs while the window is hidden or the canvas has no room. The pointer acts on the canvas where it was in the
+//! last frame, and the mesh that it changed is drawn in the same frame.
+
+use std::time::{Duration, Instant};
+
+use eframe::egui::{self, Context, Frame, Popup, Ui};
+use glam::DVec2;
+
+use super::App;
+use super::catalog::catalog;
+use super::command::Command;
+use super::cuts::PATIENCE;
+use super::project::ProjectFile;
+use super::readout::Readout;
+use super::session::Session;
+use super::tools::Tools;
+use super::view::View;
+use super::{journal, keys, panels, project};
+
+/// The part of a frame's time that goes into updating the mesh.
+const FRAME_BUDGET: Duration = Duration::from_millis(7);
+/// As much time as the work takes, for pictures that must be the same every time.
+const NO_LIMIT: Duration = Duration::from_secs(3600);
+
+/// Everything that a frame shows, to read.
+pub struct FrameState<'a> {
+    /// The document and its mesh.
+    pub session: &'a Session,
+    /// The document's file.
+    pub project: &'a ProjectFile,
+    /// The selected tool and its settings.
+    pub tools: &'a Tools,
+    /// What is shown, and how.
+    pub view: &'a View,
+    /// Where the pointer is on the canvas, in world units.
+    pub pointer: Option<DVec2>,
+    /// The queried point and the triangle around it.
+    pub readout: Option<&'a Readout>,
+    /// Whether to leave out what differs from run to run.
+    pub reproducible: bool,
+}
+
+impl App {
+    /// The first half of a frame: everything that changes.
+    pub(super) fn advance(&mut self, ctx: &Context) {
+        self.finish_work();
+        if let Some(keeper) = &mut self.journal {
+            keeper.offer_next();
+        }
+        let close = self.project.handle_close_request(&mut self.session, &self.background, ctx);
+        self.commands.extend(close);
+        self.commands.extend(self.dialogs.take_browsed());
+        self.take_input(ctx);
+        self.run_commands(ctx);
+        self.project.forget_saving(&self.background, self.dialogs.asks_for_path());
+        self.project.set_window_title(&self.session, ctx);
+        self.follow(ctx);
+        self.record_edits();
+        self.background.keep_awake();
+    }
+
+    /// Turns the input of this frame into commands, once: egui keeps the input while the window is hidden.
+    fn take_input(&mut self, ctx: &Context) {
+        let time = ctx.input(|input| input.time);
+        if self.input_time.replace(time) == Some(time) {
+            return;
+        }
+        let dropped = ctx.input(|input| input.raw.dropped_files.clone());
+        self.commands.extend(dropped.iter().map(|file| Command::Open(file.path().to_owned())));
+        // A menu or a dialog takes Escape and Enter itself.
+        if !self.asks_something() && !Popup::is_any_open(ctx) {
+            let catalog = catalog(&self.state(None));
+            self.commands.extend(keys::pressed(ctx, catalog));
+        }
+        self.canvas.take_input(
+            ctx,
+            &mut self.view,
+            &self.tools,
+            self.session.mesh().lattice(),
+            &mut self.commands,
+        );
+    }
+
+    /// Runs all commands, and those that they send.
+    fn run_commands(&mut self, ctx: &Context) {
+        while !self.commands.is_empty() {
+            for command in std::mem::take(&mut self.commands) {
+                self.execute(command, ctx);
+            }
+        }
+    }
+
+    /// Brings the mesh and the price of a dab closer to the document, until the frame's time is spent.
+    fn follow(&mut self, ctx: &Context) {
+        // With a time limit, what is shown on the way would depend on the machine's speed.
+        let [budget, patience] = if self.reproducible { [NO_LIMIT; 2] } else { [FRAME_BUDGET, PATIENCE] };
+        let deadline = Instant::now() + budget;
+        let cuts = self.session.advance_cuts(patience, ctx);
+        let follows = self.session.follow(deadline);
+        let dab = if self.asks_something() { None } else { self.canvas.hovered_dab(ctx, &self.tools) };
+        let prices = self.session.price_dab(dab, deadline);
+        self.canvas.note_work(&self.session);
+        if cuts || follows || prices {
+            ctx.request_repaint();
+        }
+    }
+
+    /// The second half of a frame: everything that is drawn.
+    pub(super) fn draw(&mut self, ui: &mut Ui) {
+        let readout = self.session.readout(self.view.quantity);
+        let mut commands = Vec::new();
+        panels::show(ui, &self.state(readout.as_ref()), &mut commands);
+        egui::CentralPanel::default()
+            .frame(Frame::NONE)
+            .show(ui, |ui| self.draw_canvas(ui, readout.as_ref(), &mut commands));
+        self.draw_dialogs(ui.ctx(), &mut commands);
+        if !commands.is_empty() {
+            // They run in the next frame.
+            ui.ctx().request_repaint();
+            self.commands.extend(commands);
+        }
+    }
+
+    fn draw_canvas(&mut self, ui: &mut Ui, readout: Option<&Readout>, commands: &mut Vec<Command>) {
+        let Some(response) = self.canvas.layout(ui, &mut self.view, self.session.mesh().lattice()) else {
+            return;
+        };
+        self.canvas.draw_mesh(ui, &mut self.session, &self.view, commands);
+        let state = FrameState {
+            session: &self.session,
+            project: &self.project,
+            tools: &self.tools,
+            view: &self.view,
+            pointer: self.canvas.pointer(),
+            readout,
+            reproducible: self.reproducible,
+        };
+        self.canvas.draw_marks(ui, &response, &state);
+        let files = self.background.rows(self.project.is_leaving());
+        self.canvas.draw_floats(ui, &response, &state, &files, commands);
+    }
+
+    fn draw_dialogs(&self, ctx: &Context, commands: &mut Vec<Command>) {
+        let state = self.state(None);
+        if let Some(keeper) = &self.journal {
+            journal::question(ctx, keeper, &self.project, commands);
+        }
+        project::questions(ctx, &state, self.dialogs.asks_for_path(), commands);
+        if self.dialogs.is_open() {
+            self.dialogs.show(ctx, &catalog(&state), commands);
+        }
+    }
+
+    fn state<'a>(&'a self, readout: Option<&'a Readout>) -> FrameState<'a> {
+        FrameState {
+            session: &self.session,
+            project: &self.project,
+            tools: &self.tools,
+            view: &self.view,
+            pointer: self.canvas.pointer(),
+            readout,
+            reproducible: self.reproducible,
+        }
+    }
+
+    /// Whether a dialog or a question is open, which takes the keys.
+    pub(super) fn asks_something(&self) -> bool {
+        let restoring = self.journal.as_ref().is_some_and(|keeper| keeper.is_asking());
+        self.dialogs.is_open() || self.project.is_asking() || restoring
+    }
+}

@@ -1,0 +1,78 @@
+//! The menu bar and the tool strip.
+
+use eframe::egui::{self, Align, Button, Layout, MenuBar, RichText, ScrollArea, Ui};
+
+use crate::app::catalog::{CatalogItem, Menu, catalog, shortcut_text};
+use crate::app::command::Command;
+use crate::app::frame::FrameState;
+use crate::app::theme::{font, metrics, tokens};
+use crate::app::tools::TOOLS;
+use crate::app::widgets::{Icon, ToolButton};
+
+/// Height that a menu cannot use: that of the bar and its margins.
+const HEIGHT_AROUND_MENU: f32 = metrics::MENU_BAR + 16.0;
+
+/// Every menu, and the document's name.
+pub fn menu_bar(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
+    let catalog = catalog(state);
+    MenuBar::new().ui(ui, |ui| {
+        ui.label(RichText::new("Meshbrush").font(font::strong()).color(tokens(ui).value));
+        ui.add_space(8.0);
+        for (menu, name) in Menu::ALL {
+            ui.menu_button(name, |ui| {
+                ui.set_min_width(220.0);
+                // In a small window a long menu scrolls.
+                let height = ui.ctx().content_rect().height() - HEIGHT_AROUND_MENU;
+                ScrollArea::vertical().max_height(height).min_scrolled_height(height).show(ui, |ui| {
+                    for item in catalog.iter().filter(|item| item.menu == menu) {
+                        menu_item(ui, item, commands);
+                    }
+                });
+            });
+        }
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            let title = RichText::new(state.project.title(state.session)).color(tokens(ui).label);
+            ui.add(egui::Label::new(title).truncate());
+        });
+    });
+}
+
+fn menu_item(ui: &mut Ui, item: &CatalogItem, commands: &mut Vec<Command>) {
+    if item.begins_group {
+        ui.separator();
+    }
+    let mut button = Button::selectable(item.checked, &item.title);
+    if let Some(shortcut) = &item.shortcut {
+        button = button.shortcut_text(shortcut_text(shortcut));
+    }
+    if ui.add_enabled(item.enabled, button).clicked() {
+        commands.push(item.command.clone());
+        ui.close();
+    }
+}
+
+/// A button for each tool, and below them undo, redo and fit.
+pub fn tool_strip(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
+    ui.spacing_mut().item_spacing.y = 6.0;
+    for tool in TOOLS {
+        let button = ToolButton::new(tool.icon, tool.name).key(tool.key.symbol_or_name());
+        if button.selected(state.tools.tool == tool).show(ui).clicked() {
+            commands.push(Command::Use(tool));
+        }
+    }
+    ui.with_layout(Layout::bottom_up(Align::Center), |ui| {
+        ui.spacing_mut().item_spacing.y = 6.0;
+        if ToolButton::new(Icon::FIT, "Fit domain").key("Home").show(ui).clicked() {
+            commands.push(Command::Fit);
+        }
+        let history = state.session.document().history();
+        let redo = ToolButton::new(Icon::REDO, "Redo").key("Ctrl+Shift+Z");
+        let undo = ToolButton::new(Icon::UNDO, "Undo").key("Ctrl+Z");
+        if ui.add_enabled_ui(history.redo_title().is_some(), |ui| redo.show(ui)).inner.clicked() {
+            commands.push(Command::Redo);
+        }
+        if ui.add_enabled_ui(history.undo_title().is_some(), |ui| undo.show(ui)).inner.clicked() {
+            commands.push(Command::Undo);
+        }
+    });
+}

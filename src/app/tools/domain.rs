@@ -1,0 +1,182 @@
+//! The domain tool: cuts the domain with a brush, a rectangle or a polygon, or sets its bounds.
+
+use eframe::egui::{Key, Painter, Pos2, Rect};
+use glam::DVec2;
+
+use super::{Gesture, OverMesh, Pointer, Press, ToolSpec};
+use crate::app::canvas::marks;
+use crate::app::command::{Command, DomainCommand};
+use crate::app::frame::FrameState;
+use crate::app::panels;
+use crate::app::widgets::Hint::{self, Key as HintKey, Text};
+use crate::app::widgets::Icon;
+use crate::domain::{CutShape, corners};
+use crate::geometry::Rect as WorldRect;
+
+/// Edits the domain.
+pub static DOMAIN: ToolSpec = ToolSpec {
+    panels: &[&panels::DOMAIN],
+    hint: |_| HINT,
+    has_ring: |tools| tools.domain.mode == DomainToolMode::Brush,
+    paint,
+    press,
+    ..ToolSpec::new("Domain", Key::D, Icon::DOMAIN)
+};
+
+/// Points within which a click on the first corner of a polygon closes it.
+const CLOSING_POINTS: f64 = 9.0;
+/// Points that a rectangle must exceed in both directions: what is smaller was a click.
+const CLICK_SLACK: f32 = 4.0;
+
+const HINT: &[Hint] = &[
+    Text("Cut the domain: brush, rectangle or polygon"),
+    HintKey("X"),
+    Text("add or remove"),
+    HintKey("Alt"),
+    Text("the opposite"),
+    HintKey("Ctrl+Z"),
+    Text("undo"),
+];
+
+/// What the domain tool cuts with.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum DomainToolMode {
+    /// The brush ring.
+    #[default]
+    Brush,
+    /// A rectangle from corner to corner.
+    Rectangle,
+    /// A polygon, corner by corner.
+    Polygon,
+    /// The rectangle that the coarse grid covers: nothing is cut.
+    Frame,
+}
+
+/// Settings of the domain tool, and its open polygon.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct DomainTool {
+    /// What it cuts with.
+    pub mode: DomainToolMode,
+    /// Whether it adds to the domain instead of removing from it.
+    pub adds: bool,
+    /// Corners so far of the polygon to cut with, in world units.
+    pub corners: Vec<DVec2>,
+}
+
+/// Alt swaps adding and removing.
+fn press(press: &Press, pointer: &Pointer<'_>, commands: &mut Vec<Command>) -> Option<Box<dyn Gesture>> {
+    let point = pointer.world(press.at);
+    let tool = &pointer.tools.domain;
+    let adds = tool.adds != press.modifiers.alt;
+    let (from, to) = (press.at, press.at);
+    match tool.mode {
+        DomainToolMode::Brush => {
+            commands.push(cut_along(vec![point], pointer, adds));
+            Some(Box::new(Cutting { last: point, adds }))
+        }
+        DomainToolMode::Rectangle => Some(Box::new(Framing { from, to, adds: Some(adds) })),
+        DomainToolMode::Frame => Some(Box::new(Framing { from, to, adds: None })),
+        DomainToolMode::Polygon => {
+            let closes = tool.corners.first().is_some_and(|&first| {
+                let px = pointer.camera.screen_from_world(first).distance(pointer.px(press.at));
+                px < CLOSING_POINTS * pointer.px_per_point
+            });
+            let corner = DomainCommand::AddCorner(point);
+            commands.push(Command::Domain(if closes { DomainCommand::ClosePolygon } else { corner }));
+            None
+        }
+    }
+}
+
+fn cut_along(path: Vec<DVec2>, pointer: &Pointer<'_>, adds: bool) -> Command {
+    let stroke = CutShape::Stroke { path, radius: pointer.tools.radius };
+    Command::Domain(DomainCommand::Reshape(stroke, adds))
+}
+
+/// Cutting the domain with the brush.
+#[derive(Debug)]
+struct Cutting {
+    /// Where the brush was last, in world units.
+    last: DVec2,
+    /// Whether it adds to the domain.
+    adds: bool,
+}
+
+impl Gesture for Cutting {
+    /// Cuts from where the brush was; all moves of one frame are one cut.
+    fn moved(&mut self, at: Pos2, pointer: &mut Pointer<'_>, commands: &mut Vec<Command>) {
+        let point = pointer.world(at);
+        if let Some(Command::Domain(DomainCommand::Reshape(CutShape::Stroke { path, .. }, _))) =
+            commands.last_mut()
+        {
+            path.push(point);
+        } else if point != self.last {
+            commands.push(cut_along(vec![self.last, point], pointer, self.adds));
+        }
+        self.last = point;
+    }
+
+    fn released(&self, _at: Pos2, _pointer: &Pointer<'_>, commands: &mut Vec<Command>) {
+        commands.push(Command::EndGesture);
+    }
+
+    fn interrupted(&self, commands: &mut Vec<Command>) {
+        commands.push(Command::EndGesture);
+    }
+
+    fn ends_on_escape(&self) -> bool {
+        true
+    }
+}
+
+/// Drawing a rectangle: the domain's bounds, or one to cut with.
+#[derive(Debug)]
+struct Framing {
+    /// Where the pointer went down, in points.
+    from: Pos2,
+    /// Where it is, in points.
+    to: Pos2,
+    /// Whether the rectangle is added to the domain or removed from it; `None` where it becomes the bounds.
+    adds: Option<bool>,
+}
+
+impl Gesture for Framing {
+    fn moved(&mut self, at: Pos2, _pointer: &mut Pointer<'_>, _commands: &mut Vec<Command>) {
+        self.to = at;
+    }
+
+    fn released(&self, at: Pos2, pointer: &Pointer<'_>, commands: &mut Vec<Command>) {
+        if (at.x - self.from.x).abs().min((at.y - self.from.y).abs()) <= CLICK_SLACK {
+            return;
+        }
+        let rect = WorldRect::spanning(pointer.rounded_world(self.from), pointer.rounded_world(at));
+        let Some(adds) = self.adds else {
+            return commands.push(Command::Domain(DomainCommand::Bounds(rect)));
+        };
+        let ring = CutShape::Ring(corners(&rect));
+        commands.extend([Command::Domain(DomainCommand::Reshape(ring, adds)), Command::EndGesture]);
+    }
+
+    fn ends_on_escape(&self) -> bool {
+        true
+    }
+
+    fn paint(&self, painter: &Painter) {
+        marks::paint_frame(painter, Rect::from_two_pos(self.from, self.to));
+    }
+}
+
+/// Draws the outline of the domain, cuts that are not made yet, and the open polygon.
+fn paint(state: &FrameState<'_>, over: &OverMesh<'_>) {
+    let at = over.screen_from_world;
+    if let Some(region) = state.session.document().settings().domain.region() {
+        for ring in region.rings() {
+            marks::paint_outline(over.painter, ring.iter().map(|&corner| at(corner)));
+        }
+    }
+    for cut_shape in state.session.pending_cuts() {
+        marks::paint_cut_shape(over.painter, cut_shape, at);
+    }
+    let corners: Vec<Pos2> = state.tools.domain.corners.iter().map(|&corner| at(corner)).collect();
+    marks::paint_open_polygon(over.painter, &corners, over.pointer);
+}

@@ -1,0 +1,33 @@
+//! The eraser.
+
+use eframe::egui::Key;
+
+use super::brush::press_to_paint;
+use super::{ToolSpec, Tools};
+use crate::app::panels;
+use crate::app::widgets::Hint::{self, Key as HintKey, Text};
+use crate::app::widgets::Icon;
+use crate::paint::{Brush, Medium};
+
+/// Removes paint.
+pub static ERASER: ToolSpec = ToolSpec {
+    panels: &[&panels::BRUSH],
+    hint: |_| HINT,
+    has_ring: |_| true,
+    brush: Some(brush),
+    press: press_to_paint,
+    ..ToolSpec::new("Eraser", Key::E, Icon::ERASER)
+};
+
+const HINT: &[Hint] = &[
+    Text("Drag to remove paint: the mesh coarsens"),
+    HintKey("B"),
+    Text("brush"),
+    HintKey("Ctrl+Z"),
+    Text("undo"),
+];
+
+fn brush(tools: &Tools) -> Brush {
+    let strength = tools.erase_strength;
+    Brush { medium: Medium::Eraser, radius: tools.radius, hardness: tools.hardness, strength }
+}

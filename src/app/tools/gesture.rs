@@ -1,0 +1,92 @@
+//! What the pointer does between press and release.
+
+use std::fmt::Debug;
+
+use eframe::egui::{CursorIcon, Modifiers, Painter, PointerButton, Pos2, Rect};
+use glam::{DVec2, dvec2};
+
+use super::Tools;
+use crate::app::command::Command;
+use crate::scene::Camera;
+
+/// A press of the primary button on the canvas.
+pub struct Press {
+    /// Where, in points.
+    pub at: Pos2,
+    /// The modifiers held.
+    pub modifiers: Modifiers,
+}
+
+/// A gesture on the canvas, from press to release. It changes nothing itself: it emits commands.
+pub trait Gesture: Debug + Send {
+    /// The button that ends it when released.
+    fn button(&self) -> PointerButton {
+        PointerButton::Primary
+    }
+
+    /// The pointer moved to `at`, in points.
+    fn moved(&mut self, at: Pos2, pointer: &mut Pointer<'_>, commands: &mut Vec<Command>);
+
+    /// The button was released at `at`, in points.
+    fn released(&self, _at: Pos2, _pointer: &Pointer<'_>, _commands: &mut Vec<Command>) {}
+
+    /// The window lost the pointer. What was done so far stays.
+    fn interrupted(&self, _commands: &mut Vec<Command>) {}
+
+    /// Whether Escape ends the gesture.
+    fn ends_on_escape(&self) -> bool {
+        false
+    }
+
+    /// The cursor meanwhile, if not the tool's.
+    fn cursor(&self) -> Option<CursorIcon> {
+        None
+    }
+
+    /// The middle of the brush ring, in points, where that is not the pointer.
+    fn ring_center(&self) -> Option<Pos2> {
+        None
+    }
+
+    /// Draws over the mesh.
+    fn paint(&self, _painter: &Painter) {}
+}
+
+/// The canvas as gestures see it.
+pub struct Pointer<'a> {
+    /// Where the canvas is, in points.
+    pub rect: Rect,
+    /// What is on it.
+    pub camera: Camera,
+    /// The selected tool and its settings.
+    pub tools: &'a Tools,
+    /// Physical pixels for a point.
+    pub px_per_point: f64,
+}
+
+impl Pointer<'_> {
+    /// Canvas pixels of a position in points.
+    pub fn px(&self, at: Pos2) -> DVec2 {
+        let offset = at - self.rect.min;
+        dvec2(f64::from(offset.x), f64::from(offset.y)) * self.px_per_point
+    }
+
+    /// World coordinates of a position in points.
+    pub fn world(&self, at: Pos2) -> DVec2 {
+        self.camera.world_from_screen(self.px(at))
+    }
+
+    /// World coordinates of a position in points, with no more digits than a pixel can tell apart.
+    pub fn rounded_world(&self, at: Pos2) -> DVec2 {
+        let unit = 10_f64.powf((1.0 / self.camera.px_per_world()).log10().ceil());
+        let inverse = (1.0 / unit).round();
+        let world = self.world(at);
+        if unit < 1.0 { (world * inverse).round() / inverse } else { (world / unit).round() * unit }
+    }
+
+    /// Moves the view by `delta_px`, so that later events of this frame see it moved.
+    pub fn pan(&mut self, delta_px: DVec2, commands: &mut Vec<Command>) {
+        self.camera = self.camera.panned(delta_px);
+        commands.push(Command::Pan(delta_px));
+    }
+}

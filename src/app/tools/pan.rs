@@ -1,0 +1,43 @@
+//! The pan tool. Space or the middle button pan with every tool.
+
+use eframe::egui::{CursorIcon, Key, PointerButton, Pos2};
+
+use super::{Gesture, Pointer, ToolSpec};
+use crate::app::command::Command;
+use crate::app::widgets::Hint::{self, Key as HintKey, Text};
+use crate::app::widgets::Icon;
+
+/// Moves the view.
+pub static PAN: ToolSpec = ToolSpec {
+    cursor: CursorIcon::Grab,
+    hint: |_| HINT,
+    press: |press, _, _| Some(Box::new(Panning { last: press.at, button: PointerButton::Primary })),
+    ..ToolSpec::new("Pan", Key::H, Icon::PAN)
+};
+
+const HINT: &[Hint] =
+    &[Text("Drag to move, wheel to zoom"), HintKey("Home"), Text("fits"), HintKey("B"), Text("brush")];
+
+/// Moving the view.
+#[derive(Debug)]
+pub struct Panning {
+    /// Where the pointer was last, in points.
+    pub last: Pos2,
+    /// The button held.
+    pub button: PointerButton,
+}
+
+impl Gesture for Panning {
+    fn button(&self) -> PointerButton {
+        self.button
+    }
+
+    fn moved(&mut self, at: Pos2, pointer: &mut Pointer<'_>, commands: &mut Vec<Command>) {
+        pointer.pan(pointer.px(at) - pointer.px(self.last), commands);
+        self.last = at;
+    }
+
+    fn cursor(&self) -> Option<CursorIcon> {
+        Some(CursorIcon::Grabbing)
+    }
+}

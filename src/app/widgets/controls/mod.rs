@@ -1,0 +1,23 @@
+//! Widgets that change a value or run a command.
+
+mod dropdown;
+mod number;
+mod section;
+mod segmented;
+mod slider;
+mod text_row;
+mod toggle;
+mod tool_button;
+mod transfer;
+
+pub use dropdown::dropdown_row;
+pub use number::NumberRow;
+pub use section::Section;
+pub use segmented::segmented;
+pub use slider::SliderRow;
+pub use text_row::{TextError, TextRow};
+pub use toggle::toggle_row;
+pub use tool_button::{ActionButton, ButtonKind, ToolButton};
+pub use transfer::{CurveValues, TransferCurve};
+
+use super::{Icon, format, paint};

@@ -1,0 +1,19 @@
+//! A placeholder where there is nothing to show yet.
+
+use eframe::egui::{RichText, Ui};
+
+use super::{Icon, paint};
+use crate::app::theme::{font, tokens};
+
+/// An icon, a line that says what is missing, and one that says how to get it.
+pub fn empty_state(ui: &mut Ui, icon: Icon, title: &str, text: &str) {
+    let t = tokens(ui);
+    ui.vertical_centered(|ui| {
+        ui.add_space(8.0);
+        let (_, rect) = ui.allocate_space(eframe::egui::vec2(40.0, 32.0));
+        paint::at_centre(ui, rect, paint::line(ui, icon.glyph(), font::icon(28.0), t.faint));
+        ui.label(RichText::new(title).color(t.text));
+        ui.label(RichText::new(text).font(font::caption()).color(t.faint));
+        ui.add_space(8.0);
+    });
+}

@@ -1,0 +1,17 @@
+//! Widgets that show a value.
+
+mod chip;
+mod empty;
+mod icon;
+mod levels;
+mod status;
+mod value_row;
+
+pub use chip::{Chip, chips};
+pub use empty::empty_state;
+pub use icon::Icon;
+pub use levels::{LevelLegend, LevelRow};
+pub use status::StatusCell;
+pub use value_row::value_row;
+
+use super::{format, paint};

@@ -1,0 +1,16 @@
+//! Widgets over the window or the canvas: dialogs, the command palette, messages, progress, hints.
+
+mod banner;
+mod confirm;
+mod float;
+mod palette;
+mod progress;
+mod search;
+
+pub use banner::{Banner, BannerAnswer};
+pub use confirm::{Answer, ConfirmDialog, dialog, dialog_title};
+pub use float::{Hint, floating_tag, hint_pill, paint_floating, tag_size};
+pub use palette::{PaletteAnswer, PaletteItem, command_palette};
+pub use progress::{bytes_row, progress_row};
+
+use super::{Icon, format, paint};
