@@ -1,8 +1,20 @@
-//! Paint where detail matters; the mesh follows the brush.
+//! Mesh generation by local bisection: paint risk or a target diameter, and the mesh follows.
 //!
-//! Mesh generation by local bisection refinement of triangulated grids (Maubach's method). Rooms, lowest first; a room
-//! imports only from rooms above it in this list. ARCHITECTURE.md draws the house.
+//! A coarse grid of right-angled triangles is refined by bisecting triangles until each satisfies a local
+//! condition. All public types are at the root of the crate. The [`guide`] shows how to build, paint, query
+//! and export a mesh. Points and vectors are those of [`glam`], which is re-exported.
+//!
+//! # Sources
+//!
+//! The method is that of \[Report\], which implements the refinement of \[Maubach1995\]. In two dimensions it
+//! is newest vertex bisection \[Mitchell1989\] and, since the triangles are right-angled and isosceles,
+//! longest-edge bisection \[Rivara1984\]; the recursion over neighbours is that of \[Kossaczky1994\]. The
+//! number of triangles added to keep the mesh conforming is bounded by \[BDD2004\], and coarsening follows
+//! \[ChenZhang2010\]. The [references](guide::references) have the titles.
 
+// What only the window, the tests and the benches use is unused in other builds. Builds of tests have
+// `internals`.
+#![cfg_attr(not(feature = "internals"), allow(dead_code, unused_imports))]
 #![deny(unsafe_code)]
 
 pub mod text;
@@ -21,6 +33,72 @@ pub mod render;
 pub mod cli;
 #[cfg(feature = "gui")]
 pub mod app;
+
+pub use glam;
+
+// Build a mesh.
+pub use build::{
+    BuildError, BuildStage, BuiltMesh, FieldSampling, MeshBuilder, MeshSpec, RefinementCriterion,
+};
+pub use domain::{
+    BoundaryTreatment, CutShape, Domain, DomainOnLattice, DomainShape, Polygon, Region, RegionError, Ring,
+};
+pub use field::formula::ParseError;
+pub use field::{
+    Formula, PaintRef, RefinementRule, RiskToDiameter, Source, TargetField, TargetFieldSpec, Transfer,
+    TransferError, VertexRule,
+};
+pub use geometry::{GridError, Lattice, LatticePoint, LatticeRect, Rect};
+pub use mesh::{
+    Changes, CoarseError, Element, Fingerprint, Forecast, InvalidTarget, Limits, MemoryLimit, Mesh, Progress,
+    RefineError, Refiner, Updater, Violation, bisection_edge_length,
+};
+pub use raster::{PixelRect, Raster};
+
+// Paint.
+pub use document::{Base, Document, Example, Follower, MeshChange, Setting, Settings, SettingsError, Stage};
+pub use paint::{Brush, Medium, PaintRasters};
+
+// Query a mesh.
+pub use mesh::{
+    Adjacency, Location, Locator, Neighbour, NodeId, Orientation, Survey, Topology, Triangle, TriangleId,
+    barycentric, interpolate,
+};
+
+// Read and write files.
+pub use colormap::{Colormap, Ground, LevelColors};
+pub use io::{Cancelled, MeshData, MeshFormat, Meter, NodeValues, ReadError};
+pub use mesh::{BoundaryEdge, Cell, Extract, MeshEdge};
+pub use render::Image;
+pub use render::export::{ExportFormat, Look, UnknownEnding};
+
+pub use io::asc::read as read_asc;
+pub use io::geojson::{read as read_geojson, write as write_geojson};
+pub use io::png::{Behind, read as read_png};
+pub use io::points::read as read_points;
+pub use io::project::{Project, read as read_project, write as write_project};
+pub use io::write_file;
+
+pub mod guide;
+#[cfg(feature = "internals")]
+#[doc(hidden)]
+pub mod internals;
+
+use std::ffi::OsString;
+use std::process::ExitCode;
+
+/// The window, in a build that has one.
+#[cfg(feature = "gui")]
+const WINDOW: Option<cli::Window> =
+    Some(cli::Window { open: app::run, write_screenshots: app::write_screenshots });
+#[cfg(not(feature = "gui"))]
+const WINDOW: Option<cli::Window> = None;
+
+/// Runs the program: the command line or, with the feature `gui`, the window. The first argument is the
+/// program's name.
+pub fn run_program(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
+    cli::run(arguments, WINDOW)
+}
 
 /// The examples of the README, compiled and run with the documentation's.
 #[cfg(doctest)]

@@ -1,16 +1,7 @@
-//! The program: a thin door to [`meshbrush::cli`] and, with the feature `gui`, to the window.
+//! The program. Everything is in the library.
 
 use std::process::ExitCode;
 
-use meshbrush::cli::Window;
-
-/// The window, in a build that has one.
-#[cfg(feature = "gui")]
-const WINDOW: Option<Window> =
-    Some(Window { open: meshbrush::app::run, write_screenshots: meshbrush::app::write_screenshots });
-#[cfg(not(feature = "gui"))]
-const WINDOW: Option<Window> = None;
-
 fn main() -> ExitCode {
-    meshbrush::cli::run(std::env::args_os(), WINDOW)
+    meshbrush::run_program(std::env::args_os())
 }

@@ -1,56 +1,66 @@
-//! The rules of the house (ARCHITECTURE.md), held by reading the source.
+//! Checks the rules of ARCHITECTURE.md by reading the source.
 //!
-//! Comments, strings and tests are no code here. An exception stands in a list with its reason, and must go from the list
-//! when it is no longer needed.
+//! Comments, strings and tests do not count as code. Exceptions are listed with a reason, and an exception
+//! that is no longer needed must be removed from its list.
 
 mod source;
 
-use source::{Function, SourceFile, read_src};
+use std::collections::BTreeSet;
+use std::fs;
 
-/// The rooms, lowest first: each imports only from those before it.
-const ROOMS: [&str; 15] = [
+use source::{Function, SourceFile, read_src, read_texts};
+
+/// The modules, lowest first: each imports only from those before it.
+const MODULES: [&str; 15] = [
     "text", "geometry", "mesh", "raster", "field", "domain", "paint", "build", "document", "io", "colormap",
     "scene", "render", "cli", "app",
 ];
 
-/// Most lines of a file, without its tests.
+/// What lib.rs declares besides: documentation, and the door for our own tests.
+const OTHER_MODULES: [&str; 2] = ["guide", "internals"];
+
+/// Largest number of lines of a file, without its tests.
 const LONGEST_FILE: usize = 450;
-/// Files that may be longer: the file, and why.
+/// Files that may be longer: the file and the reason.
 const LONG_FILES: [(&str, &str); 0] = [];
 
-/// Most lines of a function.
+/// Largest number of lines of a function.
 const LONGEST_FUNCTION: usize = 60;
-/// Functions that may be longer: file, name, and why.
+/// Functions that may be longer: file, name and reason.
 const LONG_FUNCTIONS: [(&str, &str, &str); 1] = [(
     "src/field/formula/program.rs",
     "run_on",
     "one arm for each instruction, a line each, around one accumulator and one stack",
 )];
 
-/// Functions of std that round differently from machine to machine.
+/// Largest width of a line of a comment: max_width in rustfmt.toml.
+const WIDEST_COMMENT: usize = 140;
+
+/// Functions of std that round differently on different machines.
 const INEXACT: [&str; 23] = [
     "sin", "cos", "tan", "sin_cos", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh", "exp", "exp2",
     "exp_m1", "ln", "ln_1p", "log", "log2", "log10", "powf", "powi", "cbrt", "hypot",
 ];
-/// Where they are harmless: file, name, and why.
+/// Places where they are harmless: file, name and reason.
 const INEXACT_ALLOWED: [(&str, &str, &str); 0] = [];
 
-fn rank(room: &str) -> Option<usize> {
-    ROOMS.iter().position(|known| *known == room)
+fn rank(module: &str) -> Option<usize> {
+    MODULES.iter().position(|known| *known == module)
 }
 
-/// Files of the rooms, without `lib.rs` and `main.rs`.
-fn rooms() -> Vec<SourceFile> {
-    read_src().into_iter().filter(|file| !file.module.is_empty()).collect()
+/// The files of the modules, without `lib.rs`, `main.rs` and [`OTHER_MODULES`].
+fn files() -> Vec<SourceFile> {
+    let ours = |file: &SourceFile| !file.module.is_empty() && !OTHER_MODULES.contains(&file.top_module());
+    read_src().into_iter().filter(ours).collect()
 }
 
-/// Files of the rooms before the given one.
-fn rooms_before(room: &str) -> impl Iterator<Item = SourceFile> {
-    let end = rank(room).unwrap();
-    rooms().into_iter().filter(move |file| rank(file.room()).is_some_and(|rank| rank < end))
+/// The files of the modules before the given one.
+fn files_before(module: &str) -> impl Iterator<Item = SourceFile> {
+    let end = rank(module).unwrap();
+    files().into_iter().filter(move |file| rank(file.top_module()).is_some_and(|rank| rank < end))
 }
 
-/// Fails with all that was found, a line each.
+/// Fails with everything found, one per line.
 fn assert_none(found: Vec<String>, rule: &str) {
     assert!(found.is_empty(), "{rule}\n  {}", found.join("\n  "));
 }
@@ -69,7 +79,7 @@ fn named<'a>(files: impl IntoIterator<Item = SourceFile>, beginnings: &'a [&'a s
     found
 }
 
-/// Places where code has the word, as a name of anything.
+/// Places where the code contains a word.
 fn with_word(files: impl IntoIterator<Item = SourceFile>, word: &str) -> Vec<String> {
     let mut found = Vec::new();
     for file in files {
@@ -79,31 +89,32 @@ fn with_word(files: impl IntoIterator<Item = SourceFile>, word: &str) -> Vec<Str
     found
 }
 
-/// Every exception must still be one.
+/// Every exception must still be needed.
 fn assert_needed(listed: &[String], met: &[String], list: &str) {
     let idle = listed.iter().filter(|exception| !met.contains(exception)).cloned().collect();
-    assert_none(idle, &format!("these are listed in {list} and are no exception any more:"));
+    assert_none(idle, &format!("these are listed in {list} and no longer need to be:"));
 }
 
 #[test]
-fn lib_rs_and_the_folders_are_the_rooms_in_their_order() {
-    let files = read_src();
-    let lib = files.iter().find(|file| file.path == "src/lib.rs").unwrap();
+fn lib_rs_declares_the_modules_in_their_order() {
+    let all = read_src();
+    let lib = all.iter().find(|file| file.path == "src/lib.rs").unwrap();
     let names: Vec<&str> = lib.tokens.iter().map(|token| token.text.as_str()).collect();
     let declared: Vec<&str> = names.windows(2).filter(|pair| pair[0] == "mod").map(|pair| pair[1]).collect();
-    assert_eq!(declared, ROOMS, "src/lib.rs declares the rooms in their order");
-    let strangers = rooms().into_iter().filter(|file| rank(file.room()).is_none()).map(|file| file.path);
-    assert_none(strangers.collect(), "every file is in a room:");
+    assert_eq!(declared, [&MODULES[..], &OTHER_MODULES].concat(), "src/lib.rs declares the modules in order");
+    let strangers =
+        files().into_iter().filter(|file| rank(file.top_module()).is_none()).map(|file| file.path);
+    assert_none(strangers.collect(), "every file is in a listed module:");
 }
 
 #[test]
-fn a_room_imports_only_from_rooms_before_it() {
+fn a_module_imports_only_from_modules_before_it() {
     let mut found = Vec::new();
-    for file in rooms() {
+    for file in files() {
         for path in file.paths().into_iter().filter(|path| path.segments[0] == "crate") {
-            // A path to the crate itself, or to everything in it, would hide what it leads to.
+            // A path to the crate itself, or a glob of it, would hide what is imported.
             let to = path.segments.get(1).map_or("the whole crate", String::as_str);
-            let (from, target) = (rank(file.room()), rank(to));
+            let (from, target) = (rank(file.top_module()), rank(to));
             if target.is_none() || target > from {
                 found.push(format!("{}:{} imports from {to}", file.path, path.line));
             }
@@ -112,33 +123,31 @@ fn a_room_imports_only_from_rooms_before_it() {
     }
     assert_none(
         found,
-        &format!("a room imports only from rooms before it; the order is {}:", ROOMS.join(" ")),
+        &format!("a module imports only from modules before it; the order is {}:", MODULES.join(" ")),
     );
 }
 
 #[test]
-fn the_program_is_a_thin_door() {
+fn the_program_is_one_call_of_the_library() {
     let main = read_src().into_iter().filter(|file| file.path == "src/main.rs");
-    let inner: Vec<String> = named(main, &["meshbrush"])
-        .into_iter()
-        .filter(|found| !found.contains("meshbrush::cli") && !found.contains("meshbrush::app"))
-        .collect();
-    assert_none(inner, "main.rs knows only cli and app:");
+    let inner =
+        named(main, &["meshbrush"]).into_iter().filter(|found| !found.contains("meshbrush::run_program"));
+    assert_none(inner.collect(), "main.rs calls run_program and nothing else:");
 }
 
 #[test]
-fn the_mesh_knows_geometry_and_nothing_else_of_the_house() {
-    let mesh = rooms().into_iter().filter(|file| file.room() == "mesh");
-    let others: Vec<String> = ROOMS[3..].iter().map(|room| format!("crate::{room}")).collect();
+fn the_mesh_knows_only_geometry() {
+    let mesh = files().into_iter().filter(|file| file.top_module() == "mesh");
+    let others: Vec<String> = MODULES[3..].iter().map(|module| format!("crate::{module}")).collect();
     let others: Vec<&str> = others.iter().map(String::as_str).collect();
-    assert_none(named(mesh, &others), "rule and domain come to the mesh as closures:");
+    assert_none(named(mesh, &others), "the mesh takes rule and domain as closures:");
 }
 
 #[test]
 fn the_parts_of_the_mesh_import_downwards() {
     let parts = ["kernel", "extract", "query"];
     let mut found = Vec::new();
-    for file in rooms().into_iter().filter(|file| file.module.len() > 1 && file.room() == "mesh") {
+    for file in files().into_iter().filter(|file| file.module.len() > 1 && file.top_module() == "mesh") {
         let own = parts.iter().position(|part| *part == file.module[1]);
         let allowed = &parts[..=own.unwrap_or_else(|| panic!("{} is in no part of mesh", file.path))];
         for path in file.paths() {
@@ -153,7 +162,7 @@ fn the_parts_of_the_mesh_import_downwards() {
 }
 
 #[test]
-fn before_render_nothing_knows_time_place_or_screen() {
+fn nothing_before_render_reads_clock_environment_or_screen() {
     let forbidden = [
         "std::time",
         "std::env",
@@ -168,62 +177,67 @@ fn before_render_nothing_knows_time_place_or_screen() {
         "pollster",
         "clap",
     ];
-    assert_none(named(rooms_before("render"), &forbidden), "same document, same mesh, bit for bit:");
-    let mut files = rooms_before("render").collect::<Vec<_>>();
-    files.extend(rooms().into_iter().filter(|file| file.room() == "render"));
+    assert_none(
+        named(files_before("render"), &forbidden),
+        "the same document must give the same mesh on every machine:",
+    );
+    let mut up_to_render = files_before("render").collect::<Vec<_>>();
+    up_to_render.extend(files().into_iter().filter(|file| file.top_module() == "render"));
     for word in ["Instant", "SystemTime"] {
-        assert_none(with_word(files.clone(), word), "no room before cli reads the clock:");
+        assert_none(with_word(up_to_render.clone(), word), "no module before cli reads the clock:");
     }
 }
 
 #[test]
 fn only_io_opens_files() {
-    let others = rooms().into_iter().filter(|file| file.room() != "io");
-    assert_none(named(others, &["std::fs", "fs", "File"]), "one file per format, and all of them in io:");
+    let others = files().into_iter().filter(|file| file.top_module() != "io");
+    assert_none(named(others, &["std::fs", "fs", "File"]), "only io opens files:");
 }
 
 #[test]
-fn what_decides_a_mesh_rounds_the_same_on_every_machine() {
+fn code_that_decides_a_mesh_rounds_the_same_on_every_machine() {
     let (mut found, mut met) = (Vec::new(), Vec::new());
     let allowed: Vec<String> =
         INEXACT_ALLOWED.iter().map(|(file, name, _)| format!("{file} {name}")).collect();
-    for file in rooms_before("io") {
+    for file in files_before("io") {
         for call in file.tokens.windows(3).filter(|three| three[0].text == "." && three[2].text == "(") {
             let (name, place) = (call[1].text.as_str(), format!("{} {}", file.path, call[1].text));
             if INEXACT.contains(&name) && allowed.contains(&place) {
                 met.push(place);
             } else if INEXACT.contains(&name) {
-                found.push(format!("{}:{} calls {name}; libm has it", file.path, call[1].line));
+                found.push(format!("{}:{} calls {name}; use libm", file.path, call[1].line));
             }
         }
     }
     let by_path = ["f64", "f32"].map(|float| INEXACT.map(|name| format!("{float}::{name}"))).concat();
     let by_path: Vec<&str> = by_path.iter().map(String::as_str).collect();
-    found.extend(named(rooms_before("io"), &by_path));
-    assert_none(found, "std's functions are those of the machine, libm's are ours:");
+    found.extend(named(files_before("io"), &by_path));
+    assert_none(found, "the results of std's functions depend on the machine, those of libm do not:");
     assert_needed(&allowed, &met, "INEXACT_ALLOWED");
 }
 
 #[test]
-fn one_file_of_the_window_speaks_wgpu() {
-    // The second paints the whole window where there is no display, as eframe does where there is one.
+fn egui_and_wgpu_meet_in_listed_files_only() {
+    // The second draws the whole window without a display, as eframe does with one. The third configures
+    // eframe.
     let joins = ["src/app/canvas/gpu.rs", "src/app/screenshots/offscreen.rs", "src/app/mod.rs"];
     let window =
-        rooms().into_iter().filter(|file| file.room() == "app" && !joins.contains(&file.path.as_str()));
+        files().into_iter().filter(|file| file.top_module() == "app" && !joins.contains(&file.path.as_str()));
     let window: Vec<SourceFile> = window.collect();
     for word in ["wgpu", "egui_wgpu"] {
-        assert_none(with_word(window.clone(), word), "only the canvas's gpu.rs joins egui and wgpu:");
+        assert_none(with_word(window.clone(), word), "of the window, only these files use wgpu:");
     }
-    let others =
-        rooms().into_iter().filter(|file| file.room() != "app" && !file.path.starts_with("src/render/gpu/"));
-    assert_none(with_word(others, "wgpu"), "beside the window only render/gpu speaks wgpu:");
+    let others = files()
+        .into_iter()
+        .filter(|file| file.top_module() != "app" && !file.path.starts_with("src/render/gpu/"));
+    assert_none(with_word(others, "wgpu"), "besides the window, only render/gpu uses wgpu:");
 }
 
 #[test]
-fn only_the_window_speaks_egui() {
-    let others: Vec<SourceFile> = rooms().into_iter().filter(|file| file.room() != "app").collect();
+fn only_the_window_uses_egui() {
+    let others: Vec<SourceFile> = files().into_iter().filter(|file| file.top_module() != "app").collect();
     for word in ["egui", "eframe", "rfd"] {
-        assert_none(with_word(others.clone(), word), "everything but the window works without one:");
+        assert_none(with_word(others.clone(), word), "only the window uses egui:");
     }
 }
 
@@ -239,7 +253,7 @@ const NAMES_A_TOOL: [(&str, &str); 6] = [
 
 #[test]
 fn a_tool_is_one_file_and_one_entry_of_the_table() {
-    let window = rooms().into_iter().filter(|file| file.path.starts_with("src/app/"));
+    let window = files().into_iter().filter(|file| file.path.starts_with("src/app/"));
     let window = window.filter(|file| !file.path.starts_with("src/app/tools/"));
     let tools =
         ["BRUSH", "ERASER", "QUERY", "DOMAIN", "PAN"].map(|tool| format!("crate::app::tools::{tool}"));
@@ -261,11 +275,11 @@ fn a_tool_is_one_file_and_one_entry_of_the_table() {
 #[test]
 fn unsafe_code_is_in_one_file() {
     let others = read_src().into_iter().filter(|file| file.path != "src/mesh/kernel/memory.rs");
-    assert_none(with_word(others, "unsafe"), "unsafe stands in mesh/kernel/memory.rs only:");
+    assert_none(with_word(others, "unsafe"), "unsafe code is in mesh/kernel/memory.rs only:");
 }
 
 #[test]
-fn files_are_short_enough_to_be_read() {
+fn files_are_short() {
     let long: Vec<SourceFile> =
         read_src().into_iter().filter(|file| file.line_count > LONGEST_FILE).collect();
     let listed: Vec<String> = LONG_FILES.iter().map(|(file, _)| (*file).to_owned()).collect();
@@ -275,6 +289,51 @@ fn files_are_short_enough_to_be_read() {
         &format!("a file has at most {LONGEST_FILE} lines, or a reason in LONG_FILES:"),
     );
     assert_needed(&listed, &long.into_iter().map(|file| file.path).collect::<Vec<_>>(), "LONG_FILES");
+}
+
+#[test]
+fn comments_fit_the_width_of_the_code() {
+    let mut found = Vec::new();
+    for (path, text) in read_texts() {
+        for (index, line) in text.lines().enumerate().filter(|(_, line)| line.trim_start().starts_with("//"))
+        {
+            if line.chars().count() > WIDEST_COMMENT {
+                found.push(format!("{path}:{} has {} columns", index + 1, line.chars().count()));
+            }
+        }
+    }
+    assert_none(
+        found,
+        &format!("a line of a comment has at most {WIDEST_COMMENT} columns, as max_width in rustfmt.toml:"),
+    );
+}
+
+/// Keys of the form `[Name1995]`, and `[Report]`.
+fn keys(text: &str) -> BTreeSet<String> {
+    let bracketed = text.split('[').skip(1).filter_map(|rest| rest.split(']').next());
+    let is_key = |word: &&str| {
+        let name = word.trim_end_matches(|c: char| c.is_ascii_digit());
+        let year = &word[name.len()..];
+        *word == "Report"
+            || (year.len() == 4
+                && name.starts_with(|c: char| c.is_ascii_uppercase())
+                && name.chars().all(|c| c.is_ascii_alphabetic()))
+    };
+    bracketed.map(|word| word.trim_end_matches('\\')).filter(is_key).map(str::to_owned).collect()
+}
+
+#[test]
+fn every_reference_is_cited_and_every_citation_is_defined() {
+    let list = fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/docs/references.md")).unwrap();
+    let defined = list.lines().filter(|line| line.starts_with("**[")).flat_map(keys).collect::<BTreeSet<_>>();
+    let mut cited = BTreeSet::new();
+    for (path, text) in read_texts() {
+        for key in keys(&text) {
+            assert!(defined.contains(&key), "{path} cites [{key}], which docs/references.md does not define");
+            cited.insert(key);
+        }
+    }
+    assert_eq!(cited, defined, "every key of docs/references.md is cited in the source");
 }
 
 #[test]
@@ -296,7 +355,7 @@ fn functions_fit_on_a_screen() {
     assert_needed(&listed, &met, "LONG_FUNCTIONS");
 }
 
-/// What a reader of source can be fooled by.
+/// Source that is easy to misread.
 const TRAPS: &str = r####"
 //! crate::io in a doc comment
 use std::{fmt, time::{self, Instant as Clock}}; // crate::document
@@ -318,7 +377,7 @@ fn last() { crate::paint::stamp::<u8>() }
 "####;
 
 #[test]
-fn the_reader_is_not_fooled() {
+fn the_reader_handles_source_that_is_easy_to_misread() {
     let file = SourceFile::new("src/field/formula/mod.rs", TRAPS);
     let paths: Vec<String> = file.paths().iter().map(|path| path.segments.join("::")).collect();
     let expected = [

@@ -1,21 +1,22 @@
-//! Reads the program's own source, as far as the rules of the house need it: tokens, paths, functions.
+//! Reads the source of the program for the architecture tests: tokens, paths, functions.
 //!
-//! Comments, doc comments, strings and code under `#[cfg(test)]` are left out before anything is asked, so that words in
-//! them are no code. This is no parser of Rust: it knows as much as rustfmt's layout and this crate's habits ask for.
+//! Comments, doc comments, strings and code under `#[cfg(test)]` are removed first, so words in them do not
+//! count as code. This is not a complete parser: it relies on rustfmt's layout and on the style of this
+//! crate.
 
 use std::fs;
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 
-/// A word or a sign of the code, with its line counted from one.
+/// A word or a punctuation character of the code, with its line counted from one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Token {
     pub line: usize,
-    /// A name, a number, `::`, `"` for any string or character, or a single sign.
+    /// A name, a number, `::`, `"` for any string or character literal, or a single punctuation character.
     pub text: String,
 }
 
-/// A path such as `crate::mesh::Mesh`, whole even where it was written in braces.
+/// A path such as `crate::mesh::Mesh`, complete even if part of it was written in braces.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PathInCode {
     pub line: usize,
@@ -29,34 +30,38 @@ pub struct Function {
     pub lines: RangeInclusive<usize>,
 }
 
-/// One file of `src` without comments, strings and tests.
+/// A file of `src` without comments, strings and tests.
 #[derive(Clone, Debug)]
 pub struct SourceFile {
-    /// From the root of the repository, with `/`.
+    /// Relative to the root of the repository, with `/`.
     pub path: String,
-    /// Where it stands in the tree of modules; empty for `lib.rs` and `main.rs`.
+    /// Path of the module; empty for `lib.rs` and `main.rs`.
     pub module: Vec<String>,
     pub tokens: Vec<Token>,
     /// Lines that are not under `#[cfg(test)]`.
     pub line_count: usize,
-    /// Modules in files of their own that are under `#[cfg(test)]`.
+    /// Modules under `#[cfg(test)]` that have files of their own.
     test_modules: Vec<Vec<String>>,
 }
 
-/// All Rust files under `src`, by path; those that only tests use are left out.
-pub fn read_src() -> Vec<SourceFile> {
+/// Path and text of all Rust files under `src`, with their tests.
+pub fn read_texts() -> Vec<(String, String)> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut paths = Vec::new();
     collect(&root.join("src"), &mut paths);
     paths.sort();
-    let files: Vec<SourceFile> = paths
-        .iter()
-        .map(|path| {
-            let relative: Vec<_> =
-                path.strip_prefix(root).unwrap().iter().map(|part| part.to_str().unwrap()).collect();
-            SourceFile::new(&relative.join("/"), &fs::read_to_string(path).unwrap())
-        })
-        .collect();
+    let relative = |path: &Path| {
+        let parts: Vec<_> =
+            path.strip_prefix(root).unwrap().iter().map(|part| part.to_str().unwrap()).collect();
+        parts.join("/")
+    };
+    paths.iter().map(|path| (relative(path), fs::read_to_string(path).unwrap())).collect()
+}
+
+/// All Rust files under `src` in the order of their paths, without those that only tests use.
+pub fn read_src() -> Vec<SourceFile> {
+    let files: Vec<SourceFile> =
+        read_texts().iter().map(|(path, text)| SourceFile::new(path, text)).collect();
     let for_tests: Vec<Vec<String>> = files.iter().flat_map(|file| file.test_modules.clone()).collect();
     files.into_iter().filter(|file| !for_tests.iter().any(|module| file.module.starts_with(module))).collect()
 }
@@ -81,13 +86,13 @@ impl SourceFile {
         Self { path: path.to_owned(), module, tokens, line_count, test_modules }
     }
 
-    /// The room: the first folder or file under `src`; empty for `lib.rs` and `main.rs`.
-    pub fn room(&self) -> &str {
+    /// The top-level module: the first folder or file under `src`; empty for `lib.rs` and `main.rs`.
+    pub fn top_module(&self) -> &str {
         self.module.first().map_or("", String::as_str)
     }
 
-    /// Every path with two segments or more, those of `use` taken apart. `crate`, `self` and `super` are resolved: such
-    /// a path begins with `crate`, followed by the room.
+    /// Every path with at least two segments; `use` trees are expanded. `self` and `super` are resolved to
+    /// paths that begin with `crate`.
     pub fn paths(&self) -> Vec<PathInCode> {
         let mut found = Vec::new();
         let mut inline: Vec<(String, usize)> = Vec::new();
@@ -124,7 +129,7 @@ impl SourceFile {
         found
     }
 
-    /// Every function that has a body, from the line of its name to the closing brace.
+    /// Every function with a body, from the line of its name to the closing brace.
     pub fn functions(&self) -> Vec<Function> {
         let named = (0..self.tokens.len()).filter(|&at| self.text(at) == "fn" && is_name(self.text(at + 1)));
         named.filter_map(|at| self.function(at)).collect()
@@ -140,7 +145,7 @@ impl SourceFile {
         Some(Function { name: self.text(at + 1).to_owned(), lines })
     }
 
-    /// The first of `signs` from `at` on that stands in no parentheses or brackets.
+    /// The first of `signs` from `at` on outside parentheses and brackets.
     fn at_depth_0(&self, at: usize, signs: &[&str]) -> Option<usize> {
         let mut depth = 0;
         (at..self.tokens.len()).find(|&i| {
@@ -157,7 +162,7 @@ impl SourceFile {
         is_name(self.text(at)) && self.text(at + 1) == "::" && is_name(self.text(at + 2))
     }
 
-    /// Takes the tree of a `use` apart, from `at` on; answers where it ends.
+    /// Expands the tree of a `use` that begins at `at`. Returns where it ends.
     fn use_tree(&self, mut at: usize, before: &mut Vec<String>, leaves: &mut Vec<PathInCode>) -> usize {
         let kept = before.len();
         let line = self.tokens.get(at).map_or(0, |token| token.line);
@@ -217,7 +222,7 @@ fn is_name(text: &str) -> bool {
     text.starts_with(|c: char| c.is_alphabetic() || c == '_')
 }
 
-/// The code without tests, how many lines those had, and the names of modules of theirs in other files.
+/// The code without tests, the number of lines of the tests, and the names of test modules in other files.
 fn without_tests(tokens: Vec<Token>) -> (Vec<Token>, usize, Vec<String>) {
     let (mut kept, mut lines, mut names) = (Vec::new(), 0, Vec::new());
     let mut at = 0;
@@ -242,13 +247,13 @@ fn without_tests(tokens: Vec<Token>) -> (Vec<Token>, usize, Vec<String>) {
     (kept, lines, names)
 }
 
-/// One past the attribute that begins at `at`, if one does.
+/// The token after the attribute that begins at `at`, if there is one.
 fn attribute_end(tokens: &[Token], at: usize) -> Option<usize> {
     let begins = tokens[at].text == "#" && tokens.get(at + 1).is_some_and(|token| token.text == "[");
     begins.then(|| end_of_group(tokens, at + 1) + 1)
 }
 
-/// The last token of the item at `at`, which may have further attributes.
+/// The last token of the item at `at`, which may have more attributes.
 fn item_end(tokens: &[Token], mut at: usize) -> usize {
     while let Some(end) = attribute_end(tokens, at) {
         at = end;
@@ -265,7 +270,7 @@ fn item_end(tokens: &[Token], mut at: usize) -> usize {
     tokens.len() - 1
 }
 
-/// The bracket that closes the one at `open`.
+/// The bracket that closes the group opened at `open`.
 fn end_of_group(tokens: &[Token], open: usize) -> usize {
     let mut depth = 0;
     for (at, token) in tokens.iter().enumerate().skip(open) {
@@ -281,7 +286,7 @@ fn end_of_group(tokens: &[Token], open: usize) -> usize {
     panic!("line {}: a bracket is never closed", tokens[open].line)
 }
 
-/// The code as tokens, without comments and without what stands in quotes.
+/// The tokens of the code, without comments and without the contents of literals.
 fn tokens(text: &str) -> Vec<Token> {
     let mut reader = Reader { chars: text.chars().collect(), at: 0, line: 1, tokens: Vec::new() };
     while reader.at < reader.chars.len() {
@@ -333,8 +338,8 @@ impl Reader {
         }
     }
 
-    fn skip_while(&mut self, goes_on: impl Fn(char) -> bool) {
-        while self.at < self.chars.len() && goes_on(self.peek(0)) {
+    fn skip_while(&mut self, skipped: impl Fn(char) -> bool) {
+        while self.at < self.chars.len() && skipped(self.peek(0)) {
             self.skip(1);
         }
     }
@@ -358,7 +363,7 @@ impl Reader {
         }
     }
 
-    /// A name or a number; or the letters before a string (`r`, `b`, `br`, `c`) and the string.
+    /// A name or a number, or a string with its prefix (`r`, `b`, `br`, `c`).
     fn word(&mut self) {
         let start = self.at;
         let mut end = start;
