@@ -84,7 +84,8 @@ fn the_copy_is_dropped_when_the_mesh_is_no_longer_held() {
     assert_as_from_scratch(&follower, &document);
 }
 
-/// Drags a setting through `moves` values, with a few slices of work after each. Returns how often another mesh was shown.
+/// Drags a setting through `moves` values, with a few slices of work after each. Returns how often another
+/// mesh was shown.
 fn drag(
     document: &mut Document,
     follower: &mut Follower,

@@ -70,7 +70,8 @@ pub struct BuiltMesh {
 pub struct Parts {
     /// The domain of the spec on the lattice of the spec, with any treatment of the boundary.
     pub domain: Option<DomainOnLattice>,
-    /// The field of the spec on the lattice of the spec: complete, with the present paint, or not sampled yet.
+    /// The field of the spec on the lattice of the spec: complete, with the present paint, or not sampled
+    /// yet.
     pub field: Option<Arc<TargetField>>,
 }
 

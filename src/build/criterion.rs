@@ -4,8 +4,8 @@ use crate::geometry::LatticePoint;
 use crate::mesh::{Element, InvalidTarget};
 use crate::raster::MaxMipmap;
 
-/// The local refinement condition (Eq. 13 of [Report]) of a whole mesh: h̄ by a refinement rule, joined with what the boundary of
-/// the domain asks for.
+/// The local refinement condition (Eq. 13 of [Report]) of a whole mesh: h̄ by a refinement rule, joined with
+/// what the boundary of the domain asks for.
 ///
 /// Builder, updates, prices and checks ask this one type, so they agree.
 #[derive(Clone)]
@@ -18,8 +18,8 @@ pub struct RefinementCriterion<'a> {
 }
 
 impl<'a> RefinementCriterion<'a> {
-    /// The criterion of a field over a domain. `paint` is for the vertex rule, which samples it at nodes; the area rule finds
-    /// it in the field.
+    /// The criterion of a field over a domain. `paint` is for the vertex rule, which samples it at nodes; the
+    /// area rule finds it in the field.
     pub fn new(
         domain: &'a DomainOnLattice,
         field: &'a TargetField,
@@ -34,7 +34,8 @@ impl<'a> RefinementCriterion<'a> {
         Self::new(domain, field, RefinementRule::Area, None)
     }
 
-    /// The same criterion with the nodes that an earlier slice of the same work has evaluated ([`Self::into_vertex_rule`]).
+    /// The same criterion with the nodes that an earlier slice of the same work has evaluated
+    /// ([`Self::into_vertex_rule`]).
     pub fn resumed(self, vertex_rule: VertexRule) -> Self {
         Self { vertex_rule, ..self }
     }
@@ -59,7 +60,8 @@ impl<'a> RefinementCriterion<'a> {
         })
     }
 
-    /// Whether a triangle, by its corners and level, would exceed its target by the area rule if the pixels asked for `levels`.
+    /// Whether a triangle, by its corners and level, would exceed its target by the area rule if the pixels
+    /// asked for `levels`.
     #[inline]
     pub fn would_exceed(&self, levels: &MaxMipmap<u8>, corners: [LatticePoint; 3], level: u32) -> bool {
         let by_field = || Ok::<_, InvalidTarget>(self.field.would_exceed(levels, corners, level));

@@ -1,7 +1,8 @@
-//! From a description of what to mesh to the mesh: the one pipeline behind window, command line, benches and tests.
+//! From a description of what to mesh to the mesh: the one pipeline behind window, command line, benches and
+//! tests.
 //!
-//! A [`MeshSpec`] describes the mesh; a [`MeshBuilder`] makes it in slices. [`RefinementCriterion`] decides for both, and for
-//! updates and checks afterwards, which triangles are too large.
+//! A [`MeshSpec`] describes the mesh; a [`MeshBuilder`] makes it in slices. [`RefinementCriterion`] decides
+//! for both, and for updates and checks afterwards, which triangles are too large.
 //!
 //! ```
 //! use meshbrush::build::{FieldSampling, MeshBuilder, MeshSpec};

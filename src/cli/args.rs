@@ -12,7 +12,8 @@ use crate::render::export::ExportFormat;
 #[derive(Debug, Parser)]
 #[command(name = "meshbrush", version, args_conflicts_with_subcommands = true, max_term_width = 100)]
 pub struct Arguments {
-    /// File to open in the window: a project (.meshbrush), a domain (.geojson), or a greyscale picture as risk (.png)
+    /// File to open in the window: a project (.meshbrush), a domain (.geojson), or a greyscale picture as
+    /// risk (.png)
     pub file: Option<PathBuf>,
     #[command(subcommand)]
     pub command: Option<Command>,
@@ -26,11 +27,11 @@ pub enum Command {
     Mesh(MeshArguments),
     /// Build a mesh and find the triangle that contains each of a list of points
     ///
-    /// Numbers of triangles and vertices, and the order of the vertices (anticlockwise, first the ends of the bisection edge), are those
-    /// of the .node and .ele files that `mesh` writes from the same options.
+    /// Numbers of triangles and vertices, and the order of the vertices (anticlockwise, first the ends of the
+    /// bisection edge), are those of the .node and .ele files that `mesh` writes from the same options.
     #[command(after_help = LOCATE_EXAMPLES)]
     Locate(LocateArguments),
-    /// Print what makes a shell complete the program's options
+    /// Print a script that lets a shell complete the program's options
     ///
     /// For bash: meshbrush completions bash > ~/.local/share/bash-completion/completions/meshbrush
     Completions(CompletionsArguments),
@@ -52,7 +53,7 @@ const LOCATE_EXAMPLES: &str = "\
 Example:
   meshbrush locate --spacing 0.1 --target '0.01 + 0.2*hypot(x - 0.5, y - 0.5)' --points points.csv -o found.csv";
 
-/// What the mesh is made from.
+/// What to mesh.
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Domain and target diameter")]
 pub struct InputArguments {
@@ -70,13 +71,14 @@ pub struct InputArguments {
 
     /// Keep the part of the domain where this formula in x and y is not 0
     ///
-    /// A coarse triangle stays when all its corners lie there: choose --spacing to suit the shape. NaN counts as outside.
+    /// A coarse triangle stays when all its corners lie there: choose --spacing to suit the shape. NaN counts
+    /// as outside.
     #[arg(long, value_name = "EXPR", allow_hyphen_values = true)]
     pub inside: Option<String>,
 
     /// Domain with holes: a GeoJSON file with polygons, in its own coordinates
     ///
-    /// The coarse grid covers the rectangle round them. What one of several polygons covers belongs to the domain.
+    /// The coarse grid covers their bounding rectangle. The domain is the union of all polygons.
     #[arg(long, value_name = "FILE.geojson", conflicts_with_all = ["domain", "inside"])]
     pub region: Option<PathBuf>,
 
@@ -94,21 +96,22 @@ pub struct InputArguments {
 
     /// Target diameter as a formula in x and y; may be repeated, the smallest wins
     ///
-    /// Written as in `if(abs(x)+abs(y)<0.4, 0.0125, 1)`; there are comparisons, and, or, not, the usual functions, and the
-    /// polar r and theta.
+    /// Written as in `if(abs(x)+abs(y)<0.4, 0.0125, 1)`; there are comparisons, and, or, not, the usual
+    /// functions, and the polar r and theta.
     #[arg(long, value_name = "EXPR", allow_hyphen_values = true)]
     pub target: Vec<String>,
 
     /// Risk from 0 to 1 as a formula in x and y; may be repeated
     ///
-    /// Risk becomes a target diameter that falls from --h-max at 0 to --h-min at 1, by equal factors for equal steps.
+    /// Risk becomes a target diameter that falls from --h-max at 0 to --h-min at 1, by equal factors for
+    /// equal steps.
     #[arg(long, value_name = "EXPR", allow_hyphen_values = true)]
     pub risk: Vec<String>,
 
     /// Target diameters by pixel: .asc (lengths), or .png (black is --h-min, white --h-max, even between)
     ///
-    /// A .png covers the domain's bounding box, an .asc lies where its header says. A pixel without a value (NODATA, or
-    /// transparent) asks for nothing.
+    /// A .png covers the domain's bounding box, an .asc lies where its header says. A pixel without a value
+    /// (NODATA, or transparent) asks for nothing.
     #[arg(long, value_name = "FILE")]
     pub target_raster: Vec<PathBuf>,
 
@@ -128,14 +131,15 @@ pub struct InputArguments {
     #[arg(long, value_name = "EXPONENT", default_value_t = 1.0, allow_hyphen_values = true)]
     pub transfer_shape: f64,
 
-    /// Where in a triangle its target is looked for [default: area with rasters, else vertex]
+    /// Which points of a triangle decide its target diameter [default: area with rasters, else vertex]
     #[arg(long)]
     pub rule: Option<RuleArgument>,
 
     /// Pixels along the domain's longer side that the area rule sees
     ///
-    /// Each takes the formula's value, or the nearest pixel's, at its middle. Without this, rasters that cover exactly the
-    /// domain are taken as they are; otherwise it is 1024, or as many as the finest raster has there.
+    /// Each takes the formula's value, or the nearest pixel's, at its middle. Without this, rasters that
+    /// cover exactly the domain are taken as they are; otherwise it is 1024, or as many as the finest raster
+    /// has there.
     #[arg(long, value_name = "N")]
     pub resolution: Option<u32>,
 
@@ -143,7 +147,8 @@ pub struct InputArguments {
     #[arg(long, value_name = "N")]
     pub max_triangles: Option<usize>,
 
-    /// Most memory allowed for the mesh, as in 500MB or 2GB: 46 bytes a triangle [default: what --max-triangles take]
+    /// Most memory allowed for the mesh, as in 500MB or 2GB: 46 bytes a triangle [default: what
+    /// --max-triangles take]
     #[arg(long, value_name = "SIZE", allow_hyphen_values = true)]
     pub max_memory: Option<String>,
 
@@ -152,7 +157,7 @@ pub struct InputArguments {
     pub max_level: Option<u32>,
 }
 
-/// How the boundary is met, as typed.
+/// The boundary treatment, as typed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum BoundaryArgument {
     /// A coarse triangle stays when its three nodes are inside (Appendix A of the report)
@@ -161,12 +166,12 @@ pub enum BoundaryArgument {
     Fitted,
 }
 
-/// The two rules, as typed.
+/// The refinement rule, as typed.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub enum RuleArgument {
-    /// At the three vertices (Eq. 12 of the report); what lies between nodes is missed
+    /// The three vertices (Eq. 12 of the report); what lies between nodes is missed
     Vertex,
-    /// In the whole triangle; nothing is missed
+    /// The whole triangle; nothing is missed
     Area,
 }
 
@@ -194,7 +199,8 @@ pub struct MeshArguments {
     #[arg(help = output_help(), long_help = output_long_help())]
     pub output: Vec<PathBuf>,
 
-    /// A further value at the nodes, as a formula in x and y; `quantity` in .vtu, .msh, .csv and .node, z in .2dm
+    /// A further value at the nodes, as a formula in x and y; `quantity` in .vtu, .msh, .csv and .node, z in
+    /// .2dm
     #[arg(long, value_name = "EXPR", allow_hyphen_values = true, help_heading = "Output")]
     pub quantity: Option<String>,
 
@@ -210,7 +216,7 @@ pub struct MeshArguments {
     pub picture: PictureArguments,
 }
 
-/// How pictures look.
+/// The look of pictures.
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Pictures (.svg and .png)")]
 pub struct PictureArguments {
@@ -218,7 +224,7 @@ pub struct PictureArguments {
     #[arg(long, value_name = "W[xH]", default_value = "1600")]
     pub size: String,
 
-    /// Leave the edges out
+    /// Do not draw the edges
     #[arg(long)]
     pub no_edges: bool,
 
@@ -226,7 +232,7 @@ pub struct PictureArguments {
     #[arg(long, value_name = "NAME", default_value = "viridis")]
     pub colormap: String,
 
-    /// Draw on a light ground
+    /// Draw on a light background
     #[arg(long)]
     pub light: bool,
 }
@@ -261,7 +267,7 @@ pub struct CompletionsArguments {
 #[cfg(feature = "gui")]
 #[derive(Debug, Args)]
 pub struct ScreenshotsArguments {
-    /// Folder to write to; made where it is not there
+    /// Folder to write to; created if it does not exist
     #[arg(value_name = "DIR")]
     pub folder: PathBuf,
 }

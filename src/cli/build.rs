@@ -52,7 +52,8 @@ impl FinishedMesh {
         }
     }
 
-    /// h̄ at a point of the domain, both in world units, as the rule sees it. Where it is impossible, the impossible value.
+    /// h̄ at a point of the domain, both in world units, as the rule sees it. Where it is impossible, the
+    /// impossible value.
     pub fn target_at(&self, point: DVec2) -> f64 {
         self.built.field.target_by_rule(self.built.rule, self.paint(), point)
     }

@@ -6,7 +6,8 @@ use crate::field::TransferError;
 use crate::io::ReadError;
 use crate::mesh::{CoarseError, InvalidTarget, RefineError};
 
-/// Why a command did not do its work. Each prints as one sentence; a formula's mistake adds the lines that point at it.
+/// Why a command did not do its work. Each prints as one sentence; a formula's mistake adds the lines that
+/// point at it.
 #[derive(Debug, thiserror::Error)]
 pub enum Failure {
     /// The arguments make no sense.

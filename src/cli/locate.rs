@@ -76,8 +76,8 @@ impl Answers<'_> {
         Ok(())
     }
 
-    /// The columns from `triangle` on. Vertices and ζ are in the order of the vertices in files, so that each ζ belongs to the vertex
-    /// in the same place.
+    /// The columns from `triangle` on. Vertices and ζ are in the order of the vertices in files, so that each
+    /// ζ belongs to the vertex in the same place.
     fn write_triangle(&self, point: DVec2, id: TriangleId, out: &mut dyn Write) -> io::Result<()> {
         let place = self.extract.place_of(id).expect("a point is found in triangles of the domain only");
         let Cell { corners, level, .. } = self.extract.cell(place);

@@ -1,7 +1,7 @@
 //! The command line: arguments as typed (`args`), the request that they make (`request`), running it.
 //!
-//! Results go to standard output, everything else to standard error. Exit status 0: done; 1: the work failed, with a
-//! sentence; 2: wrong usage.
+//! Results go to standard output, everything else to standard error. Exit status 0: done; 1: the work failed,
+//! with a sentence; 2: wrong usage.
 
 mod args;
 mod build;

@@ -40,8 +40,8 @@ impl Output {
         self.format.wants_node_data()
     }
 
-    /// Writes the file, or the four files of `.node`, and returns their names. `extract` is that of `mesh`, and `data` is in the
-    /// order of its nodes.
+    /// Writes the file, or the four files of `.node`, and returns their names. `extract` is that of `mesh`,
+    /// and `data` is in the order of its nodes.
     ///
     /// # Errors
     /// When the file cannot be written. What was there before is kept then.

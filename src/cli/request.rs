@@ -162,8 +162,8 @@ impl SourceSpec {
     }
 }
 
-/// The boundary treatment; `None` where it is the usual one, which depends on the spacing. A diameter at the outline makes sense
-/// only where there is an outline, and where the mesh is fitted to it.
+/// The boundary treatment; `None` where it is the usual one, which depends on the spacing. A diameter at the
+/// outline makes sense only where there is an outline, and where the mesh is fitted to it.
 fn boundary(typed: &InputArguments) -> Result<Option<BoundaryTreatment>, Failure> {
     let given = typed.boundary_diameter.map(|value| length("--boundary-diameter", value)).transpose()?;
     let Some(diameter) = given else {

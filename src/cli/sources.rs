@@ -14,10 +14,12 @@ use crate::raster::{MAX_SIDE, Raster};
 
 /// Pixels along the longer side of the domain unless `--resolution` or a raster says otherwise.
 const USUAL_RESOLUTION: u32 = 1024;
-/// Coarse cells along the longer side of the domain unless `--spacing` says otherwise (N_e of the report's example).
+/// Coarse cells along the longer side of the domain unless `--spacing` says otherwise (N_e of the report's
+/// example).
 const USUAL_CELLS: f64 = 20.0;
 
-/// Reads the files of a request that names no project. Returns what to mesh, and notes for the user, a sentence each.
+/// Reads the files of a request that names no project. Returns what to mesh, and notes for the user, a
+/// sentence each.
 ///
 /// # Errors
 /// When a file cannot be read or used, or there is no coarse grid.
@@ -88,7 +90,8 @@ fn boundary(request: &MeshRequest, spacing: f64, lattice: &Lattice) -> Result<Bo
     Ok(request.boundary.unwrap_or(BoundaryTreatment::usual(spacing)))
 }
 
-/// Refuses a diameter at the outline that the lattice cannot resolve: the refinement would fail wherever the outline passes.
+/// Refuses a diameter at the outline that the lattice cannot resolve: the refinement would fail wherever the
+/// outline passes.
 fn check_resolvable(diameter: f64, lattice: &Lattice) -> Result<(), Failure> {
     let level = lattice.deepest_level();
     let smallest = bisection_edge_length(lattice.spacing(), level);
@@ -114,7 +117,8 @@ fn field_spec(
     Ok(TargetFieldSpec { sources, transfer, unasked: request.h_max.unwrap_or(coarse_diameter), size })
 }
 
-/// The curve from risk to diameter; its ends bound h̄. Where no bounds are given, they do not restrict formulas and lengths.
+/// The curve from risk to diameter; its ends bound h̄. Where no bounds are given, they do not restrict
+/// formulas and lengths.
 fn transfer(request: &MeshRequest, coarse_diameter: f64) -> Transfer {
     let h_min = request.h_min.unwrap_or(f64::MIN_POSITIVE);
     let widest = if request.uses_scale() { coarse_diameter.max(h_min) } else { f64::MAX };
@@ -135,8 +139,8 @@ fn source(spec: &SourceSpec, raster: Option<Raster>, transfer: &Transfer) -> Res
     })
 }
 
-/// Lengths in world units. An image's grey is mapped linearly from `h_min` (black) to `h_max` (white); pixels without a value ask
-/// for nothing.
+/// Lengths in world units. An image's grey is mapped linearly from `h_min` (black) to `h_max` (white); pixels
+/// without a value ask for nothing.
 fn diameters(spec: &RasterSpec, raster: Raster, transfer: &Transfer) -> Raster {
     let Transfer { h_min, h_max, .. } = *transfer;
     let length = |value: f32| match spec.format {
@@ -163,7 +167,8 @@ fn mapped(raster: Raster, value: impl Fn(f32) -> f32) -> Raster {
     Raster::from_values(raster.bounds(), raster.size(), values)
 }
 
-/// Columns and rows of the field: fine enough that every raster pixel contains the centre of one of its pixels.
+/// Columns and rows of the field: fine enough that every raster pixel contains the centre of one of its
+/// pixels.
 fn field_size(request: &MeshRequest, rasters: &[Option<Raster>], domain: Rect) -> [u32; 2] {
     let own: Vec<[u32; 2]> =
         rasters.iter().flatten().filter(|r| r.bounds() == domain).map(Raster::size).collect();
@@ -175,7 +180,8 @@ fn field_size(request: &MeshRequest, rasters: &[Option<Raster>], domain: Rect) -
     let finest = rasters.iter().flatten().map(|r| r.pixel_size().min_element()).fold(f64::INFINITY, f64::min);
     let needed = (extent.max_element() / finest).ceil().min(f64::from(MAX_SIDE)) as u32;
     let longer = request.resolution.unwrap_or(USUAL_RESOLUTION.max(needed));
-    // Rounded up, so that no side of a pixel is longer than asked for, but not for a rounding error of the division.
+    // Rounded up, so that no side of a pixel is longer than asked for, but not for a rounding error of the
+    // division.
     let side =
         |length: f64| (f64::from(longer) * length / extent.max_element() - 1e-9).ceil().max(1.0) as u32;
     [side(extent.x), side(extent.y)]

@@ -23,7 +23,7 @@ pub enum Example {
 }
 
 impl Example {
-    /// All of them, the first to be shown first.
+    /// All examples. The window starts with the first.
     pub const ALL: [Self; 4] = [Self::Threats, Self::Diamond, Self::Terrain, Self::Aegean];
 
     /// Name for menus.
@@ -36,7 +36,7 @@ impl Example {
         }
     }
 
-    /// A sentence on what it shows.
+    /// A sentence about it.
     pub fn about(self) -> &'static str {
         match self {
             Self::Threats => {
@@ -50,8 +50,8 @@ impl Example {
         }
     }
 
-    /// The document. `slope` decodes the picture of the terrain, risk by pixel over the given rectangle, and `sea` reads the
-    /// polygons of the Aegean in degrees; the other examples do without.
+    /// The document. `slope` decodes the picture of the terrain, risk by pixel over its rectangle; `sea`
+    /// reads the polygons of the Aegean in degrees. Only the examples that need them call these.
     pub fn document(self, slope: impl FnOnce() -> Raster, sea: impl FnOnce() -> Vec<Polygon>) -> Document {
         match self {
             Self::Threats => threats(),
@@ -63,12 +63,12 @@ impl Example {
 }
 
 fn document(settings: Settings) -> Document {
-    Document::new(settings, None).expect("the examples are sound: a test opens each")
+    Document::new(settings, None).expect("the examples are valid: a test opens each")
 }
 
 /// Figure 1 and Section 5.4, twenty times as large so that every coordinate is exact.
 fn diamond() -> Settings {
-    let formula = Formula::parse("if(abs(x) + abs(y) < 8, 0.25, 20)").expect("a sound formula");
+    let formula = Formula::parse("if(abs(x) + abs(y) < 8, 0.25, 20)").expect("a valid formula");
     Settings {
         name: Example::Diamond.name().into(),
         domain: Domain::rectangle(Rect::around(DVec2::ZERO, 10.0)),
@@ -108,7 +108,7 @@ const SITES: [(DVec2, f64, f64, f64); 4] = [
 
 /// The sea at half a degree, the coast at a fiftieth.
 fn aegean(sea: &[Polygon]) -> Settings {
-    let domain = Domain::of_polygons(sea).expect("a sound outline");
+    let domain = Domain::of_polygons(sea).expect("a valid outline");
     let settings = Settings::for_domain(Example::Aegean.name().into(), domain);
     Settings { spacing: 0.5, boundary: BoundaryTreatment::Fitted { diameter: 0.02 }, ..settings }
 }

@@ -15,8 +15,8 @@
 //!    └──────────────────────────────┘                         └────────┘
 //! ```
 //!
-//! Every edit may arrive in every state; [`Follower::advance`] first chooses the state for the document as it is, then does one
-//! slice of work there.
+//! Every edit may arrive in every state; [`Follower::advance`] first chooses the state for the document as it
+//! is, then does one slice of work there.
 
 use std::sync::Arc;
 
@@ -31,10 +31,11 @@ use crate::mesh::{Changes, Mesh, MeshCopy, Progress};
 
 /// Keeps field and mesh in step with a document, in slices.
 ///
-/// Paint changes the mesh where it is, and nowhere else ([`Updater`](crate::mesh::Updater)): the mesh is conforming and can be
-/// drawn after every slice, and once in step it is the one made from scratch. So does an edit of the outline of a fitted domain.
-/// For everything else (settings, and every edit under the vertex rule, which cannot be undone locally) another mesh is built
-/// beside the one that is shown; the two change places when the new one is whole.
+/// Paint changes the mesh where it is, and nowhere else ([`Updater`](crate::mesh::Updater)): the mesh is
+/// conforming and can be drawn after every slice, and once in step it is the one made from scratch. So does
+/// an edit of the outline of a fitted domain. For everything else (settings, and every edit under the vertex
+/// rule, which cannot be undone locally) another mesh is built beside the one that is shown; the two change
+/// places when the new one is whole.
 #[derive(Clone, Debug)]
 pub struct Follower {
     shown: Shown,
@@ -101,8 +102,8 @@ impl Follower {
         &self.shown.mesh
     }
 
-    /// The shown mesh as it is, for work that takes longer than a frame. It does not change while it is held; the follower goes
-    /// on with a copy.
+    /// The shown mesh as it is, for work that takes longer than a frame. It does not change while it is held;
+    /// the follower goes on with a copy.
     pub fn shared_mesh(&self) -> Arc<Mesh> {
         self.shown.mesh.clone()
     }
@@ -148,8 +149,8 @@ impl Follower {
         }
     }
 
-    /// Why the shown mesh is not that of the document: a limit was reached, or a target is impossible. The reason stays until mesh
-    /// and document agree, also while another edit is tried.
+    /// Why the shown mesh is not that of the document: a limit was reached, or a target is impossible. The
+    /// reason stays until mesh and document agree, also while another edit is tried.
     pub fn stopped(&self) -> Option<&BuildError> {
         self.stopped.as_ref()
     }
@@ -161,7 +162,8 @@ impl Follower {
             && document.repainted == Repainted::Within(Vec::new())
     }
 
-    /// Gives up the work that is left. The mesh may then differ from the document's, until the document's next change.
+    /// Gives up the work that is left. The mesh may then differ from the document's, until the document's
+    /// next change.
     pub fn cancel(&mut self, document: &Document) {
         if !self.is_in_step(document) {
             self.shown.cancel();
@@ -169,13 +171,15 @@ impl Follower {
         }
     }
 
-    /// Takes over what changed in the document, and does one slice of work: about `budget` edges, pixels or triangles.
+    /// Takes over what changed in the document, and does one slice of work: about `budget` edges, pixels or
+    /// triangles.
     ///
-    /// Paint joins the work under way. Another mesh in the making is finished and shown before the next one with newer settings is
-    /// begun, so that the mesh keeps moving while a setting is dragged.
+    /// Paint joins the current work. A rebuild is finished and shown before the next one begins with newer
+    /// settings, so that the mesh keeps moving while a setting is dragged.
     ///
     /// # Errors
-    /// When the document has no mesh. The shown one stays, conforming, and the document is not tried again until it changes.
+    /// When the document has no mesh. The shown one stays, conforming, and the document is not tried again
+    /// until it changes.
     pub fn advance(&mut self, document: &mut Document, budget: usize) -> Result<Stage, BuildError> {
         self.take_over_paint(document);
         if !matches!(self.state, FollowState::GaveUp { revision, .. } if revision == document.revision()) {
@@ -238,7 +242,7 @@ impl Follower {
         if goes_on { Ok(state) } else { self.next_state(wanted) }
     }
 
-    /// The state that leads to the wanted settings, when no work is under way.
+    /// The next state on the way to the wanted settings, when there is no current work.
     fn next_state(&mut self, wanted: &Settings) -> Result<FollowState, BuildError> {
         if self.shown.obeys(wanted) {
             self.shown.adopt(wanted);

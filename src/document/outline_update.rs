@@ -6,8 +6,8 @@ use crate::field::RefinementRule;
 use crate::geometry::{Lattice, LatticeRect, Rect};
 use crate::mesh::Progress;
 
-/// Compares a domain with that of the shown mesh, and indexes it on the lattice of that mesh, in slices. Then the mesh can follow
-/// it where the two differ.
+/// Compares a domain with that of the shown mesh, and indexes it on the lattice of that mesh, in slices. Then
+/// the mesh can follow it where the two differ.
 #[derive(Clone, Debug)]
 pub(super) struct OutlineUpdate {
     /// The settings with the new domain.
@@ -18,8 +18,8 @@ pub(super) struct OutlineUpdate {
 }
 
 impl OutlineUpdate {
-    /// Whether a mesh can follow in place from one domain to the other: only where nothing else differs, and where the mesh is
-    /// fitted, so that triangles outside stay in it, marked.
+    /// Whether a mesh can follow in place from one domain to the other: only where nothing else differs, and
+    /// where the mesh is fitted, so that triangles outside stay in it, marked.
     pub(super) fn is_possible(shown: &Settings, wanted: &Settings) -> bool {
         let fits = matches!(wanted.boundary, BoundaryTreatment::Fitted { .. })
             && wanted.rule == RefinementRule::Area;

@@ -7,22 +7,22 @@ use crate::mesh::{Forecast, Progress};
 use crate::paint::{Brush, Dab};
 use crate::raster::{MaxMipmap, PixelRect};
 
-/// Works out in slices what one dab would do to the mesh, and touches neither document nor mesh.
+/// Computes in slices how one dab would change the number of triangles, without changing document or mesh.
 ///
-/// The answer is exact, by the area rule. Under the vertex rule there is none: every edit makes the mesh anew.
+/// By the area rule the answer is exact. Under the vertex rule there is none: every edit rebuilds the mesh.
 #[derive(Clone, Debug)]
 pub struct Pricer {
     question: Option<Question>,
     work: Work,
-    /// The levels that pixels would ask for: those of the field, but for what is written.
+    /// The levels that pixels would ask for: those of the field, except where the dab's are written.
     levels: MaxMipmap<u8>,
-    /// The revision of the document that the levels were copied at.
+    /// The revision of the document from which the levels were copied.
     levels_of: Option<u64>,
-    /// Where levels of this dab and of those before may stand.
+    /// Where levels of this dab, or of earlier ones, may be written.
     written: Vec<PixelRect>,
 }
 
-/// What is asked: the answer holds as long as none of this changes.
+/// A dab, and what its price depends on: the price is valid as long as none of this changes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Question {
     brush: Brush,
@@ -34,11 +34,11 @@ struct Question {
 #[derive(Clone, Debug)]
 enum Work {
     Idle,
-    /// The dab's levels are written where they differ; those of the dab before are taken back.
+    /// The dab's levels are written where they differ; those of the dab before are restored.
     Writing {
         dab: Dab,
         left: Vec<PixelRect>,
-        /// Round all pixels met so far that would ask for another level.
+        /// Bounds of all pixels so far that would ask for another level.
         changed: PixelRect,
     },
     Counting(Box<Forecast>),
@@ -48,19 +48,20 @@ enum Work {
 /// What a dab would do to the number of triangles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Price {
-    /// So many would come, or go where it is below zero.
+    /// The number of new triangles; below zero where triangles are removed.
     Change(i64),
-    /// More than so many would come, or go: counting them all would take too long.
+    /// More than this number would be added, or removed where it is below zero: counting them all would take
+    /// too long.
     MoreThan(i64),
     /// The dab asks for triangles finer than the lattice.
     TooFine,
 }
 
 impl Price {
-    /// Where counting ends, in triangles that come or go.
+    /// Counting stops at this number of triangles added or removed.
     pub const MOST: usize = 500_000;
 
-    /// The change, or as much of it as is known.
+    /// The change in the number of triangles, or the part of it that was counted.
     pub fn change(&self) -> i64 {
         match *self {
             Self::Change(change) | Self::MoreThan(change) => change,
@@ -79,9 +80,10 @@ impl Default for Pricer {
 }
 
 impl Pricer {
-    /// Asks about a dab of `brush` at a point in world units, or about none. The same question again keeps its answer.
+    /// Asks for the price of a dab of a brush at a point in world units, or for none. Asking for the same dab
+    /// again keeps the price.
     ///
-    /// There is an answer only while the follower is in step with its document and no stroke is under way.
+    /// There is a price only while the follower is in step with its document and no stroke is being painted.
     pub fn ask(&mut self, dab: Option<(Brush, DVec2)>, document: &Document, follower: &Follower) {
         let answerable = document.stroke().is_none()
             && document.settings().rule == RefinementRule::Area
@@ -100,7 +102,8 @@ impl Pricer {
     }
 
     fn begin(&mut self, question: Question, document: &Document, follower: &Follower) -> Work {
-        // Dabs that were given up before they were taken back pile up: a copy is cheaper then.
+        // Dabs that were not restored pile up while the pointer moves: from some number on, a fresh copy is
+        // cheaper.
         if self.levels_of != Some(question.document) || self.written.len() > 4 {
             self.levels = follower.field().levels().clone();
             self.levels_of = Some(question.document);
@@ -113,12 +116,12 @@ impl Pricer {
         Work::Writing { dab, left, changed: NO_PIXELS }
     }
 
-    /// What the dab costs, once known.
+    /// The price of the dab, once known.
     pub fn price(&self) -> Option<Price> {
         if let Work::Known(price) = self.work { Some(price) } else { None }
     }
 
-    /// Whether the answer is being worked out.
+    /// Whether the price is still being computed.
     pub fn progress(&self) -> Progress {
         match self.work {
             Work::Idle | Work::Known(_) => Progress::Done,
@@ -126,8 +129,9 @@ impl Pricer {
         }
     }
 
-    /// One slice of work: about `visits` pixels or triangles. Document and follower must be as they were when asked.
-    pub fn advance(&mut self, document: &Document, follower: &Follower, visits: usize) -> Progress {
+    /// One slice of work: about `budget` pixels or triangles. Document and follower must not have changed
+    /// since [`Self::ask`].
+    pub fn advance(&mut self, document: &Document, follower: &Follower, budget: usize) -> Progress {
         let next = match &mut self.work {
             Work::Idle | Work::Known(_) => return Progress::Done,
             Work::Writing { dab, left, changed } => {
@@ -136,12 +140,12 @@ impl Pricer {
                     self.work = count(*changed, follower);
                     return self.progress();
                 };
-                let (now, later) = area.split_after(visits);
+                let (now, later) = area.split_after(budget);
                 left.extend(later);
                 write(&mut self.levels, dab, now, changed, document, follower);
                 None
             }
-            Work::Counting(forecast) => price_so_far(forecast, &self.levels, follower, visits),
+            Work::Counting(forecast) => price_so_far(forecast, &self.levels, follower, budget),
         };
         if let Some(price) = next {
             self.work = Work::Known(price);
@@ -150,7 +154,8 @@ impl Pricer {
     }
 }
 
-/// Writes what the pixels of `area` would ask for: after the dab where it reaches, and as ever elsewhere.
+/// Writes the levels that the pixels of `area` would ask for: with the dab where it reaches, those of the
+/// field elsewhere.
 fn write(
     levels: &mut MaxMipmap<u8>,
     dab: &Dab,
@@ -185,18 +190,18 @@ fn price_so_far(
     forecast: &mut Forecast,
     levels: &MaxMipmap<u8>,
     follower: &Follower,
-    visits: usize,
+    budget: usize,
 ) -> Option<Price> {
     let domain = follower.domain();
     let criterion = RefinementCriterion::by_area(domain, follower.field());
     let exceeds = |corners, level| criterion.would_exceed(levels, corners, level);
-    let belongs = |corners, _| !domain.excludes_at(corners);
-    let progress = forecast.advance(follower.mesh(), exceeds, belongs, visits);
+    let is_in_domain = |corners, _| !domain.excludes_at(corners);
+    let progress = forecast.advance(follower.mesh(), exceeds, is_in_domain, budget);
     let [added, removed] = [forecast.added(), forecast.removed()];
     match progress {
         Err(_) => Some(Price::TooFine),
         Ok(Progress::Done) => Some(Price::Change(forecast.change())),
-        // A brush only refines and an eraser only coarsens: nothing that follows takes this back.
+        // A brush only refines and an eraser only coarsens, so the rest cannot cancel what is counted.
         Ok(Progress::More) if added > Price::MOST => Some(Price::MoreThan(Price::MOST as i64)),
         Ok(Progress::More) if removed > Price::MOST => Some(Price::MoreThan(-(Price::MOST as i64))),
         Ok(Progress::More) => None,

@@ -16,12 +16,13 @@ pub(super) struct Rebuild {
     repainted: Vec<PixelRect>,
 }
 
-/// A rebuild for outdated settings is finished up to this many triangles, besides twice those of the shown mesh.
+/// A rebuild for outdated settings is finished up to this many triangles, besides twice those of the shown
+/// mesh.
 const MOST_OUTDATED: usize = 500_000;
 
 impl Rebuild {
-    /// Work for the given settings, described by `spec`, and the present paint. The parts are those that an earlier mesh has
-    /// already.
+    /// Work for the given settings, described by `spec`, and the present paint. The parts are those that an
+    /// earlier mesh has already.
     pub(super) fn new(settings: &Settings, spec: MeshSpec, parts: Parts) -> Self {
         let builder = MeshBuilder::from_parts(spec, parts);
         Self { settings: settings.clone(), builder, repainted: Vec::new() }
@@ -41,10 +42,11 @@ impl Rebuild {
         self.is_for(wanted) && self.repainted.is_empty()
     }
 
-    /// Whether to finish and show the mesh although the document has other settings by now. Then the mesh keeps moving while a
-    /// slider or a handle is dragged; a restart at each move would never get to the end.
+    /// Whether to finish and show the mesh although the document has other settings by now. Then the mesh
+    /// keeps moving while a slider or a handle is dragged; a restart at each move would never get to the end.
     ///
-    /// Not so where the result would be of no interest, as for another domain or document, or would take too long.
+    /// Not so where the result would be of no interest, as for another domain or document, or would take too
+    /// long.
     pub(super) fn is_worth_finishing(&self, wanted: &Settings, shown_triangles: usize) -> bool {
         let Settings { name, domain, rule, resolution, base, .. } = &self.settings;
         let similar = *name == wanted.name

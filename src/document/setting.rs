@@ -10,9 +10,9 @@ use crate::geometry::Rect;
 pub enum Setting {
     /// Largest side δ̄ of a coarse cell, in world units.
     Spacing(f64),
-    /// Target diameter at risk 1, in world units. Pushes the largest up where it would pass it.
+    /// Target diameter at risk 1, in world units. Raises the largest diameter where that would be below it.
     SmallestDiameter(f64),
-    /// Target diameter at risk 0, in world units. Pushes the smallest down where it would pass it.
+    /// Target diameter at risk 0, in world units. Lowers the smallest diameter where that would be above it.
     LargestDiameter(f64),
     /// Exponent of the transfer curve.
     TransferShape(f64),
@@ -28,9 +28,9 @@ pub enum Setting {
     MaxMemory(usize),
     /// The rectangle that the coarse grid covers, in world units.
     Bounds(Rect),
-    /// The domain altogether.
+    /// The whole domain.
     Domain(Domain),
-    /// How its boundary is met.
+    /// How the mesh meets the boundary of the domain.
     Boundary(BoundaryTreatment),
 }
 

@@ -24,7 +24,7 @@ pub struct Settings {
     pub spacing: f64,
     /// From risk to diameter; its ends bound h̄ everywhere.
     pub transfer: Transfer,
-    /// What is there before anything is painted.
+    /// The field under the paint.
     pub base: Base,
     /// Which points of a triangle count.
     pub rule: RefinementRule,
@@ -53,7 +53,7 @@ pub enum Base {
 }
 
 impl PartialEq for Base {
-    /// Pictures that are one and the same are not compared pixel by pixel.
+    /// Pictures that share their memory are not compared pixel by pixel.
     fn eq(&self, other: &Self) -> bool {
         match (self, other) {
             (Self::Constant(a), Self::Constant(b)) => a == b,
@@ -72,19 +72,19 @@ pub enum SettingsError {
     /// The coarse grid is impossible.
     #[error(transparent)]
     Grid(#[from] GridError),
-    /// The transfer curve is.
+    /// The transfer curve is impossible.
     #[error(transparent)]
     Transfer(#[from] TransferError),
-    /// So is the diameter at the boundary.
+    /// The diameter at the boundary is not a length.
     #[error("A diameter of {} at the boundary cannot be met: it must be positive and finite.", Number(*.0))]
     BoundaryDiameter(f64),
-    /// Nothing is left of the domain.
+    /// The domain is empty.
     #[error("Nothing would be left of the domain: keep some of it.")]
     EmptyDomain,
-    /// The constant is no length.
+    /// The constant is not a length.
     #[error("A target diameter of {} cannot be met: it must be positive and finite.", Number(*.0))]
     Constant(f64),
-    /// There would be room for next to nothing.
+    /// The memory budget is too small for any mesh.
     #[error("A memory budget of {} cannot be kept: choose {} at least.", Bytes(*bytes), Bytes(LEAST_MEMORY))]
     Memory {
         /// As given.
@@ -108,18 +108,18 @@ pub enum SettingsError {
 /// Fewest and most pixels along the longer side of a document's field.
 pub const RESOLUTIONS: std::ops::RangeInclusive<u32> = 16..=MAX_SIDE / 4;
 
-/// Most coarse triangles in the window: the coarse grid is made in one go, and must not hold a frame up.
+/// Most coarse triangles of a document: the coarse grid is made in one go, and must not delay a frame.
 pub const MAX_COARSE_TRIANGLES: usize = 130_000;
 
 /// Least memory budget, in bytes: the program without a mesh takes a hundred times as much.
 pub const LEAST_MEMORY: usize = 1_000_000;
 
 impl Settings {
-    /// Checks every number, and passes the settings on when all can be met.
+    /// Checks every number, and returns the settings when all can be met.
     ///
     /// # Errors
-    /// Naming the first that cannot. A formula is not evaluated here: where it gives no positive length is found, and
-    /// said, when the field is filled.
+    /// For the first number that cannot be met. A formula is not evaluated here: a value that is not a
+    /// positive length is found when the field is sampled.
     pub fn checked(self) -> Result<Self, SettingsError> {
         self.lattice()?;
         self.transfer.checked()?;
@@ -152,7 +152,8 @@ impl Settings {
         Lattice::covering(self.domain.bounds, self.spacing, MAX_COARSE_TRIANGLES)
     }
 
-    /// Columns and rows of the field: the resolution along the longer side, square pixels as nearly as may be.
+    /// Columns and rows of the field: the resolution along the longer side, with pixels as nearly square as
+    /// possible.
     pub fn raster_size(&self) -> [u32; 2] {
         let size = self.domain.bounds.size();
         let per_unit = f64::from(self.resolution) / size.max_element();
@@ -196,7 +197,8 @@ impl Settings {
 impl Settings {
     /// Most triangles unless the user says otherwise: 760 MB.
     pub const MAX_TRIANGLES: usize = 20_000_000;
-    /// Most memory for meshes unless the user says otherwise, in bytes: enough for a little more than [`Self::MAX_TRIANGLES`].
+    /// Most memory for meshes unless the user says otherwise, in bytes: enough for a little more than
+    /// [`Self::MAX_TRIANGLES`].
     pub const MAX_MEMORY: usize = 2_000_000_000;
 
     /// The usual settings for a domain: lengths in proportion to its longer side.

@@ -81,8 +81,8 @@ impl Shown {
         !self.unread.is_empty()
     }
 
-    /// Whether the shown mesh, once it is updated, is that of `wanted`: the settings that it was made from, or the same with other
-    /// budgets that it keeps.
+    /// Whether the shown mesh, once it is updated, is that of `wanted`: the settings that it was made from,
+    /// or the same with other budgets that it keeps.
     pub(super) fn obeys(&self, wanted: &Settings) -> bool {
         if self.upkeep != Upkeep::InPlace {
             return false;
@@ -149,7 +149,7 @@ impl Shown {
         let Some(area) = self.unread.pop() else { return };
         let (now, later) = area.split_after(budget);
         self.unread.extend(later);
-        // Not shared, as no rebuild is under way: nothing is copied.
+        // Only a rebuild shares the field, and there is none now: nothing is copied.
         let changed = Arc::make_mut(&mut self.field).update(paint, now);
         match self.settings.rule {
             RefinementRule::Area => {
@@ -186,7 +186,8 @@ impl Shown {
         Some(changes)
     }
 
-    /// Copies a shared mesh in slices, and puts the copy in its place once it is whole. `Done` when the mesh is not shared.
+    /// Copies a shared mesh in slices, and puts the copy in its place once it is whole. `Done` when the mesh
+    /// is not shared.
     fn unshare_mesh(&mut self, copy: &mut Option<MeshCopy>, budget: usize) -> Progress {
         if Arc::get_mut(&mut self.mesh).is_some() {
             // The other holder let go: no copy is needed.

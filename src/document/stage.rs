@@ -19,8 +19,8 @@ pub enum Stage {
         /// Triangles so far.
         triangles: usize,
     },
-    /// Nothing, until the document changes: the mesh is not that of the document. The reason, or `None` where the work was
-    /// cancelled.
+    /// Nothing, until the document changes: the mesh is not that of the document. The reason, or `None` where
+    /// the work was cancelled.
     GaveUp(Option<BuildError>),
 }
 

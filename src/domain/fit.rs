@@ -23,8 +23,8 @@ pub enum BoundaryTreatment {
 }
 
 impl BoundaryTreatment {
-    /// A start: coarse enough to be quick, fine enough to see the shape. The diameter is that of level 7, an eighth of the spacing
-    /// δ̄; both are in world units.
+    /// A start: coarse enough to be quick, fine enough to see the shape. The diameter is that of level 7, an
+    /// eighth of the spacing δ̄; both are in world units.
     pub fn usual(spacing: f64) -> Self {
         Self::Fitted { diameter: bisection_edge_length(spacing, 7) }
     }
@@ -75,8 +75,8 @@ pub struct DomainOnLattice {
 }
 
 impl DomainOnLattice {
-    /// Indexes a domain on a lattice that covers its bounds, in one go. Only a region can be fitted; a formula is met as in the
-    /// report.
+    /// Indexes a domain on a lattice that covers its bounds, in one go. Only a region can be fitted; a
+    /// formula is met as in the report.
     pub fn new(domain: &Domain, boundary: BoundaryTreatment, lattice: &Lattice) -> Self {
         DomainOnLatticeBuilder::new(domain, boundary, lattice).finish()
     }
@@ -97,8 +97,9 @@ impl DomainOnLattice {
         self.fitted.is_some()
     }
 
-    /// Whether a node of the coarse grid, in world units, lets its triangles into the mesh: the report's `DomainQ`. Where the
-    /// boundary is fitted every node does.
+    /// Whether a node of the coarse grid, in world units, is in the domain: the report's `DomainQ`. A coarse
+    /// triangle stays when its three nodes are. Where the mesh is fitted to the boundary every node counts as
+    /// inside.
     pub fn admits(&self, node: DVec2) -> bool {
         if self.is_fitted() {
             return true;
@@ -113,10 +114,12 @@ impl DomainOnLattice {
         }
     }
 
-    /// Whether an element's diameter exceeds its target, given whether it exceeds h̄. What misses the domain never does; what the
-    /// boundary passes through does until it is as small as asked.
+    /// Whether an element's diameter exceeds its target, given whether it exceeds h̄. A triangle outside the
+    /// domain never does; one that the boundary crosses does until it is as small as the boundary treatment
+    /// asks.
     ///
-    /// As monotone as `by_field` is: a triangle inside one that misses the domain, or that the boundary does not touch, does so too.
+    /// Monotone if `by_field` is: a triangle inside one that is outside the domain, or that the boundary does
+    /// not cross, is so too.
     ///
     /// # Errors
     /// Those of `by_field`.
@@ -129,13 +132,13 @@ impl DomainOnLattice {
         self.exceeds_at(element.corners, element.triangle.level(), || by_field(element))
     }
 
-    /// Whether an element lies outside a fitted domain: its centroid does.
+    /// Whether an element lies outside a fitted domain, that is, its centroid does.
     #[inline]
     pub fn excludes(&self, element: &Element) -> bool {
         self.excludes_at(element.corners)
     }
 
-    /// As [`Self::exceeds`], for a triangle by its corners and level, in the mesh or not.
+    /// As [`Self::exceeds`], for a triangle by its corners and level; it need not be in the mesh.
     ///
     /// # Errors
     /// Those of `by_field`.

@@ -11,10 +11,10 @@ use super::region::EdgeCursor;
 use crate::geometry::Lattice;
 use crate::mesh::Progress;
 
-/// The smallest squares number about this many for each edge, within bounds.
+/// Number of smallest squares for each edge, about, within bounds.
 const SQUARES_PER_EDGE: usize = 4;
 const MOST_SQUARES: usize = 1 << 20;
-/// Most places of edges in squares, about.
+/// Most entries of edges in squares, about.
 const MOST_ENTRIES: u64 = 1 << 26;
 
 /// Builds a [`RegionOnLattice`].
@@ -23,9 +23,9 @@ pub(super) struct RegionOnLatticeBuilder {
     region: Arc<Region>,
     lattice: Lattice,
     most_entries: u64,
-    /// How far all edges go along x and y together, in lattice steps.
+    /// Sum of the lengths of all edges along x and along y, in lattice steps.
     length: u64,
-    /// How often the root squares are halved.
+    /// How many times the root squares are halved.
     halvings: u32,
     index: RegionOnLattice,
     step: Step,
@@ -36,11 +36,11 @@ pub(super) struct RegionOnLatticeBuilder {
 enum Step {
     /// TriangleExtents are moved to the nearest lattice points.
     Moving(EdgeCursor),
-    /// The squares that each edge touches are counted, this edge next.
+    /// The squares that each edge touches are counted, from this edge on.
     Counting(usize),
-    /// Each edge is put into its squares, this one next.
+    /// Each edge is entered into its squares, from this edge on.
     Sorting(usize),
-    /// The smallest squares find their states, this row next.
+    /// The states of the smallest squares are found, from this row on.
     Filling(u32),
     Done,
 }
@@ -50,7 +50,7 @@ impl RegionOnLatticeBuilder {
         Self::within(region, lattice, MOST_ENTRIES)
     }
 
-    /// As [`Self::new`], with about so many places of edges in squares at most.
+    /// As [`Self::new`], with at most about `most_entries` entries of edges in squares.
     pub(super) fn within(region: &Arc<Region>, lattice: &Lattice, most_entries: u64) -> Self {
         Self {
             region: region.clone(),
@@ -105,7 +105,7 @@ impl RegionOnLatticeBuilder {
         Step::Moving(cursor)
     }
 
-    /// How large the squares are at the root of the tree, and how small they get.
+    /// Chooses the sizes of the largest and the smallest squares of the quadtree.
     fn choose_squares(&mut self) {
         let Self { index, length, most_entries, .. } = self;
         let (cells, root_bits) = (self.lattice.cells(), self.lattice.halvings());
@@ -115,7 +115,7 @@ impl RegionOnLatticeBuilder {
         while halvings < root_bits && (roots << (2 * (halvings + 1))) <= wanted {
             halvings += 1;
         }
-        // Long edges pass through many squares, perhaps through more than there is room for even at the root.
+        // Long edges pass through many squares: too many, perhaps, even at the root.
         while halvings > 0 && *length >> (root_bits - halvings) > *most_entries {
             halvings -= 1;
         }
@@ -150,7 +150,7 @@ impl RegionOnLatticeBuilder {
         }
         let mut count = 0;
         for end in ends.iter_mut() {
-            // For now, where its part begins.
+            // The start of its part, for now; it becomes the end as edges are entered.
             count += std::mem::replace(end, count);
         }
         self.index.edges_of_square = vec![0; count as usize];
@@ -174,7 +174,8 @@ impl RegionOnLatticeBuilder {
         Step::Filling(0)
     }
 
-    /// Finds the states of the smallest squares along the middle of each row, and at the end those of the others from them.
+    /// Finds the states of the smallest squares along the middle line of each row; at the end, those of
+    /// larger squares from them.
     fn fill_rows(&mut self, first: u32, budget: usize) -> Step {
         let [columns, rows] = self.counts();
         let at_once = (budget / columns as usize).clamp(1, rows as usize) as u32;

@@ -9,8 +9,8 @@ use crate::raster::{PixelRect, Raster};
 
 /// The smallest diameter that the sources ask for at the centre of each pixel.
 ///
-/// Lengths and risks are kept apart. The coarse spacing changes neither; the transfer curve changes the risks only. So a field
-/// with another of these can share what an earlier one has sampled ([`Self::reusing`]).
+/// Lengths and risks are kept apart. The coarse spacing changes neither; the transfer curve changes the risks
+/// only. So a field with another of these can share what an earlier one has sampled ([`Self::reusing`]).
 #[derive(Clone, Debug)]
 pub(super) struct SourceSamples {
     /// The smallest of the constants; infinite where there are none.

@@ -52,11 +52,12 @@ impl Source {
     }
 }
 
-/// The smallest target diameter that any of the sources asks for at a point in world units; infinite where none does.
+/// The smallest target diameter that any of the sources asks for at a point in world units; infinite where
+/// none does.
 ///
 /// # Errors
-/// When a source gives NaN, infinity, zero or less. Only a raster may ask for nothing, beyond its edge or where it has no
-/// value.
+/// When a source gives NaN, infinity, zero or less. Only a raster may ask for nothing, beyond its edge or
+/// where it has no value.
 pub fn smallest_target<'a>(
     sources: impl IntoIterator<Item = &'a Source>,
     point: DVec2,
@@ -72,7 +73,8 @@ pub fn smallest_target<'a>(
     Ok(smallest)
 }
 
-/// Returns a target diameter that a mesh can meet: a positive, finite length. Both arguments are in world units.
+/// Returns a target diameter that a mesh can meet: a positive, finite length. Both arguments are in world
+/// units.
 ///
 /// # Errors
 /// With the point and the value, when no mesh can meet it.

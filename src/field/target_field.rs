@@ -9,16 +9,16 @@ use crate::raster::{MaxMipmap, PixelRect, Raster, RasterOnLattice};
 /// Which points of a triangle its target diameter is the minimum over.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RefinementRule {
-    /// The three vertices: the report's Eq. (12). A stroke that passes between the nodes leaves no trace.
+    /// The three vertices: Eq. (12) of [Report]. A stroke that passes between the nodes is missed.
     Vertex,
     /// The whole closed triangle. Implies Eq. (12), misses nothing, and can be undone locally.
     Area,
 }
 
-/// What a [`TargetField`] is made from, besides paint.
+/// Describes a [`TargetField`], except for the paint.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TargetFieldSpec {
-    /// All ask; the smallest diameter wins.
+    /// The sources of target diameters; the smallest diameter counts.
     pub sources: Vec<Source>,
     /// From risk to diameter; its ends bound h̄ everywhere.
     pub transfer: Transfer,
@@ -39,9 +39,10 @@ pub struct PaintRef<'a> {
 
 /// h̄ over a domain: the minimum of all sources and of what is painted, within \[h_min, h_max\].
 ///
-/// By pixel, each diameter stands beside the level that it needs, in a max-mipmap: the area rule asks that mipmap and no
-/// formula ([`Self::exceeds`]). The pixels are sampled in slices ([`Self::advance`]) and kept up to date by rectangles
-/// ([`Self::update`]). The vertex rule evaluates the sources at nodes instead ([`Self::target_at_node`]), and needs no pixels.
+/// By pixel, each diameter stands beside the level that it needs, in a max-mipmap: the area rule asks that
+/// mipmap and no formula ([`Self::exceeds`]). The pixels are sampled in slices ([`Self::advance`]) and kept
+/// up to date by rectangles ([`Self::update`]). The vertex rule evaluates the sources at nodes instead
+/// ([`Self::target_at_node`]), and needs no pixels.
 #[derive(Clone, Debug)]
 pub struct TargetField {
     spec: TargetFieldSpec,
@@ -55,9 +56,11 @@ pub struct TargetField {
     sampled_rows: u32,
 }
 
-/// The level written where no level up to 63 is fine enough. The refinement then ends at the lattice, with an error.
+/// The level written where no level up to 63 is fine enough. The refinement then ends at the lattice, with an
+/// error.
 const BEYOND: u8 = u8::MAX;
-/// Side of the blocks, in pixels, in which changed levels are reported: smaller blocks fit better, larger ones are fewer.
+/// Side of the blocks, in pixels, in which changed levels are reported: smaller blocks fit better, larger
+/// ones are fewer.
 const BLOCK: u32 = 16;
 
 impl TargetField {
@@ -67,9 +70,11 @@ impl TargetField {
         Self::with_samples(spec, lattice, samples)
     }
 
-    /// As [`Self::new`]; sources that `earlier` has sampled too, over the same bounds and pixels, are not evaluated again.
+    /// As [`Self::new`]; sources that `earlier` has sampled too, over the same bounds and pixels, are not
+    /// evaluated again.
     ///
-    /// So a change of the coarse spacing evaluates nothing, and a change of the transfer curve only the sources of risk.
+    /// So a change of the coarse spacing evaluates nothing, and a change of the transfer curve only the
+    /// sources of risk.
     pub fn reusing(spec: TargetFieldSpec, lattice: &Lattice, earlier: &Self) -> Self {
         if earlier.lattice.bounds() != lattice.bounds() {
             return Self::new(spec, lattice);
@@ -146,11 +151,12 @@ impl TargetField {
         Ok(Progress::Done)
     }
 
-    /// Takes over what changed in the paint within `area`. Rows that are not sampled yet are left to [`Self::advance`].
+    /// Takes over what changed in the paint within `area`. Rows that are not sampled yet are left to
+    /// [`Self::advance`].
     ///
-    /// Returns small rectangles that hold all pixels that now ask for another level: only triangles that touch them may get
-    /// another answer by the area rule. Most of a dab covers the dab before it, and paint over what is fine already changes no
-    /// level at all.
+    /// Returns small rectangles that hold all pixels that now ask for another level: only triangles that
+    /// touch them may get another answer by the area rule. Most of a dab covers the dab before it, and paint
+    /// over what is fine already changes no level at all.
     pub fn update(&mut self, paint: PaintRef, area: PixelRect) -> Vec<PixelRect> {
         self.refresh(Some(paint), area)
     }
@@ -168,7 +174,8 @@ impl TargetField {
         changed
     }
 
-    /// Refreshes at most [`BLOCK`] × [`BLOCK`] pixels, and returns the bounds of those that ask for another level.
+    /// Refreshes at most [`BLOCK`] × [`BLOCK`] pixels, and returns the bounds of those that ask for another
+    /// level.
     fn refresh_block(&mut self, paint: Option<PaintRef>, block: PixelRect) -> PixelRect {
         let mut levels = [0; (BLOCK * BLOCK) as usize];
         let place = |x: u32, y: u32| ((y - block.min[1]) * BLOCK + x - block.min[0]) as usize;
@@ -227,7 +234,8 @@ impl TargetField {
 
     /// h̄ at a node, for the vertex rule: the sources are evaluated at the point itself, not by pixel.
     ///
-    /// A value that no mesh can meet (NaN, infinity, zero or less) is returned as it is, for the rule to refuse.
+    /// A value that no mesh can meet (NaN, infinity, zero or less) is returned as it is, for the rule to
+    /// refuse.
     pub fn target_at_node(&self, paint: Option<PaintRef>, point: DVec2) -> f64 {
         let mut asked = match smallest_target(&self.spec.sources, point, &self.spec.transfer) {
             Ok(asked) => asked,
@@ -253,7 +261,8 @@ impl TargetField {
         }
     }
 
-    /// The part of the lattice on which [`Self::exceeds`] may answer differently once the pixels of `area` have changed.
+    /// The part of the lattice on which [`Self::exceeds`] may answer differently once the pixels of `area`
+    /// have changed.
     pub fn lattice_rect(&self, area: PixelRect) -> LatticeRect {
         self.on_lattice.lattice_rect(area)
     }

@@ -3,7 +3,8 @@ use glam::DVec2;
 use super::checked_target;
 use crate::mesh::{Element, InvalidTarget};
 
-/// The report's own rule (Eqs. 12 and 13 of [Report]): a triangle's target is the minimum of h̄ over its three vertices.
+/// The report's own rule (Eqs. 12 and 13 of [Report]): a triangle's target is the minimum of h̄ over its
+/// three vertices.
 ///
 /// h̄ is evaluated once for each node and kept, as up to eight triangles at many levels share a node.
 #[derive(Clone, Debug, Default)]
@@ -13,8 +14,8 @@ pub struct VertexRule {
 }
 
 impl VertexRule {
-    /// Whether the element's diameter exceeds its target. `target` is h̄ at a point, both in world units; it must be the same
-    /// function in every call.
+    /// Whether the element's diameter exceeds its target. `target` is h̄ at a point, both in world units; it
+    /// must be the same function in every call.
     ///
     /// # Errors
     /// Where h̄ is not a positive, finite length.

@@ -15,7 +15,8 @@ pub struct MeshCopy {
     copy: Mesh,
 }
 
-/// Entries of each array that are copied for one unit of the budget: a unit is about the time of a visit to a triangle.
+/// Entries of each array that are copied for one unit of the budget: a unit is about the time of a visit to a
+/// triangle.
 const ENTRIES_PER_UNIT: usize = 8;
 
 impl MeshCopy {

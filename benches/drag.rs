@@ -1,0 +1,62 @@
+//! Dragging a setting: how often the mesh is replaced while a slider or a handle moves.
+//!
+//! Two seconds of a drag with 60 moves a second. After each move the follower works for 7 ms, as in the window. The
+//! rest of a frame is not waited for. Reported are the mesh updates in the two seconds, and per second.
+//!
+//! Three settings are dragged (the shape of the transfer curve, the smallest diameter, the coarse spacing), on a mesh
+//! of 34 thousand triangles and on one of two million.
+
+use std::time::{Duration, Instant};
+
+use meshbrush::document::{Base, Document, Follower, MeshChange, Setting, Settings};
+use meshbrush::field::Formula;
+
+/// The window's own values: `FRAME_BUDGET` in `app/mod.rs` and `SLICE` in `app/session.rs`.
+const FRAME_BUDGET: Duration = Duration::from_millis(7);
+const SLICE: usize = 2048;
+const SECONDS: usize = 2;
+const MOVES: usize = 60 * SECONDS;
+
+/// Fine below a wave, coarse above it; the smallest diameter decides the size of the mesh.
+fn document(h_min: f64) -> Document {
+    let mut settings = Settings::default();
+    settings.transfer.h_min = h_min;
+    let formula = "if(y < 0.45 + 0.1 * sin(7 * x), 0.0001, 0.2)";
+    settings.base = Base::Formula(Formula::parse(formula).expect("a valid formula"));
+    Document::new(settings, None).expect("valid settings")
+}
+
+/// Drags one setting and returns how often another mesh was shown.
+fn drag(document: &mut Document, follower: &mut Follower, setting: impl Fn(f64) -> Setting) -> usize {
+    let mut updates = 0;
+    follower.take_change();
+    for step in 1..=MOVES {
+        document.set(setting(step as f64 / MOVES as f64)).expect("it can be met");
+        let deadline = Instant::now() + FRAME_BUDGET;
+        while Instant::now() < deadline {
+            if follower.advance(document, SLICE).expect("the budget is far").is_settled() {
+                break;
+            }
+        }
+        updates += usize::from(follower.take_change() == Some(MeshChange::Replaced));
+    }
+    document.end_gesture();
+    updates
+}
+
+fn main() {
+    for h_min in [0.0085, 0.0011] {
+        let mut document = document(h_min);
+        let mut follower = Follower::new(&mut document).expect("it has a mesh");
+        eprintln!("A mesh of {} triangles", follower.mesh().triangle_count());
+        let spacing = document.settings().spacing;
+        let mut report = |name: &str, setting: &dyn Fn(f64) -> Setting| {
+            let updates = drag(&mut document, &mut follower, setting);
+            let per_second = updates as f64 / SECONDS as f64;
+            eprintln!("  {name:17} {updates:4} updates, {per_second:5.1} a second");
+        };
+        report("transfer curve", &|t| Setting::TransferShape(1.0 + t));
+        report("smallest diameter", &|t| Setting::SmallestDiameter(h_min * (1.0 + 0.1 * t)));
+        report("coarse spacing", &|t| Setting::Spacing(spacing * (1.0 + 0.2 * t)));
+    }
+}
