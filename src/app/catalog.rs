@@ -46,7 +46,7 @@ fn edit(state: &FrameState<'_>) -> Vec<CatalogItem> {
     };
     let undo = named("Undo", history.undo_title());
     let redo = named("Redo", history.redo_title());
-    let can_undo = history.undo_title().is_some() || state.session.document().stroke().is_some();
+    let can_undo = state.session.can_undo();
     let can_redo = history.redo_title().is_some();
     vec![
         CatalogItem::new(Edit, undo, Command::Undo).ctrl(Key::Z).enabled(can_undo),

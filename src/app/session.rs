@@ -201,6 +201,12 @@ impl Session {
         }
     }
 
+    /// Whether there is a gesture to take back, including one in progress.
+    pub fn can_undo(&self) -> bool {
+        let document = &self.document;
+        document.history().undo_title().is_some() || document.stroke().is_some() || self.is_cutting()
+    }
+
     /// Takes back the last gesture. One that has not reached the document is dropped.
     pub fn undo(&mut self) {
         if !self.cuts.discard(&mut self.document) {

@@ -71,7 +71,7 @@ pub fn tool_strip(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Comman
         if ui.add_enabled_ui(history.redo_title().is_some(), |ui| redo.show(ui)).inner.clicked() {
             commands.push(Command::Redo);
         }
-        if ui.add_enabled_ui(history.undo_title().is_some(), |ui| undo.show(ui)).inner.clicked() {
+        if ui.add_enabled_ui(state.session.can_undo(), |ui| undo.show(ui)).inner.clicked() {
             commands.push(Command::Undo);
         }
     });

@@ -185,7 +185,7 @@ fn a_cancelled_export_leaves_the_former_files() {
     assert!(has_bar(&window, "Cancelling mesh.node"), "the pipe is not closed yet");
     read_all(&last);
     wait(&mut window, "the notice", |window| !told(window).is_empty());
-    assert_eq!(told(&window), "Writing mesh.node was cancelled. The file that was there is as it was.");
+    assert_eq!(told(&window), "Writing mesh.node was cancelled. The file that was there is unchanged.");
     assert!(!has_bar(&window, "Cancelling mesh.node"));
     assert_eq!(names(&folder), before);
     for ending in ["node", "ele", "neigh"] {
