@@ -1,8 +1,8 @@
 //! The mesh of Figure 1 of the report (Section 5.4) on [−10, 10]², which the benches of the core build.
 
 use glam::DVec2;
-use meshbrush::geometry::{Lattice, LatticePoint, Rect};
-use meshbrush::mesh::{Element, InvalidTarget, Limits, Mesh, bisection_edge_length};
+use meshbrush::internals::geometry::{Lattice, LatticePoint, Rect};
+use meshbrush::internals::mesh::{Element, InvalidTarget, Limits, Mesh, bisection_edge_length};
 
 /// The coarse grid of 20 × 20 cells.
 pub fn coarse() -> Mesh {

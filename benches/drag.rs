@@ -1,15 +1,16 @@
 //! Dragging a setting: how often the mesh is replaced while a slider or a handle moves.
 //!
-//! Two seconds of a drag with 60 moves a second. After each move the follower works for 7 ms, as in the window. The
-//! rest of a frame is not waited for. Reported are the mesh updates in the two seconds, and per second.
+//! Two seconds of a drag with 60 moves a second. After each move the follower works for 7 ms, as in the
+//! window. The rest of a frame is not waited for. Reported are the mesh updates in the two seconds, and per
+//! second.
 //!
-//! Three settings are dragged (the shape of the transfer curve, the smallest diameter, the coarse spacing), on a mesh
-//! of 34 thousand triangles and on one of two million.
+//! Three settings are dragged (the shape of the transfer curve, the smallest diameter, the coarse spacing),
+//! on a mesh of 34 thousand triangles and on one of two million.
 
 use std::time::{Duration, Instant};
 
-use meshbrush::document::{Base, Document, Follower, MeshChange, Setting, Settings};
-use meshbrush::field::Formula;
+use meshbrush::internals::document::{Base, Document, Follower, MeshChange, Setting, Settings};
+use meshbrush::internals::field::Formula;
 
 /// The window's own values: `FRAME_BUDGET` in `app/mod.rs` and `SLICE` in `app/session.rs`.
 const FRAME_BUDGET: Duration = Duration::from_millis(7);

@@ -17,10 +17,10 @@
 use std::time::{Duration, Instant};
 
 use glam::{DVec2, dvec2};
-use meshbrush::document::{Base, Document, Follower, MeshChange, Settings, Stage};
-use meshbrush::field::Formula;
-use meshbrush::paint::{Brush, Medium};
-use meshbrush::render::gpu::Offscreen;
+use meshbrush::internals::document::{Base, Document, Follower, MeshChange, Settings, Stage};
+use meshbrush::internals::field::Formula;
+use meshbrush::internals::paint::{Brush, Medium};
+use meshbrush::internals::render::gpu::Offscreen;
 
 /// The window's own values: `FRAME_BUDGET` in `app/mod.rs` and `SLICE` in `app/session.rs`.
 const FRAME_BUDGET: Duration = Duration::from_millis(7);

@@ -8,7 +8,7 @@ use std::hint::black_box;
 use std::time::{Duration, Instant};
 
 use criterion::{BenchmarkId, Criterion, SamplingMode, Throughput};
-use meshbrush::mesh::{Limits, Mesh, Refiner};
+use meshbrush::internals::mesh::{Limits, Mesh, Refiner};
 use meshbrush_benches::diamond;
 
 fn fresh(level: u32) -> (Duration, Mesh) {

@@ -8,7 +8,7 @@ use std::time::Duration;
 
 use criterion::{BenchmarkId, Criterion, Throughput};
 use glam::{DVec2, dvec2};
-use meshbrush::mesh::{Locator, Mesh, NodeId};
+use meshbrush::internals::mesh::{Locator, Mesh, NodeId};
 use meshbrush_benches::diamond;
 use spade::{
     DelaunayTriangulation, HierarchyHintGenerator, HintGenerator, LastUsedVertexHintGenerator, Point2,

@@ -14,9 +14,11 @@ use std::time::{Duration, Instant};
 
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, BenchmarkId, Criterion, SamplingMode, Throughput};
-use meshbrush::geometry::{Lattice, LatticePoint, LatticeRect, Rect};
-use meshbrush::mesh::{Element, Forecast, InvalidTarget, Limits, Mesh, Progress, Refiner, Updater};
-use meshbrush::raster::{MaxMipmap, PixelRect, RasterOnLattice};
+use meshbrush::internals::geometry::{Lattice, LatticePoint, LatticeRect, Rect};
+use meshbrush::internals::mesh::{
+    Element, Forecast, InvalidTarget, Limits, Mesh, Progress, Refiner, Updater,
+};
+use meshbrush::internals::raster::{MaxMipmap, PixelRect, RasterOnLattice};
 
 /// Pixels along a side of the field.
 const SIDE: u32 = 2048;

@@ -6,10 +6,10 @@ use std::time::Duration;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use glam::DVec2;
-use meshbrush::colormap::LEVELS;
-use meshbrush::geometry::{Lattice, Rect};
-use meshbrush::mesh::{Limits, Mesh};
-use meshbrush::scene::{Camera, Style};
+use meshbrush::internals::colormap::LEVELS;
+use meshbrush::internals::geometry::{Lattice, Rect};
+use meshbrush::internals::mesh::{Limits, Mesh};
+use meshbrush::internals::scene::{Camera, Style};
 
 const SIZE: [u32; 2] = [1200, 900];
 
@@ -51,13 +51,21 @@ fn software(c: &mut Criterion) {
         group.throughput(Throughput::Elements(mesh.raw_triangle_count() as u64));
         let (style, mut frame) = (style(), 0);
         group.bench_function(BenchmarkId::new("draw", name), |b| {
-            b.iter(|| meshbrush::render::software::draw(&mesh, &moved(&mesh, &mut frame), &style, None, &[]));
+            b.iter(|| {
+                meshbrush::internals::render::software::draw(
+                    &mesh,
+                    &moved(&mesh, &mut frame),
+                    &style,
+                    None,
+                    &[],
+                )
+            });
         });
     }
 }
 
 fn gpu(c: &mut Criterion) {
-    let mut offscreen = match meshbrush::render::gpu::Offscreen::new() {
+    let mut offscreen = match meshbrush::internals::render::gpu::Offscreen::new() {
         Ok(offscreen) => offscreen,
         Err(e) => return eprintln!("The GPU was not measured. {e}"),
     };

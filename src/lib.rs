@@ -17,22 +17,22 @@
 #![cfg_attr(not(feature = "internals"), allow(dead_code, unused_imports))]
 #![deny(unsafe_code)]
 
-pub mod text;
-pub mod geometry;
-pub mod mesh;
-pub mod raster;
-pub mod field;
-pub mod domain;
-pub mod paint;
-pub mod build;
-pub mod document;
-pub mod io;
-pub mod colormap;
-pub mod scene;
-pub mod render;
-pub mod cli;
+mod text;
+mod geometry;
+mod mesh;
+mod raster;
+mod field;
+mod domain;
+mod paint;
+mod build;
+mod document;
+mod io;
+mod colormap;
+mod scene;
+mod render;
+mod cli;
 #[cfg(feature = "gui")]
-pub mod app;
+mod app;
 
 pub use glam;
 

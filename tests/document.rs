@@ -5,17 +5,17 @@ mod operations;
 use std::sync::Arc;
 
 use glam::{DVec2, dvec2};
-use meshbrush::build::RefinementCriterion;
-use meshbrush::document::{
+use meshbrush::internals::build::RefinementCriterion;
+use meshbrush::internals::document::{
     Base, Document, Example, Follower, History, MeshChange, Price, Pricer, Setting, Settings, Stage,
 };
-use meshbrush::domain::{CutShape, Domain, DomainShape, Polygon, Region, corners};
-use meshbrush::field::{Formula, RefinementRule};
-use meshbrush::geometry::Rect;
-use meshbrush::mesh::Progress;
-use meshbrush::paint::{Brush, Medium};
-use meshbrush::raster::Raster;
-use meshbrush::text::Grouped;
+use meshbrush::internals::domain::{CutShape, Domain, DomainShape, Polygon, Region, corners};
+use meshbrush::internals::field::{Formula, RefinementRule};
+use meshbrush::internals::geometry::Rect;
+use meshbrush::internals::mesh::Progress;
+use meshbrush::internals::paint::{Brush, Medium};
+use meshbrush::internals::raster::Raster;
+use meshbrush::internals::text::Grouped;
 use operations::{Choices, Driver, Operation, Scale, domains, run_bytes};
 
 /// A square with a square hole.

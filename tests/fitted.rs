@@ -11,10 +11,10 @@ use std::path::Path;
 use closure::{Point, Triangle};
 use fastrand::Rng;
 use glam::{DVec2, dvec2};
-use meshbrush::domain::{BoundaryTreatment, Domain, DomainOnLattice, Polygon, Ring, signed_area};
-use meshbrush::geometry::{Lattice, LatticePoint};
-use meshbrush::io::geojson;
-use meshbrush::mesh::{
+use meshbrush::internals::domain::{BoundaryTreatment, Domain, DomainOnLattice, Polygon, Ring, signed_area};
+use meshbrush::internals::geometry::{Lattice, LatticePoint};
+use meshbrush::internals::io::geojson;
+use meshbrush::internals::mesh::{
     Element, InvalidTarget, Limits, Location, Locator, Mesh, NodeId, Topology, TriangleId,
 };
 
@@ -507,8 +507,9 @@ fn the_aegean_sea_keeps_its_islands() {
     let region = domain.region().unwrap();
     assert_eq!(region.hole_count(), 65);
     let mesh = fitted(&domain, 0.5, BoundaryTreatment::Fitted { diameter: 0.02 }, |_| Ok(false));
-    let centroid =
-        |t: &meshbrush::mesh::Triangle| t.vertices.map(|v| mesh.world(v)).iter().sum::<DVec2>() / 3.0;
+    let centroid = |t: &meshbrush::internals::mesh::Triangle| {
+        t.vertices.map(|v| mesh.world(v)).iter().sum::<DVec2>() / 3.0
+    };
     let left_out: Vec<DVec2> = mesh.raw_triangles().iter().filter(|t| t.is_outside()).map(centroid).collect();
     let encloses = |ring: &Ring, p: DVec2| {
         let ends = ring.iter().zip(ring.iter().skip(1).chain(ring.first()));

@@ -3,10 +3,10 @@
 use std::sync::Arc;
 
 use glam::dvec2;
-use meshbrush::document::{Base, Document, Follower, MeshChange, Setting, Settings, Stage};
-use meshbrush::field::Formula;
-use meshbrush::mesh::Mesh;
-use meshbrush::paint::{Brush, Medium};
+use meshbrush::internals::document::{Base, Document, Follower, MeshChange, Setting, Settings, Stage};
+use meshbrush::internals::field::Formula;
+use meshbrush::internals::mesh::Mesh;
+use meshbrush::internals::paint::{Brush, Medium};
 
 /// Work in one slice, as in the window.
 const SLICE: usize = 2048;
@@ -40,7 +40,9 @@ fn paint(document: &mut Document) {
 }
 
 /// The arrays of a mesh.
-fn arrays(mesh: &Mesh) -> (Vec<meshbrush::geometry::LatticePoint>, Vec<meshbrush::mesh::Triangle>) {
+fn arrays(
+    mesh: &Mesh,
+) -> (Vec<meshbrush::internals::geometry::LatticePoint>, Vec<meshbrush::internals::mesh::Triangle>) {
     (mesh.raw_nodes().to_vec(), mesh.raw_triangles().to_vec())
 }
 

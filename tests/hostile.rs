@@ -5,11 +5,11 @@ use std::fmt::Write;
 use std::io::Cursor;
 use std::path::Path;
 
-use meshbrush::domain::{Domain, RegionError};
-use meshbrush::field::Formula;
-use meshbrush::geometry::Rect;
-use meshbrush::io::png::{Behind, decode};
-use meshbrush::io::{asc, geojson, points};
+use meshbrush::internals::domain::{Domain, RegionError};
+use meshbrush::internals::field::Formula;
+use meshbrush::internals::geometry::Rect;
+use meshbrush::internals::io::png::{Behind, decode};
+use meshbrush::internals::io::{asc, geojson, points};
 
 const NAME: &str = "the file";
 

@@ -2,8 +2,8 @@
 
 use fastrand::Rng;
 use glam::{DVec2, dvec2};
-use meshbrush::geometry::{Lattice, Rect};
-use meshbrush::mesh::{Element, InvalidTarget, Limits, Mesh, RefineError, Refiner, TriangleId};
+use meshbrush::internals::geometry::{Lattice, Rect};
+use meshbrush::internals::mesh::{Element, InvalidTarget, Limits, Mesh, RefineError, Refiner, TriangleId};
 
 /// The unit square in 4 × 4 cells, without a corner and a node inside, so that diagonals are on the boundary.
 fn with_a_hole() -> Mesh {

@@ -5,10 +5,10 @@ use std::io::Read;
 
 use flate2::read::ZlibDecoder;
 use glam::{DVec2, dvec2};
-use meshbrush::colormap::{Colormap, Ground, LevelColors};
-use meshbrush::geometry::{Lattice, Rect};
-use meshbrush::io::{MeshData, NodeValues, csv, msh, node, obj, sms, stl, svg, vtu};
-use meshbrush::mesh::{Extract, Limits, Mesh, NodeId};
+use meshbrush::internals::colormap::{Colormap, Ground, LevelColors};
+use meshbrush::internals::geometry::{Lattice, Rect};
+use meshbrush::internals::io::{MeshData, NodeValues, csv, msh, node, obj, sms, stl, svg, vtu};
+use meshbrush::internals::mesh::{Extract, Limits, Mesh, NodeId};
 
 /// A mesh as a reader finds it.
 #[derive(Debug, Default)]

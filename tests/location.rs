@@ -2,15 +2,15 @@
 //!
 //! The contract of location, in world coordinates: a point with exactly the coordinates of a node is on that vertex, and
 //! a point one ulp to the right of a node is to its right. In between, the point's place is its lattice coordinates
-//! ([`Lattice::lattice_from_world`](meshbrush::geometry::Lattice::lattice_from_world)), and the answer is exact for those.
+//! ([`Lattice::lattice_from_world`](meshbrush::internals::geometry::Lattice::lattice_from_world)), and the answer is exact for those.
 
 use std::cmp::Ordering;
 use std::collections::{BTreeSet, HashMap};
 
 use fastrand::Rng;
 use glam::{DVec2, dvec2};
-use meshbrush::geometry::{Lattice, LatticePoint, Rect};
-use meshbrush::mesh::{
+use meshbrush::internals::geometry::{Lattice, LatticePoint, Rect};
+use meshbrush::internals::mesh::{
     Limits, Location, Locator, Mesh, NodeId, TriangleId, barycentric, bisection_edge_length, interpolate,
 };
 

@@ -5,13 +5,13 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use meshbrush::document::{Base, Example};
-use meshbrush::geometry::{Lattice, Rect};
-use meshbrush::io::png::{Behind, read_metered as read_png};
-use meshbrush::io::project::{self, Project};
-use meshbrush::io::{MeshData, MeshFormat, Meter, geojson, stl, vtu, write_file_metered};
-use meshbrush::mesh::{Limits, Mesh};
-use meshbrush::raster::Raster;
+use meshbrush::internals::document::{Base, Example};
+use meshbrush::internals::geometry::{Lattice, Rect};
+use meshbrush::internals::io::png::{Behind, read_metered as read_png};
+use meshbrush::internals::io::project::{self, Project};
+use meshbrush::internals::io::{MeshData, MeshFormat, Meter, geojson, stl, vtu, write_file_metered};
+use meshbrush::internals::mesh::{Limits, Mesh};
+use meshbrush::internals::raster::Raster;
 
 const CANCELLED: &str = "it was cancelled";
 

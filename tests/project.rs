@@ -7,13 +7,13 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use glam::dvec2;
-use meshbrush::document::{Base, Document, Example, Follower, Settings, Stage};
-use meshbrush::domain::{BoundaryTreatment, Domain, DomainShape};
-use meshbrush::field::{Formula, RefinementRule, Transfer};
-use meshbrush::geometry::Rect;
-use meshbrush::io::project::{self, Project};
-use meshbrush::paint::{Brush, Medium};
-use meshbrush::raster::Raster;
+use meshbrush::internals::document::{Base, Document, Example, Follower, Settings, Stage};
+use meshbrush::internals::domain::{BoundaryTreatment, Domain, DomainShape};
+use meshbrush::internals::field::{Formula, RefinementRule, Transfer};
+use meshbrush::internals::geometry::Rect;
+use meshbrush::internals::io::project::{self, Project};
+use meshbrush::internals::paint::{Brush, Medium};
+use meshbrush::internals::raster::Raster;
 
 const NAME: &str = "test.meshbrush";
 

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::process::Command;
 
-use meshbrush::field::formula::functions;
+use meshbrush::internals::field::formula::functions;
 
 const README: &str = include_str!("../README.md");
 const PROGRAM: &str = env!("CARGO_BIN_EXE_meshbrush");

@@ -5,8 +5,10 @@ mod closure;
 use closure::{Point, Triangle};
 use fastrand::Rng;
 use glam::{DVec2, dvec2};
-use meshbrush::geometry::{Lattice, LatticePoint, Rect};
-use meshbrush::mesh::{Element, Fingerprint, InvalidTarget, Limits, Mesh, Progress, Refiner, fingerprint_of};
+use meshbrush::internals::geometry::{Lattice, LatticePoint, Rect};
+use meshbrush::internals::mesh::{
+    Element, Fingerprint, InvalidTarget, Limits, Mesh, Progress, Refiner, fingerprint_of,
+};
 
 /// A domain, a coarse grid and a rule, at random.
 struct Case {

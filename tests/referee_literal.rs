@@ -8,8 +8,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use glam::dvec2;
 use literal::{BETA, Node, Report};
-use meshbrush::geometry::{Lattice, Rect};
-use meshbrush::mesh::{Limits, Location, Mesh, NodeId, Orientation, TriangleId};
+use meshbrush::internals::geometry::{Lattice, Rect};
+use meshbrush::internals::mesh::{Limits, Location, Mesh, NodeId, Orientation, TriangleId};
 
 /// The same coarse mesh twice: grid nodes (column, row) of an N_e × N_e grid on the unit square without `removed`.
 fn coarse_pair(n_e: i64, removed: &[(i64, i64)]) -> (Mesh, Report) {
@@ -197,8 +197,10 @@ fn adjacency_and_location_agree_with_algorithms_13_to_15() {
         for _ in 0..500 {
             // Whole lattice points: the report's orientation test is exact there.
             let extent = mesh.lattice().extent();
-            let p =
-                meshbrush::geometry::LatticePoint::new(random.u32(0..=extent.x), random.u32(0..=extent.y));
+            let p = meshbrush::internals::geometry::LatticePoint::new(
+                random.u32(0..=extent.x),
+                random.u32(0..=extent.y),
+            );
             let theirs = report.point_location([f64::from(p.x), f64::from(p.y)], &mut random);
             match mesh.locate(mesh.lattice().world_from_lattice(p)) {
                 Location::Inside { triangle } => {

@@ -5,12 +5,12 @@
 #![cfg(feature = "gui")]
 
 use glam::{DVec2, dvec2};
-use meshbrush::colormap::{LEVELS, LevelColors};
-use meshbrush::geometry::{Lattice, LatticePoint, LatticeRect, Rect};
-use meshbrush::mesh::{Changes, Element, Limits, Mesh, Progress, Updater};
-use meshbrush::render::gpu::{ChunkLimits, GpuError, Offscreen};
-use meshbrush::render::{Image, software};
-use meshbrush::scene::{Camera, Overlay, Style};
+use meshbrush::internals::colormap::{LEVELS, LevelColors};
+use meshbrush::internals::geometry::{Lattice, LatticePoint, LatticeRect, Rect};
+use meshbrush::internals::mesh::{Changes, Element, Limits, Mesh, Progress, Updater};
+use meshbrush::internals::render::gpu::{ChunkLimits, GpuError, Offscreen};
+use meshbrush::internals::render::{Image, software};
+use meshbrush::internals::scene::{Camera, Overlay, Style};
 
 const SIZE: [u32; 2] = [400, 300];
 

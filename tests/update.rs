@@ -7,8 +7,8 @@ use std::ops::Range;
 
 use fastrand::Rng;
 use glam::{DVec2, dvec2};
-use meshbrush::geometry::{Lattice, LatticePoint, LatticeRect, Rect};
-use meshbrush::mesh::{
+use meshbrush::internals::geometry::{Lattice, LatticePoint, LatticeRect, Rect};
+use meshbrush::internals::mesh::{
     Changes, Element, Forecast, InvalidTarget, Limits, Mesh, Orientation, Progress, RefineError, Updater,
 };
 

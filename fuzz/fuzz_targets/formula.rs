@@ -2,7 +2,7 @@
 
 #![no_main]
 
-use meshbrush::field::Formula;
+use meshbrush::internals::field::Formula;
 
 /// Coordinates at which functions are most likely to fail.
 const ODD: [f64; 8] = [0.0, -0.0, 1.0, -2.5, 1e300, 5e-324, f64::INFINITY, f64::NAN];

@@ -4,10 +4,10 @@
 
 use std::path::Path;
 
-use meshbrush::domain::{BoundaryTreatment, Domain, DomainOnLattice};
-use meshbrush::geometry::Lattice;
-use meshbrush::io::geojson;
-use meshbrush::mesh::{Limits, Mesh};
+use meshbrush::internals::domain::{BoundaryTreatment, Domain, DomainOnLattice};
+use meshbrush::internals::geometry::Lattice;
+use meshbrush::internals::io::geojson;
+use meshbrush::internals::mesh::{Limits, Mesh};
 
 /// Few, so that many files are tried in a second.
 const MOST_TRIANGLES: usize = 3000;

@@ -7,7 +7,7 @@ mod packing;
 
 use std::fs;
 
-use meshbrush::io::journal;
+use meshbrush::internals::io::journal;
 use packing::{SAMPLE, change, hold, packed};
 
 const MAGIC: &[u8] = b"MBJOUR01";

@@ -4,7 +4,7 @@
 
 use std::path::Path;
 
-use meshbrush::io::points;
+use meshbrush::internals::io::points;
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
     if let Err(error) = points::from_bytes(bytes, Path::new("fuzz.csv")) {

@@ -5,11 +5,11 @@
 //! for both, and for updates and checks afterwards, which triangles are too large.
 //!
 //! ```
-//! use meshbrush::build::{FieldSampling, MeshBuilder, MeshSpec};
-//! use meshbrush::domain::{BoundaryTreatment, Domain};
-//! use meshbrush::field::{Formula, RefinementRule, Source, TargetFieldSpec, Transfer};
-//! use meshbrush::geometry::{Lattice, Rect};
-//! use meshbrush::mesh::{Limits, Progress};
+//! use meshbrush::{FieldSampling, MeshBuilder, MeshSpec};
+//! use meshbrush::{BoundaryTreatment, Domain};
+//! use meshbrush::{Formula, RefinementRule, Source, TargetFieldSpec, Transfer};
+//! use meshbrush::{Lattice, Rect};
+//! use meshbrush::{Limits, Progress};
 //!
 //! let domain = Domain::rectangle(Rect::UNIT);
 //! let formula = Formula::parse("if(abs(x) + abs(y) < 0.4, 0.0125, 1)")?;

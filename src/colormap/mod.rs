@@ -51,7 +51,7 @@ impl Colormap {
     /// Below 0 and for NaN it is the first entry, above 1 the last one.
     ///
     /// ```
-    /// use meshbrush::colormap::Colormap;
+    /// use meshbrush::Colormap;
     ///
     /// assert_eq!(Colormap::Viridis.sample(0.0), [0x44, 0x01, 0x54]);
     /// assert_eq!(Colormap::Viridis.sample(7.0), [0xfd, 0xe7, 0x25]);
@@ -151,7 +151,7 @@ impl Ground {
 /// mesh: it does not change while the mesh is edited.
 ///
 /// ```
-/// use meshbrush::colormap::{Colormap, Ground, LevelColors};
+/// use meshbrush::{Colormap, Ground, LevelColors};
 ///
 /// let colors = LevelColors::new(Colormap::Viridis, Ground::Dark, 12);
 /// assert_eq!(colors.of(0), [0x1d, 0x21, 0x2b, 255]);
@@ -215,7 +215,7 @@ pub fn luminance(color: [u8; 3]) -> f64 {
 /// Text needs at least 4.5, large text and shapes at least 3.
 ///
 /// ```
-/// use meshbrush::colormap::contrast_ratio;
+/// use meshbrush::internals::colormap::contrast_ratio;
 ///
 /// assert_eq!(contrast_ratio([0; 3], [255; 3]), 21.0);
 /// assert_eq!(contrast_ratio([90; 3], [90; 3]), 1.0);

@@ -124,11 +124,11 @@ impl Lattice {
     /// When `bounds` or `spacing` make no grid, or one of more than `max_triangles` coarse triangles.
     ///
     /// ```
-    /// # use meshbrush::geometry::{Lattice, Rect};
+    /// # use meshbrush::{Lattice, Rect};
     /// let lattice = Lattice::covering(Rect::UNIT, 0.3, 1000)?;
     /// assert_eq!(lattice.cells(), [4, 4]); // Eq. (15): δ = 1 / ⌈1 / 0.3⌉
     /// assert_eq!(lattice.spacing(), 0.25);
-    /// # Ok::<(), meshbrush::geometry::GridError>(())
+    /// # Ok::<(), meshbrush::GridError>(())
     /// ```
     pub fn covering(bounds: Rect, spacing: f64, max_triangles: usize) -> Result<Self, GridError> {
         if !(bounds.is_proper() && bounds.size().is_finite()) {
@@ -223,12 +223,12 @@ impl Lattice {
     /// node gets the node's lattice x, and one ulp to its right gets more. NaN stays NaN.
     ///
     /// ```
-    /// # use meshbrush::geometry::{Lattice, LatticePoint, Rect};
+    /// # use meshbrush::{Lattice, LatticePoint, Rect};
     /// let lattice = Lattice::covering(Rect::UNIT, 0.1, 1000)?;
     /// let node = LatticePoint::new(7 * lattice.cell_steps() / 4, 3);
     /// let world = lattice.world_from_lattice(node);
     /// assert_eq!(lattice.lattice_from_world(world), node.as_dvec2());
-    /// # Ok::<(), meshbrush::geometry::GridError>(())
+    /// # Ok::<(), meshbrush::GridError>(())
     /// ```
     #[inline]
     pub fn lattice_from_world(&self, p: DVec2) -> DVec2 {

@@ -22,7 +22,7 @@ pub enum Side {
 /// sign of the determinant is the sign of a sum of three numbers, which is found exactly.
 ///
 /// ```
-/// # use meshbrush::geometry::{LatticePoint, Side, side_of_edge};
+/// # use meshbrush::internals::geometry::{LatticePoint, Side, side_of_edge};
 /// let (a, b) = (LatticePoint::new(0, 0), LatticePoint::new(4, 4));
 /// assert_eq!(side_of_edge(a, b, glam::dvec2(1.0, 1.0)), Side::On);
 /// assert_eq!(side_of_edge(a, b, glam::dvec2(1.0, 1.0_f64.next_up())), Side::Left);
@@ -62,7 +62,7 @@ fn direction(from: u32, to: u32) -> f64 {
 /// where it does not, the rounding error (found by Knuth's two-sum) decides. NaN compares equal.
 ///
 /// ```
-/// # use meshbrush::geometry::exact_sum_sign;
+/// # use meshbrush::internals::geometry::exact_sum_sign;
 /// assert_eq!(1.0 + 1e-300, 1.0);
 /// assert!(exact_sum_sign(1.0, 1e-300, 1.0).is_gt());
 /// ```

@@ -4,8 +4,8 @@
 //! closures.
 //!
 //! ```
-//! use meshbrush::geometry::{Lattice, Rect};
-//! use meshbrush::mesh::{Limits, Mesh};
+//! use meshbrush::{Lattice, Rect};
+//! use meshbrush::{Limits, Mesh};
 //!
 //! // Refine to a diameter of 0.1 near the origin, 0.5 elsewhere.
 //! let lattice = Lattice::covering(Rect::UNIT, 0.25, 1_000_000)?;

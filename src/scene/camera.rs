@@ -30,7 +30,7 @@ impl Camera {
     /// let lattice = Lattice::covering(Rect::UNIT, 0.1, 1000)?;
     /// let camera = Camera::fit(&lattice, Rect::UNIT, [120, 220], 10.0);
     /// assert_eq!(camera.screen_from_world(dvec2(0.0, 1.0)), dvec2(10.0, 60.0));
-    /// # Ok::<(), meshbrush::geometry::GridError>(())
+    /// # Ok::<(), meshbrush::GridError>(())
     /// ```
     pub fn fit(lattice: &Lattice, bounds: Rect, size_px: [u32; 2], margin_px: f64) -> Self {
         let size_px = size_px.map(|n| n.max(1));

@@ -3,7 +3,7 @@ use std::fmt;
 /// A count for a person: digits in groups of three.
 ///
 /// ```
-/// # use meshbrush::text::Grouped;
+/// # use meshbrush::internals::text::Grouped;
 /// assert_eq!(Grouped(2_113_944).to_string(), "2,113,944");
 /// assert_eq!(Grouped(721).to_string(), "721");
 /// ```

@@ -3,7 +3,7 @@ use std::fmt;
 /// An f64 as text: the shortest that reads back as the same number, with an exponent where it would be long.
 ///
 /// ```
-/// use meshbrush::text::Number;
+/// use meshbrush::internals::text::Number;
 ///
 /// assert_eq!(Number(20.0).to_string(), "20");
 /// assert_eq!(Number(0.1 + 0.2).to_string(), "0.30000000000000004");

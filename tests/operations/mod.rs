@@ -7,14 +7,14 @@ use std::ops::Range;
 use std::path::Path;
 
 use glam::{DVec2, dvec2};
-use meshbrush::build::BuildError;
-use meshbrush::document::{Base, Document, Follower, MeshChange, Setting, Settings, Stage};
-use meshbrush::domain::{BoundaryTreatment, CutShape, Domain, DomainShape, corners};
-use meshbrush::field::{Formula, RefinementRule, Transfer};
-use meshbrush::geometry::{LatticePoint, Rect};
-use meshbrush::io::project::{self, Project};
-use meshbrush::mesh::{Progress, Triangle};
-use meshbrush::paint::{Brush, Medium};
+use meshbrush::internals::build::BuildError;
+use meshbrush::internals::document::{Base, Document, Follower, MeshChange, Setting, Settings, Stage};
+use meshbrush::internals::domain::{BoundaryTreatment, CutShape, Domain, DomainShape, corners};
+use meshbrush::internals::field::{Formula, RefinementRule, Transfer};
+use meshbrush::internals::geometry::{LatticePoint, Rect};
+use meshbrush::internals::io::project::{self, Project};
+use meshbrush::internals::mesh::{Progress, Triangle};
+use meshbrush::internals::paint::{Brush, Medium};
 
 /// Where operations come from: random numbers, or the bytes of a fuzzer.
 pub trait Choices {

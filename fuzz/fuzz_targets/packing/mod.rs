@@ -7,12 +7,12 @@ use std::sync::{Arc, LazyLock};
 
 use flate2::read::DeflateDecoder;
 use glam::dvec2;
-use meshbrush::document::{Base, Document, Settings};
-use meshbrush::domain::Domain;
-use meshbrush::geometry::Rect;
-use meshbrush::io::project::{self, Project};
-use meshbrush::paint::{Brush, Medium};
-use meshbrush::raster::Raster;
+use meshbrush::internals::document::{Base, Document, Settings};
+use meshbrush::internals::domain::Domain;
+use meshbrush::internals::geometry::Rect;
+use meshbrush::internals::io::project::{self, Project};
+use meshbrush::internals::paint::{Brush, Medium};
+use meshbrush::internals::raster::Raster;
 
 /// Name and content of each part.
 pub type Parts = Vec<(String, Vec<u8>)>;

@@ -31,7 +31,7 @@ impl ParseError {
     /// carets under the mistake.
     ///
     /// ```
-    /// # use meshbrush::field::formula::Formula;
+    /// # use meshbrush::Formula;
     /// let mistake = Formula::parse("θ + größe").unwrap_err();
     /// assert_eq!(mistake.pointer(), "θ + größe\n    ^^^^^");
     /// ```

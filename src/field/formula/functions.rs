@@ -160,7 +160,7 @@ const ELSEWHERE: &[(&str, &str)] = &[
 /// Every function as (call, meaning), for a help page or a completion list.
 ///
 /// ```
-/// use meshbrush::field::formula::functions;
+/// use meshbrush::internals::field::formula::functions;
 ///
 /// assert!(functions().any(|(call, _)| call == "clamp(v, lo, hi)"));
 /// ```

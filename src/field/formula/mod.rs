@@ -48,12 +48,12 @@ use program::Program;
 /// Cloning shares the compiled program. Two formulas are equal when their texts are.
 ///
 /// ```
-/// use meshbrush::field::formula::Formula;
+/// use meshbrush::Formula;
 ///
 /// let target = Formula::parse("if(abs(x)+abs(y)<0.4, 0.0125, 1)")?;
 /// assert_eq!(target.eval(0.1, -0.2), 0.0125);
 /// assert_eq!(target.eval(0.4, 0.0), 1.0); // the line itself is outside: `<` is strict
-/// # Ok::<(), meshbrush::field::formula::ParseError>(())
+/// # Ok::<(), meshbrush::ParseError>(())
 /// ```
 #[derive(Clone, Debug)]
 pub struct Formula {
@@ -70,7 +70,7 @@ impl Formula {
     /// [`MAX_LENGTH`] bytes or nested deeper than [`MAX_NESTING`] are mistakes too.
     ///
     /// ```
-    /// use meshbrush::field::formula::Formula;
+    /// use meshbrush::Formula;
     ///
     /// let mistake = Formula::parse("1 + 2*sqr(x)").unwrap_err();
     /// assert_eq!(mistake.to_string(), "There is no `sqr`; write `v^2`.");
@@ -107,10 +107,10 @@ impl Formula {
     /// The value, if the formula uses no coordinate.
     ///
     /// ```
-    /// # use meshbrush::field::formula::Formula;
+    /// # use meshbrush::Formula;
     /// assert_eq!(Formula::parse("0.05/2^3")?.constant(), Some(0.00625));
     /// assert_eq!(Formula::parse("0*x")?.constant(), None);
-    /// # Ok::<(), meshbrush::field::formula::ParseError>(())
+    /// # Ok::<(), meshbrush::ParseError>(())
     /// ```
     pub fn constant(&self) -> Option<f64> {
         self.program.constant()

@@ -251,7 +251,7 @@ impl Clone for Mesh {
 /// odd levels the result is `spacing` times a power of two, and exactly that.
 ///
 /// ```
-/// # use meshbrush::mesh::bisection_edge_length;
+/// # use meshbrush::bisection_edge_length;
 /// assert_eq!(bisection_edge_length(1.0, 1), 1.0);
 /// assert_eq!(bisection_edge_length(1.0, 3), 0.5);
 /// ```

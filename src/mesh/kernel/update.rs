@@ -77,8 +77,8 @@ use crate::geometry::LatticeRect;
 /// after every slice.
 ///
 /// ```
-/// use meshbrush::geometry::{Lattice, LatticeRect, Rect};
-/// use meshbrush::mesh::{Element, Limits, Mesh, Progress, Updater};
+/// use meshbrush::{Lattice, LatticeRect, Rect};
+/// use meshbrush::{Element, Limits, Mesh, Progress, Updater};
 ///
 /// // Level 9 wherever a triangle touches a square, level 2 elsewhere.
 /// let exceeds = |element: &Element, square: &LatticeRect| {

@@ -28,8 +28,8 @@ use crate::mesh::kernel::{Bitset, Limits, Mesh, Progress, RefineError, Search, T
 /// come and go.
 ///
 /// ```
-/// use meshbrush::geometry::{Lattice, Rect};
-/// use meshbrush::mesh::{Forecast, Limits, Mesh, Progress};
+/// use meshbrush::{Lattice, Rect};
+/// use meshbrush::{Forecast, Limits, Mesh, Progress};
 ///
 /// let lattice = Lattice::covering(Rect::UNIT, 0.5, 1_000_000)?;
 /// let mut mesh = Mesh::coarse_grid(&lattice, |_| true, &Limits::default())?;

@@ -7,11 +7,6 @@ use egui_material_icons::icons as material;
 pub struct Icon(&'static str);
 
 impl Icon {
-    /// The icon with this code point in the icon font.
-    pub const fn new(codepoint: &'static str) -> Self {
-        Self(codepoint)
-    }
-
     /// Paint.
     pub const BRUSH: Self = Self(material::ICON_BRUSH.codepoint);
     /// Remove paint.
