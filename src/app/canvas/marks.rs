@@ -75,8 +75,10 @@ pub fn paint_point(painter: &Painter, at: Pos2) {
 }
 
 /// The ring of the brush: white on a dark halo, visible on any colour, and a thinner ring for the hardness.
-pub fn paint_brush_ring(painter: &Painter, at: Pos2, tools: &Tools, points_per_world: f32) {
-    let radius = (tools.radius as f32 * points_per_world).max(2.0);
+///
+/// `radius` is in points.
+pub fn paint_brush_ring(painter: &Painter, at: Pos2, tools: &Tools, radius: f32) {
+    let radius = radius.max(2.0);
     let halo = Color32::from_black_alpha(130);
     painter.circle_stroke(at, radius, Stroke::new(3.5, halo));
     painter.circle_stroke(at, radius, Stroke::new(1.5, Color32::WHITE));

@@ -75,6 +75,24 @@ fn a_stroke_is_seen_on_the_canvas_and_gone_after_undo() {
 }
 
 #[test]
+fn the_ring_around_the_pointer_has_the_radius_of_the_brush() {
+    let mut window = drawn_window();
+    let at = on_screen(&window, FREE);
+    window.hover_at(at);
+    window.run();
+    let scale = window.state().view().camera.unwrap().px_per_world();
+    let radius = (window.state().tools().radius * scale) as f32;
+    assert!(radius > 20.0);
+    let image = picture(&mut window);
+    let brightest = |distance: f32| {
+        let ring = (-1..=1).map(|offset| pixel(&image, at - vec2(distance + offset as f32, 0.0))[0]);
+        ring.max().unwrap()
+    };
+    assert!(brightest(radius) > 200, "{}", brightest(radius));
+    assert!(brightest(radius - 8.0) < 150 && brightest(radius + 8.0) < 150);
+}
+
+#[test]
 fn an_overlay_and_the_light_theme_are_seen_on_the_canvas() {
     let mut window = drawn_window();
     window.hover_at(RESTING_PLACE);
