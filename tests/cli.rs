@@ -530,7 +530,7 @@ fn wrong_arguments_are_explained() {
         ("mesh --resolution 0", 2, "--resolution 0: choose from"),
         ("mesh --resolution 100000", 2, "--resolution 100000: choose from"),
         ("mesh --rule both", 2, "invalid value 'both'"),
-        ("mesh -o mesh.ply", 2, "choose one of .vtu .msh .obj .stl .node .2dm .csv .svg .png"),
+        ("mesh -o mesh.ply", 2, "use one of .vtu .msh .obj .stl .node .2dm .csv .svg .png"),
         ("mesh -o mesh", 2, "the ending says what to write"),
         ("mesh -o m.svg --size 0", 2, "--size 0: write a width"),
         ("mesh -o m.svg --colormap jet", 2, "There is no colormap `jet`"),

@@ -9,7 +9,7 @@ use crate::paint::{PaintRasters, Patch};
 /// The data of one gesture that the document does not have now: before undo the old data, after it the new
 /// data. Undo and redo exchange it with the document's own.
 #[derive(Clone, Debug)]
-pub(super) enum Change {
+pub(super) enum EntryData {
     /// The pixels of a stroke.
     Paint(Patch),
     /// Settings, where the paint rasters kept their bounds and size.
@@ -18,8 +18,8 @@ pub(super) enum Change {
     Everything(Box<(Settings, PaintRasters)>),
 }
 
-impl Change {
-    /// Bytes of this change alone, without the data that its settings share with others.
+impl EntryData {
+    /// Bytes of this entry alone, without the data that its settings share with others.
     fn own_bytes(&self) -> usize {
         match self {
             Self::Paint(patch) => patch.bytes(),
@@ -64,7 +64,7 @@ fn shared_data(settings: &Settings) -> impl Iterator<Item = SharedData> {
 pub(super) struct Entry {
     /// Its name, for display only.
     pub(super) title: &'static str,
-    pub(super) change: Change,
+    pub(super) data: EntryData,
     /// The version of the document that undo or redo returns to.
     pub(super) version: u64,
 }
@@ -91,13 +91,13 @@ impl History {
     /// document's settings after it.
     pub(super) fn push(&mut self, entry: Entry, current: &Settings) {
         for undone in self.undone.drain(..) {
-            self.memory.remove(&undone.change);
+            self.memory.remove(&undone.data);
         }
-        self.memory.add(&entry.change);
+        self.memory.add(&entry.data);
         self.done.push_back(entry);
         while self.done.len() > 1 && self.memory.bytes(current) > Self::MAX_BYTES {
             if let Some(oldest) = self.done.pop_front() {
-                self.memory.remove(&oldest.change);
+                self.memory.remove(&oldest.data);
             }
         }
     }
@@ -124,15 +124,15 @@ impl History {
     }
 
     fn exchange(&mut self, entry: &mut Entry, exchange: impl FnOnce(&mut Entry)) {
-        self.memory.remove(&entry.change);
+        self.memory.remove(&entry.data);
         exchange(entry);
-        self.memory.add(&entry.change);
+        self.memory.add(&entry.data);
     }
 
     /// Drops the gesture that was undone last.
     pub(super) fn forget_undone(&mut self) {
         if let Some(undone) = self.undone.pop() {
-            self.memory.remove(&undone.change);
+            self.memory.remove(&undone.data);
         }
     }
 
@@ -157,12 +157,12 @@ impl History {
     }
 }
 
-/// How much memory changes keep alive, kept up to date as they come and go.
+/// How much memory entries keep alive, updated as they come and go.
 #[derive(Clone, Debug, Default)]
 struct Memory {
-    /// Bytes that belong to one change each.
+    /// Bytes that belong to one entry each.
     own: usize,
-    /// Data that changes share, by address. The address stays valid: a change with an `Arc` to the data is in
+    /// Data that entries share, by address. The address stays valid: an entry with an `Arc` to the data is in
     /// the history.
     shared: HashMap<usize, Shared>,
     /// Bytes of all shared data, each counted once.
@@ -172,14 +172,14 @@ struct Memory {
 #[derive(Clone, Copy, Debug)]
 struct Shared {
     bytes: usize,
-    /// How many changes refer to it.
+    /// How many entries refer to it.
     references: usize,
 }
 
 impl Memory {
-    fn add(&mut self, change: &Change) {
-        self.own += change.own_bytes();
-        for (address, bytes) in change.settings().into_iter().flat_map(shared_data) {
+    fn add(&mut self, data: &EntryData) {
+        self.own += data.own_bytes();
+        for (address, bytes) in data.settings().into_iter().flat_map(shared_data) {
             let shared = self.shared.entry(address).or_insert(Shared { bytes, references: 0 });
             if shared.references == 0 {
                 self.shared_bytes += bytes;
@@ -188,9 +188,9 @@ impl Memory {
         }
     }
 
-    fn remove(&mut self, change: &Change) {
-        self.own -= change.own_bytes();
-        for (address, _) in change.settings().into_iter().flat_map(shared_data) {
+    fn remove(&mut self, data: &EntryData) {
+        self.own -= data.own_bytes();
+        for (address, _) in data.settings().into_iter().flat_map(shared_data) {
             let shared = self.shared.get_mut(&address).expect("what is removed was added before");
             shared.references -= 1;
             if shared.references == 0 {
@@ -237,10 +237,10 @@ mod tests {
     /// What the entries keep alive beyond their own settings, counted from scratch.
     fn counted(document: &Document) -> usize {
         let History { done, undone, memory } = document.history();
-        let settings = done.iter().chain(undone).filter_map(|entry| entry.change.settings());
+        let settings = done.iter().chain(undone).filter_map(|entry| entry.data.settings());
         let mut data: HashMap<usize, usize> = settings.flat_map(shared_data).collect();
         shared_data(document.settings()).for_each(|(address, _)| _ = data.remove(&address));
-        let own: usize = done.iter().chain(undone).map(|entry| entry.change.own_bytes()).sum();
+        let own: usize = done.iter().chain(undone).map(|entry| entry.data.own_bytes()).sum();
         assert_eq!(own, memory.own);
         data.values().sum()
     }

@@ -27,7 +27,7 @@ pub use stage::Stage;
 use crate::mesh::Progress;
 use crate::paint::{Brush, PaintRasters, Stroke};
 use crate::raster::PixelRect;
-use history::{Change, Entry};
+use history::{Entry, EntryData};
 
 /// The ground state: settings and paint, the only data that is edited, undone and saved.
 ///
@@ -193,7 +193,7 @@ impl Document {
             };
             let patch = stroke.finish();
             if !patch.is_empty() {
-                self.enter(title, Change::Paint(patch));
+                self.enter(title, EntryData::Paint(patch));
             }
         }
     }
@@ -254,7 +254,7 @@ impl Document {
         let joins = self.open_gesture == Some(kind);
         if bounds != self.settings.domain.bounds || size != self.paint.risk.size() {
             let paint = self.paint_before_gesture(joins).resampled(bounds, size);
-            if joins && matches!(self.last_change(), Some(Change::Everything(_))) {
+            if joins && matches!(self.last_data(), Some(EntryData::Everything(_))) {
                 self.settings = settings;
                 self.paint = paint;
                 self.note_replaced();
@@ -265,7 +265,7 @@ impl Document {
             let old = std::mem::replace(&mut self.settings, settings);
             self.edits.settings = true;
             if !joins {
-                self.enter(title, Change::Settings(Box::new(old)));
+                self.enter(title, EntryData::Settings(Box::new(old)));
             }
             self.revision += 1;
         }
@@ -311,7 +311,7 @@ impl Document {
     /// A stroke is kept: its paint must not be lost. Nothing happens after an undo or redo either, as the
     /// last entry of the history is then not the change that failed.
     pub fn reject_last(&mut self) {
-        let paints = matches!(self.last_change(), Some(Change::Paint(_)));
+        let paints = matches!(self.last_data(), Some(EntryData::Paint(_)));
         let newest = self.version == self.last_version;
         if self.stroke.is_none() && !paints && newest && self.undo() {
             self.history.forget_undone();
@@ -335,17 +335,17 @@ impl Document {
 
     fn exchange(&mut self, entry: &mut Entry) {
         std::mem::swap(&mut entry.version, &mut self.version);
-        match &mut entry.change {
-            Change::Paint(patch) => {
+        match &mut entry.data {
+            EntryData::Paint(patch) => {
                 let areas = patch.exchange(&mut self.paint);
                 self.note_repainted(areas);
             }
-            Change::Settings(settings) => {
+            EntryData::Settings(settings) => {
                 std::mem::swap(&mut **settings, &mut self.settings);
                 self.edits.settings = true;
                 self.revision += 1;
             }
-            Change::Everything(both) => {
+            EntryData::Everything(both) => {
                 std::mem::swap(&mut both.0, &mut self.settings);
                 std::mem::swap(&mut both.1, &mut self.paint);
                 self.note_replaced();
@@ -357,15 +357,15 @@ impl Document {
     fn replace(&mut self, title: &'static str, settings: Settings, paint: PaintRasters) {
         let settings = std::mem::replace(&mut self.settings, settings);
         let paint = std::mem::replace(&mut self.paint, paint);
-        self.enter(title, Change::Everything(Box::new((settings, paint))));
+        self.enter(title, EntryData::Everything(Box::new((settings, paint))));
         self.note_replaced();
     }
 
     /// Adds an entry to the history, after its change was made.
-    fn enter(&mut self, title: &'static str, change: Change) {
+    fn enter(&mut self, title: &'static str, data: EntryData) {
         let version = self.version;
         self.next_version();
-        self.history.push(Entry { title, change, version }, &self.settings);
+        self.history.push(Entry { title, data, version }, &self.settings);
     }
 
     fn next_version(&mut self) {
@@ -373,15 +373,15 @@ impl Document {
         self.version = self.last_version;
     }
 
-    fn last_change(&self) -> Option<&Change> {
-        self.history.last_done().map(|entry| &entry.change)
+    fn last_data(&self) -> Option<&EntryData> {
+        self.history.last_done().map(|entry| &entry.data)
     }
 
     /// The paint to resample from. Within a gesture it is the paint before the gesture: resampling it in
     /// every step would blur it.
     fn paint_before_gesture(&self, joins: bool) -> &PaintRasters {
-        match self.last_change() {
-            Some(Change::Everything(before)) if joins => &before.1,
+        match self.last_data() {
+            Some(EntryData::Everything(before)) if joins => &before.1,
             _ => &self.paint,
         }
     }
