@@ -244,6 +244,15 @@ impl Follower {
 
     /// The next state on the way to the wanted settings, when there is no current work.
     fn next_state(&mut self, wanted: &Settings) -> Result<FollowState, BuildError> {
+        self.next_state_reusing(wanted, None)
+    }
+
+    /// As [`Self::next_state`]; a rebuild uses the memory of `spare` again.
+    fn next_state_reusing(
+        &mut self,
+        wanted: &Settings,
+        spare: Option<Mesh>,
+    ) -> Result<FollowState, BuildError> {
         if self.shown.obeys(wanted) {
             self.shown.adopt(wanted);
             let updates = self.shown.has_updates();
@@ -255,7 +264,7 @@ impl Follower {
         if let Some(update) = self.shown.follow_outline(wanted) {
             return Ok(FollowState::FollowingOutline(Box::new(update)));
         }
-        Ok(FollowState::Rebuilding(Box::new(self.shown.rebuild(wanted)?)))
+        Ok(FollowState::Rebuilding(Box::new(self.shown.rebuild(wanted, spare)?)))
     }
 
     /// One slice of updates of the shown field and mesh.
@@ -304,9 +313,11 @@ impl Follower {
         match rebuild.advance(document, budget) {
             Ok(Progress::More) => return Ok(FollowState::Rebuilding(rebuild)),
             Ok(Progress::Done) => {
-                self.shown = rebuild.finish();
+                let former = std::mem::replace(&mut self.shown, rebuild.finish());
                 self.revision += 1;
                 self.change = Some(MeshChange::Replaced);
+                // Unless somebody else holds it, the next mesh of a drag is built in its memory.
+                return self.next_state_reusing(wanted, Arc::into_inner(former.mesh));
             }
             Err(error) if rebuild.is_up_to_date(wanted) => return Err(error),
             // It may be possible with the present settings and paint.

@@ -129,8 +129,8 @@ impl Shown {
         areas.into_iter().for_each(|area| self.updater.add_and_tell(area));
     }
 
-    /// The work on another mesh, which reuses what the shown one has already.
-    pub(super) fn rebuild(&self, wanted: &Settings) -> Result<Rebuild, BuildError> {
+    /// The work on another mesh, which reuses what the shown one has already, and the memory of `spare`.
+    pub(super) fn rebuild(&self, wanted: &Settings, spare: Option<Mesh>) -> Result<Rebuild, BuildError> {
         let spec = wanted.mesh_spec()?;
         let same_lattice = spec.lattice == *self.mesh.lattice();
         let same_domain = same_lattice && wanted.domain == self.settings.domain;
@@ -141,7 +141,7 @@ impl Shown {
             Arc::new(TargetField::reusing(spec.field.clone(), &spec.lattice, &self.field))
         };
         let domain = same_domain.then(|| self.domain.clone());
-        Ok(Rebuild::new(wanted, spec, Parts { domain, field: Some(field) }))
+        Ok(Rebuild::new(wanted, spec, Parts { domain, field: Some(field), spare }))
     }
 
     /// Reads about `budget` pixels of what was painted into the field.

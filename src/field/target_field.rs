@@ -63,6 +63,19 @@ const BEYOND: u8 = u8::MAX;
 /// ones are fewer.
 const BLOCK: u32 = 16;
 
+/// What a pixel asks for.
+#[derive(Clone, Copy)]
+struct Pixel {
+    /// The diameter of the sources, the painted risk and the painted diameter.
+    asked: [f32; 3],
+    /// h̄ in world units.
+    diameter: f32,
+    level: u8,
+}
+
+/// Equal to no pixel.
+const UNASKED: Pixel = Pixel { asked: [f32::NAN; 3], diameter: 0.0, level: 0 };
+
 impl TargetField {
     /// A field over the bounds of `lattice`, not sampled yet. Until then it asks for nothing.
     pub fn new(spec: TargetFieldSpec, lattice: &Lattice) -> Self {
@@ -142,7 +155,7 @@ impl TargetField {
         if !slice.is_empty() {
             self.samples.sample(&self.spec, &self.table, self.target.pixel_centers(), slice)?;
             self.sampled_rows = last;
-            self.refresh(paint, slice);
+            self.refresh_rows(paint, slice);
         }
         if !self.is_sampled() {
             return Ok(Progress::More);
@@ -174,26 +187,44 @@ impl TargetField {
         changed
     }
 
+    /// Refreshes whole rows. Unlike [`Self::refresh`] it does not look for changed levels.
+    fn refresh_rows(&mut self, paint: Option<PaintRef>, rows: PixelRect) {
+        let columns = self.spec.size[0];
+        let mut levels = Vec::with_capacity((columns * (rows.max[1] - rows.min[1])) as usize);
+        let mut last = UNASKED;
+        for (x, y) in rows.pixels() {
+            last = self.pixel_after(last, paint, x, y);
+            self.target.set(x, y, last.diameter);
+            levels.push(last.level);
+        }
+        self.levels.update(rows, |x, y| levels[((y - rows.min[1]) * columns + x) as usize]);
+    }
+
+    /// What a pixel asks for, given another pixel's answer: most pixels ask for the same as the one before them.
+    #[inline]
+    fn pixel_after(&self, last: Pixel, paint: Option<PaintRef>, x: u32, y: u32) -> Pixel {
+        let painted = paint.map_or([0.0, f32::INFINITY], |p| [p.risk.get(x, y), p.diameter.get(x, y)]);
+        let asked = [self.samples.get(x, y), painted[0], painted[1]];
+        if asked == last.asked {
+            return last;
+        }
+        let diameter = self.diameter_with(x, y, painted);
+        // To the nearest: this is for display and output. Levels are found from the diameter in f64.
+        Pixel { asked, diameter: diameter as f32, level: self.level_for(diameter) }
+    }
+
     /// Refreshes at most [`BLOCK`] × [`BLOCK`] pixels, and returns the bounds of those that ask for another
     /// level.
     fn refresh_block(&mut self, paint: Option<PaintRef>, block: PixelRect) -> PixelRect {
         let mut levels = [0; (BLOCK * BLOCK) as usize];
         let place = |x: u32, y: u32| ((y - block.min[1]) * BLOCK + x - block.min[0]) as usize;
         let mut changed = PixelRect { min: [0, 0], max: [0, 0] };
-        // Most pixels ask for the same as the pixel before them.
-        let mut last = ([f32::NAN; 3], 0.0, 0);
+        let mut last = UNASKED;
         for (x, y) in block.pixels() {
-            let painted = paint.map_or([0.0, f32::INFINITY], |p| [p.risk.get(x, y), p.diameter.get(x, y)]);
-            let asked = [self.samples.get(x, y), painted[0], painted[1]];
-            if asked != last.0 {
-                let diameter = self.diameter_with(x, y, painted);
-                // To the nearest: this is for display and output. Levels are found from the diameter in f64.
-                last = (asked, diameter as f32, self.level_for(diameter));
-            }
-            let (_, diameter, level) = last;
-            self.target.set(x, y, diameter);
-            levels[place(x, y)] = level;
-            if level != self.levels.get(x, y) {
+            last = self.pixel_after(last, paint, x, y);
+            self.target.set(x, y, last.diameter);
+            levels[place(x, y)] = last.level;
+            if last.level != self.levels.get(x, y) {
                 changed = changed.union(&PixelRect { min: [x, y], max: [x + 1, y + 1] });
             }
         }
