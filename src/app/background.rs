@@ -24,7 +24,8 @@ pub enum Outcome {
     Commands(Vec<Command>),
     /// Something to tell the user.
     News(String),
-    /// A file was not read. Edits that would have been lost for it are still there, and are asked about again.
+    /// A file was not read. Edits that would have been lost for it are still there, and are asked about
+    /// again.
     NotRead(String),
     /// A file was not written. A window that was about to close stays open, so that the message is seen.
     NotWritten(String),
@@ -116,7 +117,8 @@ impl Background {
         Self { ctx: ctx.clone(), sender, receiver, works: Vec::new(), started: 0 }
     }
 
-    /// Starts work on a file. It checks its meter often; its outcome is applied, unless it only read and was cancelled.
+    /// Starts work on a file. It checks its meter often; its outcome is applied, unless it only read and was
+    /// cancelled.
     pub fn start(&mut self, aim: Aim, path: &Path, work: impl FnOnce(&Meter) -> Outcome + Send + 'static) {
         self.started += 1;
         let (id, meter, name) = (WorkId(self.started), Meter::default(), name_of(path));
@@ -147,8 +149,8 @@ impl Background {
         }
     }
 
-    /// Cancels work. What was being read is forgotten at once; what is being written ends once nothing is left of it.
-    /// Returns what it was for, and the name of its file.
+    /// Cancels work. What was being read is forgotten at once; what is being written ends once nothing is
+    /// left of it. Returns what it was for, and the name of its file.
     pub fn cancel(&mut self, id: WorkId) -> Option<(Aim, String)> {
         let at = self.works.iter().position(|work| work.id == id)?;
         let (aim, name) = (self.works[at].aim, self.works[at].name.clone());
@@ -197,8 +199,8 @@ impl Background {
         }
     }
 
-    /// Waits a little for the next outcome, while anything is being written and `start` is not too long ago. Returns whether
-    /// to go on waiting.
+    /// Waits a little for the next outcome, while anything is being written and `start` is not too long ago.
+    /// Returns whether to go on waiting.
     pub fn wait_for_writing(&self, start: Instant) -> bool {
         let waits = self.writes() && start.elapsed() < LAST_WAIT;
         if waits {

@@ -61,7 +61,8 @@ pub enum Command {
     Redo,
     /// Removes all paint.
     ClearPaint,
-    /// Changes a setting of the document. Further changes of it join this gesture until [`Command::EndGesture`].
+    /// Changes a setting of the document. Further changes of it join this gesture until
+    /// [`Command::EndGesture`].
     Set(Setting),
     /// Ends the gesture, as when a slider is released.
     EndGesture,
@@ -152,7 +153,8 @@ pub enum Command {
 /// What the domain tool does.
 #[derive(Clone, Debug, PartialEq)]
 pub enum DomainCommand {
-    /// Adds a shape to the domain (`true`) or removes it. Further shapes join this gesture until [`Command::EndGesture`].
+    /// Adds a shape to the domain (`true`) or removes it. Further shapes join this gesture until
+    /// [`Command::EndGesture`].
     Reshape(CutShape, bool),
     /// Sets the next corner of the polygon to cut with.
     AddCorner(DVec2),

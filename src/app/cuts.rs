@@ -1,5 +1,5 @@
-//! Edits of the domain's outline on their way to the document. They are computed on another thread: cutting an outline
-//! of many corners takes longer than a frame.
+//! Edits of the domain's outline on their way to the document. They are computed on another thread: cutting
+//! an outline of many corners takes longer than a frame.
 
 use std::collections::VecDeque;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
@@ -111,7 +111,8 @@ impl CutQueue {
         }
     }
 
-    /// Drops the edits that have not reached the document. Returns whether the current gesture consists of nothing else.
+    /// Drops the edits that have not reached the document. Returns whether the current gesture consists of
+    /// nothing else.
     pub fn discard(&mut self, document: &mut Document) -> bool {
         let nothing_else = !self.is_idle() && !document.is_in_gesture();
         let dropped = std::mem::take(self);
@@ -160,7 +161,8 @@ impl CutQueue {
         self.running = Some(Running { edit, domain: domain.clone(), result });
     }
 
-    /// Replaces the domain by the edited one. If it is no longer the one that was edited, all edits are dropped.
+    /// Replaces the domain by the edited one. If it is no longer the one that was edited, all edits are
+    /// dropped.
     fn finish(&mut self, document: &mut Document, edited: Option<Domain>) -> Result<(), SettingsError> {
         let Some(running) = self.running.take() else { return Ok(()) };
         match edited {

@@ -73,7 +73,8 @@ impl FileRequest {
         }
     }
 
-    /// What to do with a path from the desktop's own dialog, which has asked already whether to replace the file.
+    /// What to do with a path from the desktop's own dialog, which has asked already whether to replace the
+    /// file.
     fn command_after_browsing(self, path: PathBuf) -> Command {
         // It has not asked about the files beside it.
         let alone = ExportFormat::of(&path).is_ok_and(|format| format.files(&path).len() == 1);

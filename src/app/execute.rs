@@ -1,5 +1,5 @@
-//! What each command does, and what finished work on files does. A match arm is one call into the module that owns the
-//! data.
+//! What each command does, and what finished work on files does. A match arm is one call into the module that
+//! owns the data.
 
 use eframe::egui::{Context, ViewportCommand};
 use glam::DVec2;
@@ -150,8 +150,8 @@ impl App {
         }
     }
 
-    /// Opens another document in place of the current one, and fits brush and view to it. This cannot be undone:
-    /// [`super::project::ProjectFile::ask_before_leaving`] asks before edits are lost.
+    /// Opens another document in place of the current one, and fits brush and view to it. This cannot be
+    /// undone: [`super::project::ProjectFile::ask_before_leaving`] asks before edits are lost.
     fn show_document(&mut self, document: Document) {
         self.session.replace_document(document);
         let settings = self.session.document().settings();
@@ -196,7 +196,8 @@ impl App {
         self.session.document_mut().finish_stroke();
     }
 
-    /// Cancels what is in progress: the stroke, the cut, or the rectangle or polygon. Else clears query and message.
+    /// Cancels what is in progress: the stroke, the cut, or the rectangle or polygon. Else clears query and
+    /// message.
     fn escape(&mut self) {
         if self.session.document().stroke().is_some() {
             return self.session.document_mut().cancel_stroke();

@@ -21,7 +21,8 @@ use crate::mesh::Extract;
 use crate::raster::Raster;
 use crate::render::export::ExportFormat;
 
-/// Width and height in kilometres of the terrain that comes with the program: 403 × 344 pixels of 3″ at 36.6° N.
+/// Width and height in kilometres of the terrain that comes with the program: 403 × 344 pixels of 3″ at 36.6°
+/// N.
 const TERRAIN_KM: DVec2 = DVec2::new(30.0, 31.8);
 
 /// Nodes whose h̄ is computed between two checks of the meter: some milliseconds of work.

@@ -8,8 +8,8 @@
 //! draw      panels ─→ canvas ─→ dialogs; they read a FrameState and send commands for the next frame
 //! ```
 //!
-//! `advance` also runs while the window is hidden or the canvas has no room. The pointer acts on the canvas where it was in the
-//! last frame, and the mesh that it changed is drawn in the same frame.
+//! `advance` also runs while the window is hidden or the canvas has no room. The pointer acts on the canvas
+//! where it was in the last frame, and the mesh that it changed is drawn in the same frame.
 
 use std::time::{Duration, Instant};
 

@@ -133,8 +133,8 @@ impl JournalKeeper {
     }
 }
 
-/// Writes entries as they come, until the end. It never waits for the disk: what the system has been given outlives the
-/// program.
+/// Writes entries as they come, until the end. It never waits for the disk: what the system has been given
+/// outlives the program.
 fn keep(
     folder: &Path,
     entries: &Receiver<Entry>,
@@ -176,8 +176,8 @@ enum Outdated {
     Left(Box<Abandoned>),
 }
 
-/// How long nothing must have been written before the thread waits for the disk. The system blocks writes to a file in that
-/// time, and the next gesture would be lost if the program were killed.
+/// How long nothing must have been written before the thread waits for the disk. The system blocks writes to
+/// a file in that time, and the next gesture would be lost if the program were killed.
 const QUIET: Duration = Duration::from_secs(1);
 /// The longest that this is put off.
 const LONGEST_DELAY: Duration = Duration::from_secs(30);

@@ -27,8 +27,8 @@ pub fn pressed(ctx: &Context, mut catalog: Vec<CatalogItem>) -> Vec<Command> {
     commands
 }
 
-/// Removes presses of Tab, which egui would move the focus by, and returns the commands that they stand for: while nothing has
-/// the focus, Tab hides and shows the panels.
+/// Removes presses of Tab, which egui would move the focus by, and returns the commands that they stand for:
+/// while nothing has the focus, Tab hides and shows the panels.
 pub fn catch_tab(ctx: &Context, raw_input: &mut RawInput) -> Vec<Command> {
     let mut commands = Vec::new();
     if ctx.memory(|memory| memory.focused().is_some()) {

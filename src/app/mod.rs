@@ -1,8 +1,9 @@
 //! The window: panels, canvas, painting and commands.
 //!
-//! The app holds a few structs: the [`Session`] (document and mesh), the document's file, the [`Tools`], the [`View`], the
-//! [`Canvas`] and the open dialog. Everything that happens is a [`Command`]; `frame` says when commands run and when
-//! things are drawn, `execute` what a command does. Tools, panels and export formats are tables with a file for each entry.
+//! The app holds a few structs: the [`Session`] (document and mesh), the document's file, the [`Tools`], the
+//! [`View`], the [`Canvas`] and the open dialog. Everything that happens is a [`Command`]; `frame` says when
+//! commands run and when things are drawn, `execute` what a command does. Tools, panels and export formats
+//! are tables with a file for each entry.
 
 mod background;
 mod busy;

@@ -87,7 +87,8 @@ impl ProjectFile {
         eframe::set_value(storage, RECENT_KEY, &named);
     }
 
-    /// Notes that the document is another one, or belongs to another file; `saved` if the file has this version.
+    /// Notes that the document is another one, or belongs to another file; `saved` if the file has this
+    /// version.
     pub fn belongs_to(&mut self, path: Option<PathBuf>, version: u64, saved: bool) {
         self.saved_version = saved.then_some(version);
         if let Some(path) = &path {
@@ -177,7 +178,8 @@ impl ProjectFile {
         }
     }
 
-    /// Keeps the window open as long as something would be lost with it. Returns the command that closes it, once it may.
+    /// Keeps the window open as long as something would be lost with it. Returns the command that closes it,
+    /// once it may.
     pub fn handle_close_request(
         &mut self,
         session: &mut Session,

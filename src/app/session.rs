@@ -190,7 +190,8 @@ impl Session {
         self.cuts.shapes()
     }
 
-    /// Takes finished cuts into the document, waiting for them up to `patience`. Returns whether any are left.
+    /// Takes finished cuts into the document, waiting for them up to `patience`. Returns whether any are
+    /// left.
     pub fn advance_cuts(&mut self, patience: Duration, ctx: &Context) -> bool {
         match self.cuts.advance(&mut self.document, patience, ctx) {
             Ok(left) => left,
@@ -237,8 +238,8 @@ impl Session {
         self.notice = None;
     }
 
-    /// Stops the cuts in progress, or else the update of the mesh. The document keeps the edits that reached it; the notice
-    /// says that the mesh lags behind.
+    /// Stops the cuts in progress, or else the update of the mesh. The document keeps the edits that reached
+    /// it; the notice says that the mesh lags behind.
     pub fn cancel_update(&mut self) {
         if self.is_cutting() {
             self.cuts.discard(&mut self.document);
@@ -260,11 +261,11 @@ impl Session {
         self.queried.map(|point| Readout::at(point, &self.document, &self.follower, quantity))
     }
 
-    /// Draws the current stroke, and brings field and mesh closer to the document, until `deadline`. Returns whether work is
-    /// left.
+    /// Draws the current stroke, and brings field and mesh closer to the document, until `deadline`. Returns
+    /// whether work is left.
     ///
-    /// Reports what turns out to be impossible. A setting that caused it is taken back; paint stays, for the user to undo or
-    /// erase.
+    /// Reports what turns out to be impossible. A setting that caused it is taken back; paint stays, for the
+    /// user to undo or erase.
     pub fn follow(&mut self, deadline: Instant) -> bool {
         let began = Instant::now();
         let revision = self.follower.revision();
@@ -296,7 +297,8 @@ impl Session {
         left || self.survey(deadline)
     }
 
-    /// Nodes, parts and holes of the mesh on the screen, where some triangles lie outside; `None` until they are counted.
+    /// Nodes, parts and holes of the mesh on the screen, where some triangles lie outside; `None` until they
+    /// are counted.
     pub fn topology(&self) -> Option<Topology> {
         self.found().map(|(topology, _)| *topology)
     }
@@ -364,7 +366,8 @@ impl Session {
         self.follower.take_change()
     }
 
-    /// Takes back the setting that made a mesh impossible. If paint did, the mesh stops, and a message says so.
+    /// Takes back the setting that made a mesh impossible. If paint did, the mesh stops, and a message says
+    /// so.
     fn take_back(&mut self, error: &BuildError) {
         let revision = self.document.revision();
         if self.document.settings() != self.follower.settings() {

@@ -1,7 +1,8 @@
 //! How the window looks: colours by role, fonts, and egui's style made from them.
 //!
-//! [`DARK`] and [`LIGHT`] hold the same roles. Widgets ask [`tokens`] for the set that is shown and never name a colour
-//! of their own, so both themes stay complete. Sizes are in points and sit on an 8-point grid ([`metrics`]).
+//! [`DARK`] and [`LIGHT`] hold the same roles. Widgets ask [`tokens`] for the set that is shown and never
+//! name a colour of their own, so both themes stay complete. Sizes are in points and sit on an 8-point grid
+//! ([`metrics`]).
 
 use std::sync::Arc;
 
@@ -253,8 +254,8 @@ pub mod font {
 
 /// Installs fonts and the styles of both themes. Call once, before the first frame.
 ///
-/// Which theme is shown stays egui's choice: `ctx.set_theme(ThemePreference::…)`. Animation time and the cursor's
-/// blinking are left as they are, so that tests can switch them off.
+/// Which theme is shown stays egui's choice: `ctx.set_theme(ThemePreference::…)`. Animation time and the
+/// cursor's blinking are left as they are, so that tests can switch them off.
 pub fn install(ctx: &egui::Context) {
     ctx.set_fonts(fonts());
     for theme in [Theme::Dark, Theme::Light] {
@@ -262,8 +263,8 @@ pub fn install(ctx: &egui::Context) {
     }
 }
 
-/// Inter, Inter SemiBold, JetBrains Mono and the icons; each family falls back on the others, so that Greek, arrows,
-/// subscripts and h̄ are drawn everywhere.
+/// Inter, Inter SemiBold, JetBrains Mono and the icons; each family falls back on the others, so that Greek,
+/// arrows, subscripts and h̄ are drawn everywhere.
 fn fonts() -> FontDefinitions {
     let mut fonts = FontDefinitions::empty();
     let mut add = |name: &str, data: FontData| fonts.font_data.insert(name.to_owned(), Arc::new(data));

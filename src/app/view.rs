@@ -66,8 +66,8 @@ impl Default for View {
 }
 
 impl View {
-    /// The colours of all levels. They span the levels that the settings can ask for, not those of the present mesh, so
-    /// that a level keeps its colour while the user paints.
+    /// The colours of all levels. They span the levels that the settings can ask for, not those of the
+    /// present mesh, so that a level keeps its colour while the user paints.
     pub fn level_colors(&self, settings: &Settings) -> LevelColors {
         LevelColors::new(self.colormap, self.ground, deepest_level(settings))
     }
@@ -131,8 +131,8 @@ impl View {
         (self.lone_level, self.hovered_neighbour) = (None, None);
     }
 
-    /// Resizes the camera to a canvas. Where there is no camera yet, or the domain has other bounds, it shows the whole domain
-    /// with a margin, and leaves `below_px` pixels for hints below.
+    /// Resizes the camera to a canvas. Where there is no camera yet, or the domain has other bounds, it shows
+    /// the whole domain with a margin, and leaves `below_px` pixels for hints below.
     pub fn fit_camera(&mut self, lattice: &Lattice, size_px: [u32; 2], margin_px: f64, below_px: f64) {
         let bounds = lattice.bounds();
         self.camera = Some(match self.camera {

@@ -21,7 +21,8 @@ struct CanvasResources {
     failed: Option<GpuError>,
 }
 
-/// Environment variable that says what draws the mesh: `gpu` or `software`. By default the GPU does, if there is one.
+/// Environment variable that says what draws the mesh: `gpu` or `software`. By default the GPU does, if there
+/// is one.
 const DRAW_VARIABLE: &str = "MESHBRUSH_DRAW";
 
 /// Draws meshes on the canvas.
@@ -62,7 +63,8 @@ impl CanvasGpu {
         self.in_software = true;
     }
 
-    /// Sends changes of mesh and overlay to the GPU. The former mesh stays on the screen until the new one is complete.
+    /// Sends changes of mesh and overlay to the GPU. The former mesh stays on the screen until the new one is
+    /// complete.
     ///
     /// # Errors
     /// When the GPU cannot hold the mesh, or could not draw the last frame.

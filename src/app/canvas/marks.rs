@@ -121,8 +121,8 @@ pub fn paint_outline(painter: &Painter, corners: impl Iterator<Item = Pos2>) {
     }
 }
 
-/// The pieces of a ring near a view. The ring is split where it turns back: a line drawn around such a corner would end in
-/// a spike far beyond it.
+/// The pieces of a ring near a view. The ring is split where it turns back: a line drawn around such a corner
+/// would end in a spike far beyond it.
 fn visible_pieces(ring: &[Pos2], view: Rect) -> Vec<Vec<Pos2>> {
     let mut pieces: Vec<Vec<Pos2>> = Vec::new();
     let mut continues = false;

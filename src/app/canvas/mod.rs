@@ -90,8 +90,8 @@ impl Canvas {
 
 /// Input.
 impl Canvas {
-    /// Turns the events of this frame into commands, in their order, so that a quick stroke keeps every point that the mouse
-    /// reported. The canvas is where it was in the last frame.
+    /// Turns the events of this frame into commands, in their order, so that a quick stroke keeps every point
+    /// that the mouse reported. The canvas is where it was in the last frame.
     pub fn take_input(
         &mut self,
         ctx: &Context,
@@ -215,7 +215,8 @@ fn fit_camera(view: &mut View, lattice: &Lattice, rect: Rect, px_per_point: f32)
 
 /// Drawing.
 impl Canvas {
-    /// Takes the space that is left for the canvas, and fits the camera to it. Returns `None` where there is no room to draw.
+    /// Takes the space that is left for the canvas, and fits the camera to it. Returns `None` where there is
+    /// no room to draw.
     pub fn layout(&mut self, ui: &mut Ui, view: &mut View, lattice: &Lattice) -> Option<Response> {
         let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
         response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, CANVAS_NAME));

@@ -49,7 +49,8 @@ fn tag(price: Price, count: usize, settings: &Settings, t: &Tokens) -> (String, 
     (text, t.value)
 }
 
-/// Where a tag of the given size goes: right of the ring, else left, else below, else above; never over its middle.
+/// Where a tag of the given size goes: right of the ring, else left, else below, else above; never over its
+/// middle.
 fn place(bounds: Rect, pointer: Pos2, radius: f32, size: Vec2) -> (Pos2, Align2) {
     let reach = radius.min(FARTHEST) + GAP;
     if pointer.x + reach + size.x <= bounds.right() {

@@ -43,7 +43,8 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     });
 }
 
-/// Chooses a kind of base. One that needs a formula or a file first is kept in egui's memory until the document has it.
+/// Chooses a kind of base. One that needs a formula or a file first is kept in egui's memory until the
+/// document has it.
 fn kind_row(ui: &mut Ui, state: &FrameState<'_>, base: &Base, commands: &mut Vec<Command>) -> BaseKind {
     let id = ui.make_persistent_id("kind of base being set up");
     let pending: Option<BaseKind> = ui.data(|data| data.get_temp(id));

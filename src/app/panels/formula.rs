@@ -13,8 +13,8 @@ struct TypedFormula {
     of: Option<Formula>,
 }
 
-/// Shows a row for the formula `current`. Returns the new formula once a valid one is complete; `Some(None)` once the row was
-/// emptied.
+/// Shows a row for the formula `current`. Returns the new formula once a valid one is complete; `Some(None)`
+/// once the row was emptied.
 pub fn row(ui: &mut Ui, label: &str, hint: &str, current: Option<&Formula>) -> Option<Option<Formula>> {
     let id = ui.make_persistent_id(("typed formula", label));
     let mut typed: TypedFormula = ui.data(|data| data.get_temp(id)).unwrap_or_default();

@@ -76,7 +76,8 @@ fn triangle_rows(
     hovered
 }
 
-/// The three neighbours as chips in their colours on the canvas; a click queries one. Returns the one under the pointer.
+/// The three neighbours as chips in their colours on the canvas; a click queries one. Returns the one under
+/// the pointer.
 fn neighbour_chips(
     ui: &mut Ui,
     session: &Session,

@@ -9,8 +9,8 @@ use crate::app::view::deepest_level;
 use crate::app::widgets::{LevelLegend, LevelRow, Section, format};
 use crate::colormap::LevelColors;
 
-/// Height of the legend in points, for any number of levels: the sections below must not move while the pointer drags the
-/// coarse spacing or the smallest diameter.
+/// Height of the legend in points, for any number of levels: the sections below must not move while the
+/// pointer drags the coarse spacing or the smallest diameter.
 const HEIGHT: f32 = 224.0;
 
 /// The legend, which is the histogram as well: colours as on the canvas, counts beside the bars.

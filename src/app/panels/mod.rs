@@ -1,4 +1,5 @@
-//! The panels around the canvas. A panel is a function of the state that it shows; it changes nothing, but sends commands.
+//! The panels around the canvas. A panel is a function of the state that it shows; it changes nothing, but
+//! sends commands.
 //!
 //! What is being typed or set up in a control, and is no setting yet, is in egui's memory.
 

@@ -29,8 +29,8 @@ pub fn status_bar(ui: &mut Ui, state: &FrameState<'_>) {
     });
 }
 
-/// The cells at the left, from the left, and those at the right, from the right. In a narrow window the least important
-/// are left out.
+/// The cells at the left, from the left, and those at the right, from the right. In a narrow window the least
+/// important are left out.
 fn fitting_cells(ui: &Ui, state: &FrameState<'_>) -> [Vec<StatusCell>; 2] {
     let [x, y, target] = pointer_cells(state);
     let [triangles, nodes, deepest] = mesh_cells(state);

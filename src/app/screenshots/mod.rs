@@ -16,7 +16,8 @@ use crate::field::{Formula, RefinementRule};
 use crate::io;
 use offscreen::OffscreenWindow;
 
-/// A picture: its name, the size of the window in points, pixels for a point, and what happens before it is taken.
+/// A picture: its name, the size of the window in points, pixels for a point, and what happens before it is
+/// taken.
 struct Scene {
     name: &'static str,
     size: [f32; 2],

@@ -1,6 +1,7 @@
 //! An invisible window: the app's frames without a display, drawn into a texture.
 //!
-//! It does what eframe does for a real window, and nothing more: it passes input in, and draws the shapes that come out.
+//! It does what eframe does for a real window, and nothing more: it passes input in, and draws the shapes
+//! that come out.
 
 use std::sync::Arc;
 

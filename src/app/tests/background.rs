@@ -1,4 +1,5 @@
-//! Files being read and written beside the window: their progress, cancelling them, and closing the window before they are done.
+//! Files being read and written beside the window: their progress, cancelling them, and closing the window
+//! before they are done.
 //!
 //! Pipes make it slow: whoever reads or writes one waits for the test.
 

@@ -79,7 +79,8 @@ fn the_domain_is_cut_with_brush_rectangle_and_polygon_and_each_is_one_entry() {
     assert_eq!(window.state().session().mesh().violations(), []);
 }
 
-/// A window on a round island with so many corners that a cut takes many frames, with the domain tool in hand.
+/// A window on a round island with so many corners that a cut takes many frames, with the domain tool in
+/// hand.
 fn window_on_a_long_coast() -> Window {
     const CORNERS: u32 = 200_000;
     let corner = |k: u32| {
@@ -135,7 +136,8 @@ fn a_cut_under_way_is_given_up_by_undo_by_escape_and_by_another_domain() {
         window.run();
         assert_eq!((fingerprint(&window), entries(&window)), (before, entries_before));
     }
-    // Half of a stroke is cut, and the brush lifted: what is left is given up, and the half is an entry of its own.
+    // Half of a stroke is cut, and the brush lifted: what is left is given up, and the half is an entry of
+    // its own.
     begin_to_cut(&mut window, &[DVec2::ZERO]);
     window.run();
     assert!(window.state().session().document().is_in_gesture());

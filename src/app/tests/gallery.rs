@@ -347,7 +347,8 @@ fn states(path: &str, shown: Theme) {
     harness.render().unwrap().save(format!("{path}3.png")).unwrap();
 }
 
-/// Saves the gallery into the folder named by the environment variable `GALLERY`, for people who work on its looks.
+/// Saves the gallery into the folder named by the environment variable `GALLERY`, for people who work on its
+/// looks.
 #[test]
 fn pictures() {
     let Ok(folder) = std::env::var("GALLERY") else {

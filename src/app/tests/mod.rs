@@ -1,4 +1,5 @@
-//! The window driven as a person drives it, by role and label, without a display. Most tests need no graphics driver.
+//! The window driven as a person drives it, by role and label, without a display. Most tests need no graphics
+//! driver.
 
 #[cfg(unix)]
 mod background;

@@ -55,7 +55,8 @@ fn brush(tools: &Tools) -> Brush {
     Brush { medium, radius: tools.radius, hardness: tools.hardness, strength }
 }
 
-/// Alt or Ctrl picks the value under the pointer; Shift draws a line or, dragged, sizes the brush; else a stroke begins.
+/// Alt or Ctrl picks the value under the pointer; Shift draws a line or, dragged, sizes the brush; else a
+/// stroke begins.
 pub fn press_to_paint(
     press: &Press,
     pointer: &Pointer<'_>,

@@ -1,7 +1,8 @@
 //! The tools: one file each, listed in [`TOOLS`].
 //!
-//! Name, key, icon, hint, panel sections and gestures of a tool are fields of its [`ToolSpec`]. Menus, keys, the tool
-//! strip, the side panel and the canvas read the table, so that a new tool is one file and one entry.
+//! Name, key, icon, hint, panel sections and gestures of a tool are fields of its [`ToolSpec`]. Menus, keys,
+//! the tool strip, the side panel and the canvas read the table, so that a new tool is one file and one
+//! entry.
 
 mod brush;
 mod domain;
@@ -139,7 +140,8 @@ pub struct Tools {
 }
 
 impl Tools {
-    /// A brush that suits a domain whose longer side is `extent` and whose smallest diameter is `h_min`, in world units.
+    /// A brush that suits a domain whose longer side is `extent` and whose smallest diameter is `h_min`, in
+    /// world units.
     pub fn for_domain(extent: f64, h_min: f64) -> Self {
         Self {
             tool: &BRUSH,

@@ -1,7 +1,8 @@
 //! Numbers as the window shows them, and as users type them.
 //!
-//! Digits are grouped by thousands with commas, the minus sign is `−`, and there are just enough digits. Numbers that
-//! change while they are shown keep their number of decimals ([`fixed`], [`significant`]), so nothing jumps.
+//! Digits are grouped by thousands with commas, the minus sign is `−`, and there are just enough digits.
+//! Numbers that change while they are shown keep their number of decimals ([`fixed`], [`significant`]), so
+//! nothing jumps.
 
 use crate::text::group_digits;
 
@@ -98,7 +99,8 @@ pub fn padded(text: &str, width: usize) -> String {
 
 /// The number that a user typed, or `None` if the text is no number.
 ///
-/// Takes `−` and `-`, spaces and commas that group thousands, one comma as decimal sign, `1e-3`, and `unit` at the end.
+/// Takes `−` and `-`, spaces and commas that group thousands, one comma as decimal sign, `1e-3`, and `unit`
+/// at the end.
 pub fn parse(text: &str, unit: &str) -> Option<f64> {
     let text = text.trim();
     let text = text.strip_suffix(unit.trim()).unwrap_or(text);

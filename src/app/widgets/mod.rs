@@ -1,7 +1,7 @@
 //! The window's controls.
 //!
-//! They know no document and no mesh: plain values go in, responses come out. Each has a name by which tests and screen
-//! readers find it, works with pointer and keyboard, and takes its colours from [`super::theme`].
+//! They know no document and no mesh: plain values go in, responses come out. Each has a name by which tests
+//! and screen readers find it, works with pointer and keyboard, and takes its colours from [`super::theme`].
 //!
 //! Rows take the available width; they are designed for panels of [`super::theme::metrics::PANEL_WIDTH`].
 
@@ -15,11 +15,11 @@ pub use controls::*;
 pub use display::*;
 pub use floating::*;
 
-/// Whether a gesture that may have changed a value is complete: the pointer was released, or a value was typed or set by
-/// key.
+/// Whether a gesture that may have changed a value is complete: the pointer was released, or a value was
+/// typed or set by key.
 ///
-/// Everything that changed since the last complete gesture is one undo step. The answer is yes after a click that changed
-/// nothing, too.
+/// Everything that changed since the last complete gesture is one undo step. The answer is yes after a click
+/// that changed nothing, too.
 pub fn edit_done(response: &eframe::egui::Response) -> bool {
     let held = response.dragged() || response.is_pointer_button_down_on();
     response.drag_stopped() || response.clicked() || (response.changed() && !held)

@@ -5,7 +5,8 @@ use eframe::egui::{self, Response, Ui, UiBuilder};
 use super::{Icon, paint};
 use crate::app::theme::{font, metrics};
 
-/// A name and a drop-down list. `choices` are values with their names; the response has `changed` when `value` did.
+/// A name and a drop-down list. `choices` are values with their names; the response has `changed` when
+/// `value` did.
 pub fn dropdown_row<T: PartialEq + Copy>(
     ui: &mut Ui,
     label: &str,

@@ -33,8 +33,8 @@ pub(super) struct NumberCell<'a> {
 impl NumberCell<'_> {
     /// Shows the cell. The number is what was typed, once it is complete; wrong input is dropped.
     ///
-    /// The response covers the cell's place and has none of the flags of the text field within, which changes with each
-    /// key.
+    /// The response covers the cell's place and has none of the flags of the text field within, which changes
+    /// with each key.
     pub fn show(self, ui: &mut Ui) -> (Response, Option<f64>) {
         let around = ui.interact(self.ground(), self.id.with("cell"), Sense::hover());
         if ui.is_enabled() && self.is_edited(ui) {

@@ -8,7 +8,8 @@ use crate::app::theme::{font, metrics, tokens};
 
 /// A section of a panel with a title in small capitals.
 ///
-/// A click on the title folds the contents away; egui's memory keeps that over restarts. A hair line ends the section.
+/// A click on the title folds the contents away; egui's memory keeps that over restarts. A hair line ends the
+/// section.
 #[must_use = "call `show`"]
 pub struct Section<'a> {
     title: &'a str,

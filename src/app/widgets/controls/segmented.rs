@@ -9,8 +9,8 @@ use crate::app::theme::{font, metrics, tokens};
 
 /// Segments side by side, one of them chosen: `Risk | Diameter`. Takes the full width.
 ///
-/// `choices` are values with their names; `name` names the group for screen readers. The left and right arrow keys
-/// choose the next one. The response has `changed` when `value` did.
+/// `choices` are values with their names; `name` names the group for screen readers. The left and right arrow
+/// keys choose the next one. The response has `changed` when `value` did.
 pub fn segmented<T: PartialEq + Copy>(
     ui: &mut Ui,
     name: &str,

@@ -53,9 +53,10 @@ impl Scale {
 
 /// A row with a name, a slider and its number.
 ///
-/// Values are in the caller's unit. A drag sets the number that is shown; typed numbers are kept exactly, within the range. Arrow keys move by a hundredth of the track (with Shift by a tenth, Home and End to its ends),
-/// dragging with Shift is ten times finer.
-/// The response has `changed` whenever the value did; [`crate::app::widgets::edit_done`] says when a gesture is complete.
+/// Values are in the caller's unit. A drag sets the number that is shown; typed numbers are kept exactly,
+/// within the range. Arrow keys move by a hundredth of the track (with Shift by a tenth, Home and End to its
+/// ends), dragging with Shift is ten times finer. The response has `changed` whenever the value did;
+/// [`crate::app::widgets::edit_done`] says when a gesture is complete.
 #[must_use = "call `show`"]
 pub struct SliderRow<'a> {
     label: &'a str,
@@ -246,7 +247,8 @@ pub(super) fn requested_value(ui: &Ui, id: Id) -> Option<f64> {
     })
 }
 
-/// The number of steps pressed on the keyboard. While focused it takes the arrow keys, which would otherwise move the focus.
+/// The number of steps pressed on the keyboard. While focused it takes the arrow keys, which would otherwise
+/// move the focus.
 pub(super) fn key_steps(ui: &Ui, response: &Response) -> f64 {
     let requests = ui.input(|input| {
         input.num_accesskit_action_requests(response.id, Action::Increment) as f64

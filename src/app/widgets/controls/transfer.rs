@@ -37,9 +37,9 @@ pub struct CurveValues {
 
 /// Diameter over risk: risk 0 to 1 from left to right, the diameter on a logarithmic axis of whole decades.
 ///
-/// The end points change `h_max` and `h_min`, the middle the shape; their numbers can be typed; a focused handle follows
-/// the arrow keys. `curve` gives the diameter of a [`CurveValues`] at a risk; it must be monotone in the shape.
-/// The axis stays as it is while a handle is dragged.
+/// The end points change `h_max` and `h_min`, the middle the shape; their numbers can be typed; a focused
+/// handle follows the arrow keys. `curve` gives the diameter of a [`CurveValues`] at a risk; it must be
+/// monotone in the shape. The axis stays as it is while a handle is dragged.
 #[must_use = "call `show`"]
 pub struct TransferCurve<'a> {
     value: &'a mut CurveValues,
@@ -73,8 +73,8 @@ impl<'a> TransferCurve<'a> {
         self
     }
 
-    /// Shows the editor over the full width. The response has `changed` when a value did; [`crate::app::widgets::edit_done`] says when a
-    /// gesture is complete.
+    /// Shows the editor over the full width. The response has `changed` when a value did;
+    /// [`crate::app::widgets::edit_done`] says when a gesture is complete.
     pub fn show(mut self, ui: &mut Ui) -> Response {
         let before = *self.value;
         let (_, rect) = ui.allocate_space(vec2(ui.available_width(), HEIGHT));
@@ -265,7 +265,8 @@ impl<'a> TransferCurve<'a> {
         }
     }
 
-    /// The row below: both end points' numbers, which can be typed, and between them the curve under the pointer.
+    /// The row below: both end points' numbers, which can be typed, and between them the curve under the
+    /// pointer.
     fn numbers(&mut self, ui: &mut Ui, id: Id, risk: Option<f64>) -> Response {
         let row = paint::row(ui);
         let third = row.width() / 3.0;

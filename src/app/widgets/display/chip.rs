@@ -17,7 +17,8 @@ pub struct Chip<'a> {
 }
 
 impl<'a> Chip<'a> {
-    /// A chip with a dot in `color`; tooltip, tests and screen readers use `name`, which says what a click does.
+    /// A chip with a dot in `color`; tooltip, tests and screen readers use `name`, which says what a click
+    /// does.
     pub fn new(color: Color32, text: &'a str, name: &'a str) -> Self {
         Self { color, text, name, enabled: true }
     }

@@ -29,8 +29,8 @@ pub struct LevelRow {
 
 /// Bars in the canvas's colours, the counts beside them.
 ///
-/// Bars are linear in the count. A row keeps its place whatever the counts are. Above [`LevelLegend::max_height`] rows first
-/// move closer together and then scroll.
+/// Bars are linear in the count. A row keeps its place whatever the counts are. Above
+/// [`LevelLegend::max_height`] rows first move closer together and then scroll.
 #[must_use = "call `show`"]
 pub struct LevelLegend<'a> {
     rows: &'a [LevelRow],
@@ -93,7 +93,8 @@ impl<'a> LevelLegend<'a> {
     }
 }
 
-/// Registers a row for the pointer, tests and screen readers. Rows take no focus: there may be more than fifty.
+/// Registers a row for the pointer, tests and screen readers. Rows take no focus: there may be more than
+/// fifty.
 fn sense(ui: &Ui, rect: Rect, row: &LevelRow) -> Response {
     let response = ui.interact(rect, ui.scope_id().with(("level", row.level)), Sense::hover());
     let triangles = if row.count == 1 { "triangle" } else { "triangles" };

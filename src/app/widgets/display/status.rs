@@ -17,8 +17,8 @@ pub struct StatusCell {
 }
 
 impl StatusCell {
-    /// A cell with room for at least `chars` characters of value, so that its neighbours stay where they are when the
-    /// number gets longer. The value is left-aligned.
+    /// A cell with room for at least `chars` characters of value, so that its neighbours stay where they are
+    /// when the number gets longer. The value is left-aligned.
     pub fn new(label: &'static str, value: impl Into<String>, chars: usize) -> Self {
         Self { label, value: value.into(), chars }
     }

@@ -7,8 +7,8 @@ use crate::app::theme::{font, tokens};
 
 /// A grey name at the left, a bright monospaced value at the right.
 ///
-/// Where both do not fit the value ends in `…`; a tooltip shows all of it. Tests find the row by its name and read
-/// the value from it.
+/// Where both do not fit the value ends in `…`; a tooltip shows all of it. Tests find the row by its name and
+/// read the value from it.
 pub fn value_row(ui: &mut Ui, label: &str, value: &str) -> Response {
     let t = tokens(ui);
     let row = paint::row(ui);

@@ -31,7 +31,8 @@ pub fn dialog_title(ui: &mut Ui, title: &str) {
 
 /// A question over the window. Show it in every frame until it is answered.
 ///
-/// Enter takes the button that has the focus: at first the main one, or Cancel where something would be destroyed.
+/// Enter takes the button that has the focus: at first the main one, or Cancel where something would be
+/// destroyed.
 #[must_use = "call `show`"]
 pub struct ConfirmDialog<'a> {
     title: &'a str,

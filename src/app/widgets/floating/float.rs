@@ -44,10 +44,11 @@ pub enum Hint<'a> {
     Key(&'a str),
 }
 
-/// The next useful thing for the current tool, over the canvas: `Drag to paint risk · [ ] size · …`. Takes no clicks.
+/// The next useful thing for the current tool, over the canvas: `Drag to paint risk · [ ] size · …`. Takes no
+/// clicks.
 ///
-/// `align` says which point of the pill is at `anchor`; it is moved to stay within `bounds`. Pieces that do not fit into
-/// `bounds` are left out from the end.
+/// `align` says which point of the pill is at `anchor`; it is moved to stay within `bounds`. Pieces that do
+/// not fit into `bounds` are left out from the end.
 pub fn hint_pill(ui: &Ui, anchor: Pos2, align: Align2, bounds: Rect, hints: &[Hint<'_>]) -> Response {
     let shown = fitting(ui, hints, bounds.width() - 24.0);
     let size = vec2(width(ui, shown) + 24.0, 32.0).ceil();

@@ -48,8 +48,8 @@ struct Palette {
 
 /// Shows a list of commands over the window that narrows as the user types.
 ///
-/// Up and Down move, Enter or a click chooses, Escape or a click outside closes. Show it in every frame until it is closed
-/// or an item is chosen.
+/// Up and Down move, Enter or a click chooses, Escape or a click outside closes. Show it in every frame until
+/// it is closed or an item is chosen.
 pub fn command_palette(ctx: &Context, items: &[PaletteItem<'_>]) -> PaletteAnswer {
     let id = Id::unique("command palette");
     let kept = ctx.data(|data| data.get_temp::<Palette>(id));

@@ -9,8 +9,8 @@ pub struct Found {
     pub places: Vec<usize>,
 }
 
-/// Finds `query` in `text`: at the start, else at the start of a word, else letter by letter. Capitals do not matter, nor do
-/// spaces around the query. An empty query is found everywhere.
+/// Finds `query` in `text`: at the start, else at the start of a word, else letter by letter. Capitals do not
+/// matter, nor do spaces around the query. An empty query is found everywhere.
 pub fn find(query: &str, text: &str) -> Option<Found> {
     let [query, text] = [query.trim(), text].map(|text| text.chars().map(lower).collect::<Vec<char>>());
     let starts = |at: usize| text[at..].starts_with(&query);
