@@ -34,7 +34,7 @@ const LONG_FUNCTIONS: [(&str, &str, &str); 1] = [(
 )];
 
 /// Largest width of a line of a comment: max_width in rustfmt.toml.
-const WIDEST_COMMENT: usize = 140;
+const WIDEST_COMMENT: usize = 110;
 
 /// Functions of std that round differently on different machines.
 const INEXACT: [&str; 23] = [
@@ -291,12 +291,18 @@ fn files_are_short() {
     assert_needed(&listed, &long.into_iter().map(|file| file.path).collect::<Vec<_>>(), "LONG_FILES");
 }
 
+/// A row of a table or a line of a drawing, which cannot be wrapped.
+fn is_table_or_drawing(comment: &str) -> bool {
+    let text = comment.trim_start().trim_start_matches(['/', '!']);
+    text.starts_with(" |") || text.starts_with("     ")
+}
+
 #[test]
 fn comments_fit_the_width_of_the_code() {
     let mut found = Vec::new();
     for (path, text) in read_texts() {
-        for (index, line) in text.lines().enumerate().filter(|(_, line)| line.trim_start().starts_with("//"))
-        {
+        let comments = text.lines().enumerate().filter(|(_, line)| line.trim_start().starts_with("//"));
+        for (index, line) in comments.filter(|(_, line)| !is_table_or_drawing(line)) {
             if line.chars().count() > WIDEST_COMMENT {
                 found.push(format!("{path}:{} has {} columns", index + 1, line.chars().count()));
             }
@@ -304,7 +310,7 @@ fn comments_fit_the_width_of_the_code() {
     }
     assert_none(
         found,
-        &format!("a line of a comment has at most {WIDEST_COMMENT} columns, as max_width in rustfmt.toml:"),
+        &format!("a comment has at most {WIDEST_COMMENT} columns, like max_width in rustfmt.toml:"),
     );
 }
 

@@ -201,7 +201,8 @@ fn an_image_of_risk_refines_where_it_is_bright() {
     let finest = table.lines().skip(1).filter(|row| row.split(',').nth(1) == Some("9"));
     let heights: Vec<f64> = finest.map(|row| row.split(',').nth(9).unwrap().parse().unwrap()).collect();
     assert!(!heights.is_empty());
-    // The line covers 57/64 to 58/64; the triangles that meet it, and those bisected with them, reach 1/64 beyond.
+    // The line covers 57/64 to 58/64; the triangles that meet it, and those bisected with them, reach 1/64
+    // beyond.
     assert!(heights.iter().all(|y| (56.0 / 64.0..=59.0 / 64.0).contains(y)), "{heights:?}");
     // The report's rule sees nothing of it.
     let by_vertex = folder.json(&format!("{options} --rule vertex"));

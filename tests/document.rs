@@ -83,7 +83,8 @@ fn after_any_edits_the_mesh_is_the_one_made_from_scratch() {
         let mut driver = Driver::new(settings.clone());
         for edit in 0..edits / 3 {
             if edit % 100 == 99 {
-                // Paint piles up until strokes change nothing any more: begin with a blank document now and then.
+                // Paint piles up until strokes change nothing any more: begin with a blank document now and
+                // then.
                 driver = Driver::new(settings.clone());
             }
             driver.apply(Operation::choose(&mut random, SCALE));
@@ -556,7 +557,8 @@ fn a_large_outline_is_followed_in_slices_and_cuts_made_meanwhile_join() {
             _ => {}
         }
     }
-    // Twice, each with 60,000 edges to compare, to lay and to sort into squares: the cuts in the middle are one.
+    // Twice, each with 60,000 edges to compare, to lay and to sort into squares: the cuts in the middle are
+    // one.
     assert!(outlining > 2 * 4 * 60_000 / VISITS, "{outlining} slices");
     settle(&mut follower, &mut document);
     assert_as_from_scratch(&follower, &document);

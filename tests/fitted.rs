@@ -1,5 +1,5 @@
-//! Meshes fitted to polygons, against a plain closure that asks every edge in whole numbers: which triangles there are, where
-//! points lie among them, what files get of them, and their parts and holes.
+//! Meshes fitted to polygons, against a plain closure that asks every edge in whole numbers: which triangles
+//! there are, where points lie among them, what files get of them, and their parts and holes.
 
 mod closure;
 
@@ -420,7 +420,8 @@ fn points_are_found_among_the_triangles_that_files_have() {
     assert!(counts.iter().all(|&count| count > 2000), "{counts:?}");
 }
 
-/// Sets of triangles that shared edges join, by filling from one to the next; the edges are given twice where two share them.
+/// Sets of triangles that shared edges join, by filling from one to the next; the edges are given twice where
+/// two share them.
 fn pieces(triangles: &[[LatticePoint; 3]]) -> Vec<Vec<usize>> {
     let key = |t: &[LatticePoint; 3], j: usize| {
         let (a, b) = (t[j], t[(j + 1) % 3]);

@@ -6,7 +6,8 @@ use glam::DVec2;
 use meshbrush::internals::geometry::{Lattice, LatticePoint, Rect};
 use meshbrush::internals::mesh::{Limits, Mesh, bisection_edge_length, fingerprint_of};
 
-/// The mesh of Figure 1 on [−10, 10]², where every coordinate is exact, with the report's vertex rule (Eq. 12).
+/// The mesh of Figure 1 on [−10, 10]², where every coordinate is exact, with the report's vertex rule (Eq.
+/// 12).
 fn diamond(target: f64) -> Mesh {
     let bounds = Rect::around(DVec2::ZERO, 10.0);
     let mut mesh =

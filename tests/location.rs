@@ -1,8 +1,10 @@
 //! Location, barycentric coordinates and adjacency against brute force with arithmetic of its own.
 //!
-//! The contract of location, in world coordinates: a point with exactly the coordinates of a node is on that vertex, and
-//! a point one ulp to the right of a node is to its right. In between, the point's place is its lattice coordinates
-//! ([`Lattice::lattice_from_world`](meshbrush::internals::geometry::Lattice::lattice_from_world)), and the answer is exact for those.
+//! The contract of location, in world coordinates: a point with exactly the coordinates of a node is on that
+//! vertex, and a point one ulp to the right of a node is to its right. In between, the point's place is its
+//! lattice coordinates
+//! ([`Lattice::lattice_from_world`](meshbrush::internals::geometry::Lattice::lattice_from_world)), and the
+//! answer is exact for those.
 
 use std::cmp::Ordering;
 use std::collections::{BTreeSet, HashMap};
@@ -16,10 +18,12 @@ use meshbrush::internals::mesh::{
 
 const QUERIES_PER_MESH: usize = 170_000;
 
-/// What brute force finds: every triangle that contains the point (closed), and on how many of its edges the point lies.
+/// What brute force finds: every triangle that contains the point (closed), and on how many of its edges the
+/// point lies.
 type Containing = Vec<(usize, usize)>;
 
-/// All triangles by size class and place: a triangle is listed under every cell of its own size that it touches.
+/// All triangles by size class and place: a triangle is listed under every cell of its own size that it
+/// touches.
 struct BruteForce {
     corners: Vec<[[i64; 2]; 3]>,
     candidates: HashMap<(u32, i64, i64), Vec<usize>>,
@@ -131,7 +135,8 @@ fn compare_difference(a: f64, b: f64, c: i64) -> Ordering {
     }
 }
 
-/// A mesh to query. `exact` where the map to the lattice is a multiplication by a power of two, done here independently.
+/// A mesh to query. `exact` where the map to the lattice is a multiplication by a power of two, done here
+/// independently.
 struct Subject {
     mesh: Mesh,
     exact: bool,

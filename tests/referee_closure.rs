@@ -22,7 +22,8 @@ struct Case {
 #[derive(Debug)]
 enum Hole {
     Nothing,
-    /// The lower left and the upper right corner: each takes away one triangle, and puts a diagonal on the boundary.
+    /// The lower left and the upper right corner: each takes away one triangle, and puts a diagonal on the
+    /// boundary.
     CornerTriangles,
     /// Two nodes on opposite sides of another one: of the six triangles there, two stay, and only touch.
     Touching([i64; 2]),
@@ -66,7 +67,8 @@ impl Hole {
 enum Field {
     /// Finer towards each point: `finest` there, growing by `slope` with the distance.
     Points { at: Vec<DVec2>, finest: f64, slope: f64 },
-    /// `inside` where |n · x − c| ≤ `half_width`, with the vertex rule: a thin strip may pass between the nodes.
+    /// `inside` where |n · x − c| ≤ `half_width`, with the vertex rule: a thin strip may pass between the
+    /// nodes.
     Strip { normal: DVec2, c: f64, half_width: f64, inside: f64 },
     /// The same strip with the area rule: it counts wherever the closed triangle meets it.
     StripArea { normal: DVec2, c: f64, half_width: f64, inside: f64 },

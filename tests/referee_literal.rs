@@ -11,7 +11,8 @@ use literal::{BETA, Node, Report};
 use meshbrush::internals::geometry::{Lattice, Rect};
 use meshbrush::internals::mesh::{Limits, Location, Mesh, NodeId, Orientation, TriangleId};
 
-/// The same coarse mesh twice: grid nodes (column, row) of an N_e × N_e grid on the unit square without `removed`.
+/// The same coarse mesh twice: grid nodes (column, row) of an N_e × N_e grid on the unit square without
+/// `removed`.
 fn coarse_pair(n_e: i64, removed: &[(i64, i64)]) -> (Mesh, Report) {
     let whole = |x: f64| (x * n_e as f64).round() as i64;
     let contains = |p: glam::DVec2| !removed.contains(&(whole(p.x), whole(p.y)));
@@ -42,8 +43,8 @@ fn assert_same(mesh: &Mesh, report: &Report) {
     }
 }
 
-/// Squares, and domains in which the diagonal of a cell is on the boundary, so that boundary triangles of even level
-/// are bisected.
+/// Squares, and domains in which the diagonal of a cell is on the boundary, so that boundary triangles of
+/// even level are bisected.
 fn domains() -> Vec<(i64, Vec<(i64, i64)>)> {
     vec![
         (1, vec![]),
@@ -97,8 +98,8 @@ fn the_same_calls_give_the_same_arrays() {
     for (k, o) in [(1, 0), (1, 1), (2, 0), (2, 1)] {
         assert!(branches.contains_key(&(19, k, o, None)), "Algorithm 19 with k = {k}, O = {o}: {branches:?}");
         for o_b in [0, 1] {
-            // Two clockwise triangles never share their bisection edge: Algorithm 8 has two cases, (1, 0, 0) and
-            // (2, 0, 0), that no mesh refined from the coarse grid reaches.
+            // Two clockwise triangles never share their bisection edge: Algorithm 8 has two cases, (1, 0, 0)
+            // and (2, 0, 0), that no mesh refined from the coarse grid reaches.
             let reachable = o == 1 || o_b == 1;
             let key = (8, k, o, Some(o_b));
             assert_eq!(branches.contains_key(&key), reachable, "Algorithm 8, {k}, {o}, {o_b}: {branches:?}");
@@ -123,7 +124,8 @@ fn corners_of(mesh: &Mesh) -> BTreeSet<Corners> {
     set_of(mesh.raw_triangles().iter().map(|t| t.vertices.map(node)))
 }
 
-/// Eq. (13) with the vertex rule: levels near two nodes of a fine grid, at the right rim, and on a thin strip.
+/// Eq. (13) with the vertex rule: levels near two nodes of a fine grid, at the right rim, and on a thin
+/// strip.
 fn vertex_rule(extent: i64, random: &mut fastrand::Rng) -> impl Fn(i64, Corners) -> bool {
     let place = |random: &mut fastrand::Rng| random.i64(0..=64) * (extent / 64);
     let centres = [(); 2].map(|()| [place(random), place(random)]);
@@ -156,8 +158,8 @@ fn refine_mesh_in_index_order_gives_the_same_set_of_triangles() {
             Ok(exceeds(i64::from(element.triangle.level()), corners))
         })
         .unwrap();
-        // One run of Algorithm 12 can leave triangles that break Eq. (14): it never comes back to an entry that
-        // compatibility bisects later. Each further run starts over, until one has nothing to do.
+        // One run of Algorithm 12 can leave triangles that break Eq. (14): it never comes back to an entry
+        // that compatibility bisects later. Each further run starts over, until one has nothing to do.
         report.refine_mesh(&exceeds);
         let after_one_run = report.t.len();
         let mut before = 0;

@@ -350,7 +350,8 @@ fn edits_during_an_upload_do_not_hold_it_up_and_get_there() {
     let (mut revision, mut lengths) = (1, vec![]);
     while gpu.renderer().mirror_mut().advance_upload(&mesh, whole_bytes / 16) == Progress::More {
         assert!(revision < 60, "edits hold the upload up: {lengths:?}");
-        // Small edits, one that outgrows the buffers, one that takes away more than is left to send, and one after that.
+        // Small edits, one that outgrows the buffers, one that takes away more than is left to send, and one
+        // after that.
         let small =
             square(0.1 + 0.1 * (revision / 2 % 8) as f64, 0.2 + 0.1 * (revision / 2 % 7) as f64, 0.03);
         let edited = match revision {

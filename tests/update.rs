@@ -74,8 +74,8 @@ fn rule(spots: &[Spot]) -> impl Fn(&Element) -> Answer {
     }
 }
 
-/// Squares, a rectangle and domains in which diagonals and sides are on inner and outer boundaries, that fall apart, and that
-/// are joined by a corner only.
+/// Squares, a rectangle and domains in which diagonals and sides are on inner and outer boundaries, that fall
+/// apart, and that are joined by a corner only.
 fn domains() -> Vec<Mesh> {
     let grid = |w: f64, h: f64, spacing: f64, removed: &[(i32, i32)]| {
         let whole = |x: f64| (x / spacing).round() as i32;

@@ -31,7 +31,8 @@ const QUERY_KEY: &str = "q";
 const UNDO_KEYS: &str = "ctrl+z";
 const NEW_KEYS: &str = "ctrl+n";
 const QUIT_KEYS: &str = "ctrl+q";
-/// Places in the domain, as fractions from its upper left corner. The first example leaves them free of paint.
+/// Places in the domain, as fractions from its upper left corner. The first example leaves them free of
+/// paint.
 const STROKE: [(f64, f64); 2] = [(0.84, 0.50), (0.96, 0.56)];
 const STROKE_MOVES: i64 = 10;
 const FAR_FROM_STROKE: [(f64, f64); 2] = [(0.02, 0.02), (0.65, 0.98)];
@@ -121,7 +122,8 @@ fn paint_query_and_undo(name: &str, draw: &str) {
     assert!(!program.said().contains("panicked"), "{}", program.said());
 }
 
-/// `MESHBRUSH_KILLS=20 cargo test --test window -- --ignored killed --nocapture` says more about more of them.
+/// `MESHBRUSH_KILLS=20 cargo test --test window -- --ignored killed --nocapture` says more about more of
+/// them.
 #[test]
 #[ignore = "needs a virtual display: sh tests/run starts one"]
 fn killed_at_a_random_moment_it_loses_no_more_than_the_stroke_under_way() {
@@ -196,7 +198,8 @@ fn without_a_display_it_says_so_in_one_sentence() {
 fn without_a_graphics_driver_it_says_so_in_one_sentence() {
     let scratch = Scratch::new("no-driver");
     let display = Display::start(&scratch);
-    // Vulkan only, and no Vulkan driver: as on a machine that has neither, without taking OpenGL away from this one.
+    // Vulkan only, and no Vulkan driver: as on a machine that has neither, without taking OpenGL away from
+    // this one.
     let no_driver = scratch.path("no-such-driver.json");
     let mut program = Program::start(
         &scratch,
@@ -259,7 +262,8 @@ impl Program {
         Self { child, stderr }
     }
 
-    /// Waits until the window is there and the keyboard goes to it: without a window manager nobody else sees to that.
+    /// Waits until the window is there and the keyboard goes to it: without a window manager nobody else sees
+    /// to that.
     fn wait_for_window(&mut self, display: &Display) {
         let window = wait_for("a window named … Meshbrush", || {
             if let Some(status) = self.child.try_wait().expect("the program is our child") {
@@ -302,7 +306,8 @@ impl Display {
         let mut server = Command::new("Xvfb")
             .args(["-displayfd", "1", "-nolisten", "tcp", "-noreset"])
             .args(["-screen", "0", &format!("{}x{}x24", SIZE.0, SIZE.1)])
-            // The server keeps the screen in a file that anyone may read: no tool is needed for a picture of it.
+            // The server keeps the screen in a file that anyone may read: no tool is needed for a picture of
+            // it.
             .arg("-fbdir")
             .arg(&scratch.0)
             .stdout(Stdio::piped())
@@ -348,8 +353,8 @@ impl Display {
         self.xdotool(&["mouseup", "1"]);
     }
 
-    /// Paints one stroke after the other until the program is killed, and returns how many had ended by then, and the last
-    /// picture before.
+    /// Paints one stroke after the other until the program is killed, and returns how many had ended by then,
+    /// and the last picture before.
     fn paint_until_killed(&self, program: &mut Program, domain: &Area, moment: Duration) -> (usize, Picture) {
         let start = Instant::now();
         let child = &mut program.child;
@@ -449,7 +454,8 @@ impl Rgb {
         self.0.iter().zip(color).all(|(&a, b)| a.abs_diff(b) <= tolerance)
     }
 
-    /// Any level's colour from 1 on, darkened by an edge or not: all are colourful, while level 0 and the ground are grey.
+    /// Any level's colour from 1 on, darkened by an edge or not: all are colourful, while level 0 and the
+    /// ground are grey.
     fn is_refined(self) -> bool {
         let [r, g, b] = self.0;
         r.max(g).max(b) - r.min(g).min(b) > 40
@@ -474,8 +480,8 @@ struct Picture {
 }
 
 impl Picture {
-    /// Reads an X window dump, as the server keeps it: a header of 32-bit words, most significant byte first, a colour
-    /// map that true colour does not need, and rows of four bytes a pixel.
+    /// Reads an X window dump, as the server keeps it: a header of 32-bit words, most significant byte first,
+    /// a colour map that true colour does not need, and rows of four bytes a pixel.
     fn read_xwd(file: &Path) -> Self {
         let bytes = fs::read(file).expect("Xvfb keeps its screen there");
         let word =
@@ -515,7 +521,8 @@ impl Picture {
         area.pixels().filter(|&at| self.pixel(at) != other.pixel(at)).count()
     }
 
-    /// The part of the canvas that the coarse grid covers, by its colour: rows and columns that mostly show level 0.
+    /// The part of the canvas that the coarse grid covers, by its colour: rows and columns that mostly show
+    /// level 0.
     fn domain(&self) -> Area {
         let mostly = |line: Area| 3 * self.count(&line, Rgb::is_level_0) > line.size();
         let columns = CANVAS.x.filter(|&x| mostly(Area { x: x..x + 1, y: CANVAS.y }));

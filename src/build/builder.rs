@@ -56,6 +56,7 @@ struct Refinement {
 
 /// A mesh, and what decided it.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct BuiltMesh {
     /// The domain on the lattice of the mesh.
     pub domain: DomainOnLattice,
@@ -81,6 +82,7 @@ pub struct Parts {
 
 /// What a builder is busy with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum BuildStage {
     /// The outline of the domain is indexed on the lattice.
     Indexing,
@@ -105,6 +107,7 @@ pub enum BuildStage {
 
 /// Why there is no mesh.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum BuildError {
     /// The coarse grid is impossible, or empty.
     #[error(transparent)]

@@ -4,8 +4,8 @@ use crate::geometry::LatticePoint;
 use crate::mesh::{Element, InvalidTarget};
 use crate::raster::MaxMipmap;
 
-/// The local refinement condition (Eq. 13 of [Report]) of a whole mesh: h̄ by a refinement rule, joined with
-/// what the boundary of the domain asks for.
+/// The local refinement condition (Eq. 13 of \[Report\]) of a whole mesh: h̄ by a refinement rule, joined
+/// with what the boundary of the domain asks for.
 ///
 /// Builder, updates, prices and checks ask this one type, so they agree.
 #[derive(Clone)]

@@ -24,6 +24,7 @@ pub struct MeshSpec {
 
 /// When h̄ is sampled by pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum FieldSampling {
     /// Always: the field is shown, and values that no mesh can meet are found between nodes too.
     Always,

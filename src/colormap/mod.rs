@@ -12,6 +12,7 @@ pub const LEVELS: usize = 64;
 
 /// A colour map: a colour for each number from 0 to 1.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum Colormap {
     /// Violet over green to yellow. Perceptually uniform, safe for colour-blind people.
     #[default]

@@ -11,6 +11,7 @@ use crate::raster::Raster;
 
 /// A document that comes with the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Example {
     /// A few radar-like threats as painted risk.
     Threats,

@@ -7,6 +7,7 @@ use crate::geometry::Rect;
 
 /// One change of one setting, as a menu, a slider, a test or a script sends it.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Setting {
     /// Largest side δ̄ of a coarse cell, in world units.
     Spacing(f64),

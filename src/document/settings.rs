@@ -38,6 +38,7 @@ pub struct Settings {
 
 /// The base field under the paint.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub enum Base {
     /// The same target diameter everywhere, in world units.
     Constant(f64),
@@ -68,6 +69,7 @@ impl PartialEq for Base {
 
 /// Why settings cannot be met.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum SettingsError {
     /// The coarse grid is impossible.
     #[error(transparent)]

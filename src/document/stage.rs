@@ -2,6 +2,7 @@ use crate::build::BuildError;
 
 /// What a [`Follower`](super::Follower) is doing to bring the mesh in step with its document.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Stage {
     /// Nothing: field and mesh are those of the document.
     InStep,

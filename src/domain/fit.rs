@@ -12,6 +12,7 @@ use crate::mesh::{Element, Progress, bisection_edge_length, level_for_diameter};
 
 /// How the mesh meets the boundary of a region.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum BoundaryTreatment {
     /// Appendix A: a coarse triangle belongs to the mesh when its three nodes lie inside.
     Report,

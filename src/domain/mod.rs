@@ -35,6 +35,7 @@ pub struct Domain {
 
 /// Why polygons are not a valid domain.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum RegionError {
     /// They cover no area.
     #[error("The polygons cover no area: a ring needs three corners that are not on one line.")]
@@ -73,6 +74,7 @@ pub enum RegionError {
 
 /// A part of a rectangle.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum DomainShape {
     /// All of it.
     Whole,

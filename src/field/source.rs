@@ -8,6 +8,7 @@ use crate::raster::Raster;
 
 /// One thing that asks for small triangles somewhere.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Source {
     /// The same target diameter everywhere, in world units.
     Constant(f64),

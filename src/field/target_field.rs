@@ -8,8 +8,9 @@ use crate::raster::{MaxMipmap, PixelRect, Raster, RasterOnLattice};
 
 /// Which points of a triangle its target diameter is the minimum over.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum RefinementRule {
-    /// The three vertices: Eq. (12) of [Report]. A stroke that passes between the nodes is missed.
+    /// The three vertices: Eq. (12) of \[Report\]. A stroke that passes between the nodes is missed.
     Vertex,
     /// The whole closed triangle. Implies Eq. (12), misses nothing, and can be undone locally.
     Area,

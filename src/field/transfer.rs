@@ -20,6 +20,7 @@ pub struct Transfer {
 
 /// Why the numbers of a transfer curve are not valid.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum TransferError {
     /// A diameter is not positive or not finite.
     #[error("The {name} diameter {} is not valid: it must be positive and finite.", Number(*value))]

@@ -3,7 +3,7 @@ use glam::DVec2;
 use super::checked_target;
 use crate::mesh::{Element, InvalidTarget};
 
-/// The report's own rule (Eqs. 12 and 13 of [Report]): a triangle's target is the minimum of h̄ over its
+/// The report's own rule (Eqs. 12 and 13 of \[Report\]): a triangle's target is the minimum of h̄ over its
 /// three vertices.
 ///
 /// h̄ is evaluated once for each node and kept, as up to eight triangles at many levels share a node.

@@ -54,6 +54,7 @@ pub struct Lattice {
 
 /// Why no coarse grid could be made.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum GridError {
     /// A corner is NaN or infinite, or a side is not positive.
     #[error(

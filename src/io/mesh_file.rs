@@ -7,6 +7,7 @@ use crate::mesh::Extract;
 
 /// A file format for a mesh with its data.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum MeshFormat {
     /// VTK's unstructured grid.
     Vtu,

@@ -15,6 +15,7 @@ pub use tiles::{Patch, TILE, TilePixels, TilePlace, Tiles, tile_area, tiles_touc
 
 /// What a brush does to the pixels under it.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Medium {
     /// Raises the risk towards 1, with each stroke by the brush's strength.
     Risk,

@@ -15,6 +15,7 @@ pub const LARGEST_PICTURE: u32 = 16_384;
 
 /// A file format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum ExportFormat {
     /// The mesh with its data.
     Mesh(MeshFormat),

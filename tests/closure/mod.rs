@@ -1,7 +1,7 @@
 //! The smallest conforming refinement, found the plain way: bisect whatever breaks a rule until nothing does.
 //!
-//! Shares no code with the core. A triangle is its three corners as whole numbers, the right angle first: no vertex order,
-//! no levels stored, no neighbours, no numbering. Slow, and short enough to be believed.
+//! Shares no code with the core. A triangle is its three corners as whole numbers, the right angle first: no
+//! vertex order, no levels stored, no neighbours, no numbering. Slow, and short enough to be believed.
 
 use std::collections::HashSet;
 
@@ -11,8 +11,8 @@ pub type Point = [i64; 2];
 /// Corners: the right angle, then the ends of the longest edge.
 pub type Triangle = [Point; 3];
 
-/// A grid of `columns` × `rows` cells of side `cell`, each cut from its upper left to its lower right; a half is kept when
-/// `contains` is true at its corners, given as (column, row).
+/// A grid of `columns` × `rows` cells of side `cell`, each cut from its upper left to its lower right; a half
+/// is kept when `contains` is true at its corners, given as (column, row).
 pub fn coarse(columns: i64, rows: i64, cell: i64, contains: impl Fn(i64, i64) -> bool) -> Vec<Triangle> {
     let mut kept = Vec::new();
     for (column, row) in (0..rows).flat_map(|row| (0..columns).map(move |column| (column, row))) {
@@ -34,10 +34,11 @@ pub fn level(cell: i64, [_, a, b]: &Triangle) -> u32 {
     (2 * i128::from(cell).pow(2) / square).ilog2()
 }
 
-/// Bisects every triangle that `exceeds` its target or has a node in the middle of an edge, until there is none.
+/// Bisects every triangle that `exceeds` its target or has a node in the middle of an edge, until there is
+/// none.
 ///
-/// Both reasons are forced, and bisecting one triangle never takes away the reason to bisect another: the result is the
-/// smallest conforming refinement, whatever the order.
+/// Both reasons are forced, and bisecting one triangle never takes away the reason to bisect another: the
+/// result is the smallest conforming refinement, whatever the order.
 pub fn refine(mut triangles: Vec<Triangle>, exceeds: impl Fn(&Triangle) -> bool) -> Vec<Triangle> {
     let mut nodes: HashSet<Point> = triangles.iter().flatten().copied().collect();
     loop {

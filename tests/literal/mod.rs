@@ -1,8 +1,10 @@
 //! The report's algorithms, transcribed line by line: a referee, not an example of style.
 //!
-//! Arrays are one-based (entry 0 is never read), a triangle is the report's 𝒯\[i\] ∈ ℤ⁸, and every routine keeps the name
-//! and the order of statements that it has in the report (`new` is ī there). Departures, all of them forced:
-//! - nodes are integers on a lattice in which `delta` is the side of a coarse cell, so that midpoints are exact;
+//! Arrays are one-based (entry 0 is never read), a triangle is the report's 𝒯\[i\] ∈ ℤ⁸, and every routine
+//! keeps the name and the order of statements that it has in the report (`new` is ī there). Departures, all
+//! of them forced:
+//! - nodes are integers on a lattice in which `delta` is the side of a coarse cell, so that midpoints are
+//!   exact;
 //! - `CheckMemory` and the null padding are `push`;
 //! - in Algorithm 18 line 4 the array meant is 𝒯₀^N, and in item 8 of Appendix A the argument meant is N_e.
 
@@ -22,7 +24,8 @@ pub struct Report {
     pub delta: i64,
     stack: Vec<usize>,
     m_t: Vec<i64>,
-    /// How often each branch of Algorithms 8 and 19 ran: "8", or "19", with k, O(t) and O(t_b) (absent at the boundary).
+    /// How often each branch of Algorithms 8 and 19 ran: "8", or "19", with k, O(t) and O(t_b) (absent at the
+    /// boundary).
     pub branches: BTreeMap<(u32, i64, i64, Option<i64>), usize>,
     /// How often each of `UpdateNeighbours1..4` and `UpdateBoundaryNeighbours1..2` ran.
     pub routines: BTreeMap<&'static str, usize>,
@@ -476,8 +479,8 @@ impl Report {
         (if y > (x_ + y_ - 1) as f64 - x { i + 1 } else { i }) as usize
     }
 
-    /// Algorithm 15: PointLocation, for a point in lattice coordinates; `None` where item 8 of Appendix A finds that the
-    /// coarse triangle was removed.
+    /// Algorithm 15: PointLocation, for a point in lattice coordinates; `None` where item 8 of Appendix A
+    /// finds that the coarse triangle was removed.
     pub fn point_location(&self, y: [f64; 2], random: &mut fastrand::Rng) -> Option<usize> {
         let m_l = self.t[1..].iter().map(|t| t[7]).max().unwrap_or(0);
         let n_max = 1u64 << m_l;

@@ -1,7 +1,7 @@
 //! Operations on a document, made from any source of choices, and what must hold after each.
 //!
-//! `tests/document.rs` makes them from random numbers, `fuzz/` from the bytes of a fuzzer; what that finds is kept as bytes in
-//! `tests/document.rs`.
+//! `tests/document.rs` makes them from random numbers, `fuzz/` from the bytes of a fuzzer; what that finds is
+//! kept as bytes in `tests/document.rs`.
 
 use std::ops::Range;
 use std::path::Path;
@@ -250,7 +250,8 @@ fn impossible(choices: &mut impl Choices) -> Setting {
     }
 }
 
-/// A square, a rectangle, a domain with a hole and a bite out of its rim by a formula, and a slanted one with a hole.
+/// A square, a rectangle, a domain with a hole and a bite out of its rim by a formula, and a slanted one with
+/// a hole.
 pub fn domains() -> [Domain; 4] {
     let outline = vec![dvec2(0.0, 0.1), dvec2(0.9, 0.0), dvec2(1.0, 0.8), dvec2(0.3, 1.0)];
     let hole = vec![dvec2(0.3, 0.3), dvec2(0.6, 0.35), dvec2(0.5, 0.7)];
@@ -295,7 +296,8 @@ impl Driver {
         }
     }
 
-    /// Saves, opens and goes on as the window does: with another follower, whose mesh must be the one at rest before.
+    /// Saves, opens and goes on as the window does: with another follower, whose mesh must be the one at rest
+    /// before.
     fn reopen(&mut self) {
         self.settle();
         let mut opened = self.document.clone();
@@ -317,7 +319,8 @@ impl Driver {
         self.check_stop();
     }
 
-    /// One slice of work, as in the window: of the stroke under way, or of what follows from it. True at rest.
+    /// One slice of work, as in the window: of the stroke under way, or of what follows from it. True at
+    /// rest.
     fn work(&mut self, visits: usize) -> bool {
         if self.document.advance_stroke(visits) == Progress::More {
             return false;

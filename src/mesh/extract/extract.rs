@@ -20,6 +20,7 @@ pub struct Extract<'a> {
 
 /// A triangle in plain numbers, for writers of files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Cell {
     /// Nodes, anticlockwise, the first two the ends of the bisection edge.
     pub corners: [usize; 3],
@@ -43,6 +44,7 @@ impl Cell {
 
 /// An edge in plain numbers, for writers of files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct MeshEdge {
     /// Its nodes.
     pub ends: [usize; 2],
@@ -52,6 +54,7 @@ pub struct MeshEdge {
 
 /// An edge at which the domain ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct BoundaryEdge {
     /// Its nodes, with the domain to the left.
     pub ends: [usize; 2],

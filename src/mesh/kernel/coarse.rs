@@ -8,6 +8,7 @@ use crate::text::Number;
 
 /// Why no coarse triangulation could be made.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum CoarseError {
     /// The grid itself is impossible or too fine.
     #[error(transparent)]

@@ -21,6 +21,7 @@ pub struct InvalidTarget {
 
 /// Why refinement stopped before every triangle was satisfied. The mesh is conforming all the same.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum RefineError {
     /// The rule met a bad target.
     #[error(transparent)]

@@ -9,6 +9,7 @@ use crate::mesh::kernel::{
 
 /// A broken invariant of [`Mesh`], in the order of the list there.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum Violation {
     /// A reference points beyond its array; nothing else of the triangle is checked.
     #[error("triangle {0:?} refers to a node or triangle that does not exist")]

@@ -11,6 +11,7 @@ use crate::mesh::kernel::{Mesh, NodeId, TriangleId, WalkEnd};
 ///
 /// A point on an edge or a vertex belongs to several triangles; the one with the lowest index is given.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Location {
     /// Strictly inside a triangle.
     Inside {
