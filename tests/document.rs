@@ -435,8 +435,8 @@ fn the_memory_budget_holds_while_one_paints_and_while_the_mesh_is_made_anew() {
     assert!(follower.mesh().raw_triangle_count() <= room);
     document.set(Setting::MaxMemory(Settings::MAX_MEMORY)).unwrap();
     settle(&mut follower, &mut document);
-    let anew = Follower::new(&mut document.clone()).unwrap();
-    assert_eq!(follower.mesh().fingerprint(), anew.mesh().fingerprint());
+    let rebuilt = Follower::new(&mut document.clone()).unwrap();
+    assert_eq!(follower.mesh().fingerprint(), rebuilt.mesh().fingerprint());
     assert!(follower.mesh().raw_triangle_count() > room);
 }
 
@@ -458,8 +458,8 @@ fn stopped_at_the_budget() -> (Document, Follower, usize) {
 }
 
 fn assert_as_from_scratch(follower: &Follower, document: &Document) {
-    let anew = Follower::new(&mut document.clone()).unwrap();
-    assert_eq!(follower.mesh().fingerprint(), anew.mesh().fingerprint());
+    let rebuilt = Follower::new(&mut document.clone()).unwrap();
+    assert_eq!(follower.mesh().fingerprint(), rebuilt.mesh().fingerprint());
     assert_eq!(follower.stopped(), None);
 }
 

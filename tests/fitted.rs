@@ -144,10 +144,10 @@ fn fitted(
 ) -> Mesh {
     let limits = Limits::default();
     let lattice = Lattice::covering(domain.bounds, spacing, limits.max_triangles).unwrap();
-    let laid = DomainOnLattice::new(domain, boundary, &lattice);
-    let mut mesh = Mesh::coarse_grid(&lattice, |node| laid.admits(node), &limits).unwrap();
-    mesh.refine(&limits, |element| laid.exceeds(element, &by_field)).unwrap();
-    mesh.classify(0..mesh.raw_triangle_count(), |element| laid.excludes(element));
+    let on_lattice = DomainOnLattice::new(domain, boundary, &lattice);
+    let mut mesh = Mesh::coarse_grid(&lattice, |node| on_lattice.admits(node), &limits).unwrap();
+    mesh.refine(&limits, |element| on_lattice.exceeds(element, &by_field)).unwrap();
+    mesh.classify(0..mesh.raw_triangle_count(), |element| on_lattice.excludes(element));
     assert_eq!(mesh.violations(), []);
     mesh
 }

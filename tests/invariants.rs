@@ -1,4 +1,4 @@
-//! The invariants hold after every kind of edit, and whatever the rule answers.
+//! The invariants hold after every kind of edit, for any answers of the rule.
 
 use fastrand::Rng;
 use glam::{DVec2, dvec2};
@@ -67,10 +67,10 @@ fn a_thousand_edits_with_rebuild_break_nothing() {
         assert_eq!(mesh.violations(), [], "edit {edit}");
         assert_eq!(mesh.unsatisfied(vertex_rule(|x| field.target(x))).unwrap(), [], "edit {edit}");
         if edit % 10 == 0 {
-            let mut anew = with_a_hole();
-            anew.refine(&Limits::default(), vertex_rule(|x| field.target(x))).unwrap();
+            let mut rebuilt = with_a_hole();
+            rebuilt.refine(&Limits::default(), vertex_rule(|x| field.target(x))).unwrap();
             assert_eq!(
-                (anew.raw_nodes(), anew.raw_triangles()),
+                (rebuilt.raw_nodes(), rebuilt.raw_triangles()),
                 (mesh.raw_nodes(), mesh.raw_triangles()),
                 "edit {edit}"
             );

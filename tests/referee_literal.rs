@@ -107,7 +107,7 @@ fn the_same_calls_give_the_same_arrays() {
     }
 }
 
-/// A triangle whatever its number and the order of its vertices.
+/// A triangle, independent of its number and the order of its vertices.
 type Corners = [Node; 3];
 
 fn set_of(corners: impl Iterator<Item = Corners>) -> BTreeSet<Corners> {

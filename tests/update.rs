@@ -221,14 +221,14 @@ fn after_any_edits_cut_anywhere_the_mesh_is_the_one_made_from_scratch() {
                 }
             }
             if progress == Progress::Done && random.u8(..4) == 0 {
-                let anew = from_scratch(&coarse, &spots);
-                assert_eq!(mesh.fingerprint(), anew.fingerprint(), "seed {seed}, edit {count}");
+                let rebuilt = from_scratch(&coarse, &spots);
+                assert_eq!(mesh.fingerprint(), rebuilt.fingerprint(), "seed {seed}, edit {count}");
                 assert_eq!(
                     (mesh.raw_nodes().len(), mesh.level_counts()),
-                    (anew.raw_nodes().len(), anew.level_counts())
+                    (rebuilt.raw_nodes().len(), rebuilt.level_counts())
                 );
                 if rests % 8 == 0 {
-                    assert!(by_place(&mesh) == by_place(&anew), "seed {seed}, edit {count}");
+                    assert!(by_place(&mesh) == by_place(&rebuilt), "seed {seed}, edit {count}");
                 }
                 rests += 1;
                 largest = largest.max(mesh.raw_triangle_count());
@@ -372,16 +372,16 @@ fn whatever_fits_the_budget_is_reached_though_old_and_new_together_do_not_fit() 
         // The dab moves by a little or by much.
         let steps = i64::from(mesh.lattice().cell_steps());
         let moved = Spot { at: dab.at.map(|v| v - random.i64(0..2 * steps)), ..dab };
-        let (mut mesh, anew) =
+        let (mut mesh, rebuilt) =
             (from_scratch(&coarse, &[corner, dab]), from_scratch(&coarse, &[corner, moved]));
-        let limit = mesh.raw_triangle_count().max(anew.raw_triangle_count());
+        let limit = mesh.raw_triangle_count().max(rebuilt.raw_triangle_count());
         let mut updater = Updater::new(Limits { max_triangles: limit, ..Limits::default() });
         updater.add(dab.area(&mesh));
         updater.add(moved.area(&mesh));
         while updater.advance(&mut mesh, rule(&[corner, moved]), 100).unwrap() == Progress::More {
             assert!(mesh.raw_triangle_count() <= limit);
         }
-        assert_eq!(mesh.fingerprint(), anew.fingerprint());
+        assert_eq!(mesh.fingerprint(), rebuilt.fingerprint());
         assert_eq!(mesh.violations(), []);
     }
 }
@@ -419,9 +419,9 @@ fn the_level_cap_holds_for_updates_too() {
     for _ in 0..300 {
         edit(&mut random, &mut spots, &mesh).into_iter().for_each(|area| updater.add(area));
         settle(&mut updater, &mut mesh, &spots);
-        let mut anew = coarse.clone();
-        anew.refine(&limits, rule(&spots)).unwrap();
-        assert_eq!(mesh.fingerprint(), anew.fingerprint());
+        let mut rebuilt = coarse.clone();
+        rebuilt.refine(&limits, rule(&spots)).unwrap();
+        assert_eq!(mesh.fingerprint(), rebuilt.fingerprint());
     }
 }
 

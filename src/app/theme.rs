@@ -39,7 +39,7 @@ pub struct Tokens {
     pub well: Color32,
     /// The selected segment in a well, and caps of keys.
     pub raised: Color32,
-    /// Numbers and whatever the user set: the brightest text.
+    /// Numbers and values set by the user: the brightest text.
     pub value: Color32,
     /// Normal text.
     pub text: Color32,

@@ -38,7 +38,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>, window: Option<Window>
     let arguments = match Arguments::try_parse_from(arguments) {
         Ok(arguments) => arguments,
         Err(answer) => {
-            // Help and version too come as an "error", with status 0. A closed pipe is nobody's business.
+            // Help and version too come as an "error", with status 0. A closed pipe is no error.
             let _ = answer.print();
             return ExitCode::from(answer.exit_code() as u8);
         }

@@ -128,7 +128,7 @@ impl MeshRequest {
         self.sources.iter().any(SourceSpec::uses_scale)
     }
 
-    /// The files that are to be read.
+    /// The files to read.
     pub fn input_files(&self) -> Vec<PathBuf> {
         let path = |source: &SourceSpec| match source {
             SourceSpec::Raster(raster) => Some(raster.path.clone()),

@@ -54,7 +54,7 @@ enum FollowState {
     InStep,
     /// Paint is read into the shown field, and the shown mesh is updated where that changed.
     Updating {
-        /// The mesh that will be updated, while somebody else holds the shown one.
+        /// The mesh that will be updated, while an export holds the shown one.
         copy: Option<MeshCopy>,
     },
     /// Another outline is compared with that of the shown mesh and indexed.
@@ -103,7 +103,7 @@ impl Follower {
     }
 
     /// The shown mesh as it is, for work that takes longer than a frame. It does not change while it is held;
-    /// the follower goes on with a copy.
+    /// the follower continues with a copy.
     pub fn shared_mesh(&self) -> Arc<Mesh> {
         self.shown.mesh.clone()
     }
@@ -316,7 +316,7 @@ impl Follower {
                 let former = std::mem::replace(&mut self.shown, rebuild.finish());
                 self.revision += 1;
                 self.change = Some(MeshChange::Replaced);
-                // Unless somebody else holds it, the next mesh of a drag is built in its memory.
+                // Unless an export holds it, the next mesh of a drag is built in its memory.
                 return self.next_state_reusing(wanted, Arc::into_inner(former.mesh));
             }
             Err(error) if rebuild.is_up_to_date(wanted) => return Err(error),

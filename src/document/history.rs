@@ -84,7 +84,7 @@ pub struct History {
 
 impl History {
     /// Most bytes that the gestures keep alive: old pixels, outlines, pictures and formulas. The last gesture
-    /// is kept whatever its size.
+    /// is kept at any size.
     pub const MAX_BYTES: usize = 256 << 20;
 
     /// Adds a gesture that was just done, and drops those that can no longer be redone. `current` are the

@@ -35,7 +35,7 @@ pub enum Setting {
     Boundary(BoundaryTreatment),
 }
 
-/// Which setting a [`Setting`] changes, whatever the value: changes of one kind can be one gesture.
+/// Which setting a [`Setting`] changes, at any value: changes of one kind can be one gesture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct SettingKind(Discriminant<Setting>);
 

@@ -126,7 +126,7 @@ impl Shown {
         self.settings = update.settings.clone();
         let (domain, areas) = update.finish();
         self.domain = domain;
-        areas.into_iter().for_each(|area| self.updater.add_and_tell(area));
+        areas.into_iter().for_each(|area| self.updater.add_and_report(area));
     }
 
     /// The work on another mesh, which reuses what the shown one has already, and the memory of `spare`.

@@ -10,7 +10,7 @@ pub enum Stage {
     Indexing,
     /// h̄ is sampled by pixel.
     Sampling,
-    /// The mesh is copied, because somebody else holds it; so far this many triangles.
+    /// The mesh is copied, because an export holds it; so far this many triangles.
     Copying {
         /// Triangles so far.
         triangles: usize,

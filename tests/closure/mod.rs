@@ -1,4 +1,4 @@
-//! The smallest conforming refinement, found the plain way: bisect whatever breaks a rule until nothing does.
+//! The smallest conforming refinement, found by brute force: bisect every triangle that breaks a rule until none does.
 //!
 //! Shares no code with the core. A triangle is its three corners as whole numbers, the right angle first: no
 //! vertex order, no levels stored, no neighbours, no numbering. Slow, and short enough to be believed.
@@ -38,7 +38,7 @@ pub fn level(cell: i64, [_, a, b]: &Triangle) -> u32 {
 /// none.
 ///
 /// Both reasons are forced, and bisecting one triangle never takes away the reason to bisect another: the
-/// result is the smallest conforming refinement, whatever the order.
+/// result is the smallest conforming refinement, in any order.
 pub fn refine(mut triangles: Vec<Triangle>, exceeds: impl Fn(&Triangle) -> bool) -> Vec<Triangle> {
     let mut nodes: HashSet<Point> = triangles.iter().flatten().copied().collect();
     loop {
@@ -70,7 +70,7 @@ fn midpoint(p: Point, q: Point) -> Option<Point> {
     (sum[0] % 2 == 0 && sum[1] % 2 == 0).then_some([sum[0] / 2, sum[1] / 2])
 }
 
-/// The triangles as a set, whatever their order and that of their corners.
+/// The triangles as a set, independent of their order and that of their corners.
 pub fn set_of(triangles: impl IntoIterator<Item = Triangle>) -> Vec<Triangle> {
     let sorted = |mut t: Triangle| {
         t.sort_unstable();

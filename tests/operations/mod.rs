@@ -69,7 +69,7 @@ pub enum Operation {
     Stroke(Brush, Vec<DVec2>),
     /// The beginning of one.
     Begin(Brush, DVec2),
-    /// Its next point, or nothing where none is under way.
+    /// Its next point; nothing without a current stroke.
     Draw(DVec2),
     End,
     CancelStroke,
@@ -80,9 +80,9 @@ pub enum Operation {
     Cut(CutShape, bool),
     Set(Setting),
     EndGesture,
-    /// The work under way is given up.
+    /// The current work is cancelled.
     CancelUpdate,
-    /// The project is saved and opened, and the opened document goes on, without history.
+    /// The project is saved and opened, and the opened document replaces it, without history.
     Reopen,
 }
 
@@ -296,7 +296,7 @@ impl Driver {
         }
     }
 
-    /// Saves, opens and goes on as the window does: with another follower, whose mesh must be the one at rest
+    /// Saves and opens as the window does: with another follower, whose mesh must be the one at rest
     /// before.
     fn reopen(&mut self) {
         self.settle();
@@ -358,8 +358,8 @@ impl Driver {
             }
             None => {}
         }
-        assert!(self.nodes == mesh.raw_nodes(), "a node changed and was not told");
-        assert!(self.triangles == mesh.raw_triangles(), "a triangle changed and was not told");
+        assert!(self.nodes == mesh.raw_nodes(), "a node changed and was not reported");
+        assert!(self.triangles == mesh.raw_triangles(), "a triangle changed and was not reported");
     }
 
     /// Works on to rest, where the mesh must be the one made from scratch.
@@ -371,8 +371,8 @@ impl Driver {
             return;
         }
         // Paint that cannot be met stays, and the mesh is then an earlier one.
-        if let Ok(anew) = Follower::new(&mut self.document.clone()) {
-            assert_eq!(self.follower.mesh().fingerprint(), anew.mesh().fingerprint());
+        if let Ok(rebuilt) = Follower::new(&mut self.document.clone()) {
+            assert_eq!(self.follower.mesh().fingerprint(), rebuilt.mesh().fingerprint());
             self.compared += 1;
         }
     }
@@ -382,7 +382,7 @@ fn patch<T: Copy>(copy: &mut Vec<T>, now: &[T], ranges: &[Range<usize>]) {
     copy.truncate(now.len());
     for range in ranges {
         // New entries are in the ranges, which ascend.
-        assert!(range.start <= copy.len(), "entries are new and were not told");
+        assert!(range.start <= copy.len(), "entries are new and were not reported");
         copy.extend_from_slice(&now[copy.len().min(range.end)..range.end]);
         copy[range.clone()].copy_from_slice(&now[range.clone()]);
     }

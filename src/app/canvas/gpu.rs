@@ -58,7 +58,7 @@ impl CanvasGpu {
         Ok(Self { state: state.clone(), in_software, sending })
     }
 
-    /// Draws in software from now on, whatever the driver.
+    /// Draws in software from now on, with any driver.
     pub fn draw_in_software(&mut self) {
         self.in_software = true;
     }

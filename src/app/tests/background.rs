@@ -1,7 +1,7 @@
 //! Files being read and written beside the window: their progress, cancelling them, and closing the window
 //! before they are done.
 //!
-//! Pipes make it slow: whoever reads or writes one waits for the test.
+//! Pipes make it slow: reading or writing one waits for the test.
 
 use std::fs::{self, File};
 use std::io::{ErrorKind, Read, Write};
@@ -36,7 +36,7 @@ fn writer(pipe: &Path) -> File {
     File::options().write(true).open(pipe).unwrap()
 }
 
-fn told(window: &Window) -> String {
+fn message(window: &Window) -> String {
     window.state().session().notice().map(|notice| notice.text.clone()).unwrap_or_default()
 }
 
@@ -52,7 +52,7 @@ fn has_bar(window: &Window, what: &str) -> bool {
 fn wait(window: &mut Window, what: &str, done: impl Fn(&Window) -> bool) {
     let start = Instant::now();
     while !done(window) {
-        assert!(start.elapsed() < Duration::from_secs(30), "waited for {what}; told: {}", told(window));
+        assert!(start.elapsed() < Duration::from_secs(30), "waited for {what}; shown: {}", message(window));
         std::thread::sleep(Duration::from_millis(5));
         window.run();
     }
@@ -84,7 +84,7 @@ fn close(window: &mut Window) -> bool {
 fn wait_for_close(window: &mut Window) {
     let start = Instant::now();
     while !asked(window).contains(&ViewportCommand::Close) {
-        assert!(start.elapsed() < Duration::from_secs(30), "it stays open; told: {}", told(window));
+        assert!(start.elapsed() < Duration::from_secs(30), "it stays open; shown: {}", message(window));
         std::thread::sleep(Duration::from_millis(2));
         window.step();
     }
@@ -115,12 +115,12 @@ fn a_read_shows_how_far_it_is_and_cancelled_it_changes_nothing() {
     wait(&mut window, "the bar", |window| has_bar(window, "Reading coast.geojson"));
     let pause = pause_before_next_frame(&window);
     assert!((Duration::from_millis(50)..Duration::from_secs(1)).contains(&pause), "{pause:?}");
-    // The window goes on meanwhile.
+    // The window continues meanwhile.
     paint(&mut window, 0.9);
     let version = document(&window).version();
 
     cancel(&mut window, "Reading coast.geojson");
-    assert!(told(&window).contains("Reading coast.geojson was cancelled"), "{}", told(&window));
+    assert!(message(&window).contains("Reading coast.geojson was cancelled"), "{}", message(&window));
     assert!(!has_bar(&window, "Reading coast.geojson"));
     assert_eq!(pause_before_next_frame(&window), Duration::MAX, "the window rests");
     // Nobody reads on.
@@ -138,7 +138,7 @@ fn a_read_shows_how_far_it_is_and_cancelled_it_changes_nothing() {
         window.run();
     }
     assert_eq!(document(&window).version(), version);
-    assert!(shows(&window, EDITED) && told(&window).contains("was cancelled"));
+    assert!(shows(&window, EDITED) && message(&window).contains("was cancelled"));
 }
 
 #[test]
@@ -185,8 +185,8 @@ fn a_cancelled_export_leaves_the_former_files() {
     cancel(&mut window, "Writing mesh.node");
     assert!(has_bar(&window, "Cancelling mesh.node"), "the pipe is not closed yet");
     read_all(&last);
-    wait(&mut window, "the notice", |window| !told(window).is_empty());
-    assert_eq!(told(&window), "Writing mesh.node was cancelled. The file that was there is unchanged.");
+    wait(&mut window, "the notice", |window| !message(window).is_empty());
+    assert_eq!(message(&window), "Writing mesh.node was cancelled. The file that was there is unchanged.");
     assert!(!has_bar(&window, "Cancelling mesh.node"));
     assert_eq!(names(&folder), before);
     for ending in ["node", "ele", "neigh"] {
@@ -210,9 +210,9 @@ fn a_window_that_is_closed_while_the_document_is_saved_closes_when_it_is() {
             window.run();
         }
         assert!(!shows(&window, QUESTION), "it is being saved");
-        assert!(has_bar(&window, "Saving a.meshbrush"), "at once, as somebody waits for it");
-        assert!(told(&window).contains("closes as soon as") && told(&window).contains("a.meshbrush"));
-        assert!(close(&mut window), "not even when told twice");
+        assert!(has_bar(&window, "Saving a.meshbrush"), "at once, because the user waits for it");
+        assert!(message(&window).contains("closes as soon as") && message(&window).contains("a.meshbrush"));
+        assert!(close(&mut window), "not even when asked twice");
         let saved = std::thread::spawn(move || read_all(&file));
         wait_for_close(&mut window);
         let saved = project::from_bytes(&saved.join().unwrap(), Path::new("a")).unwrap();
@@ -244,7 +244,7 @@ fn a_cancelled_save_leaves_the_document_unsaved_and_the_window_open() {
     window.run();
     cancel(&mut window, "Saving a.meshbrush");
     let saved = std::thread::spawn(move || read_all(&file));
-    wait(&mut window, "the notice", |window| told(window).contains("Saving a.meshbrush was cancelled"));
+    wait(&mut window, "the notice", |window| message(window).contains("Saving a.meshbrush was cancelled"));
     assert!(shows(&window, EDITED));
     assert!(project::from_bytes(&saved.join().unwrap(), Path::new("a")).is_err());
     assert!(close(&mut window), "it is asked first");
@@ -288,7 +288,7 @@ fn what_is_saved_while_the_document_is_saved_is_saved_next_and_then_it_is_left()
     let mut drain = File::options().read(true).write(true).open(&file).unwrap();
     std::thread::spawn(move || std::io::copy(&mut drain, &mut std::io::sink()));
     wait(&mut window, "the new document", |window| document(window).paint().is_blank());
-    assert!(told(&window).is_empty(), "{}", told(&window));
+    assert!(message(&window).is_empty(), "{}", message(&window));
 }
 
 #[test]
@@ -299,9 +299,9 @@ fn a_window_that_is_closed_during_an_export_waits_for_it_or_until_it_is_cancelle
         send(&mut window, Command::Export(file.clone()));
         assert!(close(&mut window), "the file is not written yet");
         window.run();
-        assert!(has_bar(&window, "Writing mesh.csv") && told(&window).contains("mesh.csv"));
+        assert!(has_bar(&window, "Writing mesh.csv") && message(&window).contains("mesh.csv"));
         if cancelled {
-            // Nobody reads the pipe: the window need not wait until somebody does.
+            // Nothing reads the pipe: the window must not wait for it.
             window.get_by_role_and_label(Role::Button, "Cancel: Writing mesh.csv").click();
             wait_for_close(&mut window);
             read_all(&file);
@@ -322,7 +322,7 @@ fn an_export_that_fails_keeps_the_window_open_to_say_so() {
     window.run();
     // Somebody reads a little of it and goes away.
     File::open(&file).unwrap().read_exact(&mut [0; 10]).unwrap();
-    wait(&mut window, "the failure", |window| told(window).contains("could not be written"));
+    wait(&mut window, "the failure", |window| message(window).contains("could not be written"));
     for _ in 0..10 {
         window.step();
         assert!(!asked(&window).contains(&ViewportCommand::Close));

@@ -17,14 +17,14 @@ use crate::document::{Setting, Settings};
 use crate::field::RefinementRule;
 
 /// The number on the tag for a dab at a place, and what a click there then does to the number of triangles.
-fn told_and_true(window: &mut Window, world: DVec2) -> (String, i64) {
-    let told = hover(window, world).expect("a tag beside the ring");
+fn shown_and_actual(window: &mut Window, world: DVec2) -> (String, i64) {
+    let message = hover(window, world).expect("a tag beside the ring");
     let before = triangles(window) as i64;
     click(window, world, Modifiers::NONE);
-    (told, triangles(window) as i64 - before)
+    (message, triangles(window) as i64 - before)
 }
 
-fn as_told(change: i64) -> String {
+fn as_shown(change: i64) -> String {
     match change {
         0 => "no change".into(),
         _ => format!("{} triangles", crate::app::widgets::format::change(change)),
@@ -47,14 +47,14 @@ fn the_brush_shows_its_price_before_the_click_and_the_price_is_true() {
     for tool in [&BRUSH, &ERASER] {
         send(&mut window, Command::Use(tool));
         for place in [FREE, FREE - dvec2(0.03, 0.02), dvec2(0.02, 0.97), FREE] {
-            let (told, change) = told_and_true(&mut window, place);
-            assert_eq!(told, as_told(change), "{tool:?} at {place}");
+            let (message, change) = shown_and_actual(&mut window, place);
+            assert_eq!(message, as_shown(change), "{tool:?} at {place}");
             seen.insert(change.signum());
         }
     }
     assert_eq!(seen.into_iter().collect::<Vec<_>>(), [-1, 1]);
     // Beside the domain.
-    assert_eq!(told_and_true(&mut window, dvec2(1.09, 0.5)), ("no change".into(), 0));
+    assert_eq!(shown_and_actual(&mut window, dvec2(1.09, 0.5)), ("no change".into(), 0));
 }
 
 #[test]
@@ -74,11 +74,11 @@ fn the_price_is_asked_only_where_a_click_paints_a_dab() {
     }
     window.event(Event::ModifiersChanged(Modifiers::NONE));
     press(&mut window, FREE, Modifiers::NONE);
-    assert_eq!(price_tag(&window), None, "a stroke is under way");
+    assert_eq!(price_tag(&window), None, "during a stroke");
     release(&mut window, FREE);
     assert!(price_tag(&window).is_some());
     set(&mut window, Setting::RefinementRule(RefinementRule::Vertex));
-    assert_eq!(price_tag(&window), None, "every edit makes the mesh anew");
+    assert_eq!(price_tag(&window), None, "every edit rebuilds the mesh");
     set(&mut window, Setting::RefinementRule(RefinementRule::Area));
     // A larger brush costs more, with the pointer where it is.
     let small = price_tag(&window).unwrap();
@@ -164,9 +164,9 @@ fn while_the_mesh_stops_short_of_the_paint_a_message_says_so_and_stays() {
     set(&mut window, Setting::MaxTriangles(count + 110));
     assert!(notice(&window).contains("what you painted is kept"), "{}", notice(&window));
     assert!(window.query_by_label("Dismiss").is_none());
-    assert_eq!(price_tag(&window), None, "a mesh that is behind has no price to tell");
-    assert!(window.query_by_label_contains("Refining").is_none(), "nothing goes on");
-    // A larger budget does, and the work goes on by itself.
+    assert_eq!(price_tag(&window), None, "no price while the mesh is not up to date");
+    assert!(window.query_by_label_contains("Refining").is_none(), "no work continues");
+    // A larger budget does, and the work continues by itself.
     set(&mut window, Setting::MaxTriangles(Settings::MAX_TRIANGLES));
     assert_eq!(notice(&window), "");
     assert!(triangles(&window) > count + 110);

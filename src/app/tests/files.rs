@@ -18,8 +18,8 @@ fn an_export_writes_the_file_and_tells() {
         let file = scratch(&format!("app-export.{ending}"));
         let _ = std::fs::remove_file(&file); // absent at the first run
         send(&mut window, Command::Export(file.clone()));
-        let told = wait_for_notice(&mut window);
-        assert!(told.contains("triangles written to") && told.contains(ending), "{told}");
+        let message = wait_for_notice(&mut window);
+        assert!(message.contains("triangles written to") && message.contains(ending), "{message}");
         assert!(std::fs::metadata(&file).unwrap().len() > 100_000);
         send(&mut window, Command::Escape);
     }
@@ -53,7 +53,7 @@ fn an_export_asks_before_it_replaces_any_of_its_files() {
     assert!(wait_for_notice(&mut window).contains("triangles written to"));
     assert!(nodes.exists() && std::fs::read_to_string(&elements).unwrap() != "of another mesh");
     stroke(&mut window, dvec2(0.1, 0.1), dvec2(0.2, 0.1));
-    assert_eq!(notice(&window), "", "news go once work goes on");
+    assert_eq!(notice(&window), "", "news disappear when work continues");
 }
 
 #[test]
@@ -77,8 +77,8 @@ fn a_bad_picture_is_told_and_a_good_one_becomes_risk() {
     let bad = scratch("app-bad.png");
     std::fs::write(&bad, b"no picture").unwrap();
     send(&mut window, Command::OpenImage(bad));
-    let told = wait_for_notice(&mut window);
-    assert!(told.contains("app-bad.png"), "{told}");
+    let message = wait_for_notice(&mut window);
+    assert!(message.contains("app-bad.png"), "{message}");
     assert_eq!(fingerprint(&window), before);
     send(&mut window, Command::Escape);
 

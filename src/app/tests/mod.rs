@@ -263,7 +263,7 @@ fn wait_until(window: &mut Window, done: impl Fn(&Window) -> bool) {
 fn wait_for_notice(window: &mut Window) -> String {
     let patience = Instant::now() + Duration::from_secs(20);
     while notice(window).is_empty() {
-        assert!(Instant::now() < patience, "nothing was told");
+        assert!(Instant::now() < patience, "no message was shown");
         std::thread::sleep(Duration::from_millis(5));
         window.run();
     }

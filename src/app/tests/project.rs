@@ -196,9 +196,9 @@ fn what_cannot_be_opened_or_saved_is_told_and_changes_nothing() {
         let file = folder.join(name);
         fs::write(&file, bytes).unwrap();
         send(&mut window, Command::Open(file));
-        let told = |window: &Window| window.state().session().notice().map(|notice| notice.text.clone());
-        wait(&mut window, name, |window| told(window).is_some_and(|text| text.contains(name)));
-        let text = told(&window).unwrap();
+        let message = |window: &Window| window.state().session().notice().map(|notice| notice.text.clone());
+        wait(&mut window, name, |window| message(window).is_some_and(|text| text.contains(name)));
+        let text = message(&window).unwrap();
         assert!(text.contains(word), "{text}");
     }
     assert_eq!(document(&window).version(), version);
@@ -210,9 +210,9 @@ fn what_cannot_be_opened_or_saved_is_told_and_changes_nothing() {
     // Edits that were given up for a file which cannot be opened are asked about again.
     send(&mut window, Command::Open(folder.join("cut.meshbrush")));
     press(&mut window, "Do not save");
-    let told =
+    let message =
         |window: &Window| window.state().session().notice().is_some_and(|n| n.text.contains("cut off"));
-    wait(&mut window, "the failure", told);
+    wait(&mut window, "the failure", message);
     send(&mut window, Command::Quit);
     assert!(shows(&window, "Save changes to “Radar threats”?"));
 }

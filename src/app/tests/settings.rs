@@ -132,9 +132,9 @@ fn a_formula_that_is_no_length_somewhere_says_where_and_changes_nothing() {
             window.get_by_role_and_label(Role::RadioButton, "Formula").click();
             window.run();
             type_into(&mut window, "Target diameter h̄(x, y)", formula);
-            let told = notice(&window);
-            assert!(told.contains(x) || told.contains("x = 0."), "{formula}: {told}");
-            assert!(window.query_by_role_and_label(Role::Alert, &told).is_some(), "{told}");
+            let message = notice(&window);
+            assert!(message.contains(x) || message.contains("x = 0."), "{formula}: {message}");
+            assert!(window.query_by_role_and_label(Role::Alert, &message).is_some(), "{message}");
             assert_eq!((fingerprint(&window), settings(&window).clone(), entries(&window)), before);
         }
     }

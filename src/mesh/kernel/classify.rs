@@ -43,7 +43,7 @@ impl Mesh {
 
     /// Area of the triangles that belong to the domain, in square world units.
     ///
-    /// Where cells are not quite square this is the area of the true triangles all the same.
+    /// Exact also where cells are not quite square.
     pub fn area(&self) -> f64 {
         let cell = self.lattice.step() * f64::from(self.lattice.cell_steps());
         let share = |level: usize| 0.5 * cell.x * cell.y / (1u64 << level) as f64;

@@ -19,7 +19,7 @@ pub struct InvalidTarget {
     pub value: f64,
 }
 
-/// Why refinement stopped before every triangle was satisfied. The mesh is conforming all the same.
+/// Why refinement stopped before every triangle was satisfied. The mesh conforms nevertheless.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum RefineError {

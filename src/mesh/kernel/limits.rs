@@ -2,7 +2,7 @@
 
 use super::RefineError;
 
-/// The most triangles of any mesh, whatever its limits: higher ids serve as marks.
+/// The most triangles of any mesh, under any limits: higher ids serve as marks.
 pub const MOST_TRIANGLES: usize = (1 << 31) - 1;
 
 /// What a mesh may cost.

@@ -148,13 +148,13 @@ impl Updater {
     /// called before the next [`Self::advance`] after such a change, and may be called while earlier work is
     /// under way.
     pub fn add(&mut self, area: LatticeRect) {
-        self.areas.push(Area { rect: area, tell: false });
+        self.areas.push(Area { rect: area, reports_all: false });
     }
 
     /// As [`Self::add`], where besides something has changed that is derived from each triangle alone: all
     /// that touch the rectangle count as changed ([`Self::take_changes`]).
-    pub fn add_and_tell(&mut self, area: LatticeRect) {
-        self.areas.push(Area { rect: area, tell: true });
+    pub fn add_and_report(&mut self, area: LatticeRect) {
+        self.areas.push(Area { rect: area, reports_all: true });
     }
 
     /// Whether nothing is left to do.
@@ -180,7 +180,7 @@ impl Updater {
         self.log.take()
     }
 
-    /// How often the mesh was changed so far: whenever this grows, another mesh is to be shown.
+    /// How often the mesh was changed so far. When this grows, the picture is out of date.
     pub fn steps(&self) -> u64 {
         self.log.steps()
     }
@@ -259,7 +259,7 @@ impl Updater {
         let Some(search) = &mut self.search else {
             if let Some(area) = self.areas.pop() {
                 self.search = Some(Search::new(mesh, area.rect));
-                self.reports_all = area.tell;
+                self.reports_all = area.reports_all;
             }
             return Ok(());
         };
@@ -364,5 +364,5 @@ impl Updater {
 struct Area {
     rect: LatticeRect,
     /// Whether all triangles that touch it count as changed.
-    tell: bool,
+    reports_all: bool,
 }

@@ -29,7 +29,7 @@ pub struct LevelRow {
 
 /// Bars in the canvas's colours, the counts beside them.
 ///
-/// Bars are linear in the count. A row keeps its place whatever the counts are. Above
+/// Bars are linear in the count. The place of a row does not depend on the counts. Above
 /// [`LevelLegend::max_height`] rows first move closer together and then scroll.
 #[must_use = "call `show`"]
 pub struct LevelLegend<'a> {
