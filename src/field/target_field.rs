@@ -201,7 +201,8 @@ impl TargetField {
         self.levels.update(rows, |x, y| levels[((y - rows.min[1]) * columns + x) as usize]);
     }
 
-    /// What a pixel asks for, given another pixel's answer: most pixels ask for the same as the one before them.
+    /// What a pixel asks for, given another pixel's answer: most pixels ask for the same as the one before
+    /// them.
     #[inline]
     fn pixel_after(&self, last: Pixel, paint: Option<PaintRef>, x: u32, y: u32) -> Pixel {
         let painted = paint.map_or([0.0, f32::INFINITY], |p| [p.risk.get(x, y), p.diameter.get(x, y)]);

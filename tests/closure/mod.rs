@@ -1,4 +1,5 @@
-//! The smallest conforming refinement, found by brute force: bisect every triangle that breaks a rule until none does.
+//! The smallest conforming refinement, found by brute force: bisect every triangle that breaks a rule until
+//! none does.
 //!
 //! Shares no code with the core. A triangle is its three corners as whole numbers, the right angle first: no
 //! vertex order, no levels stored, no neighbours, no numbering. Slow, and short enough to be believed.

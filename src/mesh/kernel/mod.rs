@@ -201,7 +201,8 @@ impl KindCounts {
         self.0[parent.finer().index()] += 2;
     }
 
-    /// The opposite of [`Self::bisected`]: a parent of this kind replaces its children, which may be of any class.
+    /// The opposite of [`Self::bisected`]: a parent of this kind replaces its children, which may be of any
+    /// class.
     #[inline]
     fn merged(&mut self, children: [Kind; 2], parent: Kind) {
         for child in children {
