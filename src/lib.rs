@@ -41,7 +41,8 @@ pub use build::{
     BuildError, BuildStage, BuiltMesh, FieldSampling, MeshBuilder, MeshSpec, RefinementCriterion,
 };
 pub use domain::{
-    BoundaryTreatment, CutShape, Domain, DomainOnLattice, DomainShape, Polygon, Region, RegionError, Ring,
+    BoundaryTreatment, CutShape, Domain, DomainOnLattice, DomainShape, MOST_CORNERS, Polygon, Region,
+    RegionError, Ring,
 };
 pub use field::formula::ParseError;
 pub use field::{
@@ -50,10 +51,10 @@ pub use field::{
 };
 pub use geometry::{GridError, Lattice, LatticePoint, LatticeRect, Rect};
 pub use mesh::{
-    Changes, CoarseError, Element, Fingerprint, Forecast, InvalidTarget, Limits, MemoryLimit, Mesh, Progress,
-    RefineError, Refiner, Updater, Violation, bisection_edge_length,
+    Changes, CoarseError, Element, Fingerprint, Forecast, InvalidTarget, Limits, MOST_TRIANGLES, MemoryLimit,
+    Mesh, Progress, RefineError, Refiner, Updater, Violation, bisection_edge_length,
 };
-pub use raster::{PixelRect, Raster};
+pub use raster::{MAX_SIDE, PixelRect, Raster};
 
 // Paint.
 pub use document::{Base, Document, Example, Follower, MeshChange, Setting, Settings, SettingsError, Stage};
@@ -61,8 +62,8 @@ pub use paint::{Brush, Medium, PaintRasters};
 
 // Query a mesh.
 pub use mesh::{
-    Adjacency, Location, Locator, Neighbour, NodeId, Orientation, Survey, Topology, Triangle, TriangleId,
-    barycentric, interpolate,
+    Adjacency, Location, Locator, Neighbour, NodeId, Numbering, Orientation, Survey, Topology, Triangle,
+    TriangleId, barycentric, interpolate,
 };
 
 // Read and write files.
@@ -70,7 +71,7 @@ pub use colormap::{Colormap, Ground, LevelColors};
 pub use io::{Cancelled, MeshData, MeshFormat, Meter, NodeValues, ReadError};
 pub use mesh::{BoundaryEdge, Cell, Extract, MeshEdge};
 pub use render::Image;
-pub use render::export::{ExportFormat, Look, UnknownEnding};
+pub use render::export::{ExportFormat, LARGEST_PICTURE, Look, UnknownEnding};
 
 pub use io::asc::read as read_asc;
 pub use io::geojson::{read as read_geojson, write as write_geojson};

@@ -25,7 +25,7 @@ pub enum Source {
 impl Source {
     /// The target diameter at a point in world units; rasters ask for nothing (infinity) beyond their edge.
     ///
-    /// Unchecked: a formula may give NaN or a value below zero. See [`checked_target`].
+    /// Unchecked: a formula may give NaN or a value below zero.
     pub fn target(&self, point: DVec2, transfer: &impl RiskToDiameter) -> f64 {
         match self {
             Self::Constant(diameter) => *diameter,

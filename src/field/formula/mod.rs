@@ -67,7 +67,7 @@ impl Formula {
     /// # Errors
     ///
     /// The first mistake in reading order, with its place and what would help. Texts longer than
-    /// [`MAX_LENGTH`] bytes or nested deeper than [`MAX_NESTING`] are mistakes too.
+    /// 64 KiB and expressions nested deeper than 200 are mistakes too.
     ///
     /// ```
     /// use meshbrush::Formula;

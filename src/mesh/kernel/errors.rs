@@ -32,7 +32,7 @@ pub enum RefineError {
         Grouped(*limit)
     )]
     TooManyTriangles {
-        /// [`Limits::max_triangles`].
+        /// [`Limits::max_triangles`](crate::Limits::max_triangles).
         limit: usize,
     },
     /// The next call would pass the memory budget.
@@ -43,7 +43,7 @@ pub enum RefineError {
     TooMuchMemory {
         /// The triangles that there is room for.
         limit: usize,
-        /// [`Limits::max_memory`].
+        /// [`Limits::max_memory`](crate::Limits::max_memory).
         memory: MemoryLimit,
     },
     /// The target is smaller than the lattice can resolve.
