@@ -25,7 +25,7 @@ impl Camera {
     /// margin of `margin_px` on every side.
     ///
     /// ```
-    /// # use meshbrush::{geometry::{Lattice, Rect}, scene::Camera};
+    /// # use meshbrush::{Lattice, Rect, internals::scene::Camera};
     /// # use glam::dvec2;
     /// let lattice = Lattice::covering(Rect::UNIT, 0.1, 1000)?;
     /// let camera = Camera::fit(&lattice, Rect::UNIT, [120, 220], 10.0);

@@ -8,7 +8,7 @@ use crate::geometry::LatticePoint;
 /// the point lies in the triangle.
 ///
 /// ```
-/// # use meshbrush::{geometry::LatticePoint, mesh::barycentric};
+/// # use meshbrush::{LatticePoint, barycentric};
 /// let corners = [LatticePoint::new(0, 4), LatticePoint::new(0, 0), LatticePoint::new(4, 0)];
 /// assert_eq!(barycentric(corners, glam::dvec2(1.0, 1.0)), [0.25, 0.5, 0.25]);
 /// ```
