@@ -532,7 +532,7 @@ fn wrong_arguments_are_explained() {
         ("mesh --resolution 100000", 2, "--resolution 100000: choose from"),
         ("mesh --rule both", 2, "invalid value 'both'"),
         ("mesh -o mesh.ply", 2, "use one of .vtu .msh .obj .stl .node .2dm .csv .svg .png"),
-        ("mesh -o mesh", 2, "the ending says what to write"),
+        ("mesh -o mesh", 2, "-o mesh: the ending chooses the format; use one of .vtu"),
         ("mesh -o m.svg --size 0", 2, "--size 0: write a width"),
         ("mesh -o m.svg --colormap jet", 2, "There is no colormap `jet`"),
         ("mesh -o nowhere/m.vtu", 1, "nowhere/m.vtu cannot be written: there is no folder nowhere."),

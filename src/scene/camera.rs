@@ -23,15 +23,6 @@ pub struct Camera {
 impl Camera {
     /// The camera that shows `bounds`, in world units, as large as possible on a canvas of `size_px`, with a
     /// margin of `margin_px` on every side.
-    ///
-    /// ```
-    /// # use meshbrush::{Lattice, Rect, internals::scene::Camera};
-    /// # use glam::dvec2;
-    /// let lattice = Lattice::covering(Rect::UNIT, 0.1, 1000)?;
-    /// let camera = Camera::fit(&lattice, Rect::UNIT, [120, 220], 10.0);
-    /// assert_eq!(camera.screen_from_world(dvec2(0.0, 1.0)), dvec2(10.0, 60.0));
-    /// # Ok::<(), meshbrush::GridError>(())
-    /// ```
     pub fn fit(lattice: &Lattice, bounds: Rect, size_px: [u32; 2], margin_px: f64) -> Self {
         let size_px = size_px.map(|n| n.max(1));
         let px_per_world = fitting_scale(bounds, size_px, margin_px);
@@ -180,6 +171,13 @@ mod tests {
     fn camera(bounds: Rect, spacing: f64) -> Camera {
         let lattice = Lattice::covering(bounds, spacing, 100_000).unwrap();
         Camera::fit(&lattice, bounds, [800, 600], 20.0)
+    }
+
+    #[test]
+    fn a_fitted_rectangle_is_centred_within_the_margin() {
+        let lattice = Lattice::covering(Rect::UNIT, 0.1, 1000).unwrap();
+        let camera = Camera::fit(&lattice, Rect::UNIT, [120, 220], 10.0);
+        assert_eq!(camera.screen_from_world(dvec2(0.0, 1.0)), dvec2(10.0, 60.0));
     }
 
     #[test]
