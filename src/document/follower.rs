@@ -55,7 +55,7 @@ enum FollowState {
     /// Paint is read into the shown field, and the shown mesh is updated where that changed.
     Updating {
         /// The mesh that will be updated, while an export holds the shown one.
-        copy: Option<MeshCopy>,
+        copy: Option<Box<MeshCopy>>,
     },
     /// Another outline is compared with that of the shown mesh and indexed.
     FollowingOutline(Box<OutlineUpdate>),
@@ -182,17 +182,22 @@ impl Follower {
     /// until it changes.
     pub fn advance(&mut self, document: &mut Document, budget: usize) -> Result<Stage, BuildError> {
         self.take_over_paint(document);
-        if !matches!(self.state, FollowState::GaveUp { revision, .. } if revision == document.revision()) {
-            if let Err(error) = self.work(document, budget) {
-                self.stopped = Some(error.clone());
-                self.state = FollowState::GaveUp { revision: document.revision(), cancelled: false };
-                return Err(error);
-            }
+        if !self.gave_up_on(document)
+            && let Err(error) = self.work(document, budget)
+        {
+            self.stopped = Some(error.clone());
+            self.state = FollowState::GaveUp { revision: document.revision(), cancelled: false };
+            return Err(error);
         }
         if matches!(self.state, FollowState::InStep) {
             self.stopped = None;
         }
         Ok(self.stage())
+    }
+
+    /// Whether the document as it is was tried already, and failed or was cancelled.
+    fn gave_up_on(&self, document: &Document) -> bool {
+        matches!(self.state, FollowState::GaveUp { revision, .. } if revision == document.revision())
     }
 
     fn take_over_paint(&mut self, document: &mut Document) {
@@ -270,7 +275,7 @@ impl Follower {
     /// One slice of updates of the shown field and mesh.
     fn update(
         &mut self,
-        mut copy: Option<MeshCopy>,
+        mut copy: Option<Box<MeshCopy>>,
         document: &Document,
         budget: usize,
     ) -> Result<FollowState, BuildError> {

@@ -162,7 +162,7 @@ impl Shown {
     /// One slice of updates of the mesh; of copying it first, as long as it is shared.
     pub(super) fn update_mesh(
         &mut self,
-        copy: &mut Option<MeshCopy>,
+        copy: &mut Option<Box<MeshCopy>>,
         budget: usize,
     ) -> Result<(), RefineError> {
         if self.updater.is_done() || self.unshare_mesh(copy, budget) == Progress::More {
@@ -188,13 +188,13 @@ impl Shown {
 
     /// Copies a shared mesh in slices, and puts the copy in its place once it is whole. `Done` when the mesh
     /// is not shared.
-    fn unshare_mesh(&mut self, copy: &mut Option<MeshCopy>, budget: usize) -> Progress {
+    fn unshare_mesh(&mut self, copy: &mut Option<Box<MeshCopy>>, budget: usize) -> Progress {
         if Arc::get_mut(&mut self.mesh).is_some() {
             // The other holder let go: no copy is needed.
             *copy = None;
             return Progress::Done;
         }
-        let mut copying = copy.take().unwrap_or_else(|| MeshCopy::new(&self.mesh));
+        let mut copying = copy.take().unwrap_or_else(|| Box::new(MeshCopy::new(&self.mesh)));
         match copying.advance(&self.mesh, budget) {
             Progress::More => {
                 *copy = Some(copying);

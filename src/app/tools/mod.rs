@@ -60,9 +60,12 @@ pub struct ToolSpec {
     pub highlights_hovered: bool,
     /// Draws over the mesh while the tool is selected.
     pub paint: fn(&FrameState<'_>, &OverMesh<'_>),
-    /// Begins a gesture when the primary button is pressed, or acts at once and returns `None`.
-    pub press: fn(&Press, &Pointer<'_>, &mut Vec<Command>) -> Option<Box<dyn Gesture>>,
+    /// What happens when the primary button is pressed.
+    pub press: BeginGesture,
 }
+
+/// Begins a gesture, or acts at once and returns `None`.
+pub type BeginGesture = fn(&Press, &Pointer<'_>, &mut Vec<Command>) -> Option<Box<dyn Gesture>>;
 
 /// Where a tool draws over the mesh.
 pub struct OverMesh<'a> {
