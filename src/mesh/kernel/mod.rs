@@ -47,7 +47,8 @@ pub(in crate::mesh) const DEEPEST_LEVEL: usize = 2 * LATTICE_BITS as usize;
 
 /// A conforming triangulation of a domain, refined from a coarse grid (T of the report).
 ///
-/// Invariants, each with a [`Violation`](crate::Violation) that names it; [`Mesh::violations`] lists all that are broken:
+/// Invariants, each with a [`Violation`](crate::Violation) that names it; [`Mesh::violations`] lists all that
+/// are broken:
 ///
 /// 1. *Right size*: a triangle is right-angled and isosceles on the lattice, with the bisection edge of its
 ///    level (Eq. 1).
