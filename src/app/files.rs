@@ -8,7 +8,6 @@ use glam::DVec2;
 
 use super::background::{Aim, Background, Outcome, cancelled, name_of};
 use super::command::Command;
-use super::readout::target_at;
 use super::session::Session;
 use super::view::View;
 use super::widgets::format;
@@ -91,7 +90,7 @@ pub fn export(session: &mut Session, view: &View, background: &mut Background, p
         let write = || -> std::io::Result<Vec<PathBuf>> {
             let extract = mesh.extract();
             let target_diameter = if format.wants_node_data() {
-                at_nodes(&extract, meter, |node| target_at(node, &field, paint.as_paint(), rule))?
+                at_nodes(&extract, meter, |node| field.target_by_rule(rule, Some(paint.as_paint()), node))?
             } else {
                 Vec::new()
             };

@@ -13,7 +13,7 @@
 
 use std::time::{Duration, Instant};
 
-use eframe::egui::{self, Context, Frame, Popup, Ui};
+use eframe::egui::{self, Context, Event, Frame, Popup, Ui};
 use glam::DVec2;
 
 use super::App;
@@ -70,6 +70,9 @@ impl App {
     }
 
     /// Turns the input of this frame into commands, once: egui keeps the input while the window is hidden.
+    ///
+    /// The commands of an event run before the next event is handled. So a click after a key uses the tool
+    /// that the key selected, also where a slow frame brings both.
     fn take_input(&mut self, ctx: &Context) {
         let time = ctx.input(|input| input.time);
         if self.input_time.replace(time) == Some(time) {
@@ -77,18 +80,38 @@ impl App {
         }
         let dropped = ctx.input(|input| input.raw.dropped_files.clone());
         self.commands.extend(dropped.iter().map(|file| Command::Open(file.path().to_owned())));
-        // A menu or a dialog takes Escape and Enter itself.
-        if !self.asks_something() && !Popup::is_any_open(ctx) {
-            let catalog = catalog(&self.state(None));
-            self.commands.extend(keys::pressed(ctx, catalog));
+        let events = ctx.input(|input| input.events.clone());
+        let mut used_keys = Vec::new();
+        for (index, event) in events.iter().enumerate() {
+            self.run_commands(ctx);
+            if let Some(command) = self.command_of_key(event, ctx) {
+                used_keys.push(index);
+                self.commands.push(command);
+            }
+            let lattice = self.session.mesh().lattice();
+            self.canvas.take_event(event, ctx, &mut self.view, &self.tools, lattice, &mut self.commands);
         }
-        self.canvas.take_input(
+        // Widgets must not act on these keys again.
+        for index in used_keys.into_iter().rev() {
+            ctx.input_mut(|input| input.events.remove(index));
+        }
+        self.run_commands(ctx);
+        self.canvas.take_state(
             ctx,
             &mut self.view,
             &self.tools,
             self.session.mesh().lattice(),
             &mut self.commands,
         );
+    }
+
+    fn command_of_key(&self, event: &Event, ctx: &Context) -> Option<Command> {
+        let &Event::Key { key, pressed: true, modifiers, .. } = event else { return None };
+        // A menu or a dialog takes Escape and Enter itself.
+        if self.asks_something() || Popup::is_any_open(ctx) {
+            return None;
+        }
+        keys::command_of(key, modifiers, ctx.egui_wants_keyboard_input(), catalog(&self.state(None)))
     }
 
     /// Runs all commands, and those that they send.

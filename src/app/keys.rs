@@ -1,30 +1,31 @@
 //! From keys to commands.
 
-use std::cmp::Reverse;
-
 use eframe::egui::{Context, Event, Key, KeyboardShortcut, Modifiers, RawInput};
 
 use super::catalog::CatalogItem;
 use super::command::Command;
 
-/// The commands whose keys were pressed. Keys that edit text stay with a text field that has the focus.
-pub fn pressed(ctx: &Context, mut catalog: Vec<CatalogItem>) -> Vec<Command> {
-    let typing = ctx.egui_wants_keyboard_input();
-    // Ctrl+Shift+Z before Ctrl+Z: egui ignores extra modifiers.
-    catalog
-        .sort_by_key(|item| Reverse(item.shortcut.map_or(0, |shortcut| modifier_count(shortcut.modifiers))));
-    let mut commands = Vec::new();
-    for item in catalog {
-        let Some(shortcut) = item.shortcut else { continue };
-        let for_text = typing && edits_text(&shortcut);
-        if for_text || !item.enabled || shortcut.logical_key == Key::Tab {
-            continue;
-        }
-        let count =
-            ctx.input_mut(|input| input.count_and_consume_key(shortcut.modifiers, shortcut.logical_key));
-        commands.extend(std::iter::repeat_n(item.command, count));
-    }
-    commands
+/// The command that a pressed key stands for. While the user is `typing`, keys that edit text stay with the
+/// text field.
+pub fn command_of(
+    key: Key,
+    modifiers: Modifiers,
+    typing: bool,
+    catalog: Vec<CatalogItem>,
+) -> Option<Command> {
+    let is_pressed = |item: &CatalogItem| {
+        item.enabled
+            && item.shortcut.is_some_and(|shortcut| {
+                shortcut.logical_key == key
+                    && key != Key::Tab
+                    && modifiers.matches_logically(shortcut.modifiers)
+                    && !(typing && edits_text(&shortcut))
+            })
+    };
+    // Ctrl+Shift+Z before Ctrl+Z: a key matches with more modifiers than its shortcut has.
+    let item = (catalog.into_iter().filter(is_pressed))
+        .max_by_key(|item| item.shortcut.map_or(0, |shortcut| modifier_count(shortcut.modifiers)))?;
+    Some(item.command)
 }
 
 /// Removes presses of Tab, which egui would move the focus by, and returns the commands that they stand for:

@@ -3,7 +3,6 @@
 use glam::DVec2;
 
 use crate::document::{Document, Follower};
-use crate::field::{PaintRef, RefinementRule, TargetField};
 use crate::mesh::{Location, Mesh, Neighbour, NodeId, Orientation, TriangleId, barycentric, interpolate};
 
 /// A quantity known at every point, and interpolated from the nodes.
@@ -86,16 +85,8 @@ pub fn value_at(point: DVec2, document: &Document, follower: &Follower, quantity
     match quantity {
         Quantity::TargetDiameter => {
             let rule = follower.settings().rule;
-            target_at(point, follower.field(), document.paint().as_paint(), rule)
+            follower.field().target_by_rule(rule, Some(document.paint().as_paint()), point)
         }
         Quantity::Risk => document.risk_at(point).unwrap_or(f64::NAN),
-    }
-}
-
-/// h̄ as a rule sees it, in world units: by pixel, or exactly at the point.
-pub fn target_at(point: DVec2, field: &TargetField, paint: PaintRef, rule: RefinementRule) -> f64 {
-    match rule {
-        RefinementRule::Area => field.at(point).unwrap_or(f64::NAN),
-        RefinementRule::Vertex => field.target_at_node(Some(paint), point),
     }
 }

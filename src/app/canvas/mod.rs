@@ -90,9 +90,41 @@ impl Canvas {
 
 /// Input.
 impl Canvas {
-    /// Turns the events of this frame into commands, in their order, so that a quick stroke keeps every point
-    /// that the mouse reported. The canvas is where it was in the last frame.
-    pub fn take_input(
+    /// Turns an event into commands. The canvas is where it was in the last frame.
+    pub fn take_event(
+        &mut self,
+        event: &Event,
+        ctx: &Context,
+        view: &mut View,
+        tools: &Tools,
+        lattice: &Lattice,
+        commands: &mut Vec<Command>,
+    ) {
+        let Some(pointer) = self.pointer_on(ctx, view, tools, lattice) else { return };
+        match *event {
+            Event::PointerButton { pos, button, pressed: true, modifiers } => {
+                if self.gesture.is_none() && self.is_free_at(ctx, pos) {
+                    self.gesture = press(ctx, Press { at: pos, modifiers }, button, &pointer, commands);
+                }
+            }
+            Event::PointerMoved(pos) => {
+                if let Some(gesture) = &mut self.gesture {
+                    gesture.moved(pos, &pointer, commands);
+                }
+            }
+            Event::PointerButton { pos, button, pressed: false, .. } => {
+                if let Some(gesture) = self.gesture.take_if(|gesture| gesture.button() == button) {
+                    gesture.released(pos, &pointer, commands);
+                }
+            }
+            Event::WindowFocused(false) => self.interrupt(commands),
+            _ => {}
+        }
+    }
+
+    /// Handles what is no single event, after the events of the frame: the wheel, where the pointer is, and
+    /// a button that was released outside the window.
+    pub fn take_state(
         &mut self,
         ctx: &Context,
         view: &mut View,
@@ -100,12 +132,11 @@ impl Canvas {
         lattice: &Lattice,
         commands: &mut Vec<Command>,
     ) {
-        let Some((id, rect)) = self.shown else { return };
-        let Some(response) = ctx.read_response(id) else { return };
-        fit_camera(view, lattice, rect, ctx.pixels_per_point());
-        let Some(camera) = view.camera else { return };
-        let mut pointer = Pointer { rect, camera, tools, px_per_point: f64::from(ctx.pixels_per_point()) };
-        self.take_events(ctx, &response, &mut pointer, commands);
+        let Some(mut pointer) = self.pointer_on(ctx, view, tools, lattice) else { return };
+        let Some(response) = self.shown.and_then(|(id, _)| ctx.read_response(id)) else { return };
+        if !ctx.input(|input| input.pointer.any_down()) {
+            self.interrupt(commands);
+        }
         if response.contains_pointer() {
             zoom(ctx, &mut pointer, commands);
         }
@@ -113,40 +144,27 @@ impl Canvas {
         self.pointer = at.map(|at| pointer.world(at));
     }
 
-    fn take_events(
-        &mut self,
+    fn pointer_on<'a>(
+        &self,
         ctx: &Context,
-        response: &Response,
-        pointer: &mut Pointer<'_>,
-        commands: &mut Vec<Command>,
-    ) {
-        for event in ctx.input(|input| input.events.clone()) {
-            match event {
-                Event::PointerButton { pos, button, pressed: true, modifiers } => {
-                    let free = !self.floats.iter().any(|float| float.contains(pos));
-                    let on_canvas = response.contains_pointer() && pointer.rect.contains(pos) && free;
-                    if on_canvas && self.gesture.is_none() {
-                        self.gesture = press(ctx, Press { at: pos, modifiers }, button, pointer, commands);
-                    }
-                }
-                Event::PointerMoved(pos) => {
-                    if let Some(gesture) = &mut self.gesture {
-                        gesture.moved(pos, pointer, commands);
-                    }
-                }
-                Event::PointerButton { pos, button, pressed: false, .. } => {
-                    if let Some(gesture) = self.gesture.take_if(|gesture| gesture.button() == button) {
-                        gesture.released(pos, pointer, commands);
-                    }
-                }
-                Event::WindowFocused(false) => self.interrupt(commands),
-                _ => {}
-            }
-        }
-        // Released without an event, as in another window.
-        if !ctx.input(|input| input.pointer.any_down()) {
-            self.interrupt(commands);
-        }
+        view: &mut View,
+        tools: &'a Tools,
+        lattice: &Lattice,
+    ) -> Option<Pointer<'a>> {
+        let (_, rect) = self.shown?;
+        fit_camera(view, lattice, rect, ctx.pixels_per_point());
+        let px_per_point = f64::from(ctx.pixels_per_point());
+        Some(Pointer { rect, camera: view.camera?, tools, px_per_point })
+    }
+
+    /// Whether a press at `pos`, in points, meets the canvas and nothing over it. egui knows this only for
+    /// the place where the pointer is at the end of the frame.
+    fn is_free_at(&self, ctx: &Context, pos: egui::Pos2) -> bool {
+        let Some((id, rect)) = self.shown else { return false };
+        let handle = ctx.global_style().interaction.resize_grab_radius_side;
+        let on_top = ctx.read_response(id).map(|response| response.layer_id) == ctx.layer_id_at(pos);
+        let covered = self.floats.iter().any(|float| float.contains(pos));
+        on_top && rect.shrink(handle).contains(pos) && !covered
     }
 
     /// Ends the gesture where it is.

@@ -1,11 +1,14 @@
 //! The query tool and the inspector.
 
 use eframe::egui::accesskit::Role;
-use eframe::egui::{Key, Modifiers};
+use eframe::egui::{Event, Key, Modifiers, PointerButton};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use glam::dvec2;
 
-use super::{TALL, click, entries, key, selected, send, value_of, window, window_of};
+use super::{
+    FREE, RESTING_PLACE, TALL, button_event, click, entries, key, on_screen, selected, send, value_of,
+    window, window_of,
+};
 use crate::app::command::Command;
 use crate::app::tools::QUERY;
 use crate::document::Example;
@@ -36,6 +39,32 @@ fn a_click_shows_the_triangle_and_each_chip_goes_to_its_neighbour() {
     key(&mut window, Modifiers::NONE, Key::Escape);
     assert_eq!(selected(&window), None, "Escape lets go");
     assert!(window.query_by_label_contains("No query yet").is_some());
+}
+
+#[test]
+fn a_key_and_a_click_in_one_slow_frame_are_a_query() {
+    let mut window = window();
+    let clicked = on_screen(&window, FREE);
+    let q = |pressed| Event::Key {
+        key: Key::Q,
+        physical_key: None,
+        pressed,
+        repeat: false,
+        modifiers: Modifiers::NONE,
+    };
+    let click = |pressed| button_event(clicked, PointerButton::Primary, pressed, Modifiers::NONE);
+    window.input_mut().events.extend([
+        q(true),
+        q(false),
+        Event::PointerMoved(clicked),
+        click(true),
+        click(false),
+        Event::PointerMoved(RESTING_PLACE),
+    ]);
+    window.run();
+    let expected = window.state().session().mesh().locate(FREE).triangle();
+    assert_eq!(selected(&window), expected, "the click used the tool that the key selected");
+    assert_eq!(entries(&window), 0, "nothing was painted");
 }
 
 #[test]

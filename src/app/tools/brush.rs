@@ -79,7 +79,7 @@ pub fn press_to_paint(
 struct Painting;
 
 impl Gesture for Painting {
-    fn moved(&mut self, at: Pos2, pointer: &mut Pointer<'_>, commands: &mut Vec<Command>) {
+    fn moved(&mut self, at: Pos2, pointer: &Pointer<'_>, commands: &mut Vec<Command>) {
         commands.push(Command::DrawTo(pointer.world(at)));
     }
 
@@ -104,7 +104,7 @@ struct Sizing {
 }
 
 impl Gesture for Sizing {
-    fn moved(&mut self, at: Pos2, pointer: &mut Pointer<'_>, commands: &mut Vec<Command>) {
+    fn moved(&mut self, at: Pos2, pointer: &Pointer<'_>, commands: &mut Vec<Command>) {
         self.dragged |= self.from.distance(at) > CLICK_SLACK;
         if self.dragged {
             let px = f64::from(at.x - self.from.x) * pointer.px_per_point;

@@ -104,7 +104,7 @@ struct Cutting {
 
 impl Gesture for Cutting {
     /// Cuts from where the brush was; all moves of one frame are one cut.
-    fn moved(&mut self, at: Pos2, pointer: &mut Pointer<'_>, commands: &mut Vec<Command>) {
+    fn moved(&mut self, at: Pos2, pointer: &Pointer<'_>, commands: &mut Vec<Command>) {
         let point = pointer.world(at);
         if let Some(Command::Domain(DomainCommand::Reshape(CutShape::Stroke { path, .. }, _))) =
             commands.last_mut()
@@ -141,7 +141,7 @@ struct Framing {
 }
 
 impl Gesture for Framing {
-    fn moved(&mut self, at: Pos2, _pointer: &mut Pointer<'_>, _commands: &mut Vec<Command>) {
+    fn moved(&mut self, at: Pos2, _pointer: &Pointer<'_>, _commands: &mut Vec<Command>) {
         self.to = at;
     }
 

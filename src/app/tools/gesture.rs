@@ -25,7 +25,7 @@ pub trait Gesture: Debug + Send {
     }
 
     /// The pointer moved to `at`, in points.
-    fn moved(&mut self, at: Pos2, pointer: &mut Pointer<'_>, commands: &mut Vec<Command>);
+    fn moved(&mut self, at: Pos2, pointer: &Pointer<'_>, commands: &mut Vec<Command>);
 
     /// The button was released at `at`, in points.
     fn released(&self, _at: Pos2, _pointer: &Pointer<'_>, _commands: &mut Vec<Command>) {}
@@ -82,11 +82,5 @@ impl Pointer<'_> {
         let inverse = (1.0 / unit).round();
         let world = self.world(at);
         if unit < 1.0 { (world * inverse).round() / inverse } else { (world / unit).round() * unit }
-    }
-
-    /// Moves the view by `delta_px`, so that later events of this frame see it moved.
-    pub fn pan(&mut self, delta_px: DVec2, commands: &mut Vec<Command>) {
-        self.camera = self.camera.panned(delta_px);
-        commands.push(Command::Pan(delta_px));
     }
 }

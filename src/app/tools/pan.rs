@@ -32,8 +32,8 @@ impl Gesture for Panning {
         self.button
     }
 
-    fn moved(&mut self, at: Pos2, pointer: &mut Pointer<'_>, commands: &mut Vec<Command>) {
-        pointer.pan(pointer.px(at) - pointer.px(self.last), commands);
+    fn moved(&mut self, at: Pos2, pointer: &Pointer<'_>, commands: &mut Vec<Command>) {
+        commands.push(Command::Pan(pointer.px(at) - pointer.px(self.last)));
         self.last = at;
     }
 
