@@ -44,6 +44,7 @@
 
 use super::changes::ChangeLog;
 use super::{Mesh, Neighbour, NodeId, Orientation, Triangle, TriangleId};
+use crate::geometry::{Lattice, LatticePoint};
 
 /// The two children of one parent, named as in `bisect`.
 #[derive(Clone, Copy, Debug)]
@@ -102,6 +103,31 @@ impl Star {
     }
 }
 
+/// Whether `end`, an end of a triangle's bisection edge, is the apex of the parent, by the table at the head
+/// of this file. The triangle has the vertices `end`, `newest` and the other end; its `level` is not 0.
+#[inline]
+pub(in crate::mesh) fn is_parents_apex(
+    end: LatticePoint,
+    newest: LatticePoint,
+    level: u32,
+    lattice: &Lattice,
+) -> bool {
+    match level {
+        1 => (end.x < newest.x) == (end.y < newest.y),
+        // In units half as large as the table's: a corner has two even coordinates, the centre two odd ones.
+        level if level.is_multiple_of(2) => rank(end, level, lattice) == 2,
+        level => rank(end, level, lattice) == 1,
+    }
+}
+
+/// How many coordinates of a node are odd, in units of the cells of which the triangles of an odd `level` are
+/// quarters.
+#[inline]
+fn rank(node: LatticePoint, level: u32, lattice: &Lattice) -> u32 {
+    let cell = lattice.halvings() - level / 2;
+    (node.x >> cell & 1) + (node.y >> cell & 1)
+}
+
 impl Mesh {
     /// The star around the newest vertex of `id`, if it is one: `None` for a coarse triangle, and where a
     /// triangle around that node was bisected.
@@ -145,15 +171,12 @@ impl Mesh {
     #[inline]
     fn parents_apex(&self, id: TriangleId) -> usize {
         let triangle = self.triangle(id);
-        let first_is_apex = match triangle.level() {
-            level if level.is_multiple_of(2) => return 2,
-            1 => {
-                let (first, centre) = (self.node(triangle.vertices[0]), self.node(triangle.vertices[2]));
-                (first.x < centre.x) == (first.y < centre.y)
-            }
-            level => self.rank(triangle.vertices[0], level) == 1,
-        };
-        usize::from(!first_is_apex)
+        let level = triangle.level();
+        if level.is_multiple_of(2) {
+            return 2;
+        }
+        let [first, _, newest] = triangle.vertices;
+        usize::from(!is_parents_apex(self.node(first), self.node(newest), level, &self.lattice))
     }
 
     /// Whether `id` is the kept child, and not its sibling.
@@ -163,18 +186,11 @@ impl Mesh {
             level if !level.is_multiple_of(2) => self.parents_apex(id) == 1,
             2 => self.triangle(id).orientation() == Orientation::Anticlockwise,
             level => {
-                let rank = |id| self.rank(self.triangle(id).vertices[0], level - 1);
+                let first = |id| self.node(self.triangle(id).vertices[0]);
+                let rank = |id| rank(first(id), level - 1, &self.lattice);
                 rank(id) < rank(sibling)
             }
         }
-    }
-
-    /// How many coordinates of a node are odd, in units of the cells of which the triangles of an odd `level`
-    /// are quarters.
-    #[inline]
-    fn rank(&self, node: NodeId, level: u32) -> u32 {
-        let (node, cell) = (self.node(node), self.lattice.halvings() - level / 2);
-        (node.x >> cell & 1) + (node.y >> cell & 1)
     }
 
     /// The parents of a star, to be put back by [`Self::merge`].

@@ -36,6 +36,7 @@ pub use triangle::{Orientation, Triangle};
 pub use update::Updater;
 
 pub(in crate::mesh) use bitset::Bitset;
+pub(in crate::mesh) use coarsen::is_parents_apex;
 pub(in crate::mesh) use element::Diameters;
 pub(in crate::mesh) use memory::make_room;
 pub(in crate::mesh) use search::Search;

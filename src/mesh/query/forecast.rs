@@ -18,7 +18,9 @@
 use std::collections::HashMap;
 
 use crate::geometry::{Lattice, LatticePoint, LatticeRect};
-use crate::mesh::kernel::{Bitset, Limits, Mesh, Progress, RefineError, Search, TriangleId, WalkEnd};
+use crate::mesh::kernel::{
+    Bitset, Limits, Mesh, Progress, RefineError, Search, TriangleId, WalkEnd, is_parents_apex,
+};
 
 /// Counts what [`Updater`](crate::mesh::Updater) would do after a change of the rule, in slices, and leaves
 /// the mesh alone.
@@ -110,17 +112,10 @@ impl TreeTriangle {
         self.children().iter().map(counts).sum::<i64>() - counts(self)
     }
 
-    /// The triangle that this one is half of; its level must not be 0. Which of its ends is the parent's apex
-    /// is what the table at the head of `coarsen.rs` says, at even levels in units half as large.
+    /// The triangle that this one is half of; its level must not be 0.
     fn parent(&self, lattice: &Lattice) -> Self {
         let ([first, second], middle) = (self.ends, self.apex);
-        let unit = lattice.halvings() - self.level / 2;
-        let rank = (first.x >> unit & 1) + (first.y >> unit & 1);
-        let first_is_apex = match self.level {
-            1 => (first.x < middle.x) == (first.y < middle.y),
-            level if level.is_multiple_of(2) => rank == 2,
-            _ => rank == 1,
-        };
+        let first_is_apex = is_parents_apex(first, middle, self.level, lattice);
         let (apex, end) = if first_is_apex { (first, second) } else { (second, first) };
         // No other triangle has this half of the cut edge: its other end is on the lattice.
         let far = LatticePoint::new(2 * middle.x - end.x, 2 * middle.y - end.y);
