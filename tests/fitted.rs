@@ -11,12 +11,12 @@ use std::path::Path;
 use closure::{Point, Triangle};
 use fastrand::Rng;
 use glam::{DVec2, dvec2};
-use meshbrush::internals::domain::{BoundaryTreatment, Domain, DomainOnLattice, Polygon, Ring, signed_area};
+use meshbrush::internals::build::{FieldSampling, MeshBuilder, MeshSpec};
+use meshbrush::internals::domain::{BoundaryTreatment, Domain, Polygon, Ring, signed_area};
+use meshbrush::internals::field::{Formula, RefinementRule, Source, TargetFieldSpec, Transfer};
 use meshbrush::internals::geometry::{Lattice, LatticePoint};
 use meshbrush::internals::io::geojson;
-use meshbrush::internals::mesh::{
-    Element, InvalidTarget, Limits, Location, Locator, Mesh, NodeId, Topology, TriangleId,
-};
+use meshbrush::internals::mesh::{Limits, Location, Locator, Mesh, NodeId, Progress, Topology, TriangleId};
 
 /// A region, a grid over it and a rule, at random.
 struct Case {
@@ -130,24 +130,33 @@ impl Case {
     }
 
     fn mesh(&self) -> Mesh {
-        let boundary = BoundaryTreatment::Fitted { diameter: self.diameter };
-        fitted(&self.domain, self.spacing, boundary, |e| Ok(self.exceeds(e.diameter(), e.world_corners())))
+        let Self { focus, finest, slope, .. } = *self;
+        // As `exceeds` computes it, to the last bit.
+        let (dx, dy) = (format!("(x - ({:?}))", focus.x), format!("(y - ({:?}))", focus.y));
+        let target = format!("{finest:?} + {slope:?} * sqrt({dx} * {dx} + {dy} * {dy})");
+        fitted(&self.domain, self.spacing, self.diameter, &target)
     }
 }
 
-/// The mesh as the program makes it.
-fn fitted(
-    domain: &Domain,
-    spacing: f64,
-    boundary: BoundaryTreatment,
-    by_field: impl Fn(&Element) -> Result<bool, InvalidTarget>,
-) -> Mesh {
+/// The mesh as the program makes it, for a formula of the target diameter under the vertex rule.
+fn fitted(domain: &Domain, spacing: f64, boundary_diameter: f64, target: &str) -> Mesh {
     let limits = Limits::default();
-    let lattice = Lattice::covering(domain.bounds, spacing, limits.max_triangles).unwrap();
-    let on_lattice = DomainOnLattice::new(domain, boundary, &lattice);
-    let mut mesh = Mesh::coarse_grid(&lattice, |node| on_lattice.admits(node), &limits).unwrap();
-    mesh.refine(&limits, |element| on_lattice.exceeds(element, &by_field)).unwrap();
-    mesh.classify(0..mesh.raw_triangle_count(), |element| on_lattice.excludes(element));
+    let mut builder = MeshBuilder::new(MeshSpec {
+        lattice: Lattice::covering(domain.bounds, spacing, limits.max_triangles).unwrap(),
+        domain: domain.clone(),
+        boundary: BoundaryTreatment::Fitted { diameter: boundary_diameter },
+        field: TargetFieldSpec {
+            sources: vec![Source::TargetFormula(Formula::parse(target).unwrap())],
+            transfer: Transfer { h_min: f64::MIN_POSITIVE, h_max: f64::MAX, shape: 1.0 },
+            unasked: f64::MAX,
+            size: [2; 2],
+        },
+        rule: RefinementRule::Vertex,
+        sampling: FieldSampling::AsNeeded,
+        limits,
+    });
+    while builder.advance(None, 1000).unwrap() == Progress::More {}
+    let mesh = builder.finish().mesh;
     assert_eq!(mesh.violations(), []);
     mesh
 }
@@ -507,7 +516,7 @@ fn the_aegean_sea_keeps_its_islands() {
     let domain = Domain::of_polygons(&polygons).unwrap();
     let region = domain.region().unwrap();
     assert_eq!(region.hole_count(), 65);
-    let mesh = fitted(&domain, 0.5, BoundaryTreatment::Fitted { diameter: 0.02 }, |_| Ok(false));
+    let mesh = fitted(&domain, 0.5, 0.02, "100");
     let centroid = |t: &meshbrush::internals::mesh::Triangle| {
         t.vertices.map(|v| mesh.world(v)).iter().sum::<DVec2>() / 3.0
     };

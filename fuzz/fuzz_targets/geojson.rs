@@ -4,10 +4,12 @@
 
 use std::path::Path;
 
-use meshbrush::internals::domain::{BoundaryTreatment, Domain, DomainOnLattice};
+use meshbrush::internals::build::{FieldSampling, MeshBuilder, MeshSpec};
+use meshbrush::internals::domain::{BoundaryTreatment, Domain};
+use meshbrush::internals::field::{RefinementRule, TargetFieldSpec, Transfer};
 use meshbrush::internals::geometry::Lattice;
 use meshbrush::internals::io::geojson;
-use meshbrush::internals::mesh::{Limits, Mesh};
+use meshbrush::internals::mesh::{Limits, Progress};
 
 /// Few, so that many files are tried in a second.
 const MOST_TRIANGLES: usize = 3000;
@@ -24,20 +26,32 @@ libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
 });
 
 fn check_mesh(domain: &Domain, boundary: BoundaryTreatment, spacing: f64) {
-    let limits = Limits { max_triangles: MOST_TRIANGLES, ..Limits::default() };
     let Ok(lattice) = Lattice::covering(domain.bounds, spacing, MOST_TRIANGLES) else { return };
-    let domain_on_lattice = DomainOnLattice::new(domain, boundary, &lattice);
-    let Ok(mut mesh) = Mesh::coarse_grid(&lattice, |node| domain_on_lattice.admits(node), &limits) else {
-        return;
-    };
-    // After the budget stops refinement, the mesh must still be valid.
-    let refined = mesh.refine(&limits, |element| domain_on_lattice.exceeds(element, |_| Ok(false)));
-    mesh.classify(0..mesh.raw_triangle_count(), |element| domain_on_lattice.excludes(element));
-    assert_eq!(mesh.violations(), []);
-    if refined.is_ok() {
-        assert_eq!(mesh.unsatisfied(|element| domain_on_lattice.exceeds(element, |_| Ok(false))), Ok(vec![]));
+    let mut builder = MeshBuilder::new(MeshSpec {
+        domain: domain.clone(),
+        boundary,
+        lattice,
+        field: TargetFieldSpec {
+            sources: Vec::new(),
+            transfer: Transfer { h_min: spacing / 1000.0, h_max: 2.0 * spacing, shape: 1.0 },
+            unasked: 2.0 * spacing,
+            size: [2; 2],
+        },
+        rule: RefinementRule::Vertex,
+        sampling: FieldSampling::AsNeeded,
+        limits: Limits { max_triangles: MOST_TRIANGLES, ..Limits::default() },
+    });
+    loop {
+        match builder.advance(None, 100) {
+            Ok(Progress::More) => {}
+            Ok(Progress::Done) => break,
+            Err(_) => return,
+        }
     }
-    let topology = mesh.topology();
-    assert_eq!(topology.nodes, mesh.extract().nodes().len());
-    assert_eq!(topology.parts == 0, mesh.triangle_count() == 0);
+    let built = builder.finish();
+    assert_eq!(built.mesh.violations(), []);
+    assert_eq!(built.unsatisfied(None), Ok(vec![]));
+    let topology = built.mesh.topology();
+    assert_eq!(topology.nodes, built.mesh.extract().nodes().len());
+    assert_eq!(topology.parts == 0, built.mesh.triangle_count() == 0);
 }
