@@ -22,6 +22,8 @@ const SIZE: (usize, usize) = (1440, 900);
 /// Where the canvas and the panel beside it surely are, whatever the bars' exact sizes.
 const CANVAS: Area = Area { x: 60..1140, y: 50..860 };
 const PANEL: Area = Area { x: 1170..1430, y: 50..860 };
+/// In the corner of the canvas where a row shows the progress of long work, below the domain.
+const PROGRESS: Area = Area { x: 800..1100, y: 836..852 };
 /// The pointer rests here, off the canvas, while a picture is taken.
 const RESTING_PLACE: (usize, usize) = (720, 890);
 /// The fill of level 0 where edges are far, and how much a driver may be off.
@@ -384,14 +386,15 @@ impl Display {
         })
     }
 
-    /// The screen once it has not changed for a while, kept as `name`.png.
+    /// The screen once it has not changed for a while and no work is in progress, kept as `name`.png.
     fn settled_picture(&self, scratch: &Scratch, name: &str) -> Picture {
         sleep(Duration::from_millis(300));
         let mut last = Picture::default();
         let mut alike = 0;
         let picture = wait_for("the picture to settle", || {
             let picture = Picture::read_xwd(&self.frame_buffer);
-            alike = if picture.rgb == last.rgb { alike + 1 } else { 0 };
+            let rests = picture.rgb == last.rgb && !picture.shows_progress();
+            alike = if rests { alike + 1 } else { 0 };
             last = picture;
             (alike == 3).then(|| std::mem::take(&mut last))
         });
@@ -515,6 +518,11 @@ impl Picture {
 
     fn count(&self, area: &Area, is: fn(Rgb) -> bool) -> usize {
         area.pixels().filter(|&at| is(self.pixel(at))).count()
+    }
+
+    fn shows_progress(&self) -> bool {
+        let ground = self.pixel((PROGRESS.x.start, PROGRESS.y.start));
+        PROGRESS.pixels().any(|at| self.pixel(at) != ground)
     }
 
     fn differences(&self, other: &Self, area: &Area) -> usize {
