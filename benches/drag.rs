@@ -12,7 +12,7 @@ use std::time::{Duration, Instant};
 use meshbrush::internals::document::{Base, Document, Follower, MeshChange, Setting, Settings};
 use meshbrush::internals::field::Formula;
 
-/// The window's own values: `FRAME_BUDGET` in `app/mod.rs` and `SLICE` in `app/session.rs`.
+/// The window's own values: `FRAME_BUDGET` in `app/frame.rs` and `SLICE` in `app/session.rs`.
 const FRAME_BUDGET: Duration = Duration::from_millis(7);
 const SLICE: usize = 2048;
 const SECONDS: usize = 2;

@@ -22,7 +22,7 @@ use meshbrush::internals::field::Formula;
 use meshbrush::internals::paint::{Brush, Medium};
 use meshbrush::internals::render::gpu::Offscreen;
 
-/// The window's own values: `FRAME_BUDGET` in `app/mod.rs` and `SLICE` in `app/session.rs`.
+/// The window's own values: `FRAME_BUDGET` in `app/frame.rs` and `SLICE` in `app/session.rs`.
 const FRAME_BUDGET: Duration = Duration::from_millis(7);
 const SLICE: usize = 2048;
 

@@ -27,8 +27,12 @@ use super::tools::Tools;
 use super::view::View;
 use super::{journal, keys, panels, project};
 
-/// The part of a frame's time that goes into updating the mesh.
+/// The least time of a frame that goes into updating the mesh.
 const FRAME_BUDGET: Duration = Duration::from_millis(7);
+/// The most, and the share of a frame's time, where drawing is slow, as without a GPU: 7 ms of a frame of
+/// 100 ms would leave the mesh far behind.
+const SLOW_FRAME_BUDGET: Duration = Duration::from_millis(40);
+const SLOW_FRAME_SHARE: f32 = 1.0 / 3.0;
 /// As much time as the work takes, for pictures that must be the same every time.
 const NO_LIMIT: Duration = Duration::from_secs(3600);
 
@@ -126,7 +130,10 @@ impl App {
     /// Brings the mesh and the price of a dab closer to the document, until the frame's time is spent.
     fn follow(&mut self, ctx: &Context) {
         // With a time limit, what is shown on the way would depend on the machine's speed.
-        let [budget, patience] = if self.reproducible { [NO_LIMIT; 2] } else { [FRAME_BUDGET, PATIENCE] };
+        let frame_time = ctx.input(|input| input.stable_dt);
+        let budget = Duration::from_secs_f32(SLOW_FRAME_SHARE * frame_time.clamp(0.0, 1.0))
+            .clamp(FRAME_BUDGET, SLOW_FRAME_BUDGET);
+        let [budget, patience] = if self.reproducible { [NO_LIMIT; 2] } else { [budget, PATIENCE] };
         let deadline = Instant::now() + budget;
         let cuts = self.session.advance_cuts(patience, ctx);
         let follows = self.session.follow(deadline);

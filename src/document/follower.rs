@@ -138,7 +138,9 @@ impl Follower {
         match &self.state {
             FollowState::InStep => Stage::InStep,
             FollowState::Updating { copy: Some(copy) } => Stage::Copying { triangles: copy.triangles() },
-            FollowState::Updating { copy: None } if self.shown.has_unread_paint() => Stage::Sampling,
+            FollowState::Updating { copy: None } if self.shown.has_unread_paint() => {
+                Stage::Sampling { share: None }
+            }
             FollowState::Updating { copy: None } => {
                 Stage::Refining { triangles: self.mesh().raw_triangle_count() }
             }

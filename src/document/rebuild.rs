@@ -65,7 +65,7 @@ impl Rebuild {
     pub(super) fn stage(&self) -> Stage {
         match self.builder.stage() {
             BuildStage::Indexing => Stage::Indexing,
-            BuildStage::Sampling { .. } => Stage::Sampling,
+            BuildStage::Sampling { pixels, of } => Stage::Sampling { share: Some(pixels as f32 / of as f32) },
             BuildStage::Refining { triangles } | BuildStage::Classifying { triangles } => {
                 Stage::Refining { triangles }
             }

@@ -35,8 +35,12 @@ pub mod vtu;
 pub use crate::text::Number;
 pub use atomic::{exists, make_folder, obstacle, write_file, write_file_metered};
 pub use error::{Flaw, Place, ReadError};
-pub use mesh_file::MeshFormat;
+pub use mesh_file::{FormatSpec, MeshFormat, write_counted};
 pub use meter::{Cancelled, Counted, Meter};
+
+/// The formats of meshes. A new one is a module and an entry here.
+static MESH_FORMATS: [&FormatSpec; 7] =
+    [&vtu::FORMAT, &msh::FORMAT, &obj::FORMAT, &stl::FORMAT, &node::FORMAT, &sms::FORMAT, &csv::FORMAT];
 
 /// The data that is written with a mesh. The level of each triangle comes from the mesh.
 #[derive(Clone, Copy, Debug)]

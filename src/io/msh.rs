@@ -6,8 +6,15 @@
 
 use std::io::{self, Write};
 
-use super::{MeshData, Number};
+use super::{FormatSpec, MeshData, Number, write_counted};
 use crate::mesh::Extract;
+
+/// Gmsh 4.1.
+pub static FORMAT: FormatSpec = FormatSpec {
+    ending: "msh",
+    beside: &[],
+    write: |path, mesh, data, meter| write_counted(path, meter, |out| write(out, mesh, data)),
+};
 
 /// Gmsh's numbers for an element of two and of three nodes.
 const LINE: u8 = 1;

@@ -5,8 +5,15 @@
 
 use std::io::{self, Write};
 
-use super::{MeshData, Number};
+use super::{FormatSpec, MeshData, Number, write_counted};
 use crate::mesh::Extract;
+
+/// Wavefront.
+pub static FORMAT: FormatSpec = FormatSpec {
+    ending: "obj",
+    beside: &[],
+    write: |path, mesh, data, meter| write_counted(path, meter, |out| write(out, mesh, data)),
+};
 
 /// Writes the mesh, one group for each level.
 ///

@@ -8,8 +8,15 @@
 use std::io::{self, Write};
 
 use super::boundary::boundary_loops;
-use super::{MeshData, Number};
+use super::{FormatSpec, MeshData, Number, write_counted};
 use crate::mesh::Extract;
+
+/// SMS.
+pub static FORMAT: FormatSpec = FormatSpec {
+    ending: "2dm",
+    beside: &[],
+    write: |path, mesh, data, meter| write_counted(path, meter, |out| write(out, mesh, data)),
+};
 
 /// Nodes of a nodestring in one line.
 const NODES_A_LINE: usize = 10;

@@ -6,8 +6,18 @@
 
 use std::io::{self, Write};
 
-use super::MeshData;
+use super::{FormatSpec, MeshData, write_counted};
 use crate::mesh::{Extract, NodeId};
+
+/// Triangles without shared nodes.
+pub static FORMAT: FormatSpec = FormatSpec {
+    ending: "stl",
+    beside: &[],
+    write: |path, mesh, data, meter| {
+        meter.expect(bytes(mesh));
+        write_counted(path, meter, |out| write(out, mesh, data))
+    },
+};
 
 /// Must not begin with "solid", which marks the text form.
 const TITLE: &[u8] = b"Meshbrush";

@@ -52,7 +52,7 @@ impl ExportFormat {
 
     /// All endings, without their dots.
     pub fn endings() -> impl Iterator<Item = &'static str> {
-        MeshFormat::ALL.into_iter().map(|(ending, _)| ending).chain(["svg", "png"])
+        MeshFormat::all().map(MeshFormat::ending).chain(["svg", "png"])
     }
 
     /// Whether the format contains data at the nodes.

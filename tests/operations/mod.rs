@@ -327,7 +327,7 @@ impl Driver {
         }
         let stage = self.follower.advance(&mut self.document, visits).unwrap_or_else(|error| {
             self.refused(&error);
-            Stage::Sampling
+            Stage::Sampling { share: None }
         });
         stage.is_settled()
     }

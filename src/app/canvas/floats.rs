@@ -96,7 +96,10 @@ pub fn work_on_mesh(session: &Session) -> Option<(&'static str, String)> {
             Some(("Copying the mesh", format!("{} triangles", format::count(triangles as u64))))
         }
         Stage::Indexing => Some(("Indexing the outline", String::new())),
-        Stage::Sampling => Some(("Sampling the field", String::new())),
+        Stage::Sampling { share } => {
+            let percent = share.map(|share| format!("{:.0} %", 100.0 * share));
+            Some(("Sampling the field", percent.unwrap_or_default()))
+        }
         Stage::InStep | Stage::GaveUp(_) => None,
     }
 }

@@ -95,7 +95,7 @@ fn update_text(state: &FrameState<'_>) -> String {
             state.session.last_update().map_or(NONE.into(), |time| format::time(time.as_secs_f64()))
         }
         Stage::Indexing => "indexing".into(),
-        Stage::Sampling => "sampling".into(),
+        Stage::Sampling { .. } => "sampling".into(),
         Stage::Copying { triangles } | Stage::Refining { triangles } => format::count(triangles as u64),
         Stage::GaveUp(None) => "cancelled".into(),
         Stage::GaveUp(Some(_)) => "stopped".into(),

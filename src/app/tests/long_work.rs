@@ -81,7 +81,7 @@ fn one_slice_of_work_is_small_however_much_there_is_to_do() {
     loop {
         match follower.advance(&mut document, VISITS).unwrap() {
             Stage::InStep => break,
-            Stage::Indexing | Stage::Sampling => {}
+            Stage::Indexing | Stage::Sampling { .. } => {}
             stage @ (Stage::Copying { .. } | Stage::GaveUp(_)) => panic!("{stage:?}"),
             Stage::Refining { triangles } => {
                 most = most.max(triangles.saturating_sub(last.max(1200)));
