@@ -72,12 +72,11 @@ impl Samples {
         }
     }
 
-    #[inline]
-    fn get(&self, x: u32, y: u32) -> f32 {
+    fn raster(&self) -> Option<&Raster> {
         match self {
-            Self::NoSources => f32::INFINITY,
-            Self::Sampling(raster) => raster.get(x, y),
-            Self::Complete(raster) => raster.get(x, y),
+            Self::NoSources => None,
+            Self::Sampling(raster) => Some(raster),
+            Self::Complete(raster) => Some(raster),
         }
     }
 
@@ -158,10 +157,15 @@ impl SourceSamples {
         self.risks.complete();
     }
 
-    /// The smallest diameter that the sources ask for at a pixel, in world units; infinite where none does.
-    #[inline]
-    pub(super) fn get(&self, x: u32, y: u32) -> f32 {
-        self.constant.min(self.lengths.get(x, y)).min(self.risks.get(x, y))
+    /// The smallest diameters that the sources ask for at pixels of row `y`, from column `x` on, in world
+    /// units; infinite where no source does.
+    pub(super) fn row<const N: usize>(&self, x: u32, y: u32, count: usize) -> [f32; N] {
+        let mut smallest = [self.constant; N];
+        for raster in [&self.lengths, &self.risks].into_iter().filter_map(|samples| samples.raster()) {
+            let asked = raster.row(y, x..x + count as u32);
+            smallest.iter_mut().zip(asked).for_each(|(smallest, &asked)| *smallest = smallest.min(asked));
+        }
+        smallest
     }
 
     pub(super) fn evaluations(&self) -> u64 {

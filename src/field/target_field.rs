@@ -1,3 +1,5 @@
+use std::ops::Range;
+
 use glam::DVec2;
 
 use super::samples::SourceSamples;
@@ -64,18 +66,12 @@ const BEYOND: u8 = u8::MAX;
 /// ones are fewer.
 const BLOCK: u32 = 16;
 
-/// What a pixel asks for.
-#[derive(Clone, Copy)]
-struct Pixel {
-    /// The diameter of the sources, the painted risk and the painted diameter.
-    asked: [f32; 3],
+/// What at most [`BLOCK`] pixels of a row ask for; the rest is of no meaning.
+struct Pixels {
     /// h̄ in world units.
-    diameter: f32,
-    level: u8,
+    diameters: [f64; BLOCK as usize],
+    levels: [u8; BLOCK as usize],
 }
-
-/// Equal to no pixel.
-const UNASKED: Pixel = Pixel { asked: [f32::NAN; 3], diameter: 0.0, level: 0 };
 
 impl TargetField {
     /// A field over the bounds of `lattice`, not sampled yet. Until then it asks for nothing.
@@ -192,65 +188,92 @@ impl TargetField {
     fn refresh_rows(&mut self, paint: Option<PaintRef>, rows: PixelRect) {
         let columns = self.spec.size[0];
         let mut levels = Vec::with_capacity((columns * (rows.max[1] - rows.min[1])) as usize);
-        let mut last = UNASKED;
-        for (x, y) in rows.pixels() {
-            last = self.pixel_after(last, paint, x, y);
-            self.target.set(x, y, last.diameter);
-            levels.push(last.level);
+        for y in rows.min[1]..rows.max[1] {
+            for x in (0..columns).step_by(BLOCK as usize) {
+                let end = columns.min(x + BLOCK);
+                let pixels = self.refresh_row(paint, y, x..end);
+                levels.extend_from_slice(&pixels.levels[..(end - x) as usize]);
+            }
         }
-        self.levels.update(rows, |x, y| levels[((y - rows.min[1]) * columns + x) as usize]);
-    }
-
-    /// What a pixel asks for, given another pixel's answer: most pixels ask for the same as the one before
-    /// them.
-    #[inline]
-    fn pixel_after(&self, last: Pixel, paint: Option<PaintRef>, x: u32, y: u32) -> Pixel {
-        let painted = paint.map_or([0.0, f32::INFINITY], |p| [p.risk.get(x, y), p.diameter.get(x, y)]);
-        let asked = [self.samples.get(x, y), painted[0], painted[1]];
-        if asked == last.asked {
-            return last;
-        }
-        let diameter = self.diameter_with(x, y, painted);
-        // To the nearest: this is for display and output. Levels are found from the diameter in f64.
-        Pixel { asked, diameter: diameter as f32, level: self.level_for(diameter) }
+        let mut levels = levels.chunks_exact(columns as usize);
+        self.levels.update_rows(rows, |_, row| row.copy_from_slice(levels.next().expect("a row each")));
     }
 
     /// Refreshes at most [`BLOCK`] × [`BLOCK`] pixels, and returns the bounds of those that ask for another
     /// level.
     fn refresh_block(&mut self, paint: Option<PaintRef>, block: PixelRect) -> PixelRect {
-        let mut levels = [0; (BLOCK * BLOCK) as usize];
-        let place = |x: u32, y: u32| ((y - block.min[1]) * BLOCK + x - block.min[0]) as usize;
+        let [left, right] = [block.min[0], block.max[0]];
+        let mut levels = [[0; BLOCK as usize]; BLOCK as usize];
         let mut changed = PixelRect { min: [0, 0], max: [0, 0] };
-        let mut last = UNASKED;
-        for (x, y) in block.pixels() {
-            last = self.pixel_after(last, paint, x, y);
-            self.target.set(x, y, last.diameter);
-            levels[place(x, y)] = last.level;
-            if last.level != self.levels.get(x, y) {
-                changed = changed.union(&PixelRect { min: [x, y], max: [x + 1, y + 1] });
+        for (levels, y) in levels.iter_mut().zip(block.min[1]..block.max[1]) {
+            *levels = self.refresh_row(paint, y, left..right).levels;
+            let before = self.levels.row(y, left..right);
+            let differs = |x: &u32| levels[(x - left) as usize] != before[(x - left) as usize];
+            if let Some(first) = (left..right).find(differs) {
+                let last = (left..right).rev().find(differs).unwrap_or(first);
+                changed = changed.union(&PixelRect { min: [first, y], max: [last + 1, y + 1] });
             }
         }
-        self.levels.update(changed, |x, y| levels[place(x, y)]);
+        self.levels.update(changed, |x, y| levels[(y - block.min[1]) as usize][(x - left) as usize]);
         changed
     }
 
-    /// h̄ of a pixel in world units, with this risk and diameter painted on it.
-    fn diameter_with(&self, x: u32, y: u32, [risk, diameter]: [f32; 2]) -> f64 {
-        let mut asked = f64::from(self.samples.get(x, y)).min(f64::from(diameter));
-        if risk > 0.0 {
-            asked = asked.min(self.table.diameter(f64::from(risk)));
+    /// Refreshes h̄ of at most [`BLOCK`] pixels of a row, and returns what they ask for. The levels are left
+    /// to the caller.
+    fn refresh_row(&mut self, paint: Option<PaintRef>, y: u32, columns: Range<u32>) -> Pixels {
+        let pixels = self.evaluate(paint, y, columns.clone());
+        let target = self.target.row_mut(y, columns);
+        // To the nearest: this is for display and output. Levels are found from the diameter in f64.
+        target.iter_mut().zip(pixels.diameters).for_each(|(target, diameter)| *target = diameter as f32);
+        pixels
+    }
+
+    /// What at most [`BLOCK`] pixels of a row ask for. Loops over arrays of a fixed length, without branches
+    /// but for the risk, so that the compiler can use vector instructions.
+    fn evaluate(&self, paint: Option<PaintRef>, y: u32, columns: Range<u32>) -> Pixels {
+        let count = columns.len();
+        let asked: [f32; BLOCK as usize] = self.samples.row(columns.start, y, count);
+        let mut pixels = Pixels { diameters: [0.0; BLOCK as usize], levels: [0; BLOCK as usize] };
+        pixels.diameters.iter_mut().zip(asked).for_each(|(diameter, asked)| *diameter = f64::from(asked));
+        if let Some(paint) = paint {
+            let (risks, painted) = (paint.risk.row(y, columns.clone()), paint.diameter.row(y, columns));
+            for ((asked, &risk), &diameter) in pixels.diameters.iter_mut().zip(risks).zip(painted) {
+                *asked = self.with_paint(*asked, [risk, diameter]);
+            }
         }
-        asked.clamp(self.spec.transfer.h_min, self.spec.transfer.h_max)
+        let Transfer { h_min, h_max, .. } = self.spec.transfer;
+        for (diameter, level) in pixels.diameters.iter_mut().zip(&mut pixels.levels) {
+            *diameter = diameter.clamp(h_min, h_max);
+            *level = self.level_for(*diameter);
+        }
+        pixels
+    }
+
+    /// The smallest diameter that is asked for, with this risk and diameter painted.
+    #[inline]
+    fn with_paint(&self, asked: f64, [risk, diameter]: [f32; 2]) -> f64 {
+        let asked = asked.min(f64::from(diameter));
+        if risk > 0.0 { asked.min(self.table.diameter(f64::from(risk))) } else { asked }
     }
 
     /// The level that a pixel would ask for with this risk and diameter painted on it.
     pub fn level_with(&self, x: u32, y: u32, painted: [f32; 2]) -> u8 {
-        self.level_for(self.diameter_with(x, y, painted))
+        let [asked] = self.samples.row(x, y, 1).map(f64::from);
+        let Transfer { h_min, h_max, .. } = self.spec.transfer;
+        self.level_for(self.with_paint(asked, painted).clamp(h_min, h_max))
     }
 
+    /// The number of levels whose triangles are longer than `diameter`.
+    ///
+    /// Two levels halve the length. So with 2ᵉ ≤ diameter < 2ᵉ⁺¹, and 2ᶠ ≤ length of level 0 < 2ᶠ⁺¹, all
+    /// levels below 2 (f − e) − 1 are longer, and none from 2 (f − e) + 2 on: three are left to compare.
+    #[inline]
     fn level_for(&self, diameter: f64) -> u8 {
-        let fine_enough = self.diameter_of_level.partition_point(|&length| length > diameter);
-        if fine_enough < 64 { fine_enough as u8 } else { BEYOND }
+        let lengths = &self.diameter_of_level;
+        let first = (2 * (exponent(lengths[0]) - exponent(diameter)) - 1).clamp(0, 61) as usize;
+        let longer = |level: usize| usize::from(lengths[level] > diameter);
+        let level = first + longer(first) + longer(first + 1) + longer(first + 2);
+        if level < 64 { level as u8 } else { BEYOND }
     }
 
     /// Whether an element's diameter exceeds its target (Eq. 13) by the area rule.
@@ -310,6 +333,12 @@ impl TargetField {
     pub fn level_of_diameter(&self, diameter: f64) -> Option<u32> {
         level_for_diameter(self.lattice.spacing(), diameter)
     }
+}
+
+/// The exponent of a positive number: 2ᵉ ≤ x < 2ᵉ⁺¹.
+#[inline]
+fn exponent(x: f64) -> i64 {
+    (x.to_bits() >> 52) as i64 - 1023
 }
 
 /// The nearest f32 that is not below `value`: rounding must not ask for one level more.

@@ -1,5 +1,7 @@
 //! The max-mipmap: is a value above a limit under this triangle?
 
+use std::ops::Range;
+
 use super::{PixelRect, Raster};
 use crate::geometry::{Lattice, LatticePoint, LatticeRect};
 
@@ -40,6 +42,41 @@ impl<T: Copy> MipmapLevel<T> {
     fn get(&self, x: u32, y: u32) -> T {
         self.values[y as usize * self.size[0] as usize + x as usize]
     }
+
+    #[inline]
+    fn row(&self, y: u32, columns: Range<u32>) -> &[T] {
+        &self.values[self.places(y, columns)]
+    }
+
+    #[inline]
+    fn row_mut(&mut self, y: u32, columns: Range<u32>) -> &mut [T] {
+        let places = self.places(y, columns);
+        &mut self.values[places]
+    }
+
+    fn places(&self, y: u32, columns: Range<u32>) -> Range<usize> {
+        let start = y as usize * self.size[0] as usize;
+        start + columns.start as usize..start + columns.end as usize
+    }
+}
+
+impl<T: Copy + PartialOrd> MipmapLevel<T> {
+    /// The maxima over squares of 2 × 2 values, for row `y` of the next level from column `x` on. At the
+    /// right and upper rim a square may have one column or row only.
+    fn maxima_of_row(&self, y: u32, x: u32, maxima: &mut [T]) {
+        let columns = 2 * x..self.size[0].min(2 * (x + maxima.len() as u32));
+        let lower = self.row(2 * y, columns.clone());
+        let upper = self.row((2 * y + 1).min(self.size[1] - 1), columns);
+        let larger = |a: T, b: T| if b > a { b } else { a };
+        let (lower_pairs, lower_last) = lower.as_chunks::<2>();
+        let (upper_pairs, upper_last) = upper.as_chunks::<2>();
+        for ((maximum, &[a, b]), &[c, d]) in maxima.iter_mut().zip(lower_pairs).zip(upper_pairs) {
+            *maximum = larger(larger(a, b), larger(c, d));
+        }
+        if let (Some(maximum), [a], [b]) = (maxima.last_mut(), lower_last, upper_last) {
+            *maximum = larger(*a, *b);
+        }
+    }
 }
 
 impl<T: Copy + PartialOrd> MaxMipmap<T> {
@@ -73,6 +110,15 @@ impl<T: Copy + PartialOrd> MaxMipmap<T> {
         self.levels[0].get(x, y)
     }
 
+    /// The values of the pixels of some columns of row `y`.
+    ///
+    /// # Panics
+    /// When they are outside the raster.
+    #[inline]
+    pub fn row(&self, y: u32, columns: Range<u32>) -> &[T] {
+        self.levels[0].row(y, columns)
+    }
+
     /// The largest value of the raster.
     pub fn max(&self) -> T {
         self.levels.last().map(|top| top.values[0]).expect("a mipmap has at least one level")
@@ -80,12 +126,18 @@ impl<T: Copy + PartialOrd> MaxMipmap<T> {
 
     /// Sets every pixel of `area` to `value(column, row)`, and updates the maxima above.
     pub fn update(&mut self, area: PixelRect, mut value: impl FnMut(u32, u32) -> T) {
+        self.update_rows(area, |y, row| {
+            row.iter_mut().zip(area.min[0]..).for_each(|(pixel, x)| *pixel = value(x, y));
+        });
+    }
+
+    /// As [`Self::update`], row by row: `set(y, pixels)` writes the pixels of row `y` within `area`.
+    pub fn update_rows(&mut self, area: PixelRect, mut set: impl FnMut(u32, &mut [T])) {
         if area.is_empty() {
             return;
         }
-        let columns = self.levels[0].size[0] as usize;
-        for (x, y) in area.pixels() {
-            self.levels[0].values[y as usize * columns + x as usize] = value(x, y);
+        for y in area.min[1]..area.max[1] {
+            set(y, self.levels[0].row_mut(y, area.min[0]..area.max[0]));
         }
         // On each level, the squares above the changed ones.
         let mut area = area;
@@ -93,18 +145,11 @@ impl<T: Copy + PartialOrd> MaxMipmap<T> {
             area = PixelRect { min: area.min.map(|v| v / 2), max: area.max.map(|v| v.div_ceil(2)) };
             let (below, above) = self.levels.split_at_mut(k);
             let (fine, coarse) = (&below[k - 1], &mut above[0]);
-            let columns = coarse.size[0] as usize;
-            for (x, y) in area.pixels() {
-                coarse.values[y as usize * columns + x as usize] = max_of_four(fine, 2 * x, 2 * y);
+            for y in area.min[1]..area.max[1] {
+                fine.maxima_of_row(y, area.min[0], coarse.row_mut(y, area.min[0]..area.max[0]));
             }
         }
     }
-}
-
-fn max_of_four<T: Copy + PartialOrd>(fine: &MipmapLevel<T>, x: u32, y: u32) -> T {
-    let (right, top) = ((x + 1).min(fine.size[0] - 1), (y + 1).min(fine.size[1] - 1));
-    let larger = |a: T, b: T| if b > a { b } else { a };
-    larger(larger(fine.get(x, y), fine.get(right, y)), larger(fine.get(x, top), fine.get(right, top)))
 }
 
 /// The map between the pixels of a raster and a lattice over the same rectangle.

@@ -3,6 +3,8 @@
 
 mod max_mipmap;
 
+use std::ops::Range;
+
 use glam::DVec2;
 
 use crate::geometry::Rect;
@@ -165,6 +167,30 @@ impl<T: Copy> Raster<T> {
     #[inline]
     pub fn set(&mut self, x: u32, y: u32, value: T) {
         self.values[y as usize * self.size[0] as usize + x as usize] = value;
+    }
+
+    /// The pixels of some columns of row `y`.
+    ///
+    /// # Panics
+    /// When they are outside the raster.
+    #[inline]
+    pub fn row(&self, y: u32, columns: Range<u32>) -> &[T] {
+        &self.values[self.places(y, columns)]
+    }
+
+    /// The pixels of some columns of row `y`, to change them.
+    ///
+    /// # Panics
+    /// When they are outside the raster.
+    #[inline]
+    pub fn row_mut(&mut self, y: u32, columns: Range<u32>) -> &mut [T] {
+        let places = self.places(y, columns);
+        &mut self.values[places]
+    }
+
+    fn places(&self, y: u32, columns: Range<u32>) -> Range<usize> {
+        let start = y as usize * self.size[0] as usize;
+        start + columns.start as usize..start + columns.end as usize
     }
 
     /// Width and height of a pixel in world units.
