@@ -50,7 +50,7 @@ pub enum RegionError {
         Grouped(*corners), Grouped(MOST_CORNERS)
     )]
     TooManyCorners {
-        /// TriangleExtents of all rings.
+        /// Corners of all rings.
         corners: usize,
     },
     /// Too many crossings of edges.

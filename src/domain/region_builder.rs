@@ -34,7 +34,7 @@ pub(super) struct RegionOnLatticeBuilder {
 /// What is being done.
 #[derive(Clone, Copy, Debug)]
 enum Step {
-    /// TriangleExtents are moved to the nearest lattice points.
+    /// Corners are moved to the nearest lattice points.
     Moving(EdgeCursor),
     /// The squares that each edge touches are counted, from this edge on.
     Counting(usize),
