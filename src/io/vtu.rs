@@ -6,6 +6,11 @@
 //! The header has the offset of each array, and so depends on the compressed sizes of the arrays before it.
 //! Therefore every array is compressed twice, first to measure and then to write: that costs time, but only
 //! one block is in memory, and the output may be a pipe.
+//!
+//! The arrays are stored in the reverse order of the header. meshio (up to 5.3.5) replaces the offsets in the
+//! header one by one, in the order of the data, and looks the next array up by its old offset. A new offset
+//! can be equal to an old one; the lookup takes the first in the header, which in this order is the right
+//! one.
 
 use std::io::{self, Write};
 
@@ -121,7 +126,7 @@ pub fn write_metered(out: &mut impl Write, mesh: &Extract, data: &MeshData, mete
     meter.expect(2 * bytes as u64);
     sections.iter_mut().flat_map(|(_, arrays)| arrays).try_for_each(|array| array.measure(meter))?;
     write_header(out, mesh, &sections)?;
-    sections.iter().flat_map(|(_, arrays)| arrays).try_for_each(|array| array.append(out, meter))?;
+    sections.iter().flat_map(|(_, arrays)| arrays).rev().try_for_each(|array| array.append(out, meter))?;
     writeln!(out, "\n  </AppendedData>\n</VTKFile>")
 }
 
@@ -135,12 +140,12 @@ fn write_header(out: &mut impl Write, mesh: &Extract, sections: &[(&str, Vec<Arr
     )?;
     writeln!(out, "  <UnstructuredGrid>")?;
     writeln!(out, "    <Piece NumberOfPoints=\"{nodes}\" NumberOfCells=\"{triangles}\">")?;
-    let mut offset = 0;
+    let mut offset: u64 = sections.iter().flat_map(|(_, arrays)| arrays).map(Array::length).sum();
     for (section, arrays) in sections {
         writeln!(out, "      <{section}>")?;
         for array in arrays {
+            offset -= array.length();
             array.describe(out, offset)?;
-            offset += array.length();
         }
         writeln!(out, "      </{section}>")?;
     }
