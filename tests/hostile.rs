@@ -26,7 +26,7 @@ fn read_asc(bytes: &[u8]) -> Result<(), String> {
 }
 
 fn read_points(bytes: &[u8]) -> Result<(), String> {
-    points::from_bytes(bytes, Path::new(NAME)).map(drop).map_err(|error| error.to_string())
+    points::read_from(bytes, Path::new(NAME)).map(drop).map_err(|error| error.to_string())
 }
 
 fn read_png(bytes: &[u8]) -> Result<(), String> {

@@ -16,7 +16,7 @@ use super::{Flaw, ReadError};
 use crate::geometry::Rect;
 use crate::raster::{MAX_SIDE, Raster};
 
-/// Reads a grid. Pixels without a value (`NODATA_value`) are NaN.
+/// Reads a grid. Pixels without a value (`NODATA_value`, and `nan` as GDAL writes it) are NaN.
 ///
 /// # Errors
 /// When the file cannot be read, breaks a rule of the format (with the line), or has more than [`MAX_SIDE`]
@@ -40,6 +40,7 @@ fn parse(source: impl BufRead) -> Result<Raster, PlacedFlaw> {
     let [columns, rows] = header.size()?;
     let bounds = header.bounds([columns, rows])?;
     let no_data = header.number("nodata_value");
+    let has_value = |value: f64| !value.is_nan() && Some(value) != no_data;
     let count = columns as usize * rows as usize;
     // Grows with the values in the file: a header alone takes no memory.
     let mut values = Vec::new();
@@ -50,7 +51,7 @@ fn parse(source: impl BufRead) -> Result<Raster, PlacedFlaw> {
             return Err(Flaw::Syntax(problem + "; check ncols and nrows.").at(words.line));
         }
         let value = number(&word, words.line)?;
-        values.push(if Some(value) == no_data { f32::NAN } else { single(value, words.line)? });
+        values.push(if has_value(value) { single(value, words.line)? } else { f32::NAN });
         next = words.next()?;
     }
     if values.len() < count {
@@ -83,7 +84,8 @@ impl Header {
         let mut known = HashMap::new();
         loop {
             let name = words.required()?;
-            if name.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c)) {
+            let is_nan = name.eq_ignore_ascii_case("nan");
+            if is_nan || name.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c)) {
                 return Ok((Self(known), name));
             }
             let lower = name.to_ascii_lowercase();
@@ -95,7 +97,11 @@ impl Header {
             }
             let value = words.required()?;
             // Each name is allowed once, so the loop is bounded by the list of names.
-            if known.insert(lower, number(&value, words.line)?).is_some() {
+            let number = number(&value, words.line)?;
+            if number.is_nan() && lower != "nodata_value" {
+                return Err(Flaw::Syntax(format!("`{name}` is nan, and it must be a number.")).at(words.line));
+            }
+            if known.insert(lower, number).is_some() {
                 return Err(Flaw::Syntax(format!("`{name}` is twice in the header.")).at(words.line));
             }
         }
@@ -140,10 +146,11 @@ impl Header {
     }
 }
 
+/// A finite number, or NaN, which GDAL writes for a cell without a value.
 fn number(word: &str, line: usize) -> Result<f64, PlacedFlaw> {
     // Some programs write a decimal comma, depending on the language of the system.
     let parsed = word.parse().or_else(|_| word.replace(',', ".").parse());
-    parsed.ok().filter(|value: &f64| value.is_finite()).ok_or_else(|| {
+    parsed.ok().filter(|value: &f64| !value.is_infinite()).ok_or_else(|| {
         Flaw::Syntax(format!("`{word}` is not a number, and a number is expected here.")).at(line)
     })
 }
@@ -226,6 +233,15 @@ mod tests {
     }
 
     #[test]
+    fn nan_is_a_cell_without_a_value() {
+        for no_data in ["", "NODATA_value nan\n", "NODATA_value -9999\n"] {
+            let header = "ncols 2\nnrows 1\nxllcorner 0\nyllcorner 0\ncellsize 1\n";
+            let raster = parsed(&format!("{header}{no_data}nan 5")).unwrap();
+            assert!(raster.get(0, 0).is_nan() && raster.get(1, 0) == 5.0, "{no_data}");
+        }
+    }
+
+    #[test]
     fn centres_and_separate_cell_sides_are_understood() {
         let raster = parsed("ncols 1 nrows 2 xllcenter 1 yllcenter 1.5 dx 2 dy 1\r\n7\r\n8").unwrap();
         assert_eq!(raster.bounds(), Rect::new(glam::dvec2(0.0, 1.0), glam::dvec2(2.0, 3.0)));
@@ -246,7 +262,8 @@ mod tests {
             (header.replace("size 1", "size 0") + "1 2\n3 4", ": with cells of 0 × 0"),
             (format!("{header}1 2\n3"), ", line 7: the file ends too early"),
             (format!("{header}1 2\n3 x"), ", line 7: `x` is not a number"),
-            (format!("{header}1 2\n3 NaN"), ", line 7: `NaN` is not a number"),
+            (format!("{header}1 2\n3 inf"), ", line 7: `inf` is not a number"),
+            ("ncols nan\n1".into(), ", line 1: `ncols` is nan"),
             (format!("{header}1 2\n3 4\n5"), ", line 8: there are more values"),
             (format!("{header}1 2\n3 -9e99"), ", line 7: the value -9e99 is too large"),
             ("1".repeat(10_000), ", line 1: `11111111111111111111…` is not a word"),

@@ -1,4 +1,4 @@
-//! `points.csv`: a table with columns `x` and `y`, and perhaps others.
+//! `points.csv`: a table with columns `x` and `y`, or `lon` and `lat`, and perhaps others.
 
 use std::fs::File;
 use std::io::{BufRead, BufReader, Read};
@@ -13,12 +13,18 @@ use super::{Flaw, ReadError};
 /// Longest line that is read, in bytes. Without a limit a file without line breaks would fill the memory.
 const LONGEST_LINE: u64 = 1 << 20;
 
+/// What separates fields: the first of these under which the header names both coordinates.
+const DELIMITERS: [u8; 3] = *b",;\t";
+/// Names of the columns, in lower case.
+const NAMES: [&[&str]; 2] = [&["x", "lon", "lng", "long", "longitude"], &["y", "lat", "latitude"]];
+
 /// Reads the points of a table, in world units, in the order of its rows.
 ///
-/// The header names the columns, in any order and case; columns other than `x` and `y` are ignored. Fields
-/// follow RFC 4180: one that begins with a quotation mark may contain commas, but it must end on its line.
-/// White space around fields and blank lines are ignored. `NaN` and `inf` are read as numbers: the location
-/// of such a point answers that it is invalid.
+/// The header names the columns, in any order and case; `lon` and `lat` stand for `x` and `y`, and other
+/// columns are ignored. Fields are separated by commas, semicolons or tabs, and follow RFC 4180: one that
+/// begins with a quotation mark may contain separators, but it must end on its line. Without commas between
+/// fields, a comma may be the decimal point. White space around fields and blank lines are ignored. `NaN` and
+/// `inf` are read as numbers: the location of such a point answers that it is invalid.
 ///
 /// # Errors
 /// When the file cannot be read, has no header with `x` and `y`, or a field is not a number; the error names
@@ -28,27 +34,18 @@ pub fn read(path: &Path) -> Result<Vec<DVec2>, ReadError> {
     read.map_err(|flaw| flaw.in_file(path))
 }
 
-/// Reads the points of a table as [`read`] does, from bytes. Errors call the file `name`.
+/// Reads the points of a table as [`read`] does, from any input, such as bytes or standard input. Errors call
+/// the file `name`.
 ///
 /// # Errors
 /// As [`read`].
-pub fn from_bytes(bytes: &[u8], name: &Path) -> Result<Vec<DVec2>, ReadError> {
-    parse(bytes).map_err(|flaw| flaw.in_file(name))
+pub fn read_from(input: impl BufRead, name: &Path) -> Result<Vec<DVec2>, ReadError> {
+    parse(input).map_err(|flaw| flaw.in_file(name))
 }
 
 fn parse(source: impl BufRead) -> Result<Vec<DVec2>, PlacedFlaw> {
     let mut rows = Rows::new(source);
-    if !rows.advance()? {
-        let problem = "there is no header; the first line must name the columns x and y.";
-        return Err(Flaw::Syntax(problem.into()).into());
-    }
-    let place = |name| rows.fields().position(|field| field.eq_ignore_ascii_case(name));
-    let (Some(x), Some(y)) = (place("x"), place("y")) else {
-        let header = rows.fields().collect::<Vec<_>>().join(",");
-        let problem =
-            format!("the header is `{}`, and it must name the columns x and y.", shown(40, &header));
-        return Err(Flaw::Syntax(problem).at(rows.line));
-    };
+    let [x, y] = rows.read_header()?;
     let mut points = Vec::new();
     while rows.advance()? {
         points.push(DVec2::new(rows.number(x, "x")?, rows.number(y, "y")?));
@@ -56,9 +53,15 @@ fn parse(source: impl BufRead) -> Result<Vec<DVec2>, PlacedFlaw> {
     Ok(points)
 }
 
+fn parser(delimiter: u8) -> csv_core::Reader {
+    // Of a line break in two bytes the first is white space at the end of the last field.
+    ReaderBuilder::new().delimiter(delimiter).terminator(Terminator::Any(b'\n')).build()
+}
+
 /// The rows of a table, one at a time.
 struct Rows<R> {
     source: R,
+    delimiter: u8,
     parser: csv_core::Reader,
     /// The number of the current line, counted from one.
     line: usize,
@@ -69,47 +72,75 @@ struct Rows<R> {
 
 impl<R: BufRead> Rows<R> {
     fn new(source: R) -> Self {
-        // Of a line break in two bytes the first is white space at the end of the last field.
-        let parser = ReaderBuilder::new().terminator(Terminator::Any(b'\n')).build();
-        Self { source, parser, line: 0, text: String::new(), ends: Vec::new() }
+        let delimiter = DELIMITERS[0];
+        Self { source, delimiter, parser: parser(delimiter), line: 0, text: String::new(), ends: Vec::new() }
+    }
+
+    /// Reads the header, finds out what separates the fields, and returns the columns of x and y.
+    fn read_header(&mut self) -> Result<[usize; 2], PlacedFlaw> {
+        let Some(line) = self.next_line()? else {
+            let problem = "there is no header; the first line must name the columns x and y.";
+            return Err(Flaw::Syntax(problem.into()).into());
+        };
+        for delimiter in DELIMITERS {
+            (self.delimiter, self.parser) = (delimiter, parser(delimiter));
+            self.parse_line(line.clone())?;
+            let place = |names: &[&str]| {
+                self.fields().position(|field| names.iter().any(|name| field.eq_ignore_ascii_case(name)))
+            };
+            if let [Some(x), Some(y)] = NAMES.map(place) {
+                return Ok([x, y]);
+            }
+        }
+        let header = String::from_utf8_lossy(&line);
+        let problem =
+            format!("the header is `{}`, and it must name the columns x and y.", shown(40, header.trim()));
+        Err(Flaw::Syntax(problem).at(self.line))
     }
 
     /// Goes to the next line that is not blank. Returns whether there is one.
     fn advance(&mut self) -> Result<bool, PlacedFlaw> {
+        match self.next_line()? {
+            Some(line) => self.parse_line(line).map(|()| true),
+            None => Ok(false),
+        }
+    }
+
+    /// The next line that is not blank, with its line break.
+    fn next_line(&mut self) -> Result<Option<Vec<u8>>, PlacedFlaw> {
         loop {
             let mut bytes = Vec::new();
             let read = self.source.by_ref().take(LONGEST_LINE).read_until(b'\n', &mut bytes)?;
             if read == 0 {
-                return Ok(false);
+                return Ok(None);
             }
             self.line += 1;
             if read as u64 == LONGEST_LINE {
                 return Err(Flaw::Syntax("the line is longer than a megabyte.".into()).at(self.line));
             }
             if !bytes.trim_ascii().is_empty() {
-                self.parse_line(bytes).map_err(|flaw| flaw.at(self.line))?;
-                return Ok(true);
+                return Ok(Some(bytes));
             }
         }
     }
 
     /// Splits a line into fields.
-    fn parse_line(&mut self, mut line: Vec<u8>) -> Result<(), Flaw> {
+    fn parse_line(&mut self, mut line: Vec<u8>) -> Result<(), PlacedFlaw> {
+        let flaw = |problem: &str| Flaw::Syntax(problem.into()).at(self.line);
         // The parser waits for the end of the line; the last one of a file may have none.
         line.push(b'\n');
         // Fields are shorter than their line, and a line has fewer fields than bytes.
         let mut text = vec![0; line.len()];
         self.ends.resize(line.len(), 0);
-        // It also removes a byte order mark, which spreadsheets put before the first line.
         self.parser.reset();
+        // It also removes a byte order mark, which spreadsheets put before the first line.
         let (result, _, bytes, fields) = self.parser.read_record(&line, &mut text, &mut self.ends);
         if result != ReadRecordResult::Record {
-            return Err(Flaw::Syntax("a quotation mark is not closed on its line.".into()));
+            return Err(flaw("a quotation mark is not closed on its line."));
         }
         text.truncate(bytes);
         self.ends.truncate(fields);
-        self.text =
-            String::from_utf8(text).map_err(|_| Flaw::Syntax("the line is not UTF-8 text.".into()))?;
+        self.text = String::from_utf8(text).map_err(|_| flaw("the line is not UTF-8 text."))?;
         Ok(())
     }
 
@@ -128,7 +159,9 @@ impl<R: BufRead> Rows<R> {
         let flaw = |problem| Flaw::Syntax(problem).at(self.line);
         let text = self.field(column).filter(|text| !text.is_empty());
         let text = text.ok_or_else(|| flaw(format!("there is no {name}.")))?;
-        text.parse().map_err(|_| flaw(format!("{name} is `{}`, which is not a number.", shown(40, text))))
+        let with_point = |text: &str| (self.delimiter != b',').then(|| text.replace(',', "."));
+        let parsed = text.parse().ok().or_else(|| with_point(text)?.parse().ok());
+        parsed.ok_or_else(|| flaw(format!("{name} is `{}`, which is not a number.", shown(40, text))))
     }
 }
 
@@ -152,6 +185,11 @@ mod tests {
         assert_eq!(parsed(quoted), Ok(vec![point(1.0, 2.0)]));
         assert_eq!(parsed("x,y\n"), Ok(vec![]));
         assert_eq!(parsed("x,y\r\n1,\"2\"\r\n"), Ok(vec![point(1.0, 2.0)]));
+        for text in
+            ["x;y\n1;2\n", "Lon\tLat\n1\t2\n", "lat;name;lon\n2,0;a,b;1,0\n", "longitude,latitude\n1,2"]
+        {
+            assert_eq!(parsed(text), Ok(vec![point(1.0, 2.0)]), "{text}");
+        }
         let odd = parsed("x,y\nNaN,inf\n").unwrap();
         assert!(odd[0].x.is_nan() && odd[0].y == f64::INFINITY);
     }

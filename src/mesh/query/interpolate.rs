@@ -24,7 +24,13 @@ pub fn barycentric(corners: [LatticePoint; 3], point: DVec2) -> [f64; 3] {
 }
 
 /// The value at a point with barycentric coordinates `zeta`, from the `values` at the three vertices (Section
-/// 7).
+/// 7). A vertex with ζ = 0 does not count, even if its value is infinite.
+///
+/// ```
+/// assert_eq!(meshbrush::interpolate([0.5, 0.5, 0.0], [1.0, 2.0, 7.0]), 1.5);
+/// assert_eq!(meshbrush::interpolate([0.0, 1.0, 0.0], [f64::INFINITY, 3.0, 5.0]), 3.0);
+/// ```
 pub fn interpolate(zeta: [f64; 3], values: [f64; 3]) -> f64 {
-    zeta[0] * values[0] + zeta[1] * values[1] + zeta[2] * values[2]
+    let counts = |(zeta, _): &(f64, f64)| *zeta != 0.0;
+    zeta.into_iter().zip(values).filter(counts).map(|(zeta, value)| zeta * value).sum()
 }
