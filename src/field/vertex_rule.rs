@@ -27,24 +27,26 @@ impl VertexRule {
     ) -> Result<bool, InvalidTarget> {
         let mut smallest = f64::INFINITY;
         for (&node, &corner) in element.triangle.vertices.iter().zip(&element.corners) {
-            let world = || element.lattice.world_from_lattice(corner);
-            smallest = smallest.min(self.target_at(node.index(), world, &target)?);
+            let known = self.target_of_node.get(node.index()).copied().unwrap_or(f64::NAN);
+            let target_of_node = if known.is_nan() {
+                let point = element.lattice.world_from_lattice(corner);
+                self.evaluate(node.index(), point, &target)?
+            } else {
+                known
+            };
+            smallest = smallest.min(target_of_node);
         }
         Ok(element.diameter() > smallest)
     }
 
-    fn target_at(
+    /// Evaluates h̄ at a node for the first time. Not inlined: most nodes are known.
+    #[inline(never)]
+    fn evaluate(
         &mut self,
         node: usize,
-        world: impl FnOnce() -> DVec2,
+        point: DVec2,
         target: impl Fn(DVec2) -> f64,
     ) -> Result<f64, InvalidTarget> {
-        if let Some(&value) = self.target_of_node.get(node)
-            && !value.is_nan()
-        {
-            return Ok(value);
-        }
-        let point = world();
         let value = checked_target(target(point), point)?;
         if node >= self.target_of_node.len() {
             self.target_of_node.resize(node + 1, f64::NAN);
