@@ -102,10 +102,10 @@ impl Canvas {
     ) {
         let Some(pointer) = self.pointer_on(ctx, view, tools, lattice) else { return };
         match *event {
-            Event::PointerButton { pos, button, pressed: true, modifiers } => {
-                if self.gesture.is_none() && self.is_free_at(ctx, pos) {
-                    self.gesture = press(ctx, Press { at: pos, modifiers }, button, &pointer, commands);
-                }
+            Event::PointerButton { pos, button, pressed: true, modifiers }
+                if self.gesture.is_none() && self.is_free_at(ctx, pos) =>
+            {
+                self.gesture = press(ctx, Press { at: pos, modifiers }, button, &pointer, commands);
             }
             Event::PointerMoved(pos) => {
                 if let Some(gesture) = &mut self.gesture {
