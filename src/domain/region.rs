@@ -33,15 +33,21 @@ pub struct Region {
 impl Eq for Region {}
 
 impl Region {
-    /// The region that the polygons cover within `frame`. They may overlap, and each may have either
-    /// direction or cross itself: a polygon covers the points that its rings enclose an odd number of times.
+    /// The region that the polygons cover within `frame`. They may overlap. A polygon covers what its first
+    /// ring encloses, without what its other rings enclose. A ring may have either direction, cross itself,
+    /// or run around a point several times.
     ///
     /// `frame` must be proper and all points finite.
     pub fn new(polygons: &[Polygon], frame: Rect) -> Self {
         let grid = Grid::over(&frame);
         let simple: Vec<Shape> = polygons
             .iter()
-            .flat_map(|rings| overlay(&grid.contours(rings), &[], OverlayOperation::EITHER))
+            .filter_map(|rings| {
+                grid.contours(rings).split_first().map(|(outer, holes)| {
+                    overlay(std::slice::from_ref(outer), holes, OverlayOperation::WITHOUT_HOLES)
+                })
+            })
+            .flatten()
             .collect();
         let contours: Vec<Contour> = simple.into_iter().flatten().collect();
         Self::cut_to_frame(&grid, &contours)
@@ -219,6 +225,8 @@ impl OverlayOperation {
     const EITHER: Self = Self(OverlayRule::Union, FillRule::EvenOdd);
     /// Points of both; contours of the first may overlap.
     const BOTH: Self = Self(OverlayRule::Intersect, FillRule::NonZero);
+    /// Points of the first only; any contour encloses what it runs around.
+    const WITHOUT_HOLES: Self = Self(OverlayRule::Difference, FillRule::NonZero);
     /// Points of the first only.
     const FIRST_ONLY: Self = Self(OverlayRule::Difference, FillRule::EvenOdd);
 }
@@ -328,6 +336,11 @@ mod tests {
         // Two polygons that overlap cover their union, and a part beyond the frame is cut off.
         let region = unit(&[vec![square(centre, 0.25)], vec![square(DVec2::ONE, 0.375)]]);
         assert_eq!(region.area(), 0.25 + 0.140625 - 0.015625);
+        // A ring that runs around twice covers what it runs around, and a hole outside its ring adds nothing.
+        let twice = [square(centre, 0.25), square(centre, 0.25)].concat();
+        assert_eq!(unit(&[vec![twice]]).area(), 0.25);
+        let outside = vec![square(centre, 0.25), square(dvec2(0.1, 0.1), 0.0625)];
+        assert_eq!(unit(&[outside]).area(), 0.25);
         // A figure of eight: both lobes.
         let bow = vec![dvec2(0.0, 0.0), dvec2(1.0, 1.0), dvec2(1.0, 0.0), dvec2(0.0, 1.0)];
         assert!((unit(&[vec![bow]]).area() - 0.5).abs() < 1e-8);
