@@ -1,7 +1,7 @@
 //! The program itself, run as a person runs it.
 
 use std::fs;
-use std::io::Read;
+use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
@@ -65,6 +65,7 @@ impl Drop for Folder {
     }
 }
 
+#[derive(Debug)]
 struct Ran {
     status: i32,
     out: String,
@@ -76,6 +77,10 @@ impl Ran {
         let text = |bytes| String::from_utf8(bytes).unwrap();
         let status = output.status.code().expect("the program ends by itself");
         Self { status, out: text(output.stdout), err: text(output.stderr) }
+    }
+
+    fn json(&self) -> Value {
+        serde_json::from_str(&self.out).unwrap_or_else(|_| panic!("no JSON: {self:?}"))
     }
 }
 
@@ -641,4 +646,99 @@ fn shells_complete_the_options() {
         }
     }
     assert_eq!(folder.run("completions dos").status, 2);
+}
+
+/// As [`Folder::run`], with bytes on standard input.
+fn run_with_input(folder: &Folder, arguments: &str, input: &str) -> Ran {
+    let mut child = folder
+        .command(arguments)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    child.stdin.take().unwrap().write_all(input.as_bytes()).unwrap();
+    Ran::new(child.wait_with_output().unwrap())
+}
+
+const TRIANGLE: &str = r#"{"type":"Polygon","coordinates":[[[0,0],[4,0],[0,4],[0,0]]]}"#;
+
+#[test]
+fn a_dash_is_standard_input_or_output() {
+    let folder = Folder::new("dash");
+    let region = run_with_input(&folder, "mesh --region - --json", TRIANGLE);
+    assert_eq!(region.status, 0, "{}", region.err);
+    assert!((region.json()["region_area"].as_f64().unwrap() - 8.0).abs() < 1e-6);
+    let located = run_with_input(&folder, "locate --spacing 0.5 --points - -o -", "lon;lat\n0,25;0,5\n");
+    assert!(
+        located.out.contains("\n0.25,0.5,vertex,") || located.out.contains("\n0.25,0.5,edge,"),
+        "{located:?}"
+    );
+    folder.run("mesh --spacing 0.5 -o file.csv -o file.vtu");
+    for ending in ["csv", "vtu"] {
+        let piped = folder.command(&format!("mesh --spacing 0.5 -o - --format {ending}")).output().unwrap();
+        assert!(piped.status.success());
+        assert_eq!(piped.stdout, fs::read(folder.0.join(format!("file.{ending}"))).unwrap(), "{ending}");
+    }
+    assert_fails(&folder, "mesh -o -", 2, "name one with --format, as in --format vtu.");
+    assert_fails(&folder, "mesh -o - --format node", 2, "--format node: this format has 4 files");
+    assert_fails(&folder, "mesh -o - --format doc", 2, "--format doc: use one of vtu msh obj");
+    assert_fails(
+        &folder,
+        "mesh -o - --format vtu --json",
+        2,
+        "-o - and --json both print on standard output",
+    );
+    assert_fails(&folder, "locate --region - --points -", 2, "--region - and --points - both read");
+    let wrong = run_with_input(&folder, "mesh --region -", "{}");
+    assert!(wrong.err.contains("standard input"), "{}", wrong.err);
+}
+
+#[test]
+fn options_that_change_nothing_are_named() {
+    let folder = Folder::new("no-effect");
+    for (arguments, note) in [
+        ("mesh --transfer-shape 2", "--transfer-shape changes nothing without --risk"),
+        ("mesh --resolution 64", "--resolution changes nothing by the vertex rule"),
+        ("mesh --boundary report", "--boundary changes nothing without --region"),
+        ("mesh --quantity x", "--quantity changes nothing: no file with data"),
+        ("mesh --quantity x -o m.svg", "--quantity changes nothing: no file with data"),
+        ("mesh --light -o m.vtu", "The options on pictures change nothing"),
+        ("mesh --format vtu -o m.vtu", "--format changes nothing without -o -"),
+    ] {
+        let ran = folder.run(arguments);
+        assert_eq!(ran.status, 0, "{arguments}: {}", ran.err);
+        assert!(ran.err.contains(&format!("meshbrush: note: {note}")), "{arguments}: {}", ran.err);
+    }
+    let ran = folder.run("mesh --spacing 0.2 --quantity x -o m.vtu --json");
+    assert_eq!(ran.err.trim(), "wrote m.vtu", "without a note");
+}
+
+#[test]
+fn a_value_at_a_vertex_does_not_depend_on_the_others() {
+    let folder = Folder::new("vertex-value");
+    folder.file("p.csv", "x,y\n0.5,0.5\n");
+    let ran = folder.run("locate --spacing 0.5 --points p.csv --quantity 1/x");
+    assert!(ran.out.trim().ends_with(",2"), "{}", ran.out);
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn a_signal_during_an_export_leaves_the_old_file_and_no_part_of_the_new_one() {
+    let folder = Folder::new("signal");
+    for (signal, number) in [("INT", 2), ("TERM", 15), ("HUP", 1)] {
+        folder.file("m.msh", "old");
+        let large = "mesh --spacing 0.05 --target 0.0012 -o m.msh";
+        let mut child = folder.command(large).stderr(Stdio::null()).spawn().unwrap();
+        let part = || folder.names().iter().any(|name| name.ends_with(".part"));
+        while !part() {
+            assert!(child.try_wait().unwrap().is_none(), "it ended before it was interrupted");
+            std::thread::sleep(std::time::Duration::from_millis(1));
+        }
+        let kill = Command::new("kill").arg(format!("-{signal}")).arg(child.id().to_string()).status();
+        assert!(kill.unwrap().success());
+        let status = child.wait().unwrap();
+        assert_eq!(std::os::unix::process::ExitStatusExt::signal(&status), Some(number), "{signal}");
+        assert_eq!((folder.names(), folder.read("m.msh")), (vec!["m.msh".to_owned()], "old".to_owned()));
+    }
 }

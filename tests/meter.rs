@@ -50,7 +50,7 @@ fn data(targets: &[f64]) -> MeshData<'_> {
 /// A project with a picture, polygons and paint, each larger than a block.
 fn large_project() -> Project {
     let sea = fs::read(concat!(env!("CARGO_MANIFEST_DIR"), "/assets/aegean_sea.geojson")).unwrap();
-    let sea = geojson::from_bytes(&sea, Path::new("sea")).unwrap();
+    let sea = geojson::read_from(&sea[..], Path::new("sea")).unwrap();
     let mut project = Project::of(&Example::Aegean.document(|| unreachable!(), || sea.clone()));
     let values = (0..500 * 400).map(|n| (n % 997) as f32 / 997.0).collect();
     let raster = Arc::new(Raster::from_values(Rect::UNIT, [500, 400], values));

@@ -15,7 +15,7 @@ use meshbrush::internals::mesh::{Limits, Progress};
 const MOST_TRIANGLES: usize = 3000;
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
-    let Ok(polygons) = geojson::from_bytes(bytes, Path::new("fuzz.geojson")) else { return };
+    let Ok(polygons) = geojson::read_from(bytes, Path::new("fuzz.geojson")) else { return };
     let Ok(domain) = Domain::of_polygons(&polygons) else { return };
     let region = domain.region().expect("polygons make a region");
     assert!(region.area() > 0.0 && region.edges().flatten().all(|p| domain.bounds.contains(p)));

@@ -76,7 +76,7 @@ pub struct InputArguments {
     #[arg(long, value_name = "EXPR", allow_hyphen_values = true)]
     pub inside: Option<String>,
 
-    /// Domain with holes: a GeoJSON file with polygons, in its own coordinates
+    /// Domain with holes: a GeoJSON file with polygons, in its own coordinates; - is standard input
     ///
     /// The coarse grid covers their bounding rectangle. The domain is the union of all polygons.
     #[arg(long, value_name = "FILE.geojson", conflicts_with_all = ["domain", "inside"])]
@@ -199,6 +199,10 @@ pub struct MeshArguments {
     #[arg(help = output_help(), long_help = output_long_help())]
     pub output: Vec<PathBuf>,
 
+    /// Format of `-o -`, which writes to standard output: an ending, as in vtu
+    #[arg(long, value_name = "ENDING", help_heading = "Output")]
+    pub format: Option<String>,
+
     /// A further value at the nodes, as a formula in x and y; `quantity` in .vtu, .msh, .csv and .node, z in
     /// .2dm
     #[arg(long, value_name = "EXPR", allow_hyphen_values = true, help_heading = "Output")]
@@ -216,12 +220,22 @@ pub struct MeshArguments {
     pub picture: PictureArguments,
 }
 
+const PICTURE_SIZE: &str = "1600";
+const PICTURE_COLORMAP: &str = "viridis";
+
+impl PictureArguments {
+    /// Whether an option was given that is not the default.
+    pub fn differs_from_default(&self) -> bool {
+        self.size != PICTURE_SIZE || self.no_edges || self.colormap != PICTURE_COLORMAP || self.light
+    }
+}
+
 /// The look of pictures.
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Pictures (.svg and .png)")]
 pub struct PictureArguments {
     /// Width, or width and height, in pixels
-    #[arg(long, value_name = "W[xH]", default_value = "1600")]
+    #[arg(long, value_name = "W[xH]", default_value = PICTURE_SIZE)]
     pub size: String,
 
     /// Do not draw the edges
@@ -229,7 +243,7 @@ pub struct PictureArguments {
     pub no_edges: bool,
 
     /// Colours of the levels: viridis, magma, cividis, turbo or greys
-    #[arg(long, value_name = "NAME", default_value = "viridis")]
+    #[arg(long, value_name = "NAME", default_value = PICTURE_COLORMAP)]
     pub colormap: String,
 
     /// Draw on a light background
@@ -243,7 +257,7 @@ pub struct LocateArguments {
     #[command(flatten)]
     pub input: InputArguments,
 
-    /// Table of points with the columns x and y
+    /// Table of points with the columns x and y, or lon and lat; - is standard input
     #[arg(long, value_name = "FILE.csv", help_heading = "Points")]
     pub points: PathBuf,
 

@@ -98,9 +98,7 @@ pub fn build(request: &MeshRequest, terminal: &mut Terminal) -> Result<FinishedM
 fn read(request: &MeshRequest, terminal: &mut Terminal) -> Result<(MeshSpec, Option<PaintRasters>), Failure> {
     let Some(path) = &request.project else {
         let (spec, notes) = read_spec(request)?;
-        for note in &notes {
-            terminal.say(&format!("meshbrush: note: {note}"));
-        }
+        notes.iter().for_each(|note| terminal.note(note));
         return Ok((spec, None));
     };
     let document = io::project::read(path)?;

@@ -1,6 +1,7 @@
 //! `meshbrush locate`: build, then answer where each point lies.
 
 use std::io::{self, BufWriter, Write};
+use std::path::Path;
 
 use glam::DVec2;
 
@@ -8,11 +9,11 @@ use super::args::LocateArguments;
 use super::build::{FinishedMesh, build};
 use super::failure::Failure;
 use super::mesh::note_capped;
-use super::output::check_place;
+use super::output::{check_place, is_standard_stream};
 use super::request::{MeshRequest, parse_formula};
 use super::terminal::Terminal;
 use crate::field::Formula;
-use crate::io::{Number, points, write_file};
+use crate::io::{Interruption, Number, points, write_file_metered};
 use crate::mesh::{Cell, Extract, Location, Locator, NodeId, TriangleId, barycentric, interpolate};
 
 const HEADER: &str = "x,y,where,triangle,level,v1,v2,v3,zeta1,zeta2,zeta3,value";
@@ -27,23 +28,39 @@ const TRIANGLES_PER_POINT: usize = 16;
 pub fn run(typed: &LocateArguments, out: &mut dyn Write, terminal: &mut Terminal) -> Result<(), Failure> {
     let request = MeshRequest::new(&typed.input)?;
     let quantity = typed.quantity.as_deref().map(|text| parse_formula("--quantity", text)).transpose()?;
-    if let Some(path) = &typed.output {
+    let output = typed.output.as_ref().filter(|path| !is_standard_stream(path));
+    if let Some(path) = output {
         let inputs = [request.input_files(), vec![typed.points.clone()]].concat();
         check_place(path, &inputs)?;
     }
-    let points = points::read(&typed.points)?;
+    request.options_without_effect(&typed.input).iter().for_each(|note| terminal.note(note));
+    let points = read_points(&typed.points, &request)?;
     let finished = build(&request, terminal)?;
     note_capped(&finished, terminal);
     let extract = finished.mesh().extract();
     let answers = Answers { finished: &finished, extract, quantity: quantity.as_ref() };
-    match &typed.output {
-        Some(path) => write_file(path, |out| answers.write(&points, out))
-            .map_err(|error| Failure::Write { file: path.clone(), problem: error.to_string() }),
-        None => {
-            let mut out = BufWriter::new(out);
-            answers.write(&points, &mut out).and_then(|()| out.flush()).map_err(Failure::Print)
-        }
+    let Some(path) = output else {
+        let mut out = BufWriter::new(out);
+        return answers.write(&points, &mut out).and_then(|()| out.flush()).map_err(Failure::Print);
+    };
+    let interruption = Interruption::listen().map_err(|error| Failure::Work(format!("{error}.")))?;
+    let meter = interruption.meter();
+    let written = terminal.while_metered(&format!("writing {}", path.display()), &meter, || {
+        write_file_metered(path, &meter, |out| answers.write(&points, &mut meter.count(out)))
+    });
+    interruption.end_program();
+    written.map_err(|error| Failure::Write { file: path.clone(), problem: error.to_string() })
+}
+
+fn read_points(path: &Path, request: &MeshRequest) -> Result<Vec<DVec2>, Failure> {
+    if !is_standard_stream(path) {
+        return Ok(points::read(path)?);
     }
+    if request.region.as_deref().is_some_and(is_standard_stream) {
+        let problem = "--region - and --points - both read standard input";
+        return Err(Failure::Usage(format!("{problem}. Name a file for one of them.")));
+    }
+    Ok(points::read_from(io::stdin().lock(), Path::new("standard input"))?)
 }
 
 /// What the answers are computed from.

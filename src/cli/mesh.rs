@@ -12,7 +12,7 @@ use super::request::{MeshRequest, parse_formula};
 use super::summary::Summary;
 use super::terminal::Terminal;
 use crate::field::Formula;
-use crate::io::{MeshData, NodeValues};
+use crate::io::{Interruption, MeshData, NodeValues};
 use crate::mesh::{Extract, TriangleId};
 use crate::text::Grouped;
 
@@ -27,7 +27,10 @@ pub fn run(typed: &MeshArguments, out: &mut dyn Write, terminal: &mut Terminal) 
     let request = MeshRequest::new(&typed.input)?;
     let look = RequestedLook::new(&typed.picture)?;
     let quantity = typed.quantity.as_deref().map(|text| parse_formula("--quantity", text)).transpose()?;
-    let outputs = typed.output.iter().map(|path| Output::new(path)).collect::<Result<Vec<_>, _>>()?;
+    let format = typed.format.as_deref();
+    let outputs = typed.output.iter().map(|path| Output::new(path, format)).collect::<Result<Vec<_>, _>>()?;
+    check_stdout(typed, &outputs)?;
+    note_without_effect(typed, &request, &outputs, terminal);
     let inputs = request.input_files();
     outputs.iter().try_for_each(|output| output.check_places(&inputs))?;
     let finished = build(&request, terminal)?;
@@ -58,8 +61,7 @@ pub fn run(typed: &MeshArguments, out: &mut dyn Write, terminal: &mut Terminal) 
 pub fn note_capped(finished: &FinishedMesh, terminal: &mut Terminal) {
     if finished.capped > 0 {
         let count = Grouped(finished.capped);
-        terminal
-            .say(&format!("meshbrush: note: --max-level left {count} triangles coarser than their target."));
+        terminal.note(&format!("--max-level left {count} triangles coarser than their target."));
     }
 }
 
@@ -104,10 +106,45 @@ fn write_files(
         quantities.extend(quantity.map(|formula| evaluated(formula, &extract)).transpose()?);
     }
     let data = MeshData { target_diameter: &target_diameter, quantities: &quantities };
+    let interruption = Interruption::listen().map_err(|error| Failure::Work(format!("{error}.")))?;
     for output in outputs {
-        for path in output.write(mesh, &extract, &data, &look)? {
+        let meter = interruption.meter();
+        let write = || output.write(mesh, &extract, &data, &look, &meter);
+        let written = terminal.while_metered(&format!("writing {}", output.name()), &meter, write);
+        interruption.end_program();
+        for path in written? {
             terminal.say(&format!("wrote {}", path.display()));
         }
+    }
+    Ok(())
+}
+
+/// Names the options that change nothing.
+fn note_without_effect(
+    typed: &MeshArguments,
+    request: &MeshRequest,
+    outputs: &[Output],
+    terminal: &mut Terminal,
+) {
+    let mut notes = request.options_without_effect(&typed.input);
+    if typed.quantity.is_some() && !outputs.iter().any(Output::wants_node_data) {
+        notes.push("--quantity changes nothing: no file with data is written (-o).".into());
+    }
+    if typed.format.is_some() && !outputs.iter().any(Output::is_stdout) {
+        notes.push("--format changes nothing without -o -: the ending of a file chooses its format.".into());
+    }
+    if typed.picture.differs_from_default() && !outputs.iter().any(Output::is_picture) {
+        notes.push("The options on pictures change nothing: no .svg or .png is written (-o).".into());
+    }
+    notes.iter().for_each(|note| terminal.note(note));
+}
+
+/// Standard output is for one result.
+fn check_stdout(typed: &MeshArguments, outputs: &[Output]) -> Result<(), Failure> {
+    let results = outputs.iter().filter(|output| output.is_stdout()).count() + usize::from(typed.json);
+    if results > 1 {
+        let problem = "-o - and --json both print on standard output, and -o - can be there once";
+        return Err(Failure::Usage(format!("{problem}. Write all but one to files.")));
     }
     Ok(())
 }

@@ -16,7 +16,9 @@ mod terminal;
 
 use std::ffi::OsString;
 use std::io::{self, Write};
-use std::path::{Path, PathBuf};
+#[cfg(feature = "gui")]
+use std::path::Path;
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{CommandFactory, Parser};
@@ -30,6 +32,7 @@ pub struct Window {
     /// Opens it, on a file or the first example, and returns when it is closed.
     pub open: fn(Option<PathBuf>) -> Result<(), String>,
     /// Writes pictures of it into a folder, without a display, and returns the files.
+    #[cfg(feature = "gui")]
     pub write_screenshots: fn(&Path) -> Result<Vec<PathBuf>, String>,
 }
 

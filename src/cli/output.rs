@@ -1,5 +1,6 @@
 //! Output files: checks before the work, and the look of pictures.
 
+use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 use super::args::PictureArguments;
@@ -10,21 +11,46 @@ use crate::mesh::{Extract, Mesh};
 use crate::render::export::{ExportFormat, LARGEST_PICTURE, Look};
 use crate::text::Grouped;
 
-/// A file to be written.
+/// A file to be written, or standard output.
 #[derive(Debug)]
 pub struct Output {
-    path: PathBuf,
+    /// `None` for standard output.
+    path: Option<PathBuf>,
     format: ExportFormat,
 }
 
 impl Output {
-    /// A file; its extension decides the format.
+    /// A file, whose extension decides the format; or `-`, standard output, in the format of the extension
+    /// `stdout_format`.
     ///
     /// # Errors
-    /// When the extension is unknown.
-    pub fn new(path: &Path) -> Result<Self, Failure> {
-        let format = ExportFormat::of(path).map_err(|error| Failure::Usage(format!("-o {error}")))?;
-        Ok(Self { path: path.to_owned(), format })
+    /// When the extension is unknown, or no format is given for standard output.
+    pub fn new(path: &Path, stdout_format: Option<&str>) -> Result<Self, Failure> {
+        if !is_standard_stream(path) {
+            let format = ExportFormat::of(path).map_err(|error| Failure::Usage(format!("-o {error}")))?;
+            return Ok(Self { path: Some(path.to_owned()), format });
+        }
+        let Some(ending) = stdout_format else {
+            let problem = "-o -: standard output has no ending that chooses a format; name one with --format";
+            return Err(Failure::Usage(format!("{problem}, as in --format vtu.")));
+        };
+        let file = PathBuf::from(format!("stdout.{}", ending.trim_start_matches('.')));
+        let format = ExportFormat::of(&file).map_err(|_| {
+            let endings: String = ExportFormat::endings().map(|ending| format!(" {ending}")).collect();
+            Failure::Usage(format!("--format {ending}: use one of{endings}."))
+        })?;
+        match format.files(&file).len() {
+            1 => Ok(Self { path: None, format }),
+            files => {
+                let problem = format!("--format {ending}: this format has {files} files");
+                Err(Failure::Usage(format!("{problem}, and standard output is one. Name a file with -o.")))
+            }
+        }
+    }
+
+    /// Whether it is standard output.
+    pub fn is_stdout(&self) -> bool {
+        self.path.is_none()
     }
 
     /// Checks before the work whether its files can be written there.
@@ -32,12 +58,23 @@ impl Output {
     /// # Errors
     /// Those of [`check_place`], for each of its files.
     pub fn check_places(&self, inputs: &[PathBuf]) -> Result<(), Failure> {
-        self.format.files(&self.path).iter().try_for_each(|file| check_place(file, inputs))
+        let files = self.path.iter().flat_map(|path| self.format.files(path));
+        files.into_iter().try_for_each(|file| check_place(&file, inputs))
     }
 
     /// Whether some node data is written.
     pub fn wants_node_data(&self) -> bool {
         self.format.wants_node_data()
+    }
+
+    /// Whether it is a picture.
+    pub fn is_picture(&self) -> bool {
+        !matches!(self.format, ExportFormat::Mesh(_))
+    }
+
+    /// What messages call it.
+    pub fn name(&self) -> String {
+        self.path.as_deref().map_or("standard output".into(), |path| path.display().to_string())
     }
 
     /// Writes the file, or the four files of `.node`, and returns their names. `extract` is that of `mesh`,
@@ -51,10 +88,21 @@ impl Output {
         extract: &Extract,
         data: &MeshData,
         look: &Look,
+        meter: &Meter,
     ) -> Result<Vec<PathBuf>, Failure> {
-        let written = self.format.write(&self.path, mesh, extract, data, look, &Meter::default());
-        written.map_err(|error| failed(&self.path, error.to_string()))
+        let Some(path) = &self.path else {
+            let mut out = BufWriter::new(io::stdout().lock());
+            let written = self.format.write_to(&mut out, mesh, extract, data, look, meter);
+            return written.and_then(|()| out.flush()).map(|()| Vec::new()).map_err(Failure::Print);
+        };
+        let written = self.format.write(path, mesh, extract, data, look, meter);
+        written.map_err(|error| failed(path, error.to_string()))
     }
+}
+
+/// Whether a path stands for standard input or standard output.
+pub fn is_standard_stream(path: &Path) -> bool {
+    path == Path::new("-")
 }
 
 fn failed(path: &Path, problem: String) -> Failure {

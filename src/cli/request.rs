@@ -128,6 +128,25 @@ impl MeshRequest {
         self.sources.iter().any(SourceSpec::uses_scale)
     }
 
+    /// Options that were given and change nothing, a sentence each.
+    pub fn options_without_effect(&self, typed: &InputArguments) -> Vec<String> {
+        let risk = |source: &SourceSpec| match source {
+            SourceSpec::Risk(_) => true,
+            SourceSpec::Raster(raster) => raster.meaning == Meaning::Risk,
+            SourceSpec::Target(_) => false,
+        };
+        let unused = [
+            (typed.transfer_shape != 1.0 && !self.sources.iter().any(risk))
+                .then_some("--transfer-shape changes nothing without --risk or --risk-raster."),
+            (typed.resolution.is_some() && self.rule == RefinementRule::Vertex).then_some(
+                "--resolution changes nothing by the vertex rule, which sees no pixels; see --rule.",
+            ),
+            (typed.boundary == BoundaryArgument::Report && self.region.is_none())
+                .then_some("--boundary changes nothing without --region."),
+        ];
+        unused.into_iter().flatten().map(str::to_owned).collect()
+    }
+
     /// The files to read.
     pub fn input_files(&self) -> Vec<PathBuf> {
         let path = |source: &SourceSpec| match source {

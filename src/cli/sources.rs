@@ -1,8 +1,11 @@
 //! From a [`MeshRequest`] to a [`MeshSpec`]: polygons and rasters are read here.
 
+use std::io::stdin;
+use std::path::Path;
 use std::sync::Arc;
 
 use super::failure::Failure;
+use super::output::is_standard_stream;
 use super::request::{Meaning, MeshRequest, RasterFormat, RasterSpec, SourceSpec};
 use crate::build::{FieldSampling, MeshSpec};
 use crate::domain::{BoundaryTreatment, Domain, DomainShape};
@@ -73,7 +76,11 @@ fn read_images(
 /// The domain that is asked for; if none is, the rectangle that the rasters cover, or the unit square.
 fn domain(request: &MeshRequest, placed: &[Option<Raster>]) -> Result<Domain, Failure> {
     if let Some(path) = &request.region {
-        let polygons = io::geojson::read(path)?;
+        let polygons = if is_standard_stream(path) {
+            io::geojson::read_from(stdin().lock(), Path::new("standard input"))?
+        } else {
+            io::geojson::read(path)?
+        };
         return Domain::of_polygons(&polygons)
             .map_err(|error| Failure::Work(format!("{}: {error}", path.display())));
     }

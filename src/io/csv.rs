@@ -7,14 +7,14 @@
 
 use std::io::{self, Write};
 
-use super::{FormatSpec, MeshData, NodeValues, Number, write_counted};
+use super::{FormatSpec, MeshData, NodeValues, Number};
 use crate::mesh::{Extract, NodeId};
 
 /// A table with a row for each triangle.
 pub static FORMAT: FormatSpec = FormatSpec {
     ending: "csv",
     beside: &[],
-    write: |path, mesh, data, meter| write_counted(path, meter, |out| write(out, mesh, data)),
+    write: |out, mesh, data, meter| write(&mut meter.count(out), mesh, data),
 };
 
 const HEADER: &str = "triangle,level,v1,v2,v3,n1,n2,n3,x1,y1,x2,y2,x3,y3,target1,target2,target3";

@@ -38,12 +38,7 @@ pub fn read_metered(path: &Path, meter: &Meter) -> Result<Vec<Polygon>, ReadErro
         let file = File::open(path)?;
         let bytes = file.metadata()?.len();
         if bytes > MOST_BYTES {
-            let limit = MOST_BYTES >> 20;
-            return Err(Flaw::Syntax(format!(
-                "the file has {} MiB, and the limit for an outline is {limit} MiB. Keep only the polygons, and simplify them.",
-                bytes >> 20
-            ))
-            .into());
+            return Err(too_long(bytes));
         }
         meter.expect(bytes);
         Ok(file)
@@ -56,12 +51,25 @@ pub fn read_metered(path: &Path, meter: &Meter) -> Result<Vec<Polygon>, ReadErro
     read.map_err(|flaw| flaw.in_file(path))
 }
 
-/// Reads as [`read`] does, from bytes. Errors call the file `name`.
+/// Reads as [`read`] does, from any input, such as bytes or standard input. Errors call the file `name`.
 ///
 /// # Errors
 /// As [`read`].
-pub fn from_bytes(bytes: &[u8], name: &Path) -> Result<Vec<Polygon>, ReadError> {
-    parse(bytes).map_err(|flaw| flaw.in_file(name))
+pub fn read_from(input: impl Read, name: &Path) -> Result<Vec<Polygon>, ReadError> {
+    // One byte more shows that there is more.
+    let mut input = BufReader::new(input.take(MOST_BYTES + 1));
+    let read = parse(&mut input);
+    let flaw = if input.get_ref().limit() == 0 { Some(too_long(MOST_BYTES + 1)) } else { None };
+    flaw.map_or(read, Err).map_err(|flaw| flaw.in_file(name))
+}
+
+fn too_long(bytes: u64) -> PlacedFlaw {
+    let limit = MOST_BYTES >> 20;
+    Flaw::Syntax(format!(
+        "the file has {} MiB, and the limit for an outline is {limit} MiB. Keep only the polygons, and simplify them.",
+        bytes.div_ceil(1 << 20)
+    ))
+    .into()
 }
 
 /// Reads as [`read`] does, from any input.

@@ -2,7 +2,8 @@ use std::fmt;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use super::{Counted, MESH_FORMATS, MeshData, Meter, write_file_metered};
+use super::atomic::{Draft, put_in_place};
+use super::{MESH_FORMATS, MeshData, Meter};
 use crate::mesh::Extract;
 
 /// A file format for a mesh with its data: one of [`Self::all`].
@@ -13,11 +14,14 @@ pub struct MeshFormat(&'static FormatSpec);
 pub struct FormatSpec {
     /// The file name extension, in lower case and without the dot.
     pub ending: &'static str,
-    /// The extensions of the files beside it.
-    pub beside: &'static [&'static str],
-    /// Writes a mesh to the path, and the files beside it.
-    pub write: fn(&Path, &Extract, &MeshData, &Meter) -> io::Result<()>,
+    /// The files beside it: extensions and writers.
+    pub beside: &'static [(&'static str, WriteMesh)],
+    /// Writes a mesh.
+    pub write: WriteMesh,
 }
+
+/// Writes a mesh and its data, and updates the meter.
+pub type WriteMesh = fn(&mut dyn Write, &Extract, &MeshData, &Meter) -> io::Result<()>;
 
 impl MeshFormat {
     /// All formats.
@@ -37,7 +41,7 @@ impl MeshFormat {
 
     /// The files that an export to `path` writes, `path` first.
     pub fn files(self, path: &Path) -> Vec<PathBuf> {
-        let beside = self.0.beside.iter().map(|ending| path.with_extension(ending));
+        let beside = self.0.beside.iter().map(|(ending, _)| path.with_extension(ending));
         std::iter::once(path.to_owned()).chain(beside).collect()
     }
 
@@ -54,8 +58,29 @@ impl MeshFormat {
         data: &MeshData,
         meter: &Meter,
     ) -> io::Result<Vec<PathBuf>> {
-        (self.0.write)(path, mesh, data, meter)?;
-        Ok(self.files(path))
+        let files = self.files(path);
+        let writers = std::iter::once(&self.0.write).chain(self.0.beside.iter().map(|(_, write)| write));
+        let draft = |(file, write): (&PathBuf, &WriteMesh)| {
+            Draft::write(file, meter, |out| write(out, mesh, data, meter))
+        };
+        // None replaces an old file before all are written: they would not match each other.
+        let drafts = files.iter().zip(writers).map(draft).collect::<io::Result<Vec<_>>>()?;
+        put_in_place(drafts, meter)?;
+        Ok(files)
+    }
+
+    /// Writes a mesh to a stream; `None` for a format of several files.
+    ///
+    /// # Errors
+    /// Errors of the stream, and when the work was cancelled.
+    pub fn write_to(
+        self,
+        out: &mut dyn Write,
+        mesh: &Extract,
+        data: &MeshData,
+        meter: &Meter,
+    ) -> Option<io::Result<()>> {
+        self.0.beside.is_empty().then(|| (self.0.write)(out, mesh, data, meter))
     }
 }
 
@@ -72,12 +97,3 @@ impl PartialEq for MeshFormat {
 }
 
 impl Eq for MeshFormat {}
-
-/// Writes a file by `write`; the meter counts its bytes.
-pub fn write_counted(
-    path: &Path,
-    meter: &Meter,
-    write: impl FnOnce(&mut Counted<&mut dyn Write>) -> io::Result<()>,
-) -> io::Result<()> {
-    write_file_metered(path, meter, |out| write(&mut meter.count(out)))
-}

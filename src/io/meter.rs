@@ -17,7 +17,7 @@ struct Readings {
     done: AtomicU64,
     /// 0 if it is not known.
     total: AtomicU64,
-    cancelled: AtomicBool,
+    cancelled: Arc<AtomicBool>,
 }
 
 /// The work was cancelled before it was done.
@@ -33,6 +33,11 @@ impl From<Cancelled> for io::Error {
 }
 
 impl Meter {
+    /// A meter that is cancelled by this flag, as by a signal.
+    pub fn cancelled_by(flag: Arc<AtomicBool>) -> Self {
+        Self(Arc::new(Readings { cancelled: flag, ..Readings::default() }))
+    }
+
     /// Cancels the work: it ends at its next check.
     pub fn cancel(&self) {
         self.0.cancelled.store(true, Ordering::Relaxed);

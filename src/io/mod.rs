@@ -17,6 +17,7 @@ mod blocks;
 mod boundary;
 pub mod csv;
 mod error;
+mod interrupt;
 mod mesh_file;
 mod meter;
 pub mod geojson;
@@ -35,7 +36,8 @@ pub mod vtu;
 pub use crate::text::Number;
 pub use atomic::{exists, make_folder, obstacle, write_file, write_file_metered};
 pub use error::{Flaw, Place, ReadError};
-pub use mesh_file::{FormatSpec, MeshFormat, write_counted};
+pub use interrupt::Interruption;
+pub use mesh_file::{FormatSpec, MeshFormat};
 pub use meter::{Cancelled, Counted, Meter};
 
 /// The formats of meshes. A new one is a module and an entry here.

@@ -6,14 +6,14 @@
 
 use std::io::{self, Write};
 
-use super::{FormatSpec, MeshData, Number, write_counted};
+use super::{FormatSpec, MeshData, Number};
 use crate::mesh::Extract;
 
 /// Gmsh 4.1.
 pub static FORMAT: FormatSpec = FormatSpec {
     ending: "msh",
     beside: &[],
-    write: |path, mesh, data, meter| write_counted(path, meter, |out| write(out, mesh, data)),
+    write: |out, mesh, data, meter| write(&mut meter.count(out), mesh, data),
 };
 
 /// Gmsh's numbers for an element of two and of three nodes.

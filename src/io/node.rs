@@ -6,29 +6,20 @@
 //! `.edge` has all edges, with marker 1 on the boundary and 0 elsewhere.
 
 use std::io::{self, Write};
-use std::path::Path;
 
-use super::atomic::{Draft, put_in_place};
-use super::{Counted, FormatSpec, MeshData, Meter, Number};
+use super::{FormatSpec, MeshData, Number};
 use crate::mesh::Extract;
 
 /// Triangle's four files: nodes, elements, neighbours and edges.
-pub static FORMAT: FormatSpec =
-    FormatSpec { ending: "node", beside: &["ele", "neigh", "edge"], write: write_files };
-
-/// Writes the four files. None replaces an old file before all are written: they would not match each other.
-fn write_files(path: &Path, mesh: &Extract, data: &MeshData, meter: &Meter) -> io::Result<()> {
-    let draft = |ending, write: &dyn Fn(&mut Counted<&mut dyn Write>) -> io::Result<()>| {
-        Draft::write(&path.with_extension(ending), meter, |out| write(&mut meter.count(out)))
-    };
-    let drafts = [
-        Draft::write(path, meter, |out| self::write(&mut meter.count(out), mesh, data))?,
-        draft("ele", &|out| write_elements(out, mesh))?,
-        draft("neigh", &|out| write_neighbours(out, mesh))?,
-        draft("edge", &|out| write_edges(out, mesh))?,
-    ];
-    put_in_place(drafts, meter)
-}
+pub static FORMAT: FormatSpec = FormatSpec {
+    ending: "node",
+    beside: &[
+        ("ele", |out, mesh, _, meter| write_elements(&mut meter.count(out), mesh)),
+        ("neigh", |out, mesh, _, meter| write_neighbours(&mut meter.count(out), mesh)),
+        ("edge", |out, mesh, _, meter| write_edges(&mut meter.count(out), mesh)),
+    ],
+    write: |out, mesh, data, meter| write(&mut meter.count(out), mesh, data),
+};
 
 /// Writes the `.node` file: coordinates, h̄, quantities and boundary marker of each node.
 ///

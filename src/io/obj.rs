@@ -5,14 +5,14 @@
 
 use std::io::{self, Write};
 
-use super::{FormatSpec, MeshData, Number, write_counted};
+use super::{FormatSpec, MeshData, Number};
 use crate::mesh::Extract;
 
 /// Wavefront.
 pub static FORMAT: FormatSpec = FormatSpec {
     ending: "obj",
     beside: &[],
-    write: |path, mesh, data, meter| write_counted(path, meter, |out| write(out, mesh, data)),
+    write: |out, mesh, data, meter| write(&mut meter.count(out), mesh, data),
 };
 
 /// Writes the mesh, one group for each level.

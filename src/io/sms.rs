@@ -8,14 +8,14 @@
 use std::io::{self, Write};
 
 use super::boundary::boundary_loops;
-use super::{FormatSpec, MeshData, Number, write_counted};
+use super::{FormatSpec, MeshData, Number};
 use crate::mesh::Extract;
 
 /// SMS.
 pub static FORMAT: FormatSpec = FormatSpec {
     ending: "2dm",
     beside: &[],
-    write: |path, mesh, data, meter| write_counted(path, meter, |out| write(out, mesh, data)),
+    write: |out, mesh, data, meter| write(&mut meter.count(out), mesh, data),
 };
 
 /// Nodes of a nodestring in one line.

@@ -6,16 +6,16 @@
 
 use std::io::{self, Write};
 
-use super::{FormatSpec, MeshData, write_counted};
+use super::{FormatSpec, MeshData};
 use crate::mesh::{Extract, NodeId};
 
 /// Triangles without shared nodes.
 pub static FORMAT: FormatSpec = FormatSpec {
     ending: "stl",
     beside: &[],
-    write: |path, mesh, data, meter| {
+    write: |out, mesh, data, meter| {
         meter.expect(bytes(mesh));
-        write_counted(path, meter, |out| write(out, mesh, data))
+        write(&mut meter.count(out), mesh, data)
     },
 };
 

@@ -15,16 +15,14 @@
 use std::io::{self, Write};
 
 use super::blocks::{BLOCK, Blocks};
-use super::{FormatSpec, MeshData, Meter, write_file_metered};
+use super::{FormatSpec, MeshData, Meter};
 use crate::mesh::Extract;
 
 /// VTK's unstructured grid.
 pub static FORMAT: FormatSpec = FormatSpec {
     ending: "vtu",
     beside: &[],
-    write: |path, mesh, data, meter| {
-        write_file_metered(path, meter, |mut out| write_metered(&mut out, mesh, data, meter))
-    },
+    write: |mut out, mesh, data, meter| write_metered(&mut out, mesh, data, meter),
 };
 
 /// VTK's number for a triangle.

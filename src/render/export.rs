@@ -83,21 +83,38 @@ impl ExportFormat {
         look: &Look,
         meter: &Meter,
     ) -> io::Result<Vec<PathBuf>> {
+        if let Self::Mesh(format) = self {
+            return format.write(path, extract, data, meter);
+        }
+        write_file_metered(path, meter, |out| self.write_to(out, mesh, extract, data, look, meter))?;
+        Ok(vec![path.to_owned()])
+    }
+
+    /// Writes to a stream, as [`Self::write`] does to a file.
+    ///
+    /// # Errors
+    /// When the format has several files, errors of the stream, and when the meter was cancelled.
+    pub fn write_to(
+        self,
+        out: &mut dyn io::Write,
+        mesh: &Mesh,
+        extract: &Extract,
+        data: &MeshData,
+        look: &Look,
+        meter: &Meter,
+    ) -> io::Result<()> {
         match self {
-            Self::Mesh(format) => return format.write(path, extract, data, meter),
-            Self::Svg => {
-                let style = look.for_svg(mesh.lattice());
-                write_file_metered(path, meter, |out| svg::write(&mut meter.count(out), extract, &style))?;
+            Self::Mesh(format) => {
+                let several = || io::Error::other("the format has several files");
+                format.write_to(out, extract, data, meter).ok_or_else(several)?
             }
+            Self::Svg => svg::write(&mut meter.count(out), extract, &look.for_svg(mesh.lattice())),
             Self::Png => {
                 let picture = look.draw(mesh);
                 meter.check()?;
-                let write =
-                    |out: &mut dyn io::Write| png::write(&mut meter.count(out), picture.size, &picture.rgba);
-                write_file_metered(path, meter, write)?;
+                png::write(&mut meter.count(out), picture.size, &picture.rgba)
             }
         }
-        Ok(vec![path.to_owned()])
     }
 }
 
