@@ -62,8 +62,8 @@ pub use paint::{Brush, Medium, PaintRasters};
 
 // Query a mesh.
 pub use mesh::{
-    Adjacency, Location, Locator, Neighbour, NodeId, Numbering, Orientation, Survey, Topology, Triangle,
-    TriangleId, barycentric, interpolate,
+    Adjacency, Cleaning, KeptParts, Location, Locator, Neighbour, NodeId, Numbering, Orientation, Removed,
+    RemovedPart, Survey, Topology, Triangle, TriangleId, barycentric, interpolate,
 };
 
 // Read and write files.

@@ -300,11 +300,51 @@ fn a_region_is_meshed_as_its_boundary_asks() {
     assert_eq!(folder.json(&format!("--region frame.geojson --spacing 1 {target}"))["max_level"], 7);
     let ran = folder.run("mesh --region frame.geojson --spacing 1");
     assert!(
-        ran.err.contains("area 12, 0.000 % more than the polygons' 12; 1 of 1 holes, 1 part"),
+        ran.err.contains(
+            "area 12, 0.000 % more than the polygons' 12; 0.000 % misclassified\n\
+             1 hole in 1 part, 1 of 1 island kept; angles 45.0° to 90.0°\n\
+             boundary 1 times as long as the outline; farthest from the outline 0, from the mesh 0\n"
+        ),
         "{}",
         ran.err
     );
     assert!(folder.json("--spacing 1")["region_area"].is_null(), "there is no outline to compare with");
+}
+
+/// Two squares that a strait parts, which is narrower than the triangles, and a third far away.
+const STRAIT: &str = r#"{"type": "MultiPolygon", "coordinates": [
+    [[[0, 0], [4, 0], [4, 4], [0, 4]]], [[[4.01, 4], [8, 4], [8, 8], [4.01, 8]]], [[[7, 0], [8, 0], [8, 1], [7, 1]]]]}"#;
+
+#[test]
+fn a_fitted_mesh_is_one_part_without_pinches_unless_more_is_asked_for() {
+    let folder = Folder::new("parts");
+    folder.file("strait.geojson", STRAIT);
+    let mesh = |options: &str| {
+        let summary = folder.json(&format!("--region strait.geojson --spacing 1 --checks {options}"));
+        assert_eq!(summary["violations"], 0, "{options}");
+        let number = |key: &str| summary[key].as_f64().unwrap();
+        let removed = &summary["removed"];
+        let parts = removed["parts"].as_array().unwrap().len();
+        ([number("parts"), number("area").round()], parts, removed["pinches"].as_u64().unwrap())
+    };
+    // The two large squares touch in one node.
+    assert_eq!(mesh("--parts all --keep-pinches"), ([3.0, 33.0], 0, 0));
+    let (all, _, pinches) = mesh("--parts all");
+    assert_eq!((all[0], pinches), (3.0, 1));
+    assert_eq!(mesh("").0, [1.0, 16.0]);
+    assert_eq!(mesh("").1, 2);
+    assert_eq!(mesh("--parts 0.1").0[0], 2.0);
+    assert_eq!(mesh("--parts largest").0, [1.0, 16.0]);
+    let ran = folder.run("mesh --region strait.geojson --spacing 1");
+    assert!(ran.err.contains("removed "), "{}", ran.err);
+    for wrong in ["some", "1.5", "-1", "nan"] {
+        assert_fails(
+            &folder,
+            &format!("mesh --parts {wrong}"),
+            2,
+            &format!("--parts {wrong}: write largest, all,"),
+        );
+    }
 }
 
 #[test]

@@ -16,7 +16,9 @@ use meshbrush::internals::domain::{BoundaryTreatment, Domain, Polygon, Ring, sig
 use meshbrush::internals::field::{Formula, RefinementRule, Source, TargetFieldSpec, Transfer};
 use meshbrush::internals::geometry::{Lattice, LatticePoint};
 use meshbrush::internals::io::geojson;
-use meshbrush::internals::mesh::{Limits, Location, Locator, Mesh, NodeId, Progress, Topology, TriangleId};
+use meshbrush::internals::mesh::{
+    Cleaning, Limits, Location, Locator, Mesh, NodeId, Progress, Topology, TriangleId,
+};
 
 /// A region, a grid over it and a rule, at random.
 struct Case {
@@ -153,6 +155,7 @@ fn fitted(domain: &Domain, spacing: f64, boundary_diameter: f64, target: &str) -
         },
         rule: RefinementRule::Vertex,
         sampling: FieldSampling::AsNeeded,
+        cleaning: Cleaning::NONE,
         limits,
     });
     while builder.advance(None, 1000).unwrap() == Progress::More {}

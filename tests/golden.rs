@@ -7,7 +7,7 @@ use meshbrush::internals::build::{FieldSampling, MeshBuilder, MeshSpec};
 use meshbrush::internals::domain::{BoundaryTreatment, Domain};
 use meshbrush::internals::field::{Formula, RefinementRule, Source, TargetFieldSpec, Transfer};
 use meshbrush::internals::geometry::{Lattice, LatticePoint, Rect};
-use meshbrush::internals::mesh::{Limits, Mesh, Progress, bisection_edge_length, fingerprint_of};
+use meshbrush::internals::mesh::{Cleaning, Limits, Mesh, Progress, bisection_edge_length, fingerprint_of};
 
 /// The mesh of Figure 1 on [−10, 10]², where every coordinate is exact, with the report's vertex rule (Eq.
 /// 12).
@@ -26,6 +26,7 @@ fn diamond(target: f64) -> Mesh {
         },
         rule: RefinementRule::Vertex,
         sampling: FieldSampling::AsNeeded,
+        cleaning: Cleaning::NONE,
         limits: Limits::default(),
     });
     while builder.advance(None, usize::MAX).unwrap() == Progress::More {}

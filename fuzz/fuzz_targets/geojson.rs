@@ -9,7 +9,7 @@ use meshbrush::internals::domain::{BoundaryTreatment, Domain};
 use meshbrush::internals::field::{RefinementRule, TargetFieldSpec, Transfer};
 use meshbrush::internals::geometry::Lattice;
 use meshbrush::internals::io::geojson;
-use meshbrush::internals::mesh::{Limits, Progress};
+use meshbrush::internals::mesh::{Cleaning, Limits, Progress};
 
 /// Few, so that many files are tried in a second.
 const MOST_TRIANGLES: usize = 3000;
@@ -39,6 +39,7 @@ fn check_mesh(domain: &Domain, boundary: BoundaryTreatment, spacing: f64) {
         },
         rule: RefinementRule::Vertex,
         sampling: FieldSampling::AsNeeded,
+        cleaning: Cleaning::NONE,
         limits: Limits { max_triangles: MOST_TRIANGLES, ..Limits::default() },
     });
     loop {

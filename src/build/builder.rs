@@ -4,13 +4,15 @@ use super::{MeshSpec, RefinementCriterion};
 use crate::domain::{DomainOnLattice, DomainOnLatticeBuilder};
 use crate::field::{PaintRef, RefinementRule, TargetField, VertexRule};
 use crate::geometry::GridError;
-use crate::mesh::{CoarseError, Element, InvalidTarget, Mesh, Progress, RefineError, Refiner, TriangleId};
+use crate::mesh::{
+    Cleaning, CoarseError, Element, InvalidTarget, Mesh, Progress, RefineError, Refiner, Removed, TriangleId,
+};
 
 /// Makes the mesh of a [`MeshSpec`] in slices.
 ///
 /// ```text
-///  index the outline ──▶ coarse grid ──▶ sample h̄ ──▶ refine ──▶ classify ──▶ done
-///  (polygons only)                       (by pixel)              (fitted only)
+///  index the outline ──▶ coarse grid ──▶ sample h̄ ──▶ refine ──▶ classify ──▶ clean ──▶ done
+///  (polygons only)                       (by pixel)              (fitted only) (in one go)
 /// ```
 #[derive(Clone, Debug)]
 pub struct MeshBuilder {
@@ -66,6 +68,8 @@ pub struct BuiltMesh {
     pub rule: RefinementRule,
     /// The mesh. Triangles outside a fitted domain are marked.
     pub mesh: Mesh,
+    /// What was removed from it ([`MeshSpec::cleaning`]).
+    pub removed: Removed,
 }
 
 /// What a builder may take over from an earlier mesh.
@@ -205,10 +209,10 @@ impl MeshBuilder {
                 Progress::More => Step::Refine(refinement),
                 Progress::Done => {
                     self.capped = refinement.refiner.capped();
-                    refinement.built.begin_classification()
+                    self.begin_classification(refinement.built)
                 }
             },
-            Step::Classify { built, first } => built.classify(first, budget),
+            Step::Classify { built, first } => self.classify(built, first, budget),
             Step::Done(built) => Step::Done(built),
         };
         let progress = if matches!(next, Step::Done(_)) { Progress::Done } else { Progress::More };
@@ -249,14 +253,37 @@ impl MeshBuilder {
 
     fn begin_refinement(&self, domain: DomainOnLattice, field: Arc<TargetField>, mesh: Mesh) -> Step {
         let refiner = Refiner::new(&mesh, self.spec.limits);
-        let built = BuiltMesh { domain, field, rule: self.spec.rule, mesh };
+        let rule = self.spec.rule;
+        let built = BuiltMesh { domain, field, rule, mesh, removed: Removed::default() };
         Step::Refine(Box::new(Refinement { built, refiner, vertex_rule: VertexRule::default() }))
+    }
+}
+
+impl MeshBuilder {
+    fn begin_classification(&self, built: BuiltMesh) -> Step {
+        if built.domain.is_fitted() { Step::Classify { built, first: 0 } } else { self.cleaned(built) }
+    }
+
+    /// Marks about `budget` of the triangles outside a fitted domain, from `first` on.
+    fn classify(&self, mut built: BuiltMesh, first: usize, budget: usize) -> Step {
+        let BuiltMesh { domain, mesh, .. } = &mut built;
+        let all = mesh.raw_triangle_count();
+        let end = first.saturating_add(budget).min(all);
+        mesh.classify(first..end, |element| domain.excludes(element));
+        if end == all { self.cleaned(built) } else { Step::Classify { built, first: end } }
+    }
+
+    fn cleaned(&self, mut built: BuiltMesh) -> Step {
+        if self.spec.cleaning != Cleaning::NONE {
+            built.removed = built.mesh.clean(&self.spec.cleaning);
+        }
+        Step::Done(built)
     }
 }
 
 impl Refinement {
     fn advance(&mut self, paint: Option<PaintRef>, budget: usize) -> Result<Progress, RefineError> {
-        let BuiltMesh { domain, field, rule, mesh } = &mut self.built;
+        let BuiltMesh { domain, field, rule, mesh, .. } = &mut self.built;
         let known = std::mem::take(&mut self.vertex_rule);
         let mut criterion = RefinementCriterion::new(domain, field, *rule, paint).resumed(known);
         let progress = self.refiner.advance(mesh, |element| criterion.exceeds(element), budget);
@@ -278,18 +305,5 @@ impl BuiltMesh {
     pub fn unsatisfied(&self, paint: Option<PaintRef>) -> Result<Vec<TriangleId>, InvalidTarget> {
         let mut criterion = self.criterion(paint);
         self.mesh.unsatisfied(|element: &Element| criterion.exceeds(element))
-    }
-
-    fn begin_classification(self) -> Step {
-        if self.domain.is_fitted() { Step::Classify { built: self, first: 0 } } else { Step::Done(self) }
-    }
-
-    /// Marks about `budget` of the triangles outside a fitted domain, from `first` on.
-    fn classify(mut self, first: usize, budget: usize) -> Step {
-        let Self { domain, mesh, .. } = &mut self;
-        let all = mesh.raw_triangle_count();
-        let end = first.saturating_add(budget).min(all);
-        mesh.classify(first..end, |element| domain.excludes(element));
-        if end == all { Step::Done(self) } else { Step::Classify { built: self, first: end } }
     }
 }

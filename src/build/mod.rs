@@ -9,7 +9,7 @@
 //! use meshbrush::{BoundaryTreatment, Domain};
 //! use meshbrush::{Formula, RefinementRule, Source, TargetFieldSpec, Transfer};
 //! use meshbrush::{Lattice, Rect};
-//! use meshbrush::{Limits, Progress};
+//! use meshbrush::{Cleaning, Limits, Progress};
 //!
 //! let domain = Domain::rectangle(Rect::UNIT);
 //! let formula = Formula::parse("if(abs(x) + abs(y) < 0.4, 0.0125, 1)")?;
@@ -25,6 +25,7 @@
 //!     },
 //!     rule: RefinementRule::Vertex,
 //!     sampling: FieldSampling::AsNeeded,
+//!     cleaning: Cleaning::NONE,
 //!     limits: Limits::default(),
 //! };
 //! let mut builder = MeshBuilder::new(spec);

@@ -1,7 +1,7 @@
 use crate::domain::{BoundaryTreatment, Domain};
 use crate::field::{RefinementRule, TargetFieldSpec};
 use crate::geometry::Lattice;
-use crate::mesh::Limits;
+use crate::mesh::{Cleaning, Limits};
 
 /// What to mesh: everything that decides the mesh, but for paint.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,6 +18,8 @@ pub struct MeshSpec {
     pub rule: RefinementRule,
     /// Whether h̄ is sampled by pixel even where the rule does not need it.
     pub sampling: FieldSampling,
+    /// Which triangles of the domain the finished mesh keeps.
+    pub cleaning: Cleaning,
     /// What the mesh may cost.
     pub limits: Limits,
 }

@@ -90,6 +90,19 @@ pub struct InputArguments {
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
     pub boundary_diameter: Option<f64>,
 
+    /// Parts of the mesh that stay: the largest, all, or those with this share of the area [default: largest
+    /// for a fitted region, else all]
+    ///
+    /// A part is joined by edges. Narrow straits can part a mesh, and solvers need one part.
+    #[arg(long, value_name = "largest|all|SHARE", allow_hyphen_values = true)]
+    pub parts: Option<String>,
+
+    /// Keep nodes in which triangles of a fitted mesh meet without sharing an edge
+    ///
+    /// Otherwise the smaller side of such a node is removed.
+    #[arg(long)]
+    pub keep_pinches: bool,
+
     /// Longest side of a coarse cell [default: a twentieth of the domain's longer side]
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
     pub spacing: Option<f64>,

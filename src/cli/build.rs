@@ -13,7 +13,7 @@ use crate::build::{BuildStage, BuiltMesh, MeshBuilder, MeshSpec};
 use crate::domain::Region;
 use crate::field::{PaintRef, RefinementRule};
 use crate::io;
-use crate::mesh::{CoarseError, Extract, InvalidTarget, Limits, Mesh, Progress, TriangleId};
+use crate::mesh::{CoarseError, Extract, InvalidTarget, Limits, Mesh, Progress, Removed, TriangleId};
 use crate::paint::PaintRasters;
 use crate::text::Grouped;
 
@@ -37,6 +37,11 @@ impl FinishedMesh {
     /// The mesh.
     pub fn mesh(&self) -> &Mesh {
         &self.built.mesh
+    }
+
+    /// What was removed from the mesh.
+    pub fn removed(&self) -> &Removed {
+        &self.built.removed
     }
 
     /// Which points of a triangle count.
@@ -105,7 +110,9 @@ fn read(request: &MeshRequest, terminal: &mut Terminal) -> Result<(MeshSpec, Opt
     let settings = document.settings();
     let max_triangles = request.asked_budget.unwrap_or(settings.max_triangles);
     let limits = Limits { max_triangles, ..request.limits };
-    let spec = MeshSpec { limits, ..settings.mesh_spec().map_err(CoarseError::from)? };
+    // Without an option, the mesh is the one that the window shows.
+    let cleaning = request.cleaning(false);
+    let spec = MeshSpec { limits, cleaning, ..settings.mesh_spec().map_err(CoarseError::from)? };
     Ok((spec, Some(document.paint().clone())))
 }
 

@@ -10,7 +10,7 @@ use crate::document::LEAST_MEMORY;
 use crate::domain::BoundaryTreatment;
 use crate::field::{Formula, RefinementRule, Transfer};
 use crate::geometry::Rect;
-use crate::mesh::{Limits, MOST_TRIANGLES, MemoryLimit};
+use crate::mesh::{Cleaning, KeptParts, Limits, MOST_TRIANGLES, MemoryLimit};
 use crate::raster::MAX_SIDE;
 use crate::text::Grouped;
 
@@ -29,6 +29,10 @@ pub struct MeshRequest {
     pub region: Option<PathBuf>,
     /// How the mesh meets the outline of a region; `None` for the usual treatment at the spacing.
     pub boundary: Option<BoundaryTreatment>,
+    /// The parts that stay, where that is given.
+    pub parts: Option<KeptParts>,
+    /// Whether pinches stay in any case.
+    pub keeps_pinches: bool,
     /// Longest side of a coarse cell, in world units.
     pub spacing: Option<f64>,
     /// All sources of target diameters.
@@ -105,6 +109,8 @@ impl MeshRequest {
             inside: typed.inside.as_deref().map(|text| parse_formula("--inside", text)).transpose()?,
             region: typed.region.clone(),
             boundary: boundary(typed)?,
+            parts: typed.parts.as_deref().map(parts).transpose()?,
+            keeps_pinches: typed.keep_pinches,
             spacing: typed.spacing.map(|value| length("--spacing", value)).transpose()?,
             sources,
             h_min: typed.h_min.map(|value| length("--h-min", value)).transpose()?,
@@ -126,6 +132,15 @@ impl MeshRequest {
     /// Whether some source needs both ends of the scale from --h-min to --h-max.
     pub fn uses_scale(&self) -> bool {
         self.sources.iter().any(SourceSpec::uses_scale)
+    }
+
+    /// Which triangles stay. Without an option, a mesh that is `fitted` is made ready for solvers.
+    pub fn cleaning(&self, fitted: bool) -> Cleaning {
+        let usual = if fitted { Cleaning::FOR_SOLVERS } else { Cleaning::NONE };
+        Cleaning {
+            parts: self.parts.unwrap_or(usual.parts),
+            keeps_pinches: self.keeps_pinches || usual.keeps_pinches,
+        }
     }
 
     /// Options that were given and change nothing, a sentence each.
@@ -199,6 +214,19 @@ fn boundary(typed: &InputArguments) -> Result<Option<BoundaryTreatment>, Failure
         return Ok(Some(BoundaryTreatment::Fitted { diameter }));
     };
     Err(Failure::Usage(format!("--boundary-diameter {diameter}: {problem}.")))
+}
+
+fn parts(text: &str) -> Result<KeptParts, Failure> {
+    match text {
+        "all" => Ok(KeptParts::All),
+        "largest" => Ok(KeptParts::Largest),
+        share => match share.parse() {
+            Ok(share) if (0.0..=1.0).contains(&share) => Ok(KeptParts::Share(share)),
+            _ => Err(Failure::Usage(format!(
+                "--parts {share}: write largest, all, or a share of the area from 0 to 1, as in 0.01."
+            ))),
+        },
+    }
 }
 
 fn sources(typed: &InputArguments) -> Result<Vec<SourceSpec>, Failure> {

@@ -40,7 +40,9 @@ pub fn read_spec(request: &MeshRequest) -> Result<(MeshSpec, Vec<String>), Failu
     let (rule, limits) = (request.rule, request.limits);
     // With the vertex rule nothing is shown that needs pixels.
     let sampling = FieldSampling::AsNeeded;
-    Ok((MeshSpec { domain, boundary, lattice, field, rule, sampling, limits }, notes))
+    let cleaning =
+        request.cleaning(matches!(boundary, BoundaryTreatment::Fitted { .. }) && domain.region().is_some());
+    Ok((MeshSpec { domain, boundary, lattice, field, rule, sampling, cleaning, limits }, notes))
 }
 
 /// The rasters that say which rectangle they cover, in the order of the sources; `None` for other sources.

@@ -1,11 +1,12 @@
 //! The figures of the finished mesh, as text and as JSON.
 
+use glam::DVec2;
 use serde::Serialize;
 
 use super::build::FinishedMesh;
-use crate::domain::Region;
+use crate::domain::{FitQuality, Region};
 use crate::field::RefinementRule;
-use crate::mesh::Topology;
+use crate::mesh::{Removed, RemovedPart, Topology};
 use crate::text::Grouped;
 
 /// The figures of a mesh; its JSON is the answer of `--json`.
@@ -44,10 +45,10 @@ pub struct Summary {
     diameters: Vec<f64>,
 }
 
-/// A region compared with its mesh.
-#[derive(Clone, Copy, Debug, Serialize)]
+/// A region compared with its mesh. Lengths and areas are in world units.
+#[derive(Clone, Debug, Serialize)]
 pub struct Outline {
-    /// The area that the polygons cover, in square world units.
+    /// The area that the polygons cover.
     pub region_area: f64,
     /// Holes of the polygons.
     pub region_holes: usize,
@@ -55,28 +56,143 @@ pub struct Outline {
     pub holes: usize,
     /// Edge-connected parts of the mesh.
     pub parts: usize,
+    /// What was removed to clean the mesh.
+    pub removed: RemovedSummary,
+    /// The area that only one of mesh and polygons covers.
+    pub misclassified_area: f64,
+    /// Length of the boundary of the mesh.
+    pub boundary_length: f64,
+    /// Length of the outline of the polygons.
+    pub outline_length: f64,
+    /// Largest distance from the boundary of the mesh to the outline, and the place.
+    pub farthest_from_outline: Option<(f64, [f64; 2])>,
+    /// Largest distance from the outline to the boundary of the mesh, and the place.
+    pub farthest_from_mesh: Option<(f64, [f64; 2])>,
+    /// A corner of each hole of the polygons that the mesh covers.
+    pub lost_islands: Vec<[f64; 2]>,
+    /// Smallest angle of a triangle, in degrees.
+    pub smallest_angle: f64,
+    /// Largest angle of a triangle, in degrees.
+    pub largest_angle: f64,
+}
+
+/// What cleaning removed.
+#[derive(Clone, Debug, Serialize)]
+pub struct RemovedSummary {
+    /// The parts, the largest first.
+    pub parts: Vec<RemovedPartSummary>,
+    /// Nodes that were pinches.
+    pub pinches: usize,
+    /// Triangles, of parts and at pinches.
+    pub triangles: usize,
+    /// Their area.
+    pub area: f64,
+}
+
+/// A part that was removed.
+#[derive(Clone, Debug, Serialize)]
+pub struct RemovedPartSummary {
+    /// A point in it.
+    pub place: [f64; 2],
+    /// Its triangles.
+    pub triangles: usize,
+    /// Its area.
+    pub area: f64,
+}
+
+impl From<&Removed> for RemovedSummary {
+    fn from(removed: &Removed) -> Self {
+        let part = |part: &RemovedPart| RemovedPartSummary {
+            place: part.place.into(),
+            triangles: part.triangles,
+            area: part.area,
+        };
+        let Removed { parts, pinches, triangles, area, .. } = removed;
+        Self {
+            parts: parts.iter().map(part).collect(),
+            pinches: *pinches,
+            triangles: *triangles,
+            area: *area,
+        }
+    }
 }
 
 impl Outline {
-    fn of(region: &Region, topology: Topology) -> Self {
+    fn of(finished: &FinishedMesh, region: &Region, topology: Topology) -> Self {
+        let mesh = finished.mesh();
+        let fit = FitQuality::of(mesh, &mesh.extract(), region);
         let Topology { parts, holes, .. } = topology;
-        Self { region_area: region.area(), region_holes: region.hole_count(), holes, parts }
+        let placed = |farthest: Option<(f64, DVec2)>| farthest.map(|(distance, at)| (distance, at.into()));
+        Self {
+            region_area: region.area(),
+            region_holes: region.hole_count(),
+            holes,
+            parts,
+            removed: finished.removed().into(),
+            misclassified_area: fit.misclassified_area,
+            boundary_length: fit.boundary_length,
+            outline_length: fit.outline_length,
+            farthest_from_outline: placed(fit.farthest_from_outline),
+            farthest_from_mesh: placed(fit.farthest_from_mesh),
+            lost_islands: fit.lost_islands.iter().map(|&at| at.into()).collect(),
+            smallest_angle: fit.smallest_angle,
+            largest_angle: fit.largest_angle,
+        }
     }
 
     fn for_people(&self, area: f64) -> String {
         let gained = area - self.region_area;
         let word = if gained < 0.0 { "less" } else { "more" };
-        let percent = 100.0 * gained.abs() / self.region_area;
-        let Self { region_area, region_holes, holes, parts } = self;
-        let parts = if *parts == 1 { "1 part".into() } else { format!("{} parts", Grouped(*parts)) };
-        format!(
-            "area {}, {percent:.3} % {word} than the polygons' {}; {} of {} holes, {parts}\n",
+        let percent = |share: f64| 100.0 * share / self.region_area;
+        let Self { region_holes, parts, removed, .. } = self;
+        let kept = region_holes - self.lost_islands.len();
+        let distance = |farthest: Option<(f64, [f64; 2])>| match farthest {
+            Some((distance, [x, y])) if distance > 0.0 => {
+                format!("{} at {}, {}", short(distance), short(x), short(y))
+            }
+            _ => "0".to_owned(),
+        };
+        let mut text = format!(
+            "area {}, {:.3} % {word} than the polygons' {}; {:.3} % misclassified\n\
+             {} in {}, {kept} of {} kept; {}\n\
+             boundary {} times as long as the outline; farthest from the outline {}, from the mesh {}\n",
             short(area),
-            short(*region_area),
-            Grouped(*holes),
-            Grouped(*region_holes),
-        )
+            percent(gained.abs()),
+            short(self.region_area),
+            percent(self.misclassified_area),
+            counted(self.holes, "hole"),
+            counted(*parts, "part"),
+            counted(*region_holes, "island"),
+            angles(self.smallest_angle, self.largest_angle),
+            short(self.boundary_length / self.outline_length),
+            distance(self.farthest_from_outline),
+            distance(self.farthest_from_mesh),
+        );
+        if removed.triangles > 0 {
+            text += &format!(
+                "removed {} in {} and at {}: {:.3} % of the area\n",
+                counted(removed.triangles, "triangle"),
+                counted(removed.parts.len(), "part"),
+                counted(removed.pinches, "pinch"),
+                percent(removed.area),
+            );
+        }
+        text
     }
+}
+
+fn angles(smallest: f64, largest: f64) -> String {
+    format!("angles {smallest:.1}° to {largest:.1}°")
+}
+
+/// A number with its noun.
+fn counted(count: usize, noun: &str) -> String {
+    let ending = match noun {
+        _ if count == 1 => "",
+        "pinch" => "es",
+        _ => "s",
+    };
+    format!("{} {noun}{ending}", Grouped(count))
 }
 
 impl Summary {
@@ -93,7 +209,7 @@ impl Summary {
                 .region
                 .as_ref()
                 .zip(topology)
-                .map(|(region, topology)| Outline::of(region, topology)),
+                .map(|(region, topology)| Outline::of(finished, region, topology)),
             max_level: levels.len() - 1,
             hash: mesh.fingerprint().to_string(),
             seconds: finished.refinement.as_secs_f64(),
@@ -139,10 +255,10 @@ fn duration(seconds: f64) -> String {
 
 /// Six significant digits, without zeros at the end.
 fn short(length: f64) -> String {
-    if !(1e-4..1e6).contains(&length) {
+    if !(1e-4..1e6).contains(&length.abs()) && length != 0.0 {
         return format!("{length:.5e}");
     }
-    let decimals = (5.0 - length.log10().floor()).max(0.0) as usize;
+    let decimals = (5.0 - length.abs().log10().floor()).clamp(0.0, 9.0) as usize;
     let text = format!("{length:.decimals$}");
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
 }

@@ -6,7 +6,7 @@ use crate::field::{
     Formula, RefinementRule, Source, TargetFieldSpec, Transfer, TransferError, checked_target,
 };
 use crate::geometry::{GridError, Lattice, Rect};
-use crate::mesh::{Limits, MemoryLimit};
+use crate::mesh::{Cleaning, Limits, MemoryLimit};
 use crate::raster::{MAX_SIDE, Raster};
 use crate::text::Bytes;
 use crate::text::{Grouped, Number};
@@ -185,6 +185,7 @@ impl Settings {
             field: self.field_spec(),
             rule: self.rule,
             sampling: FieldSampling::Always,
+            cleaning: Cleaning::NONE,
             limits: self.limits(),
         })
     }

@@ -4,11 +4,13 @@
 mod comparison;
 mod outline_edge;
 mod fit;
+mod fit_quality;
 mod on_lattice;
 mod region;
 mod region_builder;
 mod cut_shape;
 mod complexity;
+mod segments;
 
 use std::sync::Arc;
 
@@ -21,6 +23,7 @@ use complexity::check_complexity;
 pub use complexity::{MOST_CORNERS, MOST_CROSSINGS};
 pub use cut_shape::CutShape;
 pub use fit::{BoundaryTreatment, DomainOnLattice, DomainOnLatticeBuilder};
+pub use fit_quality::FitQuality;
 pub use on_lattice::RegionOnLattice;
 pub use region::{Polygon, Region, Ring, corners, signed_area};
 

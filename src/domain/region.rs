@@ -124,6 +124,14 @@ impl Region {
         self.polygons.iter().map(|rings| rings.len() - 1).sum()
     }
 
+    /// The area of an overlay of the region with rings in its frame, in square world units.
+    pub(super) fn area_of(&self, rings: &[Ring], rule: OverlayRule, fill: FillRule) -> f64 {
+        let grid = Grid::over(&self.frame);
+        let operation = OverlayOperation(rule, fill);
+        let area = grid.region(overlay(&grid.contours_of(self), &grid.contours(rings), operation)).area;
+        area.max(0.0) // the empty sum is -0
+    }
+
     /// The area covered, in square world units.
     pub fn area(&self) -> f64 {
         self.area
@@ -197,6 +205,15 @@ impl EdgeCursor {
     fn ring_of<'a>(&self, region: &'a Region) -> Option<&'a Ring> {
         region.polygons.get(self.polygon)?.get(self.ring)
     }
+}
+
+/// Whether a ring encloses a point an odd number of times. Not exact for points on the ring.
+pub(super) fn encloses(ring: &[DVec2], p: DVec2) -> bool {
+    let ends = ring.iter().skip(1).chain(ring.first());
+    let to_the_right = |(a, b): (&DVec2, &DVec2)| {
+        (a.y <= p.y) != (b.y <= p.y) && ((*b - *a).perp_dot(p - *a) > 0.0) == (a.y < b.y)
+    };
+    ring.iter().zip(ends).filter(|&edge| to_the_right(edge)).count() % 2 == 1
 }
 
 /// The corners of a rectangle, anticlockwise.

@@ -14,7 +14,6 @@
 pub mod asc;
 mod atomic;
 mod blocks;
-mod boundary;
 pub mod csv;
 mod error;
 mod interrupt;

@@ -7,7 +7,6 @@
 
 use std::io::{self, Write};
 
-use super::boundary::boundary_loops;
 use super::{FormatSpec, MeshData, Number};
 use crate::mesh::Extract;
 
@@ -35,7 +34,7 @@ pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Resul
         let z = data.quantities.first().map_or(0.0, |quantity| quantity.values[node]);
         writeln!(out, "ND {} {} {} {}", node + 1, Number(p.x), Number(p.y), Number(z))?;
     }
-    for (id, nodes) in (1..).zip(boundary_loops(mesh)) {
+    for (id, nodes) in (1..).zip(mesh.boundary_loops()) {
         write_nodestring(out, id, &nodes)?;
     }
     Ok(())

@@ -2,6 +2,7 @@
 
 #[expect(clippy::module_inception, reason = "the part is named for its main type")]
 mod extract;
+mod boundary;
 mod numbering;
 
 pub(in crate::mesh) use numbering::RankBits;

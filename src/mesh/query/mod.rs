@@ -2,6 +2,7 @@
 
 mod adjacency;
 mod check;
+mod cleaning;
 mod fingerprint;
 mod forecast;
 mod interpolate;
@@ -11,6 +12,7 @@ mod survey;
 
 pub use adjacency::Adjacency;
 pub use check::Violation;
+pub use cleaning::{Cleaning, KeptParts, Removed, RemovedPart};
 pub use fingerprint::{Fingerprint, fingerprint_of};
 pub use forecast::Forecast;
 pub use interpolate::{barycentric, interpolate};

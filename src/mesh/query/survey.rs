@@ -96,13 +96,13 @@ impl Mesh {
 
 /// Disjoint sets of numbers.
 #[derive(Clone, Debug)]
-struct Forest {
+pub(super) struct Forest {
     /// Roots point to themselves, and never to a higher number.
     parents: Vec<u32>,
 }
 
 impl Forest {
-    fn new(count: usize) -> Self {
+    pub(super) fn new(count: usize) -> Self {
         Self { parents: (0..count as u32).collect() }
     }
 
@@ -110,7 +110,7 @@ impl Forest {
         self.parents[n] as usize == n
     }
 
-    fn root(&mut self, mut n: usize) -> usize {
+    pub(super) fn root(&mut self, mut n: usize) -> usize {
         while !self.is_root(n) {
             // Halves the way for the next time.
             self.parents[n] = self.parents[self.parents[n] as usize];
@@ -119,7 +119,7 @@ impl Forest {
         n
     }
 
-    fn join(&mut self, a: usize, b: usize) {
+    pub(super) fn join(&mut self, a: usize, b: usize) {
         let (a, b) = (self.root(a), self.root(b));
         self.parents[a.max(b)] = a.min(b) as u32;
     }
