@@ -146,6 +146,12 @@ fn every_ending_is_written_and_the_files_agree() {
     );
     assert_eq!(folder.read("m.csv").lines().count(), 9561);
     assert!(folder.read("m.csv").lines().next().unwrap().ends_with("quantity1,quantity2,quantity3"));
+    let named =
+        folder.run("mesh --spacing 0.5 --quantity depth=x --quantity 'two = 2*x' -o named.csv -o named.vtu");
+    assert_eq!(named.status, 0, "{}", named.err);
+    assert!(
+        folder.read("named.csv").lines().next().unwrap().ends_with("depth1,depth2,depth3,two1,two2,two3")
+    );
     assert!(folder.read("m.ele").starts_with("9560 3 1\n"));
     assert!(folder.read("m.NODE").starts_with("4821 2 2 1\n0 -10 -10 20 100 1\n"));
     assert!(folder.read("m.msh").contains("$Nodes\n1 4821 1 4821\n"));
@@ -533,6 +539,7 @@ fn impossible_targets_fail_with_their_place() {
             "more than 900 triangles, which is the limit",
         ),
         ("--target 1 --quantity 1/x -o new.vtu", "--quantity is inf at x = 0, y = 0"),
+        ("--target 1 --quantity depth=1/x -o new.vtu", "--quantity depth is inf at x = 0, y = 0"),
     ] {
         folder.file("old.vtu", "old");
         assert_fails(&folder, &format!("mesh {options} -o old.vtu --json"), 1, sentence);

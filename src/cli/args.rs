@@ -216,10 +216,13 @@ pub struct MeshArguments {
     #[arg(long, value_name = "ENDING", help_heading = "Output")]
     pub format: Option<String>,
 
-    /// A further value at the nodes, as a formula in x and y; `quantity` in .vtu, .msh, .csv and .node, z in
-    /// .2dm
-    #[arg(long, value_name = "EXPR", allow_hyphen_values = true, help_heading = "Output")]
-    pub quantity: Option<String>,
+    /// A further value at the nodes, as a formula in x and y, with a name in .vtu, .msh and .csv; may be
+    /// repeated
+    ///
+    /// As in `depth=20 - x`; without a name it is `quantity`. In .node the values are attributes in this
+    /// order, and the first is z in .2dm.
+    #[arg(long, value_name = "[NAME=]EXPR", allow_hyphen_values = true, help_heading = "Output")]
+    pub quantity: Vec<String>,
 
     /// Print the summary as one JSON object on standard output
     #[arg(long, help_heading = "Output")]

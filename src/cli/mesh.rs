@@ -2,18 +2,16 @@
 
 use std::io::Write;
 
-use glam::DVec2;
-
 use super::args::MeshArguments;
 use super::build::{FinishedMesh, build};
 use super::failure::Failure;
 use super::output::{Output, RequestedLook};
-use super::request::{MeshRequest, parse_formula};
+use super::quantities::{NamedQuantity, parse_quantities};
+use super::request::MeshRequest;
 use super::summary::Summary;
 use super::terminal::Terminal;
-use crate::field::Formula;
-use crate::io::{Interruption, MeshData, NodeValues};
-use crate::mesh::{Extract, TriangleId};
+use crate::io::{Interruption, MeshData};
+use crate::mesh::TriangleId;
 use crate::text::Grouped;
 
 /// How many broken invariants are printed one by one; the rest are counted.
@@ -26,7 +24,7 @@ const SHOWN_VIOLATIONS: usize = 20;
 pub fn run(typed: &MeshArguments, out: &mut dyn Write, terminal: &mut Terminal) -> Result<(), Failure> {
     let request = MeshRequest::new(&typed.input)?;
     let look = RequestedLook::new(&typed.picture)?;
-    let quantity = typed.quantity.as_deref().map(|text| parse_formula("--quantity", text)).transpose()?;
+    let quantities = parse_quantities(&typed.quantity)?;
     let format = typed.format.as_deref();
     let outputs = typed.output.iter().map(|path| Output::new(path, format)).collect::<Result<Vec<_>, _>>()?;
     check_stdout(typed, &outputs)?;
@@ -43,7 +41,7 @@ pub fn run(typed: &MeshArguments, out: &mut dyn Write, terminal: &mut Terminal) 
         terminal.say(&summary.for_people());
     }
     note_capped(&finished, terminal);
-    write_files(&outputs, &finished, look, quantity.as_ref(), terminal)?;
+    write_files(&outputs, &finished, look, &quantities, terminal)?;
     if typed.json {
         let json = serde_json::to_string(&summary).map_err(|e| Failure::Print(e.into()))?;
         writeln!(out, "{json}").and_then(|()| out.flush()).map_err(Failure::Print)?;
@@ -94,7 +92,7 @@ fn write_files(
     outputs: &[Output],
     finished: &FinishedMesh,
     look: RequestedLook,
-    quantity: Option<&Formula>,
+    asked: &[NamedQuantity],
     terminal: &mut Terminal,
 ) -> Result<(), Failure> {
     let mesh = finished.mesh();
@@ -103,7 +101,7 @@ fn write_files(
     let (mut target_diameter, mut quantities) = (Vec::new(), Vec::new());
     if outputs.iter().any(Output::wants_node_data) {
         target_diameter = finished.target_at_nodes(&extract);
-        quantities.extend(quantity.map(|formula| evaluated(formula, &extract)).transpose()?);
+        quantities = asked.iter().map(|quantity| quantity.at_nodes(&extract)).collect::<Result<_, _>>()?;
     }
     let data = MeshData { target_diameter: &target_diameter, quantities: &quantities };
     let interruption = Interruption::listen().map_err(|error| Failure::Work(format!("{error}.")))?;
@@ -127,7 +125,7 @@ fn note_without_effect(
     terminal: &mut Terminal,
 ) {
     let mut notes = request.options_without_effect(&typed.input);
-    if typed.quantity.is_some() && !outputs.iter().any(Output::wants_node_data) {
+    if !typed.quantity.is_empty() && !outputs.iter().any(Output::wants_node_data) {
         notes.push("--quantity changes nothing: no file with data is written (-o).".into());
     }
     if typed.format.is_some() && !outputs.iter().any(Output::is_stdout) {
@@ -147,20 +145,4 @@ fn check_stdout(typed: &MeshArguments, outputs: &[Output]) -> Result<(), Failure
         return Err(Failure::Usage(format!("{problem}. Write all but one to files.")));
     }
     Ok(())
-}
-
-fn evaluated(formula: &Formula, mesh: &Extract) -> Result<NodeValues, Failure> {
-    let value = |p: DVec2| {
-        let value = formula.eval(p.x, p.y);
-        if value.is_finite() {
-            Ok(value)
-        } else {
-            let place = format!("x = {}, y = {}", p.x, p.y);
-            Err(Failure::Work(format!(
-                "--quantity is {value} at {place}: files need a finite number at every node."
-            )))
-        }
-    };
-    let values = mesh.world_nodes().map(value).collect::<Result<_, _>>()?;
-    Ok(NodeValues { name: "quantity".to_owned(), values })
 }

@@ -9,6 +9,7 @@ mod failure;
 mod locate;
 mod mesh;
 mod output;
+mod quantities;
 mod request;
 mod sources;
 mod summary;
