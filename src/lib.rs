@@ -23,6 +23,7 @@ mod mesh;
 mod raster;
 mod field;
 mod domain;
+mod outline;
 mod paint;
 mod build;
 mod document;
@@ -69,7 +70,8 @@ pub use mesh::{
 // Read and write files.
 pub use colormap::{Colormap, Ground, LevelColors};
 pub use io::{Cancelled, MeshData, MeshFormat, Meter, NodeValues, ReadError};
-pub use mesh::{BoundaryEdge, Cell, Extract, MeshEdge};
+pub use mesh::{BoundaryEdge, Cell, Extract, MeshEdge, MeshPatch, PatchTriangle};
+pub use outline::{OutlineFit, OutlineMesh};
 pub use render::Image;
 pub use render::export::{ExportFormat, LARGEST_PICTURE, Look, UnknownEnding};
 

@@ -125,7 +125,7 @@ impl Settings {
     pub fn checked(self) -> Result<Self, SettingsError> {
         self.lattice()?;
         self.transfer.checked()?;
-        if let BoundaryTreatment::Fitted { diameter } = self.boundary {
+        if let Some(diameter) = self.boundary.diameter() {
             checked_target(diameter, self.domain.bounds.center())
                 .map_err(|e| SettingsError::BoundaryDiameter(e.value))?;
         }

@@ -21,9 +21,24 @@ pub enum BoundaryTreatment {
         /// Largest diameter of a triangle that the boundary passes through, in world units.
         diameter: f64,
     },
+    /// The mesh is refined as for [`Self::Fitted`]. What is exported along the boundary is derived from it, with
+    /// nodes on the polygons.
+    OnOutline {
+        /// Largest diameter of a triangle of the mesh that the boundary passes through, in world units.
+        diameter: f64,
+    },
 }
 
 impl BoundaryTreatment {
+    /// Largest diameter of a triangle that the boundary passes through, in world units; `None` where the mesh is
+    /// not refined along it.
+    pub fn diameter(&self) -> Option<f64> {
+        match *self {
+            Self::Report => None,
+            Self::Fitted { diameter } | Self::OnOutline { diameter } => Some(diameter),
+        }
+    }
+
     /// A start: coarse enough to be quick, fine enough to see the shape. The diameter is that of level 7, an
     /// eighth of the spacing δ̄; both are in world units.
     pub fn usual(spacing: f64) -> Self {
@@ -45,7 +60,7 @@ impl DomainOnLatticeBuilder {
     pub fn new(domain: &Domain, boundary: BoundaryTreatment, lattice: &Lattice) -> Self {
         let formula = domain.formula().cloned();
         let indexed =
-            DomainOnLattice { bounds: domain.bounds, lattice: *lattice, formula, region: None, fitted: None };
+            DomainOnLattice { bounds: domain.bounds, lattice: *lattice, formula, region: None, fitted: None, on_outline: false };
         let region = domain.region().map(|region| RegionOnLatticeBuilder::new(region, lattice));
         Self { indexed, boundary, region }
     }
@@ -73,6 +88,8 @@ pub struct DomainOnLattice {
     region: Option<Arc<RegionOnLattice>>,
     /// The level that triangles on the boundary must have, where the mesh is fitted to it.
     fitted: Option<u32>,
+    /// Whether nodes along the boundary are moved onto it.
+    on_outline: bool,
 }
 
 impl DomainOnLattice {
@@ -84,13 +101,15 @@ impl DomainOnLattice {
 
     /// The same domain on the same lattice, with another treatment of its boundary.
     pub fn with_boundary(&self, boundary: BoundaryTreatment) -> Self {
-        let fitted = match boundary {
-            BoundaryTreatment::Fitted { diameter } if self.region.is_some() => {
-                Some(level_for_diameter(self.lattice.spacing(), diameter).unwrap_or(u32::MAX))
-            }
-            _ => None,
-        };
-        Self { fitted, ..self.clone() }
+        let level = |diameter| level_for_diameter(self.lattice.spacing(), diameter).unwrap_or(u32::MAX);
+        let fitted = boundary.diameter().filter(|_| self.region.is_some()).map(level);
+        let on_outline = fitted.is_some() && matches!(boundary, BoundaryTreatment::OnOutline { .. });
+        Self { fitted, on_outline, ..self.clone() }
+    }
+
+    /// The region, where nodes along its outline are moved onto it ([`BoundaryTreatment::OnOutline`]).
+    pub fn region_on_outline(&self) -> Option<&RegionOnLattice> {
+        self.region.as_deref().filter(|_| self.on_outline)
     }
 
     /// Whether the mesh is fitted to the boundary: refined along it, with the triangles outside marked.

@@ -6,6 +6,7 @@ mod outline_edge;
 mod fit;
 mod fit_quality;
 mod on_lattice;
+mod outline_query;
 mod region;
 mod region_builder;
 mod cut_shape;
@@ -25,6 +26,7 @@ pub use cut_shape::CutShape;
 pub use fit::{BoundaryTreatment, DomainOnLattice, DomainOnLatticeBuilder};
 pub use fit_quality::FitQuality;
 pub use on_lattice::RegionOnLattice;
+pub use outline_query::OutlineCorner;
 pub use region::{Polygon, Region, Ring, corners, signed_area};
 
 /// A domain in world units.

@@ -199,7 +199,7 @@ impl RegionOnLattice {
         self.edges_of_square[start..self.ends[square] as usize].iter().map(|&n| &self.edges[n as usize])
     }
 
-    fn state(&self, depth: usize, [column, row]: [u32; 2]) -> SquareState {
+    pub(super) fn state(&self, depth: usize, [column, row]: [u32; 2]) -> SquareState {
         let tree_level = &self.levels[depth];
         tree_level.states[row as usize * tree_level.columns as usize + column as usize]
     }

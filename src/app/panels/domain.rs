@@ -72,7 +72,7 @@ fn boundary_rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command
     let boundary = settings.boundary;
     let id = Id::unique("last fitted outline");
     let fitted = match boundary {
-        BoundaryTreatment::Fitted { .. } => boundary,
+        BoundaryTreatment::Fitted { .. } | BoundaryTreatment::OnOutline { .. } => boundary,
         BoundaryTreatment::Report => {
             let last = ui.data(|data| data.get_temp(id));
             last.unwrap_or(BoundaryTreatment::usual(settings.spacing))
@@ -85,7 +85,7 @@ fn boundary_rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command
         set_once(Setting::Boundary(chosen), commands);
     }
     match boundary {
-        BoundaryTreatment::Fitted { diameter } => fitted_row(ui, state, diameter, commands),
+        BoundaryTreatment::Fitted { diameter } | BoundaryTreatment::OnOutline { diameter } => fitted_row(ui, state, diameter, commands),
         BoundaryTreatment::Report => remark(
             ui,
             "Appendix A: a coarse triangle stays if its three corners are inside. Parts narrower than the coarse grid are lost.",

@@ -68,6 +68,8 @@ enum SavedBoundary {
     Report,
     #[serde(rename = "fitted_with_diameter")]
     Fitted(f64),
+    #[serde(rename = "on_outline_with_diameter")]
+    OnOutline(f64),
 }
 
 #[derive(Serialize, Deserialize)]
@@ -126,6 +128,7 @@ impl Saved {
             boundary: match settings.boundary {
                 BoundaryTreatment::Report => SavedBoundary::Report,
                 BoundaryTreatment::Fitted { diameter } => SavedBoundary::Fitted(diameter),
+                BoundaryTreatment::OnOutline { diameter } => SavedBoundary::OnOutline(diameter),
             },
             spacing: settings.spacing,
             transfer: SavedTransfer { h_min, h_max, shape },
@@ -218,6 +221,7 @@ impl Saved {
             boundary: match self.boundary {
                 SavedBoundary::Report => BoundaryTreatment::Report,
                 SavedBoundary::Fitted(diameter) => BoundaryTreatment::Fitted { diameter },
+                SavedBoundary::OnOutline(diameter) => BoundaryTreatment::OnOutline { diameter },
             },
             spacing: self.spacing,
             transfer: Transfer {

@@ -11,11 +11,11 @@ use crate::mesh::kernel::{Mesh, Neighbour, NodeId, Triangle, TriangleId};
 /// nothing is copied.
 #[derive(Clone, Debug)]
 pub struct Extract<'a> {
-    lattice: Lattice,
-    nodes: Cow<'a, [LatticePoint]>,
-    triangles: Cow<'a, [Triangle]>,
+    pub(super) lattice: Lattice,
+    pub(super) nodes: Cow<'a, [LatticePoint]>,
+    pub(super) triangles: Cow<'a, [Triangle]>,
     /// Where some triangles were left out: the place of each triangle of the mesh.
-    places: Option<Vec<Neighbour>>,
+    pub(super) places: Option<Vec<Neighbour>>,
 }
 
 /// A triangle in plain numbers, for writers of files.
@@ -115,7 +115,7 @@ impl Extract<'_> {
     }
 
     /// The place in [`Self::triangles`] of a triangle of the mesh; `None` for one that lies outside the
-    /// domain.
+    /// domain, or was changed by a [`MeshPatch`](super::MeshPatch).
     ///
     /// # Panics
     /// When the id is not of the mesh.

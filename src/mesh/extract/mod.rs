@@ -4,8 +4,10 @@
 mod extract;
 mod boundary;
 mod numbering;
+mod patch;
 
 pub(in crate::mesh) use numbering::RankBits;
 
 pub use extract::{BoundaryEdge, Cell, Extract, MeshEdge};
 pub use numbering::Numbering;
+pub use patch::{MeshPatch, PatchTriangle};

@@ -1,0 +1,159 @@
+//! Where the outline of a region crosses an edge of the mesh, its nearest point, and its corners.
+
+use glam::DVec2;
+
+use super::RegionOnLattice;
+use super::on_lattice::SquareState;
+use super::outline_edge::OutlineEdge;
+use crate::geometry::LatticePoint;
+
+/// A corner of the outline with the corners before and after it, the region on the left.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct OutlineCorner {
+    /// The corner before it.
+    pub before: LatticePoint,
+    /// The corner.
+    pub at: LatticePoint,
+    /// The corner after it.
+    pub after: LatticePoint,
+}
+
+impl RegionOnLattice {
+    /// Where the outline crosses the segment from a lattice point inside the region to one outside, as a share
+    /// of its length from `inside`. Of several crossings, the middle one.
+    ///
+    /// Which edges of the outline cross is decided exactly. Edges along the sides of the grid do not count: a
+    /// segment meets the outline beside them where it leaves them.
+    pub fn middle_crossing(&self, inside: LatticePoint, outside: LatticePoint) -> f64 {
+        let [p, q] = [inside, outside].map(|p| [i64::from(p.x), i64::from(p.y)]);
+        let (low, high) = ([0, 1].map(|i| p[i].min(q[i])), [0, 1].map(|i| p[i].max(q[i])));
+        let mut crossings = Vec::new();
+        for edge in self.edges_near(low, high) {
+            edge.push_crossings(p, q, &mut crossings);
+        }
+        crossings.sort_by(f64::total_cmp);
+        crossings.get(crossings.len().saturating_sub(1) / 2).copied().unwrap_or(0.5)
+    }
+
+    /// The point of the outline nearest to `p`, if its distance is at most `reach`. Points are in lattice
+    /// coordinates, distances in world units, and `step` is the world length of a lattice step along x and y.
+    /// Edges along the sides of the grid do not count.
+    pub fn nearest_on_outline(&self, p: DVec2, reach: f64, step: DVec2) -> Option<DVec2> {
+        let margin = DVec2::splat(reach) / step + DVec2::ONE;
+        let [low, high] = [p - margin, p + margin].map(|p| [p.x.floor() as i64, p.y.floor() as i64]);
+        let mut nearest: Option<(f64, DVec2)> = None;
+        for edge in self.edges_near(low, high) {
+            let [a, b] = edge.ends.map(|[x, y]| DVec2::new(x as f64, y as f64));
+            let (along, to) = ((b - a) * step, (p - a) * step);
+            let point = a + (b - a) * (along.dot(to) / along.length_squared()).clamp(0.0, 1.0);
+            let distance = ((p - point) * step).length();
+            let key = |distance: f64, point: DVec2| (distance, point.x, point.y);
+            let nearer = nearest.is_none_or(|(d, other)| key(distance, point) < key(d, other));
+            if distance <= reach && nearer {
+                nearest = Some((distance, point));
+            }
+        }
+        nearest.map(|(_, point)| point)
+    }
+
+    /// All corners of the outline, those on the sides of the grid included.
+    pub fn outline_corners(&self) -> impl Iterator<Item = OutlineCorner> + '_ {
+        let mut first = 0;
+        self.edges.iter().enumerate().filter_map(move |(n, edge)| {
+            // The edges of a ring follow one another, and the last ends where the first begins.
+            let next = self.edges.get(n + 1).filter(|next| next.ends[0] == edge.ends[1]);
+            let next = if let Some(next) = next {
+                Some(next)
+            } else {
+                let start = std::mem::replace(&mut first, n + 1);
+                self.edges.get(start).filter(|start| start.ends[0] == edge.ends[1])
+            };
+            let point = |[x, y]: [i64; 2]| LatticePoint::new(x as u32, y as u32);
+            next.map(|next| OutlineCorner {
+                before: point(edge.ends[0]),
+                at: point(edge.ends[1]),
+                after: point(next.ends[1]),
+            })
+        })
+    }
+
+    /// The edges of the outline in the smallest squares that touch a rectangle, each once, in the order of the
+    /// region; those along the sides of the grid are left out.
+    fn edges_near(&self, low: [i64; 2], high: [i64; 2]) -> impl Iterator<Item = &OutlineEdge> {
+        let size = (high[0] - low[0]).max(high[1] - low[1]).max(1) as u64;
+        let bits = size.next_power_of_two().trailing_zeros();
+        let depth = (self.root_bits.saturating_sub(bits) as usize).min(self.levels.len() - 1);
+        let mut found = Vec::new();
+        let [first, last] = [low, high].map(|corner| self.square_at(depth, corner));
+        for row in first[1]..=last[1] {
+            for column in first[0]..=last[0] {
+                self.collect_edges(depth, [column, row], [low, high], &mut found);
+            }
+        }
+        found.sort_unstable();
+        found.dedup();
+        found.into_iter().map(|n| &self.edges[n as usize]).filter(|edge| !edge.on_frame)
+    }
+
+    /// The square of a level of the tree that contains a point, or the nearest one.
+    fn square_at(&self, depth: usize, point: [i64; 2]) -> [u32; 2] {
+        let tree_level = &self.levels[depth];
+        let rows = tree_level.states.len() as u32 / tree_level.columns;
+        let bits = self.root_bits - depth as u32;
+        let at = |c: i64, count: u32| (c >> bits).clamp(0, i64::from(count) - 1) as u32;
+        [at(point[0], tree_level.columns), at(point[1], rows)]
+    }
+
+    fn collect_edges(
+        &self,
+        depth: usize,
+        [column, row]: [u32; 2],
+        rect: [[i64; 2]; 2],
+        found: &mut Vec<u32>,
+    ) {
+        let bits = self.root_bits - depth as u32;
+        let apart = |n: u32, i: usize| {
+            (i64::from(n) << bits) > rect[1][i] || (i64::from(n) + 1) << bits < rect[0][i]
+        };
+        if self.state(depth, [column, row]) != SquareState::Crossed || apart(column, 0) || apart(row, 1) {
+            return;
+        }
+        if depth + 1 < self.levels.len() {
+            for [x, y] in [[0, 0], [1, 0], [0, 1], [1, 1]] {
+                self.collect_edges(depth + 1, [2 * column + x, 2 * row + y], rect, found);
+            }
+            return;
+        }
+        let square = row as usize * self.levels[depth].columns as usize + column as usize;
+        let start = if square == 0 { 0 } else { self.ends[square - 1] as usize };
+        found.extend_from_slice(&self.edges_of_square[start..self.ends[square] as usize]);
+    }
+}
+
+impl OutlineEdge {
+    /// Appends where the edge meets the segment from `p` to `q`, as shares of its length from `p`: one place,
+    /// or two ends of a common part.
+    fn push_crossings(&self, p: [i64; 2], q: [i64; 2], crossings: &mut Vec<f64>) {
+        // Lattice coordinates stay below 2^31, so the products fit.
+        let turn = |a: [i64; 2], b: [i64; 2], c: [i64; 2]| {
+            (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+        };
+        let apart = |s: i64, t: i64| (s > 0 && t > 0) || (s < 0 && t < 0);
+        let [a, b] = self.ends;
+        let (a_side, b_side) = (turn(p, q, a), turn(p, q, b));
+        let (p_side, q_side) = (turn(a, b, p), turn(a, b, q));
+        if apart(a_side, b_side) || apart(p_side, q_side) {
+            return;
+        }
+        if a_side != 0 || b_side != 0 {
+            let (p_side, q_side) = (p_side as f64, q_side as f64);
+            return crossings.push(p_side / (p_side - q_side));
+        }
+        let axis = usize::from((q[0] - p[0]).abs() < (q[1] - p[1]).abs());
+        let share = |c: [i64; 2]| (c[axis] - p[axis]) as f64 / (q[axis] - p[axis]) as f64;
+        let (s, t) = (share(a), share(b));
+        if s.max(t) >= 0.0 && s.min(t) <= 1.0 {
+            crossings.extend([s, t].map(|share| share.clamp(0.0, 1.0)));
+        }
+    }
+}

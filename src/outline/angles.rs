@@ -1,0 +1,86 @@
+//! Angles of triangles whose corners are lattice points, measured in world units.
+
+use glam::DVec2;
+
+use crate::geometry::LatticePoint;
+
+/// The cotangents of 5°, 20° and 30°.
+pub(super) const COT_5: f64 = 11.430_052_302_761_343;
+pub(super) const COT_20: f64 = 2.747_477_419_454_622;
+pub(super) const COT_30: f64 = 1.732_050_807_568_877_2;
+/// The cotangent of 18.4°.
+const COT_18_4: f64 = 3.006_055_646_788_107_5;
+
+/// Measures angles by their cotangents: without trigonometry, so that every machine finds the same. A smaller
+/// angle has a larger cotangent.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Angles {
+    /// World length of a lattice step along x and y.
+    step: DVec2,
+}
+
+impl Angles {
+    pub(super) fn new(step: DVec2) -> Self {
+        Self { step }
+    }
+
+    pub(super) fn step(&self) -> DVec2 {
+        self.step
+    }
+
+    /// From one point to another, in world units.
+    #[inline]
+    pub(super) fn vector(&self, from: LatticePoint, to: LatticePoint) -> DVec2 {
+        let steps = |from: u32, to: u32| (i64::from(to) - i64::from(from)) as f64;
+        DVec2::new(steps(from.x, to.x), steps(from.y, to.y)) * self.step
+    }
+
+    /// The cotangent of the angle at `at` on the left of the way to `from`, up to `to`; infinite where the turn
+    /// from one to the other is not anticlockwise.
+    #[inline]
+    pub(super) fn cot(&self, at: LatticePoint, from: LatticePoint, to: LatticePoint) -> f64 {
+        let (a, b) = (self.vector(at, from), self.vector(at, to));
+        let cross = a.perp_dot(b);
+        if cross > 0.0 { a.dot(b) / cross } else { f64::INFINITY }
+    }
+
+    /// The cotangent of the smallest angle of a triangle; infinite where its corners do not run anticlockwise.
+    #[inline]
+    pub(super) fn worst(&self, [a, b, c]: [LatticePoint; 3]) -> f64 {
+        let (ab, ac, bc) = (self.vector(a, b), self.vector(a, c), self.vector(b, c));
+        let cross = ab.perp_dot(ac);
+        if cross > 0.0 { ab.dot(ac).max(ac.dot(bc)).max(-ab.dot(bc)) / cross } else { f64::INFINITY }
+    }
+
+    /// The cotangent of the smallest angle that triangles inside may have: 18.4°, or the smallest one that occurs
+    /// where every node is at home and every cut edge is cut in its middle, if that is smaller. In square cells
+    /// it is arctan ⅓ = 18.43°.
+    pub(super) fn limit(&self) -> f64 {
+        let point = LatticePoint::new;
+        // The shapes at even and at odd levels.
+        let shapes = [
+            [point(0, 0), point(4, 0), point(0, 4)],
+            [point(0, 0), point(4, 0), point(2, 2)],
+            [point(0, 0), point(2, 2), point(0, 4)],
+        ];
+        let turned = |[a, b, c]: [LatticePoint; 3]| [[a, b, c], [b, c, a], [c, a, b]];
+        let worst = |corners| self.worst_of_cuts(corners);
+        let homes = shapes.into_iter().flat_map(turned).map(worst).fold(0.0, f64::max);
+        COT_18_4.max(homes * (1.0 + 1e-9))
+    }
+
+    /// The worst of what cuts through the middles of edges leave of a triangle, where the first corner is on the
+    /// outline or alone on its side.
+    fn worst_of_cuts(&self, [a, b, c]: [LatticePoint; 3]) -> f64 {
+        let [ab, bc, ca] = [a.midpoint(b), b.midpoint(c), c.midpoint(a)];
+        let from_corner = self.worst([a, b, bc]).max(self.worst([a, bc, c]));
+        let [first, second] = self.diagonals([ab, b, c, ca]);
+        from_corner.max(self.worst([a, ab, ca])).max(first.min(second))
+    }
+
+    /// The worst of the two triangles on either side of the diagonal from the first corner of a quadrilateral,
+    /// and from the second.
+    pub(super) fn diagonals(&self, [a, b, c, d]: [LatticePoint; 4]) -> [f64; 2] {
+        [self.worst([a, b, c]).max(self.worst([a, c, d])), self.worst([a, b, d]).max(self.worst([b, c, d]))]
+    }
+}

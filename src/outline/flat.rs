@@ -1,0 +1,102 @@
+//! Triangles whose corners all moved onto the outline, and nodes where the domain would touch itself.
+
+use super::angles::Angles;
+use super::band::Band;
+use super::snap::Side;
+use super::stencil::Placement;
+
+/// Leaves out flat triangles inside with all corners on the outline, where the domain stays in one piece without
+/// them: those with two or three edges on the boundary, and those with one whose opposite corner is not on the
+/// boundary. `limit` is the cotangent of the smallest angle that counts as not flat.
+///
+/// They are left out in rounds, no two with a common node in one round, so that each round sees what the one
+/// before left.
+pub(super) fn drop_flat(band: &Band, placement: &mut Placement, angles: &Angles, limit: f64) {
+    let all_on = |&t: &u32| placement.keeps[t as usize] && placement.is_all_on(band, t);
+    let is_flat = |&t: &u32| {
+        angles.worst(placement.points(band.triangles.corners[t as usize])) > limit
+    };
+    let mut flat: Vec<u32> =
+        (0..band.triangles.len() as u32).filter(all_on).filter(is_flat).collect();
+    let mut lowest = vec![u32::MAX; band.points.len()];
+    loop {
+        let droppable: Vec<u32> = flat.iter().copied().filter(|&t| is_droppable(band, placement, t)).collect();
+        let corners = |t: u32| band.triangles.corners[t as usize].map(|v| v as usize);
+        for &t in droppable.iter().rev() {
+            corners(t).into_iter().for_each(|v| lowest[v] = t);
+        }
+        let first: Vec<u32> =
+            droppable.iter().copied().filter(|&t| corners(t).iter().all(|&v| lowest[v] == t)).collect();
+        for &t in &droppable {
+            corners(t).into_iter().for_each(|v| lowest[v] = u32::MAX);
+        }
+        if first.is_empty() {
+            return;
+        }
+        first.iter().for_each(|&t| placement.keeps[t as usize] = false);
+        flat.retain(|t| !first.contains(t));
+    }
+}
+
+fn is_droppable(band: &Band, placement: &Placement, triangle: u32) -> bool {
+    let boundary = boundary_edges(band, placement, triangle, true);
+    match boundary.iter().filter(|&&is| is).count() {
+        0 => false,
+        1 => {
+            let opposite = boundary.iter().position(|&is| is).expect("counted");
+            let node = band.triangles.corners[triangle as usize][opposite];
+            !has_sector(band, placement, node, false)
+        }
+        _ => true,
+    }
+}
+
+/// For each corner of a triangle with all corners on the outline whether the opposite edge is on the boundary.
+/// `inside` is the class of the triangle.
+pub(super) fn boundary_edges(band: &Band, placement: &Placement, triangle: u32, inside: bool) -> [bool; 3] {
+    [0, 1, 2].map(|i| {
+        let [_, from, to] = band.triangles.from_place(triangle, i);
+        let across = band.triangles.across[triangle as usize][i];
+        placement.is_inside_across(band, across, [from, to]) != inside
+    })
+}
+
+/// Whether a node on the outline has a triangle of a class around it. What lies beyond the frame is outside.
+pub(super) fn has_sector(band: &Band, placement: &Placement, node: u32, inside: bool) -> bool {
+    let mut star = Vec::new();
+    sectors(band, placement, node, &mut star).contains(&inside)
+}
+
+/// The classes of the triangles around a node on the outline, anticlockwise, and what lies beyond the frame.
+fn sectors(band: &Band, placement: &Placement, node: u32, star: &mut Vec<(u32, usize)>) -> Vec<bool> {
+    band.triangles.star(node, star);
+    let mut sectors = Vec::with_capacity(star.len() + 2);
+    for &(t, i) in star.iter() {
+        let [_, a, b] = band.from_place(t, i, &placement.sides);
+        match (a, b) {
+            (Side::On, Side::On) => sectors.push(placement.keeps[t as usize]),
+            (Side::On, side) => sectors.push(side == Side::Inside),
+            (a, Side::On) => sectors.push(a == Side::Inside),
+            (a, b) => sectors.extend([a == Side::Inside, b == Side::Inside]),
+        }
+    }
+    let (first, last) = (star[0], star[star.len() - 1]);
+    let [_, right, _] = band.triangles.from_place(first.0, first.1);
+    let [_, _, left] = band.triangles.from_place(last.0, last.1);
+    if right != left {
+        sectors.push(false);
+    }
+    sectors
+}
+
+/// The nodes on the outline where the domain would touch itself: more than one fan of triangles inside meets
+/// there.
+pub(super) fn pinched(band: &Band, placement: &Placement) -> Vec<u32> {
+    let mut star = Vec::new();
+    let on = (0..band.points.len() as u32).filter(|&v| placement.sides[v as usize] == Side::On);
+    on.filter(|&v| {
+        let sectors = sectors(band, placement, v, &mut star);
+        (0..sectors.len()).filter(|&k| sectors[k] != sectors[(k + 1) % sectors.len()]).count() > 2
+    })
+    .collect()
+}

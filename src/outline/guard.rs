@@ -1,0 +1,121 @@
+//! Retreats: nodes go back towards home where an angle would be too small.
+
+use super::angles::{Angles, COT_5};
+use super::band::Band;
+use super::flat::{boundary_edges, has_sector};
+use super::snap::Side;
+use super::stencil::{Piece, Placement};
+
+/// Lets nodes retreat until no angle is too small.
+pub(super) struct Guard<'a> {
+    pub(super) band: &'a Band,
+    pub(super) angles: &'a Angles,
+    /// The cotangent of the smallest angle inside.
+    pub(super) limit: f64,
+    /// The pinned nodes in ascending order, each with the cotangent of the smallest angle beside it.
+    pub(super) pin_limits: Vec<(u32, f64)>,
+}
+
+impl Guard<'_> {
+    /// Lets nodes retreat, in rounds, until no angle is too small: the nodes of all triangles that fail take one
+    /// step back at once. Returns pinned nodes at which an angle stays too small.
+    pub(super) fn run(&self, placement: &mut Placement) -> Vec<u32> {
+        let outside_used = self.used_nodes(placement);
+        let all = 0..self.band.triangles.len() as u32;
+        let mut suspects: Vec<u32> = all.filter(|&t| self.can_change(placement, t)).collect();
+        let mut stuck = Vec::new();
+        while !suspects.is_empty() {
+            let mut back = Vec::new();
+            for &t in &suspects {
+                for corners in self.failing(placement, t, &outside_used) {
+                    let can: Vec<u32> =
+                        corners.into_iter().filter(|&v| placement.can_retreat(v)).collect();
+                    if can.is_empty() {
+                        stuck.extend(self.stuck_pins(placement, corners));
+                    }
+                    back.extend(can);
+                }
+            }
+            back.sort_unstable();
+            back.dedup();
+            back.iter().for_each(|&v| placement.retreat(v));
+            suspects = self.around(placement, &back);
+        }
+        stuck.sort_unstable();
+        stuck.dedup();
+        stuck
+    }
+
+    fn can_change(&self, placement: &Placement, triangle: u32) -> bool {
+        let corners = self.band.from_place(triangle, 0, &placement.sides);
+        corners.contains(&Side::On) || (corners.contains(&Side::Inside) && corners.contains(&Side::Outside))
+    }
+
+    /// The triangles that have a node of `moved`.
+    fn around(&self, placement: &Placement, moved: &[u32]) -> Vec<u32> {
+        let all = 0..self.band.triangles.len() as u32;
+        let mut is_moved = vec![false; placement.homes.len()];
+        moved.iter().for_each(|&v| is_moved[v as usize] = true);
+        all.filter(|&t| {
+            let t = t as usize;
+            let mut nodes = self.band.triangles.corners[t].iter().chain(&placement.cuts[t]);
+            nodes.any(|&v| is_moved.get(v as usize).is_some_and(|&moved| moved))
+        })
+        .collect()
+    }
+
+    /// For each node of the band whether a triangle inside has it.
+    fn used_nodes(&self, placement: &Placement) -> Vec<bool> {
+        (0..self.band.points.len() as u32)
+            .map(|v| match placement.sides[v as usize] {
+                Side::Inside => true,
+                Side::Outside => false,
+                Side::On => has_sector(self.band, placement, v, true),
+            })
+            .collect()
+    }
+
+    /// The corners of the pieces of a triangle of which an angle is too small.
+    fn failing(&self, placement: &Placement, triangle: u32, used: &[bool]) -> Vec<[u32; 3]> {
+        let pieces = placement.pieces(self.band, triangle, self.angles);
+        let fails = |piece: &Piece| {
+            let worst = self.angles.worst(placement.points(piece.corners));
+            match piece.inside {
+                true => worst > self.limit,
+                false => worst > COT_5 && !self.is_harmless(placement, triangle, used),
+            }
+        };
+        pieces.into_iter().flatten().filter(fails).map(|piece| piece.corners).collect()
+    }
+
+    /// Whether a flat triangle outside with all corners on the outline does not bring parts of the domain too
+    /// close to each other.
+    fn is_harmless(&self, placement: &Placement, triangle: u32, used: &[bool]) -> bool {
+        if !placement.is_all_on(self.band, triangle) {
+            return false;
+        }
+        let boundary = boundary_edges(self.band, placement, triangle, false);
+        match boundary.iter().filter(|&&is| is).count() {
+            0 => true,
+            1 => {
+                let opposite = boundary.iter().position(|&is| is).expect("counted");
+                !used[self.band.triangles.corners[triangle as usize][opposite] as usize]
+            }
+            2 => {
+                let between = boundary.iter().position(|&is| !is).expect("counted");
+                let corners = self.band.triangles.from_place(triangle, between);
+                let [at, from, to] = placement.points(corners);
+                self.angles.cot(at, from, to) <= COT_5
+            }
+            _ => false,
+        }
+    }
+
+    /// The pinned nodes of a triangle whose nodes cannot retreat, if its smallest angle is below what is allowed
+    /// beside them.
+    fn stuck_pins(&self, placement: &Placement, corners: [u32; 3]) -> Vec<u32> {
+        let worst = self.angles.worst(placement.points(corners));
+        let limit = |node| self.pin_limits.binary_search_by_key(&node, |pin| pin.0).map(|n| self.pin_limits[n].1);
+        corners.into_iter().filter(|&node| limit(node).is_ok_and(|limit| worst > limit)).collect()
+    }
+}

@@ -1,0 +1,236 @@
+//! From the mesh to the one with nodes on the outline, step by step.
+
+use super::angles::Angles;
+use super::band::{Band, signs};
+use super::corners::pins;
+use super::flat::{drop_flat, pinched};
+use super::guard::Guard;
+use super::patchwork::Patchwork;
+use super::smooth::Smoother;
+use super::snap::{Crossings, Side, snapped};
+use super::stencil::Placement;
+use super::triangulation::NONE;
+use crate::domain::{DomainOnLattice, RegionOnLattice};
+use crate::geometry::{Lattice, LatticePoint};
+use crate::mesh::{Extract, Mesh, MeshPatch, NodeId, PatchTriangle, TriangleId};
+
+/// How many rounds of flips and moves improve the angles.
+const ROUNDS: usize = 8;
+
+/// What is changed in a mesh so that the nodes of its boundary lie on the outline of a region.
+#[derive(Clone, Debug)]
+pub struct OutlineMesh {
+    patch: MeshPatch,
+    fit: OutlineFit,
+}
+
+/// How well the nodes of the boundary lie on the outline.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct OutlineFit {
+    /// Nodes of the boundary along the outline.
+    pub nodes: usize,
+    /// Those that lie on it.
+    pub on_outline: usize,
+    /// Largest distance of the others from it, in world units.
+    pub farthest: f64,
+    /// Sharp corners of the outline that are nodes.
+    pub corners: usize,
+}
+
+impl OutlineMesh {
+    /// Derives the changes. `None` where the domain's boundary is not treated so
+    /// ([`OnOutline`](crate::domain::BoundaryTreatment::OnOutline)).
+    pub fn new(mesh: &Mesh, domain: &DomainOnLattice) -> Option<Self> {
+        Some(Self::of_region(mesh, domain.region_on_outline()?))
+    }
+
+    fn of_region(mesh: &Mesh, region: &RegionOnLattice) -> Self {
+        let angles = Angles::new(mesh.lattice().step());
+        let signs = signs(mesh, region);
+        let band = Band::new(mesh, &signs);
+        let mut placement = placed(&band, region, mesh.lattice(), &angles);
+        retreat(mesh, &band, &mut placement, region, &angles);
+        let mut patchwork = Patchwork::new(&band, &placement, &angles);
+        let smoother = Smoother { region, angles: &angles, extent: mesh.lattice().extent() };
+        for _ in 0..ROUNDS {
+            patchwork.flip_edges(&angles);
+            smoother.smooth(&mut patchwork);
+        }
+        smoother.pull(&mut patchwork);
+        let fit = fit(&patchwork, region, &angles);
+        Self { patch: patch(mesh, &signs, &band, &patchwork, &angles), fit }
+    }
+
+    /// The mesh with the changes, for files and summaries.
+    ///
+    /// # Panics
+    /// When `mesh` is not the one that the changes were derived from.
+    pub fn extract<'a>(&self, mesh: &'a Mesh) -> Extract<'a> {
+        mesh.extract_with(&self.patch)
+    }
+
+    /// What is changed.
+    pub fn patch(&self) -> &MeshPatch {
+        &self.patch
+    }
+
+    /// How well the boundary lies on the outline.
+    pub fn fit(&self) -> OutlineFit {
+        self.fit
+    }
+}
+
+/// Moves nodes onto the outline, all at once; nodes where the domain would touch itself stay.
+fn placed(band: &Band, region: &RegionOnLattice, lattice: &Lattice, angles: &Angles) -> Placement {
+    let crossings = Crossings::new(band, region, lattice);
+    let (mut sides, mut goals) = snapped(band, &crossings, angles);
+    loop {
+        let mut placement = Placement::new(band, &crossings, sides.clone(), goals.clone());
+        drop_flat(band, &mut placement, angles, angles.limit());
+        let pinched = pinched(band, &placement);
+        if pinched.is_empty() {
+            return placement;
+        }
+        for v in pinched {
+            let v = v as usize;
+            (sides[v], goals[v]) = (Side::of(band.inside[v]), band.points[v]);
+        }
+    }
+}
+
+/// Moves nodes to sharp corners, and lets nodes retreat where angles are too small. Corners where that does not
+/// help are given up.
+fn retreat(mesh: &Mesh, band: &Band, placement: &mut Placement, region: &RegionOnLattice, angles: &Angles) {
+    let mut pins = pins(mesh, band, placement, region, angles);
+    pins.iter().for_each(|pin| pin.apply(placement));
+    loop {
+        let pin_limits = pins.iter().map(|pin| (pin.node, pin.limit)).collect();
+        let stuck = Guard { band, angles, limit: angles.limit(), pin_limits }.run(placement);
+        if stuck.is_empty() {
+            return;
+        }
+        let (given_up, kept) = pins.into_iter().partition(|pin| stuck.binary_search(&pin.node).is_ok());
+        pins = kept;
+        let given_up: Vec<_> = given_up;
+        given_up.iter().for_each(|pin| pin.undo(placement));
+        placement.advance_all();
+    }
+}
+
+fn fit(patchwork: &Patchwork, region: &RegionOnLattice, angles: &Angles) -> OutlineFit {
+    let mut fit = OutlineFit::default();
+    let mut star = Vec::new();
+    for (v, &point) in patchwork.points.iter().enumerate() {
+        patchwork.triangles.star(v as u32, &mut star);
+        let classes = |inside: bool| star.iter().any(|&(t, _)| patchwork.inside[t as usize] == inside);
+        if !(classes(true) && classes(false)) {
+            continue;
+        }
+        fit.nodes += 1;
+        fit.corners += usize::from(patchwork.pinned[v]);
+        if patchwork.on_outline[v] {
+            fit.on_outline += 1;
+        } else {
+            fit.farthest = fit.farthest.max(distance(point, region, angles));
+        }
+    }
+    fit
+}
+
+/// The distance of a point from the outline, in world units.
+fn distance(point: LatticePoint, region: &RegionOnLattice, angles: &Angles) -> f64 {
+    let mut reach = angles.step().max_element();
+    loop {
+        if let Some(nearest) = region.nearest_on_outline(point.as_dvec2(), reach, angles.step()) {
+            return ((nearest - point.as_dvec2()) * angles.step()).length();
+        }
+        reach *= 4.0;
+    }
+}
+
+/// Collects what differs from the mesh.
+fn patch(mesh: &Mesh, signs: &[bool], band: &Band, patchwork: &Patchwork, angles: &Angles) -> MeshPatch {
+    let mut patch = MeshPatch { added: patchwork.points[band.points.len()..].to_vec(), ..MeshPatch::default() };
+    let points = band.node_ids.iter().zip(&band.points).zip(&patchwork.points);
+    patch.moved = points.filter(|((_, home), point)| home != point).map(|((&id, _), &point)| (id, point)).collect();
+    patch.moved.sort_unstable_by_key(|(id, _)| *id);
+    let pieces = PiecesByTriangle::new(mesh, band, patchwork);
+    for (index, triangle) in mesh.raw_triangles().iter().enumerate() {
+        let id = TriangleId::from_index(index);
+        let (first, level) = (patch.pieces.len(), triangle.level());
+        match pieces.of(id) {
+            Some(pieces) if is_unchanged(band, patchwork, !triangle.is_outside(), pieces) => continue,
+            Some(pieces) => patch.pieces.extend(pieces.iter().map(|&piece| {
+                let corners = longest_edge_first(patchwork, angles, piece);
+                PatchTriangle { corners: corners.map(|v| node_id(mesh, band, v)), level }
+            })),
+            // Far from the outline, or around a part of it that passes between all nodes.
+            None => {
+                let inside = signs[triangle.vertices[0].index()];
+                if inside != triangle.is_outside() {
+                    continue;
+                }
+                let corners = triangle.edge_nodes().map(|(from, _)| from);
+                patch.pieces.extend(inside.then_some(PatchTriangle { corners, level }));
+            }
+        }
+        patch.changed.push((id, first..patch.pieces.len()));
+    }
+    patch
+}
+
+/// The pieces inside of each triangle of the band.
+struct PiecesByTriangle {
+    /// For each triangle of the mesh its number in the band, or [`NONE`].
+    numbers: Vec<u32>,
+    /// For each triangle of the band the end of its part of `pieces`; it begins at the end of the one before.
+    ends: Vec<usize>,
+    pieces: Vec<u32>,
+}
+
+impl PiecesByTriangle {
+    fn new(mesh: &Mesh, band: &Band, patchwork: &Patchwork) -> Self {
+        let mut numbers = vec![NONE; mesh.raw_triangle_count()];
+        for (t, id) in band.ids.iter().enumerate() {
+            numbers[id.index()] = t as u32;
+        }
+        let inside = patchwork.owners.iter().zip(0u32..).filter(|(_, piece)| patchwork.inside[*piece as usize]);
+        // Pieces are in the order of their triangles.
+        let (owners, pieces): (Vec<u32>, Vec<u32>) = inside.unzip();
+        let ends = (0..band.ids.len() as u32).map(|t| owners.partition_point(|&owner| owner <= t)).collect();
+        Self { numbers, ends, pieces }
+    }
+
+    /// Those of a triangle of the mesh, if it is in the band.
+    fn of(&self, id: TriangleId) -> Option<&[u32]> {
+        let t = self.numbers[id.index()] as usize;
+        let end = *self.ends.get(t)?;
+        let start = if t == 0 { 0 } else { self.ends[t - 1] };
+        Some(&self.pieces[start..end])
+    }
+}
+
+/// Whether the pieces of a triangle are what the mesh has.
+fn is_unchanged(band: &Band, patchwork: &Patchwork, in_domain: bool, pieces: &[u32]) -> bool {
+    let &[piece] = pieces else { return pieces.is_empty() && !in_domain };
+    let owner = patchwork.owners[piece as usize];
+    let corners = patchwork.triangles.corners[piece as usize];
+    let is_at_home = |&v: &u32| band.points.get(v as usize) == Some(&patchwork.points[v as usize]);
+    let same = band.triangles.corners[owner as usize].iter().all(|v| corners.contains(v));
+    in_domain && same && corners.iter().all(is_at_home)
+}
+
+/// The corners of a piece, anticlockwise, those of its longest edge first.
+fn longest_edge_first(patchwork: &Patchwork, angles: &Angles, piece: u32) -> [u32; 3] {
+    let turned = [0, 1, 2].map(|i| patchwork.triangles.from_place(piece, i));
+    let length = |[a, b, _]: [u32; 3]| {
+        angles.vector(patchwork.points[a as usize], patchwork.points[b as usize]).length_squared()
+    };
+    turned.into_iter().reduce(|a, b| if length(b) > length(a) { b } else { a }).expect("three edges")
+}
+
+/// The node of the mesh, or the added one, that has this number in the band.
+fn node_id(mesh: &Mesh, band: &Band, v: u32) -> NodeId {
+    let added = |v: usize| NodeId::from_index(mesh.raw_nodes().len() + v - band.points.len());
+    band.node_ids.get(v as usize).copied().unwrap_or_else(|| added(v as usize))
+}

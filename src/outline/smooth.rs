@@ -1,0 +1,157 @@
+//! Moves nodes near the outline, for better angles and onto the outline.
+
+use std::f64::consts::FRAC_1_SQRT_2;
+
+use glam::{DVec2, dvec2};
+
+use super::angles::{Angles, COT_5, COT_20};
+use super::patchwork::Patchwork;
+use super::snap::rounded;
+use crate::domain::RegionOnLattice;
+use crate::geometry::LatticePoint;
+
+/// The directions of the search, in world units.
+const DIRECTIONS: [DVec2; 8] = [
+    dvec2(1.0, 0.0),
+    dvec2(FRAC_1_SQRT_2, FRAC_1_SQRT_2),
+    dvec2(0.0, 1.0),
+    dvec2(-FRAC_1_SQRT_2, FRAC_1_SQRT_2),
+    dvec2(-1.0, 0.0),
+    dvec2(-FRAC_1_SQRT_2, -FRAC_1_SQRT_2),
+    dvec2(0.0, -1.0),
+    dvec2(FRAC_1_SQRT_2, -FRAC_1_SQRT_2),
+];
+/// How many lengths of steps the search tries; the first is a fifth of the mean edge, each is half the last.
+const STEP_LENGTHS: usize = 4;
+const FIRST_STEP: f64 = 0.2;
+/// How many rounds of nodes go to the outline at the end.
+const PULL_ROUNDS: usize = 8;
+
+/// Moves nodes of a patchwork.
+pub(super) struct Smoother<'a> {
+    pub(super) region: &'a RegionOnLattice,
+    pub(super) angles: &'a Angles,
+    /// The upper right corner of the lattice.
+    pub(super) extent: LatticePoint,
+}
+
+/// A move of a node that would help.
+struct Move {
+    node: u32,
+    to: LatticePoint,
+    gain: f64,
+    on_outline: bool,
+}
+
+impl Smoother<'_> {
+    /// Moves nodes of pieces with angles below 30° to where the smallest angle around them is largest; those on
+    /// the boundary along the outline. Of neighbours only the one that gains most moves.
+    pub(super) fn smooth(&self, patchwork: &mut Patchwork) {
+        let poor = patchwork.poor(self.angles);
+        let mut nodes: Vec<u32> = poor.flat_map(|t| patchwork.triangles.corners[t as usize]).collect();
+        nodes.sort_unstable();
+        nodes.dedup();
+        let mut star = Vec::new();
+        let moves = nodes.into_iter().filter_map(|node| self.best_move(patchwork, node, &mut star)).collect();
+        self.apply(patchwork, moves);
+    }
+
+    /// Moves nodes on the boundary that are off the outline to its nearest point, where the angles around them
+    /// do not fall below 20° or get worse. Of neighbours only the one that is farthest off moves, in rounds.
+    pub(super) fn pull(&self, patchwork: &mut Patchwork) {
+        let mut star = Vec::new();
+        for _ in 0..PULL_ROUNDS {
+            let off = (0..patchwork.points.len() as u32).filter(|&v| !patchwork.on_outline[v as usize]);
+            let moves: Vec<Move> = off.filter_map(|v| self.move_to_outline(patchwork, v, &mut star)).collect();
+            if moves.is_empty() {
+                return;
+            }
+            self.apply(patchwork, moves);
+        }
+    }
+
+    fn apply(&self, patchwork: &mut Patchwork, moves: Vec<Move>) {
+        let mut gains = vec![0.0; patchwork.points.len()];
+        moves.iter().for_each(|best| gains[best.node as usize] = best.gain);
+        let mut star = Vec::new();
+        let mut beats_neighbours = |best: &Move| {
+            patchwork.triangles.star(best.node, &mut star);
+            let mut others = star.iter().flat_map(|&(t, _)| patchwork.triangles.corners[t as usize]);
+            others.all(|v| {
+                let gain = gains[v as usize];
+                v == best.node || best.gain > gain || (best.gain == gain && best.node < v)
+            })
+        };
+        let winners: Vec<Move> = moves.into_iter().filter(|best| beats_neighbours(best)).collect();
+        for Move { node, to, on_outline, .. } in winners {
+            patchwork.points[node as usize] = to;
+            patchwork.on_outline[node as usize] = on_outline;
+        }
+    }
+
+    fn best_move(&self, patchwork: &Patchwork, node: u32, star: &mut Vec<(u32, usize)>) -> Option<Move> {
+        patchwork.triangles.star(node, star);
+        if patchwork.pinned[node as usize] || patchwork.is_on_frame(star) {
+            return None;
+        }
+        let on_boundary = patchwork.is_on_boundary(star);
+        let home = patchwork.points[node as usize];
+        let now = self.worst_around(patchwork, star, home)?;
+        let mean = self.mean_edge(patchwork, star);
+        let (mut best, mut length) = ((now, home), FIRST_STEP * mean);
+        for _ in 0..STEP_LENGTHS {
+            let from = best.1.as_dvec2();
+            for direction in DIRECTIONS {
+                let to = from + length * direction / self.angles.step();
+                let to = if on_boundary { self.region.nearest_on_outline(to, mean, self.angles.step()) } else { Some(to) };
+                let Some(to) = to.map(|to| rounded(to, self.extent)) else { continue };
+                if let Some(worst) = self.worst_around(patchwork, star, to).filter(|&worst| worst < best.0) {
+                    best = (worst, to);
+                }
+            }
+            length /= 2.0;
+        }
+        let (worst, to) = best;
+        (worst < now).then(|| Move { node, to, gain: now - worst, on_outline: on_boundary })
+    }
+
+    fn move_to_outline(&self, patchwork: &Patchwork, node: u32, star: &mut Vec<(u32, usize)>) -> Option<Move> {
+        patchwork.triangles.star(node, star);
+        if star.is_empty() || patchwork.is_on_frame(star) || !patchwork.is_on_boundary(star) {
+            return None;
+        }
+        let home = patchwork.points[node as usize];
+        let now = self.worst_around(patchwork, star, home)?;
+        let reach = self.mean_edge(patchwork, star);
+        let to = self.region.nearest_on_outline(home.as_dvec2(), reach, self.angles.step())?;
+        let to = rounded(to, self.extent);
+        let worst = self.worst_around(patchwork, star, to)?;
+        let gain = self.angles.vector(home, to).length();
+        (worst <= now.max(COT_20)).then_some(Move { node, to, gain, on_outline: true })
+    }
+
+    /// The cotangent of the smallest angle of the pieces inside around a node, if the node were at `to`; `None`
+    /// where a piece outside would get too flat.
+    fn worst_around(&self, patchwork: &Patchwork, star: &[(u32, usize)], to: LatticePoint) -> Option<f64> {
+        let mut largest = 0.0f64;
+        for &(t, i) in star {
+            let [_, b, c] = patchwork.triangles.from_place(t, i).map(|v| patchwork.points[v as usize]);
+            let worst = self.angles.worst([to, b, c]);
+            if patchwork.inside[t as usize] {
+                largest = largest.max(worst);
+            } else if worst > COT_5 && worst > patchwork.worst(self.angles, t) {
+                return None;
+            }
+        }
+        Some(largest)
+    }
+
+    /// The mean length of the edges at a node, in world units.
+    fn mean_edge(&self, patchwork: &Patchwork, star: &[(u32, usize)]) -> f64 {
+        let lengths = star.iter().map(|&(t, i)| {
+            let [a, b, _] = patchwork.triangles.from_place(t, i).map(|v| patchwork.points[v as usize]);
+            self.angles.vector(a, b).length()
+        });
+        lengths.sum::<f64>() / star.len() as f64
+    }
+}

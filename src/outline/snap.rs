@@ -1,0 +1,167 @@
+//! Which nodes move onto the outline, and where.
+
+use super::angles::Angles;
+use super::band::Band;
+use super::triangulation::NONE;
+use crate::domain::RegionOnLattice;
+use crate::geometry::{Lattice, LatticePoint};
+
+/// On which side of the outline a node lies, once the nodes nearest to it have moved onto it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Side {
+    Inside,
+    Outside,
+    /// On the outline, or on the way there.
+    On,
+}
+
+impl Side {
+    pub(super) fn of(inside: bool) -> Self {
+        if inside { Self::Inside } else { Self::Outside }
+    }
+}
+
+/// Where the outline crosses the edges of the band, one point for each edge between a node inside and one
+/// outside.
+pub(super) struct Crossings {
+    /// For each triangle and corner the crossing of the opposite edge, as a share of its length from its first
+    /// end, anticlockwise; NaN where the ends lie on the same side.
+    shares: Vec<[f64; 3]>,
+    extent: LatticePoint,
+}
+
+impl Crossings {
+    pub(super) fn new(band: &Band, region: &RegionOnLattice, lattice: &Lattice) -> Self {
+        let mut shares = vec![[f64::NAN; 3]; band.triangles.len()];
+        for t in 0..shares.len() {
+            for i in 0..3 {
+                let [_, from, to] = band.triangles.from_place(t as u32, i);
+                let across = band.triangles.across[t][i];
+                if band.inside[from as usize] == band.inside[to as usize] {
+                    continue;
+                }
+                if across != NONE && across < t as u32 {
+                    let j = band.triangles.across[across as usize].iter().position(|&n| n == t as u32);
+                    shares[t][i] = 1.0 - shares[across as usize][j.expect("neighbours know each other")];
+                    continue;
+                }
+                let [p, q] = [from, to].map(|v| band.points[v as usize]);
+                shares[t][i] = match band.inside[from as usize] {
+                    true => region.middle_crossing(p, q),
+                    false => 1.0 - region.middle_crossing(q, p),
+                };
+            }
+        }
+        Self { shares, extent: lattice.extent() }
+    }
+
+    /// The crossing of the edge opposite the i-th corner of a triangle.
+    pub(super) fn point(&self, band: &Band, triangle: u32, i: usize) -> LatticePoint {
+        let [_, from, to] = band.from_place(triangle, i, &band.points).map(LatticePoint::as_dvec2);
+        rounded(from + self.shares[triangle as usize][i] * (to - from), self.extent)
+    }
+}
+
+/// The lattice point nearest to real lattice coordinates.
+pub(super) fn rounded(p: glam::DVec2, extent: LatticePoint) -> LatticePoint {
+    let p = (p + 0.5).floor().clamp(glam::DVec2::ZERO, extent.as_dvec2());
+    LatticePoint::new(p.x as u32, p.y as u32)
+}
+
+/// What a node sees around it: its edges, anticlockwise.
+struct Link {
+    /// The nodes at the other ends.
+    nodes: Vec<u32>,
+    /// Triangle and corner opposite each edge.
+    edges: Vec<(u32, usize)>,
+    closed: bool,
+}
+
+impl Link {
+    fn of(band: &Band, node: u32, star: &mut Vec<(u32, usize)>) -> Self {
+        band.triangles.star(node, star);
+        let mut link = Self { nodes: Vec::new(), edges: Vec::new(), closed: false };
+        for &(t, i) in star.iter() {
+            let [_, right, _] = band.triangles.from_place(t, i);
+            link.nodes.push(right);
+            link.edges.push((t, (i + 2) % 3));
+        }
+        let (last, i) = *star.last().expect("the node is in the band");
+        let [_, _, left] = band.triangles.from_place(last, i);
+        link.closed = left == link.nodes[0];
+        if !link.closed {
+            link.nodes.push(left);
+            link.edges.push((last, (i + 1) % 3));
+        }
+        link
+    }
+
+    /// Whether the nodes inside follow one another, and so do those outside. Beyond the frame is outside.
+    fn is_divided_once(&self, band: &Band) -> bool {
+        let beyond = (!self.closed).then_some(false);
+        let signs: Vec<bool> =
+            self.nodes.iter().map(|&v| band.inside[v as usize]).chain(beyond).collect();
+        let changes = (0..signs.len()).filter(|&k| signs[k] != signs[(k + 1) % signs.len()]);
+        changes.count() == 2
+    }
+
+    /// Whether the node may move along its k-th edge. On the frame it moves along the frame, except where the
+    /// domain does not reach the frame on either side of it.
+    fn admits(&self, band: &Band, k: usize) -> bool {
+        let last = self.nodes.len() - 1;
+        let reaches = |k: usize| band.inside[self.nodes[k] as usize];
+        self.closed || k == 0 || k == last || !(reaches(0) || reaches(last))
+    }
+}
+
+/// For each node of the band its side, and where it moves. Nodes that the outline crosses an edge of, nearer to
+/// them than to the other end, move to the nearest such crossing, all at once; but only where the outline passes
+/// between the nodes around them once.
+pub(super) fn snapped(band: &Band, crossings: &Crossings, angles: &Angles) -> (Vec<Side>, Vec<LatticePoint>) {
+    let mut sides: Vec<Side> = band.inside.iter().map(|&inside| Side::of(inside)).collect();
+    let mut goals = band.points.clone();
+    let mut star = Vec::new();
+    for v in (0..band.points.len() as u32).filter(|&v| band.active[v as usize]) {
+        let link = Link::of(band, v, &mut star);
+        if !link.is_divided_once(band) {
+            continue;
+        }
+        if let Some(goal) = nearest_crossing(band, crossings, angles, v, &link) {
+            (sides[v as usize], goals[v as usize]) = (Side::On, goal);
+        }
+    }
+    (sides, goals)
+}
+
+fn nearest_crossing(
+    band: &Band,
+    crossings: &Crossings,
+    angles: &Angles,
+    node: u32,
+    link: &Link,
+) -> Option<LatticePoint> {
+    let home = band.points[node as usize];
+    let mut nearest: Option<(f64, LatticePoint)> = None;
+    for (k, &(t, i)) in link.edges.iter().enumerate() {
+        let share = crossings.shares[t as usize][i];
+        let [_, from, _] = band.triangles.from_place(t, i);
+        let from_node = if from == node { share } else { 1.0 - share };
+        // Comparisons with NaN are false.
+        if !(from_node < 0.5) || !(link.admits(band, k) || from_node == 0.0) {
+            continue;
+        }
+        let point = crossings.point(band, t, i);
+        let distance = angles.vector(home, point).length();
+        if nearest.is_none_or(|(d, other)| (distance, point) < (d, other)) {
+            nearest = Some((distance, point));
+        }
+    }
+    let goal = nearest?.1;
+    // The corners of the frame stay, where the domain has a side of the frame beside them.
+    let is_corner = !link.closed && {
+        let (a, b) = (band.points[link.nodes[0] as usize], band.points[*link.nodes.last()? as usize]);
+        a.x != b.x && a.y != b.y
+    };
+    let stays = is_corner && band.inside[node as usize];
+    (!stays || goal == home).then_some(goal)
+}

@@ -1,0 +1,185 @@
+//! What the outline leaves of a triangle of the mesh.
+//!
+//! Nodes are inside (i), outside (o) or on the outline (•). Where an edge still joins a node inside to one
+//! outside, it is cut (×). No other triangle is divided.
+//!
+//! ```text
+//!       i                •                i                o
+//!      / \              /|\              / \              / \
+//!     /   \            / | \            /   \            /   \
+//!    / all \          / i|o \          ×-----×          ×-----×
+//!   /inside \        /   |   \        / \  o  \        / \  i  \
+//!  i---------•      i----×----o      o---------o      i---------i
+//! ```
+
+use super::angles::Angles;
+use super::band::Band;
+use super::snap::{Crossings, Side};
+use super::triangulation::NONE;
+use crate::geometry::LatticePoint;
+
+/// A triangle after cuts.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Piece {
+    /// Nodes, anticlockwise.
+    pub(super) corners: [u32; 3],
+    pub(super) inside: bool,
+}
+
+/// How far nodes are on the way from home to goal, in eighths: at first all the way, then in steps of retreat.
+const SHARES: [i64; 5] = [8, 4, 2, 1, 0];
+
+/// Where the nodes of the band lie, those that cuts add among them, and which triangles are inside.
+///
+/// Nodes of the band come first, then those in cut edges.
+pub(super) struct Placement {
+    /// For each node of the band.
+    pub(super) sides: Vec<Side>,
+    /// Where each node lies on the mesh; for one in a cut edge its middle.
+    pub(super) homes: Vec<LatticePoint>,
+    /// Its place on the outline; its home, where it does not move.
+    pub(super) goals: Vec<LatticePoint>,
+    /// Its place in [`SHARES`].
+    retreats: Vec<u8>,
+    /// Nodes at corners of the outline, which do not retreat.
+    pub(super) pinned: Vec<bool>,
+    /// For each triangle and corner the node in the opposite edge, or [`NONE`].
+    pub(super) cuts: Vec<[u32; 3]>,
+    /// For each triangle whether it is inside, where all corners are on the outline.
+    pub(super) keeps: Vec<bool>,
+}
+
+impl Placement {
+    /// All nodes at their goals. `sides` and `goals` are those of the nodes of the band. A triangle with all
+    /// corners on the outline is inside if most of them were.
+    pub(super) fn new(band: &Band, crossings: &Crossings, sides: Vec<Side>, goals: Vec<LatticePoint>) -> Self {
+        let mostly_inside = |corners: &[u32; 3]| {
+            corners.iter().filter(|&&v| band.inside[v as usize]).count() >= 2
+        };
+        let mut placement = Self {
+            sides,
+            homes: band.points.clone(),
+            goals,
+            retreats: Vec::new(),
+            pinned: Vec::new(),
+            cuts: vec![[NONE; 3]; band.triangles.len()],
+            keeps: band.triangles.corners.iter().map(mostly_inside).collect(),
+        };
+        placement.cut_edges(band, crossings);
+        placement.retreats = vec![0; placement.homes.len()];
+        placement.pinned = vec![false; placement.homes.len()];
+        placement
+    }
+
+    fn cut_edges(&mut self, band: &Band, crossings: &Crossings) {
+        for t in 0..self.cuts.len() {
+            for i in 0..3 {
+                let [_, from, to] = band.from_place(t as u32, i, &self.sides);
+                let is_cut = matches!((from, to), (Side::Inside, Side::Outside) | (Side::Outside, Side::Inside));
+                if !is_cut || self.cuts[t][i] != NONE {
+                    continue;
+                }
+                let cut = self.homes.len() as u32;
+                let [_, p, q] = band.from_place(t as u32, i, &band.points);
+                self.homes.push(LatticePoint::new((p.x + q.x) / 2, (p.y + q.y) / 2));
+                self.goals.push(crossings.point(band, t as u32, i));
+                self.cuts[t][i] = cut;
+                if let Some(across) = band.triangles.across.get(band.triangles.across[t][i] as usize) {
+                    let j = across.iter().position(|&n| n == t as u32).expect("neighbours know each other");
+                    self.cuts[band.triangles.across[t][i] as usize][j] = cut;
+                }
+            }
+        }
+    }
+
+    /// Where a node lies.
+    #[inline]
+    pub(super) fn point(&self, node: u32) -> LatticePoint {
+        let node = node as usize;
+        let (home, goal) = (self.homes[node], self.goals[node]);
+        let share = SHARES[usize::from(self.retreats[node])];
+        let along = |home: u32, goal: u32| {
+            let (home, goal) = (i64::from(home), i64::from(goal));
+            (home + (goal - home) * share / SHARES[0]) as u32
+        };
+        LatticePoint::new(along(home.x, goal.x), along(home.y, goal.y))
+    }
+
+    /// Whether a node has arrived at its goal on the outline.
+    pub(super) fn is_on_outline(&self, node: u32) -> bool {
+        let can_move = self.sides.get(node as usize).is_none_or(|&side| side == Side::On);
+        can_move && (self.retreats[node as usize] == 0 || self.goals[node as usize] == self.homes[node as usize])
+    }
+
+    /// Whether a node can still retreat towards its home.
+    pub(super) fn can_retreat(&self, node: u32) -> bool {
+        let n = node as usize;
+        !self.pinned[n] && usize::from(self.retreats[n]) + 1 < SHARES.len() && self.goals[n] != self.homes[n]
+    }
+
+    pub(super) fn retreat(&mut self, node: u32) {
+        self.retreats[node as usize] += 1;
+    }
+
+    /// Puts all nodes at their goals again.
+    pub(super) fn advance_all(&mut self) {
+        self.retreats.fill(0);
+    }
+
+    /// Whether all corners of a triangle are on the outline.
+    pub(super) fn is_all_on(&self, band: &Band, triangle: u32) -> bool {
+        band.from_place(triangle, 0, &self.sides) == [Side::On; 3]
+    }
+
+    /// What the outline leaves of a triangle: up to three pieces, of which the quadrilateral's two have the
+    /// diagonal with the better angles.
+    pub(super) fn pieces(&self, band: &Band, triangle: u32, angles: &Angles) -> [Option<Piece>; 3] {
+        let sides = band.from_place(triangle, 0, &self.sides);
+        let count = |side| sides.iter().filter(|&&s| s == side).count();
+        let piece = |corners, side| Some(Piece { corners, inside: side == Side::Inside });
+        let whole = |side| [piece(band.triangles.corners[triangle as usize], side), None, None];
+        let place = |side| sides.iter().position(|&s| s == side).expect("counted");
+        let cut = |i: usize| self.cuts[triangle as usize][i % 3];
+        match (count(Side::Inside), count(Side::Outside)) {
+            (0, 0) => whole(Side::of(self.keeps[triangle as usize])),
+            (_, 0) => whole(Side::Inside),
+            (0, _) => whole(Side::Outside),
+            (1, 1) => {
+                let i = place(Side::On);
+                let [on, b, c] = band.triangles.from_place(triangle, i);
+                let [_, b_side, c_side] = band.from_place(triangle, i, &self.sides);
+                [piece([on, b, cut(i)], b_side), piece([on, cut(i), c], c_side), None]
+            }
+            (inside, _) => {
+                let (alone, others) =
+                    if inside == 1 { (Side::Inside, Side::Outside) } else { (Side::Outside, Side::Inside) };
+                let i = place(alone);
+                let [a, b, c] = band.triangles.from_place(triangle, i);
+                let (ab, ca) = (cut(i + 2), cut(i + 1));
+                let [from_ab, from_b] = angles.diagonals([ab, b, c, ca].map(|v| self.point(v)));
+                let halves = if from_ab <= from_b { [[ab, b, c], [ab, c, ca]] } else { [[ab, b, ca], [b, c, ca]] };
+                [piece([a, ab, ca], alone), piece(halves[0], others), piece(halves[1], others)]
+            }
+        }
+    }
+
+    /// The corners of a piece.
+    pub(super) fn points(&self, corners: [u32; 3]) -> [LatticePoint; 3] {
+        corners.map(|v| self.point(v))
+    }
+
+    /// Whether the triangle across an edge between two nodes on the outline is inside. `across` is that triangle,
+    /// or [`NONE`].
+    pub(super) fn is_inside_across(&self, band: &Band, across: u32, edge: [u32; 2]) -> bool {
+        if across == NONE {
+            return false;
+        }
+        let corners = band.triangles.corners[across as usize];
+        let third = corners.into_iter().find(|v| !edge.contains(v)).expect("three corners");
+        match self.sides[third as usize] {
+            Side::Inside => true,
+            Side::Outside => false,
+            Side::On => self.keeps[across as usize],
+        }
+    }
+}
