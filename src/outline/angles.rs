@@ -35,13 +35,13 @@ impl Angles {
         DVec2::new(steps(from.x, to.x), steps(from.y, to.y)) * self.step
     }
 
-    /// The cotangent of the angle at `at` on the left of the way to `from`, up to `to`; infinite where the turn
-    /// from one to the other is not anticlockwise.
+    /// Whether the angle at `at`, anticlockwise from the direction of `from` to that of `to`, is at least 5°. It may
+    /// be more than 180°, up to 270°.
     #[inline]
-    pub(super) fn cot(&self, at: LatticePoint, from: LatticePoint, to: LatticePoint) -> f64 {
+    pub(super) fn is_open(&self, at: LatticePoint, from: LatticePoint, to: LatticePoint) -> bool {
         let (a, b) = (self.vector(at, from), self.vector(at, to));
-        let cross = a.perp_dot(b);
-        if cross > 0.0 { a.dot(b) / cross } else { f64::INFINITY }
+        let (cross, dot) = (a.perp_dot(b), a.dot(b));
+        dot < 0.0 || (cross > 0.0 && dot <= COT_5 * cross)
     }
 
     /// The cotangent of the smallest angle of a triangle; infinite where its corners do not run anticlockwise.

@@ -1,8 +1,8 @@
 //! Retreats: nodes go back towards home where an angle would be too small.
 
-use super::angles::{Angles, COT_5};
+use super::angles::Angles;
 use super::band::Band;
-use super::flat::{boundary_edges, has_sector};
+use super::patchwork::{Gap, gap};
 use super::snap::Side;
 use super::stencil::{Piece, Placement};
 
@@ -20,14 +20,14 @@ impl Guard<'_> {
     /// Lets nodes retreat, in rounds, until no angle is too small: the nodes of all triangles that fail take one
     /// step back at once. Returns pinned nodes at which an angle stays too small.
     pub(super) fn run(&self, placement: &mut Placement) -> Vec<u32> {
-        let outside_used = self.used_nodes(placement);
         let all = 0..self.band.triangles.len() as u32;
+        let gaps: Vec<Gap> = all.clone().map(|t| gap(self.band, placement, t)).collect();
         let mut suspects: Vec<u32> = all.filter(|&t| self.can_change(placement, t)).collect();
         let mut stuck = Vec::new();
         while !suspects.is_empty() {
             let mut back = Vec::new();
             for &t in &suspects {
-                for corners in self.failing(placement, t, &outside_used) {
+                for corners in self.failing(placement, t, gaps[t as usize]) {
                     let can: Vec<u32> =
                         corners.into_iter().filter(|&v| placement.can_retreat(v)).collect();
                     if can.is_empty() {
@@ -64,51 +64,17 @@ impl Guard<'_> {
         .collect()
     }
 
-    /// For each node of the band whether a triangle inside has it.
-    fn used_nodes(&self, placement: &Placement) -> Vec<bool> {
-        (0..self.band.points.len() as u32)
-            .map(|v| match placement.sides[v as usize] {
-                Side::Inside => true,
-                Side::Outside => false,
-                Side::On => has_sector(self.band, placement, v, true),
-            })
-            .collect()
-    }
-
     /// The corners of the pieces of a triangle of which an angle is too small.
-    fn failing(&self, placement: &Placement, triangle: u32, used: &[bool]) -> Vec<[u32; 3]> {
+    fn failing(&self, placement: &Placement, triangle: u32, gap: Gap) -> Vec<[u32; 3]> {
         let pieces = placement.pieces(self.band, triangle, self.angles);
         let fails = |piece: &Piece| {
-            let worst = self.angles.worst(placement.points(piece.corners));
+            let points = placement.points(piece.corners);
             match piece.inside {
-                true => worst > self.limit,
-                false => worst > COT_5 && !self.is_harmless(placement, triangle, used),
+                true => self.angles.worst(points) > self.limit,
+                false => !gap.is_open(self.angles, piece.corners, points),
             }
         };
         pieces.into_iter().flatten().filter(fails).map(|piece| piece.corners).collect()
-    }
-
-    /// Whether a flat triangle outside with all corners on the outline does not bring parts of the domain too
-    /// close to each other.
-    fn is_harmless(&self, placement: &Placement, triangle: u32, used: &[bool]) -> bool {
-        if !placement.is_all_on(self.band, triangle) {
-            return false;
-        }
-        let boundary = boundary_edges(self.band, placement, triangle, false);
-        match boundary.iter().filter(|&&is| is).count() {
-            0 => true,
-            1 => {
-                let opposite = boundary.iter().position(|&is| is).expect("counted");
-                !used[self.band.triangles.corners[triangle as usize][opposite] as usize]
-            }
-            2 => {
-                let between = boundary.iter().position(|&is| !is).expect("counted");
-                let corners = self.band.triangles.from_place(triangle, between);
-                let [at, from, to] = placement.points(corners);
-                self.angles.cot(at, from, to) <= COT_5
-            }
-            _ => false,
-        }
     }
 
     /// The pinned nodes of a triangle whose nodes cannot retreat, if its smallest angle is below what is allowed

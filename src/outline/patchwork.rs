@@ -1,7 +1,8 @@
 //! The pieces of the triangles near the outline, whose nodes and edges are improved.
 
-use super::angles::{Angles, COT_30};
+use super::angles::{Angles, COT_5, COT_30};
 use super::band::Band;
+use super::flat::{boundary_edges, has_sector};
 use super::stencil::Placement;
 use super::triangulation::{NONE, Triangulation};
 use crate::geometry::LatticePoint;
@@ -9,11 +10,50 @@ use crate::geometry::LatticePoint;
 /// How many times edges are flipped in a row.
 const PASSES: usize = 6;
 
+/// Whether a piece outside may be flat.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Gap {
+    /// It may: nothing comes too close across it.
+    Harmless,
+    /// The angle at this node may not be small: it lies between two edges of the boundary.
+    Angle(u32),
+    /// None of its angles may be small.
+    Full,
+}
+
+impl Gap {
+    /// That of a triangle with all corners on the outline. `boundary` has for each corner whether the opposite
+    /// edge is on the boundary, `used` whether a triangle inside has the corner.
+    pub(super) fn between(corners: [u32; 3], boundary: [bool; 3], used: [bool; 3]) -> Self {
+        let place = |wanted| boundary.iter().position(|&is| is == wanted).expect("counted");
+        match boundary.iter().filter(|&&is| is).count() {
+            0 => Self::Harmless,
+            1 if !used[place(true)] => Self::Harmless,
+            2 => Self::Angle(corners[place(false)]),
+            _ => Self::Full,
+        }
+    }
+
+    /// Whether a triangle with these corners at these points leaves the gap open.
+    pub(super) fn is_open(self, angles: &Angles, corners: [u32; 3], points: [LatticePoint; 3]) -> bool {
+        match self {
+            Self::Harmless => true,
+            Self::Angle(node) => {
+                let i = corners.iter().position(|&v| v == node).expect("a corner of the triangle");
+                angles.is_open(points[i], points[(i + 1) % 3], points[(i + 2) % 3])
+            }
+            Self::Full => angles.worst(points) <= COT_5,
+        }
+    }
+}
+
 /// Pieces inside and outside, which together cover the band.
 pub(super) struct Patchwork {
     pub(super) triangles: Triangulation,
     /// For each piece whether it is inside.
     pub(super) inside: Vec<bool>,
+    /// What flat pieces outside must not do; of no meaning for pieces inside.
+    gaps: Vec<Gap>,
     /// For each piece the triangle of the band whose place it takes. A flip leaves it to the two pieces.
     pub(super) owners: Vec<u32>,
     /// Those of the band, then those in cut edges.
@@ -27,17 +67,19 @@ pub(super) struct Patchwork {
 impl Patchwork {
     pub(super) fn new(band: &Band, placement: &Placement, angles: &Angles) -> Self {
         let nodes = 0..placement.homes.len() as u32;
-        let (mut corners, mut inside, mut owners) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut corners, mut inside, mut owners, mut gaps) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
         for t in 0..band.triangles.len() as u32 {
             for piece in placement.pieces(band, t, angles).into_iter().flatten() {
                 corners.push(piece.corners);
                 inside.push(piece.inside);
                 owners.push(t);
+                gaps.push(gap(band, placement, t));
             }
         }
         Self {
             triangles: Triangulation::joined(nodes.len(), corners),
             inside,
+            gaps,
             owners,
             points: nodes.clone().map(|v| placement.point(v)).collect(),
             on_outline: nodes.map(|v| placement.is_on_outline(v)).collect(),
@@ -47,7 +89,17 @@ impl Patchwork {
 
     /// The cotangent of the smallest angle of a piece.
     pub(super) fn worst(&self, angles: &Angles, triangle: u32) -> f64 {
-        angles.worst(self.triangles.corners[triangle as usize].map(|v| self.points[v as usize]))
+        angles.worst(self.corners(triangle))
+    }
+
+    /// Where the corners of a piece lie.
+    pub(super) fn corners(&self, triangle: u32) -> [LatticePoint; 3] {
+        self.triangles.corners[triangle as usize].map(|v| self.points[v as usize])
+    }
+
+    /// Whether a piece outside still leaves its gap open, with its corners at these points.
+    pub(super) fn leaves_gap(&self, angles: &Angles, triangle: u32, points: [LatticePoint; 3]) -> bool {
+        self.gaps[triangle as usize].is_open(angles, self.triangles.corners[triangle as usize], points)
     }
 
     /// The pieces inside with an angle below 30°.
@@ -109,4 +161,14 @@ impl Patchwork {
         let gain = before - after;
         (after.is_finite() && gain > 1e-9).then_some(gain)
     }
+}
+
+/// What the pieces outside of a triangle of the band must not do.
+pub(super) fn gap(band: &Band, placement: &Placement, triangle: u32) -> Gap {
+    let corners = band.triangles.corners[triangle as usize];
+    if !placement.is_all_on(band, triangle) {
+        return Gap::Full;
+    }
+    let used = corners.map(|v| has_sector(band, placement, v, true));
+    Gap::between(corners, boundary_edges(band, placement, triangle, false), used)
 }

@@ -4,7 +4,7 @@ use std::f64::consts::FRAC_1_SQRT_2;
 
 use glam::{DVec2, dvec2};
 
-use super::angles::{Angles, COT_5, COT_20};
+use super::angles::{Angles, COT_20};
 use super::patchwork::Patchwork;
 use super::snap::rounded;
 use crate::domain::RegionOnLattice;
@@ -135,11 +135,13 @@ impl Smoother<'_> {
     fn worst_around(&self, patchwork: &Patchwork, star: &[(u32, usize)], to: LatticePoint) -> Option<f64> {
         let mut largest = 0.0f64;
         for &(t, i) in star {
-            let [_, b, c] = patchwork.triangles.from_place(t, i).map(|v| patchwork.points[v as usize]);
-            let worst = self.angles.worst([to, b, c]);
+            let mut points = patchwork.corners(t);
+            points[i] = to;
             if patchwork.inside[t as usize] {
-                largest = largest.max(worst);
-            } else if worst > COT_5 && worst > patchwork.worst(self.angles, t) {
+                largest = largest.max(self.angles.worst(points));
+            } else if !patchwork.leaves_gap(self.angles, t, points)
+                && self.angles.worst(points) > patchwork.worst(self.angles, t)
+            {
                 return None;
             }
         }
