@@ -250,6 +250,8 @@ fn smooth_outlines_have_all_nodes_on_them() {
         let outline = OutlineMesh::new(&built.mesh, &built.domain).unwrap();
         let figures = judge(&outline.extract(&built.mesh), &domain, diameter, "disc");
         println!("{figures:?} {:?}", outline.fit());
+        let finder = Finder::new(domain.region().unwrap().edges().collect(), diameter); let extract = outline.extract(&built.mesh);
+        for (n, on) in extract.on_boundary().into_iter().enumerate() { let p = extract.world_nodes().nth(n).unwrap(); if on && finder.distance(p, diameter) > 1e-8 { println!("off {p}"); } }
     }
 }
 

@@ -55,6 +55,14 @@ impl Crossings {
         Self { shares, extent: lattice.extent() }
     }
 
+    /// The crossing of the edge opposite the i-th corner of a triangle, as a share of its length from the end
+    /// `node`; NaN where there is none.
+    fn share_from(&self, band: &Band, node: u32, (triangle, i): (u32, usize)) -> f64 {
+        let [_, from, _] = band.triangles.from_place(triangle, i);
+        let share = self.shares[triangle as usize][i];
+        if from == node { share } else { 1.0 - share }
+    }
+
     /// The crossing of the edge opposite the i-th corner of a triangle.
     pub(super) fn point(&self, band: &Band, triangle: u32, i: usize) -> LatticePoint {
         let [_, from, to] = band.from_place(triangle, i, &band.points).map(LatticePoint::as_dvec2);
@@ -107,9 +115,11 @@ impl Link {
 
     /// Whether the node may move along its k-th edge. On the frame it moves along the frame, except where the
     /// domain does not reach the frame on either side of it.
-    fn admits(&self, band: &Band, k: usize) -> bool {
+    fn admits(&self, band: &Band, crossings: &Crossings, node: u32, k: usize) -> bool {
         let last = self.nodes.len() - 1;
-        let reaches = |k: usize| band.inside[self.nodes[k] as usize];
+        // The outline may touch the frame in the neighbour only.
+        let touches = |k: usize| crossings.share_from(band, node, self.edges[k]) == 1.0;
+        let reaches = |k: usize| band.inside[self.nodes[k] as usize] && !touches(k);
         self.closed || k == 0 || k == last || !(reaches(0) || reaches(last))
     }
 }
@@ -143,11 +153,10 @@ fn nearest_crossing(
     let home = band.points[node as usize];
     let mut nearest: Option<(f64, LatticePoint)> = None;
     for (k, &(t, i)) in link.edges.iter().enumerate() {
-        let share = crossings.shares[t as usize][i];
-        let [_, from, _] = band.triangles.from_place(t, i);
-        let from_node = if from == node { share } else { 1.0 - share };
+        let share = crossings.share_from(band, node, (t, i));
         // Comparisons with NaN are false.
-        if !(from_node < 0.5) || !(link.admits(band, k) || from_node == 0.0) {
+        let is_near = share < 0.5;
+        if !is_near || !(share == 0.0 || link.admits(band, crossings, node, k)) {
             continue;
         }
         let point = crossings.point(band, t, i);
