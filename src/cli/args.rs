@@ -86,7 +86,7 @@ pub struct InputArguments {
     #[arg(long, value_enum, default_value_t = BoundaryArgument::Fitted)]
     pub boundary: BoundaryArgument,
 
-    /// Largest diameter of triangles on the outline, when fitted [default: an eighth of the spacing]
+    /// Largest diameter of triangles on the outline, but with --boundary report [default: an eighth of the spacing]
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
     pub boundary_diameter: Option<f64>,
 
@@ -177,6 +177,8 @@ pub enum BoundaryArgument {
     Report,
     /// The mesh is refined along the outline; then a triangle stays when its centroid is inside
     Fitted,
+    /// As fitted; then nodes along the outline move onto it
+    Outline,
 }
 
 /// The refinement rule, as typed.

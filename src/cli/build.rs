@@ -14,6 +14,7 @@ use crate::domain::Region;
 use crate::field::{PaintRef, RefinementRule};
 use crate::io;
 use crate::mesh::{CoarseError, Extract, InvalidTarget, Limits, Mesh, Progress, Removed, TriangleId};
+use crate::outline::OutlineMesh;
 use crate::paint::PaintRasters;
 use crate::text::Grouped;
 
@@ -23,6 +24,8 @@ const SLICE: usize = 1 << 18;
 /// A mesh that was asked for, and how it was made.
 pub struct FinishedMesh {
     built: BuiltMesh,
+    /// What is changed along the outline, where the mesh has its nodes there.
+    pub outline: Option<OutlineMesh>,
     /// The paint of a project.
     paint: Option<PaintRasters>,
     /// The polygons of the domain, if it has some.
@@ -37,6 +40,11 @@ impl FinishedMesh {
     /// The mesh.
     pub fn mesh(&self) -> &Mesh {
         &self.built.mesh
+    }
+
+    /// The mesh as files get it.
+    pub fn extract(&self) -> Extract<'_> {
+        self.outline.as_ref().map_or_else(|| self.mesh().extract(), |outline| outline.extract(self.mesh()))
     }
 
     /// What was removed from the mesh.
@@ -96,7 +104,8 @@ pub fn build(request: &MeshRequest, terminal: &mut Terminal) -> Result<FinishedM
     if built.mesh.triangle_count() == 0 {
         return Err(CoarseError::EmptyDomain { spacing: built.mesh.lattice().spacing() }.into());
     }
-    Ok(FinishedMesh { built, paint, region, refinement, capped })
+    let outline = OutlineMesh::new(&built.mesh, &built.domain);
+    Ok(FinishedMesh { built, outline, paint, region, refinement, capped })
 }
 
 /// What to mesh: that of a saved document, as the window does, or what the options describe.

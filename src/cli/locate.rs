@@ -37,7 +37,7 @@ pub fn run(typed: &LocateArguments, out: &mut dyn Write, terminal: &mut Terminal
     let points = read_points(&typed.points, &request)?;
     let finished = build(&request, terminal)?;
     note_capped(&finished, terminal);
-    let extract = finished.mesh().extract();
+    let extract = finished.extract();
     let answers = Answers { finished: &finished, extract, quantity: quantity.as_ref() };
     let Some(path) = output else {
         let mut out = BufWriter::new(out);

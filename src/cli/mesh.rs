@@ -81,7 +81,12 @@ fn report_violations(
         let count = Grouped(too_coarse);
         terminal.say(&format!("check: {count} triangles exceed their target diameter (Eq. 14)"));
     }
-    let count = broken.len() + too_coarse;
+    let on_outline = finished.outline.as_ref().map(|outline| outline.violations(&finished.extract()));
+    let on_outline = on_outline.unwrap_or_default();
+    for violation in on_outline.iter().take(SHOWN_VIOLATIONS) {
+        terminal.say(&format!("check: {violation}"));
+    }
+    let count = broken.len() + on_outline.len() + too_coarse;
     if count == 0 {
         terminal.say("check: every invariant of the mesh holds");
     }
@@ -97,7 +102,7 @@ fn write_files(
 ) -> Result<(), Failure> {
     let mesh = finished.mesh();
     let look = look.for_mesh(mesh);
-    let extract = mesh.extract();
+    let extract = finished.extract();
     let (mut target_diameter, mut quantities) = (Vec::new(), Vec::new());
     if outputs.iter().any(Output::wants_node_data) {
         target_diameter = finished.target_at_nodes(&extract);

@@ -33,6 +33,8 @@ pub struct MeshRequest {
     pub parts: Option<KeptParts>,
     /// Whether pinches stay in any case.
     pub keeps_pinches: bool,
+    /// Whether nodes along the outline move onto it, where `boundary` is `None`.
+    pub on_outline: bool,
     /// Longest side of a coarse cell, in world units.
     pub spacing: Option<f64>,
     /// All sources of target diameters.
@@ -111,6 +113,7 @@ impl MeshRequest {
             boundary: boundary(typed)?,
             parts: typed.parts.as_deref().map(parts).transpose()?,
             keeps_pinches: typed.keep_pinches,
+            on_outline: typed.boundary == BoundaryArgument::Outline,
             spacing: typed.spacing.map(|value| length("--spacing", value)).transpose()?,
             sources,
             h_min: typed.h_min.map(|value| length("--h-min", value)).transpose()?,
@@ -156,7 +159,7 @@ impl MeshRequest {
             (typed.resolution.is_some() && self.rule == RefinementRule::Vertex).then_some(
                 "--resolution changes nothing by the vertex rule, which sees no pixels; see --rule.",
             ),
-            (typed.boundary == BoundaryArgument::Report && self.region.is_none())
+            (typed.boundary != BoundaryArgument::Fitted && self.region.is_none())
                 .then_some("--boundary changes nothing without --region."),
         ];
         unused.into_iter().flatten().map(str::to_owned).collect()
@@ -203,7 +206,7 @@ fn boundary(typed: &InputArguments) -> Result<Option<BoundaryTreatment>, Failure
     let Some(diameter) = given else {
         return Ok(match typed.boundary {
             BoundaryArgument::Report => Some(BoundaryTreatment::Report),
-            BoundaryArgument::Fitted => None,
+            BoundaryArgument::Fitted | BoundaryArgument::Outline => None,
         });
     };
     let problem = if typed.region.is_none() {
@@ -211,7 +214,9 @@ fn boundary(typed: &InputArguments) -> Result<Option<BoundaryTreatment>, Failure
     } else if typed.boundary == BoundaryArgument::Report {
         "with --boundary report nothing is refined along the outline. Take --boundary fitted, or leave it out"
     } else {
-        return Ok(Some(BoundaryTreatment::Fitted { diameter }));
+        let fitted = BoundaryTreatment::Fitted { diameter };
+        let on_outline = typed.boundary == BoundaryArgument::Outline;
+        return Ok(Some(if on_outline { fitted.on_outline() } else { fitted }));
     };
     Err(Failure::Usage(format!("--boundary-diameter {diameter}: {problem}.")))
 }

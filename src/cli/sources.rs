@@ -93,10 +93,11 @@ fn domain(request: &MeshRequest, placed: &[Option<Raster>]) -> Result<Domain, Fa
 }
 
 fn boundary(request: &MeshRequest, spacing: f64, lattice: &Lattice) -> Result<BoundaryTreatment, Failure> {
-    if let Some(BoundaryTreatment::Fitted { diameter }) = request.boundary {
+    if let Some(diameter) = request.boundary.and_then(|boundary| boundary.diameter()) {
         check_resolvable(diameter, lattice)?;
     }
-    Ok(request.boundary.unwrap_or(BoundaryTreatment::usual(spacing)))
+    let usual = BoundaryTreatment::usual(spacing);
+    Ok(request.boundary.unwrap_or(if request.on_outline { usual.on_outline() } else { usual }))
 }
 
 /// Refuses a diameter at the outline that the lattice cannot resolve: the refinement would fail wherever the

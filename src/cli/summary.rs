@@ -6,7 +6,8 @@ use serde::Serialize;
 use super::build::FinishedMesh;
 use crate::domain::{FitQuality, Region};
 use crate::field::RefinementRule;
-use crate::mesh::{Removed, RemovedPart, Topology};
+use crate::mesh::{Extract, Removed, RemovedPart, Topology};
+use crate::outline::{OutlineFit, angle_range};
 use crate::text::Grouped;
 
 /// The figures of a mesh; its JSON is the answer of `--json`.
@@ -29,6 +30,9 @@ pub struct Summary {
     /// How the mesh renders the outline of a region.
     #[serde(flatten)]
     pub outline: Option<Outline>,
+    /// How well the nodes of the boundary lie on the outline, where they are moved there.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub outline_nodes: Option<OutlineNodes>,
     /// Side δ of a coarse cell, in world units.
     pub spacing: f64,
     /// "vertex" or "area".
@@ -43,6 +47,45 @@ pub struct Summary {
     pub violations: Option<usize>,
     #[serde(skip)]
     diameters: Vec<f64>,
+}
+
+/// Nodes along the outline of a region, and the angles of the mesh that has them.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct OutlineNodes {
+    /// Nodes of the boundary along the outline.
+    pub boundary: usize,
+    /// Those on the polygons.
+    pub on_outline: usize,
+    /// Largest distance of the others from the polygons, in world units.
+    pub farthest: f64,
+    /// Sharp corners of the polygons that are nodes.
+    pub corners: usize,
+    /// In degrees, of the whole mesh.
+    pub smallest_angle: f64,
+    /// In degrees, of the whole mesh.
+    pub largest_angle: f64,
+}
+
+impl OutlineNodes {
+    fn of(fit: OutlineFit, extract: &Extract) -> Self {
+        let OutlineFit { nodes, on_outline, farthest, corners } = fit;
+        let [smallest_angle, largest_angle] = angle_range(extract);
+        Self { boundary: nodes, on_outline, farthest, corners, smallest_angle, largest_angle }
+    }
+
+    fn for_people(&self) -> String {
+        let off = match self.boundary - self.on_outline {
+            0 => String::new(),
+            _ => format!(", the others at most {} off", short(self.farthest)),
+        };
+        format!(
+            "{} of {} boundary nodes on the outline{off}; angles {:.1}° to {:.1}°\n",
+            Grouped(self.on_outline),
+            Grouped(self.boundary),
+            self.smallest_angle,
+            self.largest_angle,
+        )
+    }
 }
 
 /// A region compared with its mesh. Lengths and areas are in world units.
@@ -199,12 +242,16 @@ impl Summary {
     /// The figures of a mesh.
     pub fn of(finished: &FinishedMesh, violations: Option<usize>) -> Self {
         let mesh = finished.mesh();
-        let levels = mesh.level_counts();
-        let topology = finished.region.as_ref().map(|_| mesh.topology());
+        let on_outline = finished.outline.as_ref().map(|outline| (outline.fit(), finished.extract()));
+        let (levels, topology, area) = match &on_outline {
+            Some((_, extract)) => (extract.level_counts(), Some(extract.topology()), extract.area()),
+            None => (mesh.level_counts(), finished.region.as_ref().map(|_| mesh.topology()), mesh.area()),
+        };
         Self {
-            triangles: mesh.triangle_count(),
+            triangles: levels.iter().sum(),
             nodes: topology.map_or(mesh.raw_nodes().len(), |topology| topology.nodes),
-            area: mesh.area(),
+            area,
+            outline_nodes: on_outline.map(|(fit, extract)| OutlineNodes::of(fit, &extract)),
             outline: finished
                 .region
                 .as_ref()
@@ -239,6 +286,9 @@ impl Summary {
         );
         if let Some(outline) = &self.outline {
             text.insert_str(text.len() - 1, &outline.for_people(self.area));
+        }
+        if let Some(nodes) = &self.outline_nodes {
+            text.insert_str(text.len() - 1, &nodes.for_people());
         }
         text += &format!("{:>5}  {:>12}  {:>13}\n", "level", "diameter", "triangles");
         for (level, (&count, diameter)) in self.levels.iter().zip(&self.diameters).enumerate() {

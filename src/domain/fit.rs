@@ -30,6 +30,11 @@ pub enum BoundaryTreatment {
 }
 
 impl BoundaryTreatment {
+    /// The same treatment with nodes on the boundary, where the mesh is refined along it.
+    pub fn on_outline(self) -> Self {
+        self.diameter().map_or(self, |diameter| Self::OnOutline { diameter })
+    }
+
     /// Largest diameter of a triangle that the boundary passes through, in world units; `None` where the mesh is
     /// not refined along it.
     pub fn diameter(&self) -> Option<f64> {

@@ -30,5 +30,7 @@ mod guard;
 mod patchwork;
 mod smooth;
 mod outline_mesh;
+mod check;
 
+pub use check::{OutlineViolation, angle_range};
 pub use outline_mesh::{OutlineFit, OutlineMesh};

@@ -22,6 +22,8 @@ const ROUNDS: usize = 8;
 pub struct OutlineMesh {
     patch: MeshPatch,
     fit: OutlineFit,
+    /// The cotangent of the smallest angle that is accepted beside a corner of the outline; 0 without corners.
+    corner_limit: f64,
 }
 
 /// How well the nodes of the boundary lie on the outline.
@@ -49,7 +51,7 @@ impl OutlineMesh {
         let signs = signs(mesh, region);
         let band = Band::new(mesh, &signs);
         let mut placement = placed(&band, region, mesh.lattice(), &angles);
-        retreat(mesh, &band, &mut placement, region, &angles);
+        let corner_limit = retreat(mesh, &band, &mut placement, region, &angles);
         let mut patchwork = Patchwork::new(&band, &placement, &angles);
         let smoother = Smoother { region, angles: &angles, extent: mesh.lattice().extent() };
         for _ in 0..ROUNDS {
@@ -58,7 +60,7 @@ impl OutlineMesh {
         }
         smoother.pull(&mut patchwork);
         let fit = fit(&patchwork, region, &angles);
-        Self { patch: patch(mesh, &signs, &band, &patchwork, &angles), fit }
+        Self { patch: patch(mesh, &signs, &band, &patchwork, &angles), fit, corner_limit }
     }
 
     /// The mesh with the changes, for files and summaries.
@@ -72,6 +74,10 @@ impl OutlineMesh {
     /// What is changed.
     pub fn patch(&self) -> &MeshPatch {
         &self.patch
+    }
+
+    pub(super) fn corner_limit(&self) -> f64 {
+        self.corner_limit
     }
 
     /// How well the boundary lies on the outline.
@@ -99,15 +105,15 @@ fn placed(band: &Band, region: &RegionOnLattice, lattice: &Lattice, angles: &Ang
 }
 
 /// Moves nodes to sharp corners, and lets nodes retreat where angles are too small. Corners where that does not
-/// help are given up.
-fn retreat(mesh: &Mesh, band: &Band, placement: &mut Placement, region: &RegionOnLattice, angles: &Angles) {
+/// help are given up. Returns the cotangent of the smallest angle that is accepted beside the others.
+fn retreat(mesh: &Mesh, band: &Band, placement: &mut Placement, region: &RegionOnLattice, angles: &Angles) -> f64 {
     let mut pins = pins(mesh, band, placement, region, angles);
     pins.iter().for_each(|pin| pin.apply(placement));
     loop {
         let pin_limits = pins.iter().map(|pin| (pin.node, pin.limit)).collect();
         let stuck = Guard { band, angles, limit: angles.limit(), pin_limits }.run(placement);
         if stuck.is_empty() {
-            return;
+            return pins.iter().map(|pin| pin.limit).fold(0.0, f64::max);
         }
         let (given_up, kept) = pins.into_iter().partition(|pin| stuck.binary_search(&pin.node).is_ok());
         pins = kept;
@@ -122,8 +128,9 @@ fn fit(patchwork: &Patchwork, region: &RegionOnLattice, angles: &Angles) -> Outl
     let mut star = Vec::new();
     for (v, &point) in patchwork.points.iter().enumerate() {
         patchwork.triangles.star(v as u32, &mut star);
-        let classes = |inside: bool| star.iter().any(|&(t, _)| patchwork.inside[t as usize] == inside);
-        if !(classes(true) && classes(false)) {
+        // Nodes along the frame alone have no triangles outside around them.
+        let has_outside = star.iter().any(|&(t, _)| !patchwork.inside[t as usize]);
+        if star.is_empty() || !patchwork.is_on_boundary(&star) || !(has_outside || patchwork.on_outline[v]) {
             continue;
         }
         fit.nodes += 1;

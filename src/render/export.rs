@@ -110,7 +110,7 @@ impl ExportFormat {
             }
             Self::Svg => svg::write(&mut meter.count(out), extract, &look.for_svg(mesh.lattice())),
             Self::Png => {
-                let picture = look.draw(mesh);
+                let picture = look.draw(mesh, extract);
                 meter.check()?;
                 png::write(&mut meter.count(out), picture.size, &picture.rgba)
             }
@@ -145,7 +145,7 @@ impl Look {
         [self.width, height]
     }
 
-    fn draw(&self, mesh: &Mesh) -> Image {
+    fn draw(&self, mesh: &Mesh, extract: &Extract) -> Image {
         let lattice = mesh.lattice();
         let camera = Camera::fit(lattice, lattice.bounds(), self.size(lattice), 0.0);
         let colors = self.level_colors.clone();
@@ -153,7 +153,12 @@ impl Look {
             Ground::Dark => Style::dark(colors),
             Ground::Light => Style::light(colors),
         };
-        software::draw(mesh, &camera, &Style { edges: self.edges, ..style }, None, &[])
+        let style = Style { edges: self.edges, ..style };
+        if extract.is_patched() {
+            software::draw_extract(extract, &camera, &style)
+        } else {
+            software::draw(mesh, &camera, &style, None, &[])
+        }
     }
 
     fn for_svg(&self, lattice: &Lattice) -> svg::SvgStyle<'_> {

@@ -16,6 +16,7 @@ pub struct Extract<'a> {
     pub(super) triangles: Cow<'a, [Triangle]>,
     /// Where some triangles were left out: the place of each triangle of the mesh.
     pub(super) places: Option<Vec<Neighbour>>,
+    pub(super) is_patched: bool,
 }
 
 /// A triangle in plain numbers, for writers of files.
@@ -69,7 +70,7 @@ impl Mesh {
             return self.extract_inside();
         }
         let (nodes, triangles) = (Cow::Borrowed(&self.nodes[..]), Cow::Borrowed(&self.triangles[..]));
-        Extract { lattice: self.lattice, nodes, triangles, places: None }
+        Extract { lattice: self.lattice, nodes, triangles, places: None, is_patched: false }
     }
 
     fn extract_inside(&self) -> Extract<'_> {
@@ -94,7 +95,7 @@ impl Mesh {
             renumbered
         };
         let triangles = self.triangles().map(|(_, triangle)| renumbered(triangle)).collect();
-        Extract { lattice: self.lattice, nodes: Cow::Owned(nodes), triangles, places: Some(places) }
+        Extract { lattice: self.lattice, nodes: Cow::Owned(nodes), triangles, places: Some(places), is_patched: false }
     }
 }
 
@@ -121,6 +122,20 @@ impl Extract<'_> {
     /// When the id is not of the mesh.
     pub fn place_of(&self, id: TriangleId) -> Option<TriangleId> {
         self.places.as_ref().map_or(Some(id), |places| places[id.index()].triangle())
+    }
+
+    /// Whether a [`MeshPatch`](super::MeshPatch) changed nodes and triangles.
+    pub fn is_patched(&self) -> bool {
+        self.is_patched
+    }
+
+    /// Area of the triangles, in square world units, computed from the coordinates of the nodes.
+    pub fn area(&self) -> f64 {
+        let doubled = self.triangles.iter().map(|triangle| {
+            let [a, b, c] = triangle.edge_nodes().map(|(from, _)| self.node(from).as_dvec2());
+            (b - a).perp_dot(c - a)
+        });
+        0.5 * doubled.sum::<f64>() * self.lattice.step().x * self.lattice.step().y
     }
 
     /// Lattice coordinates of a node.

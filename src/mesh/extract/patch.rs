@@ -68,6 +68,7 @@ impl Mesh {
             nodes: Cow::Owned(nodes),
             triangles: Cow::Owned(triangles),
             places: Some(places),
+            is_patched: true,
         }
     }
 }

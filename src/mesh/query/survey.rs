@@ -1,7 +1,7 @@
 //! What kind of shape a mesh has: how many parts, how many holes; and what numbers its triangles have in
 //! files.
 
-use crate::mesh::extract::{Numbering, RankBits};
+use crate::mesh::extract::{Extract, Numbering, RankBits};
 use crate::mesh::kernel::{Mesh, Progress};
 
 /// The shape of a mesh's domain, as the triangles show it.
@@ -91,6 +91,30 @@ impl Mesh {
         let mut survey = Survey::new(self);
         survey.advance(self, usize::MAX);
         survey.topology(self)
+    }
+}
+
+impl Extract<'_> {
+    /// Counts parts and holes in one go.
+    pub fn topology(&self) -> Topology {
+        let (nodes, triangles) = (self.nodes().len(), self.triangles().len());
+        let (mut by_edge, mut by_corner) = (Forest::new(triangles), Forest::new(nodes));
+        let mut boundary_edges = 0;
+        for (index, triangle) in self.triangles().iter().enumerate() {
+            for across in triangle.raw_neighbours {
+                match across.triangle() {
+                    Some(id) => by_edge.join(index, id.index()),
+                    None => boundary_edges += 1,
+                }
+            }
+            let [a, b, c] = triangle.vertices.map(|v| v.index());
+            by_corner.join(a, b);
+            by_corner.join(a, c);
+        }
+        let roots = |forest: &Forest, count: usize| (0..count).filter(|&n| forest.is_root(n)).count();
+        let (parts, joined) = (roots(&by_edge, triangles), roots(&by_corner, nodes));
+        let edges = (3 * triangles + boundary_edges) / 2;
+        Topology { nodes, parts, holes: joined + edges - nodes - triangles }
     }
 }
 

@@ -8,7 +8,7 @@ use glam::DVec2;
 use self::rasterizer::{LevelShader, Rasterizer};
 use super::{HUGE_LEG_PX, Image};
 use crate::geometry::LatticePoint;
-use crate::mesh::Mesh;
+use crate::mesh::{Extract, Mesh, Triangle};
 use crate::scene::{Camera, LevelPaint, Outline, Overlay, Style};
 
 /// Draws a mesh as `camera` sees it, the overlay above it, and outlines on top.
@@ -24,7 +24,8 @@ pub fn draw(
 ) -> Image {
     let [r, g, b, _] = style.ground;
     let mut image = Image::filled(camera.size_px(), [r, g, b, 0xff]);
-    draw_triangles(&mut image, mesh, &camera.on_lattice(mesh.lattice()), style);
+    let (nodes, triangles) = (mesh.raw_nodes(), mesh.raw_triangles());
+    draw_triangles(&mut image, nodes, triangles, &camera.on_lattice(mesh.lattice()), style);
     if let Some(overlay) = overlay {
         blend_overlay(&mut image, camera, overlay);
     }
@@ -32,19 +33,34 @@ pub fn draw(
     image
 }
 
-fn draw_triangles(image: &mut Image, mesh: &Mesh, camera: &Camera, style: &Style) {
+/// Draws what files get of a mesh.
+pub fn draw_extract(extract: &Extract, camera: &Camera, style: &Style) -> Image {
+    let [r, g, b, _] = style.ground;
+    let mut image = Image::filled(camera.size_px(), [r, g, b, 0xff]);
+    let camera = camera.on_lattice(extract.lattice());
+    draw_triangles(&mut image, extract.nodes(), extract.triangles(), &camera, style);
+    image
+}
+
+fn draw_triangles(
+    image: &mut Image,
+    nodes: &[LatticePoint],
+    triangles: &[Triangle],
+    camera: &Camera,
+    style: &Style,
+) {
     let paints = LevelPaint::all(camera, style);
     let shaders = paints.map(|paint| LevelShader::new(&paint, style));
     let snapped: Vec<[i32; 2]> =
-        mesh.raw_nodes().iter().map(|&p| rasterizer::snapped(camera.screen_from_lattice(p))).collect();
+        nodes.iter().map(|&p| rasterizer::snapped(camera.screen_from_lattice(p))).collect();
     let mut rasterizer = Rasterizer::new(image);
-    for triangle in mesh.raw_triangles().iter().filter(|t| !t.is_outside()) {
+    for triangle in triangles.iter().filter(|t| !t.is_outside()) {
         let level = triangle.level() as usize;
         if paints[level].leg_px < HUGE_LEG_PX {
             let corners = triangle.vertices.map(|v| snapped[v.index()]);
             rasterizer.fill_snapped(corners, triangle.raw_boundary_opposite(), &shaders[level]);
         } else {
-            let corners = triangle.vertices.map(|v| mesh.node(v));
+            let corners = triangle.vertices.map(|v| nodes[v.index()]);
             let half_planes = half_planes(corners, camera);
             rasterizer.fill_half_planes(&half_planes, triangle.raw_boundary_opposite(), &shaders[level]);
         }
