@@ -10,9 +10,9 @@ use glam::{DVec2, dvec2};
 use meshbrush::internals::build::{BuiltMesh, FieldSampling, MeshBuilder, MeshSpec};
 use meshbrush::internals::domain::{BoundaryTreatment, Domain, Polygon, Ring};
 use meshbrush::internals::field::{Formula, RefinementRule, Source, TargetFieldSpec, Transfer};
-use meshbrush::internals::geometry::Lattice;
+use meshbrush::internals::geometry::{Lattice, LatticePoint, LatticeRect};
 use meshbrush::internals::io::geojson;
-use meshbrush::internals::mesh::{Extract, Limits, Progress};
+use meshbrush::internals::mesh::{Element, Extract, Limits, Progress, Updater};
 use meshbrush::internals::outline::OutlineMesh;
 
 /// The mesh as the program makes it, for a formula of the target diameter under the vertex rule.
@@ -183,7 +183,11 @@ fn coast(random: &mut Rng, centre: DVec2, radius: f64, corners: usize, roughness
 fn spit(random: &mut Rng, from: DVec2, to: DVec2) -> Ring {
     let width = 0.06 * 0.02f64.powf(random.f64());
     let across = width * (to - from).normalize().perp();
-    if random.bool() { vec![from, to - across, to + across] } else { vec![from - across, to - across, to + across, from + across] }
+    if random.bool() {
+        vec![from, to - across, to + across]
+    } else {
+        vec![from - across, to - across, to + across, from + across]
+    }
 }
 
 /// Land with bays, spits, inlets, islands, rings that touch and needles; and the sea around it or the land.
@@ -216,53 +220,186 @@ fn random_coast(random: &mut Rng) -> Vec<Polygon> {
     polygons
 }
 
+/// The smallest angle that may occur, in degrees: arctan of a third of the ratio of a cell's sides, or 18.4°; and
+/// beside sharp corners 12°, or 0.8 times the angle of the corner.
+fn bound(domain: &Domain, lattice: &Lattice, corners: usize) -> f64 {
+    let step = lattice.step();
+    let ratio = step.min_element() / step.max_element();
+    let bound = (ratio / 3.0).atan().to_degrees().min(18.4);
+    if corners == 0 {
+        return bound;
+    }
+    let rings = domain.region().unwrap().rings();
+    let angles = rings.flat_map(|ring| {
+        (0..ring.len()).map(|k| {
+            let [before, at, after] = [ring.len() - 1, 0, 1].map(|n| ring[(k + n) % ring.len()]);
+            let angle = (after - at).angle_to(before - at).to_degrees();
+            if angle < 0.0 { angle + 360.0 } else { angle }
+        })
+    });
+    bound.min(12.0).min(0.8 * angles.fold(360.0, f64::min))
+}
+
+/// The triangles by their corners, in an order of their own.
+fn shape(extract: &Extract) -> Vec<[[u32; 2]; 3]> {
+    let corners = |cell: meshbrush::internals::mesh::Cell| {
+        let corners = cell.corners.map(|node| extract.nodes()[node]).map(|p| [p.x, p.y]);
+        let lowest = (0..3).min_by_key(|&i| corners[i]).unwrap();
+        [0, 1, 2].map(|i| corners[(lowest + i) % 3])
+    };
+    let mut shape: Vec<_> = extract.cells().map(corners).collect();
+    shape.sort_unstable();
+    shape
+}
+
+fn disc(corners: u32) -> Domain {
+    let ring = (0..corners).map(|k| DVec2::from_angle(TAU * f64::from(k) / f64::from(corners))).collect();
+    Domain::of_polygons(&[vec![ring]]).unwrap()
+}
+
+/// A case of the random coasts: the domain, its mesh and the boundary diameter.
+fn case(seed: u64) -> (Domain, BuiltMesh, f64) {
+    let mut random = Rng::with_seed(seed);
+    let domain = Domain::of_polygons(&random_coast(&mut random)).unwrap();
+    let spacing = domain.bounds.size().max_element() / (2.0 + 6.0 * random.f64());
+    let diameter = spacing * 0.04 * 12f64.powf(random.f64());
+    let target = format!("{}", spacing * (0.1 + random.f64()));
+    let built = built(&domain, spacing, diameter, &target);
+    (domain, built, diameter)
+}
+
 #[test]
 fn random_coasts_are_valid_domains() {
-    let count = std::env::var("OUTLINE_COASTS").map_or(120, |count| count.parse().unwrap());
-    let (mut all, mut off, mut smallest, mut largest, mut farthest) = (0, 0, 180.0f64, 0.0f64, 0.0f64);
+    // The environment can ask for more.
+    let count = std::env::var("OUTLINE_COASTS").map_or(150, |count| count.parse().unwrap());
+    let (mut all, mut on, mut pinned) = (0, 0, 0);
+    let (mut smallest, mut largest, mut farthest) = (180.0f64, 0.0f64, 0.0f64);
     for seed in 0..count {
-        let mut random = Rng::with_seed(seed);
-        let domain = Domain::of_polygons(&random_coast(&mut random)).unwrap();
-        let spacing = domain.bounds.size().max_element() / (2.0 + 6.0 * random.f64());
-        let diameter = spacing * 0.04 * 12f64.powf(random.f64());
-        let built = built(&domain, spacing, diameter, &format!("{}", spacing * (0.1 + random.f64())));
+        let (domain, built, diameter) = case(seed);
         let outline = OutlineMesh::new(&built.mesh, &built.domain).unwrap();
-        let figures = judge(&outline.extract(&built.mesh), &domain, diameter, &format!("seed {seed}"));
-        if std::env::var("OUTLINE_PRINT").is_ok() {
-            println!("{seed} {figures:?} {:?}", outline.fit());
-        }
-        if figures.smallest_angle < 18.4 { println!("small {seed} {figures:?} {:?}", outline.fit()); }
+        let extract = outline.extract(&built.mesh);
+        let figures = judge(&extract, &domain, diameter, &format!("seed {seed}"));
+        assert_eq!(outline.violations(&extract), [], "seed {seed}");
+        let bound = bound(&domain, extract.lattice(), outline.fit().corners) - 1e-6;
+        assert!(figures.smallest_angle >= bound, "seed {seed}: {figures:?}");
+        assert!(figures.largest_angle <= 180.0 - 2.0 * bound, "seed {seed}: {figures:?}");
+        assert!(figures.farthest <= 1.0, "seed {seed}: {figures:?}");
+        let triangles: usize = extract.level_counts().iter().sum();
+        assert_eq!((triangles, extract.topology().nodes), (figures.triangles, extract.nodes().len()));
+        assert!((extract.area() / figures.area - 1.0).abs() < 1e-6, "seed {seed}");
         all += figures.boundary_nodes;
-        off += figures.boundary_nodes - figures.on_outline;
+        on += figures.on_outline;
+        pinned += outline.fit().corners;
         smallest = smallest.min(figures.smallest_angle);
         largest = largest.max(figures.largest_angle);
         farthest = farthest.max(figures.farthest);
     }
-    println!("{count} coasts: angles {smallest:.2} to {largest:.2}, {off} of {all} nodes off, at most {farthest:.3} h");
+    let share = on as f64 / all as f64;
+    println!(
+        "{count} coasts: {smallest:.2}° to {largest:.2}°, {:.2} % of {all} nodes on the outline, the others at most \
+         {farthest:.3} diameters off, {pinned} corners",
+        100.0 * share
+    );
+    assert!(share > 0.97 && pinned > 0, "{share} {pinned}");
 }
 
 #[test]
-fn smooth_outlines_have_all_nodes_on_them() {
-    for (radius, corners, diameter) in [(1.0, 400, 0.1), (1.0, 2000, 0.03), (1.0, 1000, 0.2)] {
-        let ring: Ring = (0..corners).map(|k| radius * DVec2::from_angle(TAU * f64::from(k) / f64::from(corners))).collect();
-        let domain = Domain::of_polygons(&[vec![ring]]).unwrap();
+fn all_nodes_of_a_smooth_boundary_are_on_the_outline() {
+    for (corners, diameter) in [(400, 0.1), (2000, 0.03), (1000, 0.2), (5000, 0.013)] {
+        let domain = disc(corners);
         let built = built(&domain, 0.5, diameter, "10");
         let outline = OutlineMesh::new(&built.mesh, &built.domain).unwrap();
-        let figures = judge(&outline.extract(&built.mesh), &domain, diameter, "disc");
-        println!("{figures:?} {:?}", outline.fit());
-        let finder = Finder::new(domain.region().unwrap().edges().collect(), diameter); let extract = outline.extract(&built.mesh);
-        for (n, on) in extract.on_boundary().into_iter().enumerate() { let p = extract.world_nodes().nth(n).unwrap(); if on && finder.distance(p, diameter) > 1e-8 { println!("off {p}"); } }
+        let extract = outline.extract(&built.mesh);
+        let figures = judge(&extract, &domain, diameter, "disc");
+        assert_eq!(figures.on_outline, figures.boundary_nodes, "{diameter}");
+        assert_eq!(outline.fit().on_outline, outline.fit().nodes, "{diameter}");
+        assert!(figures.smallest_angle > 29.0, "{diameter}: {figures:?}");
+        let polygon = domain.region().unwrap().area();
+        assert!((figures.area / polygon - 1.0).abs() < diameter * diameter, "{diameter}: {figures:?}");
+        // Every corner of the polygon has the boundary of the mesh near it.
+        let nodes: Vec<DVec2> = extract.world_nodes().collect();
+        let edges = extract.boundary_edges().map(|edge| edge.ends.map(|v| nodes[v])).collect();
+        let boundary = Finder::new(edges, diameter);
+        for p in domain.region().unwrap().rings().flatten() {
+            assert!(boundary.distance(*p, diameter) < diameter * diameter, "{diameter}: {p}");
+        }
     }
 }
 
 #[test]
-fn the_aegean_sea() {
+fn sharp_corners_are_nodes() {
+    // An L whose inner side is curved, away from the frame on all sides but two, and turned a little.
+    let arc = (1..40).map(|k| TAU * f64::from(k) / 160.0).map(|a| dvec2(2.0 - a.sin(), 2.0 - a.cos()));
+    let mut ring = vec![dvec2(0.0, 0.0), dvec2(2.0, 0.0), dvec2(2.0, 1.0)];
+    ring.extend(arc);
+    ring.extend([dvec2(1.0, 2.0), dvec2(0.0, 2.0)]);
+    let turned: Ring = ring.iter().map(|p| DVec2::from_angle(0.2).rotate(*p)).collect();
+    for diameter in [0.2, 0.05] {
+        let domain = Domain::of_polygons(&[vec![turned.clone()]]).unwrap();
+        let built = built(&domain, 0.5, diameter, "10");
+        let outline = OutlineMesh::new(&built.mesh, &built.domain).unwrap();
+        let extract = outline.extract(&built.mesh);
+        let figures = judge(&extract, &domain, diameter, "L");
+        assert_eq!(figures.on_outline, figures.boundary_nodes, "{figures:?}");
+        let nodes: Vec<DVec2> = extract.world_nodes().collect();
+        for corner in [ring[0], ring[1], ring[2], ring[42], ring[43]] {
+            let corner = DVec2::from_angle(0.2).rotate(corner);
+            assert!(nodes.iter().any(|p| p.distance(corner) < 1e-7), "{diameter}: {corner} is no node");
+        }
+        assert!(figures.smallest_angle > 18.0, "{figures:?}");
+    }
+}
+
+#[test]
+fn the_result_does_not_depend_on_the_order_of_edits() {
+    let mut permuted = 0;
+    for seed in 1000..1030 {
+        let (_, built, _) = case(seed);
+        let expected = OutlineMesh::new(&built.mesh, &built.domain).unwrap();
+        // There and back: finer at some places, then as before.
+        let (mut mesh, mut random) = (built.mesh.clone(), Rng::with_seed(seed));
+        let mut updater = Updater::new(Limits::default());
+        let extent = mesh.lattice().extent();
+        for _ in 0..4 {
+            let at = dvec2(f64::from(extent.x), f64::from(extent.y)) * place(&mut random);
+            let half = f64::from(extent.x) * 0.1;
+            let corner = |offset: f64| {
+                let p = (at + offset).max(DVec2::ZERO).min(dvec2(f64::from(extent.x), f64::from(extent.y)));
+                LatticePoint::new(p.x as u32, p.y as u32)
+            };
+            let area = LatticeRect { min: corner(-half), max: corner(half) };
+            for finer in [true, false] {
+                updater.add(area);
+                let mut criterion = built.criterion(None);
+                let mut exceeds = |element: &Element| {
+                    let [level, near] =
+                        [element.triangle.level() < 9, area.touches(element.corners)].map(|is| is && finer);
+                    Ok((level && near) || criterion.exceeds(element)?)
+                };
+                while updater.advance(&mut mesh, &mut exceeds, 1000).unwrap() == Progress::More {}
+            }
+        }
+        mesh.classify(0..mesh.raw_triangle_count(), |element| built.domain.excludes(element));
+        assert_eq!(mesh.fingerprint(), built.mesh.fingerprint(), "seed {seed}");
+        let found = OutlineMesh::new(&mesh, &built.domain).unwrap();
+        assert_eq!(found.fit(), expected.fit(), "seed {seed}");
+        assert!(shape(&found.extract(&mesh)) == shape(&expected.extract(&built.mesh)), "seed {seed}");
+        permuted += usize::from(mesh.raw_nodes() != built.mesh.raw_nodes());
+    }
+    assert!(permuted > 20, "{permuted} meshes have their entries in another order");
+}
+
+#[test]
+fn the_aegean_sea_is_a_valid_domain() {
     let polygons = geojson::read(Path::new("assets/aegean_sea.geojson")).unwrap();
     let domain = Domain::of_polygons(&polygons).unwrap();
     let built = built(&domain, 0.5, 0.02, "100");
-    let start = std::time::Instant::now();
     let outline = OutlineMesh::new(&built.mesh, &built.domain).unwrap();
-    println!("{:?}", start.elapsed());
-    let figures = judge(&outline.extract(&built.mesh), &domain, 0.02, "Aegean Sea");
-    println!("{figures:?} {:?} {}", outline.fit(), domain.region().unwrap().area());
+    let extract = outline.extract(&built.mesh);
+    let figures = judge(&extract, &domain, 0.02, "Aegean Sea");
+    println!("{figures:?} {:?} {:?}", outline.fit(), extract.topology());
+    assert_eq!(outline.violations(&extract), []);
+    assert!(figures.smallest_angle > 12.0 && figures.largest_angle < 143.2, "{figures:?}");
+    assert!(figures.on_outline * 100 > figures.boundary_nodes * 97, "{figures:?}");
+    assert!((figures.area / domain.region().unwrap().area() - 1.0).abs() < 0.001, "{figures:?}");
 }

@@ -64,8 +64,14 @@ impl DomainOnLatticeBuilder {
     /// The work for a domain on a lattice that covers its bounds.
     pub fn new(domain: &Domain, boundary: BoundaryTreatment, lattice: &Lattice) -> Self {
         let formula = domain.formula().cloned();
-        let indexed =
-            DomainOnLattice { bounds: domain.bounds, lattice: *lattice, formula, region: None, fitted: None, on_outline: false };
+        let indexed = DomainOnLattice {
+            bounds: domain.bounds,
+            lattice: *lattice,
+            formula,
+            region: None,
+            fitted: None,
+            on_outline: false,
+        };
         let region = domain.region().map(|region| RegionOnLatticeBuilder::new(region, lattice));
         Self { indexed, boundary, region }
     }

@@ -112,9 +112,8 @@ impl RegionOnLattice {
         found: &mut Vec<u32>,
     ) {
         let bits = self.root_bits - depth as u32;
-        let apart = |n: u32, i: usize| {
-            (i64::from(n) << bits) > rect[1][i] || (i64::from(n) + 1) << bits < rect[0][i]
-        };
+        let apart =
+            |n: u32, i: usize| (i64::from(n) << bits) > rect[1][i] || (i64::from(n) + 1) << bits < rect[0][i];
         if self.state(depth, [column, row]) != SquareState::Crossed || apart(column, 0) || apart(row, 1) {
             return;
         }

@@ -42,11 +42,18 @@ impl fmt::Display for OutlineViolation {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Area { triangle } => write!(f, "triangle {triangle} on the outline has no positive area"),
-            Self::Angle { triangle } => write!(f, "triangle {triangle} on the outline has too small an angle"),
-            Self::Edge { triangle } => {
-                write!(f, "triangle {triangle} on the outline has an edge in the direction of another triangle")
+            Self::Angle { triangle } => {
+                write!(f, "triangle {triangle} on the outline has too small an angle")
             }
-            Self::Neighbour { triangle } => write!(f, "triangle {triangle} on the outline has a wrong neighbour"),
+            Self::Edge { triangle } => {
+                write!(
+                    f,
+                    "triangle {triangle} on the outline has an edge in the direction of another triangle"
+                )
+            }
+            Self::Neighbour { triangle } => {
+                write!(f, "triangle {triangle} on the outline has a wrong neighbour")
+            }
             Self::Pinched { node } => write!(f, "the domain touches itself in node {node}"),
         }
     }
@@ -74,7 +81,10 @@ impl OutlineMesh {
         }
         self.check_angles(extract, &mut found);
         let mut ends = vec![0u8; extract.nodes().len()];
-        extract.boundary_edges().flat_map(|edge| edge.ends).for_each(|node| ends[node] = ends[node].saturating_add(1));
+        extract
+            .boundary_edges()
+            .flat_map(|edge| edge.ends)
+            .for_each(|node| ends[node] = ends[node].saturating_add(1));
         let pinched = ends.iter().enumerate().filter(|(_, count)| **count > 2);
         found.extend(pinched.map(|(node, _)| OutlineViolation::Pinched { node }));
         found

@@ -96,7 +96,9 @@ fn candidates(mesh: &Mesh, band: &Band, placement: &Placement) -> Vec<Candidate>
         is_cut || [true, false].iter().all(|&inside| has_sector(band, placement, v, inside))
     };
     let nodes = (0..legs.len() as u32).filter(|&v| legs[v as usize] > 0.0 && on_boundary(v));
-    nodes.map(|node| Candidate { point: placement.goals[node as usize], node, leg: legs[node as usize] }).collect()
+    nodes
+        .map(|node| Candidate { point: placement.goals[node as usize], node, leg: legs[node as usize] })
+        .collect()
 }
 
 /// Whether the outline turns by more than 30°.

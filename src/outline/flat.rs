@@ -13,14 +13,12 @@ use super::stencil::Placement;
 /// before left.
 pub(super) fn drop_flat(band: &Band, placement: &mut Placement, angles: &Angles, limit: f64) {
     let all_on = |&t: &u32| placement.keeps[t as usize] && placement.is_all_on(band, t);
-    let is_flat = |&t: &u32| {
-        angles.worst(placement.points(band.triangles.corners[t as usize])) > limit
-    };
-    let mut flat: Vec<u32> =
-        (0..band.triangles.len() as u32).filter(all_on).filter(is_flat).collect();
+    let is_flat = |&t: &u32| angles.worst(placement.points(band.triangles.corners[t as usize])) > limit;
+    let mut flat: Vec<u32> = (0..band.triangles.len() as u32).filter(all_on).filter(is_flat).collect();
     let mut lowest = vec![u32::MAX; band.points.len()];
     loop {
-        let droppable: Vec<u32> = flat.iter().copied().filter(|&t| is_droppable(band, placement, t)).collect();
+        let droppable: Vec<u32> =
+            flat.iter().copied().filter(|&t| is_droppable(band, placement, t)).collect();
         let corners = |t: u32| band.triangles.corners[t as usize].map(|v| v as usize);
         for &t in droppable.iter().rev() {
             corners(t).into_iter().for_each(|v| lowest[v] = t);

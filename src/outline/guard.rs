@@ -28,8 +28,7 @@ impl Guard<'_> {
             let mut back = Vec::new();
             for &t in &suspects {
                 for corners in self.failing(placement, t, gaps[t as usize]) {
-                    let can: Vec<u32> =
-                        corners.into_iter().filter(|&v| placement.can_retreat(v)).collect();
+                    let can: Vec<u32> = corners.into_iter().filter(|&v| placement.can_retreat(v)).collect();
                     if can.is_empty() {
                         stuck.extend(self.stuck_pins(placement, corners));
                     }
@@ -81,7 +80,8 @@ impl Guard<'_> {
     /// beside them.
     fn stuck_pins(&self, placement: &Placement, corners: [u32; 3]) -> Vec<u32> {
         let worst = self.angles.worst(placement.points(corners));
-        let limit = |node| self.pin_limits.binary_search_by_key(&node, |pin| pin.0).map(|n| self.pin_limits[n].1);
+        let limit =
+            |node| self.pin_limits.binary_search_by_key(&node, |pin| pin.0).map(|n| self.pin_limits[n].1);
         corners.into_iter().filter(|&node| limit(node).is_ok_and(|limit| worst > limit)).collect()
     }
 }

@@ -106,7 +106,13 @@ fn placed(band: &Band, region: &RegionOnLattice, lattice: &Lattice, angles: &Ang
 
 /// Moves nodes to sharp corners, and lets nodes retreat where angles are too small. Corners where that does not
 /// help are given up. Returns the cotangent of the smallest angle that is accepted beside the others.
-fn retreat(mesh: &Mesh, band: &Band, placement: &mut Placement, region: &RegionOnLattice, angles: &Angles) -> f64 {
+fn retreat(
+    mesh: &Mesh,
+    band: &Band,
+    placement: &mut Placement,
+    region: &RegionOnLattice,
+    angles: &Angles,
+) -> f64 {
     let mut pins = pins(mesh, band, placement, region, angles);
     pins.iter().for_each(|pin| pin.apply(placement));
     loop {
@@ -157,9 +163,11 @@ fn distance(point: LatticePoint, region: &RegionOnLattice, angles: &Angles) -> f
 
 /// Collects what differs from the mesh.
 fn patch(mesh: &Mesh, signs: &[bool], band: &Band, patchwork: &Patchwork, angles: &Angles) -> MeshPatch {
-    let mut patch = MeshPatch { added: patchwork.points[band.points.len()..].to_vec(), ..MeshPatch::default() };
+    let mut patch =
+        MeshPatch { added: patchwork.points[band.points.len()..].to_vec(), ..MeshPatch::default() };
     let points = band.node_ids.iter().zip(&band.points).zip(&patchwork.points);
-    patch.moved = points.filter(|((_, home), point)| home != point).map(|((&id, _), &point)| (id, point)).collect();
+    patch.moved =
+        points.filter(|((_, home), point)| home != point).map(|((&id, _), &point)| (id, point)).collect();
     patch.moved.sort_unstable_by_key(|(id, _)| *id);
     let pieces = PiecesByTriangle::new(mesh, band, patchwork);
     for (index, triangle) in mesh.raw_triangles().iter().enumerate() {
@@ -201,7 +209,8 @@ impl PiecesByTriangle {
         for (t, id) in band.ids.iter().enumerate() {
             numbers[id.index()] = t as u32;
         }
-        let inside = patchwork.owners.iter().zip(0u32..).filter(|(_, piece)| patchwork.inside[*piece as usize]);
+        let inside =
+            patchwork.owners.iter().zip(0u32..).filter(|(_, piece)| patchwork.inside[*piece as usize]);
         // Pieces are in the order of their triangles.
         let (owners, pieces): (Vec<u32>, Vec<u32>) = inside.unzip();
         let ends = (0..band.ids.len() as u32).map(|t| owners.partition_point(|&owner| owner <= t)).collect();

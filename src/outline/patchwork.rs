@@ -67,7 +67,8 @@ pub(super) struct Patchwork {
 impl Patchwork {
     pub(super) fn new(band: &Band, placement: &Placement, angles: &Angles) -> Self {
         let nodes = 0..placement.homes.len() as u32;
-        let (mut corners, mut inside, mut owners, mut gaps) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        let (mut corners, mut inside, mut owners, mut gaps) =
+            (Vec::new(), Vec::new(), Vec::new(), Vec::new());
         for t in 0..band.triangles.len() as u32 {
             for piece in placement.pieces(band, t, angles).into_iter().flatten() {
                 corners.push(piece.corners);
@@ -118,9 +119,8 @@ impl Patchwork {
     /// Whether an edge of a piece inside along the frame ends at a node, or the band ends there.
     pub(super) fn is_on_frame(&self, star: &[(u32, usize)]) -> bool {
         let ((first, i), (last, j)) = (star[0], star[star.len() - 1]);
-        let ends = |t: u32, i: usize| {
-            self.inside[t as usize] && self.triangles.across[t as usize][i % 3] == NONE
-        };
+        let ends =
+            |t: u32, i: usize| self.inside[t as usize] && self.triangles.across[t as usize][i % 3] == NONE;
         ends(first, i + 2) || ends(last, j + 1)
     }
 
@@ -128,11 +128,14 @@ impl Patchwork {
     /// first, each piece once in a pass.
     pub(super) fn flip_edges(&mut self, angles: &Angles) {
         for _ in 0..PASSES {
-            let mut flips: Vec<(f64, u32, usize)> =
-                self.poor(angles).flat_map(|t| [0, 1, 2].map(|i| (t, i))).filter_map(|(t, i)| {
+            let mut flips: Vec<(f64, u32, usize)> = self
+                .poor(angles)
+                .flat_map(|t| [0, 1, 2].map(|i| (t, i)))
+                .filter_map(|(t, i)| {
                     let gain = self.gain_of_flip(angles, t, i)?;
                     Some((gain, t, i))
-                }).collect();
+                })
+                .collect();
             flips.sort_by(|a, b| b.0.total_cmp(&a.0).then((a.1, a.2).cmp(&(b.1, b.2))));
             let mut taken = Vec::new();
             for (_, t, i) in flips.iter().copied() {

@@ -62,7 +62,8 @@ impl Smoother<'_> {
         let mut star = Vec::new();
         for _ in 0..PULL_ROUNDS {
             let off = (0..patchwork.points.len() as u32).filter(|&v| !patchwork.on_outline[v as usize]);
-            let moves: Vec<Move> = off.filter_map(|v| self.move_to_outline(patchwork, v, &mut star)).collect();
+            let moves: Vec<Move> =
+                off.filter_map(|v| self.move_to_outline(patchwork, v, &mut star)).collect();
             if moves.is_empty() {
                 return;
             }
@@ -103,7 +104,11 @@ impl Smoother<'_> {
             let from = best.1.as_dvec2();
             for direction in DIRECTIONS {
                 let to = from + length * direction / self.angles.step();
-                let to = if on_boundary { self.region.nearest_on_outline(to, mean, self.angles.step()) } else { Some(to) };
+                let to = if on_boundary {
+                    self.region.nearest_on_outline(to, mean, self.angles.step())
+                } else {
+                    Some(to)
+                };
                 let Some(to) = to.map(|to| rounded(to, self.extent)) else { continue };
                 if let Some(worst) = self.worst_around(patchwork, star, to).filter(|&worst| worst < best.0) {
                     best = (worst, to);
@@ -115,7 +120,12 @@ impl Smoother<'_> {
         (worst < now).then(|| Move { node, to, gain: now - worst, on_outline: on_boundary })
     }
 
-    fn move_to_outline(&self, patchwork: &Patchwork, node: u32, star: &mut Vec<(u32, usize)>) -> Option<Move> {
+    fn move_to_outline(
+        &self,
+        patchwork: &Patchwork,
+        node: u32,
+        star: &mut Vec<(u32, usize)>,
+    ) -> Option<Move> {
         patchwork.triangles.star(node, star);
         if star.is_empty() || patchwork.is_on_frame(star) || !patchwork.is_on_boundary(star) {
             return None;

@@ -107,8 +107,7 @@ impl Link {
     /// Whether the nodes inside follow one another, and so do those outside. Beyond the frame is outside.
     fn is_divided_once(&self, band: &Band) -> bool {
         let beyond = (!self.closed).then_some(false);
-        let signs: Vec<bool> =
-            self.nodes.iter().map(|&v| band.inside[v as usize]).chain(beyond).collect();
+        let signs: Vec<bool> = self.nodes.iter().map(|&v| band.inside[v as usize]).chain(beyond).collect();
         let changes = (0..signs.len()).filter(|&k| signs[k] != signs[(k + 1) % signs.len()]);
         changes.count() == 2
     }

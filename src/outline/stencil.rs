@@ -52,10 +52,14 @@ pub(super) struct Placement {
 impl Placement {
     /// All nodes at their goals. `sides` and `goals` are those of the nodes of the band. A triangle with all
     /// corners on the outline is inside if most of them were.
-    pub(super) fn new(band: &Band, crossings: &Crossings, sides: Vec<Side>, goals: Vec<LatticePoint>) -> Self {
-        let mostly_inside = |corners: &[u32; 3]| {
-            corners.iter().filter(|&&v| band.inside[v as usize]).count() >= 2
-        };
+    pub(super) fn new(
+        band: &Band,
+        crossings: &Crossings,
+        sides: Vec<Side>,
+        goals: Vec<LatticePoint>,
+    ) -> Self {
+        let mostly_inside =
+            |corners: &[u32; 3]| corners.iter().filter(|&&v| band.inside[v as usize]).count() >= 2;
         let mut placement = Self {
             sides,
             homes: band.points.clone(),
@@ -75,7 +79,8 @@ impl Placement {
         for t in 0..self.cuts.len() {
             for i in 0..3 {
                 let [_, from, to] = band.from_place(t as u32, i, &self.sides);
-                let is_cut = matches!((from, to), (Side::Inside, Side::Outside) | (Side::Outside, Side::Inside));
+                let is_cut =
+                    matches!((from, to), (Side::Inside, Side::Outside) | (Side::Outside, Side::Inside));
                 if !is_cut || self.cuts[t][i] != NONE {
                     continue;
                 }
@@ -108,7 +113,8 @@ impl Placement {
     /// Whether a node has arrived at its goal on the outline.
     pub(super) fn is_on_outline(&self, node: u32) -> bool {
         let can_move = self.sides.get(node as usize).is_none_or(|&side| side == Side::On);
-        can_move && (self.retreats[node as usize] == 0 || self.goals[node as usize] == self.homes[node as usize])
+        can_move
+            && (self.retreats[node as usize] == 0 || self.goals[node as usize] == self.homes[node as usize])
     }
 
     /// Whether a node can still retreat towards its home.
@@ -157,7 +163,8 @@ impl Placement {
                 let [a, b, c] = band.triangles.from_place(triangle, i);
                 let (ab, ca) = (cut(i + 2), cut(i + 1));
                 let [from_ab, from_b] = angles.diagonals([ab, b, c, ca].map(|v| self.point(v)));
-                let halves = if from_ab <= from_b { [[ab, b, c], [ab, c, ca]] } else { [[ab, b, ca], [b, c, ca]] };
+                let halves =
+                    if from_ab <= from_b { [[ab, b, c], [ab, c, ca]] } else { [[ab, b, ca], [b, c, ca]] };
                 [piece([a, ab, ca], alone), piece(halves[0], others), piece(halves[1], others)]
             }
         }

@@ -76,7 +76,11 @@ impl Triangulation {
             }
             first = before;
         }
-        let first = if self.across[first as usize][(self.place(first, node) + 2) % 3] == NONE { first } else { start };
+        let first = if self.across[first as usize][(self.place(first, node) + 2) % 3] == NONE {
+            first
+        } else {
+            start
+        };
         let mut triangle = first;
         loop {
             let i = self.place(triangle, node);

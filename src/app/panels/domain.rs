@@ -85,7 +85,9 @@ fn boundary_rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command
         set_once(Setting::Boundary(chosen), commands);
     }
     match boundary {
-        BoundaryTreatment::Fitted { diameter } | BoundaryTreatment::OnOutline { diameter } => fitted_row(ui, state, diameter, commands),
+        BoundaryTreatment::Fitted { diameter } | BoundaryTreatment::OnOutline { diameter } => {
+            fitted_row(ui, state, diameter, commands)
+        }
         BoundaryTreatment::Report => remark(
             ui,
             "Appendix A: a coarse triangle stays if its three corners are inside. Parts narrower than the coarse grid are lost.",

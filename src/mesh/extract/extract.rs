@@ -95,7 +95,13 @@ impl Mesh {
             renumbered
         };
         let triangles = self.triangles().map(|(_, triangle)| renumbered(triangle)).collect();
-        Extract { lattice: self.lattice, nodes: Cow::Owned(nodes), triangles, places: Some(places), is_patched: false }
+        Extract {
+            lattice: self.lattice,
+            nodes: Cow::Owned(nodes),
+            triangles,
+            places: Some(places),
+            is_patched: false,
+        }
     }
 }
 

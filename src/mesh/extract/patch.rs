@@ -38,7 +38,12 @@ impl PatchTriangle {
         let [a, b, c] = self.corners;
         // So that the first edge joins a to b.
         let vertices = if self.level.is_multiple_of(2) { [b, c, a] } else { [a, b, c] };
-        Triangle::new(vertices, [Neighbour::BOUNDARY; 3], Orientation::Anticlockwise, Kind::inside(self.level))
+        Triangle::new(
+            vertices,
+            [Neighbour::BOUNDARY; 3],
+            Orientation::Anticlockwise,
+            Kind::inside(self.level),
+        )
     }
 }
 
