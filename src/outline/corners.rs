@@ -52,8 +52,8 @@ struct Candidate {
 /// For each sharp corner of the outline the nearest node on the boundary, if no corner is nearer to that node.
 ///
 /// A corner is sharp if the outline turns there by more than 30° and its edges on both sides are not shorter than
-/// a triangle's leg. Corners on the frame are nodes without this: where the outline leaves the frame, a node of
-/// the frame moves along it.
+/// a triangle's leg. Where the outline leaves the frame its corner is a node without this: a node of the frame
+/// moves along it.
 pub(super) fn pins(
     mesh: &Mesh,
     band: &Band,
@@ -62,14 +62,24 @@ pub(super) fn pins(
     angles: &Angles,
 ) -> Vec<Pin> {
     let extent = mesh.lattice().extent();
-    let on_frame = |p: LatticePoint| p.x == 0 || p.y == 0 || p.x == extent.x || p.y == extent.y;
+    let sides = |p: LatticePoint| [p.x == 0, p.x == extent.x, p.y == 0, p.y == extent.y];
+    let on_frame = |p: LatticePoint| sides(p).contains(&true);
+    let along_frame = |p, q| sides(p).into_iter().zip(sides(q)).any(|both| both == (true, true));
     let mut candidates = candidates(mesh, band, placement);
-    candidates.retain(|candidate| !on_frame(placement.homes[candidate.node as usize]));
     candidates.sort_unstable_by_key(|candidate| (candidate.point, candidate.node));
     let longest = candidates.iter().map(|candidate| candidate.leg).fold(0.0, f64::max);
     let mut found: Vec<(u32, f64, Pin)> = Vec::new();
-    for corner in region.outline_corners().filter(|corner| !on_frame(corner.at) && is_sharp(corner, angles)) {
-        let Some((distance, nearest)) = nearest(&candidates, corner.at, longest, angles) else { continue };
+    for corner in region.outline_corners().filter(|corner| is_sharp(corner, angles)) {
+        if along_frame(corner.at, corner.before) || along_frame(corner.at, corner.after) {
+            continue;
+        }
+        // Nodes of the frame stay there.
+        let may_move = |candidate: &&Candidate| {
+            on_frame(corner.at) || !on_frame(placement.homes[candidate.node as usize])
+        };
+        let Some((distance, nearest)) = nearest(&candidates, corner.at, longest, angles, may_move) else {
+            continue;
+        };
         let reaches = |end| angles.vector(corner.at, end).length() >= nearest.leg;
         if distance <= nearest.leg && reaches(corner.before) && reaches(corner.after) {
             let former = placement.goals[nearest.node as usize];
@@ -115,17 +125,19 @@ fn limit(corner: &OutlineCorner, angles: &Angles) -> f64 {
     if angle > 0.0 { COT_12.max(1.0 / libm::tan(0.8 * angle)) } else { COT_12 }
 }
 
-/// The candidate nearest to a point and its distance, if that is at most `reach`, in world units.
+/// The candidate nearest to a point that may move, and its distance, if that is at most `reach`, in world units.
 fn nearest<'a>(
     candidates: &'a [Candidate],
     at: LatticePoint,
     reach: f64,
     angles: &Angles,
+    may_move: impl Fn(&&'a Candidate) -> bool,
 ) -> Option<(f64, &'a Candidate)> {
     let steps = (reach / angles.step().x).ceil();
     let first = (f64::from(at.x) - steps).max(0.0) as u32;
     let start = candidates.partition_point(|candidate| candidate.point.x < first);
     let within = candidates[start..].iter().take_while(|c| f64::from(c.point.x) <= f64::from(at.x) + steps);
-    let measured = within.map(|candidate| (angles.vector(candidate.point, at).length(), candidate));
+    let measured =
+        within.filter(may_move).map(|candidate| (angles.vector(candidate.point, at).length(), candidate));
     measured.min_by(|a, b| (a.0, a.1.point).partial_cmp(&(b.0, b.1.point)).expect("no NaN"))
 }
