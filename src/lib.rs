@@ -63,8 +63,8 @@ pub use paint::{Brush, Medium, PaintRasters};
 
 // Query a mesh.
 pub use mesh::{
-    Adjacency, Cleaning, KeptParts, Location, Locator, Neighbour, NodeId, Numbering, Orientation, Removed,
-    RemovedPart, Survey, Topology, Triangle, TriangleId, barycentric, interpolate,
+    Adjacency, Cleaning, KeptParts, Location, Locator, Neighbour, NodeId, Numbering, Orientation,
+    PatchedLocator, Removed, RemovedPart, Survey, Topology, Triangle, TriangleId, barycentric, interpolate,
 };
 
 // Read and write files.

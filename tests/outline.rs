@@ -12,7 +12,7 @@ use meshbrush::internals::domain::{BoundaryTreatment, Domain, Polygon, Ring};
 use meshbrush::internals::field::{Formula, RefinementRule, Source, TargetFieldSpec, Transfer};
 use meshbrush::internals::geometry::{Lattice, LatticePoint, LatticeRect};
 use meshbrush::internals::io::geojson;
-use meshbrush::internals::mesh::{Element, Extract, Limits, Progress, Updater};
+use meshbrush::internals::mesh::{Element, Extract, Limits, Location, PatchedLocator, Progress, Updater};
 use meshbrush::internals::outline::OutlineMesh;
 
 /// The mesh as the program makes it, for a formula of the target diameter under the vertex rule.
@@ -402,4 +402,71 @@ fn the_aegean_sea_is_a_valid_domain() {
     assert!(figures.smallest_angle > 12.0 && figures.largest_angle < 143.2, "{figures:?}");
     assert!(figures.on_outline * 100 > figures.boundary_nodes * 97, "{figures:?}");
     assert!((figures.area / domain.region().unwrap().area() - 1.0).abs() < 0.001, "{figures:?}");
+}
+
+/// Coordinates in 2⁻⁶⁰ of a lattice step, where that is exact.
+fn fine(p: DVec2) -> Option<[i128; 2]> {
+    let scaled = p * 2f64.powi(60);
+    (scaled == scaled.floor() && scaled.abs().max_element() < 1e28)
+        .then_some([scaled.x as i128, scaled.y as i128])
+}
+
+/// On how many edges of a triangle a point lies; `None` where it lies outside.
+fn edges_under(corners: &[[i128; 2]; 3], p: [i128; 2]) -> Option<usize> {
+    let mut count = 0;
+    for j in 0..3 {
+        let ([ax, ay], [bx, by]) = (corners[j], corners[(j + 1) % 3]);
+        let side = (bx - ax) * (p[1] - (ay << 60)) - (by - ay) * (p[0] - (ax << 60));
+        if side < 0 {
+            return None;
+        }
+        count += usize::from(side == 0);
+    }
+    Some(count)
+}
+
+#[test]
+fn points_are_found_in_the_triangles_that_files_have() {
+    let mut counts = [0; 4];
+    for seed in 2000..2012 {
+        let (_, built, _) = case(seed);
+        let outline = OutlineMesh::new(&built.mesh, &built.domain).unwrap();
+        let extract = outline.extract(&built.mesh);
+        let locator = PatchedLocator::new(&built.mesh, outline.patch(), &extract);
+        let nodes: Vec<DVec2> = extract.world_nodes().collect();
+        let whole = |n: usize| [i128::from(extract.nodes()[n].x), i128::from(extract.nodes()[n].y)];
+        let triangles: Vec<[[i128; 2]; 3]> = extract.cells().map(|cell| cell.corners.map(whole)).collect();
+        let mut random = Rng::with_seed(seed);
+        let on_boundary: Vec<usize> =
+            extract.on_boundary().iter().zip(0..).filter(|(on, _)| **on).map(|(_, n)| n).collect();
+        let mut queries = Vec::new();
+        for _ in 0..300 {
+            let cell = extract.cells().nth(random.usize(..triangles.len())).unwrap();
+            let [a, b, c] = cell.corners.map(|n| nodes[n]);
+            queries.extend([a, a.midpoint(b), b.midpoint(c), (a + b + c) / 3.0]);
+            let near = nodes[on_boundary[random.usize(..on_boundary.len())]];
+            queries.extend([near, near + (place(&mut random) - 0.5) * a.distance(b)]);
+        }
+        for query in queries {
+            let found = locator.locate(query, built.mesh.locate(query));
+            let Some(p) = fine(built.mesh.lattice().lattice_from_world(query)) else { continue };
+            let first = triangles.iter().zip(0..).find_map(|(t, n)| Some((n, edges_under(t, p)?)));
+            assert_eq!(found.triangle().map(|id| id.index()), first.map(|(n, _)| n), "seed {seed}: {query}");
+            let kind = match (found, first.map(|(_, edges)| edges)) {
+                (Location::Inside { .. }, Some(0)) => 0,
+                (Location::OnEdge { .. }, Some(1)) => 1,
+                (Location::OnVertex { node, .. }, Some(2)) => {
+                    assert!(
+                        nodes[node.index()].distance(query) < 1e-9 * query.length(),
+                        "seed {seed}: {query}"
+                    );
+                    2
+                }
+                (Location::OutsideDomain | Location::OutsideBounds, None) => 3,
+                other => panic!("seed {seed}: {query}: {other:?}"),
+            };
+            counts[kind] += 1;
+        }
+    }
+    assert!(counts.iter().all(|&count| count > 100), "{counts:?}");
 }

@@ -14,7 +14,10 @@ use super::request::{MeshRequest, parse_formula};
 use super::terminal::Terminal;
 use crate::field::Formula;
 use crate::io::{Interruption, Number, points, write_file_metered};
-use crate::mesh::{Cell, Extract, Location, Locator, NodeId, TriangleId, barycentric, interpolate};
+use crate::mesh::{
+    Cell, Extract, Location, Locator, NodeId, PatchedLocator, TriangleId, barycentric, interpolate,
+};
+use crate::outline::OutlineMesh;
 
 const HEADER: &str = "x,y,where,triangle,level,v1,v2,v3,zeta1,zeta2,zeta3,value";
 
@@ -78,14 +81,23 @@ impl Answers<'_> {
         let mesh = self.finished.mesh();
         let many = points.len() > mesh.raw_triangle_count() / TRIANGLES_PER_POINT;
         let locator = many.then(|| Locator::new(mesh));
+        let patch = self.finished.outline.as_ref().map(OutlineMesh::patch);
+        let patched = patch.map(|patch| PatchedLocator::new(mesh, patch, &self.extract));
         writeln!(out, "{HEADER}")?;
         for &point in points {
             let location = match &locator {
                 Some(locator) => locator.locate(point),
                 None => mesh.locate(point),
             };
+            let (location, number) = match &patched {
+                Some(patched) => {
+                    let location = patched.locate(point, location);
+                    (location, location.triangle())
+                }
+                None => (location, location.triangle().and_then(|id| self.extract.place_of(id))),
+            };
             write!(out, "{},{},{}", Number(point.x), Number(point.y), name(&location))?;
-            match location.triangle() {
+            match number {
                 Some(triangle) => self.write_triangle(point, triangle, out)?,
                 None => writeln!(out, ",,,,,,,,,")?,
             }
@@ -95,8 +107,7 @@ impl Answers<'_> {
 
     /// The columns from `triangle` on. Vertices and ζ are in the order of the vertices in files, so that each
     /// ζ belongs to the vertex in the same place.
-    fn write_triangle(&self, point: DVec2, id: TriangleId, out: &mut dyn Write) -> io::Result<()> {
-        let place = self.extract.place_of(id).expect("a point is found in triangles of the domain only");
+    fn write_triangle(&self, point: DVec2, place: TriangleId, out: &mut dyn Write) -> io::Result<()> {
         let Cell { corners, level, .. } = self.extract.cell(place);
         let nodes = corners.map(NodeId::from_index);
         let at = self.finished.mesh().lattice().lattice_from_world(point);

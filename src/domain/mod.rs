@@ -26,7 +26,6 @@ pub use cut_shape::CutShape;
 pub use fit::{BoundaryTreatment, DomainOnLattice, DomainOnLatticeBuilder};
 pub use fit_quality::FitQuality;
 pub use on_lattice::RegionOnLattice;
-pub use outline_query::OutlineCorner;
 pub use region::{Polygon, Region, Ring, corners, signed_area};
 
 /// A domain in world units.

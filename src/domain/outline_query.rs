@@ -1,4 +1,4 @@
-//! Where the outline of a region crosses an edge of the mesh, its nearest point, and its corners.
+//! Where the outline of a region crosses an edge of the mesh, its nearest point, and its rings.
 
 use glam::DVec2;
 
@@ -6,17 +6,6 @@ use super::RegionOnLattice;
 use super::on_lattice::SquareState;
 use super::outline_edge::OutlineEdge;
 use crate::geometry::LatticePoint;
-
-/// A corner of the outline with the corners before and after it, the region on the left.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct OutlineCorner {
-    /// The corner before it.
-    pub before: LatticePoint,
-    /// The corner.
-    pub at: LatticePoint,
-    /// The corner after it.
-    pub after: LatticePoint,
-}
 
 impl RegionOnLattice {
     /// Where the outline crosses the segment from a lattice point inside the region to one outside, as a share
@@ -56,25 +45,13 @@ impl RegionOnLattice {
         nearest.map(|(_, point)| point)
     }
 
-    /// All corners of the outline, those on the sides of the grid included.
-    pub fn outline_corners(&self) -> impl Iterator<Item = OutlineCorner> + '_ {
-        let mut first = 0;
-        self.edges.iter().enumerate().filter_map(move |(n, edge)| {
-            // The edges of a ring follow one another, and the last ends where the first begins.
-            let next = self.edges.get(n + 1).filter(|next| next.ends[0] == edge.ends[1]);
-            let next = if let Some(next) = next {
-                Some(next)
-            } else {
-                let start = std::mem::replace(&mut first, n + 1);
-                self.edges.get(start).filter(|start| start.ends[0] == edge.ends[1])
-            };
-            let point = |[x, y]: [i64; 2]| LatticePoint::new(x as u32, y as u32);
-            next.map(|next| OutlineCorner {
-                before: point(edge.ends[0]),
-                at: point(edge.ends[1]),
-                after: point(next.ends[1]),
-            })
-        })
+    /// The corners of each ring of the outline in order, those on the sides of the grid included.
+    pub fn outline_rings(&self) -> Vec<Vec<LatticePoint>> {
+        let point = |[x, y]: [i64; 2]| LatticePoint::new(x as u32, y as u32);
+        // The edges of a ring follow one another.
+        let follows = |a: &OutlineEdge, b: &OutlineEdge| a.ends[1] == b.ends[0];
+        let rings = self.edges.chunk_by(follows);
+        rings.map(|edges| edges.iter().map(|edge| point(edge.ends[0])).collect()).collect()
     }
 
     /// The edges of the outline in the smallest squares that touch a rectangle, each once, in the order of the

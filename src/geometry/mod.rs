@@ -8,5 +8,5 @@ mod rect;
 
 pub use lattice::{GridError, LATTICE_BITS, Lattice, LatticePoint};
 pub use lattice_rect::LatticeRect;
-pub use predicates::{Side, exact_sum_sign, side_of_edge};
+pub use predicates::{Side, exact_sum_sign, side_of_edge, side_of_line};
 pub use rect::Rect;

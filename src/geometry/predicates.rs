@@ -80,6 +80,45 @@ pub fn exact_sum_sign(a: f64, b: f64, c: f64) -> Ordering {
     error.partial_cmp(&0.0).unwrap_or(Ordering::Equal)
 }
 
+/// As [`side_of_edge`], for any two different lattice points.
+pub fn side_of_line(from: LatticePoint, to: LatticePoint, point: DVec2) -> Side {
+    let run = f64::from(to.x) - f64::from(from.x);
+    let rise = f64::from(to.y) - f64::from(from.y);
+    let estimate = run * (point.y - f64::from(from.y)) - rise * (point.x - f64::from(from.x));
+    // Differences stay below 2^32 and products below 2^64, so the estimate is off by less than 2^13.
+    if estimate.abs() > 8192.0 {
+        return if estimate > 0.0 { Side::Left } else { Side::Right };
+    }
+    let offset = i128::from(to.y) * i128::from(from.x) - i128::from(to.x) * i128::from(from.y);
+    let rounded = offset as f64;
+    let rest = (offset - rounded as i128) as f64;
+    let (a, b) = (run * point.y, -rise * point.x);
+    let terms = [a, run.mul_add(point.y, -a), b, (-rise).mul_add(point.x, -b), rounded, rest];
+    match sign_of_sum(terms) {
+        Ordering::Greater => Side::Left,
+        Ordering::Equal => Side::On,
+        Ordering::Less => Side::Right,
+    }
+}
+
+/// The sign of the exact sum of some numbers: each is added to an expansion, a list of numbers that do not overlap
+/// and have the same sum, the smallest first. The largest of them decides.
+fn sign_of_sum(terms: [f64; 6]) -> Ordering {
+    let mut expansion = [0.0f64; 6];
+    for (count, term) in terms.into_iter().enumerate() {
+        let mut carried = term;
+        for part in &mut expansion[..count] {
+            let sum = carried + *part;
+            let rounded = sum - carried;
+            *part = (carried - (sum - rounded)) + (*part - rounded);
+            carried = sum;
+        }
+        expansion[count] = carried;
+    }
+    let largest = expansion.into_iter().rfind(|part| *part != 0.0).unwrap_or(0.0);
+    largest.partial_cmp(&0.0).unwrap_or(Ordering::Equal)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -32,6 +32,6 @@ pub use kernel::{
     bisection_edge_length, level_for_diameter,
 };
 pub use query::{
-    Adjacency, Cleaning, Fingerprint, Forecast, KeptParts, Location, Locator, Removed, RemovedPart, Survey,
-    Topology, Violation, barycentric, fingerprint_of, interpolate,
+    Adjacency, Cleaning, Fingerprint, Forecast, KeptParts, Location, Locator, PatchedLocator, Removed,
+    RemovedPart, Survey, Topology, Violation, barycentric, fingerprint_of, interpolate,
 };

@@ -2,13 +2,15 @@
 
 use std::f64::consts::SQRT_2;
 
+use glam::DVec2;
+
 use super::angles::Angles;
 use super::band::Band;
 use super::flat::has_sector;
 use super::snap::Side;
 use super::stencil::Placement;
 use super::triangulation::NONE;
-use crate::domain::{OutlineCorner, RegionOnLattice};
+use crate::domain::RegionOnLattice;
 use crate::geometry::LatticePoint;
 use crate::mesh::Mesh;
 
@@ -16,6 +18,8 @@ use crate::mesh::Mesh;
 const COT_12: f64 = 4.704_630_109_478_455;
 /// The cosine of 30°, the smallest turn of a sharp corner.
 const COS_30: f64 = 0.866_025_403_784_438_6;
+/// The smallest ratio of a chord to the outline along it where the outline counts as nearly straight.
+const STRAIGHT: f64 = 0.97;
 
 /// A node at a corner of the outline.
 #[derive(Clone, Copy, Debug)]
@@ -49,11 +53,65 @@ struct Candidate {
     leg: f64,
 }
 
+/// A corner of the outline, as the place of a point in a ring.
+#[derive(Clone, Copy)]
+struct Corner<'a> {
+    ring: &'a [LatticePoint],
+    place: usize,
+}
+
+impl<'a> Corner<'a> {
+    fn at(self) -> LatticePoint {
+        self.ring[self.place]
+    }
+
+    /// The next corner along the outline, or the one before.
+    fn next(self, forwards: bool) -> Self {
+        let step = if forwards { 1 } else { self.ring.len() - 1 };
+        Self { place: (self.place + step) % self.ring.len(), ..self }
+    }
+
+    /// From the corner along the outline, up to the first corner that is at least `reach` away along it, if the
+    /// outline is nearly straight until there.
+    fn side(self, forwards: bool, reach: f64, angles: &Angles) -> Option<DVec2> {
+        let (mut end, mut length) = (self.next(forwards), 0.0);
+        let mut last = self;
+        loop {
+            length += angles.vector(last.at(), end.at()).length();
+            let chord = angles.vector(self.at(), end.at());
+            if end.place == self.place || chord.length() < STRAIGHT * length {
+                return None;
+            }
+            if length >= reach {
+                return Some(chord);
+            }
+            (last, end) = (end, end.next(forwards));
+        }
+    }
+
+    /// The cotangent of the smallest angle that is accepted beside the corner, if it is sharp: if the outline is
+    /// nearly straight on both sides, for the leg of a triangle, and turns by more than 30°.
+    fn limit_if_sharp(self, leg: f64, angles: &Angles) -> Option<f64> {
+        let (to, from) = (self.side(false, leg, angles)?, self.side(true, leg, angles)?);
+        if -to.dot(from) >= COS_30 * to.length() * from.length() {
+            return None;
+        }
+        let angle = libm::atan2(from.perp_dot(to), from.dot(to));
+        // Negative angles are corners of more than 180°.
+        Some(if angle > 0.0 { COT_12.max(1.0 / libm::tan(0.8 * angle)) } else { COT_12 })
+    }
+
+    /// Whether the outline turns by more than 30° at the corner itself.
+    fn turns(self, angles: &Angles) -> bool {
+        let [before, after] =
+            [false, true].map(|forwards| angles.vector(self.at(), self.next(forwards).at()));
+        -before.dot(after) < COS_30 * before.length() * after.length()
+    }
+}
+
 /// For each sharp corner of the outline the nearest node on the boundary, if no corner is nearer to that node.
 ///
-/// A corner is sharp if the outline turns there by more than 30° and its edges on both sides are not shorter than
-/// a triangle's leg. Where the outline leaves the frame its corner is a node without this: a node of the frame
-/// moves along it.
+/// Where the outline leaves the frame its corner is a node without this: a node of the frame moves along it.
 pub(super) fn pins(
     mesh: &Mesh,
     band: &Band,
@@ -65,33 +123,32 @@ pub(super) fn pins(
     let sides = |p: LatticePoint| [p.x == 0, p.x == extent.x, p.y == 0, p.y == extent.y];
     let on_frame = |p: LatticePoint| sides(p).contains(&true);
     let along_frame = |p, q| sides(p).into_iter().zip(sides(q)).any(|both| both == (true, true));
-    let mut candidates = candidates(mesh, band, placement);
-    candidates.sort_unstable_by_key(|candidate| (candidate.point, candidate.node));
+    let candidates = candidates(mesh, band, placement);
     let longest = candidates.iter().map(|candidate| candidate.leg).fold(0.0, f64::max);
+    let rings = region.outline_rings();
+    let corners = rings.iter().flat_map(|ring| (0..ring.len()).map(|place| Corner { ring, place }));
     let mut found: Vec<(u32, f64, Pin)> = Vec::new();
-    for corner in region.outline_corners().filter(|corner| is_sharp(corner, angles)) {
-        if along_frame(corner.at, corner.before) || along_frame(corner.at, corner.after) {
+    for corner in corners.filter(|corner| corner.turns(angles)) {
+        let at = corner.at();
+        if [false, true].into_iter().any(|forwards| along_frame(at, corner.next(forwards).at())) {
             continue;
         }
         // Nodes of the frame stay there.
-        let may_move = |candidate: &&Candidate| {
-            on_frame(corner.at) || !on_frame(placement.homes[candidate.node as usize])
-        };
-        let Some((distance, nearest)) = nearest(&candidates, corner.at, longest, angles, may_move) else {
-            continue;
-        };
-        let reaches = |end| angles.vector(corner.at, end).length() >= nearest.leg;
-        if distance <= nearest.leg && reaches(corner.before) && reaches(corner.after) {
+        let may_move =
+            |candidate: &&Candidate| on_frame(at) || !on_frame(placement.homes[candidate.node as usize]);
+        let Some((distance, nearest)) = nearest(&candidates, at, longest, angles, may_move) else { continue };
+        let limit = corner.limit_if_sharp(nearest.leg, angles).filter(|_| distance <= nearest.leg);
+        found.extend(limit.map(|limit| {
             let former = placement.goals[nearest.node as usize];
-            let pin = Pin { node: nearest.node, at: corner.at, former, limit: limit(&corner, angles) };
-            found.push((nearest.node, distance, pin));
-        }
+            (nearest.node, distance, Pin { node: nearest.node, at, former, limit })
+        }));
     }
     found.sort_by(|a, b| (a.0, a.1, a.2.at).partial_cmp(&(b.0, b.1, b.2.at)).expect("no NaN"));
     found.dedup_by_key(|(node, ..)| *node);
     found.into_iter().map(|(_, _, pin)| pin).collect()
 }
 
+/// The nodes on the boundary, in the order of their places.
 fn candidates(mesh: &Mesh, band: &Band, placement: &Placement) -> Vec<Candidate> {
     let mut legs = vec![0.0f64; placement.homes.len()];
     for (t, &id) in band.ids.iter().enumerate() {
@@ -109,20 +166,6 @@ fn candidates(mesh: &Mesh, band: &Band, placement: &Placement) -> Vec<Candidate>
     nodes
         .map(|node| Candidate { point: placement.goals[node as usize], node, leg: legs[node as usize] })
         .collect()
-}
-
-/// Whether the outline turns by more than 30°.
-fn is_sharp(corner: &OutlineCorner, angles: &Angles) -> bool {
-    let (before, after) = (angles.vector(corner.before, corner.at), angles.vector(corner.at, corner.after));
-    before.dot(after) < COS_30 * before.length() * after.length()
-}
-
-/// The cotangent of the smallest angle that is accepted beside a corner.
-fn limit(corner: &OutlineCorner, angles: &Angles) -> f64 {
-    let (from, to) = (angles.vector(corner.at, corner.after), angles.vector(corner.at, corner.before));
-    let angle = libm::atan2(from.perp_dot(to), from.dot(to));
-    // Negative angles are corners of more than 180°.
-    if angle > 0.0 { COT_12.max(1.0 / libm::tan(0.8 * angle)) } else { COT_12 }
 }
 
 /// The candidate nearest to a point that may move, and its distance, if that is at most `reach`, in world units.

@@ -8,6 +8,7 @@ mod forecast;
 mod interpolate;
 mod locate;
 mod locator;
+mod patched_locator;
 mod survey;
 
 pub use adjacency::Adjacency;
@@ -18,4 +19,5 @@ pub use forecast::Forecast;
 pub use interpolate::{barycentric, interpolate};
 pub use locate::Location;
 pub use locator::Locator;
+pub use patched_locator::PatchedLocator;
 pub use survey::{Survey, Topology};
