@@ -21,8 +21,8 @@ pub enum BoundaryTreatment {
         /// Largest diameter of a triangle that the boundary passes through, in world units.
         diameter: f64,
     },
-    /// The mesh is refined as for [`Self::Fitted`]. What is exported along the boundary is derived from it, with
-    /// nodes on the polygons.
+    /// The mesh is refined as for [`Self::Fitted`]. What is exported along the boundary is derived from it,
+    /// with nodes on the polygons.
     OnOutline {
         /// Largest diameter of a triangle of the mesh that the boundary passes through, in world units.
         diameter: f64,
@@ -35,8 +35,8 @@ impl BoundaryTreatment {
         self.diameter().map_or(self, |diameter| Self::OnOutline { diameter })
     }
 
-    /// Largest diameter of a triangle that the boundary passes through, in world units; `None` where the mesh is
-    /// not refined along it.
+    /// Largest diameter of a triangle that the boundary passes through, in world units; `None` where the
+    /// mesh is not refined along it.
     pub fn diameter(&self) -> Option<f64> {
         match *self {
             Self::Report => None,

@@ -8,8 +8,8 @@ use super::outline_edge::OutlineEdge;
 use crate::geometry::LatticePoint;
 
 impl RegionOnLattice {
-    /// Where the outline crosses the segment from a lattice point inside the region to one outside, as a share
-    /// of its length from `inside`. Of several crossings, the middle one.
+    /// Where the outline crosses the segment from a lattice point inside the region to one outside, as a
+    /// share of its length from `inside`. Of several crossings, the middle one.
     ///
     /// Which edges of the outline cross is decided exactly. Edges along the sides of the grid do not count: a
     /// segment meets the outline beside them where it leaves them.
@@ -54,8 +54,8 @@ impl RegionOnLattice {
         rings.map(|edges| edges.iter().map(|edge| point(edge.ends[0])).collect()).collect()
     }
 
-    /// The edges of the outline in the smallest squares that touch a rectangle, each once, in the order of the
-    /// region; those along the sides of the grid are left out.
+    /// The edges of the outline in the smallest squares that touch a rectangle, each once, in the order of
+    /// the region; those along the sides of the grid are left out.
     fn edges_near(&self, low: [i64; 2], high: [i64; 2]) -> impl Iterator<Item = &OutlineEdge> {
         let size = (high[0] - low[0]).max(high[1] - low[1]).max(1) as u64;
         let bits = size.next_power_of_two().trailing_zeros();

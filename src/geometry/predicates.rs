@@ -101,8 +101,8 @@ pub fn side_of_line(from: LatticePoint, to: LatticePoint, point: DVec2) -> Side 
     }
 }
 
-/// The sign of the exact sum of some numbers: each is added to an expansion, a list of numbers that do not overlap
-/// and have the same sum, the smallest first. The largest of them decides.
+/// The sign of the exact sum of some numbers: each is added to an expansion, a list of numbers that do not
+/// overlap and have the same sum, the smallest first. The largest of them decides.
 fn sign_of_sum(terms: [f64; 6]) -> Ordering {
     let mut expansion = [0.0f64; 6];
     for (count, term) in terms.into_iter().enumerate() {

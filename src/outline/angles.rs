@@ -35,8 +35,8 @@ impl Angles {
         DVec2::new(steps(from.x, to.x), steps(from.y, to.y)) * self.step
     }
 
-    /// Whether the angle at `at`, anticlockwise from the direction of `from` to that of `to`, is at least 5°. It may
-    /// be more than 180°, up to 270°.
+    /// Whether the angle at `at`, anticlockwise from the direction of `from` to that of `to`, is at least
+    /// 5°. It may be more than 180°, up to 270°.
     #[inline]
     pub(super) fn is_open(&self, at: LatticePoint, from: LatticePoint, to: LatticePoint) -> bool {
         let (a, b) = (self.vector(at, from), self.vector(at, to));
@@ -44,7 +44,8 @@ impl Angles {
         dot < 0.0 || (cross > 0.0 && dot <= COT_5 * cross)
     }
 
-    /// The cotangent of the smallest angle of a triangle; infinite where its corners do not run anticlockwise.
+    /// The cotangent of the smallest angle of a triangle; infinite where its corners do not run
+    /// anticlockwise.
     #[inline]
     pub(super) fn worst(&self, [a, b, c]: [LatticePoint; 3]) -> f64 {
         let (ab, ac, bc) = (self.vector(a, b), self.vector(a, c), self.vector(b, c));
@@ -52,9 +53,9 @@ impl Angles {
         if cross > 0.0 { ab.dot(ac).max(ac.dot(bc)).max(-ab.dot(bc)) / cross } else { f64::INFINITY }
     }
 
-    /// The cotangent of the smallest angle that triangles inside may have: 18.4°, or the smallest one that occurs
-    /// where every node is at home and every cut edge is cut in its middle, if that is smaller. In square cells
-    /// it is arctan ⅓ = 18.43°.
+    /// The cotangent of the smallest angle that triangles inside may have: 18.4°, or the smallest one that
+    /// occurs where every node is at home and every cut edge is cut in its middle, if that is smaller. In
+    /// square cells it is arctan ⅓ = 18.43°.
     pub(super) fn limit(&self) -> f64 {
         let point = LatticePoint::new;
         // The shapes at even and at odd levels.
@@ -69,8 +70,8 @@ impl Angles {
         COT_18_4.max(homes * (1.0 + 1e-9))
     }
 
-    /// The worst of what cuts through the middles of edges leave of a triangle, where the first corner is on the
-    /// outline or alone on its side.
+    /// The worst of what cuts through the middles of edges leave of a triangle, where the first corner is
+    /// on the outline or alone on its side.
     fn worst_of_cuts(&self, [a, b, c]: [LatticePoint; 3]) -> f64 {
         let [ab, bc, ca] = [a.midpoint(b), b.midpoint(c), c.midpoint(a)];
         let from_corner = self.worst([a, b, bc]).max(self.worst([a, bc, c]));
@@ -78,8 +79,8 @@ impl Angles {
         from_corner.max(self.worst([a, ab, ca])).max(first.min(second))
     }
 
-    /// The worst of the two triangles on either side of the diagonal from the first corner of a quadrilateral,
-    /// and from the second.
+    /// The worst of the two triangles on either side of the diagonal from the first corner of a
+    /// quadrilateral, and from the second.
     pub(super) fn diagonals(&self, [a, b, c, d]: [LatticePoint; 4]) -> [f64; 2] {
         [self.worst([a, b, c]).max(self.worst([a, c, d])), self.worst([a, b, d]).max(self.worst([b, c, d]))]
     }

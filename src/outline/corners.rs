@@ -28,7 +28,8 @@ pub(super) struct Pin {
     at: LatticePoint,
     /// Where the node would be on the outline otherwise.
     former: LatticePoint,
-    /// The cotangent of the smallest angle that is accepted beside it: 12°, or 0.8 times the angle of the corner.
+    /// The cotangent of the smallest angle that is accepted beside it: 12°, or 0.8 times the angle of the
+    /// corner.
     pub(super) limit: f64,
 }
 
@@ -71,8 +72,8 @@ impl<'a> Corner<'a> {
         Self { place: (self.place + step) % self.ring.len(), ..self }
     }
 
-    /// From the corner along the outline, up to the first corner that is at least `reach` away along it, if the
-    /// outline is nearly straight until there.
+    /// From the corner along the outline, up to the first corner that is at least `reach` away along it, if
+    /// the outline is nearly straight until there.
     fn side(self, forwards: bool, reach: f64, angles: &Angles) -> Option<DVec2> {
         let (mut end, mut length) = (self.next(forwards), 0.0);
         let mut last = self;
@@ -89,8 +90,8 @@ impl<'a> Corner<'a> {
         }
     }
 
-    /// The cotangent of the smallest angle that is accepted beside the corner, if it is sharp: if the outline is
-    /// nearly straight on both sides, for the leg of a triangle, and turns by more than 30°.
+    /// The cotangent of the smallest angle that is accepted beside the corner, if it is sharp: if the
+    /// outline is nearly straight on both sides, for the leg of a triangle, and turns by more than 30°.
     fn limit_if_sharp(self, leg: f64, angles: &Angles) -> Option<f64> {
         let (to, from) = (self.side(false, leg, angles)?, self.side(true, leg, angles)?);
         if -to.dot(from) >= COS_30 * to.length() * from.length() {
@@ -109,7 +110,8 @@ impl<'a> Corner<'a> {
     }
 }
 
-/// For each sharp corner of the outline the nearest node on the boundary, if no corner is nearer to that node.
+/// For each sharp corner of the outline the nearest node on the boundary, if no corner is nearer to that
+/// node.
 ///
 /// Where the outline leaves the frame its corner is a node without this: a node of the frame moves along it.
 pub(super) fn pins(
@@ -168,7 +170,8 @@ fn candidates(mesh: &Mesh, band: &Band, placement: &Placement) -> Vec<Candidate>
         .collect()
 }
 
-/// The candidate nearest to a point that may move, and its distance, if that is at most `reach`, in world units.
+/// The candidate nearest to a point that may move, and its distance, if that is at most `reach`, in world
+/// units.
 fn nearest<'a>(
     candidates: &'a [Candidate],
     at: LatticePoint,

@@ -5,9 +5,9 @@ use super::band::Band;
 use super::snap::Side;
 use super::stencil::Placement;
 
-/// Leaves out flat triangles inside with all corners on the outline, where the domain stays in one piece without
-/// them: those with two or three edges on the boundary, and those with one whose opposite corner is not on the
-/// boundary. `limit` is the cotangent of the smallest angle that counts as not flat.
+/// Leaves out flat triangles inside with all corners on the outline, where the domain stays in one piece
+/// without them: those with two or three edges on the boundary, and those with one whose opposite corner is
+/// not on the boundary. `limit` is the cotangent of the smallest angle that counts as not flat.
 ///
 /// They are left out in rounds, no two with a common node in one round, so that each round sees what the one
 /// before left.
@@ -49,8 +49,8 @@ fn is_droppable(band: &Band, placement: &Placement, triangle: u32) -> bool {
     }
 }
 
-/// For each corner of a triangle with all corners on the outline whether the opposite edge is on the boundary.
-/// `inside` is the class of the triangle.
+/// For each corner of a triangle with all corners on the outline whether the opposite edge is on the
+/// boundary. `inside` is the class of the triangle.
 pub(super) fn boundary_edges(band: &Band, placement: &Placement, triangle: u32, inside: bool) -> [bool; 3] {
     [0, 1, 2].map(|i| {
         let [_, from, to] = band.triangles.from_place(triangle, i);

@@ -17,8 +17,8 @@ pub(super) struct Guard<'a> {
 }
 
 impl Guard<'_> {
-    /// Lets nodes retreat, in rounds, until no angle is too small: the nodes of all triangles that fail take one
-    /// step back at once. Returns pinned nodes at which an angle stays too small.
+    /// Lets nodes retreat, in rounds, until no angle is too small: the nodes of all triangles that fail
+    /// take one step back at once. Returns pinned nodes at which an angle stays too small.
     pub(super) fn run(&self, placement: &mut Placement) -> Vec<u32> {
         let all = 0..self.band.triangles.len() as u32;
         let gaps: Vec<Gap> = all.clone().map(|t| gap(self.band, placement, t)).collect();
@@ -76,8 +76,8 @@ impl Guard<'_> {
         pieces.into_iter().flatten().filter(fails).map(|piece| piece.corners).collect()
     }
 
-    /// The pinned nodes of a triangle whose nodes cannot retreat, if its smallest angle is below what is allowed
-    /// beside them.
+    /// The pinned nodes of a triangle whose nodes cannot retreat, if its smallest angle is below what is
+    /// allowed beside them.
     fn stuck_pins(&self, placement: &Placement, corners: [u32; 3]) -> Vec<u32> {
         let worst = self.angles.worst(placement.points(corners));
         let limit =

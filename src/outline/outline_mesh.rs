@@ -22,7 +22,8 @@ const ROUNDS: usize = 8;
 pub struct OutlineMesh {
     patch: MeshPatch,
     fit: OutlineFit,
-    /// The cotangent of the smallest angle that is accepted beside a corner of the outline; 0 without corners.
+    /// The cotangent of the smallest angle that is accepted beside a corner of the outline; 0 without
+    /// corners.
     corner_limit: f64,
 }
 
@@ -104,8 +105,8 @@ fn placed(band: &Band, region: &RegionOnLattice, lattice: &Lattice, angles: &Ang
     }
 }
 
-/// Moves nodes to sharp corners, and lets nodes retreat where angles are too small. Corners where that does not
-/// help are given up. Returns the cotangent of the smallest angle that is accepted beside the others.
+/// Moves nodes to sharp corners, and lets nodes retreat where angles are too small. Corners where that does
+/// not help are given up. Returns the cotangent of the smallest angle that is accepted beside the others.
 fn retreat(
     mesh: &Mesh,
     band: &Band,

@@ -22,8 +22,8 @@ pub(super) enum Gap {
 }
 
 impl Gap {
-    /// That of a triangle with all corners on the outline. `boundary` has for each corner whether the opposite
-    /// edge is on the boundary, `used` whether a triangle inside has the corner.
+    /// That of a triangle with all corners on the outline. `boundary` has for each corner whether the
+    /// opposite edge is on the boundary, `used` whether a triangle inside has the corner.
     pub(super) fn between(corners: [u32; 3], boundary: [bool; 3], used: [bool; 3]) -> Self {
         let place = |wanted| boundary.iter().position(|&is| is == wanted).expect("counted");
         match boundary.iter().filter(|&&is| is).count() {
@@ -109,8 +109,8 @@ impl Patchwork {
         inside.filter(|&t| self.worst(angles, t) > COT_30)
     }
 
-    /// Whether a node lies where the domain ends: around it there are pieces inside, and pieces outside or a side
-    /// of the frame. `star` is that of the node.
+    /// Whether a node lies where the domain ends: around it there are pieces inside, and pieces outside or
+    /// a side of the frame. `star` is that of the node.
     pub(super) fn is_on_boundary(&self, star: &[(u32, usize)]) -> bool {
         let inside = |&&(t, _): &&(u32, usize)| self.inside[t as usize];
         star.iter().any(|at| inside(&at)) && (star.iter().any(|at| !inside(&at)) || self.is_on_frame(star))

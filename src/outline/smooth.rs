@@ -44,8 +44,8 @@ struct Move {
 }
 
 impl Smoother<'_> {
-    /// Moves nodes of pieces with angles below 30° to where the smallest angle around them is largest; those on
-    /// the boundary along the outline. Of neighbours only the one that gains most moves.
+    /// Moves nodes of pieces with angles below 30° to where the smallest angle around them is largest;
+    /// those on the boundary along the outline. Of neighbours only the one that gains most moves.
     pub(super) fn smooth(&self, patchwork: &mut Patchwork) {
         let poor = patchwork.poor(self.angles);
         let mut nodes: Vec<u32> = poor.flat_map(|t| patchwork.triangles.corners[t as usize]).collect();
@@ -56,8 +56,9 @@ impl Smoother<'_> {
         self.apply(patchwork, moves);
     }
 
-    /// Moves nodes on the boundary that are off the outline to its nearest point, where the angles around them
-    /// do not fall below 20° or get worse. Of neighbours only the one that is farthest off moves, in rounds.
+    /// Moves nodes on the boundary that are off the outline to its nearest point, where the angles around
+    /// them do not fall below 20° or get worse. Of neighbours only the one that is farthest off moves, in
+    /// rounds.
     pub(super) fn pull(&self, patchwork: &mut Patchwork) {
         let mut star = Vec::new();
         for _ in 0..PULL_ROUNDS {
@@ -140,8 +141,8 @@ impl Smoother<'_> {
         (worst <= now.max(COT_20)).then_some(Move { node, to, gain, on_outline: true })
     }
 
-    /// The cotangent of the smallest angle of the pieces inside around a node, if the node were at `to`; `None`
-    /// where a piece outside would get too flat.
+    /// The cotangent of the smallest angle of the pieces inside around a node, if the node were at `to`;
+    /// `None` where a piece outside would get too flat.
     fn worst_around(&self, patchwork: &Patchwork, star: &[(u32, usize)], to: LatticePoint) -> Option<f64> {
         let mut largest = 0.0f64;
         for &(t, i) in star {

@@ -24,8 +24,8 @@ impl Side {
 /// Where the outline crosses the edges of the band, one point for each edge between a node inside and one
 /// outside.
 pub(super) struct Crossings {
-    /// For each triangle and corner the crossing of the opposite edge, as a share of its length from its first
-    /// end, anticlockwise; NaN where the ends lie on the same side.
+    /// For each triangle and corner the crossing of the opposite edge, as a share of its length from its
+    /// first end, anticlockwise; NaN where the ends lie on the same side.
     shares: Vec<[f64; 3]>,
     extent: LatticePoint,
 }
@@ -123,9 +123,9 @@ impl Link {
     }
 }
 
-/// For each node of the band its side, and where it moves. Nodes that the outline crosses an edge of, nearer to
-/// them than to the other end, move to the nearest such crossing, all at once; but only where the outline passes
-/// between the nodes around them once.
+/// For each node of the band its side, and where it moves. Nodes that the outline crosses an edge of,
+/// nearer to them than to the other end, move to the nearest such crossing, all at once; but only where the
+/// outline passes between the nodes around them once.
 pub(super) fn snapped(band: &Band, crossings: &Crossings, angles: &Angles) -> (Vec<Side>, Vec<LatticePoint>) {
     let mut sides: Vec<Side> = band.inside.iter().map(|&inside| Side::of(inside)).collect();
     let mut goals = band.points.clone();

@@ -26,7 +26,8 @@ pub(super) struct Piece {
     pub(super) inside: bool,
 }
 
-/// How far nodes are on the way from home to goal, in eighths: at first all the way, then in steps of retreat.
+/// How far nodes are on the way from home to goal, in eighths: at first all the way, then in steps of
+/// retreat.
 const SHARES: [i64; 5] = [8, 4, 2, 1, 0];
 
 /// Where the nodes of the band lie, those that cuts add among them, and which triangles are inside.
@@ -175,8 +176,8 @@ impl Placement {
         corners.map(|v| self.point(v))
     }
 
-    /// Whether the triangle across an edge between two nodes on the outline is inside. `across` is that triangle,
-    /// or [`NONE`].
+    /// Whether the triangle across an edge between two nodes on the outline is inside. `across` is that
+    /// triangle, or [`NONE`].
     pub(super) fn is_inside_across(&self, band: &Band, across: u32, edge: [u32; 2]) -> bool {
         if across == NONE {
             return false;

@@ -60,8 +60,8 @@ impl Triangulation {
         [corners[i], corners[(i + 1) % 3], corners[(i + 2) % 3]]
     }
 
-    /// Puts the triangles around a node into `star`, anticlockwise, each with the node's place in it. Where the
-    /// triangles do not close around the node, the first has no neighbour in clockwise direction.
+    /// Puts the triangles around a node into `star`, anticlockwise, each with the node's place in it. Where
+    /// the triangles do not close around the node, the first has no neighbour in clockwise direction.
     pub(super) fn star(&self, node: u32, star: &mut Vec<(u32, usize)>) {
         star.clear();
         let start = self.at[node as usize];
@@ -92,8 +92,8 @@ impl Triangulation {
         }
     }
 
-    /// Replaces the edge opposite the i-th corner of a triangle, and so the two triangles beside it, by the other
-    /// diagonal of their quadrilateral.
+    /// Replaces the edge opposite the i-th corner of a triangle, and so the two triangles beside it, by the
+    /// other diagonal of their quadrilateral.
     ///
     /// ```text
     ///      c                 c

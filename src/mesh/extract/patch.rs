@@ -16,8 +16,8 @@ pub struct MeshPatch {
     pub moved: Vec<(NodeId, LatticePoint)>,
     /// Further nodes.
     pub added: Vec<LatticePoint>,
-    /// Changed triangles in ascending order, each with its part of `pieces`; an empty part for one that is gone.
-    /// All others are as in the mesh.
+    /// Changed triangles in ascending order, each with its part of `pieces`; an empty part for one that is
+    /// gone. All others are as in the mesh.
     pub changed: Vec<(TriangleId, Range<usize>)>,
     /// What takes the place of the changed triangles.
     pub pieces: Vec<PatchTriangle>,
@@ -48,8 +48,8 @@ impl PatchTriangle {
 }
 
 impl Mesh {
-    /// The part of the mesh that belongs to the domain, with the changes of a patch. Pieces are at the place of
-    /// the triangles that they replace.
+    /// The part of the mesh that belongs to the domain, with the changes of a patch. Pieces are at the
+    /// place of the triangles that they replace.
     ///
     /// # Panics
     /// When the patch is of another mesh.
@@ -123,7 +123,8 @@ impl Assembly {
         (0..3).for_each(|j| self.join(j));
     }
 
-    /// Joins the last triangle to the one that has its edge `j` in the other direction, once that one is known.
+    /// Joins the last triangle to the one that has its edge `j` in the other direction, once that one is
+    /// known.
     fn join(&mut self, j: usize) {
         let index = self.triangles.len() - 1;
         let (from, to) = self.triangles[index].edge_nodes()[j];

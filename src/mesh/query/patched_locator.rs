@@ -11,8 +11,8 @@ use crate::mesh::kernel::{Mesh, NodeId, Triangle, TriangleId};
 
 /// Finds points in the triangles of an extract with a [`MeshPatch`].
 ///
-/// Far from changed triangles the mesh finds them. The others are in squares of about their own size, so that each
-/// is in at most four squares.
+/// Far from changed triangles the mesh finds them. The others are in squares of about their own size, so
+/// that each is in at most four squares.
 #[derive(Clone, Debug)]
 pub struct PatchedLocator<'a> {
     extract: &'a Extract<'a>,
@@ -56,8 +56,9 @@ impl<'a> PatchedLocator<'a> {
         }
     }
 
-    /// Finds the triangle of the extract that contains a point in world coordinates, given where the mesh finds
-    /// it. Ids in the answer are those of the extract; of several triangles it is the one with the lowest.
+    /// Finds the triangle of the extract that contains a point in world coordinates, given where the mesh
+    /// finds it. Ids in the answer are those of the extract; of several triangles it is the one with the
+    /// lowest.
     pub fn locate(&self, point: DVec2, in_mesh: Location) -> Location {
         if matches!(in_mesh, Location::OutsideBounds | Location::Invalid) {
             return in_mesh;
