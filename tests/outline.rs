@@ -328,15 +328,16 @@ fn all_nodes_of_a_smooth_boundary_are_on_the_outline() {
 
 #[test]
 fn sharp_corners_are_nodes() {
-    // An L whose inner side is curved, away from the frame on all sides but two, and turned a little.
+    // An L whose inner side is curved, turned a little; and islands that keep the frame away from it.
     let arc = (1..40).map(|k| TAU * f64::from(k) / 160.0).map(|a| dvec2(2.0 - a.sin(), 2.0 - a.cos()));
     let mut ring = vec![dvec2(0.0, 0.0), dvec2(2.0, 0.0), dvec2(2.0, 1.0)];
     ring.extend(arc);
     ring.extend([dvec2(1.0, 2.0), dvec2(0.0, 2.0)]);
     let turned: Ring = ring.iter().map(|p| DVec2::from_angle(0.2).rotate(*p)).collect();
+    let island = |at: f64| vec![vec![dvec2(at, at), dvec2(at + 0.5, at), dvec2(at + 0.2, at + 0.5)]];
     let (mut kept, mut all) = (0, 0);
     for diameter in [0.2, 0.1, 0.07, 0.05, 0.03] {
-        let domain = Domain::of_polygons(&[vec![turned.clone()]]).unwrap();
+        let domain = Domain::of_polygons(&[vec![turned.clone()], island(-1.0), island(3.0)]).unwrap();
         let built = built(&domain, 0.5, diameter, "10");
         let outline = OutlineMesh::new(&built.mesh, &built.domain).unwrap();
         let extract = outline.extract(&built.mesh);

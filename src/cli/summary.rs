@@ -163,7 +163,7 @@ impl From<&Removed> for RemovedSummary {
 impl Outline {
     fn of(finished: &FinishedMesh, region: &Region, topology: Topology) -> Self {
         let mesh = finished.mesh();
-        let fit = FitQuality::of(mesh, &mesh.extract(), region);
+        let fit = FitQuality::of(mesh, &finished.extract(), region);
         let Topology { parts, holes, .. } = topology;
         let placed = |farthest: Option<(f64, DVec2)>| farthest.map(|(distance, at)| (distance, at.into()));
         Self {
