@@ -31,6 +31,7 @@ fn built(domain: &Domain, spacing: f64, boundary_diameter: f64, target: &str) ->
         rule: RefinementRule::Vertex,
         sampling: FieldSampling::AsNeeded,
         limits,
+        cleaning: meshbrush::internals::mesh::Cleaning::NONE,
     });
     while builder.advance(None, 1000).unwrap() == Progress::More {}
     builder.finish()
