@@ -86,7 +86,7 @@ pub struct InputArguments {
     #[arg(long, value_enum, default_value_t = BoundaryArgument::Fitted)]
     pub boundary: BoundaryArgument,
 
-    /// Largest diameter of triangles on the outline, but with --boundary report [default: an eighth of the
+    /// Largest diameter of triangles on the outline, when fitted [default: an eighth of the
     /// spacing]
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
     pub boundary_diameter: Option<f64>,
