@@ -296,7 +296,7 @@ fn random_coasts_are_valid_domains() {
         farthest = farthest.max(figures.farthest);
     }
     let share = on as f64 / all as f64;
-    println!(
+    eprintln!(
         "{count} coasts: {smallest:.2}° to {largest:.2}°, {:.2} % of {all} nodes on the outline, the others at most \
          {farthest:.3} diameters off, {pinned} corners",
         100.0 * share
@@ -402,7 +402,7 @@ fn the_aegean_sea_is_a_valid_domain() {
     let outline = OutlineMesh::new(&built.mesh, &built.domain).unwrap();
     let extract = outline.extract(&built.mesh);
     let figures = judge(&extract, &domain, 0.02, "Aegean Sea");
-    println!("{figures:?} {:?} {:?}", outline.fit(), extract.topology());
+    eprintln!("{figures:?} {:?} {:?}", outline.fit(), extract.topology());
     assert_eq!(outline.violations(&extract), []);
     assert!(figures.smallest_angle > 12.0 && figures.largest_angle < 143.2, "{figures:?}");
     assert!(figures.on_outline * 100 > figures.boundary_nodes * 97, "{figures:?}");

@@ -104,8 +104,10 @@ pub fn build(request: &MeshRequest, terminal: &mut Terminal) -> Result<FinishedM
     if built.mesh.triangle_count() == 0 {
         return Err(CoarseError::EmptyDomain { spacing: built.mesh.lattice().spacing() }.into());
     }
+    let empty = CoarseError::EmptyDomain { spacing: built.mesh.lattice().spacing() };
     let outline = OutlineMesh::new(&built.mesh, &built.domain);
-    Ok(FinishedMesh { built, outline, paint, region, refinement, capped })
+    let finished = FinishedMesh { built, outline, paint, region, refinement, capped };
+    if finished.extract().triangles().is_empty() { Err(empty.into()) } else { Ok(finished) }
 }
 
 /// What to mesh: that of a saved document, as the window does, or what the options describe.

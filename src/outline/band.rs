@@ -59,8 +59,8 @@ impl Band {
     }
 
     /// How the corners of a triangle are marked, beginning with the one at place `i`.
-    pub(super) fn from_place<T: Copy>(&self, triangle: u32, i: usize, of: &[T]) -> [T; 3] {
-        self.triangles.from_place(triangle, i).map(|v| of[v as usize])
+    pub(super) fn starting_at<T: Copy>(&self, triangle: u32, i: usize, of: &[T]) -> [T; 3] {
+        self.triangles.starting_at(triangle, i).map(|v| of[v as usize])
     }
 }
 

@@ -53,7 +53,7 @@ fn is_droppable(band: &Band, placement: &Placement, triangle: u32) -> bool {
 /// boundary. `inside` is the class of the triangle.
 pub(super) fn boundary_edges(band: &Band, placement: &Placement, triangle: u32, inside: bool) -> [bool; 3] {
     [0, 1, 2].map(|i| {
-        let [_, from, to] = band.triangles.from_place(triangle, i);
+        let [_, from, to] = band.triangles.starting_at(triangle, i);
         let across = band.triangles.across[triangle as usize][i];
         placement.is_inside_across(band, across, [from, to]) != inside
     })
@@ -70,7 +70,7 @@ fn sectors(band: &Band, placement: &Placement, node: u32, star: &mut Vec<(u32, u
     band.triangles.star(node, star);
     let mut sectors = Vec::with_capacity(star.len() + 2);
     for &(t, i) in star.iter() {
-        let [_, a, b] = band.from_place(t, i, &placement.sides);
+        let [_, a, b] = band.starting_at(t, i, &placement.sides);
         match (a, b) {
             (Side::On, Side::On) => sectors.push(placement.keeps[t as usize]),
             (Side::On, side) => sectors.push(side == Side::Inside),
@@ -79,8 +79,8 @@ fn sectors(band: &Band, placement: &Placement, node: u32, star: &mut Vec<(u32, u
         }
     }
     let (first, last) = (star[0], star[star.len() - 1]);
-    let [_, right, _] = band.triangles.from_place(first.0, first.1);
-    let [_, _, left] = band.triangles.from_place(last.0, last.1);
+    let [_, right, _] = band.triangles.starting_at(first.0, first.1);
+    let [_, _, left] = band.triangles.starting_at(last.0, last.1);
     if right != left {
         sectors.push(false);
     }

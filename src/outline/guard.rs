@@ -46,7 +46,7 @@ impl Guard<'_> {
     }
 
     fn can_change(&self, placement: &Placement, triangle: u32) -> bool {
-        let corners = self.band.from_place(triangle, 0, &placement.sides);
+        let corners = self.band.starting_at(triangle, 0, &placement.sides);
         corners.contains(&Side::On) || (corners.contains(&Side::Inside) && corners.contains(&Side::Outside))
     }
 

@@ -239,7 +239,7 @@ fn is_unchanged(band: &Band, patchwork: &Patchwork, in_domain: bool, pieces: &[u
 
 /// The corners of a piece, anticlockwise, those of its longest edge first.
 fn longest_edge_first(patchwork: &Patchwork, angles: &Angles, piece: u32) -> [u32; 3] {
-    let turned = [0, 1, 2].map(|i| patchwork.triangles.from_place(piece, i));
+    let turned = [0, 1, 2].map(|i| patchwork.triangles.starting_at(piece, i));
     let length = |[a, b, _]: [u32; 3]| {
         angles.vector(patchwork.points[a as usize], patchwork.points[b as usize]).length_squared()
     };

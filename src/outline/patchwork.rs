@@ -157,7 +157,7 @@ impl Patchwork {
         if across == NONE || !self.inside[across as usize] {
             return None;
         }
-        let [a, b, c] = self.triangles.from_place(t, i);
+        let [a, b, c] = self.triangles.starting_at(t, i);
         let j = 3 - self.triangles.place(across, b) - self.triangles.place(across, c);
         let d = self.triangles.corners[across as usize][j];
         let [after, before] = angles.diagonals([a, b, d, c].map(|v| self.points[v as usize]));

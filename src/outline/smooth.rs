@@ -118,7 +118,7 @@ impl Smoother<'_> {
             length /= 2.0;
         }
         let (worst, to) = best;
-        (worst < now).then(|| Move { node, to, gain: now - worst, on_outline: on_boundary })
+        (worst < now).then_some(Move { node, to, gain: now - worst, on_outline: on_boundary })
     }
 
     fn move_to_outline(
@@ -162,7 +162,7 @@ impl Smoother<'_> {
     /// The mean length of the edges at a node, in world units.
     fn mean_edge(&self, patchwork: &Patchwork, star: &[(u32, usize)]) -> f64 {
         let lengths = star.iter().map(|&(t, i)| {
-            let [a, b, _] = patchwork.triangles.from_place(t, i).map(|v| patchwork.points[v as usize]);
+            let [a, b, _] = patchwork.triangles.starting_at(t, i).map(|v| patchwork.points[v as usize]);
             self.angles.vector(a, b).length()
         });
         lengths.sum::<f64>() / star.len() as f64

@@ -35,7 +35,7 @@ impl Crossings {
         let mut shares = vec![[f64::NAN; 3]; band.triangles.len()];
         for t in 0..shares.len() {
             for i in 0..3 {
-                let [_, from, to] = band.triangles.from_place(t as u32, i);
+                let [_, from, to] = band.triangles.starting_at(t as u32, i);
                 let across = band.triangles.across[t][i];
                 if band.inside[from as usize] == band.inside[to as usize] {
                     continue;
@@ -58,14 +58,14 @@ impl Crossings {
     /// The crossing of the edge opposite the i-th corner of a triangle, as a share of its length from the end
     /// `node`; NaN where there is none.
     fn share_from(&self, band: &Band, node: u32, (triangle, i): (u32, usize)) -> f64 {
-        let [_, from, _] = band.triangles.from_place(triangle, i);
+        let [_, from, _] = band.triangles.starting_at(triangle, i);
         let share = self.shares[triangle as usize][i];
         if from == node { share } else { 1.0 - share }
     }
 
     /// The crossing of the edge opposite the i-th corner of a triangle.
     pub(super) fn point(&self, band: &Band, triangle: u32, i: usize) -> LatticePoint {
-        let [_, from, to] = band.from_place(triangle, i, &band.points).map(LatticePoint::as_dvec2);
+        let [_, from, to] = band.starting_at(triangle, i, &band.points).map(LatticePoint::as_dvec2);
         rounded(from + self.shares[triangle as usize][i] * (to - from), self.extent)
     }
 }
@@ -90,12 +90,12 @@ impl Link {
         band.triangles.star(node, star);
         let mut link = Self { nodes: Vec::new(), edges: Vec::new(), closed: false };
         for &(t, i) in star.iter() {
-            let [_, right, _] = band.triangles.from_place(t, i);
+            let [_, right, _] = band.triangles.starting_at(t, i);
             link.nodes.push(right);
             link.edges.push((t, (i + 2) % 3));
         }
         let (last, i) = *star.last().expect("the node is in the band");
-        let [_, _, left] = band.triangles.from_place(last, i);
+        let [_, _, left] = band.triangles.starting_at(last, i);
         link.closed = left == link.nodes[0];
         if !link.closed {
             link.nodes.push(left);

@@ -79,14 +79,14 @@ impl Placement {
     fn cut_edges(&mut self, band: &Band, crossings: &Crossings) {
         for t in 0..self.cuts.len() {
             for i in 0..3 {
-                let [_, from, to] = band.from_place(t as u32, i, &self.sides);
+                let [_, from, to] = band.starting_at(t as u32, i, &self.sides);
                 let is_cut =
                     matches!((from, to), (Side::Inside, Side::Outside) | (Side::Outside, Side::Inside));
                 if !is_cut || self.cuts[t][i] != NONE {
                     continue;
                 }
                 let cut = self.homes.len() as u32;
-                let [_, p, q] = band.from_place(t as u32, i, &band.points);
+                let [_, p, q] = band.starting_at(t as u32, i, &band.points);
                 self.homes.push(LatticePoint::new((p.x + q.x) / 2, (p.y + q.y) / 2));
                 self.goals.push(crossings.point(band, t as u32, i));
                 self.cuts[t][i] = cut;
@@ -135,13 +135,13 @@ impl Placement {
 
     /// Whether all corners of a triangle are on the outline.
     pub(super) fn is_all_on(&self, band: &Band, triangle: u32) -> bool {
-        band.from_place(triangle, 0, &self.sides) == [Side::On; 3]
+        band.starting_at(triangle, 0, &self.sides) == [Side::On; 3]
     }
 
     /// What the outline leaves of a triangle: up to three pieces, of which the quadrilateral's two have the
     /// diagonal with the better angles.
     pub(super) fn pieces(&self, band: &Band, triangle: u32, angles: &Angles) -> [Option<Piece>; 3] {
-        let sides = band.from_place(triangle, 0, &self.sides);
+        let sides = band.starting_at(triangle, 0, &self.sides);
         let count = |side| sides.iter().filter(|&&s| s == side).count();
         let piece = |corners, side| Some(Piece { corners, inside: side == Side::Inside });
         let whole = |side| [piece(band.triangles.corners[triangle as usize], side), None, None];
@@ -153,15 +153,15 @@ impl Placement {
             (0, _) => whole(Side::Outside),
             (1, 1) => {
                 let i = place(Side::On);
-                let [on, b, c] = band.triangles.from_place(triangle, i);
-                let [_, b_side, c_side] = band.from_place(triangle, i, &self.sides);
+                let [on, b, c] = band.triangles.starting_at(triangle, i);
+                let [_, b_side, c_side] = band.starting_at(triangle, i, &self.sides);
                 [piece([on, b, cut(i)], b_side), piece([on, cut(i), c], c_side), None]
             }
             (inside, _) => {
                 let (alone, others) =
                     if inside == 1 { (Side::Inside, Side::Outside) } else { (Side::Outside, Side::Inside) };
                 let i = place(alone);
-                let [a, b, c] = band.triangles.from_place(triangle, i);
+                let [a, b, c] = band.triangles.starting_at(triangle, i);
                 let (ab, ca) = (cut(i + 2), cut(i + 1));
                 let [from_ab, from_b] = angles.diagonals([ab, b, c, ca].map(|v| self.point(v)));
                 let halves =

@@ -55,7 +55,7 @@ impl Triangulation {
     }
 
     /// The corners of a triangle, beginning with the one at place `i`.
-    pub(super) fn from_place(&self, triangle: u32, i: usize) -> [u32; 3] {
+    pub(super) fn starting_at(&self, triangle: u32, i: usize) -> [u32; 3] {
         let corners = self.corners[triangle as usize];
         [corners[i], corners[(i + 1) % 3], corners[(i + 2) % 3]]
     }
@@ -106,7 +106,7 @@ impl Triangulation {
     /// ```
     pub(super) fn flip(&mut self, t: u32, i: usize) {
         let u = self.across[t as usize][i];
-        let [a, b, c] = self.from_place(t, i);
+        let [a, b, c] = self.starting_at(t, i);
         let j = 3 - self.place(u, b) - self.place(u, c);
         let d = self.corners[u as usize][j];
         let across = self.across[t as usize];

@@ -4,12 +4,13 @@ use std::time::{Duration, Instant};
 
 use eframe::egui::accesskit::Role;
 use eframe::egui::{Event, Key, Modifiers, PointerButton, vec2};
+use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 use glam::dvec2;
 
 use super::{
     FREE, button_event, fingerprint, key, level_at, notice, on_screen, release_at, stroke, triangles, window,
-    window_of,
+    window_of, window_with,
 };
 use crate::app::command::Command;
 use crate::document::{Document, Example, Follower, Setting, Stage};
@@ -19,7 +20,8 @@ const TWO_MILLIONS: f64 = 0.00025;
 
 #[test]
 fn the_former_mesh_is_shown_until_the_new_one_is_whole() {
-    let mut window = window();
+    // As on a screen: frames that are longer have more time for the mesh.
+    let mut window = window_with(Harness::builder().with_size(vec2(1440.0, 900.0)).with_step_dt(1.0 / 60.0));
     let (before, generation) = (fingerprint(&window), window.state().session().follower().revision());
     window.state_mut().send(Command::Set(Setting::SmallestDiameter(TWO_MILLIONS)));
     window.step();

@@ -25,8 +25,8 @@ use std::time::{Duration, Instant};
 use eframe::App as _;
 use eframe::egui::accesskit::Role;
 use eframe::egui::{self, Event, Key, Modifiers, PointerButton, Pos2, Rect, Vec2, pos2, vec2};
-use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use egui_kittest::{Harness, HarnessBuilder};
 use glam::{DVec2, dvec2};
 
 use crate::app::App;
@@ -58,8 +58,11 @@ fn window() -> Window {
 }
 
 fn window_of(size: Vec2) -> Window {
-    let mut window = Harness::builder()
-        .with_size(size)
+    window_with(Harness::builder().with_size(size))
+}
+
+fn window_with(builder: HarnessBuilder<App>) -> Window {
+    let mut window = builder
         .with_max_steps(4000)
         .build_eframe(|cc| App::new(&cc.egui_ctx, cc.wgpu_render_state.as_ref()).unwrap());
     window.run();
