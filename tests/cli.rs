@@ -343,6 +343,11 @@ fn a_fitted_mesh_is_one_part_without_pinches_unless_more_is_asked_for() {
     assert_eq!(mesh("--parts largest").0, [1.0, 16.0]);
     let ran = folder.run("mesh --region strait.geojson --spacing 1");
     assert!(ran.err.contains("removed "), "{}", ran.err);
+    // With nodes on the outline there are no pinches to begin with.
+    let on_outline = |options: &str| mesh(&format!("--boundary outline {options}"));
+    assert_eq!(on_outline("--parts all").1, 0);
+    assert!(on_outline("--parts all").0[0] > 1.0);
+    assert_eq!((on_outline("").0[0], on_outline("").2), (1.0, 0));
     for wrong in ["some", "1.5", "-1", "nan"] {
         assert_fails(
             &folder,

@@ -12,7 +12,9 @@ use meshbrush::internals::domain::{BoundaryTreatment, Domain, Polygon, Ring};
 use meshbrush::internals::field::{Formula, RefinementRule, Source, TargetFieldSpec, Transfer};
 use meshbrush::internals::geometry::{Lattice, LatticePoint, LatticeRect};
 use meshbrush::internals::io::geojson;
-use meshbrush::internals::mesh::{Element, Extract, Limits, Location, PatchedLocator, Progress, Updater};
+use meshbrush::internals::mesh::{
+    Element, Extract, KeptParts, Limits, Location, PatchedLocator, Progress, Updater,
+};
 use meshbrush::internals::outline::OutlineMesh;
 
 /// The mesh as the program makes it, for a formula of the target diameter under the vertex rule.
@@ -302,6 +304,55 @@ fn random_coasts_are_valid_domains() {
         100.0 * share
     );
     assert!(share > 0.97 && pinned > 0, "{share} {pinned}");
+}
+
+/// The parts that edges join, each with its triangles.
+fn parts(extract: &Extract) -> Vec<Vec<[[u32; 2]; 3]>> {
+    let all = shape(extract);
+    let mut by_edge: HashMap<[[u32; 2]; 2], usize> = HashMap::new();
+    let edges = |&[a, b, c]: &[[u32; 2]; 3]| [[a, b], [b, c], [c, a]];
+    for (n, triangle) in all.iter().enumerate() {
+        by_edge.extend(edges(triangle).map(|edge| (edge, n)));
+    }
+    let (mut seen, mut parts) = (vec![false; all.len()], Vec::new());
+    for start in 0..all.len() {
+        let (mut part, mut waiting) = (Vec::new(), vec![start]);
+        while let Some(n) = waiting.pop() {
+            if !std::mem::replace(&mut seen[n], true) {
+                part.push(all[n]);
+                waiting.extend(edges(&all[n]).iter().filter_map(|&[a, b]| by_edge.get(&[b, a])));
+            }
+        }
+        if !part.is_empty() {
+            parts.push(part);
+        }
+    }
+    parts
+}
+
+#[test]
+fn the_largest_part_stays_as_it_is_and_the_others_go() {
+    let mut several = 0;
+    for seed in 0..60 {
+        let (_, built, _) = case(seed);
+        let mut outline = OutlineMesh::new(&built.mesh, &built.domain).unwrap();
+        let before = parts(&outline.extract(&built.mesh));
+        let doubled = |triangle: &[[u32; 2]; 3]| {
+            let [a, b, c] = triangle.map(|p| p.map(i128::from));
+            (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+        };
+        let area = |part: &[[[u32; 2]; 3]]| part.iter().map(doubled).sum::<i128>();
+        let removed = outline.keep_parts(&built.mesh, KeptParts::Largest);
+        let extract = outline.extract(&built.mesh);
+        let after = parts(&extract);
+        assert_eq!((after.len(), removed.parts.len()), (1, before.len() - 1), "seed {seed}");
+        assert!(before.contains(&after[0]), "seed {seed}");
+        assert!(before.iter().all(|part| area(part) <= area(&after[0])), "seed {seed}");
+        assert_eq!(removed.triangles, before.iter().map(Vec::len).sum::<usize>() - after[0].len());
+        assert_eq!(outline.violations(&extract), [], "seed {seed}");
+        several += usize::from(before.len() > 1);
+    }
+    assert!(several > 10, "{several} of 60 had several parts");
 }
 
 #[test]

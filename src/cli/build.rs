@@ -10,10 +10,12 @@ use super::request::MeshRequest;
 use super::sources::read_spec;
 use super::terminal::Terminal;
 use crate::build::{BuildStage, BuiltMesh, MeshBuilder, MeshSpec};
-use crate::domain::Region;
+use crate::domain::{BoundaryTreatment, Region};
 use crate::field::{PaintRef, RefinementRule};
 use crate::io;
-use crate::mesh::{CoarseError, Extract, InvalidTarget, Limits, Mesh, Progress, Removed, TriangleId};
+use crate::mesh::{
+    Cleaning, CoarseError, Extract, InvalidTarget, Limits, Mesh, Progress, Removed, TriangleId,
+};
 use crate::outline::OutlineMesh;
 use crate::paint::PaintRasters;
 use crate::text::Grouped;
@@ -26,6 +28,7 @@ pub struct FinishedMesh {
     built: BuiltMesh,
     /// What is changed along the outline, where the mesh has its nodes there.
     pub outline: Option<OutlineMesh>,
+    removed: Removed,
     /// The paint of a project.
     paint: Option<PaintRasters>,
     /// The polygons of the domain, if it has some.
@@ -49,7 +52,7 @@ impl FinishedMesh {
 
     /// What was removed from the mesh.
     pub fn removed(&self) -> &Removed {
-        &self.built.removed
+        &self.removed
     }
 
     /// Which points of a triangle count.
@@ -94,7 +97,12 @@ impl FinishedMesh {
 /// # Errors
 /// When a file is of no use, the target is impossible somewhere, or a limit is reached.
 pub fn build(request: &MeshRequest, terminal: &mut Terminal) -> Result<FinishedMesh, Failure> {
-    let (spec, paint) = read(request, terminal)?;
+    let (mut spec, paint) = read(request, terminal)?;
+    let cleaning = spec.cleaning;
+    if matches!(spec.boundary, BoundaryTreatment::OnOutline { .. }) {
+        // The outline decides which triangles belong to the domain, and the parts of the result count.
+        spec.cleaning = Cleaning::NONE;
+    }
     let region = spec.domain.region().cloned();
     let mut builder = MeshBuilder::new(spec);
     let refinement = run(&mut builder, paint.as_ref().map(PaintRasters::as_paint), terminal);
@@ -105,8 +113,12 @@ pub fn build(request: &MeshRequest, terminal: &mut Terminal) -> Result<FinishedM
         return Err(CoarseError::EmptyDomain { spacing: built.mesh.lattice().spacing() }.into());
     }
     let empty = CoarseError::EmptyDomain { spacing: built.mesh.lattice().spacing() };
-    let outline = OutlineMesh::new(&built.mesh, &built.domain);
-    let finished = FinishedMesh { built, outline, paint, region, refinement, capped };
+    let mut outline = OutlineMesh::new(&built.mesh, &built.domain);
+    let removed = match &mut outline {
+        Some(outline) => outline.keep_parts(&built.mesh, cleaning.parts),
+        None => built.removed.clone(),
+    };
+    let finished = FinishedMesh { built, outline, removed, paint, region, refinement, capped };
     if finished.extract().triangles().is_empty() { Err(empty.into()) } else { Ok(finished) }
 }
 

@@ -40,8 +40,7 @@ pub fn read_spec(request: &MeshRequest) -> Result<(MeshSpec, Vec<String>), Failu
     let (rule, limits) = (request.rule, request.limits);
     // With the vertex rule nothing is shown that needs pixels.
     let sampling = FieldSampling::AsNeeded;
-    let cleaning =
-        request.cleaning(matches!(boundary, BoundaryTreatment::Fitted { .. }) && domain.region().is_some());
+    let cleaning = request.cleaning(boundary != BoundaryTreatment::Report && domain.region().is_some());
     Ok((MeshSpec { domain, boundary, lattice, field, rule, sampling, cleaning, limits }, notes))
 }
 

@@ -12,7 +12,7 @@ use super::stencil::Placement;
 use super::triangulation::NONE;
 use crate::domain::{DomainOnLattice, RegionOnLattice};
 use crate::geometry::{Lattice, LatticePoint};
-use crate::mesh::{Extract, Mesh, MeshPatch, NodeId, PatchTriangle, TriangleId};
+use crate::mesh::{Extract, KeptParts, Mesh, MeshPatch, NodeId, PatchTriangle, Removed, TriangleId};
 
 /// How many rounds of flips and moves improve the angles.
 const ROUNDS: usize = 8;
@@ -70,6 +70,14 @@ impl OutlineMesh {
     /// When `mesh` is not the one that the changes were derived from.
     pub fn extract<'a>(&self, mesh: &'a Mesh) -> Extract<'a> {
         mesh.extract_with(&self.patch)
+    }
+
+    /// Removes the parts that do not stay. The figures of [`Self::fit`] still include them.
+    ///
+    /// # Panics
+    /// When `mesh` is not the one that the changes were derived from.
+    pub fn keep_parts(&mut self, mesh: &Mesh, kept: KeptParts) -> Removed {
+        self.patch.keep_parts(mesh, kept)
     }
 
     /// What is changed.
