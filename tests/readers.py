@@ -21,9 +21,11 @@ import triangle.data
 
 ENDINGS = ["vtu", "msh", "obj", "stl", "node", "2dm", "csv", "svg", "png"]
 TARGET = "0.02 + 0.1*hypot(x - 0.3, y - 0.2)"
+COAST = pathlib.Path(__file__).parent.parent / "assets" / "aegean_sea.geojson"
 CASES = {
     "a square": ["--spacing", "0.1"],
     "cells that are not square": ["--domain", "-3.25,0,4.5,3.3", "--spacing", "1.1"],
+    "a coast, with nodes on it": ["--region", str(COAST), "--spacing", "0.5", "--boundary", "outline", "--boundary-diameter", "0.05"],
     "a ring": ["--domain", "-1,-1,1,1", "--spacing", "0.1", "--inside", "r < 0.95 and r > 0.35"],
 }
 PICTURE = [640, 400]
@@ -165,8 +167,21 @@ def assert_quantity(found, values):
     assert np.allclose(values, found.nodes[:, 0] * found.nodes[:, 1], rtol=1e-12, atol=1e-300), "the quantity x*y"
 
 
+def positions(json):
+    """All positions of a GeoJSON object."""
+    if isinstance(json, dict):
+        return [at for part in json.values() for at in positions(part)]
+    if not isinstance(json, list):
+        return []
+    is_position = len(json) >= 2 and all(isinstance(number, (int, float)) for number in json)
+    return [json[:2]] if is_position else [at for part in json for at in positions(part)]
+
+
 def sizes(options):
     """Width and height of the domain."""
+    if "--region" in options:
+        xs, ys = zip(*positions(json.loads(COAST.read_text())))
+        return [max(xs) - min(xs), max(ys) - min(ys)]
     if "--domain" not in options:
         return [1.0, 1.0]
     x0, y0, x1, y1 = map(float, options[options.index("--domain") + 1].split(","))
@@ -174,6 +189,10 @@ def sizes(options):
 
 
 def expected_area(summary, options):
+    if "--region" in options:
+        # The mesh differs from the polygons along the coast by less than a hundredth.
+        assert abs(summary["area"] / summary["region_area"] - 1) < 0.01, "the area of the polygons"
+        return summary["area"]
     width, height = sizes(options)
     if "--inside" not in options:
         return width * height
