@@ -39,7 +39,7 @@ fn every_command_works_as_typed() {
         let summary: serde_json::Value = serde_json::from_str(&printed).unwrap();
         assert_eq!(summary["violations"], 0);
     }
-    assert_eq!(commands, 5, "the commands were found");
+    assert_eq!(commands, 6, "the commands were found");
     for file in ["diamond.vtu", "terrain.msh", "terrain.png", "sea.2dm", "found.csv"] {
         assert!(folder.join(file).metadata().unwrap().len() > 100, "{file}");
     }
