@@ -71,7 +71,7 @@ pub use mesh::{
 pub use colormap::{Colormap, Ground, LevelColors};
 pub use io::{Cancelled, MeshData, MeshFormat, Meter, NodeValues, ReadError};
 pub use mesh::{BoundaryEdge, Cell, Extract, MeshEdge, MeshPatch, PatchTriangle};
-pub use outline::{OutlineFit, OutlineMesh, OutlineViolation};
+pub use outline::{DerivedMesh, DerivedViolation, OutlineFit};
 pub use render::Image;
 pub use render::export::{ExportFormat, LARGEST_PICTURE, Look, UnknownEnding};
 

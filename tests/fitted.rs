@@ -2,6 +2,7 @@
 //! there are, where points lie among them, what files get of them, and their parts and holes.
 
 mod closure;
+mod formula_mesh;
 
 use std::cell::RefCell;
 use std::collections::{HashMap, HashSet};
@@ -10,15 +11,12 @@ use std::path::Path;
 
 use closure::{Point, Triangle};
 use fastrand::Rng;
+use formula_mesh::formula_mesh;
 use glam::{DVec2, dvec2};
-use meshbrush::internals::build::{FieldSampling, MeshBuilder, MeshSpec};
 use meshbrush::internals::domain::{BoundaryTreatment, Domain, Polygon, Ring, signed_area};
-use meshbrush::internals::field::{Formula, RefinementRule, Source, TargetFieldSpec, Transfer};
 use meshbrush::internals::geometry::{Lattice, LatticePoint};
 use meshbrush::internals::io::geojson;
-use meshbrush::internals::mesh::{
-    Cleaning, Limits, Location, Locator, Mesh, NodeId, Progress, Topology, TriangleId,
-};
+use meshbrush::internals::mesh::{Location, Locator, Mesh, NodeId, Topology, TriangleId};
 
 /// A region, a grid over it and a rule, at random.
 struct Case {
@@ -142,24 +140,8 @@ impl Case {
 
 /// The mesh as the program makes it, for a formula of the target diameter under the vertex rule.
 fn fitted(domain: &Domain, spacing: f64, boundary_diameter: f64, target: &str) -> Mesh {
-    let limits = Limits::default();
-    let mut builder = MeshBuilder::new(MeshSpec {
-        lattice: Lattice::covering(domain.bounds, spacing, limits.max_triangles).unwrap(),
-        domain: domain.clone(),
-        boundary: BoundaryTreatment::Fitted { diameter: boundary_diameter },
-        field: TargetFieldSpec {
-            sources: vec![Source::TargetFormula(Formula::parse(target).unwrap())],
-            transfer: Transfer { h_min: f64::MIN_POSITIVE, h_max: f64::MAX, shape: 1.0 },
-            unasked: f64::MAX,
-            size: [2; 2],
-        },
-        rule: RefinementRule::Vertex,
-        sampling: FieldSampling::AsNeeded,
-        cleaning: Cleaning::NONE,
-        limits,
-    });
-    while builder.advance(None, 1000).unwrap() == Progress::More {}
-    let mesh = builder.finish().mesh;
+    let boundary = BoundaryTreatment::Fitted { diameter: boundary_diameter };
+    let mesh = formula_mesh(domain, spacing, boundary, target).mesh;
     assert_eq!(mesh.violations(), []);
     mesh
 }

@@ -1,36 +1,20 @@
 //! The report's own numbers (Section 5.4).
 
 mod closure;
+mod formula_mesh;
 
+use formula_mesh::formula_mesh;
 use glam::DVec2;
-use meshbrush::internals::build::{FieldSampling, MeshBuilder, MeshSpec};
 use meshbrush::internals::domain::{BoundaryTreatment, Domain};
-use meshbrush::internals::field::{Formula, RefinementRule, Source, TargetFieldSpec, Transfer};
-use meshbrush::internals::geometry::{Lattice, LatticePoint, Rect};
-use meshbrush::internals::mesh::{Cleaning, Limits, Mesh, Progress, bisection_edge_length, fingerprint_of};
+use meshbrush::internals::geometry::{LatticePoint, Rect};
+use meshbrush::internals::mesh::{Mesh, bisection_edge_length, fingerprint_of};
 
 /// The mesh of Figure 1 on [−10, 10]², where every coordinate is exact, with the report's vertex rule (Eq.
 /// 12).
 fn diamond(target: f64) -> Mesh {
     let domain = Domain::rectangle(Rect::around(DVec2::ZERO, 10.0));
     let target = format!("if(abs(x) + abs(y) < 8, {target:?}, 20)");
-    let mut builder = MeshBuilder::new(MeshSpec {
-        lattice: Lattice::covering(domain.bounds, 1.0, 1_000_000).unwrap(),
-        domain,
-        boundary: BoundaryTreatment::Report,
-        field: TargetFieldSpec {
-            sources: vec![Source::TargetFormula(Formula::parse(&target).unwrap())],
-            transfer: Transfer { h_min: 1e-6, h_max: 20.0, shape: 1.0 },
-            unasked: 20.0,
-            size: [2; 2],
-        },
-        rule: RefinementRule::Vertex,
-        sampling: FieldSampling::AsNeeded,
-        cleaning: Cleaning::NONE,
-        limits: Limits::default(),
-    });
-    while builder.advance(None, usize::MAX).unwrap() == Progress::More {}
-    builder.finish().mesh
+    formula_mesh(&domain, 1.0, BoundaryTreatment::Report, &target).mesh
 }
 
 const TRIANGLES: [usize; 13] =

@@ -1,42 +1,30 @@
 //! Meshes with the nodes of their boundary on the outline, against a referee that knows only nodes,
 //! triangles and polygons.
 
+mod formula_mesh;
+
 use std::collections::{HashMap, HashSet};
 use std::f64::consts::TAU;
 use std::path::Path;
 
 use fastrand::Rng;
+use formula_mesh::formula_mesh;
 use glam::{DVec2, dvec2};
-use meshbrush::internals::build::{BuiltMesh, FieldSampling, MeshBuilder, MeshSpec};
+use meshbrush::internals::build::BuiltMesh;
 use meshbrush::internals::domain::{BoundaryTreatment, Domain, Polygon, Ring};
-use meshbrush::internals::field::{Formula, RefinementRule, Source, TargetFieldSpec, Transfer};
 use meshbrush::internals::geometry::{Lattice, LatticePoint, LatticeRect};
 use meshbrush::internals::io::geojson;
 use meshbrush::internals::mesh::{
-    Element, Extract, KeptParts, Limits, Location, PatchedLocator, Progress, Updater,
+    Cleaning, Element, Extract, Limits, Location, Mesh, PatchedLocator, Progress, Updater,
 };
-use meshbrush::internals::outline::OutlineMesh;
+use meshbrush::internals::outline::DerivedMesh;
 
-/// The mesh as the program makes it, for a formula of the target diameter under the vertex rule.
-fn built(domain: &Domain, spacing: f64, boundary_diameter: f64, target: &str) -> BuiltMesh {
-    let limits = Limits::default();
-    let mut builder = MeshBuilder::new(MeshSpec {
-        lattice: Lattice::covering(domain.bounds, spacing, limits.max_triangles).unwrap(),
-        domain: domain.clone(),
-        boundary: BoundaryTreatment::OnOutline { diameter: boundary_diameter },
-        field: TargetFieldSpec {
-            sources: vec![Source::TargetFormula(Formula::parse(target).unwrap())],
-            transfer: Transfer { h_min: f64::MIN_POSITIVE, h_max: f64::MAX, shape: 1.0 },
-            unasked: f64::MAX,
-            size: [2; 2],
-        },
-        rule: RefinementRule::Vertex,
-        sampling: FieldSampling::AsNeeded,
-        limits,
-        cleaning: meshbrush::internals::mesh::Cleaning::NONE,
-    });
-    while builder.advance(None, 1000).unwrap() == Progress::More {}
-    builder.finish()
+fn built(domain: &Domain, spacing: f64, diameter: f64, target: &str) -> BuiltMesh {
+    formula_mesh(domain, spacing, BoundaryTreatment::OnOutline { diameter }, target)
+}
+
+fn derived(mesh: &Mesh, built: &BuiltMesh) -> DerivedMesh {
+    DerivedMesh::new(mesh, &built.domain, &Cleaning::NONE)
 }
 
 /// What the referee measures.
@@ -279,11 +267,11 @@ fn random_coasts_are_valid_domains() {
     let (mut smallest, mut largest, mut farthest) = (180.0f64, 0.0f64, 0.0f64);
     for seed in 0..count {
         let (domain, built, diameter) = case(seed);
-        let outline = OutlineMesh::new(&built.mesh, &built.domain).unwrap();
+        let outline = derived(&built.mesh, &built);
         let extract = outline.extract(&built.mesh);
         let figures = judge(&extract, &domain, diameter, &format!("seed {seed}"));
         assert_eq!(outline.violations(&extract), [], "seed {seed}");
-        let bound = bound(&domain, extract.lattice(), outline.fit().corners) - 1e-6;
+        let bound = bound(&domain, extract.lattice(), outline.fit().unwrap().corners) - 1e-6;
         assert!(figures.smallest_angle >= bound, "seed {seed}: {figures:?}");
         assert!(figures.largest_angle <= 180.0 - 2.0 * bound, "seed {seed}: {figures:?}");
         assert!(figures.farthest <= 1.0, "seed {seed}: {figures:?}");
@@ -292,7 +280,7 @@ fn random_coasts_are_valid_domains() {
         assert!((extract.area() / figures.area - 1.0).abs() < 1e-6, "seed {seed}");
         all += figures.boundary_nodes;
         on += figures.on_outline;
-        pinned += outline.fit().corners;
+        pinned += outline.fit().unwrap().corners;
         smallest = smallest.min(figures.smallest_angle);
         largest = largest.max(figures.largest_angle);
         farthest = farthest.max(figures.farthest);
@@ -335,14 +323,14 @@ fn the_largest_part_stays_as_it_is_and_the_others_go() {
     let mut several = 0;
     for seed in 0..60 {
         let (_, built, _) = case(seed);
-        let mut outline = OutlineMesh::new(&built.mesh, &built.domain).unwrap();
-        let before = parts(&outline.extract(&built.mesh));
+        let before = parts(&derived(&built.mesh, &built).extract(&built.mesh));
         let doubled = |triangle: &[[u32; 2]; 3]| {
             let [a, b, c] = triangle.map(|p| p.map(i128::from));
             (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
         };
         let area = |part: &[[[u32; 2]; 3]]| part.iter().map(doubled).sum::<i128>();
-        let removed = outline.keep_parts(&built.mesh, KeptParts::Largest);
+        let outline = DerivedMesh::new(&built.mesh, &built.domain, &Cleaning::FOR_SOLVERS);
+        let removed = outline.removed();
         let extract = outline.extract(&built.mesh);
         let after = parts(&extract);
         assert_eq!((after.len(), removed.parts.len()), (1, before.len() - 1), "seed {seed}");
@@ -360,11 +348,11 @@ fn all_nodes_of_a_smooth_boundary_are_on_the_outline() {
     for (corners, diameter) in [(400, 0.1), (2000, 0.03), (1000, 0.2), (5000, 0.013)] {
         let domain = disc(corners);
         let built = built(&domain, 0.5, diameter, "10");
-        let outline = OutlineMesh::new(&built.mesh, &built.domain).unwrap();
+        let outline = derived(&built.mesh, &built);
         let extract = outline.extract(&built.mesh);
         let figures = judge(&extract, &domain, diameter, "disc");
         assert_eq!(figures.on_outline, figures.boundary_nodes, "{diameter}");
-        assert_eq!(outline.fit().on_outline, outline.fit().nodes, "{diameter}");
+        assert_eq!(outline.fit().unwrap().on_outline, outline.fit().unwrap().nodes, "{diameter}");
         assert!(figures.smallest_angle > 29.0, "{diameter}: {figures:?}");
         let polygon = domain.region().unwrap().area();
         assert!((figures.area / polygon - 1.0).abs() < diameter * diameter, "{diameter}: {figures:?}");
@@ -391,7 +379,7 @@ fn sharp_corners_are_nodes() {
     for diameter in [0.2, 0.1, 0.07, 0.05, 0.03] {
         let domain = Domain::of_polygons(&[vec![turned.clone()], island(-1.0), island(3.0)]).unwrap();
         let built = built(&domain, 0.5, diameter, "10");
-        let outline = OutlineMesh::new(&built.mesh, &built.domain).unwrap();
+        let outline = derived(&built.mesh, &built);
         let extract = outline.extract(&built.mesh);
         let figures = judge(&extract, &domain, diameter, "L");
         assert!(figures.on_outline * 100 > figures.boundary_nodes * 97, "{figures:?}");
@@ -411,7 +399,7 @@ fn the_result_does_not_depend_on_the_order_of_edits() {
     let mut permuted = 0;
     for seed in 1000..1030 {
         let (_, built, _) = case(seed);
-        let expected = OutlineMesh::new(&built.mesh, &built.domain).unwrap();
+        let expected = derived(&built.mesh, &built);
         // There and back: coarse everywhere, then fine again in one place after the other.
         let (mut mesh, mut random) = (built.mesh.clone(), Rng::with_seed(seed));
         let extent = mesh.lattice().extent();
@@ -437,7 +425,7 @@ fn the_result_does_not_depend_on_the_order_of_edits() {
         }
         mesh.classify(0..mesh.raw_triangle_count(), |element| built.domain.excludes(element));
         assert_eq!(mesh.fingerprint(), built.mesh.fingerprint(), "seed {seed}");
-        let found = OutlineMesh::new(&mesh, &built.domain).unwrap();
+        let found = derived(&mesh, &built);
         assert_eq!(found.fit(), expected.fit(), "seed {seed}");
         assert!(shape(&found.extract(&mesh)) == shape(&expected.extract(&built.mesh)), "seed {seed}");
         permuted += usize::from(mesh.raw_nodes() != built.mesh.raw_nodes());
@@ -450,7 +438,7 @@ fn the_aegean_sea_is_a_valid_domain() {
     let polygons = geojson::read(Path::new("assets/aegean_sea.geojson")).unwrap();
     let domain = Domain::of_polygons(&polygons).unwrap();
     let built = built(&domain, 0.5, 0.02, "100");
-    let outline = OutlineMesh::new(&built.mesh, &built.domain).unwrap();
+    let outline = derived(&built.mesh, &built);
     let extract = outline.extract(&built.mesh);
     let figures = judge(&extract, &domain, 0.02, "Aegean Sea");
     eprintln!("{figures:?} {:?} {:?}", outline.fit(), extract.topology());
@@ -486,7 +474,7 @@ fn points_are_found_in_the_triangles_that_files_have() {
     let mut counts = [0; 4];
     for seed in 2000..2012 {
         let (_, built, _) = case(seed);
-        let outline = OutlineMesh::new(&built.mesh, &built.domain).unwrap();
+        let outline = derived(&built.mesh, &built);
         let extract = outline.extract(&built.mesh);
         let locator = PatchedLocator::new(&built.mesh, outline.patch(), &extract);
         let nodes: Vec<DVec2> = extract.world_nodes().collect();

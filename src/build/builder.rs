@@ -4,15 +4,13 @@ use super::{MeshSpec, RefinementCriterion};
 use crate::domain::{DomainOnLattice, DomainOnLatticeBuilder};
 use crate::field::{PaintRef, RefinementRule, TargetField, VertexRule};
 use crate::geometry::GridError;
-use crate::mesh::{
-    Cleaning, CoarseError, Element, InvalidTarget, Mesh, Progress, RefineError, Refiner, Removed, TriangleId,
-};
+use crate::mesh::{CoarseError, Element, InvalidTarget, Mesh, Progress, RefineError, Refiner, TriangleId};
 
 /// Makes the mesh of a [`MeshSpec`] in slices.
 ///
 /// ```text
-///  index the outline ──▶ coarse grid ──▶ sample h̄ ──▶ refine ──▶ classify ──▶ clean ──▶ done
-///  (polygons only)                       (by pixel)              (fitted only) (in one go)
+///  index the outline ──▶ coarse grid ──▶ sample h̄ ──▶ refine ──▶ classify ──▶ done
+///  (polygons only)                       (by pixel)              (fitted only)
 /// ```
 #[derive(Clone, Debug)]
 pub struct MeshBuilder {
@@ -68,8 +66,6 @@ pub struct BuiltMesh {
     pub rule: RefinementRule,
     /// The mesh. Triangles outside a fitted domain are marked.
     pub mesh: Mesh,
-    /// What was removed from it ([`MeshSpec::cleaning`]).
-    pub removed: Removed,
 }
 
 /// What a builder may take over from an earlier mesh.
@@ -254,14 +250,14 @@ impl MeshBuilder {
     fn begin_refinement(&self, domain: DomainOnLattice, field: Arc<TargetField>, mesh: Mesh) -> Step {
         let refiner = Refiner::new(&mesh, self.spec.limits);
         let rule = self.spec.rule;
-        let built = BuiltMesh { domain, field, rule, mesh, removed: Removed::default() };
+        let built = BuiltMesh { domain, field, rule, mesh };
         Step::Refine(Box::new(Refinement { built, refiner, vertex_rule: VertexRule::default() }))
     }
 }
 
 impl MeshBuilder {
     fn begin_classification(&self, built: BuiltMesh) -> Step {
-        if built.domain.is_fitted() { Step::Classify { built, first: 0 } } else { self.cleaned(built) }
+        if built.domain.is_fitted() { Step::Classify { built, first: 0 } } else { Step::Done(built) }
     }
 
     /// Marks about `budget` of the triangles outside a fitted domain, from `first` on.
@@ -270,14 +266,7 @@ impl MeshBuilder {
         let all = mesh.raw_triangle_count();
         let end = first.saturating_add(budget).min(all);
         mesh.classify(first..end, |element| domain.excludes(element));
-        if end == all { self.cleaned(built) } else { Step::Classify { built, first: end } }
-    }
-
-    fn cleaned(&self, mut built: BuiltMesh) -> Step {
-        if self.spec.cleaning != Cleaning::NONE {
-            built.removed = built.mesh.clean(&self.spec.cleaning);
-        }
-        Step::Done(built)
+        if end == all { Step::Done(built) } else { Step::Classify { built, first: end } }
     }
 }
 

@@ -18,7 +18,7 @@ pub struct MeshSpec {
     pub rule: RefinementRule,
     /// Whether h̄ is sampled by pixel even where the rule does not need it.
     pub sampling: FieldSampling,
-    /// Which triangles of the domain the finished mesh keeps.
+    /// Which triangles of the domain the [derived mesh](crate::outline::DerivedMesh) keeps.
     pub cleaning: Cleaning,
     /// What the mesh may cost.
     pub limits: Limits,

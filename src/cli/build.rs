@@ -10,13 +10,11 @@ use super::request::MeshRequest;
 use super::sources::read_spec;
 use super::terminal::Terminal;
 use crate::build::{BuildStage, BuiltMesh, MeshBuilder, MeshSpec};
-use crate::domain::{BoundaryTreatment, Region};
+use crate::domain::Region;
 use crate::field::{PaintRef, RefinementRule};
 use crate::io;
-use crate::mesh::{
-    Cleaning, CoarseError, Extract, InvalidTarget, Limits, Mesh, Progress, Removed, TriangleId,
-};
-use crate::outline::OutlineMesh;
+use crate::mesh::{CoarseError, Extract, InvalidTarget, Limits, Mesh, Progress, TriangleId};
+use crate::outline::DerivedMesh;
 use crate::paint::PaintRasters;
 use crate::text::Grouped;
 
@@ -26,9 +24,8 @@ const SLICE: usize = 1 << 18;
 /// A mesh that was asked for, and how it was made.
 pub struct FinishedMesh {
     built: BuiltMesh,
-    /// What is changed along the outline, where the mesh has its nodes there.
-    pub outline: Option<OutlineMesh>,
-    removed: Removed,
+    /// What differs from the mesh in files.
+    pub derived: DerivedMesh,
     /// The paint of a project.
     paint: Option<PaintRasters>,
     /// The polygons of the domain, if it has some.
@@ -47,12 +44,7 @@ impl FinishedMesh {
 
     /// The mesh as files get it.
     pub fn extract(&self) -> Extract<'_> {
-        self.outline.as_ref().map_or_else(|| self.mesh().extract(), |outline| outline.extract(self.mesh()))
-    }
-
-    /// What was removed from the mesh.
-    pub fn removed(&self) -> &Removed {
-        &self.removed
+        self.derived.extract(self.mesh())
     }
 
     /// Which points of a triangle count.
@@ -97,29 +89,19 @@ impl FinishedMesh {
 /// # Errors
 /// When a file is of no use, the target is impossible somewhere, or a limit is reached.
 pub fn build(request: &MeshRequest, terminal: &mut Terminal) -> Result<FinishedMesh, Failure> {
-    let (mut spec, paint) = read(request, terminal)?;
+    let (spec, paint) = read(request, terminal)?;
     let cleaning = spec.cleaning;
-    if matches!(spec.boundary, BoundaryTreatment::OnOutline { .. }) {
-        // The outline decides which triangles belong to the domain, and the parts of the result count.
-        spec.cleaning = Cleaning::NONE;
-    }
     let region = spec.domain.region().cloned();
     let mut builder = MeshBuilder::new(spec);
     let refinement = run(&mut builder, paint.as_ref().map(PaintRasters::as_paint), terminal);
     terminal.clear();
     let (refinement, capped) = (refinement?, builder.capped());
     let built = builder.finish();
-    if built.mesh.triangle_count() == 0 {
+    let derived = DerivedMesh::new(&built.mesh, &built.domain, &cleaning);
+    if derived.patch().leaves_nothing_of(&built.mesh) {
         return Err(CoarseError::EmptyDomain { spacing: built.mesh.lattice().spacing() }.into());
     }
-    let empty = CoarseError::EmptyDomain { spacing: built.mesh.lattice().spacing() };
-    let mut outline = OutlineMesh::new(&built.mesh, &built.domain);
-    let removed = match &mut outline {
-        Some(outline) => outline.keep_parts(&built.mesh, cleaning.parts),
-        None => built.removed.clone(),
-    };
-    let finished = FinishedMesh { built, outline, removed, paint, region, refinement, capped };
-    if finished.extract().triangles().is_empty() { Err(empty.into()) } else { Ok(finished) }
+    Ok(FinishedMesh { built, derived, paint, region, refinement, capped })
 }
 
 /// What to mesh: that of a saved document, as the window does, or what the options describe.

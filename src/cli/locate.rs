@@ -17,7 +17,6 @@ use crate::io::{Interruption, Number, points, write_file_metered};
 use crate::mesh::{
     Cell, Extract, Location, Locator, NodeId, PatchedLocator, TriangleId, barycentric, interpolate,
 };
-use crate::outline::OutlineMesh;
 
 const HEADER: &str = "x,y,where,triangle,level,v1,v2,v3,zeta1,zeta2,zeta3,value";
 
@@ -81,8 +80,8 @@ impl Answers<'_> {
         let mesh = self.finished.mesh();
         let many = points.len() > mesh.raw_triangle_count() / TRIANGLES_PER_POINT;
         let locator = many.then(|| Locator::new(mesh));
-        let patch = self.finished.outline.as_ref().map(OutlineMesh::patch);
-        let patched = patch.map(|patch| PatchedLocator::new(mesh, patch, &self.extract));
+        let patch = self.finished.derived.patch();
+        let patched = (!patch.is_empty()).then(|| PatchedLocator::new(mesh, patch, &self.extract));
         writeln!(out, "{HEADER}")?;
         for &point in points {
             let location = match &locator {

@@ -11,7 +11,7 @@ use super::request::MeshRequest;
 use super::summary::Summary;
 use super::terminal::Terminal;
 use crate::io::{Interruption, MeshData};
-use crate::mesh::TriangleId;
+use crate::mesh::{Extract, TriangleId};
 use crate::text::Grouped;
 
 /// How many broken invariants are printed one by one; the rest are counted.
@@ -32,16 +32,17 @@ pub fn run(typed: &MeshArguments, out: &mut dyn Write, terminal: &mut Terminal) 
     let inputs = request.input_files();
     outputs.iter().try_for_each(|output| output.check_places(&inputs))?;
     let finished = build(&request, terminal)?;
+    let extract = finished.extract();
     let violations = match typed.checks {
-        true => Some(report_violations(&finished, request.limits.max_level, terminal)?),
+        true => Some(report_violations(&finished, &extract, request.limits.max_level, terminal)?),
         false => None,
     };
-    let summary = Summary::of(&finished, violations);
+    let summary = Summary::of(&finished, &extract, violations);
     if !typed.json {
         terminal.say(&summary.for_people());
     }
     note_capped(&finished, terminal);
-    write_files(&outputs, &finished, look, &quantities, terminal)?;
+    write_files(&outputs, &finished, &extract, look, &quantities, terminal)?;
     if typed.json {
         let json = serde_json::to_string(&summary).map_err(|e| Failure::Print(e.into()))?;
         writeln!(out, "{json}").and_then(|()| out.flush()).map_err(Failure::Print)?;
@@ -66,6 +67,7 @@ pub fn note_capped(finished: &FinishedMesh, terminal: &mut Terminal) {
 /// Checks every invariant, prints the violations, and returns their number.
 fn report_violations(
     finished: &FinishedMesh,
+    extract: &Extract,
     max_level: Option<u32>,
     terminal: &mut Terminal,
 ) -> Result<usize, Failure> {
@@ -81,12 +83,11 @@ fn report_violations(
         let count = Grouped(too_coarse);
         terminal.say(&format!("check: {count} triangles exceed their target diameter (Eq. 14)"));
     }
-    let on_outline = finished.outline.as_ref().map(|outline| outline.violations(&finished.extract()));
-    let on_outline = on_outline.unwrap_or_default();
-    for violation in on_outline.iter().take(SHOWN_VIOLATIONS) {
+    let in_derived = finished.derived.violations(extract);
+    for violation in in_derived.iter().take(SHOWN_VIOLATIONS) {
         terminal.say(&format!("check: {violation}"));
     }
-    let count = broken.len() + on_outline.len() + too_coarse;
+    let count = broken.len() + in_derived.len() + too_coarse;
     if count == 0 {
         terminal.say("check: every invariant of the mesh holds");
     }
@@ -96,23 +97,23 @@ fn report_violations(
 fn write_files(
     outputs: &[Output],
     finished: &FinishedMesh,
+    extract: &Extract,
     look: RequestedLook,
     asked: &[NamedQuantity],
     terminal: &mut Terminal,
 ) -> Result<(), Failure> {
     let mesh = finished.mesh();
     let look = look.for_mesh(mesh);
-    let extract = finished.extract();
     let (mut target_diameter, mut quantities) = (Vec::new(), Vec::new());
     if outputs.iter().any(Output::wants_node_data) {
-        target_diameter = finished.target_at_nodes(&extract);
-        quantities = asked.iter().map(|quantity| quantity.at_nodes(&extract)).collect::<Result<_, _>>()?;
+        target_diameter = finished.target_at_nodes(extract);
+        quantities = asked.iter().map(|quantity| quantity.at_nodes(extract)).collect::<Result<_, _>>()?;
     }
     let data = MeshData { target_diameter: &target_diameter, quantities: &quantities };
     let interruption = Interruption::listen().map_err(|error| Failure::Work(format!("{error}.")))?;
     for output in outputs {
         let meter = interruption.meter();
-        let write = || output.write(mesh, &extract, &data, &look, &meter);
+        let write = || output.write(mesh, extract, &data, &look, &meter);
         let written = terminal.while_metered(&format!("writing {}", output.name()), &meter, write);
         interruption.end_program();
         for path in written? {

@@ -7,7 +7,7 @@ use super::build::FinishedMesh;
 use crate::domain::{FitQuality, Region};
 use crate::field::RefinementRule;
 use crate::mesh::{Extract, Removed, RemovedPart, Topology};
-use crate::outline::{OutlineFit, angle_range};
+use crate::outline::OutlineFit;
 use crate::text::Grouped;
 
 /// The figures of a mesh; its JSON is the answer of `--json`.
@@ -49,7 +49,7 @@ pub struct Summary {
     diameters: Vec<f64>,
 }
 
-/// Nodes along the outline of a region, and the angles of the mesh that has them.
+/// Nodes along the outline of a region.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct OutlineNodes {
     /// Nodes of the boundary along the outline.
@@ -60,30 +60,25 @@ pub struct OutlineNodes {
     pub farthest: f64,
     /// Sharp corners of the polygons that are nodes.
     pub corners: usize,
-    /// In degrees, of the whole mesh.
-    pub smallest_angle: f64,
-    /// In degrees, of the whole mesh.
-    pub largest_angle: f64,
+}
+
+impl From<OutlineFit> for OutlineNodes {
+    fn from(fit: OutlineFit) -> Self {
+        let OutlineFit { nodes, on_outline, farthest, corners } = fit;
+        Self { boundary: nodes, on_outline, farthest, corners }
+    }
 }
 
 impl OutlineNodes {
-    fn of(fit: OutlineFit, extract: &Extract) -> Self {
-        let OutlineFit { nodes, on_outline, farthest, corners } = fit;
-        let [smallest_angle, largest_angle] = angle_range(extract);
-        Self { boundary: nodes, on_outline, farthest, corners, smallest_angle, largest_angle }
-    }
-
     fn for_people(&self) -> String {
         let off = match self.boundary - self.on_outline {
             0 => String::new(),
             _ => format!(", the others at most {} off", short(self.farthest)),
         };
         format!(
-            "{} of {} boundary nodes on the outline{off}; angles {:.1}° to {:.1}°\n",
+            "{} of {} boundary nodes on the outline{off}\n",
             Grouped(self.on_outline),
             Grouped(self.boundary),
-            self.smallest_angle,
-            self.largest_angle,
         )
     }
 }
@@ -161,17 +156,16 @@ impl From<&Removed> for RemovedSummary {
 }
 
 impl Outline {
-    fn of(finished: &FinishedMesh, region: &Region, topology: Topology) -> Self {
-        let mesh = finished.mesh();
-        let fit = FitQuality::of(mesh, &finished.extract(), region);
-        let Topology { parts, holes, .. } = topology;
+    fn of(finished: &FinishedMesh, extract: &Extract, region: &Region) -> Self {
+        let fit = FitQuality::of(finished.mesh(), extract, region);
+        let Topology { parts, holes, .. } = extract.topology();
         let placed = |farthest: Option<(f64, DVec2)>| farthest.map(|(distance, at)| (distance, at.into()));
         Self {
             region_area: region.area(),
             region_holes: region.hole_count(),
             holes,
             parts,
-            removed: finished.removed().into(),
+            removed: finished.derived.removed().into(),
             misclassified_area: fit.misclassified_area,
             boundary_length: fit.boundary_length,
             outline_length: fit.outline_length,
@@ -239,24 +233,17 @@ fn counted(count: usize, noun: &str) -> String {
 }
 
 impl Summary {
-    /// The figures of a mesh.
-    pub fn of(finished: &FinishedMesh, violations: Option<usize>) -> Self {
+    /// The figures of a mesh, and of the extract that files get.
+    pub fn of(finished: &FinishedMesh, extract: &Extract, violations: Option<usize>) -> Self {
         let mesh = finished.mesh();
-        let on_outline = finished.outline.as_ref().map(|outline| (outline.fit(), finished.extract()));
-        let (levels, topology, area) = match &on_outline {
-            Some((_, extract)) => (extract.level_counts(), Some(extract.topology()), extract.area()),
-            None => (mesh.level_counts(), finished.region.as_ref().map(|_| mesh.topology()), mesh.area()),
-        };
+        let levels = extract.level_counts();
+        let region = finished.region.as_ref();
         Self {
-            triangles: levels.iter().sum(),
-            nodes: topology.map_or(mesh.raw_nodes().len(), |topology| topology.nodes),
-            area,
-            outline_nodes: on_outline.map(|(fit, extract)| OutlineNodes::of(fit, &extract)),
-            outline: finished
-                .region
-                .as_ref()
-                .zip(topology)
-                .map(|(region, topology)| Outline::of(finished, region, topology)),
+            triangles: extract.triangles().len(),
+            nodes: extract.nodes().len(),
+            area: if extract.is_patched() { extract.area() } else { mesh.area() },
+            outline_nodes: finished.derived.fit().map(OutlineNodes::from),
+            outline: region.map(|region| Outline::of(finished, extract, region)),
             max_level: levels.len() - 1,
             hash: mesh.fingerprint().to_string(),
             seconds: finished.refinement.as_secs_f64(),

@@ -51,7 +51,7 @@ impl FitQuality {
         let ring =
             |nodes: &Vec<usize>| nodes.iter().map(|&node| extract.world(NodeId::from_index(node))).collect();
         let loops: Vec<Ring> = extract.boundary_loops().iter().map(ring).collect();
-        let [smallest_angle, largest_angle] = angles(extract);
+        let [smallest_angle, largest_angle] = extract.angle_range();
         Self {
             net_area: loops.iter().map(|ring| signed_area(ring)).sum::<f64>() - region.area(),
             misclassified_area: region.area_of(&loops, OverlayRule::Xor, FillRule::EvenOdd),
@@ -96,19 +96,4 @@ fn lost_islands(mesh: &Mesh, region: &Region) -> Vec<DVec2> {
         }
     }
     lost.iter().map(|ring| ring[0]).collect()
-}
-
-/// The smallest and the largest angle of all triangles, in degrees.
-fn angles(extract: &Extract) -> [f64; 2] {
-    // By their cosines: one arc cosine for each end.
-    let mut cosines = [-1.0_f64, 1.0];
-    for cell in extract.cells() {
-        let corners = cell.corners.map(|node| extract.world(NodeId::from_index(node)));
-        for k in 0..3 {
-            let (p, q) = (corners[(k + 1) % 3] - corners[k], corners[(k + 2) % 3] - corners[k]);
-            let cosine = p.dot(q) / (p.length() * q.length());
-            cosines = [cosines[0].max(cosine), cosines[1].min(cosine)];
-        }
-    }
-    cosines.map(|cosine| libm::acos(cosine.clamp(-1.0, 1.0)).to_degrees())
 }

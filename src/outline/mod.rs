@@ -30,8 +30,10 @@ mod corners;
 mod guard;
 mod patchwork;
 mod smooth;
-mod outline_mesh;
+mod changes;
+mod derived;
 mod check;
 
-pub use check::{OutlineViolation, angle_range};
-pub use outline_mesh::{OutlineFit, OutlineMesh};
+pub use changes::OutlineFit;
+pub use check::DerivedViolation;
+pub use derived::DerivedMesh;

@@ -2,6 +2,7 @@ use std::borrow::Cow;
 
 use glam::DVec2;
 
+use super::MeshPatch;
 use crate::geometry::{Lattice, LatticePoint};
 use crate::mesh::kernel::{Mesh, Neighbour, NodeId, Triangle, TriangleId};
 
@@ -67,41 +68,10 @@ impl Mesh {
     /// The part of the mesh that belongs to the domain, in the mesh's order, with the nodes that it uses.
     pub fn extract(&self) -> Extract<'_> {
         if self.outside_count() > 0 {
-            return self.extract_inside();
+            return self.extract_with(&MeshPatch::default());
         }
         let (nodes, triangles) = (Cow::Borrowed(&self.nodes[..]), Cow::Borrowed(&self.triangles[..]));
         Extract { lattice: self.lattice, nodes, triangles, places: None, is_patched: false }
-    }
-
-    fn extract_inside(&self) -> Extract<'_> {
-        let mut places = Vec::with_capacity(self.triangles.len());
-        let mut count = 0;
-        for triangle in &self.triangles {
-            let place = TriangleId::from_index(count).into();
-            places.push(if triangle.is_outside() { Neighbour::BOUNDARY } else { place });
-            count += usize::from(!triangle.is_outside());
-        }
-        let mut nodes = Vec::new();
-        let mut node_places = Vec::with_capacity(self.nodes.len());
-        for (&node, used) in self.nodes.iter().zip(self.used_nodes()) {
-            node_places.push(NodeId::from_index(nodes.len()));
-            nodes.extend(used.then_some(node));
-        }
-        let renumbered = |triangle: &Triangle| {
-            let mut renumbered = *triangle;
-            renumbered.vertices = triangle.vertices.map(|v| node_places[v.index()]);
-            renumbered.raw_neighbours =
-                triangle.raw_neighbours.map(|n| n.triangle().map_or(n, |id| places[id.index()]));
-            renumbered
-        };
-        let triangles = self.triangles().map(|(_, triangle)| renumbered(triangle)).collect();
-        Extract {
-            lattice: self.lattice,
-            nodes: Cow::Owned(nodes),
-            triangles,
-            places: Some(places),
-            is_patched: false,
-        }
     }
 }
 
@@ -214,6 +184,21 @@ impl Extract<'_> {
                 level: triangle.level(),
             })
         })
+    }
+
+    /// The smallest and the largest angle of all triangles, in degrees; [180, 0] without triangles.
+    pub fn angle_range(&self) -> [f64; 2] {
+        // By their cosines: one arc cosine for each end.
+        let mut cosines = [-1.0_f64, 1.0];
+        for cell in self.cells() {
+            let corners = cell.corners.map(|node| self.world(NodeId::from_index(node)));
+            for k in 0..3 {
+                let (p, q) = (corners[(k + 1) % 3] - corners[k], corners[(k + 2) % 3] - corners[k]);
+                let cosine = p.dot(q) / (p.length() * q.length());
+                cosines = [cosines[0].max(cosine), cosines[1].min(cosine)];
+            }
+        }
+        cosines.map(|cosine| libm::acos(cosine.clamp(-1.0, 1.0)).to_degrees())
     }
 
     /// For each node whether a boundary edge ends there.

@@ -32,6 +32,19 @@ pub struct PatchTriangle {
     pub level: u32,
 }
 
+impl MeshPatch {
+    /// Whether nothing is changed.
+    pub fn is_empty(&self) -> bool {
+        self.moved.is_empty() && self.added.is_empty() && self.changed.is_empty()
+    }
+
+    /// Whether no triangle is left of a mesh with the patch.
+    pub fn leaves_nothing_of(&self, mesh: &Mesh) -> bool {
+        let replaced = self.changed.iter().filter(|(id, _)| mesh.is_in_domain(*id)).count();
+        self.pieces.is_empty() && replaced == mesh.triangle_count()
+    }
+}
+
 impl PatchTriangle {
     /// The triangle without neighbours.
     fn triangle(&self) -> Triangle {
@@ -73,7 +86,7 @@ impl Mesh {
             nodes: Cow::Owned(nodes),
             triangles: Cow::Owned(triangles),
             places: Some(places),
-            is_patched: true,
+            is_patched: !patch.is_empty(),
         }
     }
 }

@@ -50,14 +50,6 @@ impl Mesh {
         self.level_counts().iter().enumerate().map(|(level, &count)| count as f64 * share(level)).sum()
     }
 
-    /// Marks a triangle as outside the domain.
-    pub(in crate::mesh) fn set_outside(&mut self, id: TriangleId) {
-        let triangle = &mut self.triangles[id.index()];
-        let before = triangle.kind();
-        triangle.set_outside(true);
-        self.counts.moved(before, triangle.kind());
-    }
-
     /// Classifies the entries `ids` as inside or outside the domain. New triangles have the class of their
     /// parent until then.
     pub fn classify(&mut self, ids: Range<usize>, mut is_outside: impl FnMut(&Element) -> bool) {

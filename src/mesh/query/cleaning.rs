@@ -5,24 +5,26 @@
 //!
 //! ```text
 //!   o-------o                       o-------o        around m, the triangles form two fans; the smaller
-//!   | \     | \                     | \     |        fan is marked as outside
+//!   | \     | \                     | \     |        fan is removed
 //!   |   \   |   \                   |   \   |
 //!   o-----m-------o      =>         o-----m
 //!         |   \   |
 //!         o-------o
 //! ```
 //!
-//! Removed triangles are only marked, as all triangles outside the domain are. Which triangles are removed
+//! The mesh itself stays as it is: what is removed is noted in a [`MeshPatch`]. Which triangles are removed
 //! follows from the places of the triangles, and not from their numbers: two meshes with the same triangles
 //! lose the same ones.
 
-use std::cmp::Ordering::Equal;
-use std::cmp::Reverse;
+use std::cmp::{Ordering, Reverse};
 use std::collections::HashMap;
+use std::mem;
 
 use glam::DVec2;
 
+use super::parts::{Part, Parts, place_key};
 use super::survey::Forest;
+use crate::mesh::extract::{Extract, MeshPatch};
 use crate::mesh::kernel::{Mesh, NodeId, TriangleId};
 
 /// Which triangles of a domain a mesh keeps.
@@ -53,7 +55,7 @@ impl Cleaning {
     pub const FOR_SOLVERS: Self = Self { parts: KeptParts::Largest, keeps_pinches: false };
 }
 
-/// What [`Mesh::clean`] removed.
+/// What [`MeshPatch::clean`] removed.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Removed {
@@ -79,57 +81,142 @@ pub struct RemovedPart {
     pub area: f64,
 }
 
-impl Mesh {
-    /// Removes parts and pinches: marks their triangles as outside the domain.
+impl MeshPatch {
+    /// Removes parts and pinches of the mesh with this patch: their triangles become changed ones without
+    /// pieces.
     ///
     /// To remove a pinch can separate a part, and the other way round, so both are repeated until nothing
     /// changes. Time and memory grow with the mesh.
-    pub fn clean(&mut self, cleaning: &Cleaning) -> Removed {
-        let (count, area) = (self.triangle_count(), self.area());
-        let mut removed = Removed::default();
-        let whole = (0..self.triangles.len()).map(|index| self.units_of(index)).sum();
-        // Ends: each round but the last removes a triangle.
-        loop {
-            let parts = Parts::of(self);
-            let small = parts.removed_by(cleaning.parts, whole);
-            if !small.is_empty() {
-                removed.parts.extend(small.iter().map(|&part| parts.describe(self, part)));
-                let is_small = |index: &usize| small.binary_search(&parts.roots[*index]).is_ok();
-                for id in (0..self.triangles.len()).filter(is_small).map(TriangleId::from_index) {
-                    self.set_outside(id);
-                }
-                continue;
-            }
-            let pinched = if cleaning.keeps_pinches { Vec::new() } else { self.pinches() };
-            if pinched.is_empty() {
-                break;
-            }
-            removed.pinches += pinched.len();
-            let around = self.triangles_by_node(&pinched);
-            let fans: Vec<TriangleId> =
-                around.iter().flat_map(|(&node, around)| self.smaller_fans(node, around, &parts)).collect();
-            fans.into_iter().for_each(|id| self.set_outside(id));
+    ///
+    /// # Panics
+    /// When the patch is of another mesh.
+    pub fn clean(&mut self, mesh: &Mesh, cleaning: &Cleaning) -> Removed {
+        if *cleaning == Cleaning::NONE {
+            return Removed::default();
         }
-        let place = |part: &RemovedPart| [part.place.y, part.place.x];
-        removed
-            .parts
-            .sort_by(|a, b| b.area.total_cmp(&a.area).then(place(a).partial_cmp(&place(b)).unwrap_or(Equal)));
-        removed.triangles = count - self.triangle_count();
-        removed.area = area - self.area();
+        let extract = mesh.extract_with(self);
+        let mut cleaner = Cleaner::new(&extract);
+        cleaner.run(cleaning);
+        let Cleaner { is_removed, removed, .. } = cleaner;
+        drop(extract);
+        if removed.triangles > 0 {
+            self.remove(mesh, &is_removed);
+        }
         removed
     }
 
-    /// The nodes of the domain in which triangles meet without sharing an edge, in their order.
-    pub fn pinches(&self) -> Vec<NodeId> {
-        // A node on the boundary has two edges there, or four and more.
-        let mut boundary_edges = vec![0u8; self.nodes.len()];
-        for index in 0..self.triangles.len() {
+    /// Removes triangles by their place in the extract.
+    fn remove(&mut self, mesh: &Mesh, is_removed: &[bool]) {
+        let old_pieces = mem::take(&mut self.pieces);
+        let mut old_changed = mem::take(&mut self.changed).into_iter().peekable();
+        let mut is_removed = is_removed.iter().copied();
+        let mut next_is_removed = || is_removed.next().expect("one for each triangle of the extract");
+        for (index, triangle) in mesh.raw_triangles().iter().enumerate() {
             let id = TriangleId::from_index(index);
-            if !self.is_in_domain(id) {
-                continue;
+            if let Some((_, pieces)) = old_changed.next_if(|(changed, _)| *changed == id) {
+                let first = self.pieces.len();
+                self.pieces.extend(old_pieces[pieces].iter().filter(|_| !next_is_removed()));
+                self.changed.push((id, first..self.pieces.len()));
+            } else if !triangle.is_outside() && next_is_removed() {
+                self.changed.push((id, self.pieces.len()..self.pieces.len()));
             }
-            let sides = self.triangle(id).edge_nodes().into_iter().zip(self.neighbours(id));
-            for ((from, to), _) in sides.filter(|(_, across)| across.triangle().is_none()) {
+        }
+    }
+}
+
+impl Extract<'_> {
+    /// The nodes in which triangles meet without sharing an edge, in their order.
+    pub fn pinches(&self) -> Vec<NodeId> {
+        Cleaner::new(self).pinches()
+    }
+}
+
+/// Removes triangles from an extract.
+struct Cleaner<'a> {
+    extract: &'a Extract<'a>,
+    is_removed: Vec<bool>,
+    removed: Removed,
+}
+
+impl<'a> Cleaner<'a> {
+    fn new(extract: &'a Extract<'a>) -> Self {
+        Self { extract, is_removed: vec![false; extract.triangles().len()], removed: Removed::default() }
+    }
+
+    fn run(&mut self, cleaning: &Cleaning) {
+        let mut parts = self.parts();
+        let whole: u128 = parts.iter().map(|part| part.doubled_area).sum();
+        // Ends: each round but the last removes a triangle.
+        loop {
+            if self.remove_parts(&parts, cleaning.parts, whole) {
+                parts = self.parts();
+            }
+            let pinches = if cleaning.keeps_pinches { Vec::new() } else { self.pinches() };
+            if pinches.is_empty() {
+                break;
+            }
+            self.remove_fans(&pinches, &parts);
+            parts = self.parts();
+        }
+        let doubled: u128 = parts.iter().map(|part| part.doubled_area).sum();
+        self.removed.area = self.area(whole - doubled);
+        self.removed.triangles = self.is_removed.iter().filter(|&&is_removed| is_removed).count();
+        self.removed.parts.sort_by(by_area_and_place);
+    }
+
+    fn parts(&self) -> Parts {
+        Parts::new(self.extract, &self.is_removed)
+    }
+
+    /// Removes the parts that do not stay, where all parts had the doubled area `whole` at first. The largest
+    /// part always stays. Returns whether there were any.
+    fn remove_parts(&mut self, parts: &Parts, kept: KeptParts, whole: u128) -> bool {
+        let Some(largest) = parts.iter().max() else { return false };
+        let stays = |part: &Part| match kept {
+            KeptParts::All => true,
+            KeptParts::Largest => part == largest,
+            KeptParts::Share(share) => part == largest || part.doubled_area as f64 >= share * whole as f64,
+        };
+        let small = parts.iter().filter(|part| !stays(part));
+        let described: Vec<RemovedPart> = small.map(|part| self.describe(part)).collect();
+        if described.is_empty() {
+            return false;
+        }
+        for index in 0..self.is_removed.len() {
+            let removes = !self.is_removed[index] && !stays(parts.of(TriangleId::from_index(index)));
+            self.is_removed[index] |= removes;
+        }
+        self.removed.parts.extend(described);
+        true
+    }
+
+    fn describe(&self, part: &Part) -> RemovedPart {
+        let corners = self.extract.cell(part.at).corners.map(NodeId::from_index);
+        RemovedPart {
+            place: corners.map(|node| self.extract.world(node)).iter().sum::<DVec2>() / 3.0,
+            triangles: part.triangles,
+            area: self.area(part.doubled_area),
+        }
+    }
+
+    /// A doubled area on the lattice in square world units.
+    fn area(&self, doubled: u128) -> f64 {
+        let step = self.extract.lattice().step();
+        0.5 * doubled as f64 * step.x * step.y
+    }
+
+    /// The triangles across the edges of one.
+    fn neighbours(&self, index: usize) -> [Option<usize>; 3] {
+        let across = self.extract.triangles()[index].raw_neighbours;
+        across.map(|n| n.triangle().map(TriangleId::index).filter(|&other| !self.is_removed[other]))
+    }
+
+    fn pinches(&self) -> Vec<NodeId> {
+        // A node on the boundary has two edges there, or four and more.
+        let mut boundary_edges = vec![0u8; self.extract.nodes().len()];
+        for index in self.left() {
+            let sides = self.extract.triangles()[index].edge_nodes().into_iter().zip(self.neighbours(index));
+            for ((from, to), _) in sides.filter(|(_, across)| across.is_none()) {
                 boundary_edges[from.index()] += 1;
                 boundary_edges[to.index()] += 1;
             }
@@ -138,137 +225,61 @@ impl Mesh {
         pinched.map(|(node, _)| NodeId::from_index(node)).collect()
     }
 
-    /// The triangles of the domain at each of a few nodes. [`Mesh::triangles_around`] would not find them all
-    /// where the coarse grid itself is pinched.
-    fn triangles_by_node(&self, nodes: &[NodeId]) -> HashMap<NodeId, Vec<TriangleId>> {
-        let mut around: HashMap<NodeId, Vec<TriangleId>> =
-            nodes.iter().map(|&node| (node, Vec::new())).collect();
-        let ids = (0..self.triangles.len()).map(TriangleId::from_index);
-        for id in ids.filter(|&id| self.is_in_domain(id)) {
-            for node in self.triangle(id).vertices {
+    /// The triangles that are not removed.
+    fn left(&self) -> impl Iterator<Item = usize> {
+        (0..self.is_removed.len()).filter(|&index| !self.is_removed[index])
+    }
+
+    /// Removes the smaller fans at pinches, all at once.
+    fn remove_fans(&mut self, pinches: &[NodeId], parts: &Parts) {
+        let mut around: HashMap<NodeId, Vec<usize>> =
+            pinches.iter().map(|&node| (node, Vec::new())).collect();
+        for index in self.left() {
+            for node in self.extract.triangles()[index].vertices {
                 if let Some(triangles) = around.get_mut(&node) {
-                    triangles.push(id);
+                    triangles.push(index);
                 }
             }
         }
-        around
+        let fans: Vec<usize> =
+            around.iter().flat_map(|(&node, around)| self.smaller_fans(node, around, parts)).collect();
+        self.removed.pinches += pinches.len();
+        fans.into_iter().for_each(|index| self.is_removed[index] = true);
     }
 
     /// The triangles `around` a node, except for the fan that stays: the one of the largest part, then the
     /// one with the widest angle, then the one at the lowest place.
-    fn smaller_fans(&self, node: NodeId, around: &[TriangleId], parts: &Parts) -> Vec<TriangleId> {
+    fn smaller_fans(&self, node: NodeId, around: &[usize], parts: &Parts) -> Vec<usize> {
         let mut fans = self.fans(around);
         fans.sort_by_key(|fan| {
-            let eighths: u32 =
-                fan.iter().map(|&id| if self.triangle(id).apex() == node { 2 } else { 1 }).sum();
-            let place = fan.iter().map(|&id| self.place_key(id)).min();
-            (Reverse(parts.rank(fan[0])), Reverse(eighths), place)
+            let eighths = |&index: &usize| if self.extract.triangles()[index].apex() == node { 2 } else { 1 };
+            let angle: u32 = fan.iter().map(eighths).sum();
+            let place = fan.iter().map(|&index| place_key(self.extract, TriangleId::from_index(index))).min();
+            (Reverse(parts.of(TriangleId::from_index(fan[0]))), Reverse(angle), place)
         });
         fans.into_iter().skip(1).flatten().collect()
     }
 
     /// The triangles around a node in groups that are joined by edges.
-    fn fans(&self, around: &[TriangleId]) -> Vec<Vec<TriangleId>> {
+    fn fans(&self, around: &[usize]) -> Vec<Vec<usize>> {
         let mut groups = Forest::new(around.len());
-        for (n, &id) in around.iter().enumerate() {
-            for across in self.neighbours(id).into_iter().filter_map(|across| across.triangle()) {
+        for (n, &index) in around.iter().enumerate() {
+            for across in self.neighbours(index).into_iter().flatten() {
                 if let Some(other) = around.iter().position(|&other| other == across) {
                     groups.join(n, other);
                 }
             }
         }
-        let mut fans: HashMap<usize, Vec<TriangleId>> = HashMap::new();
-        for (n, &id) in around.iter().enumerate() {
-            fans.entry(groups.root(n)).or_default().push(id);
+        let mut fans: HashMap<usize, Vec<usize>> = HashMap::new();
+        for (n, &index) in around.iter().enumerate() {
+            fans.entry(groups.root(n)).or_default().push(index);
         }
         fans.into_values().collect()
     }
-
-    /// The area of a triangle of the deepest level, in square world units.
-    fn area_of_unit(&self) -> f64 {
-        let cell = self.lattice.step() * f64::from(self.lattice.cell_steps());
-        0.5 * cell.x * cell.y / (1u128 << self.lattice.deepest_level()) as f64
-    }
-
-    /// The area of an entry in triangles of the deepest level; 0 outside the domain.
-    fn units_of(&self, index: usize) -> u128 {
-        let triangle = &self.triangles[index];
-        let finer = self.lattice.deepest_level().saturating_sub(triangle.level());
-        if triangle.is_outside() { 0 } else { 1 << finer }
-    }
-
-    /// Three times the centroid in lattice coordinates, y first: no two triangles of a mesh share it.
-    fn place_key(&self, id: TriangleId) -> [u64; 2] {
-        let corners = self.corners(id);
-        [corners.iter().map(|p| u64::from(p.y)).sum(), corners.iter().map(|p| u64::from(p.x)).sum()]
-    }
 }
 
-/// The parts of a mesh.
-struct Parts {
-    /// For each entry the entry that stands for its part; of no meaning outside the domain.
-    roots: Vec<usize>,
-    by_root: HashMap<usize, Part>,
-}
-
-/// Parts compare by their area, then by place.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-struct Part {
-    units: u128,
-    lowest: Reverse<[u64; 2]>,
-    triangles: usize,
-    at: TriangleId,
-}
-
-impl Parts {
-    fn of(mesh: &Mesh) -> Self {
-        let mut forest = Forest::new(mesh.triangles.len());
-        let in_domain = |index: &usize| mesh.is_in_domain(TriangleId::from_index(*index));
-        for index in (0..mesh.triangles.len()).filter(in_domain) {
-            let across = mesh.neighbours(TriangleId::from_index(index));
-            across.iter().filter_map(|id| id.triangle()).for_each(|id| forest.join(index, id.index()));
-        }
-        let roots: Vec<usize> = (0..mesh.triangles.len()).map(|index| forest.root(index)).collect();
-        let mut by_root: HashMap<usize, Part> = HashMap::new();
-        for index in (0..mesh.triangles.len()).filter(in_domain) {
-            let at = TriangleId::from_index(index);
-            let lowest = Reverse(mesh.place_key(at));
-            let part = by_root.entry(roots[index]).or_insert(Part { units: 0, lowest, triangles: 0, at });
-            part.units += mesh.units_of(index);
-            part.triangles += 1;
-            if lowest > part.lowest {
-                (part.lowest, part.at) = (lowest, at);
-            }
-        }
-        Self { roots, by_root }
-    }
-
-    /// The part of a triangle of the domain.
-    fn rank(&self, id: TriangleId) -> Part {
-        self.by_root[&self.roots[id.index()]]
-    }
-
-    /// The roots of the parts that do not stay, where all parts had `whole` units at first. The largest part
-    /// always stays.
-    fn removed_by(&self, kept: KeptParts, whole: u128) -> Vec<usize> {
-        let Some(largest) = self.by_root.values().max().copied() else { return Vec::new() };
-        let stays = |part: &Part| match kept {
-            KeptParts::All => true,
-            KeptParts::Largest => *part == largest,
-            KeptParts::Share(share) => *part == largest || part.units as f64 >= share * whole as f64,
-        };
-        let mut removed: Vec<usize> =
-            self.by_root.iter().filter(|(_, part)| !stays(part)).map(|(&root, _)| root).collect();
-        removed.sort_unstable();
-        removed
-    }
-
-    fn describe(&self, mesh: &Mesh, root: usize) -> RemovedPart {
-        let part = self.by_root[&root];
-        RemovedPart {
-            place: mesh.world_corners(part.at).iter().sum::<DVec2>() / 3.0,
-            triangles: part.triangles,
-            area: part.units as f64 * mesh.area_of_unit(),
-        }
-    }
+/// The largest area first, then the lowest place.
+fn by_area_and_place(a: &RemovedPart, b: &RemovedPart) -> Ordering {
+    let place = |part: &RemovedPart| [part.place.y, part.place.x];
+    b.area.total_cmp(&a.area).then(place(a).partial_cmp(&place(b)).unwrap_or(Ordering::Equal))
 }

@@ -9,7 +9,7 @@ mod interpolate;
 mod locate;
 mod locator;
 mod patched_locator;
-mod patch_parts;
+mod parts;
 mod survey;
 
 pub use adjacency::Adjacency;

@@ -10,22 +10,12 @@ use super::smooth::Smoother;
 use super::snap::{Crossings, Side, snapped};
 use super::stencil::Placement;
 use super::triangulation::NONE;
-use crate::domain::{DomainOnLattice, RegionOnLattice};
+use crate::domain::RegionOnLattice;
 use crate::geometry::{Lattice, LatticePoint};
-use crate::mesh::{Extract, KeptParts, Mesh, MeshPatch, NodeId, PatchTriangle, Removed, TriangleId};
+use crate::mesh::{Mesh, MeshPatch, NodeId, PatchTriangle, TriangleId};
 
 /// How many rounds of flips and moves improve the angles.
 const ROUNDS: usize = 8;
-
-/// What is changed in a mesh so that the nodes of its boundary lie on the outline of a region.
-#[derive(Clone, Debug)]
-pub struct OutlineMesh {
-    patch: MeshPatch,
-    fit: OutlineFit,
-    /// The cotangent of the smallest angle that is accepted beside a corner of the outline; 0 without
-    /// corners.
-    corner_limit: f64,
-}
 
 /// How well the nodes of the boundary lie on the outline.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -40,14 +30,20 @@ pub struct OutlineFit {
     pub corners: usize,
 }
 
-impl OutlineMesh {
-    /// Derives the changes. `None` where the domain's boundary is not treated so
-    /// ([`OnOutline`](crate::domain::BoundaryTreatment::OnOutline)).
-    pub fn new(mesh: &Mesh, domain: &DomainOnLattice) -> Option<Self> {
-        Some(Self::of_region(mesh, domain.region_on_outline()?))
-    }
+/// What [`OutlineChanges::new`] finds.
+pub(super) struct OutlineChanges {
+    /// What is changed in the mesh.
+    pub patch: MeshPatch,
+    /// How well the boundary lies on the outline.
+    pub fit: OutlineFit,
+    /// The cotangent of the smallest angle that is accepted beside a corner of the outline; 0 without
+    /// corners.
+    pub corner_limit: f64,
+}
 
-    fn of_region(mesh: &Mesh, region: &RegionOnLattice) -> Self {
+impl OutlineChanges {
+    /// Finds what to change so that the nodes of the boundary lie on the outline of a region.
+    pub fn new(mesh: &Mesh, region: &RegionOnLattice) -> Self {
         let angles = Angles::new(mesh.lattice().step());
         let signs = signs(mesh, region);
         let band = Band::new(mesh, &signs);
@@ -62,36 +58,6 @@ impl OutlineMesh {
         smoother.pull(&mut patchwork);
         let fit = fit(&patchwork, region, &angles);
         Self { patch: patch(mesh, &signs, &band, &patchwork, &angles), fit, corner_limit }
-    }
-
-    /// The mesh with the changes, for files and summaries.
-    ///
-    /// # Panics
-    /// When `mesh` is not the one that the changes were derived from.
-    pub fn extract<'a>(&self, mesh: &'a Mesh) -> Extract<'a> {
-        mesh.extract_with(&self.patch)
-    }
-
-    /// Removes the parts that do not stay. The figures of [`Self::fit`] still include them.
-    ///
-    /// # Panics
-    /// When `mesh` is not the one that the changes were derived from.
-    pub fn keep_parts(&mut self, mesh: &Mesh, kept: KeptParts) -> Removed {
-        self.patch.keep_parts(mesh, kept)
-    }
-
-    /// What is changed.
-    pub fn patch(&self) -> &MeshPatch {
-        &self.patch
-    }
-
-    pub(super) fn corner_limit(&self) -> f64 {
-        self.corner_limit
-    }
-
-    /// How well the boundary lies on the outline.
-    pub fn fit(&self) -> OutlineFit {
-        self.fit
     }
 }
 

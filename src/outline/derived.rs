@@ -1,0 +1,65 @@
+use super::angles::Angles;
+use super::changes::{OutlineChanges, OutlineFit};
+use crate::domain::DomainOnLattice;
+use crate::mesh::{Cleaning, Extract, Mesh, MeshPatch, Removed};
+
+/// A mesh as it leaves the program: with its boundary nodes on the outline where the domain asks for that,
+/// and without the parts and pinches that [`Cleaning`] removes.
+///
+/// The mesh that it is derived from stays as it is. What differs is a [`MeshPatch`], a pure function of the
+/// mesh and the domain, whatever the order of the mesh's entries.
+#[derive(Clone, Debug)]
+pub struct DerivedMesh {
+    patch: MeshPatch,
+    fit: Option<OutlineFit>,
+    removed: Removed,
+    allows_pinches: bool,
+    corner_limit: f64,
+}
+
+impl DerivedMesh {
+    /// Derives the mesh. Time and memory grow with the mesh, and most with the triangles along the outline.
+    pub fn new(mesh: &Mesh, domain: &DomainOnLattice, cleaning: &Cleaning) -> Self {
+        let changes = domain.region_on_outline().map(|region| OutlineChanges::new(mesh, region));
+        let (mut patch, fit, corner_limit) = match changes {
+            Some(OutlineChanges { patch, fit, corner_limit }) => (patch, Some(fit), corner_limit),
+            None => (MeshPatch::default(), None, 0.0),
+        };
+        let removed = patch.clean(mesh, cleaning);
+        let allows_pinches = fit.is_none() && cleaning.keeps_pinches;
+        Self { patch, fit, removed, allows_pinches, corner_limit }
+    }
+
+    /// The mesh with the changes, for files and summaries.
+    ///
+    /// # Panics
+    /// When `mesh` is not the one that the changes were derived from.
+    pub fn extract<'a>(&self, mesh: &'a Mesh) -> Extract<'a> {
+        mesh.extract_with(&self.patch)
+    }
+
+    /// What differs from the mesh.
+    pub fn patch(&self) -> &MeshPatch {
+        &self.patch
+    }
+
+    /// How well the boundary lies on the outline; `None` where nodes are not moved there. The figures include
+    /// the parts that were removed.
+    pub fn fit(&self) -> Option<OutlineFit> {
+        self.fit
+    }
+
+    /// What was removed.
+    pub fn removed(&self) -> &Removed {
+        &self.removed
+    }
+
+    pub(super) fn allows_pinches(&self) -> bool {
+        self.allows_pinches
+    }
+
+    /// The cotangent of the smallest angle that a triangle may have.
+    pub(super) fn largest_cotangent(&self, angles: &Angles) -> f64 {
+        angles.limit().max(self.corner_limit)
+    }
+}
