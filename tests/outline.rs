@@ -15,7 +15,8 @@ use meshbrush::internals::domain::{BoundaryTreatment, Domain, Polygon, Ring};
 use meshbrush::internals::geometry::{Lattice, LatticePoint, LatticeRect};
 use meshbrush::internals::io::geojson;
 use meshbrush::internals::mesh::{
-    Cleaning, Element, Extract, Limits, Location, Mesh, PatchedLocator, Progress, Updater,
+    Changes, Cleaning, Element, Extract, Limits, Location, Mesh, PatchPieces, PatchedLocator, Progress,
+    TriangleId, Updater,
 };
 use meshbrush::internals::outline::DerivedMesh;
 
@@ -513,4 +514,41 @@ fn points_are_found_in_the_triangles_that_files_have() {
         }
     }
     assert!(counts.iter().all(|&count| count > 100), "{counts:?}");
+}
+
+#[test]
+fn pieces_and_the_triangles_that_they_do_not_replace_are_the_mesh() {
+    for seed in 3000..3010 {
+        let (_, built, _) = case(seed);
+        let outline = DerivedMesh::new(&built.mesh, &built.domain, &Cleaning::FOR_SOLVERS);
+        let extract = outline.extract(&built.mesh);
+        let mut pieces = PatchPieces::new(&built.mesh, outline.patch(), &extract);
+        let drawn = |pieces: &PatchPieces| {
+            let replaced: HashSet<TriangleId> = pieces.replaced().collect();
+            let kept = built.mesh.triangles().filter(|(id, _)| !replaced.contains(id));
+            let corners = |points: [LatticePoint; 3]| {
+                let mut corners = points.map(|p| [p.x, p.y]);
+                corners.sort_unstable();
+                corners
+            };
+            let mut all: Vec<_> = kept.map(|(id, _)| corners(built.mesh.corners(id))).collect();
+            let shown = pieces.triangles().iter().filter(|piece| !piece.is_outside());
+            all.extend(shown.map(|piece| corners(piece.vertices.map(|v| pieces.nodes()[v.index()]))));
+            all.sort_unstable();
+            all
+        };
+        let mut expected: Vec<_> = shape(&extract).into_iter().collect();
+        expected.iter_mut().for_each(|corners| corners.sort_unstable());
+        expected.sort_unstable();
+        assert!(drawn(&pieces) == expected, "seed {seed}");
+        // Retired everywhere, they leave the mesh as it is.
+        let all = Changes { nodes: Vec::new(), triangles: vec![0..built.mesh.raw_triangle_count()] };
+        let retired = pieces.retire(&built.mesh, &all);
+        assert!(!retired.is_empty() && pieces.retire(&built.mesh, &all).is_empty());
+        assert_eq!(pieces.replaced().count(), 0);
+        let mut whole = shape(&built.mesh.extract()).into_iter().collect::<Vec<_>>();
+        whole.iter_mut().for_each(|corners| corners.sort_unstable());
+        whole.sort_unstable();
+        assert!(drawn(&pieces) == whole, "seed {seed}");
+    }
 }

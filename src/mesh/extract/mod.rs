@@ -5,9 +5,11 @@ mod extract;
 mod boundary;
 mod numbering;
 mod patch;
+mod pieces;
 
 pub(in crate::mesh) use numbering::RankBits;
 
 pub use extract::{BoundaryEdge, Cell, Extract, MeshEdge};
 pub use numbering::Numbering;
 pub use patch::{MeshPatch, PatchTriangle};
+pub use pieces::PatchPieces;
