@@ -63,14 +63,14 @@ pub use paint::{Brush, Medium, PaintRasters};
 
 // Query a mesh.
 pub use mesh::{
-    Adjacency, Cleaning, KeptParts, Location, Locator, Neighbour, NodeId, Numbering, Orientation,
-    PatchedLocator, Removed, RemovedPart, Survey, Topology, Triangle, TriangleId, barycentric, interpolate,
+    Adjacency, Cleaning, KeptParts, Location, Locator, Neighbour, NodeId, Orientation, PatchedLocator,
+    Removed, RemovedPart, Topology, Triangle, TriangleId, barycentric, interpolate,
 };
 
 // Read and write files.
 pub use colormap::{Colormap, Ground, LevelColors};
 pub use io::{Cancelled, MeshData, MeshFormat, Meter, NodeValues, ReadError};
-pub use mesh::{BoundaryEdge, Cell, Extract, MeshEdge, MeshPatch, PatchTriangle};
+pub use mesh::{BoundaryEdge, Cell, Extract, MeshEdge, MeshPatch, MeshView, PatchPieces, PatchTriangle};
 pub use outline::{DerivedMesh, DerivedViolation, OutlineFit};
 pub use render::Image;
 pub use render::export::{ExportFormat, LARGEST_PICTURE, Look, UnknownEnding};

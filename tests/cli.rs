@@ -293,7 +293,7 @@ fn a_region_is_meshed_as_its_boundary_asks() {
     let eighth = folder.json("--region frame.geojson --spacing 1 --boundary-diameter 0.125");
     assert_eq!(eighth["hash"], fitted["hash"]);
     let help = folder.run("mesh --help").out.split_whitespace().collect::<Vec<_>>().join(" ");
-    assert!(help.contains("when fitted [default: an eighth of the spacing]"), "{help}");
+    assert!(help.contains("move onto it [default: an eighth of the spacing]"), "{help}");
     assert_eq!(folder.json("--region frame.geojson --spacing 1 --boundary fitted")["hash"], fitted["hash"]);
     let coarser = folder.json("--region frame.geojson --spacing 1 --boundary-diameter 0.5 --checks");
     assert_eq!((&coarser["max_level"], &coarser["violations"]), (&3.into(), &0.into()));
@@ -325,8 +325,9 @@ const STRAIT: &str = r#"{"type": "MultiPolygon", "coordinates": [
 fn a_fitted_mesh_is_one_part_without_pinches_unless_more_is_asked_for() {
     let folder = Folder::new("parts");
     folder.file("strait.geojson", STRAIT);
-    let mesh = |options: &str| {
-        let summary = folder.json(&format!("--region strait.geojson --spacing 1 --checks {options}"));
+    let mesh = |boundary: &str, options: &str| {
+        let options = format!("--region strait.geojson --boundary {boundary} --spacing 1 --checks {options}");
+        let summary = folder.json(&options);
         assert_eq!(summary["violations"], 0, "{options}");
         let number = |key: &str| summary[key].as_f64().unwrap();
         let removed = &summary["removed"];
@@ -334,20 +335,20 @@ fn a_fitted_mesh_is_one_part_without_pinches_unless_more_is_asked_for() {
         ([number("parts"), number("area").round()], parts, removed["pinches"].as_u64().unwrap())
     };
     // The two large squares touch in one node.
-    assert_eq!(mesh("--parts all --keep-pinches"), ([3.0, 33.0], 0, 0));
-    let (all, _, pinches) = mesh("--parts all");
+    let fitted = |options: &str| mesh("fitted", options);
+    assert_eq!(fitted("--parts all --keep-pinches"), ([3.0, 33.0], 0, 0));
+    let (all, _, pinches) = fitted("--parts all");
     assert_eq!((all[0], pinches), (3.0, 1));
-    assert_eq!(mesh("").0, [1.0, 16.0]);
-    assert_eq!(mesh("").1, 2);
-    assert_eq!(mesh("--parts 0.1").0[0], 2.0);
-    assert_eq!(mesh("--parts largest").0, [1.0, 16.0]);
-    let ran = folder.run("mesh --region strait.geojson --spacing 1");
+    assert_eq!(fitted("").0, [1.0, 16.0]);
+    assert_eq!(fitted("").1, 2);
+    assert_eq!(fitted("--parts 0.1").0[0], 2.0);
+    assert_eq!(fitted("--parts largest").0, [1.0, 16.0]);
+    let ran = folder.run("mesh --region strait.geojson --boundary fitted --spacing 1");
     assert!(ran.err.contains("removed "), "{}", ran.err);
     // With nodes on the outline there are no pinches to begin with.
-    let on_outline = |options: &str| mesh(&format!("--boundary outline {options}"));
-    assert_eq!(on_outline("--parts all").1, 0);
-    assert!(on_outline("--parts all").0[0] > 1.0);
-    assert_eq!((on_outline("").0[0], on_outline("").2), (1.0, 0));
+    assert_eq!(mesh("outline", "--parts all").1, 0);
+    assert!(mesh("outline", "--parts all").0[0] > 1.0);
+    assert_eq!((mesh("outline", "").0[0], mesh("outline", "").2), (1.0, 0));
     for wrong in ["some", "1.5", "-1", "nan"] {
         assert_fails(
             &folder,

@@ -493,7 +493,7 @@ fn points_are_found_in_the_triangles_that_files_have() {
             queries.extend([near, near + (place(&mut random) - 0.5) * a.distance(b)]);
         }
         for query in queries {
-            let found = locator.locate(query, built.mesh.locate(query));
+            let found = locator.locate(&extract, query, built.mesh.locate(query));
             let Some(p) = fine(built.mesh.lattice().lattice_from_world(query)) else { continue };
             let first = triangles.iter().zip(0..).find_map(|(t, n)| Some((n, edges_under(t, p)?)));
             assert_eq!(found.triangle().map(|id| id.index()), first.map(|(n, _)| n), "seed {seed}: {query}");

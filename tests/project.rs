@@ -428,7 +428,7 @@ fn errors_stay_short_for_long_values() {
         ["0.0,\n      0.0,", "1e300,\n      1e299,"],
         ["\"spacing\": ", "\"spacing\": -1e300"],
         ["\"h_min\": ", "\"h_min\": 1e300"],
-        ["\"fitted_with_diameter\": ", "\"fitted_with_diameter\": -1e300"],
+        ["\"on_outline_with_diameter\": ", "\"on_outline_with_diameter\": -1e300"],
     ] {
         let bytes = rewritten(|text| {
             assert!(text.contains(from), "{from}: {text}");

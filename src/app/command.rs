@@ -111,6 +111,8 @@ pub enum Command {
     Fit,
     /// Puts a point in the middle of the canvas.
     LookAt(DVec2),
+    /// Shows an area, in world units, as large as it fits.
+    ShowArea(Rect),
     /// Zooms about the middle of the canvas by a factor.
     Zoom(f64),
     /// Zooms by a factor about a place on the canvas, in pixels.

@@ -249,7 +249,7 @@ impl App {
 
     /// Queries a triangle, and moves the view where it is out of sight.
     fn query_triangle(&mut self, id: TriangleId) {
-        let [a, b, c] = self.session.mesh().world_corners(id);
+        let [a, b, c] = self.session.view().world_corners(id);
         let middle = (a + b + c) / 3.0;
         self.session.query(Some(middle));
         self.view.reveal(middle);

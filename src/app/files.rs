@@ -17,6 +17,7 @@ use crate::geometry::Rect;
 use crate::io::png::{Behind, decode};
 use crate::io::{self, Cancelled, MeshData, Meter};
 use crate::mesh::Extract;
+use crate::outline::DerivedMesh;
 use crate::raster::Raster;
 use crate::render::export::ExportFormat;
 
@@ -82,13 +83,15 @@ pub fn export(session: &mut Session, view: &View, background: &mut Background, p
     if let Some(problem) = format.files(path).iter().find_map(blocked) {
         return session.report(problem);
     }
-    let (mesh, field) = (session.shared_mesh(), session.follower().field().clone());
+    let (mesh, domain) = (session.shared_mesh(), session.follower().domain().clone());
+    let (field, cleaning) =
+        (session.follower().field().clone(), session.follower().settings().derived_cleaning());
     let (paint, rule) = (session.document().paint().clone(), session.follower().settings().rule);
     let look = view.picture(session.document().settings());
     let file = path.to_owned();
     background.start(Aim::Export, path, move |meter| {
         let write = || -> std::io::Result<Vec<PathBuf>> {
-            let extract = mesh.extract();
+            let extract = DerivedMesh::new(&mesh, &domain, &cleaning).extract(&mesh);
             let target_diameter = if format.wants_node_data() {
                 at_nodes(&extract, meter, |node| field.target_by_rule(rule, Some(paint.as_paint()), node))?
             } else {

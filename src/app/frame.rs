@@ -137,10 +137,11 @@ impl App {
         let deadline = Instant::now() + budget;
         let cuts = self.session.advance_cuts(patience, ctx);
         let follows = self.session.follow(deadline);
+        let derives = self.session.advance_derivation(patience, ctx);
         let dab = if self.asks_something() { None } else { self.canvas.hovered_dab(ctx, &self.tools) };
         let prices = self.session.price_dab(dab, deadline);
         self.canvas.note_work(&self.session);
-        if cuts || follows || prices {
+        if cuts || follows || derives || prices {
             ctx.request_repaint();
         }
     }
@@ -166,18 +167,11 @@ impl App {
             return;
         };
         self.canvas.draw_mesh(ui, &mut self.session, &self.view, commands);
-        let state = FrameState {
-            session: &self.session,
-            project: &self.project,
-            tools: &self.tools,
-            view: &self.view,
-            pointer: self.canvas.pointer(),
-            readout,
-            reproducible: self.reproducible,
-        };
-        self.canvas.draw_marks(ui, &response, &state);
         let files = self.background.rows(self.project.is_leaving());
-        self.canvas.draw_floats(ui, &response, &state, &files, commands);
+        let state = self.state(readout);
+        self.canvas.draw_marks(ui, &response, &state);
+        let floats = self.canvas.draw_floats(ui, &response, &state, &files, commands);
+        self.canvas.note_floats(floats);
     }
 
     fn draw_dialogs(&self, ctx: &Context, commands: &mut Vec<Command>) {

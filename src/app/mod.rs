@@ -11,6 +11,7 @@ mod canvas;
 mod catalog;
 pub mod command;
 mod cuts;
+mod derivation;
 mod dialogs;
 mod execute;
 mod files;

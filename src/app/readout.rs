@@ -2,8 +2,9 @@
 
 use glam::DVec2;
 
+use super::session::Session;
 use crate::document::{Document, Follower};
-use crate::mesh::{Location, Mesh, Neighbour, NodeId, Orientation, TriangleId, barycentric, interpolate};
+use crate::mesh::{Location, MeshView, Neighbour, NodeId, Orientation, TriangleId, barycentric, interpolate};
 
 /// A quantity known at every point, and interpolated from the nodes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -34,7 +35,7 @@ pub struct TriangleReadout {
     pub level: u32,
     /// Which way its vertices run.
     pub orientation: Orientation,
-    /// Its bisection edge in world units.
+    /// Its longest edge in world units.
     pub diameter: f64,
     /// Ids and world coordinates, in the triangle's order.
     pub vertices: [(NodeId, DVec2); 3],
@@ -52,16 +53,20 @@ pub struct TriangleReadout {
 
 impl Readout {
     /// Reads out the point `point`, in world units.
-    pub fn at(point: DVec2, document: &Document, follower: &Follower, quantity: Quantity) -> Self {
-        let mesh = follower.mesh();
-        let location = mesh.locate(point);
-        let value = |p: DVec2| value_at(p, document, follower, quantity);
-        let triangle = location.triangle().map(|id| read_triangle(mesh, id, point, value));
+    pub fn at(point: DVec2, session: &Session, quantity: Quantity) -> Self {
+        let location = session.locate(point);
+        let value = |p: DVec2| value_at(p, session.document(), session.follower(), quantity);
+        let triangle = location.triangle().map(|id| read_triangle(session.view(), id, point, value));
         Self { point, location, triangle }
     }
 }
 
-fn read_triangle(mesh: &Mesh, id: TriangleId, point: DVec2, value: impl Fn(DVec2) -> f64) -> TriangleReadout {
+fn read_triangle(
+    mesh: MeshView<'_>,
+    id: TriangleId,
+    point: DVec2,
+    value: impl Fn(DVec2) -> f64,
+) -> TriangleReadout {
     let triangle = mesh.triangle(id);
     let zeta = barycentric(mesh.corners(id), mesh.lattice().lattice_from_world(point));
     let vertices = triangle.vertices.map(|node| (node, mesh.world(node)));
@@ -70,7 +75,7 @@ fn read_triangle(mesh: &Mesh, id: TriangleId, point: DVec2, value: impl Fn(DVec2
         id,
         level: triangle.level(),
         orientation: triangle.orientation(),
-        diameter: mesh.diameter(triangle.level()),
+        diameter: mesh.diameter(id),
         vertices,
         neighbours: mesh.neighbours(id),
         zeta,

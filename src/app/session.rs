@@ -7,13 +7,14 @@ use eframe::egui::Context;
 use glam::DVec2;
 
 use super::cuts::CutQueue;
+use super::derivation::{Derivation, Derived};
 use super::readout::{Quantity, Readout};
 use super::widgets::format;
 use crate::build::BuildError;
 use crate::document::{Document, Follower, MeshChange, Pricer, Setting, Stage};
 use crate::domain::CutShape;
 use crate::geometry::Rect;
-use crate::mesh::{Mesh, NodeId, Numbering, Progress, RefineError, Survey, Topology, TriangleId};
+use crate::mesh::{Location, Mesh, MeshView, Progress, RefineError};
 use crate::paint::Brush;
 use crate::text::Bytes;
 
@@ -41,16 +42,9 @@ pub struct Session {
     standing: Option<Notice>,
     work: Duration,
     last_update: Option<Duration>,
-    survey: Surveyed,
-}
-
-/// Parts and holes of the mesh, and the numbers in its files, once they are counted.
-#[derive(Default)]
-struct Surveyed {
-    /// The revision of the mesh that the rest describes.
-    revision: Option<u64>,
-    under_way: Option<Survey>,
-    found: Option<(Topology, Numbering)>,
+    derivation: Derivation,
+    /// What became of the follower's mesh since the canvas last asked.
+    mesh_change: Option<MeshChange>,
 }
 
 impl Session {
@@ -71,7 +65,8 @@ impl Session {
             standing: None,
             work: Duration::ZERO,
             last_update: Some(began.elapsed()),
-            survey: Surveyed::default(),
+            derivation: Derivation::default(),
+            mesh_change: None,
         })
     }
 
@@ -90,19 +85,59 @@ impl Session {
         &self.follower
     }
 
-    /// The mesh on the screen.
+    /// The mesh of the follower, which the derived mesh differs from along an outline.
     pub fn mesh(&self) -> &Mesh {
         self.follower.mesh()
     }
 
-    /// The mesh on the screen, for work on another thread.
+    /// The mesh of the follower, for work on another thread.
     pub fn shared_mesh(&self) -> Arc<Mesh> {
         self.follower.shared_mesh()
     }
 
-    /// Triangles per level of the mesh on the screen.
+    /// The mesh that is derived along the outline of the domain; `None` without an outline, and until it is
+    /// derived.
+    pub fn derived(&self) -> Option<&Derived> {
+        self.derivation.current(&self.follower)
+    }
+
+    /// The mesh that is shown and queried: the derived one, or else the follower's.
+    pub fn view(&self) -> MeshView<'_> {
+        self.derived().map_or_else(|| self.mesh().view(), Derived::view)
+    }
+
+    /// Finds a point in world units in [`Self::view`].
+    pub fn locate(&self, point: DVec2) -> Location {
+        let in_mesh = self.mesh().locate(point);
+        self.derived().map_or(in_mesh, |derived| derived.locate(point, in_mesh))
+    }
+
+    /// Whether ids of [`Self::view`] are the numbers in files.
+    pub fn has_file_numbers(&self) -> bool {
+        self.derived().is_some() || self.document.settings().domain.region().is_none()
+    }
+
+    /// How many triangles the domain has.
+    pub fn triangle_count(&self) -> usize {
+        let counts = self.derived().map(|derived| derived.level_counts.iter().sum());
+        counts.unwrap_or_else(|| self.mesh().triangle_count())
+    }
+
+    /// Triangles per level.
     pub fn level_counts(&self) -> Vec<usize> {
-        self.mesh().level_counts()
+        self.derived().map_or_else(|| self.mesh().level_counts(), |derived| derived.level_counts.clone())
+    }
+
+    /// What is drawn of the derived mesh, and how it changed.
+    pub fn derivation_mut(&mut self) -> &mut Derivation {
+        &mut self.derivation
+    }
+
+    /// Takes and starts work on the derived mesh, waiting for it up to `patience`. Returns whether some is
+    /// left.
+    pub fn advance_derivation(&mut self, patience: Duration, ctx: &Context) -> bool {
+        let in_gesture = self.document.is_in_gesture() || self.is_cutting();
+        self.derivation.advance(&self.follower, in_gesture, patience, ctx)
     }
 
     /// Time of the last complete update, the sum of its slices.
@@ -258,7 +293,7 @@ impl Session {
 
     /// The queried point and the triangle around it in the mesh on the screen.
     pub fn readout(&self, quantity: Quantity) -> Option<Readout> {
-        self.queried.map(|point| Readout::at(point, &self.document, &self.follower, quantity))
+        self.queried.map(|point| Readout::at(point, self, quantity))
     }
 
     /// Draws the current stroke, and brings field and mesh closer to the document, until `deadline`. Returns
@@ -294,57 +329,11 @@ impl Session {
         if !left && self.work > Duration::ZERO {
             self.last_update = Some(std::mem::take(&mut self.work));
         }
-        left || self.survey(deadline)
-    }
-
-    /// Nodes, parts and holes of the mesh on the screen, where some triangles lie outside; `None` until they
-    /// are counted.
-    pub fn topology(&self) -> Option<Topology> {
-        self.found().map(|(topology, _)| *topology)
-    }
-
-    /// The number that a triangle has in files; `None` until it is counted, and for one outside.
-    pub fn triangle_number(&self, id: TriangleId) -> Option<usize> {
-        self.in_files(id, Numbering::triangle).map(TriangleId::index)
-    }
-
-    /// The number that a node has in files; `None` until it is counted, and for one outside.
-    pub fn node_number(&self, id: NodeId) -> Option<usize> {
-        self.in_files(id, Numbering::node).map(NodeId::index)
-    }
-
-    /// Where the domain has no outline, files have the ids of the mesh.
-    fn in_files<I>(&self, id: I, number: fn(&Numbering, I) -> Option<I>) -> Option<I> {
-        if self.mesh().outside_count() == 0 {
-            return Some(id);
+        if let Some(change) = self.follower.take_change() {
+            self.derivation.note_change(&change, self.follower.mesh());
+            MeshChange::join(&mut self.mesh_change, change, self.follower.mesh());
         }
-        let (_, numbering) = self.found()?;
-        number(numbering, id)
-    }
-
-    fn found(&self) -> Option<&(Topology, Numbering)> {
-        self.survey.found.as_ref().filter(|_| self.survey.revision == Some(self.follower.revision()))
-    }
-
-    /// Counts parts, holes and numbers of the mesh until `deadline`. Returns whether work is left.
-    fn survey(&mut self, deadline: Instant) -> bool {
-        let mesh = self.follower.mesh();
-        let revision = Some(self.follower.revision());
-        if self.survey.revision != revision {
-            // Without an outline no parts and holes are shown, and files have the ids of the mesh.
-            let has_outline = self.document.settings().domain.region().is_some();
-            let under_way = (has_outline || mesh.outside_count() > 0).then(|| Survey::new(mesh));
-            self.survey = Surveyed { revision, under_way, found: None };
-        }
-        let Some(survey) = &mut self.survey.under_way else { return false };
-        while survey.advance(mesh, SLICE) == Progress::More {
-            if Instant::now() >= deadline {
-                return true;
-            }
-        }
-        self.survey.found = Some((survey.topology(mesh), survey.numbering()));
-        self.survey.under_way = None;
-        false
+        left
     }
 
     /// Computes the price of a dab until `deadline`. Returns whether work is left. `None` cancels.
@@ -363,7 +352,7 @@ impl Session {
 
     /// The change of the mesh since the last call.
     pub fn take_mesh_change(&mut self) -> Option<MeshChange> {
-        self.follower.take_change()
+        self.mesh_change.take()
     }
 
     /// Takes back the setting that made a mesh impossible. If paint did, the mesh stops, and a message says

@@ -99,6 +99,9 @@ impl View {
         match command {
             Command::Fit => self.camera = None,
             Command::LookAt(point) => self.move_camera(|camera| camera.centered_on(point)),
+            Command::ShowArea(area) => {
+                self.move_camera(|camera| Camera::fit(camera.lattice(), area, camera.size_px(), 0.0));
+            }
             Command::Zoom(factor) => self.move_camera(|camera| camera.zoomed(factor, camera.half_size_px())),
             Command::ZoomAt(factor, px) => self.move_camera(|camera| camera.zoomed(factor, px)),
             Command::Pan(delta_px) => self.move_camera(|camera| camera.panned(delta_px)),

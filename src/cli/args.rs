@@ -83,16 +83,18 @@ pub struct InputArguments {
     pub region: Option<PathBuf>,
 
     /// How the mesh meets the outline of a region
-    #[arg(long, value_enum, default_value_t = BoundaryArgument::Fitted)]
-    pub boundary: BoundaryArgument,
+    ///
+    /// [default: outline]
+    #[arg(long, value_enum)]
+    pub boundary: Option<BoundaryArgument>,
 
-    /// Largest diameter of triangles on the outline, when fitted [default: an eighth of the
+    /// Largest diameter of triangles on the outline, before nodes move onto it [default: an eighth of the
     /// spacing]
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
     pub boundary_diameter: Option<f64>,
 
     /// Parts of the mesh that stay: the largest, all, or those with this share of the area [default: largest
-    /// for a fitted region, else all]
+    /// for a region, but all with --boundary report]
     ///
     /// A part is joined by edges. Narrow straits can part a mesh, and solvers need one part.
     #[arg(long, value_name = "largest|all|SHARE", allow_hyphen_values = true)]
@@ -172,13 +174,14 @@ pub struct InputArguments {
 }
 
 /// The boundary treatment, as typed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub enum BoundaryArgument {
     /// A coarse triangle stays when its three nodes are inside (Appendix A of the report)
     Report,
     /// The mesh is refined along the outline; then a triangle stays when its centroid is inside
     Fitted,
     /// As fitted; then nodes along the outline move onto it
+    #[default]
     Outline,
 }
 

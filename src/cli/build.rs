@@ -116,8 +116,8 @@ fn read(request: &MeshRequest, terminal: &mut Terminal) -> Result<(MeshSpec, Opt
     let max_triangles = request.asked_budget.unwrap_or(settings.max_triangles);
     let limits = Limits { max_triangles, ..request.limits };
     // Without an option, the mesh is the one that the window shows.
-    let cleaning = request.cleaning(false);
-    let spec = MeshSpec { limits, cleaning, ..settings.mesh_spec().map_err(CoarseError::from)? };
+    let spec = settings.mesh_spec().map_err(CoarseError::from)?;
+    let spec = MeshSpec { limits, cleaning: request.cleaning(spec.cleaning), ..spec };
     Ok((spec, Some(document.paint().clone())))
 }
 

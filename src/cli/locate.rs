@@ -90,7 +90,7 @@ impl Answers<'_> {
             };
             let (location, number) = match &patched {
                 Some(patched) => {
-                    let location = patched.locate(point, location);
+                    let location = patched.locate(&self.extract, point, location);
                     (location, location.triangle())
                 }
                 None => (location, location.triangle().and_then(|id| self.extract.place_of(id))),

@@ -27,14 +27,14 @@ pub struct MeshRequest {
     pub inside: Option<Formula>,
     /// The domain is what the polygons of this file cover.
     pub region: Option<PathBuf>,
-    /// How the mesh meets the outline of a region; `None` for the usual treatment at the spacing.
-    pub boundary: Option<BoundaryTreatment>,
+    /// How the mesh meets the outline of a region.
+    pub boundary: BoundaryArgument,
+    /// Largest diameter of a triangle on the outline, in world units; `None` for the usual one.
+    pub boundary_diameter: Option<f64>,
     /// The parts that stay, where that is given.
     pub parts: Option<KeptParts>,
     /// Whether pinches stay in any case.
     pub keeps_pinches: bool,
-    /// Whether nodes along the outline move onto it, where `boundary` is `None`.
-    pub on_outline: bool,
     /// Longest side of a coarse cell, in world units.
     pub spacing: Option<f64>,
     /// All sources of target diameters.
@@ -110,10 +110,10 @@ impl MeshRequest {
             domain: typed.domain.as_deref().map(parse_domain).transpose()?,
             inside: typed.inside.as_deref().map(|text| parse_formula("--inside", text)).transpose()?,
             region: typed.region.clone(),
-            boundary: boundary(typed)?,
+            boundary: typed.boundary.unwrap_or_default(),
+            boundary_diameter: boundary_diameter(typed)?,
             parts: typed.parts.as_deref().map(parts).transpose()?,
             keeps_pinches: typed.keep_pinches,
-            on_outline: typed.boundary == BoundaryArgument::Outline,
             spacing: typed.spacing.map(|value| length("--spacing", value)).transpose()?,
             sources,
             h_min: typed.h_min.map(|value| length("--h-min", value)).transpose()?,
@@ -137,9 +137,8 @@ impl MeshRequest {
         self.sources.iter().any(SourceSpec::uses_scale)
     }
 
-    /// Which triangles stay. Without an option, a mesh that is `fitted` is made ready for solvers.
-    pub fn cleaning(&self, fitted: bool) -> Cleaning {
-        let usual = if fitted { Cleaning::FOR_SOLVERS } else { Cleaning::NONE };
+    /// Which triangles stay: the usual ones, unless an option says otherwise.
+    pub fn cleaning(&self, usual: Cleaning) -> Cleaning {
         Cleaning {
             parts: self.parts.unwrap_or(usual.parts),
             keeps_pinches: self.keeps_pinches || usual.keeps_pinches,
@@ -159,7 +158,7 @@ impl MeshRequest {
             (typed.resolution.is_some() && self.rule == RefinementRule::Vertex).then_some(
                 "--resolution changes nothing by the vertex rule, which sees no pixels; see --rule.",
             ),
-            (typed.boundary != BoundaryArgument::Fitted && self.region.is_none())
+            (typed.boundary.is_some() && self.region.is_none())
                 .then_some("--boundary changes nothing without --region."),
         ];
         unused.into_iter().flatten().map(str::to_owned).collect()
@@ -199,24 +198,17 @@ impl SourceSpec {
     }
 }
 
-/// The boundary treatment; `None` where it is the usual one, which depends on the spacing. A diameter at the
-/// outline makes sense only where there is an outline, and where the mesh is fitted to it.
-fn boundary(typed: &InputArguments) -> Result<Option<BoundaryTreatment>, Failure> {
+/// The diameter at the outline. It makes sense only where there is an outline, and where the mesh is refined
+/// along it.
+fn boundary_diameter(typed: &InputArguments) -> Result<Option<f64>, Failure> {
     let given = typed.boundary_diameter.map(|value| length("--boundary-diameter", value)).transpose()?;
-    let Some(diameter) = given else {
-        return Ok(match typed.boundary {
-            BoundaryArgument::Report => Some(BoundaryTreatment::Report),
-            BoundaryArgument::Fitted | BoundaryArgument::Outline => None,
-        });
-    };
+    let Some(diameter) = given else { return Ok(None) };
     let problem = if typed.region.is_none() {
         "it is for the outline of a domain from a file. Name that with --region, or leave it out"
-    } else if typed.boundary == BoundaryArgument::Report {
+    } else if typed.boundary == Some(BoundaryArgument::Report) {
         "with --boundary report nothing is refined along the outline. Take --boundary fitted, or leave it out"
     } else {
-        let fitted = BoundaryTreatment::Fitted { diameter };
-        let on_outline = typed.boundary == BoundaryArgument::Outline;
-        return Ok(Some(if on_outline { fitted.on_outline() } else { fitted }));
+        return Ok(Some(diameter));
     };
     Err(Failure::Usage(format!("--boundary-diameter {diameter}: {problem}.")))
 }

@@ -4,6 +4,7 @@ use std::io::stdin;
 use std::path::Path;
 use std::sync::Arc;
 
+use super::args::BoundaryArgument;
 use super::failure::Failure;
 use super::output::is_standard_stream;
 use super::request::{Meaning, MeshRequest, RasterFormat, RasterSpec, SourceSpec};
@@ -12,7 +13,7 @@ use crate::domain::{BoundaryTreatment, Domain, DomainShape};
 use crate::field::{Source, TargetFieldSpec, Transfer, f32_not_below};
 use crate::geometry::{Lattice, Rect};
 use crate::io;
-use crate::mesh::{CoarseError, bisection_edge_length};
+use crate::mesh::{Cleaning, CoarseError, bisection_edge_length};
 use crate::raster::{MAX_SIDE, Raster};
 
 /// Pixels along the longer side of the domain unless `--resolution` or a raster says otherwise.
@@ -40,7 +41,8 @@ pub fn read_spec(request: &MeshRequest) -> Result<(MeshSpec, Vec<String>), Failu
     let (rule, limits) = (request.rule, request.limits);
     // With the vertex rule nothing is shown that needs pixels.
     let sampling = FieldSampling::AsNeeded;
-    let cleaning = request.cleaning(boundary != BoundaryTreatment::Report && domain.region().is_some());
+    let is_fitted = boundary != BoundaryTreatment::Report && domain.region().is_some();
+    let cleaning = request.cleaning(if is_fitted { Cleaning::FOR_SOLVERS } else { Cleaning::NONE });
     Ok((MeshSpec { domain, boundary, lattice, field, rule, sampling, cleaning, limits }, notes))
 }
 
@@ -92,11 +94,15 @@ fn domain(request: &MeshRequest, placed: &[Option<Raster>]) -> Result<Domain, Fa
 }
 
 fn boundary(request: &MeshRequest, spacing: f64, lattice: &Lattice) -> Result<BoundaryTreatment, Failure> {
-    if let Some(diameter) = request.boundary.and_then(|boundary| boundary.diameter()) {
-        check_resolvable(diameter, lattice)?;
-    }
-    let usual = BoundaryTreatment::usual(spacing);
-    Ok(request.boundary.unwrap_or(if request.on_outline { usual.on_outline() } else { usual }))
+    let usual = BoundaryTreatment::usual_diameter(spacing);
+    let diameter = request.boundary_diameter.unwrap_or(usual);
+    let treatment = match request.boundary {
+        BoundaryArgument::Report => return Ok(BoundaryTreatment::Report),
+        BoundaryArgument::Fitted => BoundaryTreatment::Fitted { diameter },
+        BoundaryArgument::Outline => BoundaryTreatment::OnOutline { diameter },
+    };
+    request.boundary_diameter.map_or(Ok(()), |diameter| check_resolvable(diameter, lattice))?;
+    Ok(treatment)
 }
 
 /// Refuses a diameter at the outline that the lattice cannot resolve: the refinement would fail wherever the

@@ -6,6 +6,7 @@ use super::{Base, Document, Settings};
 use crate::domain::{BoundaryTreatment, Domain, Polygon};
 use crate::field::{Formula, RefinementRule, Transfer};
 use crate::geometry::Rect;
+use crate::mesh::Cleaning;
 use crate::paint::{Brush, Medium};
 use crate::raster::Raster;
 
@@ -75,6 +76,7 @@ fn diamond() -> Settings {
         domain: Domain::rectangle(Rect::around(DVec2::ZERO, 10.0)),
         spacing: 1.0,
         boundary: BoundaryTreatment::usual(1.0),
+        cleaning: Cleaning::FOR_SOLVERS,
         transfer: Transfer { h_min: 0.02, h_max: 20.0, shape: 1.0 },
         base: Base::Formula(formula),
         rule: RefinementRule::Vertex,
@@ -90,6 +92,7 @@ fn terrain(slope: Raster) -> Settings {
         domain: Domain::rectangle(slope.bounds()),
         spacing: slope.bounds().size().max_element() / 24.0,
         boundary: BoundaryTreatment::usual(slope.bounds().size().max_element() / 24.0),
+        cleaning: Cleaning::FOR_SOLVERS,
         transfer: Transfer { h_min: 0.05, h_max: 2.0, shape: 1.6 },
         base: Base::RiskImage { name: "jacksboro_slope.png".into(), raster: Arc::new(slope) },
         rule: RefinementRule::Area,
@@ -111,7 +114,7 @@ const SITES: [(DVec2, f64, f64, f64); 4] = [
 fn aegean(sea: &[Polygon]) -> Settings {
     let domain = Domain::of_polygons(sea).expect("a valid outline");
     let settings = Settings::for_domain(Example::Aegean.name().into(), domain);
-    Settings { spacing: 0.5, boundary: BoundaryTreatment::Fitted { diameter: 0.02 }, ..settings }
+    Settings { spacing: 0.5, boundary: BoundaryTreatment::OnOutline { diameter: 0.02 }, ..settings }
 }
 
 fn threats() -> Document {

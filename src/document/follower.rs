@@ -336,10 +336,17 @@ impl Follower {
     fn note_changes(&mut self) {
         let Some(changes) = self.shown.take_changes() else { return };
         self.revision += 1;
-        match &mut self.change {
-            Some(MeshChange::Replaced) => {}
-            Some(MeshChange::Within(earlier)) => earlier.extend(&changes, &self.shown.mesh),
-            None => self.change = Some(MeshChange::Within(changes)),
+        MeshChange::join(&mut self.change, MeshChange::Within(changes), &self.shown.mesh);
+    }
+}
+
+impl MeshChange {
+    /// Joins what became of `mesh` after an earlier change to that change.
+    pub fn join(earlier: &mut Option<Self>, later: Self, mesh: &Mesh) {
+        match (&mut *earlier, later) {
+            (Some(Self::Replaced), _) => {}
+            (Some(Self::Within(earlier)), Self::Within(later)) => earlier.extend(&later, mesh),
+            (_, later) => *earlier = Some(later),
         }
     }
 }

@@ -4,6 +4,7 @@ use super::{Base, Settings};
 use crate::domain::{BoundaryTreatment, Domain};
 use crate::field::RefinementRule;
 use crate::geometry::Rect;
+use crate::mesh::Cleaning;
 
 /// One change of one setting, as a menu, a slider, a test or a script sends it.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,6 +34,8 @@ pub enum Setting {
     Domain(Domain),
     /// How the mesh meets the boundary of the domain.
     Boundary(BoundaryTreatment),
+    /// Which triangles of the domain stay in the derived mesh.
+    Cleaning(Cleaning),
 }
 
 /// Which setting a [`Setting`] changes, at any value: changes of one kind can be one gesture.
@@ -60,6 +63,7 @@ impl Setting {
             Self::Bounds(_) => "domain",
             Self::Domain(_) => "domain shape",
             Self::Boundary(_) => "boundary",
+            Self::Cleaning(_) => "cleaning",
         }
     }
 
@@ -84,6 +88,7 @@ impl Setting {
             Self::Bounds(bounds) => settings.domain = settings.domain.with_bounds(bounds),
             Self::Domain(domain) => settings.domain = domain,
             Self::Boundary(boundary) => settings.boundary = boundary,
+            Self::Cleaning(cleaning) => settings.cleaning = cleaning,
         }
     }
 }

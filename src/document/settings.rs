@@ -6,7 +6,7 @@ use crate::field::{
     Formula, RefinementRule, Source, TargetFieldSpec, Transfer, TransferError, checked_target,
 };
 use crate::geometry::{GridError, Lattice, Rect};
-use crate::mesh::{Cleaning, Limits, MemoryLimit};
+use crate::mesh::{Cleaning, KeptParts, Limits, MemoryLimit};
 use crate::raster::{MAX_SIDE, Raster};
 use crate::text::Bytes;
 use crate::text::{Grouped, Number};
@@ -20,6 +20,8 @@ pub struct Settings {
     pub domain: Domain,
     /// How the mesh meets the boundary of a domain of polygons.
     pub boundary: BoundaryTreatment,
+    /// Which triangles of a domain of polygons stay in the derived mesh.
+    pub cleaning: Cleaning,
     /// Largest side δ̄ of a coarse cell, in world units.
     pub spacing: f64,
     /// From risk to diameter; its ends bound h̄ everywhere.
@@ -80,6 +82,9 @@ pub enum SettingsError {
     /// The diameter at the boundary is not a length.
     #[error("A diameter of {} at the boundary cannot be met: it must be positive and finite.", Number(*.0))]
     BoundaryDiameter(f64),
+    /// The share of the area is none.
+    #[error("Parts with a share of {} of the area cannot be kept: a share is between 0 and 1.", Number(*.0))]
+    PartShare(f64),
     /// The domain is empty.
     #[error("Nothing would be left of the domain: keep some of it.")]
     EmptyDomain,
@@ -131,6 +136,11 @@ impl Settings {
         }
         if self.domain.region().is_some_and(|region| region.is_empty()) {
             return Err(SettingsError::EmptyDomain);
+        }
+        if let KeptParts::Share(share) = self.cleaning.parts
+            && !(0.0..=1.0).contains(&share)
+        {
+            return Err(SettingsError::PartShare(share));
         }
         if let Base::Constant(value) = self.base {
             checked_target(value, self.domain.bounds.center())
@@ -185,9 +195,26 @@ impl Settings {
             field: self.field_spec(),
             rule: self.rule,
             sampling: FieldSampling::Always,
-            cleaning: Cleaning::NONE,
+            cleaning: self.derived_cleaning(),
             limits: self.limits(),
         })
+    }
+
+    /// Which triangles stay in the derived mesh: all, unless the mesh is fitted to polygons.
+    pub fn derived_cleaning(&self) -> Cleaning {
+        let is_fitted = self.domain.region().is_some() && self.boundary != BoundaryTreatment::Report;
+        if is_fitted { self.cleaning } else { Cleaning::NONE }
+    }
+
+    /// Whether the mesh of these settings is that of `other`, if neither reaches a budget: the derived mesh
+    /// may differ.
+    pub fn share_mesh_with(&self, other: &Self) -> bool {
+        let boundary = match self.boundary.diameter() == other.boundary.diameter() {
+            true => other.boundary,
+            false => self.boundary,
+        };
+        let Self { cleaning, max_triangles, max_memory, .. } = *other;
+        Self { boundary, cleaning, max_triangles, max_memory, ..self.clone() } == *other
     }
 
     /// What the mesh may cost.
@@ -229,6 +256,7 @@ impl Default for Settings {
             domain: Domain::rectangle(Rect::UNIT),
             spacing: 1.0 / 24.0,
             boundary: BoundaryTreatment::usual(1.0 / 24.0),
+            cleaning: Cleaning::FOR_SOLVERS,
             transfer: Transfer { h_min: 0.0024, h_max: 0.2, shape: 1.0 },
             base: Base::Constant(0.2),
             rule: RefinementRule::Area,

@@ -82,21 +82,21 @@ impl Shown {
     }
 
     /// Whether the shown mesh, once it is updated, is that of `wanted`: the settings that it was made from,
-    /// or the same with other budgets that it keeps.
+    /// or others with the same mesh and budgets that it keeps.
     pub(super) fn obeys(&self, wanted: &Settings) -> bool {
         if self.upkeep != Upkeep::InPlace {
             return false;
         }
-        let (max_triangles, max_memory) = (wanted.max_triangles, wanted.max_memory);
         self.settings == *wanted
             || (self.mesh.raw_triangle_count() <= wanted.limits().most_triangles()
-                && Settings { max_triangles, max_memory, ..self.settings.clone() } == *wanted)
+                && self.settings.share_mesh_with(wanted))
     }
 
     /// Takes over settings that the mesh obeys. Updates that a former budget stopped go on.
     pub(super) fn adopt(&mut self, wanted: &Settings) {
         if self.settings != *wanted {
             self.settings = wanted.clone();
+            self.domain = self.domain.with_boundary(wanted.boundary);
             self.updater.set_limits(wanted.limits());
         }
     }

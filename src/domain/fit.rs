@@ -30,9 +30,13 @@ pub enum BoundaryTreatment {
 }
 
 impl BoundaryTreatment {
-    /// The same treatment with nodes on the boundary, where the mesh is refined along it.
-    pub fn on_outline(self) -> Self {
-        self.diameter().map_or(self, |diameter| Self::OnOutline { diameter })
+    /// The same treatment at another diameter, in world units, where it has one.
+    pub fn with_diameter(self, diameter: f64) -> Self {
+        match self {
+            Self::Report => Self::Report,
+            Self::Fitted { .. } => Self::Fitted { diameter },
+            Self::OnOutline { .. } => Self::OnOutline { diameter },
+        }
     }
 
     /// Largest diameter of a triangle that the boundary passes through, in world units; `None` where the
@@ -44,10 +48,14 @@ impl BoundaryTreatment {
         }
     }
 
-    /// A start: coarse enough to be quick, fine enough to see the shape. The diameter is that of level 7, an
-    /// eighth of the spacing δ̄; both are in world units.
+    /// Nodes on the outline, and a diameter that is quick and shows the shape.
     pub fn usual(spacing: f64) -> Self {
-        Self::Fitted { diameter: bisection_edge_length(spacing, 7) }
+        Self::OnOutline { diameter: Self::usual_diameter(spacing) }
+    }
+
+    /// The diameter of level 7: an eighth of the spacing δ̄. Both are in world units.
+    pub fn usual_diameter(spacing: f64) -> f64 {
+        bisection_edge_length(spacing, 7)
     }
 }
 

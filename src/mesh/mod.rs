@@ -25,7 +25,7 @@ mod kernel;
 mod extract;
 mod query;
 
-pub use extract::{BoundaryEdge, Cell, Extract, MeshEdge, MeshPatch, Numbering, PatchPieces, PatchTriangle};
+pub use extract::{BoundaryEdge, Cell, Extract, MeshEdge, MeshPatch, MeshView, PatchPieces, PatchTriangle};
 pub use kernel::{
     Changes, CoarseError, Element, InvalidTarget, Limits, MOST_TRIANGLES, MemoryLimit, Mesh, MeshCopy,
     Neighbour, NodeId, Orientation, Progress, RefineError, Refiner, Triangle, TriangleId, Updater,
@@ -33,5 +33,5 @@ pub use kernel::{
 };
 pub use query::{
     Adjacency, Cleaning, Fingerprint, Forecast, KeptParts, Location, Locator, PatchedLocator, Removed,
-    RemovedPart, Survey, Topology, Violation, barycentric, fingerprint_of, interpolate,
+    RemovedPart, Topology, Violation, barycentric, fingerprint_of, interpolate,
 };

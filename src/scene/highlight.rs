@@ -2,7 +2,7 @@ use glam::{DVec2, dvec2};
 
 use super::Camera;
 use crate::colormap::Ground;
-use crate::mesh::{Mesh, TriangleId};
+use crate::mesh::{MeshView, TriangleId};
 
 const WHITE: [u8; 4] = [0xff; 4];
 /// Outlines are clipped this far outside the canvas, further than any line width.
@@ -21,7 +21,7 @@ pub struct Highlights {
 
 impl Highlights {
     /// A triangle and its three neighbours.
-    pub fn around(mesh: &Mesh, selected: TriangleId) -> Self {
+    pub fn around(mesh: MeshView<'_>, selected: TriangleId) -> Self {
         let neighbours = mesh.neighbours(selected).map(|n| n.triangle());
         Self { selected: Some(selected), neighbours, hovered: None }
     }
@@ -44,7 +44,7 @@ pub struct Outline {
 ///
 /// Ids that the mesh no longer has and triangles off the canvas have no outline.
 pub fn highlight_outlines(
-    mesh: &Mesh,
+    mesh: MeshView<'_>,
     camera: &Camera,
     highlights: &Highlights,
     ground: Ground,
@@ -73,8 +73,8 @@ fn translucent([r, g, b, _]: [u8; 4], alpha: u8) -> [u8; 4] {
     [r, g, b, alpha]
 }
 
-fn polygon_on_screen(mesh: &Mesh, camera: &Camera, id: TriangleId) -> Option<Vec<[f32; 2]>> {
-    let triangle = mesh.raw_triangles().get(id.index())?;
+fn polygon_on_screen(mesh: MeshView<'_>, camera: &Camera, id: TriangleId) -> Option<Vec<[f32; 2]>> {
+    let triangle = mesh.get(id)?;
     let corners = triangle.vertices.map(|v| camera.screen_from_lattice(mesh.node(v)));
     let polygon = clip_to_canvas(corners.to_vec(), camera);
     (polygon.len() >= 3).then(|| polygon.into_iter().map(|p| p.as_vec2().to_array()).collect())
@@ -113,7 +113,7 @@ fn clip_to_canvas(mut polygon: Vec<DVec2>, camera: &Camera) -> Vec<DVec2> {
 mod tests {
     use super::*;
     use crate::geometry::{Lattice, Rect};
-    use crate::mesh::Limits;
+    use crate::mesh::{Limits, Mesh};
 
     fn mesh() -> Mesh {
         Mesh::coarse_grid(
@@ -128,8 +128,8 @@ mod tests {
     fn a_triangle_and_its_neighbours_are_outlined_by_their_corners() {
         let mesh = mesh();
         let camera = Camera::fit(mesh.lattice(), Rect::UNIT, [100, 100], 0.0);
-        let highlights = Highlights::around(&mesh, TriangleId::from_index(0));
-        let outlines = highlight_outlines(&mesh, &camera, &highlights, Ground::Dark, 1.0);
+        let highlights = Highlights::around(mesh.view(), TriangleId::from_index(0));
+        let outlines = highlight_outlines(mesh.view(), &camera, &highlights, Ground::Dark, 1.0);
         // Two sides of the first triangle are on the boundary; the selected one has a halo.
         assert_eq!(outlines.len(), 3);
         assert_eq!(outlines[0].line[..3], Ground::Dark.neighbours()[0]);
@@ -146,7 +146,7 @@ mod tests {
         let camera =
             Camera::fit(mesh.lattice(), Rect::UNIT, [100, 100], 0.0).zoomed(1e300, dvec2(10.0, 80.0));
         let all = (0..mesh.raw_triangle_count()).map(TriangleId::from_index);
-        let shown: Vec<_> = all.filter_map(|id| polygon_on_screen(&mesh, &camera, id)).collect();
+        let shown: Vec<_> = all.filter_map(|id| polygon_on_screen(mesh.view(), &camera, id)).collect();
         assert_eq!(shown.len(), 1);
         assert!(shown[0].iter().flatten().all(|&c| (-33.0..=133.0).contains(&c)), "{shown:?}");
     }
@@ -157,6 +157,6 @@ mod tests {
         let camera = Camera::fit(mesh.lattice(), Rect::UNIT, [100, 100], 0.0);
         let highlights =
             Highlights { hovered: Some(TriangleId::from_index(1_000_000)), ..Highlights::default() };
-        assert_eq!(highlight_outlines(&mesh, &camera, &highlights, Ground::Dark, 1.0), []);
+        assert_eq!(highlight_outlines(mesh.view(), &camera, &highlights, Ground::Dark, 1.0), []);
     }
 }

@@ -13,7 +13,8 @@ use meshbrush::internals::domain::{BoundaryTreatment, CutShape, Domain, DomainSh
 use meshbrush::internals::field::{Formula, RefinementRule, Transfer};
 use meshbrush::internals::geometry::{LatticePoint, Rect};
 use meshbrush::internals::io::project::{self, Project};
-use meshbrush::internals::mesh::{Progress, Triangle};
+use meshbrush::internals::mesh::{Cleaning, KeptParts, NodeId, Progress, Triangle};
+use meshbrush::internals::outline::DerivedMesh;
 use meshbrush::internals::paint::{Brush, Medium};
 
 /// Where operations come from: random numbers, or the bytes of a fuzzer.
@@ -203,15 +204,28 @@ fn setting(choices: &mut impl Choices, scale: Scale) -> Setting {
         } else {
             RefinementRule::Area
         }),
-        8 | 9 => Setting::Resolution(scale.pixels + (f64::from(scale.pixels) * 0.6 * choices.share()) as u32),
+        8 => Setting::Resolution(scale.pixels + (f64::from(scale.pixels) * 0.6 * choices.share()) as u32),
+        9 => Setting::Cleaning(cleaning(choices.share())),
         10 => Setting::MaxTriangles(scale.triangles * [1, 4, 20, 100][choices.below(4)]),
         11 => Setting::Base(base(choices, diameter)),
         12 => Setting::Bounds(bounds(choices)),
         13 => Setting::Domain(inside(choices)),
         14 if choices.below(4) == 0 => Setting::Boundary(BoundaryTreatment::Report),
-        14 => Setting::Boundary(BoundaryTreatment::Fitted { diameter: 2.0 * diameter }),
+        14 if diameter < 4.0 * scale.diameter => {
+            Setting::Boundary(BoundaryTreatment::Fitted { diameter: 2.0 * diameter })
+        }
+        14 => Setting::Boundary(BoundaryTreatment::OnOutline { diameter: 2.0 * diameter }),
         _ => impossible(choices),
     }
+}
+
+fn cleaning(share: f64) -> Cleaning {
+    let parts = match share {
+        ..0.3 => KeptParts::All,
+        ..0.6 => KeptParts::Largest,
+        _ => KeptParts::Share(share - 0.6),
+    };
+    Cleaning { parts, keeps_pinches: (100.0 * share) % 2.0 < 1.0 }
 }
 
 fn base(choices: &mut impl Choices, diameter: f64) -> Base {
@@ -373,9 +387,26 @@ impl Driver {
         // Paint that cannot be met stays, and the mesh is then an earlier one.
         if let Ok(rebuilt) = Follower::new(&mut self.document.clone()) {
             assert_eq!(self.follower.mesh().fingerprint(), rebuilt.mesh().fingerprint());
+            assert!(derived(&self.follower) == derived(&rebuilt), "the derived mesh is another");
             self.compared += 1;
         }
     }
+}
+
+/// The triangles that leave the program, as corners in any order.
+fn derived(follower: &Follower) -> Vec<[LatticePoint; 3]> {
+    let cleaning = follower.settings().derived_cleaning();
+    let derived = DerivedMesh::new(follower.mesh(), follower.domain(), &cleaning);
+    let extract = derived.extract(follower.mesh());
+    assert_eq!(derived.violations(&extract), []);
+    let corners = |corners: [usize; 3]| {
+        let mut corners = corners.map(|node| extract.node(NodeId::from_index(node)));
+        corners.sort_unstable_by_key(|p| [p.x, p.y]);
+        corners
+    };
+    let mut triangles: Vec<_> = extract.cells().map(|cell| corners(cell.corners)).collect();
+    triangles.sort_unstable_by_key(|corners| corners.map(|p| [p.x, p.y]));
+    triangles
 }
 
 fn patch<T: Copy>(copy: &mut Vec<T>, now: &[T], ranges: &[Range<usize>]) {
@@ -403,7 +434,7 @@ pub fn run_bytes(bytes: &[u8]) {
         max_triangles: 20 * SMALL.triangles,
         resolution: SMALL.pixels,
         spacing: 0.2,
-        boundary: BoundaryTreatment::Fitted { diameter: 2.0 * SMALL.diameter },
+        boundary: BoundaryTreatment::OnOutline { diameter: 2.0 * SMALL.diameter },
         transfer,
         ..Settings::default()
     });

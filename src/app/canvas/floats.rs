@@ -11,78 +11,77 @@ use crate::app::widgets::{Banner, BannerAnswer, bytes_row, format, hint_pill, pa
 use crate::document::Stage;
 
 impl Canvas {
-    /// Draws message, progress and hint.
+    /// Draws message, progress and hint. Returns the places that take clicks.
     pub fn draw_floats(
-        &mut self,
+        &self,
         ui: &mut Ui,
         response: &Response,
         state: &FrameState<'_>,
         files: &[Row],
         commands: &mut Vec<Command>,
-    ) {
+    ) -> Vec<Rect> {
         let inner = response.rect.shrink(12.0);
-        self.floats.clear();
-        self.draw_notice(ui, inner, state.session, commands);
-        let works = self.draw_progress(ui, inner, state.session, files, commands);
+        let mut places = self.draw_progress(ui, inner, state.session, files, commands);
         let hints = state.tools.hint();
         // In a small window only one of them fits.
-        if !hints.is_empty() && !works && state.session.notice().is_none() {
+        if !hints.is_empty() && places.is_empty() && state.session.notice().is_none() {
             hint_pill(ui, inner.left_bottom(), Align2::LEFT_BOTTOM, inner, hints);
         }
+        places.extend(draw_notice(ui, inner, state.session, commands));
+        places
     }
 
-    fn draw_notice(&mut self, ui: &mut Ui, inner: Rect, session: &Session, commands: &mut Vec<Command>) {
-        let Some(notice) = session.notice() else { return };
-        let width = inner.width().min(640.0);
-        let place = Rect::from_center_size(pos2(inner.center().x, inner.top() + 40.0), vec2(width, 80.0));
-        let mut child = ui.new_child(UiBuilder::new().max_rect(place));
-        let banner = if notice.failed { Banner::error(&notice.text) } else { Banner::info(&notice.text) };
-        let banner = if session.notice_stands() { banner.standing().action("Undo") } else { banner };
-        let answer = banner.show(&mut child);
-        self.floats.push(child.min_rect());
-        match answer {
-            BannerAnswer::Open => {}
-            BannerAnswer::Acted => commands.push(Command::Undo),
-            BannerAnswer::Dismissed => commands.push(Command::DismissNotice),
-        }
-    }
-
-    /// The progress of long work: on the mesh lowest, then on files. Returns whether any is shown.
+    /// Draws the progress of long work: on the mesh lowest, then on files. Returns the places of the rows.
     fn draw_progress(
-        &mut self,
+        &self,
         ui: &mut Ui,
         inner: Rect,
         session: &Session,
         files: &[Row],
         commands: &mut Vec<Command>,
-    ) -> bool {
+    ) -> Vec<Rect> {
         let size = vec2(inner.width().min(360.0), 36.0);
-        let first = Rect::from_min_size(inner.right_bottom() - size, size);
-        let mut place = first;
-        let above = |place: Rect| place.translate(vec2(0.0, -size.y - 8.0));
+        let lowest = Rect::from_min_size(inner.right_bottom() - size, size);
+        let place = |row: usize| lowest.translate(vec2(0.0, -(size.y + 8.0) * row as f32));
+        let mut rows = 0;
         if let Some((what, done)) = work_on_mesh(session).filter(|_| self.mesh_work.is_long()) {
-            if progress_row(&mut self.card(ui, place), what, &done) {
+            if progress_row(&mut card(ui, place(rows)), what, &done) {
                 commands.push(Command::CancelUpdate);
             }
-            place = above(place);
+            rows += 1;
         }
         for Row { id, what, meter } in files {
-            if bytes_row(&mut self.card(ui, place), what, meter.done(), meter.total()) {
+            if bytes_row(&mut card(ui, place(rows)), what, meter.done(), meter.total()) {
                 commands.push(Command::CancelWork(*id));
             }
-            place = above(place);
+            rows += 1;
         }
-        place != first
+        (0..rows).map(place).collect()
     }
+}
 
-    /// A ground over the canvas for a row of widgets, which takes the clicks there.
-    fn card(&mut self, ui: &mut Ui, place: Rect) -> Ui {
-        self.floats.push(place);
-        paint_floating(ui, place);
-        let row =
-            place.with_min_x(place.left() + 12.0).with_max_x(place.right() - 4.0).shrink2(vec2(0.0, 4.0));
-        ui.new_child(UiBuilder::new().max_rect(row))
+/// A ground over the canvas for a row of widgets.
+fn card(ui: &mut Ui, place: Rect) -> Ui {
+    paint_floating(ui, place);
+    let row = place.with_min_x(place.left() + 12.0).with_max_x(place.right() - 4.0).shrink2(vec2(0.0, 4.0));
+    ui.new_child(UiBuilder::new().max_rect(row))
+}
+
+/// Draws the message. Returns its place.
+fn draw_notice(ui: &mut Ui, inner: Rect, session: &Session, commands: &mut Vec<Command>) -> Option<Rect> {
+    let notice = session.notice()?;
+    let width = inner.width().min(640.0);
+    let place = Rect::from_center_size(pos2(inner.center().x, inner.top() + 40.0), vec2(width, 80.0));
+    let mut child = ui.new_child(UiBuilder::new().max_rect(place));
+    let banner = if notice.failed { Banner::error(&notice.text) } else { Banner::info(&notice.text) };
+    let banner = if session.notice_stands() { banner.standing().action("Undo") } else { banner };
+    let answer = banner.show(&mut child);
+    match answer {
+        BannerAnswer::Open => {}
+        BannerAnswer::Acted => commands.push(Command::Undo),
+        BannerAnswer::Dismissed => commands.push(Command::DismissNotice),
     }
+    Some(child.min_rect())
 }
 
 /// What is being done to update the mesh, and its progress.

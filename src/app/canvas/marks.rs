@@ -7,7 +7,7 @@ use super::super::theme::font;
 use super::super::tools::Tools;
 use crate::colormap::Ground;
 use crate::domain::CutShape;
-use crate::mesh::{Mesh, TriangleId};
+use crate::mesh::{MeshView, TriangleId};
 use crate::scene::{Camera, Highlights, Outline as HighlightOutline, highlight_outlines};
 
 /// Side of a triangle in points below which its number would not fit.
@@ -20,7 +20,7 @@ pub const NUMBER_DISC: Color32 = Color32::from_black_alpha(225);
 pub fn paint_highlights(
     painter: &Painter,
     rect: Rect,
-    mesh: &Mesh,
+    mesh: MeshView<'_>,
     camera: &Camera,
     highlights: &Highlights,
     ground: Ground,
@@ -56,12 +56,12 @@ fn color([r, g, b, a]: [u8; 4]) -> Color32 {
 fn middle_if_large(
     painter: &Painter,
     rect: Rect,
-    mesh: &Mesh,
+    mesh: MeshView<'_>,
     camera: &Camera,
     id: TriangleId,
 ) -> Option<Pos2> {
     let px_per_point = f64::from(painter.pixels_per_point());
-    let leg = mesh.diameter(mesh.triangle(id).level()) / std::f64::consts::SQRT_2;
+    let leg = mesh.diameter(id) / std::f64::consts::SQRT_2;
     if leg * camera.px_per_world() / px_per_point < SMALLEST_NUMBERED {
         return None;
     }

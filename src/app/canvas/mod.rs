@@ -82,6 +82,11 @@ impl Canvas {
         self.gesture.take_if(|gesture| gesture.ends_on_escape()).is_some()
     }
 
+    /// Notes what floats over the canvas and takes clicks there.
+    pub fn note_floats(&mut self, places: Vec<Rect>) {
+        self.floats = places;
+    }
+
     /// Notes whether there is work on the mesh.
     pub fn note_work(&mut self, session: &Session) {
         self.mesh_work.note(floats::work_on_mesh(session).is_some());
@@ -280,7 +285,7 @@ impl Canvas {
         marks::paint_highlights(
             &painter,
             rect,
-            state.session.mesh(),
+            state.session.view(),
             &camera,
             &highlights,
             state.view.ground,
@@ -309,11 +314,12 @@ impl Canvas {
     }
 
     fn highlights(&self, state: &FrameState<'_>) -> Highlights {
-        let mesh = state.session.mesh();
+        let mesh = state.session.view();
         let selected = state.readout.and_then(|readout| readout.location.triangle());
         let mut highlights = selected.map_or(Highlights::default(), |id| Highlights::around(mesh, id));
         let hovering = state.tools.tool.highlights_hovered && self.gesture.is_none();
-        let hovered = state.pointer.filter(|_| hovering).and_then(|point| mesh.locate(point).triangle());
+        let hovered =
+            state.pointer.filter(|_| hovering).and_then(|point| state.session.locate(point).triangle());
         highlights.hovered = hovered.or(state.view.hovered_neighbour);
         highlights
     }

@@ -8,10 +8,16 @@ use crate::app::command::{Command, DomainCommand};
 use crate::app::dialogs::FileRequest;
 use crate::app::frame::FrameState;
 use crate::app::tools::{DOMAIN as DOMAIN_TOOL, DomainToolMode};
-use crate::app::widgets::{ActionButton, NumberRow, Section, SliderRow, format, segmented, value_row};
+use crate::app::widgets::{
+    ActionButton, NumberRow, Section, SliderRow, format, segmented, toggle_row, value_row,
+};
 use crate::document::Setting;
-use crate::domain::{BoundaryTreatment, Domain, DomainShape, Region};
+use crate::domain::{BoundaryTreatment, Domain, DomainShape};
 use crate::geometry::Rect;
+use crate::mesh::{Cleaning, KeptParts};
+
+/// Share of the area from which parts stay, to start with.
+const USUAL_SHARE: f64 = 0.01;
 
 /// The domain. While its tool is selected, it is open and the tool's settings are in it.
 pub static DOMAIN: Panel = Panel { name: "domain", only_with_tool: false, show };
@@ -26,7 +32,8 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
         }
         if let Some(region) = state.session.document().settings().domain.region() {
             boundary_rows(ui, state, commands);
-            outline_rows(ui, state, region);
+            value_row(ui, "Corners", &format::count(region.corner_count() as u64));
+            ui.add_space(4.0);
         }
         bounds_rows(ui, state, commands);
         formula_row(ui, state, commands);
@@ -66,66 +73,89 @@ fn tool_rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     }
 }
 
-/// How the mesh meets the outline. The last diameter of a fitted outline is kept in egui's memory.
+/// How the mesh meets the outline, and which parts of it stay. The last diameter at the outline is kept in
+/// egui's memory.
 fn boundary_rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let settings = state.session.document().settings();
-    let boundary = settings.boundary;
-    let id = Id::unique("last fitted outline");
-    let fitted = match boundary {
-        BoundaryTreatment::Fitted { .. } | BoundaryTreatment::OnOutline { .. } => boundary,
-        BoundaryTreatment::Report => {
-            let last = ui.data(|data| data.get_temp(id));
-            last.unwrap_or(BoundaryTreatment::usual(settings.spacing))
-        }
-    };
-    let mut chosen = boundary;
-    let choices = [(fitted, "Fitted to outline"), (BoundaryTreatment::Report, "As in the report")];
+    let id = Id::unique("last diameter at the outline");
+    let diameter = settings.boundary.diameter().unwrap_or_else(|| {
+        let last = ui.data(|data| data.get_temp(id));
+        last.unwrap_or(BoundaryTreatment::usual_diameter(settings.spacing))
+    });
+    let mut chosen = settings.boundary;
+    let choices = [
+        (BoundaryTreatment::OnOutline { diameter }, "On outline"),
+        (BoundaryTreatment::Fitted { diameter }, "Fitted"),
+        (BoundaryTreatment::Report, "As in report"),
+    ];
     if segmented(ui, "Boundary treatment", &mut chosen, &choices).changed() {
-        ui.data_mut(|data| data.insert_temp(id, fitted));
+        ui.data_mut(|data| data.insert_temp(id, diameter));
         set_once(Setting::Boundary(chosen), commands);
     }
-    match boundary {
-        BoundaryTreatment::Fitted { diameter } | BoundaryTreatment::OnOutline { diameter } => {
-            fitted_row(ui, state, diameter, commands)
-        }
-        BoundaryTreatment::Report => remark(
-            ui,
-            "Appendix A: a coarse triangle stays if its three corners are inside. Parts narrower than the coarse grid are lost.",
-        ),
+    ui.add_space(4.0);
+    remark(
+        ui,
+        match settings.boundary {
+            BoundaryTreatment::OnOutline { .. } => {
+                "Nodes lie on the outline. Features narrower than the triangles there vanish or join."
+            }
+            BoundaryTreatment::Fitted { .. } => {
+                "A triangle stays if its centroid is inside: all angles are 45° or 90°, and the boundary is a staircase."
+            }
+            BoundaryTreatment::Report => {
+                "Appendix A: a coarse triangle stays if its three corners are inside. Parts narrower than the coarse grid \
+                 are lost."
+            }
+        },
+    );
+    if settings.boundary.diameter().is_some() {
+        diameter_row(ui, state, diameter, commands);
+        cleaning_rows(ui, settings.cleaning, settings.boundary, commands);
     }
 }
 
-fn fitted_row(ui: &mut Ui, state: &FrameState<'_>, diameter: f64, commands: &mut Vec<Command>) {
-    let mut diameter = diameter;
-    let extent = state.session.document().settings().domain.bounds.size().max_element();
+fn diameter_row(ui: &mut Ui, state: &FrameState<'_>, mut diameter: f64, commands: &mut Vec<Command>) {
+    let settings = state.session.document().settings();
+    let extent = settings.domain.bounds.size().max_element();
     let row = SliderRow::new("At outline", &mut diameter, 1e-4 * extent..=0.1 * extent).logarithmic();
-    let help = "Largest diameter of a triangle that the outline crosses. Triangles with their centroid outside are then \
-                left out.";
+    let help = "Largest diameter of a triangle that the outline passes through.";
     let response = row.help(help).show(ui);
     if response.changed() {
-        commands.push(Command::Set(Setting::Boundary(BoundaryTreatment::Fitted { diameter })));
+        commands.push(Command::Set(Setting::Boundary(settings.boundary.with_diameter(diameter))));
     }
     end_gesture_when_released(&response, commands);
 }
 
-/// Area, parts and holes of the mesh, compared with those of the outline.
-fn outline_rows(ui: &mut Ui, state: &FrameState<'_>, region: &Region) {
-    let (area, wanted) = (state.session.mesh().area(), region.area());
-    let percent = 100.0 * (area - wanted) / wanted;
-    let word = if percent < 0.0 { "less" } else { "more" };
-    let area = format!("{} % {word}", format::digits(percent.abs(), 2));
-    value_row(ui, "Area", &area).on_hover_text("Area of the mesh compared with that of the outline");
-    let (polygons, holes) = (region.polygons().len(), region.hole_count());
-    let count = |n: usize| format::count(n as u64);
-    let topology = state.session.topology();
-    let found = |n: Option<usize>| n.map_or("…".into(), count);
-    let parts = format!("{} (outline {})", found(topology.map(|t| t.parts)), count(polygons));
-    value_row(ui, "Parts", &parts)
-        .on_hover_text("Edge-connected parts of the mesh, and polygons of the outline");
-    let holes = format!("{} (outline {})", found(topology.map(|t| t.holes)), count(holes));
-    value_row(ui, "Holes", &holes).on_hover_text("Holes of the mesh, and holes of the outline");
-    value_row(ui, "Corners", &count(region.corner_count()));
+/// Which parts stay, and whether the domain may touch itself in a node.
+fn cleaning_rows(ui: &mut Ui, cleaning: Cleaning, boundary: BoundaryTreatment, commands: &mut Vec<Command>) {
+    let mut parts = cleaning.parts;
+    let share = match parts {
+        KeptParts::Share(share) => share,
+        _ => USUAL_SHARE,
+    };
+    let from_share = KeptParts::Share(share);
+    let choices = [(KeptParts::Largest, "Largest"), (from_share, "Large"), (KeptParts::All, "All")];
+    if segmented(ui, "Parts that stay", &mut parts, &choices).changed() {
+        set_once(Setting::Cleaning(Cleaning { parts, ..cleaning }), commands);
+    }
     ui.add_space(4.0);
+    if let KeptParts::Share(mut share) = cleaning.parts {
+        let row = SliderRow::new("From share", &mut share, 1e-4..=1.0).logarithmic();
+        let response = row.help("Parts with at least this share of the area stay.").show(ui);
+        if response.changed() {
+            let parts = KeptParts::Share(share);
+            commands.push(Command::Set(Setting::Cleaning(Cleaning { parts, ..cleaning })));
+        }
+        end_gesture_when_released(&response, commands);
+    }
+    if matches!(boundary, BoundaryTreatment::Fitted { .. }) {
+        let mut keeps_pinches = cleaning.keeps_pinches;
+        let help =
+            "Keep triangles that meet others of the domain only in a node. Most solvers do not accept them.";
+        if toggle_row(ui, "Keep pinched nodes", &mut keeps_pinches).on_hover_text(help).changed() {
+            set_once(Setting::Cleaning(Cleaning { keeps_pinches, ..cleaning }), commands);
+        }
+    }
 }
 
 fn bounds_rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {

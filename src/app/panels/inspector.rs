@@ -17,7 +17,7 @@ pub static INSPECTOR: Panel = Panel { name: "inspector", only_with_tool: false, 
 
 fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let title = match state.readout.and_then(|readout| readout.location.triangle()) {
-        Some(id) => format!("Triangle {}", number(state.session.triangle_number(id))),
+        Some(id) => format!("Triangle {}", number(state.session, id.index())),
         None => "Triangle".to_owned(),
     };
     let section = Section::new(&title).id("inspector").show(ui, |ui| match state.readout {
@@ -70,7 +70,7 @@ fn triangle_rows(
     quantity_rows(ui, state.view.quantity, triangle, commands);
     ui.add_space(4.0);
     for (i, (node, corner)) in triangle.vertices.iter().enumerate() {
-        let label = format!("v{} · {}", ["₁", "₂", "₃"][i], number(state.session.node_number(*node)));
+        let label = format!("v{} · {}", ["₁", "₂", "₃"][i], number(state.session, node.index()));
         value_row(ui, &label, &place(*corner));
     }
     hovered
@@ -105,7 +105,7 @@ fn neighbour_chip(
     commands: &mut Vec<Command>,
 ) -> Option<TriangleId> {
     let name = ["Bisection neighbour", "Second neighbour", "Third neighbour"][i];
-    let text = neighbour.triangle().map_or("edge".into(), |id| number(session.triangle_number(id)));
+    let text = neighbour.triangle().map_or("edge".into(), |id| number(session, id.index()));
     let response = Chip::new(color, &text, name).enabled(neighbour.triangle().is_some()).show(ui);
     let id = neighbour.triangle()?;
     if response.clicked() {
@@ -134,9 +134,9 @@ fn quantity_rows(ui: &mut Ui, shown: Quantity, triangle: &TriangleReadout, comma
     value_row(ui, "True (difference)", &exact);
 }
 
-/// The number that files give a triangle or node; `…` until it is counted.
-fn number(number: Option<usize>) -> String {
-    number.map_or("…".into(), |number| format::count(number as u64))
+/// The number that files give a triangle or node of the shown mesh; `…` until it is known.
+fn number(session: &Session, index: usize) -> String {
+    if session.has_file_numbers() { format::count(index as u64) } else { "…".into() }
 }
 
 fn where_on(location: Location) -> Option<&'static str> {

@@ -17,8 +17,7 @@ const HEIGHT: f32 = 224.0;
 pub static LEVELS: Panel = Panel { name: "levels", only_with_tool: false, show };
 
 fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
-    let mesh = state.session.mesh();
-    let note = format!("{} triangles", format::count(mesh.triangle_count() as u64));
+    let note = format!("{} triangles", format::count(state.session.triangle_count() as u64));
     let section = Section::new("Levels").note(&note).show(ui, |ui| {
         let settings = state.session.follower().settings();
         let colors = state.view.level_colors(settings);
@@ -26,8 +25,8 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
         let deepest = usize::from(deepest_level(settings)) + 1;
         let count = counts.len().max(deepest).min(64);
         let rows: Vec<_> = (0..count).map(|level| row(state, level, &counts, &colors)).collect();
-        let under_pointer = state.pointer.and_then(|point| mesh.locate(point).triangle());
-        let lit = under_pointer.map(|id| mesh.triangle(id).level());
+        let under_pointer = state.pointer.and_then(|point| state.session.locate(point).triangle());
+        let lit = under_pointer.map(|id| state.session.view().triangle(id).level());
         ui.set_min_height(HEIGHT);
         LevelLegend::new(&rows).lit(lit).max_height(HEIGHT).show(ui)
     });

@@ -7,6 +7,7 @@ mod bars;
 mod brush;
 mod domain;
 mod field;
+mod fit;
 mod formula;
 mod inspector;
 mod levels;
@@ -39,7 +40,7 @@ pub struct Panel {
 }
 
 /// All sections of the side panel, from the top. Those of the selected tool move to the top.
-pub static PANELS: [&Panel; 8] = [
+pub static PANELS: [&Panel; 9] = [
     &BRUSH,
     &transfer::TRANSFER,
     &levels::LEVELS,
@@ -47,6 +48,7 @@ pub static PANELS: [&Panel; 8] = [
     &field::FIELD,
     &mesh::MESH,
     &DOMAIN,
+    &fit::FIT,
     &view::VIEW,
 ];
 

@@ -58,21 +58,21 @@ fn pointer_cells(state: &FrameState<'_>) -> [StatusCell; 3] {
     let target =
         value_at(point, state.session.document(), state.session.follower(), Quantity::TargetDiameter);
     // The mesh decides: it may lack a part of the bounds.
-    let inside = state.session.mesh().locate(point).triangle().is_some();
+    let inside = state.session.locate(point).triangle().is_some();
     let target = if inside { format::length(target) } else { "outside".into() };
     cells([format::coordinate(point.x, step), format::coordinate(point.y, step), target])
 }
 
 fn mesh_cells(state: &FrameState<'_>) -> [StatusCell; 3] {
-    let mesh = state.session.mesh();
-    let nodes = match (mesh.outside_count(), state.session.topology()) {
-        (0, _) => format::count(mesh.raw_nodes().len() as u64),
-        (_, Some(topology)) => format::count(topology.nodes as u64),
-        (_, None) => NONE.into(),
+    let session = state.session;
+    let nodes = match session.derived() {
+        Some(derived) => format::count(derived.topology.nodes as u64),
+        None if session.has_file_numbers() => format::count(session.mesh().raw_nodes().len() as u64),
+        None => NONE.into(),
     };
-    let deepest = state.session.level_counts().len().saturating_sub(1);
+    let deepest = session.level_counts().len().saturating_sub(1);
     [
-        StatusCell::new("triangles", format::count(mesh.triangle_count() as u64), 10),
+        StatusCell::new("triangles", format::count(session.triangle_count() as u64), 10),
         StatusCell::new("nodes", nodes, 10),
         StatusCell::new("deepest level", deepest.to_string(), 2),
     ]

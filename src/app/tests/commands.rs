@@ -8,7 +8,8 @@ use egui_kittest::kittest::Queryable as _;
 use glam::dvec2;
 
 use super::{
-    TALL, canvas, entries, fingerprint, key, move_to, open_section, paint, send, value_of, window, window_of,
+    TALL, canvas, entries, fingerprint, key, move_to, open_section, paint, send, value_of, wait_until,
+    window, window_of,
 };
 use crate::app::command::Command;
 use crate::app::panels::PANELS;
@@ -87,13 +88,14 @@ fn the_status_bar_says_outside_between_the_polygons_and_their_bounds() {
 }
 
 #[test]
-fn parts_and_holes_are_counted_for_both_boundary_treatments() {
+fn parts_and_holes_are_counted_for_every_boundary_treatment() {
     let mut window = window_of(TALL);
     send(&mut window, Command::OpenExample(Example::Aegean));
     key(&mut window, Modifiers::NONE, Key::D);
-    for treatment in ["As in the report", "Fitted to outline"] {
+    open_section(&mut window, "Fit to outline");
+    for treatment in ["As in report", "Fitted", "On outline"] {
         window.get_by_role_and_label(Role::RadioButton, treatment).click();
-        window.run();
+        wait_until(&mut window, |window| window.state().session().derived().is_some());
         for row in ["Parts", "Holes"] {
             let value = value_of(&window, Role::Definition, row);
             assert!(value.starts_with(|first: char| first.is_ascii_digit()), "{treatment}: {value}");

@@ -6,8 +6,8 @@ use egui_kittest::kittest::Queryable as _;
 use glam::{DVec2, dvec2};
 
 use super::{
-    FREE, TALL, Window, area, click, entries, fingerprint, key, level_at, move_to, press, release, scratch,
-    send, set, settings, stroke, value_of, wait_for_notice, wait_until, window, window_of,
+    FREE, TALL, Window, area, click, entries, fingerprint, key, level_at, move_to, open_section, press,
+    release, scratch, send, set, settings, stroke, value_of, wait_for_notice, wait_until, window, window_of,
 };
 use crate::app::command::{Command, DomainCommand};
 use crate::document::{Example, Setting, Settings};
@@ -48,7 +48,7 @@ fn the_domain_is_cut_with_brush_rectangle_and_polygon_and_each_is_one_entry() {
     let cut = std::f64::consts::PI * radius * radius + 0.6 * radius;
     assert!((area(&window) - (1.0 - cut)).abs() < 0.005, "{} {cut}", area(&window));
     assert_eq!(entries(&window), 1);
-    assert_eq!(window.state().session().topology().unwrap().holes, 1);
+    assert_eq!(window.state().session().derived().unwrap().topology.holes, 1);
     assert_eq!(window.state().session().mesh().locate(dvec2(0.45, 0.6)), Location::OutsideDomain);
     let brushed = fingerprint(&window);
 
@@ -167,29 +167,69 @@ fn a_cut_under_way_is_given_up_by_undo_by_escape_and_by_another_domain() {
     assert!(!window.state().is_cutting() && settings(&window).domain.region().is_none());
 }
 
+/// Waits until the mesh is derived and compared with the outline.
+fn wait_for_quality(window: &mut Window) {
+    wait_until(window, |window| {
+        let derived = window.state().session().derived();
+        derived.is_some_and(|derived| derived.quality.is_some())
+    });
+}
+
 #[test]
-fn the_outline_is_met_in_two_ways_and_the_panel_says_what_that_costs() {
+fn the_outline_is_met_in_three_ways_and_the_panel_says_how_well() {
     let mut window = window_of(TALL);
     send(&mut window, Command::OpenExample(Example::Aegean));
     key(&mut window, Modifiers::NONE, Key::D);
-    let fitted = window.state().session().mesh().triangle_count();
-    assert!(
-        value_of(&window, Role::Definition, "Holes").ends_with(" (outline 65)"),
-        "{}",
-        value_of(&window, Role::Definition, "Holes")
-    );
-    assert!(fitted > 30_000);
-    window.get_by_role_and_label(Role::RadioButton, "As in the report").click();
-    window.run();
+    open_section(&mut window, "Fit to outline");
+    wait_for_quality(&mut window);
+    let (mesh, shown) = (fingerprint(&window), window.state().session().triangle_count());
+    let rows = |window: &Window| {
+        ["Parts", "Holes", "Misclassified", "Length"].map(|row| value_of(window, Role::Definition, row))
+    };
+    assert_eq!(rows(&window), ["1 (outline 1)", "81 (outline 65)", "0.22 %", "× 0.94"]);
+    assert_eq!(value_of(&window, Role::Button, "Islands kept"), "64 of 65");
+    assert!(value_of(&window, Role::Definition, "Nodes on outline").starts_with("8,"));
+
+    window.get_by_role_and_label(Role::RadioButton, "Fitted").click();
+    wait_for_quality(&mut window);
+    assert_eq!(fingerprint(&window), mesh, "the mesh under it is the same");
+    assert_ne!(window.state().session().triangle_count(), shown);
+    assert_eq!(value_of(&window, Role::Definition, "Angles"), "45.0° to 90.0°");
+    assert!(value_of(&window, Role::Definition, "Removed").contains("triangles"));
+    window.get_by_role_and_label(Role::RadioButton, "All").click();
+    window.get_by_label("Keep pinched nodes").click();
+    wait_for_quality(&mut window);
+    assert!(window.query_by_role_and_label(Role::Definition, "Removed").is_none());
+    assert_eq!(window.state().session().triangle_count(), window.state().session().mesh().triangle_count());
+
+    window.get_by_role_and_label(Role::RadioButton, "As in report").click();
+    wait_for_quality(&mut window);
     assert!(window.state().session().mesh().triangle_count() < 1000);
     assert_eq!(window.state().session().mesh().outside_count(), 0);
-    window.get_by_role_and_label(Role::RadioButton, "Fitted to outline").click();
-    window.run();
-    assert_eq!(window.state().session().mesh().triangle_count(), fitted);
+    window.get_by_role_and_label(Role::RadioButton, "On outline").click();
+    wait_for_quality(&mut window);
+    assert_eq!(fingerprint(&window), mesh, "the diameter at the outline was kept");
     window.get_by_label("Whole rectangle").click();
     window.run();
     assert!(settings(&window).domain.region().is_none());
     assert_eq!(area(&window), 36.0);
+}
+
+#[test]
+fn one_click_shows_the_place_where_the_fit_is_worst() {
+    let mut window = window_of(TALL);
+    send(&mut window, Command::OpenExample(Example::Aegean));
+    open_section(&mut window, "Fit to outline");
+    wait_for_quality(&mut window);
+    let quality = window.state().session().derived().unwrap().quality.clone().unwrap();
+    window.get_by_role_and_label(Role::Button, "Outline off mesh").click();
+    window.run();
+    let shown = window.state().view().camera.unwrap().visible_world();
+    let (_, worst) = quality.farthest_from_mesh.unwrap();
+    assert!(
+        (shown.center() - worst).length() < 1e-6 && shown.size().min_element() < 1.0,
+        "{shown:?} {worst}"
+    );
 }
 
 #[test]

@@ -13,6 +13,7 @@ use crate::app::command::Command;
 use crate::app::tools::QUERY;
 use crate::document::Example;
 use crate::mesh::Location;
+use crate::outline::DerivedMesh;
 
 #[test]
 fn a_click_shows_the_triangle_and_each_chip_goes_to_its_neighbour() {
@@ -74,22 +75,24 @@ fn the_inspector_counts_as_files_do() {
     send(&mut window, Command::Use(&QUERY));
     send(&mut window, Command::Query(dvec2(25.25, 38.1)));
     window.run();
-    let mesh = window.state().session().mesh();
-    let (id, extract) = (selected(&window).expect("a triangle of the sea"), mesh.extract());
-    let place = extract.place_of(id).unwrap();
-    assert_ne!(place, id, "triangles on land come before it");
+    // What files get, derived here again.
+    let follower = window.state().session().follower();
+    let cleaning = follower.settings().derived_cleaning();
+    let derived = DerivedMesh::new(follower.mesh(), follower.domain(), &cleaning);
+    let extract = derived.extract(follower.mesh());
+    let id = selected(&window).expect("a triangle of the sea");
+    assert!(
+        follower.mesh().locate(dvec2(25.25, 38.1)).triangle().is_some_and(|raw| raw != id),
+        "land comes first"
+    );
     let shown = |number: usize| crate::app::widgets::format::count(number as u64);
-    let title = format!("Triangle {}", shown(place.index()));
-    window.get_by_role_and_label(Role::Button, &title);
-    for (i, (node, subscript)) in
-        extract.triangles()[place.index()].vertices.iter().zip(["₁", "₂", "₃"]).enumerate()
-    {
+    window.get_by_role_and_label(Role::Button, &format!("Triangle {}", shown(id.index())));
+    for (node, subscript) in extract.triangles()[id.index()].vertices.iter().zip(["₁", "₂", "₃"]) {
         let row = value_of(&window, Role::Definition, &format!("v{subscript} · {}", shown(node.index())));
-        let corner = mesh.world_corners(id)[i];
+        let corner = extract.world(*node);
         assert!(row.starts_with(&format!("{:.2}", corner.x)), "{row} at {corner}");
     }
-    let across = mesh.neighbours(id).map(|n| n.triangle().unwrap());
-    let chips = across.map(|id| shown(extract.place_of(id).unwrap().index()));
+    let chips = extract.triangles()[id.index()].raw_neighbours.map(|n| shown(n.triangle().unwrap().index()));
     for (name, number) in ["Bisection neighbour", "Second neighbour", "Third neighbour"].iter().zip(chips) {
         assert_eq!(value_of(&window, Role::Button, name), number, "{name}");
     }

@@ -12,7 +12,7 @@ use crate::document::{Base, Settings};
 use crate::domain::{BoundaryTreatment, Domain, DomainShape, Polygon};
 use crate::field::{Formula, RefinementRule, Transfer};
 use crate::geometry::Rect;
-use crate::mesh::MOST_TRIANGLES;
+use crate::mesh::{Cleaning, KeptParts, MOST_TRIANGLES};
 use crate::raster::{MAX_SIDE, Raster};
 use crate::text::{Grouped, Number};
 
@@ -35,6 +35,9 @@ pub(super) struct Saved {
     name: String,
     domain: SavedDomain,
     boundary: SavedBoundary,
+    /// Missing in files of older versions.
+    #[serde(default)]
+    cleaning: SavedCleaning,
     spacing: f64,
     transfer: SavedTransfer,
     base: SavedBase,
@@ -70,6 +73,49 @@ enum SavedBoundary {
     Fitted(f64),
     #[serde(rename = "on_outline_with_diameter")]
     OnOutline(f64),
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SavedCleaning {
+    parts: SavedParts,
+    keep_pinches: bool,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum SavedParts {
+    All,
+    Largest,
+    WithShare(f64),
+}
+
+impl Default for SavedCleaning {
+    fn default() -> Self {
+        Self { parts: SavedParts::Largest, keep_pinches: false }
+    }
+}
+
+impl From<Cleaning> for SavedCleaning {
+    fn from(cleaning: Cleaning) -> Self {
+        let parts = match cleaning.parts {
+            KeptParts::All => SavedParts::All,
+            KeptParts::Largest => SavedParts::Largest,
+            KeptParts::Share(share) => SavedParts::WithShare(share),
+        };
+        Self { parts, keep_pinches: cleaning.keeps_pinches }
+    }
+}
+
+impl From<SavedCleaning> for Cleaning {
+    fn from(saved: SavedCleaning) -> Self {
+        let parts = match saved.parts {
+            SavedParts::All => KeptParts::All,
+            SavedParts::Largest => KeptParts::Largest,
+            SavedParts::WithShare(share) => KeptParts::Share(share),
+        };
+        Self { parts, keeps_pinches: saved.keep_pinches }
+    }
 }
 
 #[derive(Serialize, Deserialize)]
@@ -130,6 +176,7 @@ impl Saved {
                 BoundaryTreatment::Fitted { diameter } => SavedBoundary::Fitted(diameter),
                 BoundaryTreatment::OnOutline { diameter } => SavedBoundary::OnOutline(diameter),
             },
+            cleaning: settings.cleaning.into(),
             spacing: settings.spacing,
             transfer: SavedTransfer { h_min, h_max, shape },
             base: match &settings.base {
@@ -223,6 +270,7 @@ impl Saved {
                 SavedBoundary::Fitted(diameter) => BoundaryTreatment::Fitted { diameter },
                 SavedBoundary::OnOutline(diameter) => BoundaryTreatment::OnOutline { diameter },
             },
+            cleaning: self.cleaning.into(),
             spacing: self.spacing,
             transfer: Transfer {
                 h_min: self.transfer.h_min,

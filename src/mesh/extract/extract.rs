@@ -91,6 +91,12 @@ impl Extract<'_> {
         &self.triangles
     }
 
+    /// The extract with arrays of its own.
+    pub fn into_owned(self) -> Extract<'static> {
+        let (nodes, triangles) = (self.nodes.into_owned(), self.triangles.into_owned());
+        Extract { nodes: Cow::Owned(nodes), triangles: Cow::Owned(triangles), ..self }
+    }
+
     /// The place in [`Self::triangles`] of a triangle of the mesh; `None` for one that lies outside the
     /// domain, or was changed by a [`MeshPatch`](super::MeshPatch).
     ///

@@ -3,13 +3,11 @@
 #[expect(clippy::module_inception, reason = "the part is named for its main type")]
 mod extract;
 mod boundary;
-mod numbering;
 mod patch;
 mod pieces;
-
-pub(in crate::mesh) use numbering::RankBits;
+mod view;
 
 pub use extract::{BoundaryEdge, Cell, Extract, MeshEdge};
-pub use numbering::Numbering;
 pub use patch::{MeshPatch, PatchTriangle};
 pub use pieces::PatchPieces;
+pub use view::MeshView;

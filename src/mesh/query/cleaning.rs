@@ -22,8 +22,8 @@ use std::mem;
 
 use glam::DVec2;
 
+use super::forest::Forest;
 use super::parts::{Part, Parts, place_key};
-use super::survey::Forest;
 use crate::mesh::extract::{Extract, MeshPatch};
 use crate::mesh::kernel::{Mesh, NodeId, TriangleId};
 

@@ -3,7 +3,7 @@
 use std::cmp::Reverse;
 use std::collections::HashMap;
 
-use super::survey::Forest;
+use super::forest::Forest;
 use crate::geometry::LatticePoint;
 use crate::mesh::extract::Extract;
 use crate::mesh::kernel::{NodeId, TriangleId};

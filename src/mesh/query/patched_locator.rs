@@ -14,17 +14,16 @@ use crate::mesh::kernel::{Mesh, NodeId, Triangle, TriangleId};
 /// Far from changed triangles the mesh finds them. The others are in squares of about their own size, so
 /// that each is in at most four squares.
 #[derive(Clone, Debug)]
-pub struct PatchedLocator<'a> {
-    extract: &'a Extract<'a>,
+pub struct PatchedLocator {
     /// Triangles of the extract at and around changes, by the size of their squares and the square.
     squares: HashMap<(u32, [u32; 2]), Vec<TriangleId>>,
     /// The sizes that occur: binary logarithms of the sides, in lattice steps.
     sizes: BTreeSet<u32>,
 }
 
-impl<'a> PatchedLocator<'a> {
+impl PatchedLocator {
     /// A locator for `extract`, which must be [`Mesh::extract_with`] of the patch.
-    pub fn new(mesh: &Mesh, patch: &MeshPatch, extract: &'a Extract<'a>) -> Self {
+    pub fn new(mesh: &Mesh, patch: &MeshPatch, extract: &Extract) -> Self {
         let mut at_change = vec![false; mesh.nodes.len()];
         for (id, _) in &patch.changed {
             mesh.triangle(*id).vertices.iter().for_each(|v| at_change[v.index()] = true);
@@ -35,15 +34,15 @@ impl<'a> PatchedLocator<'a> {
                 is_far[place.index()] = !triangle.vertices.iter().any(|v| at_change[v.index()]);
             }
         }
-        let mut locator = Self { extract, squares: HashMap::new(), sizes: BTreeSet::new() };
+        let mut locator = Self { squares: HashMap::new(), sizes: BTreeSet::new() };
         for (number, triangle) in extract.triangles().iter().enumerate().filter(|(n, _)| !is_far[*n]) {
-            locator.insert(TriangleId::from_index(number), triangle);
+            locator.insert(extract, TriangleId::from_index(number), triangle);
         }
         locator
     }
 
-    fn insert(&mut self, number: TriangleId, triangle: &Triangle) {
-        let corners = triangle.vertices.map(|v| self.extract.node(v));
+    fn insert(&mut self, extract: &Extract, number: TriangleId, triangle: &Triangle) {
+        let corners = triangle.vertices.map(|v| extract.node(v));
         let low = corners.into_iter().reduce(|a, b| LatticePoint::new(a.x.min(b.x), a.y.min(b.y)));
         let high = corners.into_iter().reduce(|a, b| LatticePoint::new(a.x.max(b.x), a.y.max(b.y)));
         let (Some(low), Some(high)) = (low, high) else { return };
@@ -58,18 +57,18 @@ impl<'a> PatchedLocator<'a> {
 
     /// Finds the triangle of the extract that contains a point in world coordinates, given where the mesh
     /// finds it. Ids in the answer are those of the extract; of several triangles it is the one with the
-    /// lowest.
-    pub fn locate(&self, point: DVec2, in_mesh: Location) -> Location {
+    /// lowest. `extract` must be the one that the locator was made for.
+    pub fn locate(&self, extract: &Extract, point: DVec2, in_mesh: Location) -> Location {
         if matches!(in_mesh, Location::OutsideBounds | Location::Invalid) {
             return in_mesh;
         }
-        let p = self.extract.lattice().lattice_from_world(point);
-        let unchanged = in_mesh.triangle().and_then(|id| self.extract.place_of(id));
+        let p = extract.lattice().lattice_from_world(point);
+        let unchanged = in_mesh.triangle().and_then(|id| extract.place_of(id));
         let near = self.sizes.iter().flat_map(|&size| {
             let square = [p.x as u32 >> size, p.y as u32 >> size];
             self.squares.get(&(size, square)).into_iter().flatten().copied()
         });
-        let found = near.chain(unchanged).filter_map(|number| Some((number, self.sides(number, p)?)));
+        let found = near.chain(unchanged).filter_map(|number| Some((number, sides(extract, number, p)?)));
         let Some((triangle, sides)) = found.min_by_key(|(number, _)| *number) else {
             return Location::OutsideDomain;
         };
@@ -77,20 +76,20 @@ impl<'a> PatchedLocator<'a> {
         match on.iter().filter(|&&on| on).count() {
             0 => Location::Inside { triangle },
             1 => Location::OnEdge { triangle, edge: on.iter().position(|&on| on).unwrap_or(0) },
-            _ => Location::OnVertex { triangle, node: self.shared_end(triangle, on) },
+            _ => Location::OnVertex { triangle, node: shared_end(extract, triangle, on) },
         }
     }
+}
 
-    /// On which sides of its edges a triangle has a point; `None` if the point lies outside.
-    fn sides(&self, number: TriangleId, p: DVec2) -> Option<[Side; 3]> {
-        let edges = self.extract.triangles()[number.index()].edge_nodes();
-        let sides = edges.map(|(a, b)| side_of_line(self.extract.node(a), self.extract.node(b), p));
-        (!sides.contains(&Side::Right)).then_some(sides)
-    }
+/// On which sides of its edges a triangle has a point; `None` if the point lies outside.
+fn sides(extract: &Extract, number: TriangleId, p: DVec2) -> Option<[Side; 3]> {
+    let edges = extract.triangles()[number.index()].edge_nodes();
+    let sides = edges.map(|(a, b)| side_of_line(extract.node(a), extract.node(b), p));
+    (!sides.contains(&Side::Right)).then_some(sides)
+}
 
-    /// The node that two edges of a triangle share.
-    fn shared_end(&self, number: TriangleId, on: [bool; 3]) -> NodeId {
-        let first = (0..3).find(|&j| on[j] && on[(j + 1) % 3]).unwrap_or(0);
-        self.extract.triangles()[number.index()].edge_nodes()[first].1
-    }
+/// The node that two edges of a triangle share.
+fn shared_end(extract: &Extract, number: TriangleId, on: [bool; 3]) -> NodeId {
+    let first = (0..3).find(|&j| on[j] && on[(j + 1) % 3]).unwrap_or(0);
+    extract.triangles()[number.index()].edge_nodes()[first].1
 }

@@ -12,6 +12,6 @@ pub use empty::empty_state;
 pub use icon::Icon;
 pub use levels::{LevelLegend, LevelRow};
 pub use status::StatusCell;
-pub use value_row::value_row;
+pub use value_row::{ValueRow, value_row};
 
 use super::{format, paint};

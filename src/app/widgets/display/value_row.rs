@@ -1,6 +1,6 @@
 //! A name and its value.
 
-use eframe::egui::{Response, Role, Sense, Ui, WidgetInfo};
+use eframe::egui::{CursorIcon, Response, Role, Sense, Stroke, Ui, WidgetInfo};
 
 use super::paint;
 use crate::app::theme::{font, tokens};
@@ -9,18 +9,61 @@ use crate::app::theme::{font, tokens};
 ///
 /// Where both do not fit the value ends in `…`; a tooltip shows all of it. Tests find the row by its name and
 /// read the value from it.
+#[must_use = "call `show`"]
+pub struct ValueRow<'a> {
+    label: &'a str,
+    value: &'a str,
+    stands_out: bool,
+    is_link: bool,
+}
+
+/// A row that only shows its value.
 pub fn value_row(ui: &mut Ui, label: &str, value: &str) -> Response {
-    let t = tokens(ui);
-    let row = paint::row(ui);
-    let response = ui.interact(row, ui.make_persistent_id(("value", label)), Sense::hover());
-    response.widget_info(|| WidgetInfo {
-        current_text_value: Some(value.to_owned()),
-        ..WidgetInfo::labeled(Role::Definition, true, label)
-    });
-    let name = paint::elided(ui, label, font::body(), t.label, row.width() * 0.6);
-    let number = paint::elided(ui, value, font::value(), t.value, row.width() - name.size().x - 8.0);
-    let cut = number.elided || name.elided;
-    paint::at_left(ui, row, name);
-    paint::at_right(ui, row, number);
-    if cut { response.on_hover_text(format!("{label}: {value}")) } else { response }
+    ValueRow::new(label, value).show(ui)
+}
+
+impl<'a> ValueRow<'a> {
+    /// A row.
+    pub fn new(label: &'a str, value: &'a str) -> Self {
+        Self { label, value, stands_out: false, is_link: false }
+    }
+
+    /// Colours the value, where it needs attention.
+    pub fn stands_out(self, stands_out: bool) -> Self {
+        Self { stands_out, ..self }
+    }
+
+    /// Makes the row a button, which says so under the pointer.
+    pub fn link(self) -> Self {
+        Self { is_link: true, ..self }
+    }
+
+    /// Shows the row.
+    pub fn show(self, ui: &mut Ui) -> Response {
+        let Self { label, value, stands_out, is_link } = self;
+        let t = tokens(ui);
+        let row = paint::row(ui);
+        let (sense, role) =
+            if is_link { (Sense::click(), Role::Button) } else { (Sense::hover(), Role::Definition) };
+        let response = ui.interact(row, ui.make_persistent_id(("value", label)), sense);
+        response.widget_info(|| WidgetInfo {
+            current_text_value: Some(value.to_owned()),
+            ..WidgetInfo::labeled(role, true, label)
+        });
+        let ink = if stands_out { t.accent } else { t.value };
+        let name = paint::elided(ui, label, font::body(), t.label, row.width() * 0.6);
+        let number = paint::elided(ui, value, font::value(), ink, row.width() - name.size().x - 8.0);
+        let cut = number.elided || name.elided;
+        if is_link {
+            let under = row.right() - number.size().x..=row.right();
+            let width = if response.hovered() { 1.5 } else { 1.0 };
+            let line = Stroke::new(width, if response.hovered() { ink } else { t.faint });
+            ui.painter().hline(under, row.center().y + 8.0, line);
+            paint::focus_ring(ui, &response, row, 4);
+        }
+        paint::at_left(ui, row, name);
+        paint::at_right(ui, row, number);
+        let response = if is_link { response.on_hover_cursor(CursorIcon::PointingHand) } else { response };
+        if cut { response.on_hover_text(format!("{label}: {value}")) } else { response }
+    }
 }

@@ -1,0 +1,277 @@
+//! The mesh as it leaves the program: derived from the mesh of the follower on another thread.
+//!
+//! ```text
+//!  follower's mesh ──▶ derived mesh      shown, queried, counted while the two belong together
+//!        │                  │
+//!        │ updated          │ pieces in place of changed triangles are retired: there the mesh itself is
+//!        ▼                  ▼ drawn, until the next mesh is derived
+//!  follower's mesh ──▶ derived mesh
+//! ```
+//!
+//! While a stroke is drawn, only small meshes are derived: deriving holds the mesh, and the follower would
+//! have to copy a large one before it continues.
+
+use std::ops::Range;
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use eframe::egui::Context;
+use glam::DVec2;
+
+use crate::document::{Follower, MeshChange};
+use crate::domain::{DomainOnLattice, FitQuality, Region};
+use crate::mesh::{
+    Cleaning, Extract, Location, Mesh, MeshView, PatchPieces, PatchedLocator, Removed, Topology, TriangleId,
+};
+use crate::outline::{DerivedMesh, OutlineFit};
+
+/// Most triangles of a mesh that is derived while a gesture goes on.
+const MOST_IN_GESTURE: usize = 50_000;
+
+/// What a derived mesh depends on.
+#[derive(Clone, Debug, PartialEq)]
+struct Key {
+    revision: u64,
+    on_outline: bool,
+    cleaning: Cleaning,
+    region: Arc<Region>,
+}
+
+impl Key {
+    /// What the derived mesh of the follower depends on; `None` where the mesh itself leaves the program.
+    fn of(follower: &Follower) -> Option<Self> {
+        let settings = follower.settings();
+        Some(Self {
+            revision: follower.revision(),
+            on_outline: follower.domain().region_on_outline().is_some(),
+            cleaning: settings.derived_cleaning(),
+            region: settings.domain.region()?.clone(),
+        })
+    }
+}
+
+/// A mesh as files have it. Ids are the numbers in files.
+pub struct Derived {
+    key: Key,
+    extract: Extract<'static>,
+    locator: PatchedLocator,
+    /// Triangles of each level.
+    pub level_counts: Vec<usize>,
+    /// Nodes, parts and holes.
+    pub topology: Topology,
+    /// In square world units.
+    pub area: f64,
+    /// What cleaning removed.
+    pub removed: Removed,
+    /// How well the boundary lies on the outline, where nodes are moved there.
+    pub outline_fit: Option<OutlineFit>,
+    /// The comparison with the outline, once it is made.
+    pub quality: Option<FitQuality>,
+}
+
+impl Derived {
+    /// Nodes and triangles.
+    pub fn view(&self) -> MeshView<'_> {
+        self.extract.view()
+    }
+
+    /// Finds a point, given where the mesh of the follower finds it.
+    pub fn locate(&self, point: DVec2, in_mesh: Location) -> Location {
+        self.locator.locate(&self.extract, point, in_mesh)
+    }
+}
+
+/// How the pieces changed since they were last sent to the GPU.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum PiecesChange {
+    /// They are others.
+    Replaced,
+    /// Those in place of these triangles were retired; the ranges are of [`PatchPieces::triangles`].
+    Retired(Vec<(TriangleId, Range<usize>)>),
+}
+
+/// Derives meshes, and keeps the last one.
+#[derive(Default)]
+pub struct Derivation {
+    latest: Option<Derived>,
+    pieces: PatchPieces,
+    pieces_revision: u64,
+    pieces_change: Option<PiecesChange>,
+    running: Option<Running>,
+}
+
+/// A mesh that is being derived.
+struct Running {
+    key: Key,
+    results: Receiver<Outcome>,
+    /// What became of the follower's mesh since.
+    since: Option<MeshChange>,
+}
+
+/// What the other thread sends, in this order.
+enum Outcome {
+    Derived(Box<Derived>, PatchPieces),
+    Quality(FitQuality),
+}
+
+impl Derivation {
+    /// The derived mesh, if it belongs to the follower's mesh as it is.
+    pub fn current(&self, follower: &Follower) -> Option<&Derived> {
+        self.latest.as_ref().filter(|derived| Key::of(follower).as_ref() == Some(&derived.key))
+    }
+
+    /// What is drawn in place of triangles of the follower's mesh.
+    pub fn pieces(&self) -> &PatchPieces {
+        &self.pieces
+    }
+
+    /// Grows whenever [`Self::pieces`] change.
+    pub fn pieces_revision(&self) -> u64 {
+        self.pieces_revision
+    }
+
+    /// How the pieces changed since the last call.
+    pub fn take_pieces_change(&mut self) -> Option<PiecesChange> {
+        self.pieces_change.take()
+    }
+
+    /// Whether a mesh is being derived.
+    pub fn is_running(&self) -> bool {
+        self.running.is_some()
+    }
+
+    /// Notes what became of the follower's mesh.
+    pub fn note_change(&mut self, change: &MeshChange, mesh: &Mesh) {
+        match change {
+            // Whoever draws begins another mesh without pieces.
+            MeshChange::Replaced => self.replace_pieces(PatchPieces::default()),
+            MeshChange::Within(changes) => {
+                let retired = self.pieces.retire(mesh, changes);
+                self.note_retired(retired);
+            }
+        }
+        if let Some(running) = &mut self.running {
+            MeshChange::join(&mut running.since, change.clone(), mesh);
+        }
+    }
+
+    fn note_retired(&mut self, retired: Vec<(TriangleId, Range<usize>)>) {
+        if retired.is_empty() {
+            return;
+        }
+        self.pieces_revision += 1;
+        match &mut self.pieces_change {
+            Some(PiecesChange::Replaced) => {}
+            Some(PiecesChange::Retired(earlier)) => earlier.extend(retired),
+            None => self.pieces_change = Some(PiecesChange::Retired(retired)),
+        }
+    }
+
+    fn replace_pieces(&mut self, pieces: PatchPieces) {
+        self.pieces = pieces;
+        self.pieces_revision += 1;
+        self.pieces_change = Some(PiecesChange::Replaced);
+    }
+
+    /// Takes finished meshes, waiting for them up to `patience`, and starts to derive the next one where that
+    /// is due. Returns whether one is being derived.
+    pub fn advance(
+        &mut self,
+        follower: &Follower,
+        in_gesture: bool,
+        patience: Duration,
+        ctx: &Context,
+    ) -> bool {
+        let deadline = Instant::now() + patience;
+        loop {
+            if let Some(running) = &self.running {
+                let left = deadline.saturating_duration_since(Instant::now());
+                match running.results.recv_timeout(left) {
+                    Err(RecvTimeoutError::Timeout) => return true,
+                    Err(RecvTimeoutError::Disconnected) => self.running = None,
+                    Ok(outcome) => self.take(outcome, follower),
+                }
+                continue;
+            }
+            let is_small = follower.mesh().raw_triangle_count() <= MOST_IN_GESTURE;
+            match Key::of(follower) {
+                Some(key)
+                    if self.is_new(&key) && follower.stage().is_settled() && (is_small || !in_gesture) =>
+                {
+                    self.start(key, follower, ctx);
+                }
+                Some(_) => return false,
+                None => {
+                    self.forget();
+                    return false;
+                }
+            }
+        }
+    }
+
+    fn is_new(&self, key: &Key) -> bool {
+        self.latest.as_ref().is_none_or(|derived| derived.key != *key)
+    }
+
+    fn forget(&mut self) {
+        if self.latest.take().is_some() {
+            self.replace_pieces(PatchPieces::default());
+        }
+    }
+
+    fn take(&mut self, outcome: Outcome, follower: &Follower) {
+        let Some(running) = &mut self.running else { return };
+        match outcome {
+            Outcome::Derived(derived, mut pieces) => {
+                match running.since.take() {
+                    None => {}
+                    Some(MeshChange::Replaced) => pieces = PatchPieces::default(),
+                    Some(MeshChange::Within(changes)) => drop(pieces.retire(follower.mesh(), &changes)),
+                }
+                self.latest = Some(*derived);
+                self.replace_pieces(pieces);
+            }
+            Outcome::Quality(quality) => {
+                if let Some(derived) = &mut self.latest {
+                    derived.quality = Some(quality);
+                }
+            }
+        }
+    }
+
+    fn start(&mut self, key: Key, follower: &Follower, ctx: &Context) {
+        let (sender, results) = channel();
+        let (mesh, domain, ctx) = (follower.shared_mesh(), follower.domain().clone(), ctx.clone());
+        let key_there = key.clone();
+        thread::spawn(move || {
+            derive(key_there, mesh, &domain, &sender);
+            ctx.request_repaint();
+        });
+        self.running = Some(Running { key, results, since: None });
+    }
+}
+
+/// Derives a mesh and compares it with the outline. The receiver may be gone, when the window closes.
+fn derive(key: Key, mesh: Arc<Mesh>, domain: &DomainOnLattice, sender: &Sender<Outcome>) {
+    let derived_mesh = DerivedMesh::new(&mesh, domain, &key.cleaning);
+    let extract = derived_mesh.extract(&mesh);
+    let pieces = PatchPieces::new(&mesh, derived_mesh.patch(), &extract);
+    let region = key.region.clone();
+    let derived = Derived {
+        key,
+        locator: PatchedLocator::new(&mesh, derived_mesh.patch(), &extract),
+        level_counts: extract.level_counts(),
+        topology: extract.topology(),
+        area: extract.area(),
+        removed: derived_mesh.removed().clone(),
+        outline_fit: derived_mesh.fit(),
+        quality: None,
+        extract: extract.clone().into_owned(),
+    };
+    if sender.send(Outcome::Derived(Box::new(derived), pieces)).is_ok() {
+        let quality = FitQuality::of(&mesh, &extract, &region);
+        let _ = sender.send(Outcome::Quality(quality));
+    }
+}

@@ -1,0 +1,138 @@
+//! How well the mesh renders the outline of its domain.
+
+use eframe::egui::Ui;
+use glam::DVec2;
+
+use super::Panel;
+use crate::app::command::Command;
+use crate::app::derivation::Derived;
+use crate::app::frame::FrameState;
+use crate::app::widgets::{Section, ValueRow, format, value_row};
+use crate::domain::{FitQuality, Region};
+use crate::geometry::Rect;
+
+/// Side of the area that is shown around a place, in diameters at the outline.
+const AREA_IN_DIAMETERS: f64 = 24.0;
+
+/// The mesh compared with the polygons of its domain. Not shown without polygons.
+pub static FIT: Panel = Panel { name: "fit", only_with_tool: false, show };
+
+fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
+    let Some(region) = state.session.follower().settings().domain.region() else { return };
+    let derived = state.session.derived();
+    let quality = derived.and_then(|derived| derived.quality.as_ref());
+    let share = |area: f64| format!("{} %", format::digits(100.0 * area / region.area(), 2));
+    let note = quality.map_or("…".into(), |quality| format!("{} wrong", share(quality.misclassified_area)));
+    Section::new("Fit to outline").note(&note).closed().show(ui, |ui| {
+        let Some(derived) = derived else {
+            value_row(ui, "Mesh", "being derived");
+            return;
+        };
+        count_rows(ui, derived, region);
+        if let Some(quality) = quality {
+            quality_rows(ui, state, quality, region, commands);
+        }
+        if let Some(fit) = derived.outline_fit {
+            let nodes = format!("{} of {}", count(fit.on_outline), count(fit.nodes));
+            value_row(ui, "Nodes on outline", &nodes).on_hover_text(
+                "Nodes of the boundary that lie on the outline. The others would make an angle too small.",
+            );
+        }
+        removed_rows(ui, derived, region, commands, state);
+    });
+}
+
+/// Parts and holes of mesh and outline, coloured where they differ.
+fn count_rows(ui: &mut Ui, derived: &Derived, region: &Region) {
+    let topology = derived.topology;
+    let rows = [
+        ("Parts", topology.parts, region.polygons().len(), "Edge-connected parts of the mesh, and polygons"),
+        ("Holes", topology.holes, region.hole_count(), "Holes of the mesh, and of the outline"),
+    ];
+    for (label, mesh, outline, help) in rows {
+        let value = format!("{} (outline {})", count(mesh), count(outline));
+        ValueRow::new(label, &value).stands_out(mesh != outline).show(ui).on_hover_text(help);
+    }
+}
+
+fn quality_rows(
+    ui: &mut Ui,
+    state: &FrameState<'_>,
+    quality: &FitQuality,
+    region: &Region,
+    commands: &mut Vec<Command>,
+) {
+    let kept = quality.islands - quality.lost_islands.len();
+    let islands = format!("{} of {}", count(kept), count(quality.islands));
+    if let Some(&lost) = quality.lost_islands.first() {
+        let row = ValueRow::new("Islands kept", &islands).stands_out(true).link().show(ui);
+        go_to(row, lost, state, "Go to an island that the mesh covers.", commands);
+    } else if quality.islands > 0 {
+        value_row(ui, "Islands kept", &islands);
+    }
+    let percent = |area: f64| 100.0 * area / region.area();
+    let sign = if quality.net_area < 0.0 { "−" } else { "+" };
+    let net = format!("{sign}{} %", format::digits(percent(quality.net_area.abs()), 3));
+    value_row(ui, "Net area", &net).on_hover_text("Area of the mesh without that of the outline");
+    let misclassified = format!("{} %", format::digits(percent(quality.misclassified_area), 2));
+    value_row(ui, "Misclassified", &misclassified)
+        .on_hover_text("Area that only the mesh or only the outline covers");
+    let longer = format!("× {}", format::digits(quality.boundary_length / quality.outline_length, 2));
+    value_row(ui, "Length", &longer).on_hover_text("Length of the boundary, compared with the outline");
+    let farthest = [
+        ("Mesh off outline", quality.farthest_from_outline, "Go to the boundary farthest from the outline."),
+        ("Outline off mesh", quality.farthest_from_mesh, "Go to the outline farthest from the boundary."),
+    ];
+    for (label, farthest, help) in farthest {
+        let Some((distance, place)) = farthest else { continue };
+        let row = ValueRow::new(label, &format::length(distance)).link().show(ui);
+        go_to(row, place, state, help, commands);
+    }
+    let angles = [quality.smallest_angle, quality.largest_angle].map(|angle| format::fixed(angle, 1));
+    value_row(ui, "Angles", &format!("{}° to {}°", angles[0], angles[1]));
+}
+
+/// What cleaning removed, and the way to the largest part of it.
+fn removed_rows(
+    ui: &mut Ui,
+    derived: &Derived,
+    region: &Region,
+    commands: &mut Vec<Command>,
+    state: &FrameState<'_>,
+) {
+    let removed = &derived.removed;
+    if removed.triangles == 0 {
+        return;
+    }
+    let area = format::digits(100.0 * removed.area / region.area(), 3);
+    let value = format!("{} triangles, {area} %", count(removed.triangles));
+    value_row(ui, "Removed", &value).on_hover_text(format!(
+        "{} parts and the smaller sides of {} nodes in which the domain touched itself",
+        count(removed.parts.len()),
+        count(removed.pinches)
+    ));
+    if let Some(part) = removed.parts.first() {
+        let value = format!("{} triangles", count(part.triangles));
+        let row = ValueRow::new("Largest part removed", &value).link().show(ui);
+        go_to(row, part.place, state, "Go to the largest part that was removed.", commands);
+    }
+}
+
+/// Shows a place closely when its row is clicked.
+fn go_to(
+    row: eframe::egui::Response,
+    place: DVec2,
+    state: &FrameState<'_>,
+    help: &str,
+    commands: &mut Vec<Command>,
+) {
+    let settings = state.session.follower().settings();
+    let diameter = settings.boundary.diameter().unwrap_or(settings.spacing);
+    if row.on_hover_text(help).clicked() {
+        commands.push(Command::ShowArea(Rect::around(place, 0.5 * AREA_IN_DIAMETERS * diameter)));
+    }
+}
+
+fn count(count: usize) -> String {
+    format::count(count as u64)
+}
