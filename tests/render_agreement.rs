@@ -4,13 +4,17 @@
 //! With MESHBRUSH_PICTURES set to a folder they leave what they drew there.
 #![cfg(feature = "gui")]
 
+mod coast;
+mod formula_mesh;
+
 use glam::{DVec2, dvec2};
+use meshbrush::internals::build::BuiltMesh;
 use meshbrush::internals::colormap::{LEVELS, LevelColors};
 use meshbrush::internals::geometry::{Lattice, LatticePoint, LatticeRect, Rect};
-use meshbrush::internals::mesh::{Changes, Element, Limits, Mesh, Progress, Updater};
+use meshbrush::internals::mesh::{Changes, Element, Limits, Mesh, PatchPieces, Progress, Updater};
 use meshbrush::internals::render::gpu::{ChunkLimits, GpuError, Offscreen};
 use meshbrush::internals::render::{Image, software};
-use meshbrush::internals::scene::{Camera, Overlay, Style};
+use meshbrush::internals::scene::{Camera, Overlay, ShownMesh, ShownRevision, Style};
 
 const SIZE: [u32; 2] = [400, 300];
 
@@ -420,8 +424,9 @@ fn a_picture_drawn_in_software_reaches_the_canvas_unchanged() {
     let mesh = graded();
     let (camera, style) = (whole(&mesh), Style::dark(colors()));
     let expected = software::draw(&mesh, &camera, &style, None, &[]);
-    assert_eq!(gpu.picture_in_software(&mesh, 1, &camera, &style).unwrap(), expected);
-    assert_eq!(gpu.picture_in_software(&mesh, 1, &camera, &style).unwrap(), expected);
+    let (shown, revision) = (ShownMesh::from(&mesh), ShownRevision { mesh: 1, pieces: 0 });
+    assert_eq!(gpu.picture_in_software(shown, revision, &camera, &style).unwrap(), expected);
+    assert_eq!(gpu.picture_in_software(shown, revision, &camera, &style).unwrap(), expected);
     assert_eq!(gpu.renderer().redraws(), 1, "nothing changed");
 }
 
@@ -432,4 +437,165 @@ fn a_canvas_without_a_mesh_is_its_ground() {
     let style = Style { level_colors: [[9; 4]; LEVELS].into(), ..Style::light(colors()) };
     let picture = gpu.picture(&camera, &style).unwrap();
     assert_eq!(picture, Image::filled(SIZE, style.ground));
+}
+
+/// As [`assert_agree`], but so strictly that a wrong line along the coast is found.
+fn assert_agree_closely(name: &str, gpu: &Image, software: &Image) {
+    assert_agree(name, gpu, software);
+    let (_, differing) = difference(gpu, software);
+    assert!(differing < 0.0005, "{name}: {differing} of the pixels differ");
+}
+
+/// Compares pictures of a mesh with pieces: whole, and close to a place on the coast.
+fn assert_coasts_agree(name: &str, gpu: &mut Offscreen, mesh: &Mesh, pieces: Option<&PatchPieces>) {
+    let style = Style::dark(colors());
+    let at = dvec2(0.55, 0.0);
+    for zoom in [1.0, 4.0, 15.0] {
+        let camera = whole(mesh).zoomed(zoom, DVec2::ZERO);
+        let camera = if zoom > 1.0 { camera.centered_on(at) } else { camera };
+        let expected = software::draw(ShownMesh { mesh, pieces }, &camera, &style, None, &[]);
+        let picture = gpu.picture(&camera, &style).unwrap();
+        assert_agree_closely(&format!("{name}-{zoom}"), &picture, &expected);
+    }
+}
+
+/// The limits with which a mesh needs many buffers.
+fn small_chunks(mesh: &Mesh) -> ChunkLimits {
+    let node_bits = (mesh.raw_nodes().len() as u32).div_ceil(3).next_power_of_two().ilog2();
+    ChunkLimits { triangles: 301, node_bits }
+}
+
+#[test]
+fn pieces_agree_at_every_zoom() {
+    let Some(gpu) = gpu() else { return };
+    let built = coast::coast(0.06);
+    let mesh = &built.mesh;
+    let pieces = coast::pieces(mesh, &built);
+    let mut gpu = gpu.with_chunks(small_chunks(mesh)).unwrap();
+    gpu.show(mesh, 1).unwrap();
+    assert_coasts_agree("coast-mesh", &mut gpu, mesh, None);
+    gpu.renderer().mirror_mut().set_pieces(Some(&pieces)).unwrap();
+    let shown = ShownMesh { mesh, pieces: Some(&pieces) };
+    // Some pieces of different sizes, at the middle of an edge: down to 200 px per lattice step.
+    for (i, piece) in pieces.triangles().iter().step_by(pieces.triangles().len() / 5).enumerate() {
+        let [a, b, _] =
+            piece.vertices.map(|node| mesh.lattice().world_from_lattice(pieces.nodes()[node.index()]));
+        for zoom in [1.0, 7.0, 50.0, 400.0, 3e3, 2e4, 1e6, 1e300] {
+            let camera =
+                whole(mesh).zoomed(zoom, DVec2::ZERO).centered_on(a.lerp(b, 0.31)).panned(dvec2(20.3, -11.6));
+            for style in [Style::dark(colors()), Style::light(colors()).at_density(2.0)] {
+                let expected = software::draw(shown, &camera, &style, None, &[]);
+                let picture = gpu.picture(&camera, &style).unwrap();
+                assert_agree_closely(&format!("piece-{i}-{zoom:e}"), &picture, &expected);
+            }
+        }
+    }
+    // Another mesh begins without pieces.
+    gpu.show(mesh, 2).unwrap();
+    assert_coasts_agree("coast-again", &mut gpu, mesh, None);
+}
+
+/// Makes a mesh fine around a place, or as it was, and returns what changed.
+fn edit(mesh: &mut Mesh, built: &BuiltMesh, fine: Option<DVec2>) -> Changes {
+    let before = mesh.clone();
+    let mut updater = Updater::new(Limits::default());
+    updater.add(LatticeRect { min: LatticePoint::new(0, 0), max: mesh.lattice().extent() });
+    let mut criterion = built.criterion(None);
+    let fine = fine.map(|at| mesh.lattice().rect_around(&Rect::around(at, 0.1)).unwrap());
+    let mut exceeds = |element: &Element| {
+        let is_fine = fine.is_some_and(|square| square.touches(element.corners));
+        Ok((is_fine && element.triangle.level() < 11) || criterion.exceeds(element)?)
+    };
+    while updater.advance(mesh, &mut exceeds, usize::MAX).unwrap() == Progress::More {}
+    mesh.classify(0..mesh.raw_triangle_count(), |element| built.domain.excludes(element));
+    differences(&before, mesh)
+}
+
+#[test]
+fn pieces_follow_the_edits_of_their_mesh() {
+    let Some(gpu) = gpu() else { return };
+    let built = coast::coast(0.06);
+    let mut mesh = built.mesh.clone();
+    let mut gpu = gpu.with_chunks(ChunkLimits { triangles: 301, node_bits: 14 }).unwrap();
+    gpu.show(&mesh, 0).unwrap();
+    let places = [dvec2(0.8, 0.0), dvec2(0.0, 0.75), dvec2(-0.7, 0.1)];
+    for (step, fine) in (1..).zip(places.map(Some).into_iter().chain([None])) {
+        let mut pieces = coast::pieces(&mesh, &built);
+        gpu.renderer().mirror_mut().set_pieces(Some(&pieces)).unwrap();
+        assert_coasts_agree(&format!("derived-{step}"), &mut gpu, &mesh, Some(&pieces));
+        let changes = edit(&mut mesh, &built, fine);
+        gpu.renderer().mirror_mut().apply_changes(&mesh, step, &changes).unwrap();
+        let retired = pieces.retire(&mesh, &changes);
+        assert!(!retired.is_empty(), "step {step}");
+        gpu.renderer().mirror_mut().retire(&pieces, &retired);
+        assert_coasts_agree(&format!("retired-{step}"), &mut gpu, &mesh, Some(&pieces));
+    }
+    assert_eq!(mesh.fingerprint(), built.mesh.fingerprint());
+    gpu.renderer().mirror_mut().set_pieces(None).unwrap();
+    assert_coasts_agree("without-pieces", &mut gpu, &mesh, None);
+}
+
+#[test]
+fn pieces_wait_for_the_mesh_that_is_being_uploaded() {
+    let Some(gpu) = gpu() else { return };
+    let (built, finer) = (coast::coast(0.1), coast::coast(0.06));
+    let mut mesh = finer.mesh.clone();
+    let mut gpu = gpu.with_chunks(ChunkLimits { triangles: 301, node_bits: 14 }).unwrap();
+    gpu.show(&built.mesh, 0).unwrap();
+    let former = coast::pieces(&built.mesh, &built);
+    gpu.renderer().mirror_mut().set_pieces(Some(&former)).unwrap();
+    gpu.renderer().mirror_mut().begin_upload(&mesh, 1).unwrap();
+    let slice = size_of_val(mesh.raw_triangles()) / 6;
+    assert_eq!(gpu.renderer().mirror_mut().advance_upload(&mesh, slice), Progress::More);
+    assert_eq!(gpu.renderer().mirror_mut().advance_upload(&mesh, slice), Progress::More);
+    let mut pieces = coast::pieces(&mesh, &finer);
+    gpu.renderer().mirror_mut().set_pieces(Some(&pieces)).unwrap();
+    // The mesh grows and shrinks during the upload.
+    for (revision, fine) in [(2, Some(dvec2(0.8, 0.0))), (3, None), (4, Some(dvec2(0.0, 0.75)))] {
+        let changes = edit(&mut mesh, &finer, fine);
+        let mirror = gpu.renderer().mirror_mut();
+        mirror.apply_changes(&mesh, revision, &changes).unwrap();
+        let retired = pieces.retire(&mesh, &changes);
+        mirror.retire(&pieces, &retired);
+        assert_eq!(mirror.advance_upload(&mesh, slice / 2), Progress::More);
+        assert_coasts_agree(&format!("waiting-{revision}"), &mut gpu, &built.mesh, Some(&former));
+    }
+    while gpu.renderer().mirror_mut().advance_upload(&mesh, slice) == Progress::More {}
+    assert_eq!(gpu.renderer().mirror().shown(), Some(4));
+    assert_coasts_agree("arrived", &mut gpu, &mesh, Some(&pieces));
+    // Pieces of a mesh that is no longer shown change nothing.
+    let mut former = former;
+    let all = Changes { nodes: Vec::new(), triangles: vec![0..built.mesh.raw_triangle_count()] };
+    let retired = former.retire(&built.mesh, &all);
+    gpu.renderer().mirror_mut().retire(&former, &retired);
+    assert_coasts_agree("unaffected", &mut gpu, &mesh, Some(&pieces));
+}
+
+#[test]
+fn a_picture_is_drawn_again_when_its_pieces_change() {
+    let Some(mut gpu) = gpu() else { return };
+    let built = coast::coast(0.1);
+    let mesh = &built.mesh;
+    let mut pieces = coast::pieces(mesh, &built);
+    let (camera, style) = (whole(mesh), Style::dark(colors()));
+    gpu.show(mesh, 1).unwrap();
+    gpu.frame(&camera, &style).unwrap();
+    gpu.renderer().mirror_mut().set_pieces(Some(&pieces)).unwrap();
+    gpu.frame(&camera, &style).unwrap();
+    assert_eq!(gpu.renderer().redraws(), 2, "other pieces");
+    let first = pieces.replaced().next().unwrap().index();
+    let retired = pieces.retire(mesh, &Changes { nodes: Vec::new(), triangles: vec![first..first + 1] });
+    gpu.renderer().mirror_mut().retire(&pieces, &retired);
+    gpu.renderer().mirror_mut().retire(&pieces, &[]);
+    gpu.frame(&camera, &style).unwrap();
+    gpu.frame(&camera, &style).unwrap();
+    assert_eq!(gpu.renderer().redraws(), 3, "one piece fewer");
+
+    let shown = ShownMesh { mesh, pieces: Some(&pieces) };
+    let expected = software::draw(shown, &camera, &style, None, &[]);
+    for (revision, redraws) in [(1, 4), (1, 4), (2, 5)] {
+        let revision = ShownRevision { mesh: 1, pieces: revision };
+        assert_eq!(gpu.picture_in_software(shown, revision, &camera, &style).unwrap(), expected);
+        assert_eq!(gpu.renderer().redraws(), redraws);
+    }
 }

@@ -6,15 +6,16 @@
 //! [`LevelPaint`](crate::scene::LevelPaint) and [`Style`](crate::scene::Style). Fills are not antialiased,
 //! since adjacent triangles would show bright seams.
 
+mod draw_flags;
 pub mod export;
 #[cfg(feature = "gui")]
 pub mod gpu;
 pub mod software;
 
-/// Triangles with legs of at least this length, in pixels, are drawn pixel by pixel from the exact lines
-/// through their edges. Rasterizing such triangles from their corners in f32 or fixed-point numbers would
-/// shift a diagonal. At most a few of them intersect the canvas.
-const HUGE_LEG_PX: f32 = 4096.0;
+/// Triangles of at least this size in pixels are drawn pixel by pixel from the exact lines through their
+/// edges. Rasterizing such triangles from their corners in f32 or fixed-point numbers would shift an edge. At
+/// most a few of them intersect the canvas.
+const HUGE_PX: f32 = 4096.0;
 
 /// How far huge triangles are drawn beyond their edges, in pixels. A rasterized neighbour ends on a grid of
 /// 1/256 px; the overlap closes the gap.

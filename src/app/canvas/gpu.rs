@@ -9,7 +9,7 @@ use eframe::wgpu;
 use crate::document::{Follower, MeshChange};
 use crate::mesh::Progress;
 use crate::render::gpu::{GpuError, GpuRenderer, MeshMirror, emulates_gpu};
-use crate::scene::{Camera, Overlay, Style};
+use crate::scene::{Camera, Overlay, ShownMesh, ShownRevision, Style};
 
 /// Bytes of a mesh that are sent to the GPU in one frame: about 2 ms.
 const BYTES_PER_FRAME: usize = 16 << 20;
@@ -91,8 +91,9 @@ impl CanvasGpu {
         let (device, queue) = (&self.state.device, &self.state.queue);
         renderer.set_overlay(device, queue, overlay)?;
         if self.in_software {
-            let (mesh, revision) = (follower.mesh(), follower.revision());
-            renderer.prepare_in_software(device, queue, mesh, revision, camera, style)?;
+            let shown = ShownMesh::from(follower.mesh());
+            let revision = ShownRevision { mesh: follower.revision(), pieces: 0 };
+            renderer.prepare_in_software(device, queue, shown, revision, camera, style)?;
         }
         sent
     }

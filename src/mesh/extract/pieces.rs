@@ -74,8 +74,14 @@ impl PatchPieces {
 
     /// The triangles of the mesh that are not drawn, in ascending order.
     pub fn replaced(&self) -> impl Iterator<Item = TriangleId> {
+        self.replacements().map(|(id, _)| id)
+    }
+
+    /// [`Self::replaced`], each with its part of [`Self::triangles`]. The part is empty where nothing is drawn
+    /// in place of the triangle.
+    pub fn replacements(&self) -> impl Iterator<Item = (TriangleId, Range<usize>)> {
         let active = self.replaced.iter().zip(&self.is_retired).filter(|(_, is_retired)| !**is_retired);
-        active.map(|((id, _), _)| *id)
+        active.map(|((id, pieces), _)| (*id, pieces.clone()))
     }
 
     /// Retires the pieces in place of entries that changed, and of those that the mesh no longer has. Returns

@@ -4,7 +4,7 @@ use bytemuck::{Pod, Zeroable};
 use glam::{IVec2, Vec2};
 
 use crate::colormap::LEVELS;
-use crate::render::{HUGE_LEG_PX, SEAM_SLACK_PX};
+use crate::render::{HUGE_PX, SEAM_SLACK_PX};
 use crate::scene::{Camera, LevelPaint, Overlay, Style};
 
 /// `Level` of mesh.wgsl.
@@ -28,7 +28,7 @@ impl From<LevelPaint> for Level {
             edge: paint.edge,
             edge_alpha: paint.edge_alpha,
             base_height_px: paint.base_height_px,
-            huge: u32::from(paint.leg_px >= HUGE_LEG_PX),
+            huge: u32::from(paint.leg_px >= HUGE_PX),
             unused: [0; 2],
         }
     }
@@ -46,6 +46,8 @@ pub(super) struct MeshView {
     seam_slack_px: f32,
     node_chunk_bits: u32,
     rim_px: f32,
+    huge_px: f32,
+    unused: [u32; 3],
     levels: [Level; LEVELS],
 }
 
@@ -61,6 +63,8 @@ impl MeshView {
             seam_slack_px: SEAM_SLACK_PX,
             node_chunk_bits,
             rim_px: style.rim_px(),
+            huge_px: HUGE_PX,
+            unused: [0; 3],
             levels: LevelPaint::all(camera, style).map(Level::from),
         }
     }

@@ -1,4 +1,5 @@
-// Draws triangles directly from the arrays of the mesh: three vertices per entry, fetched by index.
+// Draws triangles directly from their arrays: three vertices per entry, fetched by index. The triangles are
+// those of the mesh (vs_main), or pieces in place of some of them (vs_piece).
 //
 // Positions are in pixels from the middle of the canvas, y upwards. The position of the camera is subtracted
 // from lattice coordinates in integers; only the difference is converted to f32.
@@ -22,6 +23,10 @@ struct View {
     seam_slack_px: f32,
     node_chunk_bits: u32,
     rim_px: f32,
+    huge_px: f32,
+    unused_0: u32,
+    unused_1: u32,
+    unused_2: u32,
     levels: array<Level, 64>,
 }
 
@@ -39,6 +44,14 @@ struct Triangle {
 @group(1) @binding(2) var<storage, read> nodes_1: array<vec2<u32>>;
 @group(1) @binding(3) var<storage, read> nodes_2: array<vec2<u32>>;
 @group(1) @binding(4) var<storage, read> nodes_3: array<vec2<u32>>;
+// Of the whole mesh, while `triangles` are one part of it. Unused for pieces.
+@group(1) @binding(5) var<storage, read> draw_flags: array<u32>;
+@group(1) @binding(6) var<uniform> part: Part;
+
+struct Part {
+    // Index of the first of `triangles` in the mesh.
+    first: u32,
+}
 
 struct Corner {
     @builtin(position) position: vec4<f32>,
@@ -53,6 +66,13 @@ struct Corner {
 // No neighbour.
 const BOUNDARY: u32 = 0xffffffffu;
 
+// A triangle that is drawn has no flags. Of one that is not drawn, this says whether pieces are in its place.
+const HAS_PIECES: u32 = 4u;
+
+fn flags_of(triangle: u32) -> u32 {
+    return (draw_flags[triangle / 8u] >> (4u * (triangle % 8u))) & 0xfu;
+}
+
 @vertex
 fn vs_main(@builtin(vertex_index) index: u32) -> Corner {
     let entry = index / 3u;
@@ -60,28 +80,58 @@ fn vs_main(@builtin(vertex_index) index: u32) -> Corner {
     let level_number = triangles[entry].kind % 64u;
     let level = view.levels[level_number];
     var placement: Placement;
-    if triangles[entry].kind >= 64u {
-        // All three corners in one point: nothing is drawn.
-        placement.px = vec2(0.0);
+    if flags_of(part.first + entry) != 0u {
+        placement = nowhere();
     } else if level.huge != 0u {
         placement = huge_corner(entry, corner);
     } else {
         let steps = steps_from_anchor(triangles[entry].vertices[corner]);
-        placement.px = (vec2<f32>(steps) - view.fraction) * view.px_per_step;
+        placement.px = px_from_steps(steps);
         placement.inside_px = inside_at_corner(corner, level_number, level.apex_height_px, level.base_height_px);
     }
+    var rims_px = vec3(0.0);
+    if level.edge_alpha > 0.0 {
+        rims_px = rims(entry, level_number, boundary_of_triangle(entry));
+    }
+    return shaded(placement, level, rims_px);
+}
+
+@vertex
+fn vs_piece(@builtin(vertex_index) index: u32) -> Corner {
+    let entry = index / 3u;
+    let corner = index % 3u;
+    let level_number = triangles[entry].kind % 64u;
+    var placement: Placement;
+    if triangles[entry].kind >= 64u {
+        placement = nowhere();
+    } else {
+        placement = piece_corner(entry, corner);
+    }
+    return shaded(placement, view.levels[level_number], rims(entry, level_number, boundary_of_piece(entry)));
+}
+
+fn shaded(placement: Placement, level: Level, rims_px: vec3<f32>) -> Corner {
     var out: Corner;
     out.position = vec4(placement.px / view.half_size_px, 0.0, 1.0);
     out.inside_px = placement.inside_px;
     out.fill = level.fill;
     out.edge = vec4(level.edge, level.edge_alpha);
-    out.rims_px = rims(entry, level_number);
+    out.rims_px = rims_px;
     return out;
 }
 
 struct Placement {
     px: vec2<f32>,
     inside_px: vec3<f32>,
+}
+
+// All three corners in one point: nothing is drawn.
+fn nowhere() -> Placement {
+    return Placement(vec2(0.0), vec3(0.0));
+}
+
+fn px_from_steps(steps_from_anchor: vec2<i32>) -> vec2<f32> {
+    return (vec2<f32>(steps_from_anchor) - view.fraction) * view.px_per_step;
 }
 
 // Lattice steps from the camera's anchor to a node. Lattice coordinates are at most 2³⁰, so the difference
@@ -110,22 +160,63 @@ fn inside_at_corner(corner: u32, level: u32, apex_height_px: f32, base_height_px
     );
 }
 
+// A corner of a triangle of any shape. Its size and heights are calculated from differences of lattice
+// coordinates, which are exact.
+fn piece_corner(entry: u32, corner: u32) -> Placement {
+    let own = steps_from_anchor(triangles[entry].vertices[corner]);
+    let next = steps_from_anchor(triangles[entry].vertices[(corner + 1u) % 3u]);
+    let last = steps_from_anchor(triangles[entry].vertices[(corner + 2u) % 3u]);
+    let to_next = vec2<f32>(next - own) * view.px_per_step;
+    let to_last = vec2<f32>(last - own) * view.px_per_step;
+    let opposite = vec2<f32>(last - next) * view.px_per_step;
+    let extent = max(max(abs(to_next), abs(to_last)), abs(opposite));
+    if max(extent.x, extent.y) >= view.huge_px {
+        return huge_corner(entry, corner);
+    }
+    let doubled_area = abs(to_next.x * to_last.y - to_next.y * to_last.x);
+    var out: Placement;
+    out.px = px_from_steps(own);
+    out.inside_px[corner] = doubled_area / length(opposite);
+    return out;
+}
+
 // For each corner, half the line width if the opposite edge is a boundary edge: no neighbour draws the other
-// half there.
-fn rims(entry: u32, level: u32) -> vec3<f32> {
+// half there. `boundary` is in the order of the neighbours.
+fn rims(entry: u32, level: u32, boundary: vec3<bool>) -> vec3<f32> {
     let odd = level & 1u;
     let apex = 1u + odd;
     // Neighbours are anticlockwise, the one across the bisection edge first.
     let second = select(2u - 2u * odd, odd, triangles[entry].orientation == 0u);
     var out = vec3(0.0);
-    out[apex] = rim_towards(triangles[entry].neighbours[0]);
-    out[second] = rim_towards(triangles[entry].neighbours[1]);
-    out[3u - apex - second] = rim_towards(triangles[entry].neighbours[2]);
+    out[apex] = select(0.0, view.rim_px, boundary[0]);
+    out[second] = select(0.0, view.rim_px, boundary[1]);
+    out[3u - apex - second] = select(0.0, view.rim_px, boundary[2]);
     return out;
 }
 
-fn rim_towards(neighbour: u32) -> f32 {
-    return select(0.0, view.rim_px, neighbour == BOUNDARY);
+fn boundary_of_triangle(entry: u32) -> vec3<bool> {
+    return vec3(
+        is_vacant(triangles[entry].neighbours[0]),
+        is_vacant(triangles[entry].neighbours[1]),
+        is_vacant(triangles[entry].neighbours[2]),
+    );
+}
+
+// Whether nothing is drawn in the place of a neighbour.
+fn is_vacant(neighbour: u32) -> bool {
+    if neighbour == BOUNDARY {
+        return true;
+    }
+    let flags = flags_of(neighbour);
+    return flags != 0u && (flags & HAS_PIECES) == 0u;
+}
+
+fn boundary_of_piece(entry: u32) -> vec3<bool> {
+    return vec3(
+        triangles[entry].neighbours[0] == BOUNDARY,
+        triangles[entry].neighbours[1] == BOUNDARY,
+        triangles[entry].neighbours[2] == BOUNDARY,
+    );
 }
 
 // A corner of a triangle that covers the whole canvas; the fragment shader discards what is outside the huge
@@ -134,7 +225,7 @@ fn huge_corner(entry: u32, corner: u32) -> Placement {
     let a = steps_from_anchor(triangles[entry].vertices[0]);
     let b = steps_from_anchor(triangles[entry].vertices[1]);
     let c = steps_from_anchor(triangles[entry].vertices[2]);
-    let half_planes = array(half_plane(b, c, a), half_plane(c, a, b), half_plane(a, b, c));
+    let half_planes = array(half_plane(entry, b, c), half_plane(entry, c, a), half_plane(entry, a, b));
     let unit = vec2(select(-1.0, 3.0, corner == 1u), select(-1.0, 3.0, corner == 2u));
     let px = unit * view.half_size_px;
     var out: Placement;
@@ -150,22 +241,52 @@ fn huge_corner(entry: u32, corner: u32) -> Placement {
     return out;
 }
 
-// The half-plane of an edge, positive on the side of the opposite corner: xy · px + z is the distance in
-// pixels.
+// The half-plane of an edge, positive inside the triangle: xy · px + z is the distance in pixels. `start` and
+// `end` are in the order of the vertices.
 //
-// Edges run along an axis or a diagonal, so the normal has components −1, 0 and 1. Its product with a node
-// fits an i32: on a line that meets the lattice in more than one point, only one coordinate can be near 2³⁰
-// with that sign.
-fn half_plane(start: vec2<i32>, end: vec2<i32>, opposite: vec2<i32>) -> vec3<f32> {
-    let along = sign(end - start);
-    var normal = vec2(-along.y, along.x);
-    let across = opposite - start;
-    if normal.x * across.x + normal.y * across.y < 0 {
-        normal = -normal;
+// The cross product of lattice coordinates is exact in 64 bits. Only its sum with the remainder, which is at
+// most as large as the length of the edge, is an f32.
+fn half_plane(entry: u32, start: vec2<i32>, end: vec2<i32>) -> vec3<f32> {
+    let along = end - start;
+    let along_f32 = vec2<f32>(along);
+    let whole = difference(product(along.y, start.x), product(along.x, start.y));
+    let cross = whole + (along_f32.x * view.fraction.y - along_f32.y * view.fraction.x);
+    let along_px = along_f32 * view.px_per_step;
+    let length_px = length(along_px);
+    let left = vec3(
+        -along_px.y / length_px,
+        along_px.x / length_px,
+        cross * (view.px_per_step.x * view.px_per_step.y / length_px),
+    );
+    return select(left, -left, triangles[entry].orientation == 0u);
+}
+
+// A product in 64 bits, the low half first, in two's complement.
+fn product(a: i32, b: i32) -> vec2<u32> {
+    let x = bitcast<u32>(a);
+    let y = bitcast<u32>(b);
+    let x_low = x & 0xffffu;
+    let x_high = x >> 16u;
+    let y_low = y & 0xffffu;
+    let y_high = y >> 16u;
+    let first = x_high * y_low + ((x_low * y_low) >> 16u);
+    let second = x_low * y_high + (first & 0xffffu);
+    let high = x_high * y_high + (first >> 16u) + (second >> 16u);
+    // A negative factor was read as itself plus 2³².
+    return vec2(x * y, high - select(0u, y, a < 0) - select(0u, x, b < 0));
+}
+
+// a − b, rounded once or twice.
+fn difference(a: vec2<u32>, b: vec2<u32>) -> f32 {
+    var low = a.x - b.x;
+    var high = a.y - b.y - select(0u, 1u, a.x < b.x);
+    let is_negative = high >= 0x80000000u;
+    if is_negative {
+        low = ~low + 1u;
+        high = ~high + select(0u, 1u, low == 0u);
     }
-    let steps_to_line = f32(normal.x * start.x + normal.y * start.y) - dot(vec2<f32>(normal), view.fraction);
-    let per_px = vec2<f32>(normal) / view.px_per_step;
-    return vec3(per_px, -steps_to_line) / length(per_px);
+    let magnitude = f32(high) * 4294967296.0 + f32(low);
+    return select(magnitude, -magnitude, is_negative);
 }
 
 @fragment

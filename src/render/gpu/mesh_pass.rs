@@ -1,11 +1,12 @@
-//! The render pipeline for the triangles of a mirror.
+//! The render pipelines for the triangles and pieces of a mirror.
 
 use super::layout::MeshView;
 use super::mirror::MeshMirror;
 use crate::scene::{Camera, Style};
 
 pub(super) struct MeshPass {
-    pipeline: wgpu::RenderPipeline,
+    triangles: wgpu::RenderPipeline,
+    pieces: wgpu::RenderPipeline,
     view: wgpu::Buffer,
     view_group: wgpu::BindGroup,
 }
@@ -23,8 +24,9 @@ impl MeshPass {
             entries: &[wgpu::BindGroupEntry { binding: 0, resource: view.as_entire_binding() }],
         });
         let shader = device.create_shader_module(wgpu::include_wgsl!("mesh.wgsl"));
-        let pipeline = render_pipeline(device, &shader, &[&view_layout, mirror.layout()], format, None);
-        Self { pipeline, view, view_group }
+        let groups = [&view_layout, mirror.layout()];
+        let pipeline = |vertex_shader| pipeline_from(device, &shader, vertex_shader, &groups, format, None);
+        Self { triangles: pipeline("vs_main"), pieces: pipeline("vs_piece"), view, view_group }
     }
 
     pub(super) fn draw(
@@ -39,11 +41,16 @@ impl MeshPass {
         let camera = mirror.lattice().map_or(*camera, |lattice| camera.on_lattice(lattice));
         let view = MeshView::new(&camera, style, mirror.limits().node_bits);
         queue.write_buffer(&self.view, 0, bytemuck::bytes_of(&view));
-        pass.set_pipeline(&self.pipeline);
         pass.set_bind_group(0, &self.view_group, &[]);
-        for (mesh_group, triangles) in mirror.draws() {
-            pass.set_bind_group(1, mesh_group, &[]);
+        pass.set_pipeline(&self.triangles);
+        for (arrays, triangles) in mirror.mesh_draws() {
+            pass.set_bind_group(1, arrays, &[]);
             pass.draw(0..3 * triangles as u32, 0..1);
+        }
+        pass.set_pipeline(&self.pieces);
+        for (arrays, pieces) in mirror.piece_draws() {
+            pass.set_bind_group(1, arrays, &[]);
+            pass.draw(0..3 * pieces as u32, 0..1);
         }
     }
 }
@@ -53,6 +60,18 @@ impl MeshPass {
 pub(super) fn render_pipeline(
     device: &wgpu::Device,
     shader: &wgpu::ShaderModule,
+    groups: &[&wgpu::BindGroupLayout],
+    format: wgpu::TextureFormat,
+    blend: Option<wgpu::BlendState>,
+) -> wgpu::RenderPipeline {
+    pipeline_from(device, shader, "vs_main", groups, format, blend)
+}
+
+/// [`render_pipeline`] from another vertex shader.
+fn pipeline_from(
+    device: &wgpu::Device,
+    shader: &wgpu::ShaderModule,
+    vertex_shader: &str,
     groups: &[&wgpu::BindGroupLayout],
     format: wgpu::TextureFormat,
     blend: Option<wgpu::BlendState>,
@@ -68,7 +87,7 @@ pub(super) fn render_pipeline(
         layout: Some(&layout),
         vertex: wgpu::VertexState {
             module: shader,
-            entry_point: Some("vs_main"),
+            entry_point: Some(vertex_shader),
             compilation_options: wgpu::PipelineCompilationOptions::default(),
             buffers: &[],
         },

@@ -1,11 +1,12 @@
 //! Draws a scene on the GPU. The arrays of the mesh are the vertex data.
 //!
-//! A window keeps a [`GpuRenderer`]. It contains a [`MeshMirror`], the copy of the mesh, and keeps the
+//! A window keeps a [`GpuRenderer`]. It contains a [`MeshMirror`], the copy of the mesh and of the pieces in place of some of its triangles, and keeps the
 //! picture of the mesh as a texture, so that the mesh is redrawn only when the mesh, the camera or the style
 //! changed.
 
 mod chunks;
 mod layout;
+mod mesh_copy;
 mod mesh_pass;
 mod mirror;
 mod offscreen;
@@ -18,8 +19,7 @@ pub use offscreen::{Offscreen, offscreen, read_back};
 
 use self::overlay_pass::OverlayPass;
 use self::picture::MeshPicture;
-use crate::mesh::Mesh;
-use crate::scene::{Camera, Overlay, Style};
+use crate::scene::{Camera, Overlay, ShownMesh, ShownRevision, Style};
 use crate::text::Bytes;
 use crate::text::Grouped;
 
@@ -194,8 +194,7 @@ impl GpuRenderer {
     }
 
     /// As [`Self::prepare`], but the [software renderer](crate::render::software) draws the picture. This is
-    /// several times as fast where the driver emulates a GPU. It needs no mirror; `revision` is the caller's
-    /// name for the mesh.
+    /// several times as fast where the driver emulates a GPU. It needs no mirror.
     ///
     /// # Errors
     /// As [`Self::prepare`].
@@ -203,12 +202,12 @@ impl GpuRenderer {
         &mut self,
         device: &wgpu::Device,
         queue: &wgpu::Queue,
-        mesh: &Mesh,
-        revision: u64,
+        shown: ShownMesh,
+        revision: ShownRevision,
         camera: &Camera,
         style: &Style,
     ) -> Result<(), GpuError> {
-        self.picture.prepare_in_software(device, queue, mesh, revision, camera, style)?;
+        self.picture.prepare_in_software(device, queue, shown, revision, camera, style)?;
         self.overlay.prepare(queue, camera);
         Ok(())
     }

@@ -5,7 +5,7 @@ use super::picture::begin_pass;
 use super::{ChunkLimits, GpuError, GpuRenderer, device_descriptor};
 use crate::mesh::Mesh;
 use crate::render::Image;
-use crate::scene::{Camera, Overlay, Style};
+use crate::scene::{Camera, Overlay, ShownMesh, ShownRevision, Style};
 
 /// A renderer with a device of its own, which draws pictures without a window.
 pub struct Offscreen {
@@ -129,14 +129,14 @@ impl Offscreen {
     /// As [`Self::frame`].
     pub fn picture_in_software(
         &mut self,
-        mesh: &Mesh,
-        revision: u64,
+        shown: ShownMesh,
+        revision: ShownRevision,
         camera: &Camera,
         style: &Style,
     ) -> Result<Image, GpuError> {
         let canvas = self.canvas(camera)?;
         let mut encoder = self.encoder();
-        self.renderer.prepare_in_software(&self.device, &self.queue, mesh, revision, camera, style)?;
+        self.renderer.prepare_in_software(&self.device, &self.queue, shown, revision, camera, style)?;
         self.paint(&mut encoder, &canvas, style);
         read_back(&self.device, &self.queue, encoder, &canvas)
     }

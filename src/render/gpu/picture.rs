@@ -3,9 +3,8 @@
 use super::GpuError;
 use super::mesh_pass::{MeshPass, new_texture, render_pipeline, texel_entry};
 use super::mirror::MeshMirror;
-use crate::mesh::Mesh;
 use crate::render::{Image, software};
-use crate::scene::{Camera, Style};
+use crate::scene::{Camera, ShownMesh, ShownRevision, Style};
 
 /// Independent of the canvas, so that a picture drawn in software needs no conversion.
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
@@ -40,8 +39,8 @@ struct Drawn {
 enum Source {
     /// The mirror at this generation.
     Mirror(u64),
-    /// The mesh of this revision, drawn in software.
-    Software(u64),
+    /// The mesh and the pieces of this revision, drawn in software.
+    Software(ShownRevision),
 }
 
 impl MeshPicture {
@@ -86,15 +85,15 @@ impl MeshPicture {
         &mut self,
         device: &wgpu::Device,
         queue: &wgpu::Queue,
-        mesh: &Mesh,
-        revision: u64,
+        shown: ShownMesh,
+        revision: ShownRevision,
         camera: &Camera,
         style: &Style,
     ) -> Result<(), GpuError> {
         let source = Source::Software(revision);
         let Some(wanted) = self.if_not_drawn(source, camera, style) else { return Ok(()) };
         let target = self.target_with_size(device, camera.size_px())?;
-        write_image(queue, &target.texture, &software::draw(mesh, camera, style, None, &[]));
+        write_image(queue, &target.texture, &software::draw(shown, camera, style, None, &[]));
         self.keep(target, wanted);
         Ok(())
     }

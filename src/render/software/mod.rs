@@ -3,29 +3,39 @@
 
 mod rasterizer;
 
-use glam::DVec2;
+use glam::{DVec2, I64Vec2, Vec2Swizzles};
 
 use self::rasterizer::{LevelShader, Rasterizer};
-use super::{HUGE_LEG_PX, Image};
+use super::Image;
+use super::draw_flags::DrawFlags;
+use crate::colormap::LEVELS;
 use crate::geometry::LatticePoint;
-use crate::mesh::{Extract, Mesh, Triangle};
-use crate::scene::{Camera, LevelPaint, Outline, Overlay, Style};
+use crate::mesh::{Extract, Orientation, Triangle};
+use crate::scene::{Camera, LevelPaint, Outline, Overlay, ShownMesh, Style};
 
 /// Draws a mesh as `camera` sees it, the overlay above it, and outlines on top.
 ///
 /// Outlines come from [`highlight_outlines`](crate::scene::highlight_outlines). The time is proportional to
 /// the mesh and to the pixels: about 50 ns per triangle.
-pub fn draw(
-    mesh: &Mesh,
+pub fn draw<'a>(
+    shown: impl Into<ShownMesh<'a>>,
     camera: &Camera,
     style: &Style,
     overlay: Option<&Overlay>,
     outlines: &[Outline],
 ) -> Image {
-    let [r, g, b, _] = style.ground;
-    let mut image = Image::filled(camera.size_px(), [r, g, b, 0xff]);
-    let (nodes, triangles) = (mesh.raw_nodes(), mesh.raw_triangles());
-    draw_triangles(&mut image, nodes, triangles, &camera.on_lattice(mesh.lattice()), style);
+    let ShownMesh { mesh, pieces } = shown.into();
+    let flags = pieces.map(|pieces| DrawFlags::of_pieces(pieces, mesh.raw_triangle_count()));
+    let mut image = ground(camera, style);
+    let mut painter = Painter::new(&mut image, camera.on_lattice(mesh.lattice()), style);
+    painter.draw(&TriangleArrays {
+        nodes: mesh.raw_nodes(),
+        triangles: mesh.raw_triangles(),
+        flags: flags.unwrap_or_default(),
+    });
+    if let Some(pieces) = pieces {
+        painter.draw(&TriangleArrays::new(pieces.nodes(), pieces.triangles()));
+    }
     if let Some(overlay) = overlay {
         blend_overlay(&mut image, camera, overlay);
     }
@@ -35,34 +45,73 @@ pub fn draw(
 
 /// Draws what files get of a mesh.
 pub fn draw_extract(extract: &Extract, camera: &Camera, style: &Style) -> Image {
-    let [r, g, b, _] = style.ground;
-    let mut image = Image::filled(camera.size_px(), [r, g, b, 0xff]);
-    let camera = camera.on_lattice(extract.lattice());
-    draw_triangles(&mut image, extract.nodes(), extract.triangles(), &camera, style);
+    let mut image = ground(camera, style);
+    Painter::new(&mut image, camera.on_lattice(extract.lattice()), style)
+        .draw(&TriangleArrays::new(extract.nodes(), extract.triangles()));
     image
 }
 
-fn draw_triangles(
-    image: &mut Image,
-    nodes: &[LatticePoint],
-    triangles: &[Triangle],
-    camera: &Camera,
-    style: &Style,
-) {
-    let paints = LevelPaint::all(camera, style);
-    let shaders = paints.map(|paint| LevelShader::new(&paint, style));
-    let snapped: Vec<[i32; 2]> =
-        nodes.iter().map(|&p| rasterizer::snapped(camera.screen_from_lattice(p))).collect();
-    let mut rasterizer = Rasterizer::new(image);
-    for triangle in triangles.iter().filter(|t| !t.is_outside()) {
-        let level = triangle.level() as usize;
-        if paints[level].leg_px < HUGE_LEG_PX {
+fn ground(camera: &Camera, style: &Style) -> Image {
+    let [r, g, b, _] = style.ground;
+    Image::filled(camera.size_px(), [r, g, b, 0xff])
+}
+
+/// Triangles and their nodes. A neighbour that is one of `triangles` shares an edge.
+struct TriangleArrays<'a> {
+    nodes: &'a [LatticePoint],
+    triangles: &'a [Triangle],
+    /// The triangles that are replaced by others.
+    flags: DrawFlags,
+}
+
+impl<'a> TriangleArrays<'a> {
+    fn new(nodes: &'a [LatticePoint], triangles: &'a [Triangle]) -> Self {
+        Self { nodes, triangles, flags: DrawFlags::default() }
+    }
+
+    /// For each vertex whether the opposite edge is on the boundary: nothing is drawn across it.
+    fn boundary_opposite(&self, triangle: &Triangle) -> [bool; 3] {
+        let mut boundary = [false; 3];
+        for ((from, to), across) in triangle.edges().into_iter().zip(triangle.raw_neighbours) {
+            boundary[3 - from - to] = across.triangle().is_none_or(|id| self.is_vacant(id.index()));
+        }
+        boundary
+    }
+
+    fn is_vacant(&self, index: usize) -> bool {
+        self.flags.is_vacant(index) || self.flags.is_drawn(index) && self.triangles[index].is_outside()
+    }
+}
+
+/// Draws triangles as one camera sees them, in one style.
+struct Painter<'a> {
+    rasterizer: Rasterizer<'a>,
+    camera: Camera,
+    shaders: [LevelShader; LEVELS],
+}
+
+impl<'a> Painter<'a> {
+    fn new(image: &'a mut Image, camera: Camera, style: &Style) -> Self {
+        let shaders = LevelPaint::all(&camera, style).map(|paint| LevelShader::new(&paint, style));
+        Self { rasterizer: Rasterizer::new(image), camera, shaders }
+    }
+
+    fn draw(&mut self, arrays: &TriangleArrays) {
+        let snap = |&p: &LatticePoint| rasterizer::snapped(self.camera.screen_from_lattice(p));
+        let snapped: Vec<[i32; 2]> = arrays.nodes.iter().map(snap).collect();
+        for (index, triangle) in arrays.triangles.iter().enumerate() {
+            if triangle.is_outside() || !arrays.flags.is_drawn(index) {
+                continue;
+            }
+            let shader = &self.shaders[triangle.level() as usize];
+            let at_boundary = || arrays.boundary_opposite(triangle);
             let corners = triangle.vertices.map(|v| snapped[v.index()]);
-            rasterizer.fill_snapped(corners, triangle.raw_boundary_opposite(), &shaders[level]);
-        } else {
-            let corners = triangle.vertices.map(|v| nodes[v.index()]);
-            let half_planes = half_planes(corners, camera);
-            rasterizer.fill_half_planes(&half_planes, triangle.raw_boundary_opposite(), &shaders[level]);
+            if rasterizer::is_huge(corners) {
+                let half_planes = half_planes(triangle, arrays.nodes, &self.camera);
+                self.rasterizer.fill_half_planes(&half_planes, at_boundary, shader);
+            } else {
+                self.rasterizer.fill_snapped(corners, at_boundary, shader);
+            }
         }
     }
 }
@@ -79,24 +128,38 @@ impl HalfPlane {
     fn distance_px(&self, px: DVec2) -> f64 {
         self.normal.dot(px) + self.offset
     }
+
+    /// The half-plane to the left of the line from one node to another.
+    ///
+    /// The part of the cross product that consists of lattice coordinates is calculated in integers. They
+    /// have 30 bits, so the sum of two products has 61. The remainder, of the camera's place within a lattice
+    /// step, is as large as the length of the edge at most, so its rounding errors are below 2⁻⁵⁰ steps.
+    fn left_of(from: LatticePoint, to: LatticePoint, camera: &Camera) -> Self {
+        let steps = |p: LatticePoint| I64Vec2::new(i64::from(p.x), i64::from(p.y));
+        let (anchor, fraction) = camera.anchor();
+        let along = steps(to) - steps(from);
+        let to_anchor = anchor.as_i64vec2() - steps(from);
+        let whole = along.perp_dot(to_anchor);
+        let cross = whole as f64 + along.as_dvec2().perp_dot(fraction);
+        let scale = camera.px_per_step();
+        let along_px = along.as_dvec2() * scale;
+        let length_px = along_px.length();
+        // The y axis points up on the lattice and down on the screen.
+        let normal = -along_px.yx() / length_px;
+        let at_middle = cross * scale.element_product() / length_px;
+        Self { normal, offset: at_middle - normal.dot(camera.half_size_px()) }
+    }
 }
 
-/// The half-planes that intersect in a triangle, one per edge.
-///
-/// An edge runs along an axis or a diagonal of the lattice, so its normal has components −1, 0 and 1, and
-/// everything before the scaling to pixels is exact.
-fn half_planes(corners: [LatticePoint; 3], camera: &Camera) -> [HalfPlane; 3] {
+/// The half-planes that intersect in a triangle. Each is that of the edge opposite the vertex.
+fn half_planes(triangle: &Triangle, nodes: &[LatticePoint], camera: &Camera) -> [HalfPlane; 3] {
+    let corners = triangle.vertices.map(|v| nodes[v.index()]);
     std::array::from_fn(|i| {
-        let [from, to, opposite] = [1, 2, 3].map(|k| corners[(i + k) % 3].as_dvec2());
-        let steps = (to - from).perp();
-        let normal = steps / steps.abs().max_element();
-        let normal = if normal.dot(opposite - from) < 0.0 { -normal } else { normal };
-        let per_px = normal / camera.px_per_step();
-        let middle = camera.lattice_from_screen(camera.half_size_px());
-        let steps_at_middle = normal.dot(middle - from);
-        // The y axis points up on the lattice and down on the screen.
-        let normal = DVec2::new(per_px.x, -per_px.y) / per_px.length();
-        HalfPlane { normal, offset: steps_at_middle / per_px.length() - normal.dot(camera.half_size_px()) }
+        let [from, to] = [corners[(i + 1) % 3], corners[(i + 2) % 3]];
+        match triangle.orientation() {
+            Orientation::Anticlockwise => HalfPlane::left_of(from, to, camera),
+            Orientation::Clockwise => HalfPlane::left_of(to, from, camera),
+        }
     })
 }
 

@@ -3,7 +3,7 @@
 use glam::{DVec2, dvec2};
 
 use super::HalfPlane;
-use crate::render::{Image, SEAM_SLACK_PX};
+use crate::render::{HUGE_PX, Image, SEAM_SLACK_PX};
 use crate::scene::{LevelPaint, Style};
 
 /// Corners are rounded to a grid of 1/256 px, as on most GPUs. Triangles that share a corner share it
@@ -18,6 +18,17 @@ pub(super) fn snapped(px: DVec2) -> [i32; 2] {
     const FAR: f64 = (1 << 30) as f64;
     // Clamped so that the cast is exact.
     [px.x, px.y].map(|c| (c * f64::from(PIXEL)).round_ties_even().clamp(-FAR, FAR) as i32)
+}
+
+/// Whether a triangle with [`snapped`] corners extends over at least [`HUGE_PX`] along an axis.
+#[inline]
+pub(super) fn is_huge([a, b, c]: [[i32; 2]; 3]) -> bool {
+    const HUGE: i64 = HUGE_PX as i64 * PIXEL as i64;
+    let extent = |axis: usize| {
+        let [a, b, c] = [a, b, c].map(|corner| i64::from(corner[axis]));
+        a.max(b).max(c) - a.min(b).min(c)
+    };
+    extent(0) >= HUGE || extent(1) >= HUGE
 }
 
 /// Colours the pixels of the triangles of one level.
@@ -48,8 +59,11 @@ impl LevelShader {
     /// The amounts to subtract from the distances to the three edges, so that boundary edges get their full
     /// width.
     #[inline]
-    fn rims(&self, at_boundary: [bool; 3]) -> [f32; 3] {
-        at_boundary.map(|boundary| if boundary { self.rim_px } else { 0.0 })
+    fn rims(&self, at_boundary: impl FnOnce() -> [bool; 3]) -> [f32; 3] {
+        if self.edge_alpha == 0.0 {
+            return [0.0; 3];
+        }
+        at_boundary().map(|boundary| if boundary { self.rim_px } else { 0.0 })
     }
 
     /// The colour of a pixel whose centre is `distance_px` inside the nearest edge.
@@ -109,13 +123,13 @@ impl<'a> Rasterizer<'a> {
         Self { width, height, pixels: image.pixels_mut() }
     }
 
-    /// Fills the pixels whose centres lie in a triangle smaller than 2¹⁴ px with [`snapped`] corners.
-    /// `at_boundary[i]`: the edge opposite corner i is on the boundary.
+    /// Fills the pixels whose centres lie in a triangle with [`snapped`] corners that is not [huge](is_huge).
+    /// `at_boundary()[i]`: the edge opposite corner i is on the boundary.
     #[inline]
     pub(super) fn fill_snapped(
         &mut self,
         [a, b, c]: [[i32; 2]; 3],
-        at_boundary: [bool; 3],
+        at_boundary: impl FnOnce() -> [bool; 3],
         shader: &LevelShader,
     ) {
         let columns = pixels_between(a[0].min(b[0]).min(c[0]), a[0].max(b[0]).max(c[0]), self.width);
@@ -146,10 +160,9 @@ impl<'a> Rasterizer<'a> {
     pub(super) fn fill_half_planes(
         &mut self,
         half_planes: &[HalfPlane; 3],
-        at_boundary: [bool; 3],
+        at_boundary: impl FnOnce() -> [bool; 3],
         shader: &LevelShader,
     ) {
-        let rims = shader.rims(at_boundary);
         let least = -f64::from(SEAM_SLACK_PX);
         let corner = dvec2(f64::from(self.width), f64::from(self.height));
         for half_plane in half_planes {
@@ -159,6 +172,7 @@ impl<'a> Rasterizer<'a> {
                 return;
             }
         }
+        let rims = shader.rims(at_boundary);
         for row in 0..self.height {
             for column in 0..self.width {
                 let px = dvec2(f64::from(column) + 0.5, f64::from(row) + 0.5);

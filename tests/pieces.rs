@@ -1,0 +1,161 @@
+//! Pictures of a mesh with pieces in place of some of its triangles, drawn in software.
+
+mod coast;
+mod formula_mesh;
+
+use glam::{DVec2, dvec2};
+use meshbrush::internals::geometry::LatticePoint;
+use meshbrush::internals::mesh::{Extract, Mesh, PatchPieces};
+use meshbrush::internals::render::{Image, software};
+use meshbrush::internals::scene::{Camera, ShownMesh, Style};
+
+const SIZE: [u32; 2] = [240, 180];
+/// Distance in pixels up to which a pixel beside an edge can be coloured by either triangle: corners are
+/// rounded to 1/256 px, and huge triangles overlap their neighbours by 1/64 px.
+const TOLERANCE_PX: f64 = 0.05;
+
+fn style(edges: bool) -> Style {
+    let colors: [[u8; 4]; 64] = std::array::from_fn(|level| [40 + 3 * level as u8, 90, 120, 255]);
+    Style { edges, ..Style::dark(colors) }
+}
+
+fn keep(image: &Image, name: &str) {
+    let Some(folder) = std::env::var_os("MESHBRUSH_PICTURES") else { return };
+    let file = std::fs::File::create(std::path::Path::new(&folder).join(format!("{name}.png"))).unwrap();
+    let mut encoder = png::Encoder::new(file, image.size[0], image.size[1]);
+    encoder.set_color(png::ColorType::Rgba);
+    encoder.set_depth(png::BitDepth::Eight);
+    encoder.write_header().unwrap().write_image_data(&image.rgba).unwrap();
+}
+
+fn whole(mesh: &Mesh, size: [u32; 2]) -> Camera {
+    Camera::fit(mesh.lattice(), mesh.lattice().bounds(), size, 5.0)
+}
+
+/// The nodes of a piece that is not right-angled: none of its edges runs along an axis or a diagonal.
+fn skewed_piece(pieces: &PatchPieces) -> [LatticePoint; 3] {
+    let is_skewed = |[a, b]: [LatticePoint; 2]| {
+        let (dx, dy) = (a.x.abs_diff(b.x), a.y.abs_diff(b.y));
+        dx != 0 && dy != 0 && dx.abs_diff(dy) > dx.max(dy) / 10
+    };
+    let mut all =
+        pieces.triangles().iter().map(|piece| piece.vertices.map(|node| pieces.nodes()[node.index()]));
+    all.find(|&[a, b, c]| is_skewed([a, b]) && is_skewed([b, c]) && is_skewed([c, a])).unwrap()
+}
+
+/// Whole, close, and at the deepest zoom on a corner, on an edge and beside an edge of a piece.
+fn cameras(mesh: &Mesh, pieces: &PatchPieces) -> Vec<Camera> {
+    let [a, b, _] = skewed_piece(pieces).map(|p| mesh.lattice().world_from_lattice(p));
+    let base = whole(mesh, SIZE);
+    let mut cameras: Vec<Camera> =
+        [1.0, 3.3, 40.0].map(|zoom| base.zoomed(zoom, DVec2::ZERO).centered_on(a)).into();
+    for zoom in [1e3, 1e4, 1e5, 1e7, 1e300] {
+        let close = base.zoomed(zoom, DVec2::ZERO);
+        cameras.extend([close.centered_on(a), close.centered_on(a.lerp(b, 0.37)).panned(dvec2(31.3, 17.8))]);
+    }
+    cameras
+}
+
+/// Positions in 2⁻²⁰ of a lattice step.
+fn fine(p: DVec2) -> [i128; 2] {
+    let scaled = p * f64::from(1 << 20);
+    [scaled.x.round() as i128, scaled.y.round() as i128]
+}
+
+/// Distance of a pixel from the nearest edge of an anticlockwise triangle; negative outside.
+fn inside_px(corners: [LatticePoint; 3], p: [i128; 2], camera: &Camera) -> f64 {
+    let corners = corners.map(|c| [i128::from(c.x) << 20, i128::from(c.y) << 20]);
+    let scale = camera.px_per_step();
+    let distance = |i: usize| {
+        let ([ax, ay], [bx, by]) = (corners[i], corners[(i + 1) % 3]);
+        let cross = (bx - ax) * (p[1] - ay) - (by - ay) * (p[0] - ax);
+        let length = dvec2((bx - ax) as f64 * scale.x, (by - ay) as f64 * scale.y).length();
+        cross as f64 * scale.x * scale.y / length / f64::from(1 << 20)
+    };
+    distance(0).min(distance(1)).min(distance(2))
+}
+
+/// A triangle of the extract, with a rectangle in pixels that is a little larger.
+struct Cell {
+    corners: [LatticePoint; 3],
+    level: u8,
+    min: DVec2,
+    max: DVec2,
+}
+
+impl Cell {
+    fn new(extract: &Extract, cell: meshbrush::internals::mesh::Cell, camera: &Camera) -> Self {
+        let corners = cell.corners.map(|n| extract.nodes()[n]);
+        let [a, b, c] = corners.map(|corner| camera.screen_from_lattice(corner));
+        let (min, max) = (a.min(b).min(c) - 1.0, a.max(b).max(c) + 1.0);
+        Self { corners, level: cell.level as u8, min, max }
+    }
+}
+
+#[test]
+fn exactly_the_pixels_of_the_domain_are_filled_with_the_colors_of_their_triangles() {
+    let built = coast::coast(0.1);
+    let (mesh, derived) = (&built.mesh, coast::derived(&built.mesh, &built));
+    let extract: Extract = derived.extract(mesh);
+    let pieces = PatchPieces::new(mesh, derived.patch(), &extract);
+    assert!(pieces.replacements().any(|(_, pieces)| pieces.is_empty()), "no small part was removed");
+    let style = style(false);
+    let (mut inside, mut outside) = (0, 0);
+    for camera in cameras(mesh, &pieces) {
+        let shown = ShownMesh { mesh, pieces: Some(&pieces) };
+        let image = software::draw(shown, &camera, &style, None, &[]);
+        let cells: Vec<Cell> = extract.cells().map(|cell| Cell::new(&extract, cell, &camera)).collect();
+        for (i, &pixel) in image.pixels().iter().enumerate() {
+            let px = dvec2(f64::from(i as u32 % SIZE[0]) + 0.5, f64::from(i as u32 / SIZE[0]) + 0.5);
+            let p = fine(camera.lattice_from_screen(px));
+            let (mut color, mut nearest) = (style.ground, f64::MIN);
+            for cell in cells.iter().filter(|cell| cell.min.cmplt(px).all() && cell.max.cmpgt(px).all()) {
+                let distance = inside_px(cell.corners, p, &camera);
+                nearest = nearest.max(distance);
+                if distance > 0.0 {
+                    color = style.level_colors.of(cell.level);
+                }
+            }
+            if nearest.abs() > TOLERANCE_PX {
+                assert_eq!(pixel, color, "{px} at {} px per step", camera.px_per_step());
+                *(if nearest > 0.0 { &mut inside } else { &mut outside }) += 1;
+            }
+        }
+    }
+    assert!(inside > 100_000 && outside > 20_000, "{inside} {outside}");
+}
+
+#[test]
+fn a_mesh_with_pieces_looks_like_its_extract() {
+    let built = coast::coast(0.06);
+    let (mesh, derived) = (&built.mesh, coast::derived(&built.mesh, &built));
+    let extract = derived.extract(mesh);
+    let pieces = PatchPieces::new(mesh, derived.patch(), &extract);
+    let style = style(true);
+    for (i, camera) in cameras(mesh, &pieces).into_iter().enumerate() {
+        let shown = ShownMesh { mesh, pieces: Some(&pieces) };
+        let image = software::draw(shown, &camera, &style, None, &[]);
+        let expected = software::draw_extract(&extract, &camera, &style);
+        keep(&image, &format!("pieces-{i}"));
+        keep(&expected, &format!("pieces-extract-{i}"));
+        // Triangles come in another order, so that this would also find any that overlap.
+        let differing = image.pixels().iter().zip(expected.pixels()).filter(|(a, b)| a != b).count();
+        assert_eq!(differing, 0, "camera {i}");
+    }
+    let camera = whole(mesh, [1000, 1000]);
+    keep(
+        &software::draw(ShownMesh { mesh, pieces: Some(&pieces) }, &camera, &style, None, &[]),
+        "pieces-coast",
+    );
+    keep(&software::draw(mesh, &camera, &style, None, &[]), "pieces-mesh");
+}
+
+#[test]
+fn the_boundary_of_a_fitted_domain_is_drawn_in_full_width() {
+    let built = coast::coast(0.1);
+    let style = style(true);
+    let camera = whole(&built.mesh, [600, 600]);
+    let image = software::draw(&built.mesh, &camera, &style, None, &[]);
+    let expected = software::draw_extract(&built.mesh.extract(), &camera, &style);
+    assert!(image == expected);
+}
