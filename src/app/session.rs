@@ -7,7 +7,7 @@ use eframe::egui::Context;
 use glam::DVec2;
 
 use super::cuts::CutQueue;
-use super::derivation::{Derivation, Derived};
+use super::derivation::{Derivation, Derived, PiecesChange};
 use super::readout::{Quantity, Readout};
 use super::widgets::format;
 use crate::build::BuildError;
@@ -28,6 +28,15 @@ pub struct Notice {
     pub failed: bool,
     /// A sentence.
     pub text: String,
+}
+
+/// What changed on the screen.
+#[derive(Clone, Debug, Default)]
+pub struct ShownChange {
+    /// What became of the follower's mesh.
+    pub mesh: Option<MeshChange>,
+    /// What became of the pieces that are drawn in place of some of its triangles.
+    pub pieces: Option<PiecesChange>,
 }
 
 /// A document and its mesh in the window.
@@ -128,9 +137,9 @@ impl Session {
         self.derived().map_or_else(|| self.mesh().level_counts(), |derived| derived.level_counts.clone())
     }
 
-    /// What is drawn of the derived mesh, and how it changed.
-    pub fn derivation_mut(&mut self) -> &mut Derivation {
-        &mut self.derivation
+    /// What is drawn of the derived mesh.
+    pub fn derivation(&self) -> &Derivation {
+        &self.derivation
     }
 
     /// Takes and starts work on the derived mesh, waiting for it up to `patience`. Returns whether some is
@@ -350,9 +359,9 @@ impl Session {
         &self.pricer
     }
 
-    /// The change of the mesh since the last call.
-    pub fn take_mesh_change(&mut self) -> Option<MeshChange> {
-        self.mesh_change.take()
+    /// What changed on the screen since the last call.
+    pub fn take_shown_change(&mut self) -> ShownChange {
+        ShownChange { mesh: self.mesh_change.take(), pieces: self.derivation.take_pieces_change() }
     }
 
     /// Takes back the setting that made a mesh impossible. If paint did, the mesh stops, and a message says

@@ -6,7 +6,9 @@ use eframe::egui;
 use eframe::egui_wgpu::{self, CallbackResources, CallbackTrait, RenderState, ScreenDescriptor};
 use eframe::wgpu;
 
-use crate::document::{Follower, MeshChange};
+use crate::app::derivation::PiecesChange;
+use crate::app::session::{Session, ShownChange};
+use crate::document::MeshChange;
 use crate::mesh::Progress;
 use crate::render::gpu::{GpuError, GpuRenderer, MeshMirror, emulates_gpu};
 use crate::scene::{Camera, Overlay, ShownMesh, ShownRevision, Style};
@@ -70,8 +72,8 @@ impl CanvasGpu {
     /// When the GPU cannot hold the mesh, or could not draw the last frame.
     pub fn sync(
         &mut self,
-        follower: &Follower,
-        change: Option<MeshChange>,
+        session: &Session,
+        change: ShownChange,
         overlay: Option<&Overlay>,
         camera: &Camera,
         style: &Style,
@@ -83,7 +85,7 @@ impl CanvasGpu {
         // Before anything can fail: each change is reported once.
         let sent = match self.in_software {
             true => Ok(Progress::Done),
-            false => self.sending.send(renderer.mirror_mut(), follower, change),
+            false => self.sending.send(renderer.mirror_mut(), session, change),
         };
         if let Some(failure) = failed.take() {
             return Err(failure);
@@ -91,8 +93,9 @@ impl CanvasGpu {
         let (device, queue) = (&self.state.device, &self.state.queue);
         renderer.set_overlay(device, queue, overlay)?;
         if self.in_software {
-            let shown = ShownMesh::from(follower.mesh());
-            let revision = ShownRevision { mesh: follower.revision(), pieces: 0 };
+            let (follower, derivation) = (session.follower(), session.derivation());
+            let shown = ShownMesh { mesh: follower.mesh(), pieces: Some(derivation.pieces()) };
+            let revision = ShownRevision { mesh: follower.revision(), pieces: derivation.pieces_revision() };
             renderer.prepare_in_software(device, queue, shown, revision, camera, style)?;
         }
         sent
@@ -110,11 +113,11 @@ impl Sending {
     fn send(
         &mut self,
         mirror: &mut MeshMirror,
-        follower: &Follower,
-        change: Option<MeshChange>,
+        session: &Session,
+        change: ShownChange,
     ) -> Result<Progress, GpuError> {
-        let revision = follower.revision();
-        let sent = self.try_to_send(mirror, follower, change);
+        let revision = session.follower().revision();
+        let sent = self.try_to_send(mirror, session, change);
         match sent {
             Ok(progress) => self.behind &= progress == Progress::More || self.refused == Some(revision),
             Err(_) => (self.behind, self.refused) = (true, Some(revision)),
@@ -125,24 +128,31 @@ impl Sending {
     fn try_to_send(
         &mut self,
         mirror: &mut MeshMirror,
-        follower: &Follower,
-        change: Option<MeshChange>,
+        session: &Session,
+        change: ShownChange,
     ) -> Result<Progress, GpuError> {
-        let (mesh, revision) = (follower.mesh(), follower.revision());
-        match change {
+        let (mesh, revision) = (session.mesh(), session.follower().revision());
+        match change.mesh {
             Some(MeshChange::Within(changes)) if !self.behind || mirror.uploading().is_some() => {
                 mirror.apply_changes(mesh, revision, &changes)?;
             }
             Some(_) => self.behind = true,
             None => {}
         }
-        if !self.behind || self.refused == Some(revision) {
+        if self.refused == Some(revision) {
             return Ok(Progress::Done);
         }
-        if mirror.uploading() != Some(revision) {
+        if self.behind && mirror.uploading() != Some(revision) {
             mirror.begin_upload(mesh, revision)?;
         }
-        Ok(mirror.advance_upload(mesh, BYTES_PER_FRAME))
+        // Now the mirror holds the mesh of the pieces, on the screen or on its way there.
+        let pieces = session.derivation().pieces();
+        match change.pieces {
+            Some(PiecesChange::Replaced) => mirror.set_pieces(Some(pieces))?,
+            Some(PiecesChange::Retired(retired)) => mirror.retire(pieces, &retired),
+            None => {}
+        }
+        if self.behind { Ok(mirror.advance_upload(mesh, BYTES_PER_FRAME)) } else { Ok(Progress::Done) }
     }
 }
 

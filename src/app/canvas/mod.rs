@@ -259,7 +259,7 @@ impl Canvas {
 
     /// Sends the changes of the mesh to the GPU, and draws it.
     pub fn draw_mesh(&mut self, ui: &Ui, session: &mut Session, view: &View, commands: &mut Vec<Command>) {
-        let change = session.take_mesh_change();
+        let change = session.take_shown_change();
         let (Some(gpu), Some(camera), Some((_, rect))) = (&mut self.gpu, view.camera, self.shown) else {
             return;
         };
@@ -268,7 +268,7 @@ impl Canvas {
         let colors = view.level_colors(settings);
         let overlay = self.overlay_colors.overlay(view.overlay, document, follower, colors);
         let style = view.style(settings, ui.pixels_per_point());
-        match gpu.sync(follower, change, overlay.as_ref(), &camera, &style) {
+        match gpu.sync(session, change, overlay.as_ref(), &camera, &style) {
             Ok(Progress::Done) => {}
             Ok(Progress::More) => ui.ctx().request_repaint(),
             Err(error) => commands.push(Command::Report(error.to_string())),
