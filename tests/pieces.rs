@@ -130,7 +130,7 @@ fn a_mesh_with_pieces_looks_like_its_extract() {
     let built = coast::coast(0.06);
     let (mesh, derived) = (&built.mesh, coast::derived(&built.mesh, &built));
     let extract = derived.extract(mesh);
-    let pieces = PatchPieces::new(mesh, derived.patch(), &extract);
+    let pieces = coast::pieces(mesh, &built);
     let style = style(true);
     for (i, camera) in cameras(mesh, &pieces).into_iter().enumerate() {
         let shown = ShownMesh { mesh, pieces: Some(&pieces) };

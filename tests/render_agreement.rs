@@ -12,7 +12,7 @@ use meshbrush::internals::build::BuiltMesh;
 use meshbrush::internals::colormap::{LEVELS, LevelColors};
 use meshbrush::internals::geometry::{Lattice, LatticePoint, LatticeRect, Rect};
 use meshbrush::internals::mesh::{Changes, Element, Limits, Mesh, PatchPieces, Progress, Updater};
-use meshbrush::internals::render::gpu::{ChunkLimits, GpuError, Offscreen};
+use meshbrush::internals::render::gpu::{ChunkLimits, GpuError, GpuRenderer, Offscreen};
 use meshbrush::internals::render::{Image, software};
 use meshbrush::internals::scene::{Camera, Overlay, ShownMesh, ShownRevision, Style};
 
@@ -449,7 +449,7 @@ fn assert_agree_closely(name: &str, gpu: &Image, software: &Image) {
 /// Compares pictures of a mesh with pieces: whole, and close to a place on the coast.
 fn assert_coasts_agree(name: &str, gpu: &mut Offscreen, mesh: &Mesh, pieces: Option<&PatchPieces>) {
     let style = Style::dark(colors());
-    let at = dvec2(0.55, 0.0);
+    let at = dvec2(0.86, 0.0);
     for zoom in [1.0, 4.0, 15.0] {
         let camera = whole(mesh).zoomed(zoom, DVec2::ZERO);
         let camera = if zoom > 1.0 { camera.centered_on(at) } else { camera };
@@ -490,9 +490,11 @@ fn pieces_agree_at_every_zoom() {
             }
         }
     }
-    // Another mesh begins without pieces.
-    gpu.show(mesh, 2).unwrap();
-    assert_coasts_agree("coast-again", &mut gpu, mesh, None);
+    // Another mesh begins without pieces, in the other copy and in the one that had pieces.
+    for revision in [2, 3] {
+        gpu.show(mesh, revision).unwrap();
+        assert_coasts_agree(&format!("coast-again-{revision}"), &mut gpu, mesh, None);
+    }
 }
 
 /// Makes a mesh fine around a place, or as it was, and returns what changed.
@@ -598,4 +600,23 @@ fn a_picture_is_drawn_again_when_its_pieces_change() {
         assert_eq!(gpu.picture_in_software(shown, revision, &camera, &style).unwrap(), expected);
         assert_eq!(gpu.renderer().redraws(), redraws);
     }
+}
+
+#[test]
+fn a_driver_with_too_few_storage_buffers_is_refused() {
+    if gpu().is_none() {
+        return;
+    }
+    let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle_from_env());
+    let request = instance.request_adapter(&wgpu::RequestAdapterOptions::default());
+    let adapter = pollster::block_on(request).unwrap();
+    let renderer_with = |buffers: u32| {
+        let limits =
+            wgpu::Limits { max_storage_buffers_per_shader_stage: buffers, ..wgpu::Limits::default() };
+        let descriptor = wgpu::DeviceDescriptor { required_limits: limits, ..Default::default() };
+        let (device, queue) = pollster::block_on(adapter.request_device(&descriptor)).unwrap();
+        GpuRenderer::new(&device, &queue, wgpu::TextureFormat::Rgba8Unorm).err()
+    };
+    let refused = GpuError::TooFewStorageBuffers { available: 5, needed: 6 };
+    assert_eq!((renderer_with(5), renderer_with(6)), (Some(refused), None));
 }

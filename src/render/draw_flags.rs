@@ -3,9 +3,9 @@
 #[cfg(feature = "gui")]
 use std::ops::Range;
 
-use crate::mesh::PatchPieces;
 #[cfg(feature = "gui")]
-use crate::mesh::{Triangle, TriangleId};
+use crate::mesh::Triangle;
+use crate::mesh::{PatchPieces, TriangleId};
 
 const BITS_PER_ENTRY: usize = 4;
 const ENTRIES_PER_WORD: usize = u32::BITS as usize / BITS_PER_ENTRY;
@@ -34,7 +34,7 @@ impl DrawFlags {
     pub(super) fn of_pieces(pieces: &PatchPieces, count: usize) -> Self {
         let mut flags = Self::default();
         flags.resize(count);
-        flags.replace(pieces);
+        pieces.replacements().for_each(|(id, range)| flags.replace(id, !range.is_empty()));
         flags
     }
 
@@ -61,12 +61,11 @@ impl DrawFlags {
         flags != 0 && flags & HAS_PIECES == 0
     }
 
-    /// Marks the triangles of a patch that is shown. Those behind the end are ignored.
-    pub(super) fn replace(&mut self, pieces: &PatchPieces) {
-        for (id, range) in pieces.replacements() {
-            let flags = if range.is_empty() { REPLACED } else { REPLACED | HAS_PIECES };
-            self.set(id.index(), REPLACED | HAS_PIECES, flags);
-        }
+    /// Marks a triangle that a patch replaces.
+    #[inline]
+    pub(super) fn replace(&mut self, id: TriangleId, has_pieces: bool) {
+        let flags = if has_pieces { REPLACED | HAS_PIECES } else { REPLACED };
+        self.set(id.index(), REPLACED | HAS_PIECES, flags);
     }
 }
 
@@ -86,7 +85,8 @@ impl DrawFlags {
         triangles.start / ENTRIES_PER_WORD..triangles.end.div_ceil(ENTRIES_PER_WORD)
     }
 
-    /// Takes back what [`Self::replace`] did to a triangle.
+    /// Takes back what [`Self::replace`] did.
+    #[inline]
     pub(super) fn restore(&mut self, id: TriangleId) {
         self.set(id.index(), REPLACED | HAS_PIECES, 0);
     }

@@ -172,8 +172,10 @@ impl MeshCopy {
         // The buffers first: without them, the triangles of the mesh stay.
         let fitted = pieces.map_or(Ok(()), |pieces| self.send_pieces(gpu, pieces));
         if let (Ok(()), Some(pieces)) = (&fitted, pieces) {
-            self.flags.flags.replace(pieces);
-            self.replaced.extend(pieces.replaced());
+            for (id, range) in pieces.replacements() {
+                self.flags.flags.replace(id, !range.is_empty());
+                self.replaced.push(id);
+            }
         }
         self.flags.send_ids(&gpu.queue, former.into_iter());
         self.flags.send_ids(&gpu.queue, self.replaced.iter().copied());
