@@ -567,7 +567,10 @@ fn pieces_wait_for_the_mesh_that_is_being_uploaded() {
     assert_coasts_agree("arrived", &mut gpu, &mesh, Some(&pieces));
     // Pieces of a mesh that is no longer shown change nothing.
     let mut former = former;
-    let all = Changes { nodes: Vec::new(), triangles: vec![0..built.mesh.raw_triangle_count()] };
+    let all = Changes {
+        nodes: Vec::new(),
+        triangles: std::iter::once(0..built.mesh.raw_triangle_count()).collect(),
+    };
     let retired = former.retire(&built.mesh, &all);
     gpu.renderer().mirror_mut().retire(&former, &retired);
     assert_coasts_agree("unaffected", &mut gpu, &mesh, Some(&pieces));
@@ -586,7 +589,8 @@ fn a_picture_is_drawn_again_when_its_pieces_change() {
     gpu.frame(&camera, &style).unwrap();
     assert_eq!(gpu.renderer().redraws(), 2, "other pieces");
     let first = pieces.replaced().next().unwrap().index();
-    let retired = pieces.retire(mesh, &Changes { nodes: Vec::new(), triangles: vec![first..first + 1] });
+    let retired = pieces
+        .retire(mesh, &Changes { nodes: Vec::new(), triangles: std::iter::once(first..first + 1).collect() });
     gpu.renderer().mirror_mut().retire(&pieces, &retired);
     gpu.renderer().mirror_mut().retire(&pieces, &[]);
     gpu.frame(&camera, &style).unwrap();

@@ -152,7 +152,7 @@ impl MeshCopy {
         let left = byte_budget.saturating_sub(bytes);
         let first = sent.triangles;
         send(queue, &self.mesh.triangles, mesh.raw_triangles(), &mut sent.triangles, left);
-        self.flags.classify(queue, mesh, &[first..sent.triangles]);
+        self.flags.classify(queue, mesh, std::slice::from_ref(&(first..sent.triangles)));
     }
 
     /// Writes the changed entries among the first `present` ones, and the flags of all.

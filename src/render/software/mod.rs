@@ -234,7 +234,7 @@ mod tests {
     use super::*;
     use crate::colormap::{LEVELS, LevelColors};
     use crate::geometry::{Lattice, Rect};
-    use crate::mesh::Limits;
+    use crate::mesh::{Limits, Mesh};
     use glam::dvec2;
 
     fn colors() -> LevelColors {
