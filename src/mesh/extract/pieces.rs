@@ -77,8 +77,8 @@ impl PatchPieces {
         self.replacements().map(|(id, _)| id)
     }
 
-    /// [`Self::replaced`], each with its part of [`Self::triangles`]. The part is empty where nothing is drawn
-    /// in place of the triangle.
+    /// [`Self::replaced`], each with its part of [`Self::triangles`]. The part is empty where nothing is
+    /// drawn in place of the triangle.
     pub fn replacements(&self) -> impl Iterator<Item = (TriangleId, Range<usize>)> {
         let active = self.replaced.iter().zip(&self.is_retired).filter(|(_, is_retired)| !**is_retired);
         active.map(|((id, pieces), _)| (*id, pieces.clone()))

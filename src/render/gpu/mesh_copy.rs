@@ -192,7 +192,8 @@ impl MeshCopy {
         Ok(())
     }
 
-    /// Draws triangles of the mesh again, in place of their pieces. Returns false when other pieces are shown.
+    /// Draws triangles of the mesh again, in place of their pieces. Returns false when other pieces are
+    /// shown.
     pub(super) fn retire(
         &mut self,
         gpu: &Gpu,

@@ -132,8 +132,8 @@ impl MeshMirror {
         Ok(())
     }
 
-    /// Shows other pieces, or none, in place of triangles of a mesh: of the one being uploaded, otherwise of the
-    /// one on the screen. A mesh begins without pieces when its upload begins, also when
+    /// Shows other pieces, or none, in place of triangles of a mesh: of the one being uploaded, otherwise of
+    /// the one on the screen. A mesh begins without pieces when its upload begins, also when
     /// [`Self::apply_changes`] uploads it whole. Without any mesh, nothing is done.
     ///
     /// # Errors

@@ -1,6 +1,7 @@
 //! Draws a scene on the GPU. The arrays of the mesh are the vertex data.
 //!
-//! A window keeps a [`GpuRenderer`]. It contains a [`MeshMirror`], the copy of the mesh and of the pieces in place of some of its triangles, and keeps the
+//! A window keeps a [`GpuRenderer`]. It contains a [`MeshMirror`], the copy of the mesh and of
+//! the pieces in place of some of its triangles, and keeps the
 //! picture of the mesh as a texture, so that the mesh is redrawn only when the mesh, the camera or the style
 //! changed.
 
