@@ -487,7 +487,7 @@ fn files_get_a_mesh_without_gaps_orphans_or_one_sided_neighbours() {
             assert_eq!(cell.opposite, across, "seed {seed}");
         }
         assert!((area / mesh.area() - 1.0).abs() < 1e-9, "seed {seed}: {area} and {}", mesh.area());
-        let Topology { nodes, parts, holes } = mesh.topology();
+        let Topology { nodes, parts, holes } = mesh.extract().topology();
         assert_eq!((nodes, (parts, holes)), (used.len(), parts_and_holes(&mesh)), "seed {seed}");
         most_parts = most_parts.max(parts);
         most_holes = most_holes.max(holes);
@@ -521,6 +521,6 @@ fn the_aegean_sea_keeps_its_islands() {
     // The one that falls between the centroids is smaller than the triangles there.
     let deepest = mesh.level_counts().len() as u32 - 1;
     assert!(lost.len() == 1 && lost[0] < 0.25 * mesh.diameter(deepest).powi(2), "{lost:?}");
-    assert_eq!((mesh.topology().parts, mesh.topology().holes), parts_and_holes(&mesh));
+    assert_eq!((mesh.extract().topology().parts, mesh.extract().topology().holes), parts_and_holes(&mesh));
     assert!((mesh.area() / region.area() - 1.0).abs() < 0.002);
 }

@@ -52,7 +52,7 @@ fn check_mesh(domain: &Domain, boundary: BoundaryTreatment, spacing: f64) {
     let built = builder.finish();
     assert_eq!(built.mesh.violations(), []);
     assert_eq!(built.unsatisfied(None), Ok(vec![]));
-    let topology = built.mesh.topology();
+    let topology = built.mesh.extract().topology();
     assert_eq!(topology.nodes, built.mesh.extract().nodes().len());
     assert_eq!(topology.parts == 0, built.mesh.triangle_count() == 0);
 }

@@ -61,8 +61,6 @@ pub struct Derived {
     pub level_counts: Vec<usize>,
     /// Nodes, parts and holes.
     pub topology: Topology,
-    /// In square world units.
-    pub area: f64,
     /// What cleaning removed.
     pub removed: Removed,
     /// How well the boundary lies on the outline, where nodes are moved there.
@@ -104,7 +102,6 @@ pub struct Derivation {
 
 /// A mesh that is being derived.
 struct Running {
-    key: Key,
     results: Receiver<Outcome>,
     /// What became of the follower's mesh since.
     since: Option<MeshChange>,
@@ -135,11 +132,6 @@ impl Derivation {
     /// How the pieces changed since the last call.
     pub fn take_pieces_change(&mut self) -> Option<PiecesChange> {
         self.pieces_change.take()
-    }
-
-    /// Whether a mesh is being derived.
-    pub fn is_running(&self) -> bool {
-        self.running.is_some()
     }
 
     /// Notes what became of the follower's mesh.
@@ -244,12 +236,11 @@ impl Derivation {
     fn start(&mut self, key: Key, follower: &Follower, ctx: &Context) {
         let (sender, results) = channel();
         let (mesh, domain, ctx) = (follower.shared_mesh(), follower.domain().clone(), ctx.clone());
-        let key_there = key.clone();
         thread::spawn(move || {
-            derive(key_there, mesh, &domain, &sender);
+            derive(key, mesh, &domain, &sender);
             ctx.request_repaint();
         });
-        self.running = Some(Running { key, results, since: None });
+        self.running = Some(Running { results, since: None });
     }
 }
 
@@ -264,7 +255,6 @@ fn derive(key: Key, mesh: Arc<Mesh>, domain: &DomainOnLattice, sender: &Sender<O
         locator: PatchedLocator::new(&mesh, derived_mesh.patch(), &extract),
         level_counts: extract.level_counts(),
         topology: extract.topology(),
-        area: extract.area(),
         removed: derived_mesh.removed().clone(),
         outline_fit: derived_mesh.fit(),
         quality: None,

@@ -7,7 +7,6 @@ use glam::DVec2;
 use super::args::{BoundaryArgument, InputArguments, RuleArgument};
 use super::failure::Failure;
 use crate::document::LEAST_MEMORY;
-use crate::domain::BoundaryTreatment;
 use crate::field::{Formula, RefinementRule, Transfer};
 use crate::geometry::Rect;
 use crate::mesh::{Cleaning, KeptParts, Limits, MOST_TRIANGLES, MemoryLimit};

@@ -149,7 +149,7 @@ impl Sending {
         let pieces = session.derivation().pieces();
         match change.pieces {
             Some(PiecesChange::Replaced) => mirror.set_pieces(Some(pieces))?,
-            Some(PiecesChange::Retired(retired)) => mirror.retire(pieces, &retired),
+            Some(PiecesChange::Retired(retired)) => mirror.retire(pieces, &retired)?,
             None => {}
         }
         if self.behind { Ok(mirror.advance_upload(mesh, BYTES_PER_FRAME)) } else { Ok(Progress::Done) }

@@ -134,7 +134,8 @@ fn cleaning_rows(ui: &mut Ui, cleaning: Cleaning, boundary: BoundaryTreatment, c
         _ => USUAL_SHARE,
     };
     let from_share = KeptParts::Share(share);
-    let choices = [(KeptParts::Largest, "Largest"), (from_share, "Large"), (KeptParts::All, "All")];
+    let choices =
+        [(KeptParts::Largest, "Largest part"), (from_share, "Large parts"), (KeptParts::All, "All parts")];
     if segmented(ui, "Parts that stay", &mut parts, &choices).changed() {
         set_once(Setting::Cleaning(Cleaning { parts, ..cleaning }), commands);
     }

@@ -196,7 +196,7 @@ fn the_outline_is_met_in_three_ways_and_the_panel_says_how_well() {
     assert_ne!(window.state().session().triangle_count(), shown);
     assert_eq!(value_of(&window, Role::Definition, "Angles"), "45.0° to 90.0°");
     assert!(value_of(&window, Role::Definition, "Removed").contains("triangles"));
-    window.get_by_role_and_label(Role::RadioButton, "All").click();
+    window.get_by_role_and_label(Role::RadioButton, "All parts").click();
     window.get_by_label("Keep pinched nodes").click();
     wait_for_quality(&mut window);
     assert!(window.query_by_role_and_label(Role::Definition, "Removed").is_none());

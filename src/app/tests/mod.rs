@@ -5,6 +5,7 @@
 mod background;
 mod budget;
 mod commands;
+mod derivation;
 mod domain;
 mod files;
 mod gallery;

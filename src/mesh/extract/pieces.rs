@@ -15,8 +15,10 @@ use crate::mesh::kernel::{Changes, Mesh, Neighbour, NodeId, Triangle, TriangleId
 ///               o---o---o
 /// ```
 ///
-/// The mesh may change before the patch is derived again. Entries that changed are then drawn as the mesh has
-/// them, and the pieces in their place are *retired* ([`Self::retire`]).
+/// The mesh may change before the patch is derived again. The pieces in place of changed entries are then
+/// *retired* ([`Self::retire`]), and the entries themselves are drawn. Where such an entry has a node that
+/// the patch moved, a *provisional* piece is drawn instead, with the node where the patch has it: the mesh
+/// has no gaps beside the other pieces.
 #[derive(Clone, Debug, Default)]
 pub struct PatchPieces {
     nodes: Vec<LatticePoint>,
@@ -25,12 +27,16 @@ pub struct PatchPieces {
     /// In ascending order, with their parts of `triangles`.
     replaced: Vec<(TriangleId, Range<usize>)>,
     is_retired: Vec<bool>,
+    provisional: HashMap<TriangleId, Range<usize>>,
+    /// Nodes that the patch moved, in ascending order: where the mesh has them, and the patch.
+    moved: Vec<(NodeId, [LatticePoint; 2])>,
 }
 
 impl PatchPieces {
     /// The pieces of a patch; `extract` must be [`Mesh::extract_with`] of it.
     pub fn new(mesh: &Mesh, patch: &MeshPatch, extract: &Extract) -> Self {
-        let mut pieces = Self { is_retired: vec![false; patch.changed.len()], ..Self::default() };
+        let moved = patch.moved.iter().map(|&(id, point)| (id, [mesh.node(id), point])).collect();
+        let mut pieces = Self { is_retired: vec![false; patch.changed.len()], moved, ..Self::default() };
         let mut numbers: HashMap<NodeId, NodeId> = HashMap::new();
         let mut place = 0;
         let mut next_unchanged = 0;
@@ -67,12 +73,12 @@ impl PatchPieces {
         &self.nodes
     }
 
-    /// The pieces, in the order of the triangles that they replace. Retired ones are marked as outside.
+    /// The pieces. Retired ones are marked as outside.
     pub fn triangles(&self) -> &[Triangle] {
         &self.triangles
     }
 
-    /// The triangles of the mesh that are not drawn, in ascending order.
+    /// The triangles of the mesh that are not drawn.
     pub fn replaced(&self) -> impl Iterator<Item = TriangleId> {
         self.replacements().map(|(id, _)| id)
     }
@@ -81,24 +87,92 @@ impl PatchPieces {
     /// drawn in place of the triangle.
     pub fn replacements(&self) -> impl Iterator<Item = (TriangleId, Range<usize>)> {
         let active = self.replaced.iter().zip(&self.is_retired).filter(|(_, is_retired)| !**is_retired);
-        active.map(|((id, pieces), _)| (*id, pieces.clone()))
+        let active = active.map(|((id, pieces), _)| (*id, pieces.clone()));
+        active.chain(self.provisional.iter().map(|(id, pieces)| (*id, pieces.clone())))
     }
 
-    /// Retires the pieces in place of entries that changed, and of those that the mesh no longer has. Returns
-    /// these entries, each with its part of [`Self::triangles`].
+    /// The part of [`Self::triangles`] that is drawn in place of a triangle of the mesh; `None` where the
+    /// triangle itself is drawn.
+    pub fn replacement(&self, id: TriangleId) -> Option<Range<usize>> {
+        if let Some(pieces) = self.provisional.get(&id) {
+            return Some(pieces.clone());
+        }
+        let index = self.replaced.binary_search_by_key(&id, |(replaced, _)| *replaced).ok()?;
+        (!self.is_retired[index]).then(|| self.replaced[index].1.clone())
+    }
+
+    /// Retires the pieces in place of entries that changed, and of those that the mesh no longer has, and
+    /// appends provisional ones. Returns the entries whose [`Self::replacement`] changed, each with a part of
+    /// [`Self::triangles`] that changed.
     pub fn retire(&mut self, mesh: &Mesh, changes: &Changes) -> Vec<(TriangleId, Range<usize>)> {
-        let mut retired = Vec::new();
-        let gone = mesh.raw_triangle_count()..usize::MAX;
-        for ids in changes.triangles.iter().chain(std::iter::once(&gone)) {
-            let first = self.replaced.partition_point(|(id, _)| id.index() < ids.start);
-            let in_range = self.replaced[first..].iter().take_while(|(id, _)| id.index() < ids.end);
-            for (index, (id, pieces)) in (first..).zip(in_range) {
-                if !std::mem::replace(&mut self.is_retired[index], true) {
-                    self.triangles[pieces.clone()].iter_mut().for_each(|piece| piece.set_outside(true));
-                    retired.push((*id, pieces.clone()));
-                }
+        let mut touched = Vec::new();
+        let count = mesh.raw_triangle_count();
+        for ids in changes.triangles.iter().chain(std::iter::once(&(count..usize::MAX))) {
+            self.retire_replaced(ids, &mut touched);
+            self.retire_provisional(ids, &mut touched);
+        }
+        if !self.moved.is_empty() {
+            for id in changes.triangles.iter().flat_map(|ids| ids.start..ids.end.min(count)) {
+                self.push_provisional(mesh, TriangleId::from_index(id), &mut touched);
             }
         }
-        retired
+        touched
+    }
+
+    fn retire_replaced(&mut self, ids: &Range<usize>, touched: &mut Vec<(TriangleId, Range<usize>)>) {
+        let first = self.replaced.partition_point(|(id, _)| id.index() < ids.start);
+        let in_range = self.replaced[first..].iter().take_while(|(id, _)| id.index() < ids.end);
+        for (index, (id, pieces)) in (first..).zip(in_range) {
+            if !std::mem::replace(&mut self.is_retired[index], true) {
+                self.triangles[pieces.clone()].iter_mut().for_each(|piece| piece.set_outside(true));
+                touched.push((*id, pieces.clone()));
+            }
+        }
+    }
+
+    fn retire_provisional(&mut self, ids: &Range<usize>, touched: &mut Vec<(TriangleId, Range<usize>)>) {
+        let triangles = &mut self.triangles;
+        self.provisional.retain(|id, pieces| {
+            let stays = !ids.contains(&id.index());
+            if !stays {
+                triangles[pieces.clone()].iter_mut().for_each(|piece| piece.set_outside(true));
+                touched.push((*id, pieces.clone()));
+            }
+            stays
+        });
+    }
+
+    /// Appends a piece for a triangle of the mesh that has a moved node.
+    fn push_provisional(
+        &mut self,
+        mesh: &Mesh,
+        id: TriangleId,
+        touched: &mut Vec<(TriangleId, Range<usize>)>,
+    ) {
+        let triangle = mesh.triangle(id);
+        let shown = triangle.vertices.map(|node| self.shown_at(mesh, node));
+        if triangle.is_outside() || shown == mesh.corners(id) {
+            return;
+        }
+        let index = self.triangles.len();
+        let own = Neighbour::from(TriangleId::from_index(index));
+        let mut piece = *triangle;
+        piece.raw_neighbours = mesh.neighbours(id).map(|n| if n.triangle().is_some() { own } else { n });
+        piece.vertices = shown.map(|point| {
+            self.nodes.push(point);
+            NodeId::from_index(self.nodes.len() - 1)
+        });
+        self.triangles.push(piece);
+        self.provisional.insert(id, index..index + 1);
+        touched.push((id, index..index + 1));
+    }
+
+    /// Where a node of the mesh is drawn: where the patch has it, if it is still the node that was moved.
+    fn shown_at(&self, mesh: &Mesh, node: NodeId) -> LatticePoint {
+        let home = mesh.node(node);
+        match self.moved.binary_search_by_key(&node, |(id, _)| *id) {
+            Ok(index) if self.moved[index].1[0] == home => self.moved[index].1[1],
+            _ => home,
+        }
     }
 }

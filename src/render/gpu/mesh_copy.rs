@@ -192,22 +192,48 @@ impl MeshCopy {
         Ok(())
     }
 
-    /// Draws triangles of the mesh again, in place of their pieces. Returns false when other pieces are
-    /// shown.
+    /// Draws triangles of the mesh again in place of their pieces, or provisional pieces. Returns false when
+    /// other pieces are shown.
     pub(super) fn retire(
         &mut self,
         gpu: &Gpu,
         pieces: &PatchPieces,
-        retired: &[(TriangleId, Range<usize>)],
-    ) -> bool {
-        if self.replaced.is_empty() || self.pieces.triangle_count != pieces.triangles().len() {
-            return false;
+        touched: &[(TriangleId, Range<usize>)],
+    ) -> Result<bool, GpuError> {
+        if self.replaced.is_empty() || self.pieces.triangle_count > pieces.triangles().len() {
+            return Ok(false);
         }
-        retired.iter().for_each(|(id, _)| self.flags.flags.restore(*id));
-        let ranges: Vec<_> = retired.iter().map(|(_, range)| range.clone()).collect();
+        self.append_pieces(gpu, pieces)?;
+        let mut ids: Vec<TriangleId> = touched.iter().map(|(id, _)| *id).collect();
+        ids.sort_unstable();
+        ids.dedup();
+        for &id in &ids {
+            match pieces.replacement(id) {
+                Some(range) => {
+                    self.flags.flags.replace(id, !range.is_empty());
+                    self.replaced.push(id);
+                }
+                None => self.flags.flags.restore(id),
+            }
+        }
+        let mut ranges: Vec<_> = touched.iter().map(|(_, range)| range.clone()).collect();
+        ranges.sort_unstable_by_key(|range| range.start);
         send_ranges(&gpu.queue, &self.pieces.triangles, pieces.triangles(), &ranges);
-        self.flags.send_ids(&gpu.queue, retired.iter().map(|(id, _)| *id));
-        true
+        self.flags.send_ids(&gpu.queue, ids.into_iter());
+        Ok(true)
+    }
+
+    /// Makes room for pieces that were appended, and sends their nodes.
+    fn append_pieces(&mut self, gpu: &Gpu, pieces: &PatchPieces) -> Result<(), GpuError> {
+        let (nodes, triangles) = (pieces.nodes(), pieces.triangles());
+        let kept = Counts { nodes: self.pieces.node_count, triangles: self.pieces.triangle_count };
+        gpu.check_nodes(nodes.len())?;
+        if self.pieces.fit(gpu, nodes.len(), triangles.len(), kept)? {
+            self.pieces.bind(gpu, None);
+        }
+        let added = bytemuck::cast_slice(&nodes[kept.nodes..]);
+        self.pieces.nodes.write(&gpu.queue, kept.nodes, added);
+        Ok(())
     }
 
     /// The buffers of the mesh, each with its number of triangles.
@@ -225,6 +251,7 @@ impl MeshCopy {
 struct Arrays {
     triangles: ChunkedArray,
     nodes: ChunkedArray,
+    node_count: usize,
     triangle_count: usize,
     bind_groups: Vec<wgpu::BindGroup>,
 }
@@ -234,6 +261,7 @@ impl Arrays {
         Self {
             triangles: ChunkedArray::new::<Triangle>("triangles", limits.triangles),
             nodes: ChunkedArray::new::<LatticePoint>("nodes", limits.nodes()),
+            node_count: 0,
             triangle_count: 0,
             bind_groups: Vec::new(),
         }
@@ -250,7 +278,7 @@ impl Arrays {
         let (device, queue) = (&gpu.device, &gpu.queue);
         let nodes = self.nodes.reserve(device, queue, node_count, kept.nodes)?;
         let triangles = self.triangles.reserve(device, queue, triangle_count, kept.triangles)?;
-        self.triangle_count = triangle_count;
+        (self.node_count, self.triangle_count) = (node_count, triangle_count);
         Ok(nodes || triangles)
     }
 

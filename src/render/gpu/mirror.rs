@@ -149,18 +149,27 @@ impl MeshMirror {
         self.front.set_pieces(&self.gpu, pieces)
     }
 
-    /// Draws triangles of the mesh again in place of their pieces. `pieces` are those of
-    /// [`Self::set_pieces`], and `retired` is what [`PatchPieces::retire`] returned. The time is proportional
-    /// to `retired`. After a mesh lost its pieces because another one is uploaded, nothing is done.
-    pub fn retire(&mut self, pieces: &PatchPieces, retired: &[(TriangleId, Range<usize>)]) {
-        if retired.is_empty() {
-            return;
+    /// Draws triangles of the mesh again in place of their pieces, or provisional pieces. `pieces` are those
+    /// of [`Self::set_pieces`], and `touched` is what [`PatchPieces::retire`] returned. The time is
+    /// proportional to `touched`. After a mesh lost its pieces because another one is uploaded, nothing is
+    /// done.
+    ///
+    /// # Errors
+    /// When the device cannot hold the provisional pieces.
+    pub fn retire(
+        &mut self,
+        pieces: &PatchPieces,
+        touched: &[(TriangleId, Range<usize>)],
+    ) -> Result<(), GpuError> {
+        if touched.is_empty() {
+            return Ok(());
         }
         if self.upload.is_some() {
-            self.back.retire(&self.gpu, pieces, retired);
-        } else if self.front.retire(&self.gpu, pieces, retired) {
+            self.back.retire(&self.gpu, pieces, touched)?;
+        } else if self.front.retire(&self.gpu, pieces, touched)? {
             self.generation += 1;
         }
+        Ok(())
     }
 
     /// Revision of the mesh that is drawn, or `None` before the first and after a failure.

@@ -1,0 +1,100 @@
+//! The mesh that is derived along an outline, while the document is edited.
+
+use std::collections::HashSet;
+
+use eframe::egui::{Key, Modifiers};
+use fastrand::Rng;
+use glam::{DVec2, dvec2};
+
+use super::{Window, key, send, wait_until, window};
+use crate::app::command::{Command, DomainCommand};
+use crate::document::{Document, Follower, Settings};
+use crate::domain::{CutShape, Domain};
+use crate::geometry::LatticePoint;
+use crate::mesh::{NodeId, TriangleId};
+use crate::outline::DerivedMesh;
+
+type Corners = [[u32; 2]; 3];
+
+fn sorted(mut triangles: Vec<Corners>) -> Vec<Corners> {
+    triangles.iter_mut().for_each(|corners| corners.sort_unstable());
+    triangles.sort_unstable();
+    triangles
+}
+
+fn corners(points: [LatticePoint; 3]) -> Corners {
+    points.map(|p| [p.x, p.y])
+}
+
+/// What the canvas draws: the mesh without the replaced triangles, and the pieces.
+fn drawn(window: &Window) -> Vec<Corners> {
+    let session = window.state().session();
+    let (mesh, pieces) = (session.mesh(), session.derivation().pieces());
+    let replaced: HashSet<TriangleId> = pieces.replaced().collect();
+    let kept = mesh.triangles().filter(|(id, _)| !replaced.contains(id));
+    let mut triangles: Vec<Corners> = kept.map(|(id, _)| corners(mesh.corners(id))).collect();
+    let shown = pieces.triangles().iter().filter(|piece| !piece.is_outside());
+    triangles.extend(shown.map(|piece| corners(piece.vertices.map(|node| pieces.nodes()[node.index()]))));
+    sorted(triangles)
+}
+
+/// The derived mesh of a document, from scratch.
+fn from_scratch(document: &Document) -> Vec<Corners> {
+    let follower = Follower::new(&mut document.clone()).unwrap();
+    let cleaning = follower.settings().derived_cleaning();
+    let derived = DerivedMesh::new(follower.mesh(), follower.domain(), &cleaning);
+    let extract = derived.extract(follower.mesh());
+    let cells = extract.cells().map(|cell| cell.corners.map(|n| extract.node(NodeId::from_index(n))));
+    sorted(cells.map(corners).collect())
+}
+
+/// A lake with an island.
+fn lake() -> Settings {
+    let ring = |radius: f64| {
+        let corner = move |k: u32| radius * DVec2::from_angle(f64::from(k) * 0.1);
+        (0..62).map(corner).collect::<Vec<_>>()
+    };
+    let island = ring(0.3).into_iter().map(|p| p + dvec2(0.2, 0.1)).collect();
+    Settings::for_domain("lake".into(), Domain::of_polygons(&[vec![ring(1.0), island]]).unwrap())
+}
+
+#[test]
+fn what_is_drawn_is_derived_from_scratch_whenever_the_mesh_is_up_to_date() {
+    let mut window = window();
+    send(&mut window, Command::NewWith(Box::new(lake())));
+    let mut random = Rng::with_seed(5);
+    let mut some_retired = 0;
+    for _ in 0..40 {
+        let mut point = || 2.2 * dvec2(random.f64() - 0.5, random.f64() - 0.5);
+        let (a, b) = (point(), point());
+        match random.u32(..6) {
+            0 => {
+                let cut_shape = CutShape::Stroke { path: vec![a], radius: 0.05 + 0.1 * random.f64() };
+                send(&mut window, Command::Domain(DomainCommand::Reshape(cut_shape, random.bool())));
+                send(&mut window, Command::EndGesture);
+            }
+            1 => key(&mut window, Modifiers::COMMAND, Key::Z),
+            _ => {
+                window.state_mut().send(Command::BeginStroke(a));
+                for step in 0..=4 {
+                    window.state_mut().send(Command::DrawTo(a.lerp(b, f64::from(step) / 4.0)));
+                    window.step();
+                    let pieces = window.state().session().derivation().pieces();
+                    some_retired += usize::from(pieces.triangles().iter().any(|piece| piece.is_outside()));
+                }
+                window.state_mut().send(Command::EndStroke);
+            }
+        }
+        if random.bool() {
+            continue;
+        }
+        wait_until(&mut window, |window| {
+            let session = window.state().session();
+            session.derived().is_some() && session.follower().is_in_step(session.document())
+        });
+        assert!(drawn(&window) == from_scratch(window.state().session().document()));
+        let derived = window.state().session().derived().unwrap();
+        assert_eq!(derived.level_counts.iter().sum::<usize>(), drawn(&window).len());
+    }
+    assert!(some_retired > 0, "no stroke changed a replaced triangle before the mesh was derived again");
+}
