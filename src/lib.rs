@@ -42,8 +42,9 @@ pub use build::{
     BuildError, BuildStage, BuiltMesh, FieldSampling, MeshBuilder, MeshSpec, RefinementCriterion,
 };
 pub use domain::{
-    BoundaryTreatment, CutShape, Domain, DomainOnLattice, DomainShape, MOST_CORNERS, Polygon, Region,
-    RegionError, Ring,
+    BoundaryKind, BoundaryMarks, BoundaryPiece, BoundaryPieces, BoundaryTreatment, CutShape, Domain,
+    DomainOnLattice, DomainShape, MOST_CORNERS, MeshBoundary, NamedPolygon, PieceFigures, PieceRun, Polygon,
+    Region, RegionError, Ring,
 };
 pub use field::formula::ParseError;
 pub use field::{

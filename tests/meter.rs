@@ -115,7 +115,7 @@ fn a_meter_with_a_total_ends_at_it() {
     assert!(done < total && total - done < 1000, "{done} of {total}");
 
     let meter = Meter::default();
-    geojson::read_metered(Path::new("assets/aegean_sea.geojson"), &meter).unwrap();
+    geojson::read_named_metered(Path::new("assets/aegean_sea.geojson"), &meter).unwrap();
     assert_eq!(meter.total(), Some(meter.done()));
     let meter = Meter::default();
     read_png(Path::new("assets/jacksboro_slope.png"), Rect::UNIT, Behind::Black, &meter).unwrap();
@@ -130,7 +130,7 @@ fn a_cancelled_read_is_an_error() {
     let meter = Meter::default();
     meter.cancel();
     let bad = [
-        geojson::read_metered(Path::new("assets/aegean_sea.geojson"), &meter).err(),
+        geojson::read_named_metered(Path::new("assets/aegean_sea.geojson"), &meter).err(),
         read_png(Path::new("assets/jacksboro_slope.png"), Rect::UNIT, Behind::Black, &meter).err(),
         project::read_metered(&file, &meter).err(),
     ];

@@ -1,6 +1,7 @@
 //! Ω, the domain: a rectangle or a part of it, given by a formula or by polygons; and how the mesh meets its
 //! boundary.
 
+mod boundary;
 mod comparison;
 mod outline_edge;
 mod fit;
@@ -19,6 +20,10 @@ use crate::field::Formula;
 use crate::geometry::Rect;
 use crate::text::Grouped;
 
+pub use boundary::{
+    BoundaryKind, BoundaryMarks, BoundaryPiece, BoundaryPieces, FrameSide, LONGEST_NAME, MeshBoundary,
+    NamedPolygon, PieceFigures, PieceRun,
+};
 pub use comparison::RegionComparison;
 use complexity::check_complexity;
 pub use complexity::{MOST_CORNERS, MOST_CROSSINGS};

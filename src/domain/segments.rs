@@ -1,12 +1,15 @@
-//! The distance from a point to the nearest of many segments.
+//! The segments nearest to a point, of many.
+
+use std::borrow::Cow;
 
 use glam::DVec2;
 
 use crate::geometry::Rect;
 
 /// Segments in a grid of square cells, about one cell for each segment.
+#[derive(Clone, Debug)]
 pub struct SegmentGrid<'a> {
-    segments: &'a [[DVec2; 2]],
+    segments: Cow<'a, [[DVec2; 2]]>,
     min: DVec2,
     /// Side of a cell, in world units.
     cell: f64,
@@ -21,7 +24,8 @@ const MOST_CELLS: f64 = 2048.0;
 
 impl<'a> SegmentGrid<'a> {
     /// Sorts segments into a grid; `None` without segments.
-    pub fn new(segments: &'a [[DVec2; 2]]) -> Option<Self> {
+    pub fn new(segments: impl Into<Cow<'a, [[DVec2; 2]]>>) -> Option<Self> {
+        let segments = segments.into();
         let bounds =
             segments.iter().map(|&[a, b]| Rect::new(a.min(b), a.max(b))).reduce(|a, b| a.union(&b))?;
         let extent = bounds.size();
@@ -29,33 +33,64 @@ impl<'a> SegmentGrid<'a> {
         let across = (segments.len() as f64).sqrt().clamp(1.0, MOST_CELLS);
         let cell = if longer > 0.0 { longer / across } else { 1.0 };
         let size = [extent.x, extent.y].map(|side| (side / cell) as usize + 1);
-        let mut grid =
-            Self { segments, min: bounds.min, cell, size, cells: vec![Vec::new(); size[0] * size[1]] };
-        for (n, &[a, b]) in segments.iter().enumerate() {
-            let ([left, low], [right, high]) = (grid.cell_of(a.min(b)), grid.cell_of(a.max(b)));
-            for (row, column) in (low..=high).flat_map(|row| (left..=right).map(move |column| (row, column)))
-            {
-                grid.cells[row * size[0] + column].push(n as u32);
+        let mut cells = vec![Vec::new(); size[0] * size[1]];
+        let mut grid = Self { segments, min: bounds.min, cell, size, cells: Vec::new() };
+        for (n, &[a, b]) in grid.segments.iter().enumerate() {
+            for cell in grid.cells_touching(a.min(b), a.max(b)) {
+                cells[cell].push(n as u32);
             }
         }
+        grid.cells = cells;
         Some(grid)
+    }
+
+    /// A segment, by its number in the list.
+    pub fn segment(&self, number: u32) -> [DVec2; 2] {
+        self.segments[number as usize]
     }
 
     /// The distance from `p` to the nearest segment.
     pub fn distance(&self, p: DVec2) -> f64 {
+        self.nearest(p, |_| true).map_or(f64::INFINITY, |(_, distance)| distance)
+    }
+
+    /// The nearest of the segments that `counts` accepts, with its distance from `p`. Of several, the first.
+    pub fn nearest(&self, p: DVec2, counts: impl Fn(u32) -> bool) -> Option<(u32, f64)> {
         let [column, row] = self.cell_of(p);
-        let mut nearest = f64::INFINITY;
+        let mut nearest = (f64::INFINITY, u32::MAX);
         let rings = self.size[0].max(self.size[1]);
         // Rings of cells around that of the point. A point outside the grid is farther from every cell.
         for ring in 0..=rings {
-            if nearest <= (ring as f64 - 1.0) * self.cell {
+            if nearest.0 <= (ring as f64 - 1.0) * self.cell {
                 break;
             }
             self.visit_ring([column, row], ring, |segment| {
-                nearest = nearest.min(distance_to_segment(p, self.segments[segment as usize]));
+                let distance = distance_to_segment(p, self.segment(segment));
+                if (distance, segment) < nearest && counts(segment) {
+                    nearest = (distance, segment);
+                }
             });
         }
-        nearest
+        let (distance, segment) = nearest;
+        distance.is_finite().then_some((segment, distance))
+    }
+
+    /// Calls `found` for each segment within a distance of `p`, with its distance: at least once.
+    pub fn visit_within(&self, p: DVec2, reach: f64, mut found: impl FnMut(u32, f64)) {
+        for cell in self.cells_touching(p - reach, p + reach) {
+            for &segment in &self.cells[cell] {
+                let distance = distance_to_segment(p, self.segment(segment));
+                if distance <= reach {
+                    found(segment, distance);
+                }
+            }
+        }
+    }
+
+    /// The numbers of the cells that touch a rectangle; those at the rim stand for what is beyond.
+    fn cells_touching(&self, min: DVec2, max: DVec2) -> impl Iterator<Item = usize> + use<> {
+        let ([left, low], [right, high], columns) = (self.cell_of(min), self.cell_of(max), self.size[0]);
+        (low..=high).flat_map(move |row| (left..=right).map(move |column| row * columns + column))
     }
 
     fn visit_ring(&self, [column, row]: [usize; 2], ring: usize, mut visit: impl FnMut(u32)) {
@@ -75,14 +110,17 @@ impl<'a> SegmentGrid<'a> {
     }
 }
 
-fn distance_to_segment(p: DVec2, [a, b]: [DVec2; 2]) -> f64 {
+fn distance_to_segment(p: DVec2, segment: [DVec2; 2]) -> f64 {
+    p.distance(nearest_on_segment(p, segment))
+}
+
+/// The point of a segment that is nearest to `p`.
+pub fn nearest_on_segment(p: DVec2, [a, b]: [DVec2; 2]) -> DVec2 {
     let along = b - a;
-    let share = if along == DVec2::ZERO {
-        0.0
-    } else {
-        ((p - a).dot(along) / along.length_squared()).clamp(0.0, 1.0)
-    };
-    p.distance(a + share * along)
+    if along == DVec2::ZERO {
+        return a;
+    }
+    a + ((p - a).dot(along) / along.length_squared()).clamp(0.0, 1.0) * along
 }
 
 #[cfg(test)]
@@ -105,13 +143,22 @@ mod tests {
             let grid = SegmentGrid::new(&segments).unwrap();
             for _ in 0..300 {
                 let p = 3.0 * (place() - dvec2(0.3, 0.1));
-                let nearest = segments
-                    .iter()
-                    .map(|&segment| distance_to_segment(p, segment))
-                    .fold(f64::INFINITY, f64::min);
+                let distances: Vec<f64> =
+                    segments.iter().map(|&segment| distance_to_segment(p, segment)).collect();
+                let nearest = distances.iter().copied().fold(f64::INFINITY, f64::min);
                 assert_eq!(grid.distance(p), nearest, "{count} segments, {p}");
+                let odd = (1..count).step_by(2).map(|n| distances[n]).reduce(f64::min);
+                let found = grid.nearest(p, |segment| segment % 2 == 1);
+                assert_eq!(found.map(|(_, distance)| distance), odd, "{count} segments, {p}");
+                let mut within = Vec::new();
+                grid.visit_within(p, 1.5 * nearest, |segment, _| within.push(segment as usize));
+                within.sort_unstable();
+                within.dedup();
+                let expected: Vec<usize> = (0..count).filter(|&n| distances[n] <= 1.5 * nearest).collect();
+                assert_eq!(within, expected, "{count} segments, {p}");
             }
         }
-        assert!(SegmentGrid::new(&[]).is_none());
+        let none: &[[DVec2; 2]] = &[];
+        assert!(SegmentGrid::new(none).is_none());
     }
 }

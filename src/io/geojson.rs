@@ -8,10 +8,11 @@ use std::path::Path;
 use glam::DVec2;
 use serde::Deserialize;
 use serde::de::{DeserializeSeed, Deserializer, Error, SeqAccess, Visitor};
+use serde_json::Value;
 
 use super::Meter;
 use super::error::{Flaw, PlacedFlaw, ReadError};
-use crate::domain::{MOST_CORNERS, Polygon};
+use crate::domain::{MOST_CORNERS, NamedPolygon, Polygon};
 use crate::text::Grouped;
 
 /// Largest file read.
@@ -26,14 +27,23 @@ const MOST_BYTES: u64 = 256 << 20;
 /// # Errors
 /// When the file cannot be read, is not GeoJSON, has no polygon, or more than [`MOST_CORNERS`] corners.
 pub fn read(path: &Path) -> Result<Vec<Polygon>, ReadError> {
-    read_metered(path, &Meter::default())
+    read_named(path).map(without_names)
 }
 
-/// Reads as [`read`] does, and counts the bytes of the file.
+/// Reads as [`read`] does, with the name of each polygon: the first of the properties `name`, `NAME`, `Name`,
+/// `title` and `id` of its feature that is text or a number.
+///
+/// # Errors
+/// As [`read`].
+pub fn read_named(path: &Path) -> Result<Vec<NamedPolygon>, ReadError> {
+    read_named_metered(path, &Meter::default())
+}
+
+/// Reads as [`read_named`] does, and counts the bytes of the file.
 ///
 /// # Errors
 /// As [`read`], and when the work was cancelled.
-pub fn read_metered(path: &Path, meter: &Meter) -> Result<Vec<Polygon>, ReadError> {
+pub fn read_named_metered(path: &Path, meter: &Meter) -> Result<Vec<NamedPolygon>, ReadError> {
     let open = || -> Result<File, PlacedFlaw> {
         let file = File::open(path)?;
         let bytes = file.metadata()?.len();
@@ -51,16 +61,29 @@ pub fn read_metered(path: &Path, meter: &Meter) -> Result<Vec<Polygon>, ReadErro
     read.map_err(|flaw| flaw.in_file(path))
 }
 
-/// Reads as [`read`] does, from any input, such as bytes or standard input. Errors call the file `name`.
+/// Reads as [`read`] does, from any input, such as bytes. Errors call the file `name`.
 ///
 /// # Errors
 /// As [`read`].
 pub fn read_from(input: impl Read, name: &Path) -> Result<Vec<Polygon>, ReadError> {
+    read_named_from(input, name).map(without_names)
+}
+
+/// Reads as [`read_named`] does, from any input, such as standard input. Errors call the file `name`.
+///
+/// # Errors
+/// As [`read`].
+pub fn read_named_from(input: impl Read, name: &Path) -> Result<Vec<NamedPolygon>, ReadError> {
     // One byte more shows that there is more.
     let mut input = BufReader::new(input.take(MOST_BYTES + 1));
     let read = parse(&mut input);
     let flaw = if input.get_ref().limit() == 0 { Some(too_long(MOST_BYTES + 1)) } else { None };
     flaw.map_or(read, Err).map_err(|flaw| flaw.in_file(name))
+}
+
+/// The polygons alone.
+pub(super) fn without_names(polygons: Vec<NamedPolygon>) -> Vec<Polygon> {
+    polygons.into_iter().map(|named| named.polygon).collect()
 }
 
 fn too_long(bytes: u64) -> PlacedFlaw {
@@ -72,14 +95,14 @@ fn too_long(bytes: u64) -> PlacedFlaw {
     .into()
 }
 
-/// Reads as [`read`] does, from any input.
-pub(super) fn parse(input: impl Read) -> Result<Vec<Polygon>, PlacedFlaw> {
+/// Reads as [`read_named`] does, from any input.
+pub(super) fn parse(input: impl Read) -> Result<Vec<NamedPolygon>, PlacedFlaw> {
     let mut json = serde_json::Deserializer::from_reader(input);
     let object = Object::deserialize(&mut json).map_err(placed)?;
     json.end().map_err(placed)?;
     let mut polygons = Vec::new();
     let mut others = Vec::new();
-    collect(object, &mut polygons, &mut others).map_err(Flaw::Syntax)?;
+    collect(object, "", &mut polygons, &mut others).map_err(Flaw::Syntax)?;
     if polygons.is_empty() {
         return Err(Flaw::Syntax(no_polygon(&others)).into());
     }
@@ -138,6 +161,8 @@ struct Object {
     kind: String,
     #[serde(default)]
     coordinates: Option<Coordinates>,
+    #[serde(default, rename = "properties", deserialize_with = "name_of")]
+    name: String,
     #[serde(default)]
     geometry: Option<Box<Self>>,
     #[serde(default, deserialize_with = "with_polygons")]
@@ -179,20 +204,47 @@ impl<'de> Visitor<'de> for Objects {
     }
 }
 
-/// Collects polygons, and the kind of the first other geometry. The recursion is bounded, as the parser
-/// bounds the nesting.
-fn collect(object: Object, polygons: &mut Vec<Polygon>, others: &mut Vec<String>) -> Result<(), String> {
-    let Object { kind, coordinates, geometry, geometries, features } = object;
+/// The properties that may be the name of a feature.
+const NAMES: [&str; 5] = ["name", "NAME", "Name", "title", "id"];
+
+/// The name that the properties of a feature give it; empty if they give none.
+fn name_of<'de, D: Deserializer<'de>>(json: D) -> Result<String, D::Error> {
+    let properties = Value::deserialize(json)?;
+    let text = |value: &Value| match value {
+        Value::String(text) => Some(text.clone()),
+        Value::Number(number) => Some(number.to_string()),
+        _ => None,
+    };
+    let found =
+        NAMES.iter().find_map(|name| properties.get(name).and_then(text).filter(|name| !name.is_empty()));
+    Ok(found.unwrap_or_default())
+}
+
+/// Collects polygons with their names, and the kind of the first other geometry. `name` is that of the
+/// object around this one. The recursion is bounded, as the parser bounds the nesting.
+fn collect(
+    object: Object,
+    name: &str,
+    polygons: &mut Vec<NamedPolygon>,
+    others: &mut Vec<String>,
+) -> Result<(), String> {
+    let Object { kind, coordinates, name: own_name, geometry, geometries, features } = object;
+    let name = if own_name.is_empty() { name } else { &own_name };
+    let named = |polygon| NamedPolygon { polygon, name: name.to_owned() };
     match (kind.as_str(), coordinates) {
-        ("Polygon", Some(coordinates)) => polygons.extend(coordinates.polygons(&kind, 3)?),
-        ("MultiPolygon", Some(coordinates)) => polygons.extend(coordinates.polygons(&kind, 4)?),
+        ("Polygon", Some(coordinates)) => {
+            polygons.extend(coordinates.polygons(&kind, 3)?.into_iter().map(named));
+        }
+        ("MultiPolygon", Some(coordinates)) => {
+            polygons.extend(coordinates.polygons(&kind, 4)?.into_iter().map(named));
+        }
         ("Polygon" | "MultiPolygon", None) => return Err(format!("a {kind} has no \"coordinates\".")),
         (_, Some(_)) if others.is_empty() => others.push(kind),
         (_, Some(_)) => {}
         (_, None) => {}
     }
     let inner = geometry.map(|geometry| *geometry).into_iter().chain(geometries).chain(features);
-    inner.into_iter().try_for_each(|object| collect(object, polygons, others))
+    inner.into_iter().try_for_each(|object| collect(object, name, polygons, others))
 }
 
 /// The positions of nested lists in one flat list: nested vectors would take several times the memory while

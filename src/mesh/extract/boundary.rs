@@ -9,6 +9,14 @@ impl Extract<'_> {
     /// edge runs from a node to the next, the last one back to the first, with the domain on its left. Where
     /// the boundary touches itself in a node, a loop stays at the same piece of the outside.
     pub fn boundary_loops(&self) -> Vec<Vec<usize>> {
+        let starts: Vec<usize> = self.boundary_edges().map(|edge| edge.ends[0]).collect();
+        let nodes = |edges: Vec<usize>| edges.into_iter().map(|edge| starts[edge]).collect();
+        self.boundary_edge_loops().into_iter().map(nodes).collect()
+    }
+
+    /// As [`Self::boundary_loops`], with the numbers of the edges in [`Self::boundary_edges`] instead of
+    /// their first nodes.
+    pub fn boundary_edge_loops(&self) -> Vec<Vec<usize>> {
         let edges: Vec<[usize; 2]> = self.boundary_edges().map(|edge| edge.ends).collect();
         let mut leaving: HashMap<usize, Vec<usize>> = HashMap::new();
         for (index, [from, _]) in edges.iter().enumerate() {
@@ -22,15 +30,15 @@ impl Extract<'_> {
         let mut drawn = vec![false; edges.len()];
         let mut loops = Vec::new();
         for start in 0..edges.len() {
-            let mut nodes = Vec::new();
+            let mut loop_edges = Vec::new();
             let mut edge = Some(start);
             // Ends: each iteration takes an edge that was not taken before.
             while let Some(now) = edge.filter(|&now| !std::mem::replace(&mut drawn[now], true)) {
-                nodes.push(edges[now][0]);
+                loop_edges.push(now);
                 edge = next(now);
             }
-            if !nodes.is_empty() {
-                loops.push(nodes);
+            if !loop_edges.is_empty() {
+                loops.push(loop_edges);
             }
         }
         loops

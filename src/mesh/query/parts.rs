@@ -63,6 +63,19 @@ impl Parts {
     }
 }
 
+impl Extract<'_> {
+    /// For each triangle the number of its part, from 0 for the part with the largest area. A part is joined
+    /// by edges; of equal ones the one at the lowest place comes first.
+    pub fn part_numbers(&self) -> Vec<u32> {
+        let Parts { roots, by_root } = Parts::new(self, &vec![false; self.triangles().len()]);
+        let mut order: Vec<(Reverse<Part>, usize)> =
+            by_root.into_iter().map(|(root, part)| (Reverse(part), root)).collect();
+        order.sort_unstable();
+        let numbers: HashMap<usize, u32> = order.into_iter().map(|(_, root)| root).zip(0..).collect();
+        roots.iter().map(|root| numbers[root]).collect()
+    }
+}
+
 /// Three times the centroid in lattice coordinates, y first: no two triangles of a mesh share it.
 pub(super) fn place_key(extract: &Extract, id: TriangleId) -> [u64; 2] {
     let corners = corners(extract, id);

@@ -1,0 +1,98 @@
+//! What people say about a boundary: names, and places where it is split.
+
+use std::collections::HashMap;
+
+use glam::DVec2;
+
+use super::super::segments::SegmentGrid;
+use super::super::{Domain, Polygon};
+use super::{BoundaryKind, BoundaryPieces};
+
+/// Most characters of a name; longer ones are cut.
+pub const LONGEST_NAME: usize = 80;
+
+/// Names of pieces of a boundary, and places where it is split.
+///
+/// Both are tied to points on the boundary in world units. An edit of the domain elsewhere leaves them where
+/// they are. What no longer lies on the boundary has no effect, until an undo brings its place back.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct BoundaryMarks {
+    /// Where the boundary is split.
+    pub splits: Vec<DVec2>,
+    /// A point of each named piece, and its name. Of several names on one piece, the first counts.
+    pub names: Vec<(DVec2, String)>,
+}
+
+// No coordinate is NaN. With `Eq`, `Arc<BoundaryMarks>` compares pointers before the data.
+impl Eq for BoundaryMarks {}
+
+/// A polygon with a name, as files have them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NamedPolygon {
+    /// Its rings.
+    pub polygon: Polygon,
+    /// Its name; empty if it has none.
+    pub name: String,
+}
+
+impl BoundaryMarks {
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.splits.is_empty() && self.names.is_empty()
+    }
+
+    /// Memory of names and places, in bytes.
+    pub fn bytes(&self) -> usize {
+        let names: usize = self.names.iter().map(|(_, name)| name.capacity()).sum();
+        size_of_val(&*self.splits) + size_of_val(&*self.names) + names
+    }
+
+    /// A name as files can hold it: without control characters, quotation marks and backslashes, which
+    /// become blanks, apostrophes and slashes, and without blanks at its ends.
+    pub fn valid_name(text: &str) -> String {
+        let valid = |c: char| match c {
+            '"' => '\'',
+            '\\' => '/',
+            c if c.is_control() => ' ',
+            c => c,
+        };
+        let name: String = text.trim().chars().map(valid).take(LONGEST_NAME).collect();
+        name.trim().to_owned()
+    }
+
+    /// The names that the polygons of a domain bring: that of an outer ring for its coasts, and with `island`
+    /// and a number for its holes, the largest first.
+    ///
+    /// A piece of the domain's boundary belongs to the polygon that has an edge at the middle of the piece.
+    /// Sides on the frame get no names.
+    pub fn of_polygons(polygons: &[NamedPolygon], domain: &Domain) -> Self {
+        let mut marks = Self::default();
+        let Some(pieces) = BoundaryPieces::of_domain(domain, &marks) else { return marks };
+        let (mut segments, mut owners) = (Vec::new(), Vec::new());
+        for (owner, named) in polygons.iter().enumerate().filter(|(_, named)| !named.name.trim().is_empty()) {
+            for ring in &named.polygon {
+                segments.extend(ring.iter().zip(ring.iter().cycle().skip(1)).map(|(&a, &b)| [a, b]));
+                owners.resize(segments.len(), owner);
+            }
+        }
+        let Some(grid) = SegmentGrid::new(segments) else { return marks };
+        let mut islands: HashMap<usize, usize> = HashMap::new();
+        for piece in pieces.list().iter().filter(|piece| piece.kind != BoundaryKind::Open) {
+            let middle = piece.middle();
+            let owner = match grid.nearest(middle, |_| true) {
+                Some((segment, distance)) if distance <= pieces.tolerance() => owners[segment as usize],
+                _ => continue,
+            };
+            let name = Self::valid_name(&polygons[owner].name);
+            let name = if piece.kind == BoundaryKind::Island {
+                let number = islands.entry(owner).or_default();
+                *number += 1;
+                format!("{name} island {number}")
+            } else {
+                name
+            };
+            marks.names.push((middle, name));
+        }
+        marks
+    }
+}

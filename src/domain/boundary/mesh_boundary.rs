@@ -1,0 +1,193 @@
+//! The piece of each boundary edge of a mesh.
+
+use glam::DVec2;
+
+use super::super::Domain;
+use super::labels::{Choice, cheapest_labels};
+use super::stretches::compare;
+use super::{BoundaryKind, BoundaryMarks, BoundaryPieces, FrameSide};
+use crate::geometry::Rect;
+use crate::mesh::{Extract, NodeId};
+
+/// The boundary of a mesh in the pieces of its domain's boundary.
+///
+/// An edge along the frame belongs to the open piece that its middle lies in. Any other belongs to the piece
+/// of the coast nearest to its middle. Where the mesh is a staircase, the nearest piece can change from edge
+/// to edge and back: so along a loop an edge may take a piece that is a little farther away, if that saves
+/// changes: what it is farther away, times its length, counts as much as changes do, times the square of
+/// their edges' lengths.
+#[derive(Clone, Debug)]
+pub struct MeshBoundary {
+    pieces: BoundaryPieces,
+    /// In the order of [`Extract::boundary_edges`].
+    piece_of_edge: Vec<u32>,
+    figures: Vec<PieceFigures>,
+}
+
+/// The edges of a mesh that belong to a piece.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PieceFigures {
+    /// How many.
+    pub edges: usize,
+    /// Their length in world units.
+    pub length: f64,
+}
+
+/// Edges of one piece that follow one another along the boundary.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PieceRun {
+    /// The number of the piece.
+    pub piece: usize,
+    /// Nodes, with the domain on the left. A closed run ends with its first node.
+    pub nodes: Vec<usize>,
+}
+
+impl MeshBoundary {
+    /// The boundary of a mesh of a domain. Takes time in proportion to the boundary edges, and to the corners
+    /// of the domain that are near each of them.
+    pub fn new(extract: &Extract, domain: &Domain, marks: &BoundaryMarks) -> Self {
+        Self::of_pieces(extract, BoundaryPieces::of(domain, extract, marks))
+    }
+
+    /// The boundary of a mesh, divided by what the mesh alone says: sides of the frame, outer loops, holes.
+    pub fn of_mesh(extract: &Extract) -> Self {
+        Self::of_pieces(extract, BoundaryPieces::of_mesh(extract, &BoundaryMarks::default()))
+    }
+
+    /// The boundary of a mesh in pieces that were found before.
+    pub fn of_pieces(extract: &Extract, pieces: BoundaryPieces) -> Self {
+        let edges: Vec<[DVec2; 2]> = extract
+            .boundary_edges()
+            .map(|edge| edge.ends.map(|node| extract.world(NodeId::from_index(node))))
+            .collect();
+        let candidates = Candidates::new(extract, &pieces);
+        let mut piece_of_edge = vec![0; edges.len()];
+        for numbers in extract.boundary_edge_loops() {
+            let choices: Vec<Choice> = numbers.iter().map(|&n| candidates.of_edge(edges[n])).collect();
+            let start = |&n: &usize| {
+                let [a, b] = edges[numbers[n]];
+                (choices[n].labels.len(), a + b)
+            };
+            let order = |a: &usize, b: &usize| {
+                let ((a, at), (b, other)) = (start(a), start(b));
+                a.cmp(&b).then_with(|| compare(at, other))
+            };
+            let start = (0..numbers.len()).min_by(order).unwrap_or(0);
+            for (n, piece) in numbers.into_iter().zip(cheapest_labels(&choices, start)) {
+                piece_of_edge[n] = piece;
+            }
+        }
+        let mut figures = vec![PieceFigures::default(); pieces.list().len()];
+        for (&piece, [a, b]) in piece_of_edge.iter().zip(edges) {
+            let figures = &mut figures[piece as usize];
+            figures.edges += 1;
+            figures.length += a.distance(b);
+        }
+        Self { pieces, piece_of_edge, figures }
+    }
+
+    /// All pieces of the domain's boundary, also those that the mesh does not have.
+    pub fn pieces(&self) -> &BoundaryPieces {
+        &self.pieces
+    }
+
+    /// For each piece of [`Self::pieces`] the edges that the mesh has of it. It has none of an island that it
+    /// covers.
+    pub fn figures(&self) -> &[PieceFigures] {
+        &self.figures
+    }
+
+    /// The numbers of the pieces of which the mesh has edges.
+    pub fn present(&self) -> impl Iterator<Item = usize> + Clone + '_ {
+        (0..self.figures.len()).filter(|&piece| self.figures[piece].edges > 0)
+    }
+
+    /// For each edge of [`Extract::boundary_edges`] the number of its piece.
+    pub fn piece_of_edge(&self) -> &[u32] {
+        &self.piece_of_edge
+    }
+
+    /// For each node the number of its piece plus one, and 0 off the boundary; the lowest where pieces meet.
+    ///
+    /// # Panics
+    /// When the extract is that of another mesh.
+    pub fn node_markers(&self, extract: &Extract) -> Vec<u32> {
+        let mut markers = vec![0; extract.nodes().len()];
+        for (edge, &piece) in extract.boundary_edges().zip(&self.piece_of_edge) {
+            for node in edge.ends {
+                let marker: &mut u32 = &mut markers[node];
+                *marker = if *marker == 0 { piece + 1 } else { (piece + 1).min(*marker) };
+            }
+        }
+        markers
+    }
+
+    /// The boundary as runs of edges of one piece each, in the order of the pieces, then of the longest first.
+    /// Most pieces have one run. More occur where straits are closed or islands joined in the mesh.
+    ///
+    /// # Panics
+    /// When the extract is that of another mesh.
+    pub fn runs(&self, extract: &Extract) -> Vec<PieceRun> {
+        let ends: Vec<[usize; 2]> = extract.boundary_edges().map(|edge| edge.ends).collect();
+        let mut runs = Vec::new();
+        for mut edges in extract.boundary_edge_loops() {
+            let piece = |edge: usize| self.piece_of_edge[edge];
+            let first = (0..edges.len())
+                .find(|&n| piece(edges[n]) != piece(edges[(n + edges.len() - 1) % edges.len()]));
+            edges.rotate_left(first.unwrap_or(0));
+            for run in edges.chunk_by(|&a, &b| piece(a) == piece(b)) {
+                let last = ends[run[run.len() - 1]][1];
+                let nodes = run.iter().map(|&edge| ends[edge][0]).chain([last]).collect();
+                runs.push(PieceRun { piece: piece(run[0]) as usize, nodes });
+            }
+        }
+        runs.sort_by_key(|run| (run.piece, std::cmp::Reverse(run.nodes.len())));
+        runs
+    }
+}
+
+/// The pieces that an edge may belong to.
+struct Candidates<'a> {
+    pieces: &'a BoundaryPieces,
+    frame: Rect,
+    has_coast: bool,
+}
+
+/// How much farther than the nearest a piece may be, in lengths of the edge.
+const MARGIN: f64 = 2.0;
+
+impl<'a> Candidates<'a> {
+    fn new(extract: &Extract, pieces: &'a BoundaryPieces) -> Self {
+        let has_coast = pieces.list().iter().any(|piece| piece.kind != BoundaryKind::Open);
+        Self { pieces, frame: extract.lattice().bounds(), has_coast }
+    }
+
+    fn of_edge(&self, edge: [DVec2; 2]) -> Choice {
+        let [a, b] = edge;
+        let (middle, length) = (0.5 * (a + b), a.distance(b));
+        let change = length * length;
+        if let Some(open) = FrameSide::of(edge, &self.frame).and_then(|side| self.open_at(side, middle)) {
+            return Choice { labels: vec![(open, 0.0)], change };
+        }
+        let is_coast = |kind: BoundaryKind| kind != BoundaryKind::Open || !self.has_coast;
+        let mut labels = self.pieces.distances(middle, MARGIN * length, |piece| is_coast(piece.kind));
+        let least = labels.iter().map(|(_, distance)| *distance).fold(f64::INFINITY, f64::min);
+        labels.iter_mut().for_each(|(_, distance)| *distance = (*distance - least) * length);
+        if labels.is_empty() {
+            labels.push((0, 0.0)); // no ring has an area: there is one piece at most
+        }
+        Choice { labels, change }
+    }
+
+    /// The open piece on a side of the frame that has a point.
+    fn open_at(&self, side: FrameSide, point: DVec2) -> Option<u32> {
+        let axis = side.axis();
+        let open = self.pieces.list().iter().take_while(|piece| piece.kind == BoundaryKind::Open);
+        let mut open = open.enumerate().filter(|(_, piece)| piece.side == Some(side));
+        let holds = |points: &[DVec2]| {
+            let (from, to) = (points[0][axis], points[points.len() - 1][axis]);
+            from.min(to) <= point[axis] && point[axis] <= from.max(to)
+        };
+        open.find(|(_, piece)| holds(&piece.points)).map(|(number, _)| number as u32)
+    }
+}

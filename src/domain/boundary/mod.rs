@@ -1,0 +1,31 @@
+//! The boundary of a domain in named pieces, and the piece of each boundary edge of a mesh.
+//!
+//! Pieces come from the domain, not from the mesh: a piece keeps its number and its name when the mesh is
+//! refined. They are made in three steps.
+//!
+//! ```text
+//!   rings                  stretches                     pieces
+//!
+//!   o------------o         |--------------|              |--------------|
+//!   |    o--o    |         :   island 1   :  named and   :  Port   ,----.  `Port` is a name that a person
+//!   |    o--o    |   =>    :    o--o      :  split  =>   :  island 1    :  anchored on the coast
+//!   o_         _o          :_  mainland  _:              :_   ,---'    _:
+//!     `~~x~~~~'              `~~~~~~~~~~'                  `~~x~~~~~~'    x is a place where it is split
+//! ```
+//!
+//! - A *stretch* is a maximal part of a ring along one side of the frame (open), or along none (coast). A
+//!   coast is mainland on an outer ring, and an island on the ring of a hole.
+//! - A *piece* is a stretch, or a part of one between places where it is split ([`BoundaryMarks`]).
+//!
+//! [`MeshBoundary`] then finds the piece of each edge of a mesh.
+
+mod labels;
+mod marks;
+mod mesh_boundary;
+mod pieces;
+mod stretches;
+
+pub use marks::{BoundaryMarks, LONGEST_NAME, NamedPolygon};
+pub use mesh_boundary::{MeshBoundary, PieceFigures, PieceRun};
+pub use pieces::{BoundaryPiece, BoundaryPieces};
+pub use stretches::{BoundaryKind, FrameSide};

@@ -1,0 +1,330 @@
+//! The pieces of a boundary: stretches, split and named by marks.
+
+use std::collections::{HashMap, HashSet};
+
+use glam::DVec2;
+
+use super::super::segments::{SegmentGrid, nearest_on_segment};
+use super::super::{Domain, DomainShape, Ring, corners};
+use super::stretches::{FrameSide, Stretch, length, stretches};
+use super::{BoundaryKind, BoundaryMarks};
+use crate::geometry::Rect;
+use crate::mesh::{Extract, NodeId};
+
+/// A piece of the boundary of a domain.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct BoundaryPiece {
+    /// Its name, which no other piece has.
+    pub name: String,
+    /// What it is.
+    pub kind: BoundaryKind,
+    /// Whether a person or a file gave the name.
+    pub is_named: bool,
+    /// A polyline in world units, with the domain on its left. The whole of a ring ends with its first point.
+    pub points: Vec<DVec2>,
+    pub(super) side: Option<FrameSide>,
+    /// The stretch that it is a part of.
+    stretch: usize,
+}
+
+impl BoundaryPiece {
+    /// Whether it is the whole of a ring.
+    pub fn is_closed(&self) -> bool {
+        self.points.first() == self.points.last()
+    }
+
+    /// Its length in world units.
+    pub fn length(&self) -> f64 {
+        length(&self.points)
+    }
+
+    /// The point halfway along it.
+    pub fn middle(&self) -> DVec2 {
+        let mut left = 0.5 * self.length();
+        for ends in self.points.windows(2) {
+            let [a, b] = [ends[0], ends[1]];
+            let edge = a.distance(b);
+            if left <= edge && edge > 0.0 {
+                return a.lerp(b, left / edge);
+            }
+            left -= edge;
+        }
+        self.points[0]
+    }
+}
+
+/// All pieces of the boundary of a domain. The number of a piece is its place in the list: first what is
+/// open, then mainlands, then islands, each the largest first; parts of a split stretch follow one another.
+#[derive(Clone, Debug)]
+pub struct BoundaryPieces {
+    pieces: Vec<BoundaryPiece>,
+    index: Option<Index>,
+    /// How far a mark may be from the boundary, in world units.
+    tolerance: f64,
+}
+
+/// How far a mark may be from the boundary of polygons, as a share of the frame's longer side: far more than
+/// rounding, and far less than a feature.
+const TOLERANCE: f64 = 1e-6;
+
+impl BoundaryPieces {
+    /// The pieces of a domain; `None` for one that is given by a formula, whose boundary is that of its mesh.
+    pub fn of_domain(domain: &Domain, marks: &BoundaryMarks) -> Option<Self> {
+        let frame = &domain.bounds;
+        match &domain.shape {
+            DomainShape::Whole => Some(Self::new([&corners(frame)].into_iter(), frame, 0.0, marks)),
+            DomainShape::Region(region) => Some(Self::new(region.rings(), frame, 0.0, marks)),
+            DomainShape::Formula(_) => None,
+        }
+    }
+
+    /// The pieces of the boundary of a mesh alone, for a domain that is given by a formula. A mark counts up
+    /// to half a coarse cell from the boundary.
+    pub fn of_mesh(extract: &Extract, marks: &BoundaryMarks) -> Self {
+        let ring =
+            |nodes: &Vec<usize>| nodes.iter().map(|&node| extract.world(NodeId::from_index(node))).collect();
+        let rings: Vec<Ring> = extract.boundary_loops().iter().map(ring).collect();
+        let lattice = extract.lattice();
+        Self::new(rings.iter(), &lattice.bounds(), 0.5 * lattice.spacing(), marks)
+    }
+
+    /// The pieces of a domain, or of the mesh if the domain alone does not say.
+    pub fn of(domain: &Domain, extract: &Extract, marks: &BoundaryMarks) -> Self {
+        Self::of_domain(domain, marks).unwrap_or_else(|| Self::of_mesh(extract, marks))
+    }
+
+    fn new<'a>(
+        rings: impl Iterator<Item = &'a Ring>,
+        frame: &Rect,
+        least_tolerance: f64,
+        marks: &BoundaryMarks,
+    ) -> Self {
+        let tolerance = least_tolerance.max(TOLERANCE * frame.size().max_element());
+        let stretches = stretches(rings, frame);
+        let mut pieces = split(&stretches, &marks.splits, tolerance);
+        let index = Index::new(pieces.iter().map(|piece| &*piece.points));
+        if let Some(index) = &index {
+            give_names(&mut pieces, index, marks, tolerance);
+        }
+        make_unique(&mut pieces);
+        Self { pieces, index, tolerance }
+    }
+
+    /// The pieces, by number.
+    pub fn list(&self) -> &[BoundaryPiece] {
+        &self.pieces
+    }
+
+    /// How far a mark may be from the boundary, in world units.
+    pub fn tolerance(&self) -> f64 {
+        self.tolerance
+    }
+
+    /// The number of the piece nearest to a point within `reach`, and its nearest point.
+    pub fn nearest(&self, point: DVec2, reach: f64) -> Option<(usize, DVec2)> {
+        let index = self.index.as_ref()?;
+        let (segment, _) = index.grid.nearest(point, |_| true).filter(|&(_, distance)| distance <= reach)?;
+        Some((index.owner(segment), nearest_on_segment(point, index.grid.segment(segment))))
+    }
+
+    /// The distances to the pieces that `counts` accepts: that to the nearest, and those up to `margin` more.
+    /// Sorted by number.
+    pub(super) fn distances(
+        &self,
+        point: DVec2,
+        margin: f64,
+        counts: impl Fn(&BoundaryPiece) -> bool,
+    ) -> Vec<(u32, f64)> {
+        let Some(index) = &self.index else { return Vec::new() };
+        let accepted = |segment: u32| counts(&self.pieces[index.owner(segment)]);
+        let Some((_, least)) = index.grid.nearest(point, accepted) else { return Vec::new() };
+        let mut found: Vec<(u32, f64)> = Vec::new();
+        index.grid.visit_within(point, least + margin, |segment, distance| {
+            if accepted(segment) {
+                let piece = index.owner(segment) as u32;
+                match found.iter_mut().find(|(other, _)| *other == piece) {
+                    Some((_, nearest)) => *nearest = nearest.min(distance),
+                    None => found.push((piece, distance)),
+                }
+            }
+        });
+        found.sort_unstable_by_key(|(piece, _)| *piece);
+        found
+    }
+
+    /// The piece that follows on the same stretch: the one that [`Self::joined`] would join.
+    pub fn next_of(&self, piece: usize) -> Option<usize> {
+        let stretch = self.pieces[piece].stretch;
+        let first = self.pieces.iter().position(|other| other.stretch == stretch)?;
+        let count = self.pieces[first..].iter().take_while(|other| other.stretch == stretch).count();
+        let next = first + (piece - first + 1) % count;
+        let meet = self.pieces[piece].points.last() == self.pieces[next].points.first();
+        (next != piece && meet).then_some(next)
+    }
+
+    /// The marks with another name for a piece. An empty name gives it back the usual one.
+    pub fn renamed(&self, marks: &BoundaryMarks, piece: usize, name: &str) -> BoundaryMarks {
+        let mut marks = marks.clone();
+        marks.names.retain(|(place, _)| !self.is_on(*place, piece));
+        let name = BoundaryMarks::valid_name(name);
+        if !name.is_empty() {
+            marks.names.push((self.pieces[piece].middle(), name));
+        }
+        marks
+    }
+
+    /// The marks with a split at the point of the boundary nearest to a point; `None` if there is none within
+    /// `reach`, or the boundary is split there already.
+    ///
+    /// The whole of a ring stays in one piece until it is split at a second point. A name stays with the part
+    /// that it is anchored on.
+    pub fn split(&self, marks: &BoundaryMarks, point: DVec2, reach: f64) -> Option<BoundaryMarks> {
+        let (_, place) = self.nearest(point, reach)?;
+        let near = |other: &DVec2| other.distance(place) <= 2.0 * self.tolerance;
+        let ends = self.pieces.iter().filter(|piece| !piece.is_closed());
+        let mut ends = ends.flat_map(|piece| [piece.points[0], piece.points[piece.points.len() - 1]]);
+        if marks.splits.iter().any(near) || ends.any(|end| near(&end)) {
+            return None;
+        }
+        let mut marks = marks.clone();
+        marks.splits.push(place);
+        Some(marks)
+    }
+
+    /// The marks without the split between a piece and the next one of its stretch; `None` if there is none.
+    /// The name of the first stays; that of the next stays where the first has none. Two halves of a ring
+    /// become the whole ring.
+    pub fn joined(&self, marks: &BoundaryMarks, piece: usize) -> Option<BoundaryMarks> {
+        let next = self.next_of(piece)?;
+        let starts = if self.next_of(next) == Some(piece) { vec![next, piece] } else { vec![next] };
+        let starts: Vec<DVec2> = starts.into_iter().map(|n| self.pieces[n].points[0]).collect();
+        let mut joined = marks.clone();
+        joined.splits.retain(|split| starts.iter().all(|at| split.distance(*at) > 2.0 * self.tolerance));
+        if self.pieces[piece].is_named {
+            joined.names.retain(|(place, _)| !self.is_on(*place, next));
+        }
+        Some(joined)
+    }
+
+    /// Whether a mark at a place is one of a piece.
+    fn is_on(&self, place: DVec2, piece: usize) -> bool {
+        self.nearest(place, self.tolerance).is_some_and(|(at, _)| at == piece)
+    }
+}
+
+/// The segments of all pieces, in a grid.
+#[derive(Clone, Debug)]
+struct Index {
+    grid: SegmentGrid<'static>,
+    /// The number after the last segment of each piece.
+    ends: Vec<usize>,
+}
+
+impl Index {
+    fn new<'a>(polylines: impl Iterator<Item = &'a [DVec2]>) -> Option<Self> {
+        let (mut segments, mut ends) = (Vec::new(), Vec::new());
+        for points in polylines {
+            segments.extend(points.windows(2).map(|pair| [pair[0], pair[1]]));
+            ends.push(segments.len());
+        }
+        Some(Self { grid: SegmentGrid::new(segments)?, ends })
+    }
+
+    /// The number of the polyline of a segment.
+    fn owner(&self, segment: u32) -> usize {
+        self.ends.partition_point(|&end| end <= segment as usize)
+    }
+
+    /// The number of a segment among those of its polyline.
+    fn place(&self, segment: u32) -> usize {
+        let owner = self.owner(segment);
+        segment as usize - if owner == 0 { 0 } else { self.ends[owner - 1] }
+    }
+}
+
+/// A place on a polyline: the number of a segment, and a point on it.
+type Place = (usize, DVec2);
+
+/// The pieces of stretches that are split at the points on them.
+fn split(stretches: &[Stretch], splits: &[DVec2], tolerance: f64) -> Vec<BoundaryPiece> {
+    let mut cuts: Vec<Vec<Place>> = vec![Vec::new(); stretches.len()];
+    let index = if splits.is_empty() { None } else { Index::new(stretches.iter().map(|s| &*s.points)) };
+    for (&split, index) in splits.iter().flat_map(|split| Some((split, index.as_ref()?))) {
+        let Some((segment, _)) = index.grid.nearest(split, |_| true).filter(|(_, d)| *d <= tolerance) else {
+            continue;
+        };
+        let ends = index.grid.segment(segment);
+        cuts[index.owner(segment)].push((index.place(segment), nearest_on_segment(split, ends)));
+    }
+    let mut pieces = Vec::new();
+    for (number, (stretch, mut cuts)) in stretches.iter().zip(cuts).enumerate() {
+        let along = |&(segment, point): &Place| (segment, stretch.points[segment].distance(point));
+        cuts.sort_by(|a, b| along(a).partial_cmp(&along(b)).expect("no distance is NaN"));
+        cuts.dedup_by(|a, b| a.1.distance(b.1) <= tolerance);
+        let parts = parts(&stretch.points, stretch.is_closed(), cuts, tolerance);
+        let count = parts.len();
+        for (part, points) in (1..).zip(parts) {
+            let name =
+                if count == 1 { stretch.name.clone() } else { format!("{} part {part}", stretch.name) };
+            let (kind, side) = (stretch.kind, stretch.side);
+            pieces.push(BoundaryPiece { name, kind, is_named: false, points, side, stretch: number });
+        }
+    }
+    pieces
+}
+
+/// The parts of a polyline between cuts, which are in its order. A closed one is cut open at the first, and
+/// stays in one part if there is no other.
+fn parts(points: &[DVec2], is_closed: bool, mut cuts: Vec<Place>, tolerance: f64) -> Vec<Vec<DVec2>> {
+    let last = points.len() - 1;
+    if is_closed {
+        let Some(&first) = cuts.first() else { return vec![points.to_vec()] };
+        cuts.push((first.0 + last, first.1));
+    } else {
+        let is_end = |point: DVec2| point.distance(points[0]).min(point.distance(points[last])) <= tolerance;
+        cuts.retain(|&(_, point)| !is_end(point));
+        cuts.insert(0, (0, points[0]));
+        cuts.push((last - 1, points[last]));
+    }
+    let between = |ends: &[Place]| {
+        let [(from, start), (to, end)] = [ends[0], ends[1]];
+        // The last point of a closed polyline is its first.
+        let inner =
+            (from + 1..=to).map(|n| if n >= last && is_closed { points[n - last] } else { points[n] });
+        let mut part: Vec<DVec2> = [start].into_iter().chain(inner).chain([end]).collect();
+        part.dedup();
+        part
+    };
+    cuts.windows(2).map(between).collect()
+}
+
+/// Gives each piece the first name that is anchored on it.
+fn give_names(pieces: &mut [BoundaryPiece], index: &Index, marks: &BoundaryMarks, tolerance: f64) {
+    for (place, name) in &marks.names {
+        let nearest = index.grid.nearest(*place, |_| true).filter(|&(_, distance)| distance <= tolerance);
+        let Some((segment, _)) = nearest else { continue };
+        let piece = &mut pieces[index.owner(segment)];
+        if !piece.is_named {
+            (piece.name, piece.is_named) = (name.clone(), true);
+        }
+    }
+}
+
+/// Adds a number to names that occur again. Given names come first.
+fn make_unique(pieces: &mut [BoundaryPiece]) {
+    let mut taken: HashSet<String> = HashSet::new();
+    // The next number to try for each name, as thousands of pieces can have the same.
+    let mut numbers: HashMap<String, usize> = HashMap::new();
+    for is_named in [true, false] {
+        for piece in pieces.iter_mut().filter(|piece| piece.is_named == is_named) {
+            let mut unique = piece.name.clone();
+            while !taken.insert(unique.clone()) {
+                let number = numbers.entry(piece.name.clone()).or_insert(1);
+                *number += 1;
+                unique = format!("{} {number}", piece.name);
+            }
+            piece.name = unique;
+        }
+    }
+}

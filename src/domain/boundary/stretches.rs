@@ -1,0 +1,171 @@
+//! From the rings of an outline to its stretches: parts along one side of the frame, and coasts.
+
+use std::cmp::Ordering;
+
+use glam::DVec2;
+
+use super::super::{Ring, signed_area};
+use crate::geometry::Rect;
+
+/// What a piece of the boundary is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[non_exhaustive]
+pub enum BoundaryKind {
+    /// Along the frame, the rectangle of the coarse grid: the domain ends there, and what it is part of goes
+    /// on.
+    Open,
+    /// Of an outer ring.
+    Mainland,
+    /// Of the ring of a hole.
+    Island,
+}
+
+impl BoundaryKind {
+    /// The word for it: `open`, `mainland` or `island`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Open => "open",
+            Self::Mainland => "mainland",
+            Self::Island => "island",
+        }
+    }
+}
+
+/// A side of the frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum FrameSide {
+    /// Lowest y.
+    South,
+    /// Highest x.
+    East,
+    /// Highest y.
+    North,
+    /// Lowest x.
+    West,
+}
+
+impl FrameSide {
+    /// The side of a frame along which an edge runs.
+    pub(super) fn of([a, b]: [DVec2; 2], frame: &Rect) -> Option<Self> {
+        let along = |axis: usize, value: f64| a[axis] == value && b[axis] == value;
+        let Rect { min, max } = *frame;
+        let sides = [
+            (along(1, min.y), Self::South),
+            (along(0, max.x), Self::East),
+            (along(1, max.y), Self::North),
+            (along(0, min.x), Self::West),
+        ];
+        sides.into_iter().find_map(|(holds, side)| holds.then_some(side))
+    }
+
+    /// The coordinate that changes along the side: 0 for x, 1 for y.
+    pub(super) fn axis(self) -> usize {
+        match self {
+            Self::South | Self::North => 0,
+            Self::East | Self::West => 1,
+        }
+    }
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::South => "open south",
+            Self::East => "open east",
+            Self::North => "open north",
+            Self::West => "open west",
+        }
+    }
+}
+
+/// A maximal part of a ring along one side of the frame, or along none.
+#[derive(Clone, Debug)]
+pub(super) struct Stretch {
+    pub(super) kind: BoundaryKind,
+    pub(super) side: Option<FrameSide>,
+    /// With the domain on the left. The whole of a ring ends with its first point, the lowest one.
+    pub(super) points: Vec<DVec2>,
+    /// Unless a person chooses another name.
+    pub(super) name: String,
+    /// Position along the side, length of the coast, or area of the hole: what the order goes by.
+    measure: f64,
+}
+
+impl Stretch {
+    pub(super) fn is_closed(&self) -> bool {
+        self.points.first() == self.points.last()
+    }
+
+    /// Open ones by side and position, then mainlands by length, then islands by area; the largest first.
+    fn order(&self, other: &Self) -> Ordering {
+        let by_measure = match self.kind {
+            BoundaryKind::Open => self.measure.total_cmp(&other.measure),
+            BoundaryKind::Mainland | BoundaryKind::Island => other.measure.total_cmp(&self.measure),
+        };
+        let kinds = (self.kind, self.side).cmp(&(other.kind, other.side));
+        kinds.then(by_measure).then_with(|| compare(self.points[0], other.points[0]))
+    }
+}
+
+/// By y, then by x.
+pub(super) fn compare(a: DVec2, b: DVec2) -> Ordering {
+    a.y.total_cmp(&b.y).then(a.x.total_cmp(&b.x))
+}
+
+/// The stretches of rings that have the domain on their left, in their order. Names do not depend on the
+/// order of the rings or on where a ring begins.
+pub(super) fn stretches<'a>(rings: impl Iterator<Item = &'a Ring>, frame: &Rect) -> Vec<Stretch> {
+    let mut found = Vec::new();
+    for ring in rings.filter(|ring| ring.len() > 2) {
+        push_stretches(ring, frame, &mut found);
+    }
+    found.sort_by(Stretch::order);
+    number(&mut found);
+    found
+}
+
+fn push_stretches(ring: &Ring, frame: &Rect, found: &mut Vec<Stretch>) {
+    let count = ring.len();
+    let area = signed_area(ring);
+    let side = |n: usize| FrameSide::of([ring[n % count], ring[(n + 1) % count]], frame);
+    let starts: Vec<usize> = (0..count).filter(|&n| side(n) != side(n + count - 1)).collect();
+    let lowest = || (0..count).min_by(|&a, &b| compare(ring[a], ring[b])).expect("a ring has points");
+    let ranges: Vec<(usize, usize)> = match starts.first() {
+        None => vec![(lowest(), lowest() + count)],
+        Some(first) => {
+            let ends = starts.iter().skip(1).copied().chain([first + count]);
+            starts.iter().copied().zip(ends).collect()
+        }
+    };
+    for (start, end) in ranges {
+        let points: Vec<DVec2> = (start..=end).map(|n| ring[n % count]).collect();
+        let (side, length) = (side(start), length(&points));
+        let (kind, measure) = match side {
+            Some(side) => {
+                let along = side.axis();
+                (BoundaryKind::Open, points[0][along].min(points[points.len() - 1][along]))
+            }
+            None if area > 0.0 => (BoundaryKind::Mainland, length),
+            None => (BoundaryKind::Island, -area),
+        };
+        found.push(Stretch { kind, side, points, name: String::new(), measure });
+    }
+}
+
+/// Names stretches by kind and number. Islands always have a number, others from the second on.
+fn number(stretches: &mut [Stretch]) {
+    let mut count = 0;
+    let mut last = None;
+    for stretch in stretches {
+        let group = (stretch.kind, stretch.side);
+        count = if last.replace(group) == Some(group) { count + 1 } else { 1 };
+        let name = stretch.side.map_or(stretch.kind.name(), FrameSide::name);
+        stretch.name = match stretch.kind {
+            BoundaryKind::Open | BoundaryKind::Mainland if count == 1 => name.to_owned(),
+            _ => format!("{name} {count}"),
+        };
+    }
+}
+
+/// The length of a polyline.
+pub(super) fn length(points: &[DVec2]) -> f64 {
+    points.windows(2).map(|ends| ends[0].distance(ends[1])).sum()
+}
