@@ -77,7 +77,7 @@ pub use render::Image;
 pub use render::export::{ExportFormat, LARGEST_PICTURE, Look, UnknownEnding};
 
 pub use io::asc::read as read_asc;
-pub use io::geojson::{read as read_geojson, write as write_geojson};
+pub use io::geojson::{read as read_geojson, read_named as read_named_geojson, write as write_geojson};
 pub use io::png::{Behind, read as read_png};
 pub use io::points::read as read_points;
 pub use io::project::{Project, read as read_project, write as write_project};

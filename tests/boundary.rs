@@ -204,7 +204,7 @@ fn edges_belong_to_the_nearest_piece_but_for_twice_their_length() {
         }
         let diameter = [0.01, 0.03, 0.08][random.usize(0..3)];
         let treatment = BoundaryTreatment::Fitted { diameter };
-        let treatment = if random.bool() { treatment.on_outline() } else { treatment };
+        let treatment = if random.bool() { BoundaryTreatment::OnOutline { diameter } } else { treatment };
         let built = Built::new(&domain, treatment, 0.1, "1");
         let extract = built.extract();
         let mut marks = BoundaryMarks::default();
@@ -264,8 +264,9 @@ fn each_part_of_a_split_ring_is_one_run_of_edges() {
             let pieces = BoundaryPieces::of_domain(&domain, &marks).unwrap();
             marks = pieces.split(&marks, split, 1.0).unwrap_or(marks);
         }
-        let treatment = BoundaryTreatment::Fitted { diameter: 0.02 };
-        let treatment = if random.bool() { treatment.on_outline() } else { treatment };
+        let diameter = 0.02;
+        let treatment = BoundaryTreatment::Fitted { diameter };
+        let treatment = if random.bool() { BoundaryTreatment::OnOutline { diameter } } else { treatment };
         let built = Built::new(&domain, treatment, 0.1, "1");
         let extract = built.extract();
         let boundary = MeshBoundary::new(&extract, &domain, &marks);

@@ -317,6 +317,50 @@ fn a_region_is_meshed_as_its_boundary_asks() {
     assert!(folder.json("--spacing 1")["region_area"].is_null(), "there is no outline to compare with");
 }
 
+/// A named area between a lake with a name and an unnamed one: the second is too small for the mesh.
+const NAMED: &str = r#"{"type": "FeatureCollection", "features": [
+    {"type": "Feature", "properties": {"id": 7, "NAME": "Forest \"A\""}, "geometry": {"type": "Polygon", "coordinates": [
+        [[0, 0], [9, 0], [8, 5], [4, 8], [1, 5]], [[3, 3], [5, 3], [5, 5], [3, 5]], [[2, 2], [2.01, 2], [2, 2.01]]]}},
+    {"type": "Feature", "properties": {"id": 5}, "geometry": {"type": "Polygon", "coordinates": [
+        [[11, 1], [13, 1], [12, 3]]]}},
+    {"type": "Feature", "properties": null, "geometry": {"type": "Polygon", "coordinates": [
+        [[15, 1], [17, 1], [16, 3]]]}}]}"#;
+
+#[test]
+fn pieces_of_the_boundary_have_names() {
+    let folder = Folder::new("names");
+    folder.file("named.geojson", NAMED);
+    let summary = folder.json("--region named.geojson --spacing 1 --parts all -o m.msh");
+    let pieces = summary["boundary"].as_array().unwrap();
+    let names: Vec<&str> = pieces.iter().map(|piece| piece["name"].as_str().unwrap()).collect();
+    let expected =
+        ["open south", "Forest 'A'", "5", "mainland 3", "Forest 'A' island 1", "Forest 'A' island 2"];
+    assert_eq!(names, expected);
+    let ids: Vec<u64> = pieces.iter().map(|piece| piece["id"].as_u64().unwrap()).collect();
+    assert_eq!(ids, [0, 1, 2, 3, 4, 5]);
+    let kinds: Vec<&str> = pieces.iter().map(|piece| piece["kind"].as_str().unwrap()).collect();
+    assert_eq!(kinds, ["open", "mainland", "mainland", "mainland", "island", "island"]);
+    assert_eq!((pieces[0]["length"].as_f64(), &pieces[5]["edges"]), (Some(9.0), &0.into()));
+    let lost = &summary["lost_islands"];
+    assert_eq!((lost.as_array().unwrap().len(), &lost[0]["name"]), (1, &"Forest 'A' island 2".into()));
+    assert!((lost[0]["place"][0].as_f64().unwrap() - 2.0).abs() < 0.02);
+    let parts: Vec<u64> =
+        summary["part_triangles"].as_array().unwrap().iter().map(|count| count.as_u64().unwrap()).collect();
+    assert_eq!(parts.iter().sum::<u64>(), summary["triangles"].as_u64().unwrap());
+    assert_eq!(parts.len(), 3);
+    let file = folder.read("m.msh");
+    assert!(file.contains("\n1 5 \"Forest 'A' island 1\"\n2 1 \"domain\"\n$EndPhysicalNames\n"), "{file}");
+    // A rectangle and a formula have names too.
+    let names = |options: &str| {
+        let summary = folder.json(options);
+        let pieces = summary["boundary"].as_array().unwrap().iter();
+        pieces.map(|piece| piece["name"].as_str().unwrap().to_owned()).collect::<Vec<_>>()
+    };
+    assert_eq!(names("--spacing 0.5"), ["open south", "open east", "open north", "open west"]);
+    let ring = "--domain -2,-2,2,2 --spacing 0.25 --inside 'r < 1.7 and r > 0.6'";
+    assert_eq!(names(ring), ["mainland", "island 1"]);
+}
+
 /// Two squares that a strait parts, which is narrower than the triangles, and a third far away.
 const STRAIT: &str = r#"{"type": "MultiPolygon", "coordinates": [
     [[[0, 0], [4, 0], [4, 4], [0, 4]]], [[[4.01, 4], [8, 4], [8, 8], [4.01, 8]]], [[[7, 0], [8, 0], [8, 1], [7, 1]]]]}"#;

@@ -9,7 +9,9 @@ use meshbrush::internals::build::RefinementCriterion;
 use meshbrush::internals::document::{
     Base, Document, Example, Follower, History, MeshChange, Price, Pricer, Setting, Settings, Stage,
 };
-use meshbrush::internals::domain::{CutShape, Domain, DomainShape, Polygon, Region, corners};
+use meshbrush::internals::domain::{
+    BoundaryMarks, BoundaryPieces, CutShape, Domain, DomainShape, NamedPolygon, Polygon, Region, corners,
+};
 use meshbrush::internals::field::{Formula, RefinementRule};
 use meshbrush::internals::geometry::Rect;
 use meshbrush::internals::mesh::Progress;
@@ -19,9 +21,9 @@ use meshbrush::internals::text::Grouped;
 use operations::{Choices, Driver, Operation, Scale, domains, run_bytes};
 
 /// A square with a square hole.
-fn sea() -> Vec<Polygon> {
+fn sea() -> Vec<NamedPolygon> {
     let square = |half| corners(&Rect::around(DVec2::splat(3.0), half));
-    vec![vec![square(3.0), square(1.0)]]
+    vec![NamedPolygon { polygon: vec![square(3.0), square(1.0)], name: "Sea".into() }]
 }
 
 fn slope() -> Raster {
@@ -529,6 +531,38 @@ fn a_setting_changed_there_and_back_makes_no_other_mesh() {
     let change = follower.take_change();
     assert!(matches!(change, Some(MeshChange::Within(_))), "only the stroke: {change:?}");
     assert_as_from_scratch(&follower, &document);
+}
+
+#[test]
+fn names_of_the_boundary_are_undone_and_leave_the_mesh_alone() {
+    let mut document = Example::Aegean.document(slope, sea);
+    let mut follower = Follower::new(&mut document).unwrap();
+    follower.take_change();
+    let settings = document.settings().clone();
+    let pieces = BoundaryPieces::of_domain(&settings.domain, &settings.boundary_marks).unwrap();
+    let names: Vec<&str> = pieces.list().iter().map(|piece| piece.name.as_str()).collect();
+    assert_eq!(names, ["open south", "open east", "open north", "open west", "Sea island 1"]);
+    let marks = pieces.renamed(&settings.boundary_marks, 4, "Rock");
+    document.set(Setting::BoundaryMarks(marks.clone())).unwrap();
+    document.end_gesture();
+    assert_eq!(document.history().undo_title(), Some("boundary names"));
+    assert_eq!(follower.advance(&mut document, 1).unwrap(), Stage::InStep);
+    assert_eq!((follower.take_change(), follower.settings()), (None, document.settings()));
+    // Also while the mesh is busy with a cut.
+    let square = CutShape::Ring(corners(&Rect::around(dvec2(1.0, 1.0), 0.5)));
+    let cut = document.settings().domain.reshaped(&square, false).unwrap();
+    document.set(Setting::Domain(cut)).unwrap();
+    document.end_gesture();
+    follower.advance(&mut document, 10).unwrap();
+    document.set(Setting::BoundaryMarks(BoundaryMarks::default())).unwrap();
+    document.end_gesture();
+    settle(&mut follower, &mut document);
+    assert!(matches!(follower.take_change(), Some(MeshChange::Within(_))), "no other mesh is built");
+    assert_as_from_scratch(&follower, &document);
+    document.undo();
+    assert_eq!(*document.settings().boundary_marks, marks);
+    while document.undo() {}
+    assert_eq!(*document.settings(), settings);
 }
 
 #[test]

@@ -6,6 +6,7 @@ use std::io::Read;
 use flate2::read::ZlibDecoder;
 use glam::{DVec2, dvec2};
 use meshbrush::internals::colormap::{Colormap, Ground, LevelColors};
+use meshbrush::internals::domain::MeshBoundary;
 use meshbrush::internals::geometry::{Lattice, Rect};
 use meshbrush::internals::io::{MeshData, NodeValues, csv, msh, node, obj, sms, stl, svg, vtu};
 use meshbrush::internals::mesh::{Extract, Limits, Mesh, NodeId};
@@ -18,8 +19,9 @@ struct Found {
     levels: Vec<u32>,
     targets: Vec<f64>,
     quantities: Vec<f64>,
-    /// For each node whether it is marked as one of the boundary.
-    marked: Vec<bool>,
+    /// The marker of each node: 0 off the boundary.
+    markers: Vec<usize>,
+    parts: Vec<u32>,
 }
 
 /// What was written.
@@ -27,6 +29,8 @@ struct Sample {
     mesh: Mesh,
     targets: Vec<f64>,
     quantities: Vec<NodeValues>,
+    boundary: MeshBoundary,
+    parts: Vec<u32>,
 }
 
 impl Sample {
@@ -42,7 +46,8 @@ impl Sample {
         let targets = nodes().map(target).collect();
         let height =
             NodeValues { name: "height".into(), values: nodes().map(|p| p.x * 1e-9 - p.y).collect() };
-        Self { targets, quantities: vec![height], mesh }
+        let (boundary, parts) = (MeshBoundary::of_mesh(&mesh.extract()), mesh.extract().part_numbers());
+        Self { targets, quantities: vec![height], boundary, parts, mesh }
     }
 
     /// A square, a rectangle whose cells are not square, and a ring with a hole.
@@ -62,7 +67,44 @@ impl Sample {
     }
 
     fn data(&self) -> MeshData<'_> {
-        MeshData { target_diameter: &self.targets, quantities: &self.quantities }
+        let Self { targets, quantities, boundary, parts, .. } = self;
+        MeshData { target_diameter: targets, quantities, boundary, parts }
+    }
+
+    /// The names of the pieces, in the order of their markers.
+    fn names(&self) -> Vec<&str> {
+        self.boundary.pieces().list().iter().map(|piece| piece.name.as_str()).collect()
+    }
+
+    /// Fails unless an edge of the boundary may have this name, as its place says.
+    fn assert_named(&self, ends: [usize; 2], name: &str) {
+        let [a, b] = ends.map(|node| self.mesh.world(NodeId::from_index(node)));
+        let Rect { min, max } = self.mesh.lattice().bounds();
+        let sides = [
+            (a.y == min.y && b.y == min.y, "open south"),
+            (a.x == max.x && b.x == max.x, "open east"),
+            (a.y == max.y && b.y == max.y, "open north"),
+            (a.x == min.x && b.x == min.x, "open west"),
+        ];
+        match sides.into_iter().find(|(on, _)| *on) {
+            Some((_, side)) => assert!(name.starts_with(side), "{name} at {a}"),
+            // A ring around the middle of the frame: outside it is mainland.
+            None if a.length() < 0.8 => assert_eq!(name, "island 1", "at {a}"),
+            None => assert!(name.starts_with("mainland"), "{name} at {a}"),
+        }
+    }
+
+    /// Fails unless each node has the lowest marker of the edges at it.
+    fn assert_markers(&self, markers: &[usize]) {
+        let mut expected = vec![usize::MAX; markers.len()];
+        for (edge, &piece) in self.mesh.extract().boundary_edges().zip(self.boundary.piece_of_edge()) {
+            self.assert_named(edge.ends, self.names()[piece as usize]);
+            for node in edge.ends {
+                expected[node] = expected[node].min(piece as usize + 1);
+            }
+        }
+        expected.iter_mut().filter(|marker| **marker == usize::MAX).for_each(|marker| *marker = 0);
+        assert_eq!(markers, expected);
     }
 
     fn written(
@@ -122,6 +164,14 @@ fn vtu_reads_back() {
         let found = read_vtu(&file);
         sample.assert_same(&found);
         assert_eq!(found.quantities, sample.quantities[0].values);
+        sample.assert_markers(&found.markers);
+        assert_eq!(found.parts, sample.parts);
+        let text = String::from_utf8_lossy(&file);
+        let names = text.split("Name=\"boundary_names\"").nth(1).unwrap();
+        let (head, names) = names.split('<').next().unwrap().split_once('>').unwrap();
+        let bytes: Vec<u8> = numbers(names);
+        assert!(head.contains(&format!("NumberOfTuples=\"{}\"", bytes.len())));
+        assert_eq!(String::from_utf8(bytes).unwrap().lines().collect::<Vec<_>>(), sample.names());
     }
 }
 
@@ -148,6 +198,9 @@ fn read_vtu(file: &[u8]) -> Found {
     let floats = |name| -> Vec<f64> {
         array(name, "Float64").chunks(8).map(|b| f64::from_le_bytes(b.try_into().unwrap())).collect()
     };
+    let small = |name| -> Vec<u32> {
+        array(name, "UInt32").chunks(4).map(|b| u32::from_le_bytes(b.try_into().unwrap())).collect()
+    };
     let whole = |name| -> Vec<usize> {
         array(name, "Int64").chunks(8).map(|b| i64::from_le_bytes(b.try_into().unwrap()) as usize).collect()
     };
@@ -165,7 +218,8 @@ fn read_vtu(file: &[u8]) -> Found {
         levels: array("level", "UInt8").iter().map(|&level| level.into()).collect(),
         targets: floats("target_diameter"),
         quantities: floats("height"),
-        marked: array("boundary", "UInt8").iter().map(|&mark| mark == 1).collect(),
+        markers: small("boundary").into_iter().map(|marker| marker as usize).collect(),
+        parts: small("part"),
     }
 }
 
@@ -195,14 +249,14 @@ fn vtu_marks_the_boundary_and_is_smaller_than_its_arrays() {
     sample.assert_same(&found);
     let (nodes, triangles) = (found.nodes.len(), found.triangles.len());
     assert!(24 * nodes > 2 * 262_144, "several blocks are wanted");
-    assert!(file.len() < (42 * nodes + 34 * triangles) / 3, "{} bytes for {triangles}", file.len());
+    assert!(file.len() < (45 * nodes + 38 * triangles) / 3, "{} bytes for {triangles}", file.len());
     let bounds = sample.mesh.lattice().bounds();
-    for (place, marked) in found.nodes.iter().zip(found.marked) {
+    for (place, marker) in found.nodes.iter().zip(found.markers) {
         let on_boundary = place.x == bounds.min.x
             || place.x == bounds.max.x
             || place.y == bounds.min.y
             || place.y == bounds.max.y;
-        assert_eq!(marked, on_boundary, "{place}");
+        assert_eq!(marker > 0, on_boundary, "{place}");
     }
 }
 
@@ -232,6 +286,13 @@ fn csv_reads_back() {
             found.triangles.push(corners);
             found.levels.push(fields[column("level")].parse().unwrap());
             across.push(three("n").map(|c| fields[c].parse::<usize>().ok()));
+            assert_eq!(fields[column("part")], "0");
+            for (n, b) in three("n").into_iter().zip(three("b")) {
+                let marker: usize = fields[b].parse().unwrap();
+                assert_eq!(marker == 0, !fields[n].is_empty());
+                let ends = [corners[b - three("b")[0]], corners[(b - three("b")[0] + 1) % 3]];
+                marker.checked_sub(1).inspect(|&piece| sample.assert_named(ends, sample.names()[piece]));
+            }
         }
         sample.assert_same(&found);
         // Neighbour i lies across the edge from corner i to the next.
@@ -248,7 +309,6 @@ fn node_ele_and_neigh_read_back() {
         let elements = text(sample.written(|out, mesh, _| node::write_elements(out, mesh)));
         let neighbours = text(sample.written(|out, mesh, _| node::write_neighbours(out, mesh)));
         let mut found = Found::default();
-        let mut marked = HashSet::new();
         assert_eq!(numbers::<usize>(nodes.lines().next().unwrap())[1..], [2, 2, 1]);
         for (n, line) in nodes.lines().skip(1).enumerate() {
             let row = numbers::<f64>(line);
@@ -256,7 +316,7 @@ fn node_ele_and_neigh_read_back() {
             found.nodes.push(dvec2(row[1], row[2]));
             found.targets.push(row[3]);
             assert_eq!(row[4], sample.quantities[0].values[n]);
-            marked.extend((row[5] == 1.0).then_some(n));
+            found.markers.push(row[5] as usize);
         }
         assert_eq!(
             numbers::<usize>(elements.lines().next().unwrap()),
@@ -277,9 +337,9 @@ fn node_ele_and_neigh_read_back() {
         // Neighbour i lies opposite corner i.
         let opposite = |t: [usize; 3]| [[t[1], t[2]], [t[2], t[0]], [t[0], t[1]]];
         let boundary = assert_neighbours(&found.triangles, &across, opposite);
-        assert_eq!(marked, boundary.iter().flatten().copied().collect());
+        sample.assert_markers(&found.markers);
 
-        let edges = text(sample.written(|out, mesh, _| node::write_edges(out, mesh)));
+        let edges = text(sample.written(node::write_edges));
         assert_eq!(numbers::<usize>(edges.lines().next().unwrap()), [sample.mesh.edges().count(), 1]);
         let rows: Vec<Vec<usize>> = edges.lines().skip(1).map(numbers).collect();
         assert!(rows.iter().enumerate().all(|(n, row)| row[0] == n && row.len() == 4));
@@ -287,20 +347,28 @@ fn node_ele_and_neigh_read_back() {
             rows.iter().map(|row| (NodeId::from_index(row[1]), NodeId::from_index(row[2]))).collect();
         assert_eq!(listed, sample.mesh.edges().collect::<Vec<_>>());
         let marked: HashSet<[usize; 2]> =
-            rows.iter().filter(|row| row[3] == 1).map(|row| [row[1], row[2]]).collect();
+            rows.iter().filter(|row| row[3] > 0).map(|row| [row[1], row[2]]).collect();
         assert_eq!(marked, boundary.into_iter().collect());
+        for row in rows.iter().filter(|row| row[3] > 0) {
+            sample.assert_named([row[1], row[2]], sample.names()[row[3] - 1]);
+        }
     }
 }
 
 #[test]
 fn two_dm_reads_back_with_its_boundary() {
     for sample in Sample::all() {
-        let (found, strings) = read_2dm(&String::from_utf8(sample.written(sms::write)).unwrap());
+        let (found, strings, names) = read_2dm(&String::from_utf8(sample.written(sms::write)).unwrap());
         assert_eq!(found.nodes.len(), sample.mesh.raw_nodes().len());
         assert_eq!(found.triangles.len(), sample.mesh.raw_triangle_count());
         assert_eq!(found.quantities, sample.quantities[0].values);
         sample.assert_well_made(&found, 1e-9);
         assert_strings_follow_the_boundary(&sample.mesh, &strings);
+        assert_eq!(names.len(), strings.len());
+        for (name, string) in names.iter().zip(&strings) {
+            string.windows(2).for_each(|edge| sample.assert_named([edge[0], edge[1]], name));
+            assert_eq!(string.first() == string.last(), name.starts_with("island"), "{name}");
+        }
     }
 }
 
@@ -309,19 +377,25 @@ fn a_nodestring_stays_at_one_piece_of_the_outside() {
     // Without the six triangles around each of two nodes; the two hexagons touch in the node between them.
     let left_out = [dvec2(0.375, 0.5), dvec2(0.625, 0.5)];
     let sample = Sample::new(Rect::UNIT, 0.125, |p| !left_out.contains(&p), 0.5);
-    let (_, strings) = read_2dm(&String::from_utf8(sample.written(sms::write)).unwrap());
+    let (_, strings, _) = read_2dm(&String::from_utf8(sample.written(sms::write)).unwrap());
     assert_strings_follow_the_boundary(&sample.mesh, &strings);
     let mut edges: Vec<usize> = strings.iter().map(|string| string.len() - 1).collect();
     edges.sort_unstable();
-    assert_eq!(edges, [6, 6, 32]);
+    assert_eq!(edges, [6, 6, 8, 8, 8, 8]);
 }
 
-fn read_2dm(file: &str) -> (Found, Vec<Vec<usize>>) {
+/// The mesh, its nodestrings, and their names.
+fn read_2dm(file: &str) -> (Found, Vec<Vec<usize>>, Vec<String>) {
     assert!(file.starts_with("MESH2D\nMESHNAME \"Meshbrush\"\nNUM_MATERIALS_PER_ELEM 1\n"));
     let mut found = Found::default();
-    let (mut strings, mut string) = (Vec::new(), Vec::new());
+    let (mut strings, mut string, mut names) = (Vec::new(), Vec::new(), Vec::new());
     for line in file.lines().skip(3) {
         let (card, rest) = line.split_once(' ').unwrap();
+        if let ("#", Some((number, name))) = (card, rest.split_once(": ")) {
+            names.push(name.to_owned());
+            assert_eq!(number, format!("nodestring {}", names.len()));
+            continue;
+        }
         match (card, &numbers::<f64>(rest)[..]) {
             ("E3T", &[id, a, b, c, 1.0]) => {
                 found.triangles.push([a, b, c].map(|node| node as usize - 1));
@@ -332,7 +406,9 @@ fn read_2dm(file: &str) -> (Found, Vec<Vec<usize>>) {
                 found.quantities.push(z);
                 assert_eq!(id, found.nodes.len() as f64);
             }
-            ("NS", &[last, id]) if last < 0.0 => {
+            ("NS", &[ref nodes @ .., last, id]) if last < 0.0 => {
+                string.extend(nodes.iter().map(|&node| node as usize - 1));
+                assert!(!string.is_empty(), "py2dm wants two nodes in the first line");
                 string.push(-last as usize - 1);
                 strings.push(std::mem::take(&mut string));
                 assert_eq!(id, strings.len() as f64);
@@ -342,12 +418,11 @@ fn read_2dm(file: &str) -> (Found, Vec<Vec<usize>>) {
         }
     }
     assert!(string.is_empty());
-    (found, strings)
+    (found, strings, names)
 }
 
-/// Closed lines that are the boundary, each edge once, the domain to the left.
+/// Lines that are the boundary, each edge once, the domain to the left.
 fn assert_strings_follow_the_boundary(mesh: &Mesh, strings: &[Vec<usize>]) {
-    assert!(strings.iter().all(|string| string.first() == string.last() && string.len() > 3));
     let mut drawn: Vec<[usize; 2]> =
         strings.iter().flat_map(|string| string.windows(2).map(|edge| [edge[0], edge[1]])).collect();
     let mut expected: Vec<[usize; 2]> = mesh.extract().boundary_edges().map(|edge| edge.ends).collect();
@@ -417,6 +492,10 @@ fn msh_reads_back_with_its_boundary() {
         assert_eq!(found.quantities, sample.quantities[0].values);
         // Round the boundary and every hole: each of its nodes is left as often as it is reached.
         let mut degree = HashMap::new();
+        for (ends, name) in &boundary {
+            sample.assert_named(*ends, name);
+        }
+        let boundary: Vec<[usize; 2]> = boundary.into_iter().map(|(ends, _)| ends).collect();
         for [from, to] in &boundary {
             *degree.entry(from).or_insert(0) += 1;
             *degree.entry(to).or_insert(0) -= 1;
@@ -427,7 +506,8 @@ fn msh_reads_back_with_its_boundary() {
     }
 }
 
-fn read_msh(file: &str) -> (Found, Vec<[usize; 2]>) {
+/// The mesh, and its boundary edges with the names of their physical groups.
+fn read_msh(file: &str) -> (Found, Vec<([usize; 2], String)>) {
     let section = |name: &str| -> Vec<&str> {
         let body = file.split(&format!("${name}\n")).nth(1).unwrap();
         body.split(&format!("$End{name}\n")).next().unwrap().lines().collect()
@@ -442,11 +522,23 @@ fn read_msh(file: &str) -> (Found, Vec<[usize; 2]>) {
         rows.iter().map(|row| row[1]).collect()
     };
     assert_eq!(section("MeshFormat"), ["4.1 0 8"]);
-    assert_eq!(section("PhysicalNames"), ["2", "1 2 \"boundary\"", "2 1 \"domain\""]);
+    let names = section("PhysicalNames");
+    assert_eq!(names[0], (names.len() - 1).to_string());
+    assert_eq!(names[names.len() - 1], "2 1 \"domain\"");
+    let curves: Vec<(usize, &str)> = names[1..names.len() - 1]
+        .iter()
+        .map(|line| line.strip_prefix("1 ").unwrap().split_once(' ').unwrap())
+        .map(|(tag, name)| (tag.parse().unwrap(), name.trim_matches('"')))
+        .collect();
     let entities: Vec<Vec<f64>> = section("Entities").iter().map(|line| numbers(line)).collect();
-    assert_eq!(entities[0], [0.0, 1.0, 1.0, 0.0]);
-    assert_eq!(entities[1][7..], [1.0, 2.0, 0.0]); // curve 1: physical group 2, no points
-    assert_eq!(entities[2][7..], [1.0, 1.0, 1.0, 1.0]); // surface 1: physical group 1, bounded by curve 1
+    assert_eq!(entities[0], [0.0, curves.len() as f64, 1.0, 0.0]);
+    for (row, (tag, _)) in entities[1..].iter().zip(&curves) {
+        let tag = *tag as f64;
+        assert_eq!((row[0], &row[7..]), (tag, &[1.0, tag, 0.0][..]), "the physical group, and no points");
+    }
+    let surface = &entities[curves.len() + 1];
+    assert_eq!(surface[7..10], [1.0, 1.0, curves.len() as f64]); // physical group 1, and its boundary
+    assert!(surface[10..].iter().zip(&curves).all(|(&curve, (tag, _))| curve == *tag as f64));
 
     let rows = section("Nodes");
     let count = numbers::<usize>(rows[0])[1];
@@ -458,13 +550,22 @@ fn read_msh(file: &str) -> (Found, Vec<[usize; 2]>) {
 
     let rows: Vec<Vec<usize>> = section("Elements").iter().map(|line| numbers(line)).collect();
     let (blocks, all) = (rows[0][0], rows[0][1]);
-    assert_eq!((blocks, rows[0][2], rows[0][3]), (2, 1, all));
+    assert_eq!((blocks, rows[0][2], rows[0][3]), (1 + curves.len(), 1, all));
     assert_eq!(rows[1][..3], [2, 1, 2]);
-    let (triangle_rows, rest) = rows[2..].split_at(rows[1][3]);
-    assert_eq!(rest[0][..3], [1, 1, 1]);
-    assert_eq!(rest[0][3], rest.len() - 1);
-    assert!(triangle_rows.iter().chain(&rest[1..]).zip(1..).all(|(row, tag)| row[0] == tag));
-    assert_eq!(triangle_rows.len() + rest.len() - 1, all);
+    let (triangle_rows, mut rest) = rows[2..].split_at(rows[1][3]);
+    let mut lines = Vec::new();
+    for (tag, name) in &curves {
+        assert_eq!(rest[0][..3], [1, *tag, 1]);
+        let (block, others) = rest[1..].split_at(rest[0][3]);
+        for (line, tag) in block.iter().zip(triangle_rows.len() + lines.len() + 1..) {
+            assert_eq!(line[0], tag);
+            lines.push(([line[1] - 1, line[2] - 1], (*name).to_owned()));
+        }
+        rest = others;
+    }
+    assert!(rest.is_empty() && triangle_rows.iter().zip(1..).all(|(row, tag)| row[0] == tag));
+    assert_eq!(triangle_rows.len() + lines.len(), all);
+    assert!(values("ElementData", "part").iter().all(|&part| part == 0.0));
     let levels: Vec<u32> = values("ElementData", "level").iter().map(|&level| level as u32).collect();
     assert_eq!(levels.len(), all);
     let found = Found {
@@ -475,7 +576,7 @@ fn read_msh(file: &str) -> (Found, Vec<[usize; 2]>) {
         quantities: values("NodeData", "height"),
         ..Found::default()
     };
-    (found, rest[1..].iter().map(|line| [line[1] - 1, line[2] - 1]).collect())
+    (found, lines)
 }
 
 #[test]

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use meshbrush::internals::document::{Base, Example};
+use meshbrush::internals::domain::MeshBoundary;
 use meshbrush::internals::geometry::{Lattice, Rect};
 use meshbrush::internals::io::png::{Behind, read_metered as read_png};
 use meshbrush::internals::io::project::{self, Project};
@@ -43,14 +44,23 @@ fn mesh() -> (Mesh, Vec<f64>) {
     (mesh, targets)
 }
 
-fn data(targets: &[f64]) -> MeshData<'_> {
-    MeshData { target_diameter: targets, quantities: &[] }
+/// Boundary and parts of a mesh, for its data.
+struct Details(MeshBoundary, Vec<u32>);
+
+impl Details {
+    fn of(mesh: &Mesh) -> Self {
+        Self(MeshBoundary::of_mesh(&mesh.extract()), mesh.extract().part_numbers())
+    }
+
+    fn data<'a>(&'a self, targets: &'a [f64]) -> MeshData<'a> {
+        MeshData { target_diameter: targets, quantities: &[], boundary: &self.0, parts: &self.1 }
+    }
 }
 
 /// A project with a picture, polygons and paint, each larger than a block.
 fn large_project() -> Project {
     let sea = fs::read(concat!(env!("CARGO_MANIFEST_DIR"), "/assets/aegean_sea.geojson")).unwrap();
-    let sea = geojson::read_from(&sea[..], Path::new("sea")).unwrap();
+    let sea = geojson::read_named_from(&sea[..], Path::new("sea")).unwrap();
     let mut project = Project::of(&Example::Aegean.document(|| unreachable!(), || sea.clone()));
     let values = (0..500 * 400).map(|n| (n % 997) as f32 / 997.0).collect();
     let raster = Arc::new(Raster::from_values(Rect::UNIT, [500, 400], values));
@@ -84,13 +94,14 @@ impl<W: Write> Write for Cancelling<'_, W> {
 fn a_meter_with_a_total_ends_at_it() {
     let folder = folder("whole");
     let (mesh, targets) = mesh();
+    let details = Details::of(&mesh);
     for format in MeshFormat::all() {
         let ending = format.ending();
         let meter = Meter::default();
         let written = format.write(
             &folder.join("mesh").with_extension(ending),
             &mesh.extract(),
-            &data(&targets),
+            &details.data(&targets),
             &meter,
         );
         let bytes: u64 = written.unwrap().iter().map(|path| fs::metadata(path).unwrap().len()).sum();
@@ -144,6 +155,7 @@ fn a_cancelled_read_is_an_error() {
 fn a_cancelled_export_leaves_the_old_files() {
     let folder = folder("export");
     let (mesh, targets) = mesh();
+    let details = Details::of(&mesh);
     let mesh = mesh.extract();
     for name in ["vtu", "msh", "obj", "stl", "node", "ele", "neigh", "edge", "2dm", "csv"] {
         fs::write(folder.join("mesh").with_extension(name), format!("old {name}")).unwrap();
@@ -154,7 +166,7 @@ fn a_cancelled_export_leaves_the_old_files() {
         let meter = Meter::default();
         meter.cancel();
         let path = folder.join("mesh").with_extension(ending);
-        let error = format.write(&path, &mesh, &data(&targets), &meter).unwrap_err();
+        let error = format.write(&path, &mesh, &details.data(&targets), &meter).unwrap_err();
         assert_eq!(error.to_string(), CANCELLED);
         assert_eq!(files(&folder), before, "{ending}");
     }
@@ -163,7 +175,7 @@ fn a_cancelled_export_leaves_the_old_files() {
     let path = folder.join("mesh.vtu");
     let error = write_file_metered(&path, &meter, |out| {
         let mut out = Cancelling { inner: out, meter: &meter, after: 5000 };
-        vtu::write_metered(&mut out, &mesh, &data(&targets), &meter)
+        vtu::write_metered(&mut out, &mesh, &details.data(&targets), &meter)
     });
     assert_eq!(error.unwrap_err().to_string(), CANCELLED);
     assert!(meter.done() > meter.total().unwrap() / 2 && meter.done() < meter.total().unwrap());

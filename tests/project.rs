@@ -8,7 +8,9 @@ use std::time::Instant;
 
 use glam::dvec2;
 use meshbrush::internals::document::{Base, Document, Example, Follower, Settings, Stage};
-use meshbrush::internals::domain::{BoundaryTreatment, Domain, DomainShape};
+use meshbrush::internals::domain::{
+    BoundaryMarks, BoundaryPiece, BoundaryPieces, BoundaryTreatment, Domain, DomainShape,
+};
 use meshbrush::internals::field::{Formula, RefinementRule, Transfer};
 use meshbrush::internals::geometry::Rect;
 use meshbrush::internals::io::project::{self, Project};
@@ -55,6 +57,16 @@ fn polygons(random: &mut fastrand::Rng) -> Domain {
     Domain::of_polygons(&polygons).unwrap()
 }
 
+/// A name for every piece of the boundary, and a split of the first.
+fn marks(domain: &Domain) -> BoundaryMarks {
+    let pieces = BoundaryPieces::of_domain(domain, &BoundaryMarks::default()).unwrap();
+    let name = |piece: &BoundaryPiece| (piece.middle(), format!("{} 'Ä' /\u{1f30a}", piece.name));
+    BoundaryMarks {
+        splits: vec![pieces.list()[0].points[0], pieces.list()[0].middle()],
+        names: pieces.list().iter().map(name).collect(),
+    }
+}
+
 /// Documents with everything that can be saved.
 fn documents() -> Vec<Document> {
     let mut random = fastrand::Rng::with_seed(7);
@@ -70,6 +82,7 @@ fn documents() -> Vec<Document> {
         let settings = Settings {
             name: "Küste \"\\ \u{1f30a}".into(),
             boundary: BoundaryTreatment::Fitted { diameter: extent / (20.0 + random.f64()) },
+            boundary_marks: Arc::new(marks(&domain)),
             spacing: extent / (3.0 + random.f64()),
             transfer: Transfer { h_min: extent / 700.3, h_max: extent / 3.7, shape: 0.1 + random.f64() },
             base: Base::Constant(extent * random.f64().max(1e-3)),
@@ -396,6 +409,17 @@ fn errors_in_settings_name_their_place() {
     }
     refused(&rewritten(|_| "{".repeat(100_000)), &["line 1"]);
     refused(&rewritten(|_| String::new()), &["settings.json"]);
+}
+
+#[test]
+fn a_project_without_names_of_the_boundary_opens() {
+    let project = Project::of(&documents().swap_remove(3));
+    assert!(!project.settings.boundary_marks.is_empty());
+    let mut plain = project.clone();
+    plain.settings.boundary_marks = Arc::default();
+    // The text is packed: the sizes show that nothing is written.
+    assert!(bytes_of(&plain).len() + 50 < bytes_of(&project).len());
+    assert_eq!(opened(&bytes_of(&plain)).unwrap(), plain);
 }
 
 #[test]

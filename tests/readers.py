@@ -40,6 +40,8 @@ class Found:
         self.levels = levels if levels is None else np.asarray(levels, dtype=int)
         self.boundary = boundary if boundary is None else edge_set(boundary)
         self.tolerance = 1e-12 if exact else 1e-5
+        # What only some formats have: names and edges of the pieces of the boundary, markers of nodes, parts.
+        self.pieces, self.edges_by_marker, self.markers, self.names, self.parts = None, None, None, None, None
 
     def area(self):
         a, b, c = (self.nodes[self.triangles[:, corner], :2] for corner in range(3))
@@ -65,8 +67,9 @@ def edge_set(edges):
 def read_vtu(path):
     mesh = meshio.read(path)
     found = Found(mesh.points, mesh.cells_dict["triangle"], mesh.cell_data_dict["level"]["triangle"])
-    marked = set(np.flatnonzero(mesh.point_data["boundary"]))
-    assert marked == {node for edge in found.boundary_of_triangles() for node in edge}, "marks of the boundary"
+    found.names = bytes(mesh.field_data["boundary_names"]).decode().splitlines()
+    found.markers = mesh.point_data["boundary"]
+    found.parts = mesh.cell_data_dict["part"]["triangle"]
     assert (mesh.point_data["target_diameter"] > 0).all()
     assert_quantity(found, mesh.point_data["quantity"])
     return found
@@ -74,11 +77,16 @@ def read_vtu(path):
 
 def read_msh(path):
     mesh = meshio.read(path)
-    assert sorted(mesh.field_data) == ["boundary", "domain"]
-    for kind, group in [("line", "boundary"), ("triangle", "domain")]:
-        assert (mesh.cell_data_dict["gmsh:physical"][kind] == mesh.field_data[group][0]).all(), group
+    groups = {name: tuple(map(int, group)) for name, group in mesh.field_data.items()}
+    assert groups.pop("domain") == (1, 2)
+    assert (mesh.cell_data_dict["gmsh:physical"]["triangle"] == 1).all()
     cells, levels = mesh.cells_dict, mesh.cell_data_dict["level"]["triangle"]
     found = Found(mesh.points, cells["triangle"], levels, cells["line"])
+    found.parts = mesh.cell_data_dict["part"]["triangle"]
+    found.pieces = {name: edge_set(cells["line"][mesh.cell_sets_dict[name]["line"]]) for name in groups}
+    for name, (tag, dimension) in groups.items():
+        edges = cells["line"][mesh.cell_data_dict["gmsh:physical"]["line"] == tag]
+        assert dimension == 1 and edge_set(edges) == found.pieces[name], name
     assert_quantity(found, mesh.point_data["quantity"])
     return found
 
@@ -100,9 +108,11 @@ def read_triangle(path):
     parts = {ending: path.with_suffix("." + ending).read_text() for ending in ["node", "ele", "neigh", "edge"]}
     # That reader takes only Voronoi's edges from an .edge file; the segments of a .poly file are written the same.
     data = triangle.data.loads(poly="0 2 0 1\n" + parts.pop("edge") + "0\n", **parts)
-    edges = data["segments"][data["segment_markers"].ravel() == 1]
+    markers = data["segment_markers"].ravel()
+    edges = data["segments"][markers > 0]
     found = Found(data["vertices"], data["triangles"], data["triangle_attributes"].ravel(), edges)
-    assert set(np.flatnonzero(data["vertex_markers"])) == set(edges.ravel()), "marks of the boundary"
+    found.markers = data["vertex_markers"].ravel()
+    found.edges_by_marker = {marker: edge_set(data["segments"][markers == marker]) for marker in set(markers) - {0}}
     assert_quantity(found, data["vertex_attributes"][:, 1])
     assert edge_set(data["segments"]) == edge_set(found.edges()[0]), "all edges"
     assert (data["triangle_neighbors"] == -1).sum() == len(edges), "triangles across the edges"
@@ -114,8 +124,11 @@ def read_2dm(path):
         nodes = [node.pos for node in mesh.iter_nodes()]
         triangles = [[node - 1 for node in element.nodes] for element in mesh.iter_elements()]
         strings = [[node - 1 for node in string.nodes] for string in mesh.iter_node_strings()]
-    assert all(string[0] == string[-1] for string in strings), "nodestrings are closed"
+    names = [line.split(": ", 1)[1] for line in path.read_text().splitlines() if line.startswith("# nodestring")]
     found = Found(nodes, triangles, boundary=[edge for string in strings for edge in zip(string, string[1:])])
+    found.pieces = {}
+    for name, string in zip(names, strings, strict=True):
+        found.pieces.setdefault(name, set()).update(edge_set(zip(string, string[1:])))
     assert_quantity(found, found.nodes[:, 2])
     return found
 
@@ -210,7 +223,31 @@ def check(found, summary, area):
         assert counts == summary["levels"], f"levels {counts}"
     if found.boundary is not None:
         assert found.boundary == found.boundary_of_triangles(), "edges of the boundary"
+    check_boundary(found, summary)
     assert abs(found.area() / area - 1) < found.tolerance, f"area {found.area()} and not {area}"
+
+
+def check_boundary(found, summary):
+    """Names, edges and lengths of the pieces are those of the summary; edges with a marker are those of the piece."""
+    pieces = summary["boundary"]
+    names = [piece["name"] for piece in pieces]
+    assert len(set(names)) == len(names) and [piece["id"] for piece in pieces] == list(range(len(pieces)))
+    assert found.names is None or found.names == names, f"names {found.names}"
+    if found.edges_by_marker is not None:
+        found.pieces = {names[marker - 1]: edges for marker, edges in found.edges_by_marker.items()}
+    if found.pieces is not None:
+        present = [piece for piece in pieces if piece["edges"] > 0]
+        assert found.pieces.keys() == {piece["name"] for piece in present}, f"names {found.pieces.keys()}"
+        for piece in present:
+            edges = found.pieces[piece["name"]]
+            ends = found.nodes[np.array(sorted(edges)), :2]
+            length = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1).sum()
+            assert len(edges) == piece["edges"] and abs(length / piece["length"] - 1) < 1e-9, piece["name"]
+    if found.markers is not None:
+        on_boundary = {node for edge in found.boundary_of_triangles() for node in edge}
+        assert set(np.flatnonzero(found.markers)) == on_boundary, "markers of the boundary"
+    if found.parts is not None:
+        assert np.bincount(np.asarray(found.parts, dtype=int)).tolist() == summary["part_triangles"], "parts"
 
 
 def check_case(program, folder, options):

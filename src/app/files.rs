@@ -12,7 +12,7 @@ use super::session::Session;
 use super::view::View;
 use super::widgets::format;
 use crate::document::{Base, Document, Example, Setting, Settings};
-use crate::domain::{Domain, Polygon};
+use crate::domain::{BoundaryMarks, MeshBoundary, NamedPolygon};
 use crate::geometry::Rect;
 use crate::io::png::{Behind, decode};
 use crate::io::{self, Cancelled, MeshData, Meter};
@@ -37,9 +37,9 @@ pub fn terrain_slope() -> Raster {
 }
 
 /// The sea between Greece and Turkey.
-fn aegean_sea() -> Vec<Polygon> {
+fn aegean_sea() -> Vec<NamedPolygon> {
     let file = include_bytes!("../../assets/aegean_sea.geojson");
-    io::geojson::read_from(&file[..], Path::new("aegean_sea.geojson"))
+    io::geojson::read_named_from(&file[..], Path::new("aegean_sea.geojson"))
         .expect("the outline is part of the program: a test opens it")
 }
 
@@ -84,20 +84,22 @@ pub fn export(session: &mut Session, view: &View, background: &mut Background, p
         return session.report(problem);
     }
     let (mesh, domain) = (session.shared_mesh(), session.follower().domain().clone());
-    let (field, cleaning) =
-        (session.follower().field().clone(), session.follower().settings().derived_cleaning());
-    let (paint, rule) = (session.document().paint().clone(), session.follower().settings().rule);
+    let (field, settings) = (session.follower().field().clone(), session.follower().settings().clone());
+    let (paint, rule) = (session.document().paint().clone(), settings.rule);
     let look = view.picture(session.document().settings());
     let file = path.to_owned();
     background.start(Aim::Export, path, move |meter| {
         let write = || -> std::io::Result<Vec<PathBuf>> {
-            let extract = DerivedMesh::new(&mesh, &domain, &cleaning).extract(&mesh);
+            let extract = DerivedMesh::new(&mesh, &domain, &settings.derived_cleaning()).extract(&mesh);
             let target_diameter = if format.wants_node_data() {
                 at_nodes(&extract, meter, |node| field.target_by_rule(rule, Some(paint.as_paint()), node))?
             } else {
                 Vec::new()
             };
-            let data = MeshData { target_diameter: &target_diameter, quantities: &[] };
+            let boundary = MeshBoundary::new(&extract, &settings.domain, &settings.boundary_marks);
+            let parts = extract.part_numbers();
+            let (target_diameter, quantities) = (&target_diameter, &[][..]);
+            let data = MeshData { target_diameter, quantities, boundary: &boundary, parts: &parts };
             format.write(&file, &mesh, &extract, &data, &look, meter)
         };
         let triangles = format::count(mesh.triangle_count() as u64);
@@ -111,10 +113,11 @@ pub fn export(session: &mut Session, view: &View, background: &mut Background, p
 
 /// The settings of a new document on the polygons of a file.
 fn domain_of(path: &Path, meter: &Meter) -> Result<Settings, String> {
-    let polygons = io::geojson::read_metered(path, meter).map_err(|error| error.to_string())?;
-    let domain = Domain::of_polygons(&polygons).map_err(|error| format!("{}: {error}", path.display()))?;
+    let polygons = io::geojson::read_named_metered(path, meter).map_err(|error| error.to_string())?;
+    let (domain, marks) =
+        BoundaryMarks::domain_of(&polygons).map_err(|error| format!("{}: {error}", path.display()))?;
     let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-    Ok(Settings::for_domain(name, domain))
+    Ok(Settings { boundary_marks: Arc::new(marks), ..Settings::for_domain(name, domain) })
 }
 
 /// A value at each node, unless it is cancelled.

@@ -7,10 +7,10 @@ use glam::DVec2;
 
 use super::failure::Failure;
 use super::request::MeshRequest;
-use super::sources::read_spec;
+use super::sources::{ReadSources, read_sources};
 use super::terminal::Terminal;
 use crate::build::{BuildStage, BuiltMesh, MeshBuilder, MeshSpec};
-use crate::domain::Region;
+use crate::domain::{BoundaryMarks, Domain, MeshBoundary, Region};
 use crate::field::{PaintRef, RefinementRule};
 use crate::io;
 use crate::mesh::{CoarseError, Extract, InvalidTarget, Limits, Mesh, Progress, TriangleId};
@@ -28,8 +28,8 @@ pub struct FinishedMesh {
     pub derived: DerivedMesh,
     /// The paint of a project.
     paint: Option<PaintRasters>,
-    /// The polygons of the domain, if it has some.
-    pub region: Option<Arc<Region>>,
+    domain: Domain,
+    marks: Arc<BoundaryMarks>,
     /// Time spent on refinement alone.
     pub refinement: Duration,
     /// Triangles that the level cap left coarser than their target.
@@ -45,6 +45,16 @@ impl FinishedMesh {
     /// The mesh as files get it.
     pub fn extract(&self) -> Extract<'_> {
         self.derived.extract(self.mesh())
+    }
+
+    /// The polygons of the domain, if it has some.
+    pub fn region(&self) -> Option<&Region> {
+        self.domain.region().map(|region| &**region)
+    }
+
+    /// The boundary of the mesh as files get it, in named pieces.
+    pub fn boundary(&self, extract: &Extract) -> MeshBoundary {
+        MeshBoundary::new(extract, &self.domain, &self.marks)
     }
 
     /// Which points of a triangle count.
@@ -89,9 +99,8 @@ impl FinishedMesh {
 /// # Errors
 /// When a file is of no use, the target is impossible somewhere, or a limit is reached.
 pub fn build(request: &MeshRequest, terminal: &mut Terminal) -> Result<FinishedMesh, Failure> {
-    let (spec, paint) = read(request, terminal)?;
-    let cleaning = spec.cleaning;
-    let region = spec.domain.region().cloned();
+    let (spec, marks, paint) = read(request, terminal)?;
+    let (cleaning, domain) = (spec.cleaning, spec.domain.clone());
     let mut builder = MeshBuilder::new(spec);
     let refinement = run(&mut builder, paint.as_ref().map(PaintRasters::as_paint), terminal);
     terminal.clear();
@@ -101,15 +110,17 @@ pub fn build(request: &MeshRequest, terminal: &mut Terminal) -> Result<FinishedM
     if derived.patch().leaves_nothing_of(&built.mesh) {
         return Err(CoarseError::EmptyDomain { spacing: built.mesh.lattice().spacing() }.into());
     }
-    Ok(FinishedMesh { built, derived, paint, region, refinement, capped })
+    Ok(FinishedMesh { built, derived, paint, domain, marks, refinement, capped })
 }
 
 /// What to mesh: that of a saved document, as the window does, or what the options describe.
-fn read(request: &MeshRequest, terminal: &mut Terminal) -> Result<(MeshSpec, Option<PaintRasters>), Failure> {
+type ToMesh = (MeshSpec, Arc<BoundaryMarks>, Option<PaintRasters>);
+
+fn read(request: &MeshRequest, terminal: &mut Terminal) -> Result<ToMesh, Failure> {
     let Some(path) = &request.project else {
-        let (spec, notes) = read_spec(request)?;
+        let ReadSources { spec, marks, notes } = read_sources(request)?;
         notes.iter().for_each(|note| terminal.note(note));
-        return Ok((spec, None));
+        return Ok((spec, Arc::new(marks), None));
     };
     let document = io::project::read(path)?;
     let settings = document.settings();
@@ -118,7 +129,7 @@ fn read(request: &MeshRequest, terminal: &mut Terminal) -> Result<(MeshSpec, Opt
     // Without an option, the mesh is the one that the window shows.
     let spec = settings.mesh_spec().map_err(CoarseError::from)?;
     let spec = MeshSpec { limits, cleaning: request.cleaning(spec.cleaning), ..spec };
-    Ok((spec, Some(document.paint().clone())))
+    Ok((spec, settings.boundary_marks.clone(), Some(document.paint().clone())))
 }
 
 /// Builds in slices. Returns the time spent on refinement.

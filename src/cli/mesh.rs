@@ -4,6 +4,7 @@ use std::io::Write;
 
 use super::args::MeshArguments;
 use super::build::{FinishedMesh, build};
+use super::details::MeshDetails;
 use super::failure::Failure;
 use super::output::{Output, RequestedLook};
 use super::quantities::{NamedQuantity, parse_quantities};
@@ -37,12 +38,16 @@ pub fn run(typed: &MeshArguments, out: &mut dyn Write, terminal: &mut Terminal) 
         true => Some(report_violations(&finished, &extract, request.limits.max_level, terminal)?),
         false => None,
     };
-    let summary = Summary::of(&finished, &extract, violations);
+    let wants_details = typed.json || !outputs.is_empty();
+    let details = wants_details.then(|| MeshDetails::of(&finished, &extract));
+    let summary = Summary::of(&finished, &extract, details.as_ref(), violations);
     if !typed.json {
         terminal.say(&summary.for_people());
     }
     note_capped(&finished, terminal);
-    write_files(&outputs, &finished, &extract, look, &quantities, terminal)?;
+    if let Some(details) = &details {
+        write_files(&outputs, &finished, &extract, details, look, &quantities, terminal)?;
+    }
     if typed.json {
         let json = serde_json::to_string(&summary).map_err(|e| Failure::Print(e.into()))?;
         writeln!(out, "{json}").and_then(|()| out.flush()).map_err(Failure::Print)?;
@@ -98,6 +103,7 @@ fn write_files(
     outputs: &[Output],
     finished: &FinishedMesh,
     extract: &Extract,
+    details: &MeshDetails,
     look: RequestedLook,
     asked: &[NamedQuantity],
     terminal: &mut Terminal,
@@ -109,7 +115,9 @@ fn write_files(
         target_diameter = finished.target_at_nodes(extract);
         quantities = asked.iter().map(|quantity| quantity.at_nodes(extract)).collect::<Result<_, _>>()?;
     }
-    let data = MeshData { target_diameter: &target_diameter, quantities: &quantities };
+    let MeshDetails { boundary, parts } = details;
+    let (target_diameter, quantities) = (&target_diameter, &quantities);
+    let data = MeshData { target_diameter, quantities, boundary, parts };
     let interruption = Interruption::listen().map_err(|error| Failure::Work(format!("{error}.")))?;
     for output in outputs {
         let meter = interruption.meter();

@@ -5,6 +5,7 @@
 
 mod args;
 mod build;
+mod details;
 mod failure;
 mod locate;
 mod mesh;

@@ -9,7 +9,7 @@ use super::failure::Failure;
 use super::output::is_standard_stream;
 use super::request::{Meaning, MeshRequest, RasterFormat, RasterSpec, SourceSpec};
 use crate::build::{FieldSampling, MeshSpec};
-use crate::domain::{BoundaryTreatment, Domain, DomainShape};
+use crate::domain::{BoundaryMarks, BoundaryTreatment, Domain, DomainShape};
 use crate::field::{Source, TargetFieldSpec, Transfer, f32_not_below};
 use crate::geometry::{Lattice, Rect};
 use crate::io;
@@ -22,14 +22,23 @@ const USUAL_RESOLUTION: u32 = 1024;
 /// example).
 const USUAL_CELLS: f64 = 20.0;
 
-/// Reads the files of a request that names no project. Returns what to mesh, and notes for the user, a
-/// sentence each.
+/// What the files of a request say.
+pub struct ReadSources {
+    /// What to mesh.
+    pub spec: MeshSpec,
+    /// Names of the boundary.
+    pub marks: BoundaryMarks,
+    /// Notes for the user, a sentence each.
+    pub notes: Vec<String>,
+}
+
+/// Reads the files of a request that names no project.
 ///
 /// # Errors
 /// When a file cannot be read or used, or there is no coarse grid.
-pub fn read_spec(request: &MeshRequest) -> Result<(MeshSpec, Vec<String>), Failure> {
+pub fn read_sources(request: &MeshRequest) -> Result<ReadSources, Failure> {
     let placed = read_placed(request)?;
-    let domain = domain(request, &placed)?;
+    let (domain, marks) = domain(request, &placed)?;
     let bounds = domain.bounds;
     let rasters = read_images(request, placed, bounds)?;
     let spacing = request.spacing.unwrap_or(bounds.size().max_element() / USUAL_CELLS);
@@ -43,7 +52,8 @@ pub fn read_spec(request: &MeshRequest) -> Result<(MeshSpec, Vec<String>), Failu
     let sampling = FieldSampling::AsNeeded;
     let is_fitted = boundary != BoundaryTreatment::Report && domain.region().is_some();
     let cleaning = request.cleaning(if is_fitted { Cleaning::FOR_SOLVERS } else { Cleaning::NONE });
-    Ok((MeshSpec { domain, boundary, lattice, field, rule, sampling, cleaning, limits }, notes))
+    let spec = MeshSpec { domain, boundary, lattice, field, rule, sampling, cleaning, limits };
+    Ok(ReadSources { spec, marks, notes })
 }
 
 /// The rasters that say which rectangle they cover, in the order of the sources; `None` for other sources.
@@ -76,21 +86,22 @@ fn read_images(
     request.sources.iter().zip(placed).map(read).collect()
 }
 
-/// The domain that is asked for; if none is, the rectangle that the rasters cover, or the unit square.
-fn domain(request: &MeshRequest, placed: &[Option<Raster>]) -> Result<Domain, Failure> {
+/// The domain that is asked for, with the names that its file has; if none is, the rectangle that the rasters
+/// cover, or the unit square.
+fn domain(request: &MeshRequest, placed: &[Option<Raster>]) -> Result<(Domain, BoundaryMarks), Failure> {
     if let Some(path) = &request.region {
         let polygons = if is_standard_stream(path) {
-            io::geojson::read_from(stdin().lock(), Path::new("standard input"))?
+            io::geojson::read_named_from(stdin().lock(), Path::new("standard input"))?
         } else {
-            io::geojson::read(path)?
+            io::geojson::read_named(path)?
         };
-        return Domain::of_polygons(&polygons)
+        return BoundaryMarks::domain_of(&polygons)
             .map_err(|error| Failure::Work(format!("{}: {error}", path.display())));
     }
     let bounds =
         request.domain.or_else(|| placed.iter().flatten().map(Raster::bounds).reduce(|a, b| a.union(&b)));
     let shape = request.inside.clone().map_or(DomainShape::Whole, DomainShape::Formula);
-    Ok(Domain { bounds: bounds.unwrap_or(Rect::UNIT), shape })
+    Ok((Domain { bounds: bounds.unwrap_or(Rect::UNIT), shape }, BoundaryMarks::default()))
 }
 
 fn boundary(request: &MeshRequest, spacing: f64, lattice: &Lattice) -> Result<BoundaryTreatment, Failure> {

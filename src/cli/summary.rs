@@ -4,7 +4,8 @@ use glam::DVec2;
 use serde::Serialize;
 
 use super::build::FinishedMesh;
-use crate::domain::{FitQuality, Region};
+use super::details::{LostIsland, MeshDetails, PieceSummary};
+use crate::domain::{FitQuality, MeshBoundary, Region};
 use crate::field::RefinementRule;
 use crate::mesh::{Extract, Removed, RemovedPart, Topology};
 use crate::outline::OutlineFit;
@@ -33,6 +34,10 @@ pub struct Summary {
     /// How well the nodes of the boundary lie on the outline, where they are moved there.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub outline_nodes: Option<OutlineNodes>,
+    /// The pieces of the boundary.
+    pub boundary: Option<Vec<PieceSummary>>,
+    /// Triangles of each edge-connected part, the largest first.
+    pub part_triangles: Option<Vec<usize>>,
     /// Side δ of a coarse cell, in world units.
     pub spacing: f64,
     /// "vertex" or "area".
@@ -106,8 +111,8 @@ pub struct Outline {
     pub farthest_from_outline: Option<(f64, [f64; 2])>,
     /// Largest distance from the outline to the boundary of the mesh, and the place.
     pub farthest_from_mesh: Option<(f64, [f64; 2])>,
-    /// A corner of each hole of the polygons that the mesh covers.
-    pub lost_islands: Vec<[f64; 2]>,
+    /// The holes of the polygons that the mesh covers.
+    pub lost_islands: Vec<LostIsland>,
     /// Smallest angle of a triangle, in degrees.
     pub smallest_angle: f64,
     /// Largest angle of a triangle, in degrees.
@@ -156,7 +161,12 @@ impl From<&Removed> for RemovedSummary {
 }
 
 impl Outline {
-    fn of(finished: &FinishedMesh, extract: &Extract, region: &Region) -> Self {
+    fn of(
+        finished: &FinishedMesh,
+        extract: &Extract,
+        region: &Region,
+        boundary: Option<&MeshBoundary>,
+    ) -> Self {
         let fit = FitQuality::of(finished.mesh(), extract, region);
         let Topology { parts, holes, .. } = extract.topology();
         let placed = |farthest: Option<(f64, DVec2)>| farthest.map(|(distance, at)| (distance, at.into()));
@@ -171,7 +181,7 @@ impl Outline {
             outline_length: fit.outline_length,
             farthest_from_outline: placed(fit.farthest_from_outline),
             farthest_from_mesh: placed(fit.farthest_from_mesh),
-            lost_islands: fit.lost_islands.iter().map(|&at| at.into()).collect(),
+            lost_islands: fit.lost_islands.iter().map(|&at| LostIsland::at(at, boundary)).collect(),
             smallest_angle: fit.smallest_angle,
             largest_angle: fit.largest_angle,
         }
@@ -234,16 +244,25 @@ fn counted(count: usize, noun: &str) -> String {
 
 impl Summary {
     /// The figures of a mesh, and of the extract that files get.
-    pub fn of(finished: &FinishedMesh, extract: &Extract, violations: Option<usize>) -> Self {
+    /// `details` are wanted for JSON only.
+    pub fn of(
+        finished: &FinishedMesh,
+        extract: &Extract,
+        details: Option<&MeshDetails>,
+        violations: Option<usize>,
+    ) -> Self {
         let mesh = finished.mesh();
         let levels = extract.level_counts();
-        let region = finished.region.as_ref();
+        let region = finished.region();
+        let boundary = details.map(|details| &details.boundary);
         Self {
             triangles: extract.triangles().len(),
             nodes: extract.nodes().len(),
             area: if extract.is_patched() { extract.area() } else { mesh.area() },
             outline_nodes: finished.derived.fit().map(OutlineNodes::from),
-            outline: region.map(|region| Outline::of(finished, extract, region)),
+            outline: region.map(|region| Outline::of(finished, extract, region, boundary)),
+            boundary: boundary.map(PieceSummary::of_all),
+            part_triangles: details.map(MeshDetails::part_triangles),
             max_level: levels.len() - 1,
             hash: mesh.fingerprint().to_string(),
             seconds: finished.refinement.as_secs_f64(),

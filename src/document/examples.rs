@@ -3,7 +3,7 @@ use std::sync::Arc;
 use glam::{DVec2, dvec2};
 
 use super::{Base, Document, Settings};
-use crate::domain::{BoundaryTreatment, Domain, Polygon};
+use crate::domain::{BoundaryMarks, BoundaryTreatment, Domain, NamedPolygon};
 use crate::field::{Formula, RefinementRule, Transfer};
 use crate::geometry::Rect;
 use crate::mesh::Cleaning;
@@ -54,7 +54,11 @@ impl Example {
 
     /// The document. `slope` decodes the picture of the terrain, risk by pixel over its rectangle; `sea`
     /// reads the polygons of the Aegean in degrees. Only the examples that need them call these.
-    pub fn document(self, slope: impl FnOnce() -> Raster, sea: impl FnOnce() -> Vec<Polygon>) -> Document {
+    pub fn document(
+        self,
+        slope: impl FnOnce() -> Raster,
+        sea: impl FnOnce() -> Vec<NamedPolygon>,
+    ) -> Document {
         match self {
             Self::Threats => threats(),
             Self::Diamond => document(diamond()),
@@ -77,6 +81,7 @@ fn diamond() -> Settings {
         spacing: 1.0,
         boundary: BoundaryTreatment::usual(1.0),
         cleaning: Cleaning::FOR_SOLVERS,
+        boundary_marks: Arc::default(),
         transfer: Transfer { h_min: 0.02, h_max: 20.0, shape: 1.0 },
         base: Base::Formula(formula),
         rule: RefinementRule::Vertex,
@@ -93,6 +98,7 @@ fn terrain(slope: Raster) -> Settings {
         spacing: slope.bounds().size().max_element() / 24.0,
         boundary: BoundaryTreatment::usual(slope.bounds().size().max_element() / 24.0),
         cleaning: Cleaning::FOR_SOLVERS,
+        boundary_marks: Arc::default(),
         transfer: Transfer { h_min: 0.05, h_max: 2.0, shape: 1.6 },
         base: Base::RiskImage { name: "jacksboro_slope.png".into(), raster: Arc::new(slope) },
         rule: RefinementRule::Area,
@@ -111,10 +117,11 @@ const SITES: [(DVec2, f64, f64, f64); 4] = [
 ];
 
 /// The sea at half a degree, the coast at a fiftieth.
-fn aegean(sea: &[Polygon]) -> Settings {
-    let domain = Domain::of_polygons(sea).expect("a valid outline");
+fn aegean(sea: &[NamedPolygon]) -> Settings {
+    let (domain, marks) = BoundaryMarks::domain_of(sea).expect("a valid outline");
     let settings = Settings::for_domain(Example::Aegean.name().into(), domain);
-    Settings { spacing: 0.5, boundary: BoundaryTreatment::OnOutline { diameter: 0.02 }, ..settings }
+    let boundary = BoundaryTreatment::OnOutline { diameter: 0.02 };
+    Settings { spacing: 0.5, boundary, boundary_marks: Arc::new(marks), ..settings }
 }
 
 fn threats() -> Document {

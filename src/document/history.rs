@@ -50,13 +50,14 @@ type SharedData = (usize, usize);
 
 fn shared_data(settings: &Settings) -> impl Iterator<Item = SharedData> {
     let outline = settings.domain.region().map(|region| (Arc::as_ptr(region).addr(), region.bytes()));
+    let marks = (Arc::as_ptr(&settings.boundary_marks).addr(), settings.boundary_marks.bytes());
     let (base_formula, picture) = match &settings.base {
         Base::Constant(_) => (None, None),
         Base::Formula(formula) => (Some(formula), None),
         Base::RiskImage { raster, .. } => (None, Some((Arc::as_ptr(raster).addr(), raster.bytes()))),
     };
     let formulas = [settings.domain.formula(), base_formula].into_iter().flatten();
-    formulas.map(|formula| (formula.address(), formula.bytes())).chain(outline).chain(picture)
+    formulas.map(|formula| (formula.address(), formula.bytes())).chain(outline).chain([marks]).chain(picture)
 }
 
 /// One gesture, done or undone.

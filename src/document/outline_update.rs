@@ -18,12 +18,13 @@ pub(super) struct OutlineUpdate {
 }
 
 impl OutlineUpdate {
-    /// Whether a mesh can follow in place from one domain to the other: only where nothing else differs, and
-    /// where the mesh is fitted, so that triangles outside stay in it, marked.
+    /// Whether a mesh can follow in place from one domain to the other: only where nothing else differs that
+    /// changes the mesh, and where the mesh is fitted, so that triangles outside stay in it, marked.
     pub(super) fn is_possible(shown: &Settings, wanted: &Settings) -> bool {
         let fits = wanted.boundary.diameter().is_some() && wanted.rule == RefinementRule::Area;
         let has_outlines = shown.domain.formula().is_none() && wanted.domain.formula().is_none();
-        let otherwise_equal = Settings { domain: wanted.domain.clone(), ..shown.clone() } == *wanted;
+        let (domain, boundary_marks) = (wanted.domain.clone(), wanted.boundary_marks.clone());
+        let otherwise_equal = Settings { domain, boundary_marks, ..shown.clone() } == *wanted;
         fits && has_outlines && shown.domain.bounds == wanted.domain.bounds && otherwise_equal
     }
 

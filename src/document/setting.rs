@@ -1,7 +1,8 @@
 use std::mem::Discriminant;
+use std::sync::Arc;
 
 use super::{Base, Settings};
-use crate::domain::{BoundaryTreatment, Domain};
+use crate::domain::{BoundaryMarks, BoundaryTreatment, Domain};
 use crate::field::RefinementRule;
 use crate::geometry::Rect;
 use crate::mesh::Cleaning;
@@ -36,6 +37,8 @@ pub enum Setting {
     Boundary(BoundaryTreatment),
     /// Which triangles of the domain stay in the derived mesh.
     Cleaning(Cleaning),
+    /// Names of pieces of the boundary, and where it is split.
+    BoundaryMarks(BoundaryMarks),
 }
 
 /// Which setting a [`Setting`] changes, at any value: changes of one kind can be one gesture.
@@ -64,6 +67,7 @@ impl Setting {
             Self::Domain(_) => "domain shape",
             Self::Boundary(_) => "boundary",
             Self::Cleaning(_) => "cleaning",
+            Self::BoundaryMarks(_) => "boundary names",
         }
     }
 
@@ -89,6 +93,7 @@ impl Setting {
             Self::Domain(domain) => settings.domain = domain,
             Self::Boundary(boundary) => settings.boundary = boundary,
             Self::Cleaning(cleaning) => settings.cleaning = cleaning,
+            Self::BoundaryMarks(marks) => settings.boundary_marks = Arc::new(marks),
         }
     }
 }

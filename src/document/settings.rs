@@ -1,7 +1,7 @@
 use std::sync::Arc;
 
 use crate::build::{FieldSampling, MeshSpec};
-use crate::domain::{BoundaryTreatment, Domain};
+use crate::domain::{BoundaryMarks, BoundaryTreatment, Domain};
 use crate::field::{
     Formula, RefinementRule, Source, TargetFieldSpec, Transfer, TransferError, checked_target,
 };
@@ -22,6 +22,8 @@ pub struct Settings {
     pub boundary: BoundaryTreatment,
     /// Which triangles of a domain of polygons stay in the derived mesh.
     pub cleaning: Cleaning,
+    /// Names of pieces of the boundary, and where it is split. They do not change the mesh.
+    pub boundary_marks: Arc<BoundaryMarks>,
     /// Largest side δ̄ of a coarse cell, in world units.
     pub spacing: f64,
     /// From risk to diameter; its ends bound h̄ everywhere.
@@ -214,7 +216,8 @@ impl Settings {
             false => self.boundary,
         };
         let Self { cleaning, max_triangles, max_memory, .. } = *other;
-        Self { boundary, cleaning, max_triangles, max_memory, ..self.clone() } == *other
+        let boundary_marks = other.boundary_marks.clone();
+        Self { boundary, boundary_marks, cleaning, max_triangles, max_memory, ..self.clone() } == *other
     }
 
     /// What the mesh may cost.
@@ -257,6 +260,7 @@ impl Default for Settings {
             spacing: 1.0 / 24.0,
             boundary: BoundaryTreatment::usual(1.0 / 24.0),
             cleaning: Cleaning::FOR_SOLVERS,
+            boundary_marks: Arc::default(),
             transfer: Transfer { h_min: 0.0024, h_max: 0.2, shape: 1.0 },
             base: Base::Constant(0.2),
             rule: RefinementRule::Area,

@@ -2,8 +2,10 @@
 //!
 //! Columns: `triangle` and its `level`; its nodes `v1,v2,v3`, anticlockwise, the first two are the ends of
 //! the bisection edge; the triangles `n1,n2,n3` across its edges, first across the bisection edge and then
-//! anticlockwise, empty at the boundary; its corners `x1,y1,x2,y2,x3,y3`; and h̄ at the corners,
-//! `target1,target2,target3`. Numbers start at zero.
+//! anticlockwise, empty at the boundary; its corners `x1,y1,x2,y2,x3,y3`; h̄ at the corners,
+//! `target1,target2,target3`; the number of its `part`, from 0 for the largest; and the markers of its edges
+//! in the order of n1, n2 and n3, `b1,b2,b3`: of the piece of the boundary, and 0 inside. Other numbers start
+//! at zero.
 
 use std::io::{self, Write};
 
@@ -15,9 +17,11 @@ pub static FORMAT: FormatSpec = FormatSpec {
     ending: "csv",
     beside: &[],
     write: |out, mesh, data, meter| write(&mut meter.count(out), mesh, data),
+    write_binary: None,
 };
 
-const HEADER: &str = "triangle,level,v1,v2,v3,n1,n2,n3,x1,y1,x2,y2,x3,y3,target1,target2,target3";
+const HEADER: &str = "triangle,level,v1,v2,v3,n1,n2,n3,x1,y1,x2,y2,x3,y3,target1,target2,target3,\
+                      part,b1,b2,b3";
 
 /// Writes the table. Quantities other than h̄ follow as columns `name1,name2,name3`.
 ///
@@ -29,11 +33,13 @@ pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Resul
         write!(out, ",{name}1,{name}2,{name}3")?;
     }
     writeln!(out)?;
+    let mut pieces = data.boundary.piece_of_edge().iter();
     for (id, cell) in mesh.cells().enumerate() {
         let [a, b, c] = cell.corners;
         write!(out, "{id},{},{a},{b},{c}", cell.level)?;
         let [second, third, bisection] = cell.opposite;
-        for neighbour in [bisection, second, third] {
+        let across = [bisection, second, third];
+        for neighbour in across {
             match neighbour {
                 Some(across) => write!(out, ",{across}")?,
                 None => write!(out, ",")?,
@@ -43,7 +49,15 @@ pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Resul
             let p = mesh.world(NodeId::from_index(node));
             write!(out, ",{},{}", Number(p.x), Number(p.y))?;
         }
-        for (_, values) in data.node_values() {
+        for node in cell.corners {
+            write!(out, ",{}", Number(data.target_diameter[node]))?;
+        }
+        write!(out, ",{}", data.parts[id])?;
+        for neighbour in across {
+            let piece = if neighbour.is_none() { pieces.next() } else { None };
+            write!(out, ",{}", piece.map_or(0, |piece| piece + 1))?;
+        }
+        for NodeValues { values, .. } in data.quantities {
             for node in cell.corners {
                 write!(out, ",{}", Number(values[node]))?;
             }

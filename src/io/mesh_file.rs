@@ -6,9 +6,12 @@ use super::atomic::{Draft, put_in_place};
 use super::{MESH_FORMATS, MeshData, Meter};
 use crate::mesh::Extract;
 
-/// A file format for a mesh with its data: one of [`Self::all`].
+/// A file format for a mesh with its data: one of [`Self::all`], or its binary form.
 #[derive(Clone, Copy)]
-pub struct MeshFormat(&'static FormatSpec);
+pub struct MeshFormat {
+    spec: &'static FormatSpec,
+    is_binary: bool,
+}
 
 /// A file format, as its module describes it.
 pub struct FormatSpec {
@@ -18,6 +21,8 @@ pub struct FormatSpec {
     pub beside: &'static [(&'static str, WriteMesh)],
     /// Writes a mesh.
     pub write: WriteMesh,
+    /// Writes a mesh in binary form, if the format has a form of either kind.
+    pub write_binary: Option<WriteMesh>,
 }
 
 /// Writes a mesh and its data, and updates the meter.
@@ -26,7 +31,12 @@ pub type WriteMesh = fn(&mut dyn Write, &Extract, &MeshData, &Meter) -> io::Resu
 impl MeshFormat {
     /// All formats.
     pub fn all() -> impl Iterator<Item = Self> {
-        MESH_FORMATS.into_iter().map(Self)
+        MESH_FORMATS.into_iter().map(|spec| Self { spec, is_binary: false })
+    }
+
+    /// The binary form of a format that is text otherwise, if there is one: of `.msh`.
+    pub fn binary(self) -> Option<Self> {
+        self.spec.write_binary.is_some().then_some(Self { is_binary: true, ..self })
     }
 
     /// The format of a file name extension, in lower case and without the dot.
@@ -36,13 +46,20 @@ impl MeshFormat {
 
     /// The file name extension, in lower case and without the dot.
     pub fn ending(self) -> &'static str {
-        self.0.ending
+        self.spec.ending
     }
 
     /// The files that an export to `path` writes, `path` first.
     pub fn files(self, path: &Path) -> Vec<PathBuf> {
-        let beside = self.0.beside.iter().map(|(ending, _)| path.with_extension(ending));
+        let beside = self.spec.beside.iter().map(|(ending, _)| path.with_extension(ending));
         std::iter::once(path.to_owned()).chain(beside).collect()
+    }
+
+    fn writer(self) -> WriteMesh {
+        match self.spec.write_binary {
+            Some(write) if self.is_binary => write,
+            _ => self.spec.write,
+        }
     }
 
     /// Writes a mesh, and returns the paths of the files: [`Self::files`]. The meter knows the number of
@@ -59,8 +76,8 @@ impl MeshFormat {
         meter: &Meter,
     ) -> io::Result<Vec<PathBuf>> {
         let files = self.files(path);
-        let writers = std::iter::once(&self.0.write).chain(self.0.beside.iter().map(|(_, write)| write));
-        let draft = |(file, write): (&PathBuf, &WriteMesh)| {
+        let writers = std::iter::once(self.writer()).chain(self.spec.beside.iter().map(|(_, write)| *write));
+        let draft = |(file, write): (&PathBuf, WriteMesh)| {
             Draft::write(file, meter, |out| write(out, mesh, data, meter))
         };
         // None replaces an old file before all are written: they would not match each other.
@@ -80,19 +97,19 @@ impl MeshFormat {
         data: &MeshData,
         meter: &Meter,
     ) -> Option<io::Result<()>> {
-        self.0.beside.is_empty().then(|| (self.0.write)(out, mesh, data, meter))
+        self.spec.beside.is_empty().then(|| self.writer()(out, mesh, data, meter))
     }
 }
 
 impl fmt::Debug for MeshFormat {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "MeshFormat(.{})", self.ending())
+        write!(f, "MeshFormat(.{}{})", self.ending(), if self.is_binary { ", binary" } else { "" })
     }
 }
 
 impl PartialEq for MeshFormat {
     fn eq(&self, other: &Self) -> bool {
-        self.ending() == other.ending()
+        (self.ending(), self.is_binary) == (other.ending(), other.is_binary)
     }
 }
 

@@ -32,6 +32,7 @@ pub mod stl;
 pub mod svg;
 pub mod vtu;
 
+use crate::domain::MeshBoundary;
 pub use crate::text::Number;
 pub use atomic::{exists, make_folder, obstacle, write_file, write_file_metered};
 pub use error::{Flaw, Place, ReadError};
@@ -44,12 +45,20 @@ static MESH_FORMATS: [&FormatSpec; 7] =
     [&vtu::FORMAT, &msh::FORMAT, &obj::FORMAT, &stl::FORMAT, &node::FORMAT, &sms::FORMAT, &csv::FORMAT];
 
 /// The data that is written with a mesh. The level of each triangle comes from the mesh.
+///
+/// In files a piece of the boundary has the marker 1 + its number.
 #[derive(Clone, Copy, Debug)]
 pub struct MeshData<'a> {
     /// h̄ at each node, in world units, in the order of the extract's nodes.
     pub target_diameter: &'a [f64],
     /// Further values at the nodes, in the same order.
     pub quantities: &'a [NodeValues],
+    /// The boundary in named pieces.
+    pub boundary: &'a MeshBoundary,
+    /// The number of each triangle's part, from 0 for the largest: [`Extract::part_numbers`].
+    ///
+    /// [`Extract::part_numbers`]: crate::mesh::Extract::part_numbers
+    pub parts: &'a [u32],
 }
 
 /// A value at each node, and its name in files.

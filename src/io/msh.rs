@@ -1,94 +1,229 @@
-//! `.msh`: Gmsh 4.1 in text form, with the physical groups that solvers need.
+//! `.msh`: Gmsh 4.1, as text or in binary form, with the physical groups that solvers need.
 //!
-//! The triangles are the physical surface `domain` (1), the boundary edges the physical curve `boundary` (2)
-//! with the domain on the left. h̄ and the quantities are node data, `level` is element data. Tags count from
-//! one, triangles first: the tag of a triangle is its id plus one.
+//! The triangles are the physical surface `domain` (1). Each piece of the boundary of which the mesh has
+//! edges is a physical curve with the name of the piece and its marker, with the domain on the left. h̄ and
+//! the quantities are node data; `level` and `part` (the number of the connected part, from 0 for the
+//! largest) are element data. Tags count from one, triangles first: the tag of a triangle is its id plus one.
+//!
+//! Both forms hold the same numbers. The binary one is smaller and quicker to read; it is little-endian, as
+//! the machines are that write it.
 
 use std::io::{self, Write};
 
 use super::{FormatSpec, MeshData, Number};
-use crate::mesh::Extract;
+use crate::geometry::Rect;
+use crate::mesh::{BoundaryEdge, Extract, NodeId};
 
 /// Gmsh 4.1.
 pub static FORMAT: FormatSpec = FormatSpec {
     ending: "msh",
     beside: &[],
     write: |out, mesh, data, meter| write(&mut meter.count(out), mesh, data),
+    write_binary: Some(|out, mesh, data, meter| write_binary(&mut meter.count(out), mesh, data)),
 };
 
 /// Gmsh's numbers for an element of two and of three nodes.
-const LINE: u8 = 1;
-const TRIANGLE: u8 = 2;
+const LINE: i32 = 1;
+const TRIANGLE: i32 = 2;
+/// The tag of the surface and of its physical group.
+const SURFACE: i32 = 1;
 
-/// Writes the mesh with its boundary.
+/// Writes the mesh with its boundary as text.
 ///
 /// # Errors
 /// Errors of `out`.
 pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Result<()> {
-    writeln!(out, "$MeshFormat\n4.1 0 8\n$EndMeshFormat")?;
-    writeln!(out, "$PhysicalNames\n2\n1 2 \"boundary\"\n2 1 \"domain\"\n$EndPhysicalNames")?;
-    write_entities(out, mesh)?;
-    write_nodes(out, mesh)?;
-    write_elements(out, mesh)?;
-    for (name, values) in data.node_values() {
-        write_values(out, "NodeData", name, values.iter().copied())?;
-    }
-    // meshio requires element data for all elements or none: a boundary edge gets the level of its triangle.
-    let lines = mesh.boundary_edges().map(|edge| edge.level);
-    let levels = mesh.triangles().iter().map(|triangle| triangle.level()).chain(lines).map(f64::from);
-    write_values(out, "ElementData", "level", levels)
+    Writer { out, is_binary: false }.write(mesh, data)
 }
 
-/// One curve (the boundary, physical group 2) and the surface that it bounds (physical group 1).
-fn write_entities(out: &mut impl Write, mesh: &Extract) -> io::Result<()> {
-    let bounds = mesh.lattice().bounds();
-    let [x0, y0, x1, y1] = [bounds.min.x, bounds.min.y, bounds.max.x, bounds.max.y].map(Number);
-    writeln!(out, "$Entities\n0 1 1 0")?;
-    writeln!(out, "1 {x0} {y0} 0 {x1} {y1} 0 1 2 0")?;
-    writeln!(out, "1 {x0} {y0} 0 {x1} {y1} 0 1 1 1 1")?;
-    writeln!(out, "$EndEntities")
+/// Writes the mesh with its boundary in binary form.
+///
+/// # Errors
+/// Errors of `out`.
+pub fn write_binary(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Result<()> {
+    Writer { out, is_binary: true }.write(mesh, data)
 }
 
-fn write_nodes(out: &mut impl Write, mesh: &Extract) -> io::Result<()> {
-    let count = mesh.nodes().len();
-    writeln!(out, "$Nodes\n1 {count} 1 {count}\n2 1 0 {count}")?;
-    for tag in 1..=count {
-        writeln!(out, "{tag}")?;
-    }
-    for p in mesh.world_nodes() {
-        writeln!(out, "{} {} 0", Number(p.x), Number(p.y))?;
-    }
-    writeln!(out, "$EndNodes")
+/// A number of the file.
+#[derive(Clone, Copy)]
+enum Value {
+    Int(i32),
+    Size(usize),
+    Real(f64),
 }
 
-fn write_elements(out: &mut impl Write, mesh: &Extract) -> io::Result<()> {
-    let triangles = mesh.triangles().len();
-    let lines = mesh.boundary_edges().count();
-    let all = triangles + lines;
-    writeln!(out, "$Elements\n2 {all} 1 {all}\n2 1 {TRIANGLE} {triangles}")?;
-    for (tag, cell) in (1..).zip(mesh.cells()) {
-        let [a, b, c] = cell.corners.map(|node| node + 1);
-        writeln!(out, "{tag} {a} {b} {c}")?;
-    }
-    writeln!(out, "1 1 {LINE} {lines}")?;
-    for (tag, edge) in (triangles + 1..).zip(mesh.boundary_edges()) {
-        let [from, to] = edge.ends.map(|node| node + 1);
-        writeln!(out, "{tag} {from} {to}")?;
-    }
-    writeln!(out, "$EndElements")
+use Value::{Int, Real, Size};
+
+struct Writer<'a, W> {
+    out: &'a mut W,
+    is_binary: bool,
 }
 
-/// A view of Gmsh: one number for each node or element.
-fn write_values(
-    out: &mut impl Write,
-    section: &str,
-    name: &str,
-    values: impl Iterator<Item = f64> + Clone,
-) -> io::Result<()> {
-    // One string (the name), one real number (the time), three whole numbers (step, components, count).
-    writeln!(out, "${section}\n1\n\"{name}\"\n1\n0\n3\n0\n1\n{}", values.clone().count())?;
-    for (tag, value) in (1..).zip(values) {
-        writeln!(out, "{tag} {}", Number(value))?;
+impl<W: Write> Writer<'_, W> {
+    fn write(mut self, mesh: &Extract, data: &MeshData) -> io::Result<()> {
+        let curves = Curve::all(mesh, data);
+        self.write_head()?;
+        self.write_names(data, &curves)?;
+        self.write_entities(mesh, &curves)?;
+        self.write_nodes(mesh)?;
+        self.write_elements(mesh, &curves)?;
+        for (name, values) in data.node_values() {
+            self.write_values("NodeData", name, values.iter().copied())?;
+        }
+        // meshio requires element data for all elements or none: a boundary edge gets that of its triangle.
+        let lines = || curves.iter().flat_map(|curve| &curve.edges);
+        let levels = mesh.triangles().iter().map(|triangle| triangle.level());
+        self.write_values(
+            "ElementData",
+            "level",
+            levels.chain(lines().map(|edge| edge.level)).map(f64::from),
+        )?;
+        let parts = data.parts.iter().copied().chain(lines().map(|edge| data.parts[edge.triangle]));
+        self.write_values("ElementData", "part", parts.map(f64::from))
     }
-    writeln!(out, "$End{section}")
+
+    fn write_head(&mut self) -> io::Result<()> {
+        let bytes = size_of::<u64>();
+        writeln!(self.out, "$MeshFormat\n4.1 {} {bytes}", u8::from(self.is_binary))?;
+        if self.is_binary {
+            self.row(&[Int(1)])?; // tells readers the order of bytes
+            writeln!(self.out)?;
+        }
+        writeln!(self.out, "$EndMeshFormat")
+    }
+
+    fn write_names(&mut self, data: &MeshData, curves: &[Curve]) -> io::Result<()> {
+        writeln!(self.out, "$PhysicalNames\n{}", curves.len() + 1)?;
+        for curve in curves {
+            let name = &data.boundary.pieces().list()[curve.piece].name;
+            writeln!(self.out, "1 {} \"{name}\"", curve.tag())?;
+        }
+        writeln!(self.out, "2 {SURFACE} \"domain\"\n$EndPhysicalNames")
+    }
+
+    /// A curve for each piece, and the surface that they bound: tag, bounds, physical group, boundary.
+    fn write_entities(&mut self, mesh: &Extract, curves: &[Curve]) -> io::Result<()> {
+        writeln!(self.out, "$Entities")?;
+        self.row(&[Size(0), Size(curves.len()), Size(1), Size(0)])?;
+        for curve in curves {
+            let group = [Size(1), Int(curve.tag()), Size(0)];
+            self.row(&[&[Int(curve.tag())], &box_values(&curve.bounds)[..], &group].concat())?;
+        }
+        let boundary: Vec<Value> = curves.iter().map(|curve| Int(curve.tag())).collect();
+        let group = [Size(1), Int(SURFACE), Size(curves.len())];
+        let bounds = box_values(&mesh.lattice().bounds());
+        self.row(&[&[Int(SURFACE)], &bounds[..], &group, &boundary].concat())?;
+        self.end("Entities")
+    }
+
+    fn write_nodes(&mut self, mesh: &Extract) -> io::Result<()> {
+        let count = mesh.nodes().len();
+        writeln!(self.out, "$Nodes")?;
+        self.row(&[Size(1), Size(count), Size(1), Size(count)])?;
+        self.row(&[Int(2), Int(SURFACE), Int(0), Size(count)])?;
+        for tag in 1..=count {
+            self.row(&[Size(tag)])?;
+        }
+        for p in mesh.world_nodes() {
+            self.row(&[Real(p.x), Real(p.y), Real(0.0)])?;
+        }
+        self.end("Nodes")
+    }
+
+    fn write_elements(&mut self, mesh: &Extract, curves: &[Curve]) -> io::Result<()> {
+        let triangles = mesh.triangles().len();
+        let all = triangles + curves.iter().map(|curve| curve.edges.len()).sum::<usize>();
+        writeln!(self.out, "$Elements")?;
+        self.row(&[Size(curves.len() + 1), Size(all), Size(1), Size(all)])?;
+        self.row(&[Int(2), Int(SURFACE), Int(TRIANGLE), Size(triangles)])?;
+        for (tag, cell) in (1..).zip(mesh.cells()) {
+            let [a, b, c] = cell.corners.map(|node| Size(node + 1));
+            self.row(&[Size(tag), a, b, c])?;
+        }
+        let mut tag = triangles;
+        for curve in curves {
+            self.row(&[Int(1), Int(curve.tag()), Int(LINE), Size(curve.edges.len())])?;
+            for edge in &curve.edges {
+                tag += 1;
+                let [from, to] = edge.ends.map(|node| Size(node + 1));
+                self.row(&[Size(tag), from, to])?;
+            }
+        }
+        self.end("Elements")
+    }
+
+    /// A view of Gmsh: one number for each node or element.
+    fn write_values(
+        &mut self,
+        section: &str,
+        name: &str,
+        values: impl Iterator<Item = f64> + Clone,
+    ) -> io::Result<()> {
+        // One string (the name), one real number (the time), three whole numbers (step, components, count).
+        // They are text in both forms.
+        writeln!(self.out, "${section}\n1\n\"{name}\"\n1\n0\n3\n0\n1\n{}", values.clone().count())?;
+        for (tag, value) in (1..).zip(values) {
+            self.row(&[Int(tag), Real(value)])?;
+        }
+        self.end(section)
+    }
+
+    /// A line of text, or the bytes of the numbers.
+    fn row(&mut self, values: &[Value]) -> io::Result<()> {
+        if self.is_binary {
+            return values.iter().try_for_each(|value| match value {
+                Int(n) => self.out.write_all(&n.to_le_bytes()),
+                Size(n) => self.out.write_all(&(*n as u64).to_le_bytes()),
+                Real(x) => self.out.write_all(&x.to_le_bytes()),
+            });
+        }
+        for (n, value) in values.iter().enumerate() {
+            let blank = if n == 0 { "" } else { " " };
+            match value {
+                Int(n) => write!(self.out, "{blank}{n}")?,
+                Size(n) => write!(self.out, "{blank}{n}")?,
+                Real(x) => write!(self.out, "{blank}{}", Number(*x))?,
+            }
+        }
+        writeln!(self.out)
+    }
+
+    fn end(&mut self, section: &str) -> io::Result<()> {
+        let line_break = if self.is_binary { "\n" } else { "" };
+        writeln!(self.out, "{line_break}$End{section}")
+    }
+}
+
+/// The edges of a piece of the boundary.
+struct Curve {
+    piece: usize,
+    edges: Vec<BoundaryEdge>,
+    bounds: Rect,
+}
+
+impl Curve {
+    /// Those of all pieces of which the mesh has edges, by number.
+    fn all(mesh: &Extract, data: &MeshData) -> Vec<Self> {
+        let mut edges = vec![Vec::new(); data.boundary.pieces().list().len()];
+        for (edge, &piece) in mesh.boundary_edges().zip(data.boundary.piece_of_edge()) {
+            edges[piece as usize].push(edge);
+        }
+        let curve = |(piece, edges): (usize, Vec<BoundaryEdge>)| {
+            let nodes = edges.iter().flat_map(|edge| edge.ends);
+            let points = nodes.map(|node| mesh.world(NodeId::from_index(node)));
+            let bounds = points.map(|p| Rect::new(p, p)).reduce(|a, b| a.union(&b))?;
+            Some(Self { piece, edges, bounds })
+        };
+        edges.into_iter().enumerate().filter_map(curve).collect()
+    }
+
+    fn tag(&self) -> i32 {
+        self.piece as i32 + 1
+    }
+}
+
+/// The lower and the upper corner of a box that is flat.
+fn box_values(bounds: &Rect) -> [Value; 6] {
+    let Rect { min, max } = bounds;
+    [Real(min.x), Real(min.y), Real(0.0), Real(max.x), Real(max.y), Real(0.0)]
 }

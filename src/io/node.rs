@@ -1,9 +1,11 @@
 //! `.node`, `.ele`, `.neigh` and `.edge`: the formats of Shewchuk's Triangle, four files that belong
 //! together.
 //!
-//! Numbers start at zero. Node attributes are h̄ and then the quantities; the boundary marker is 1 on the
-//! boundary. The attribute of an element is its level. Neighbour i is opposite corner i; −1 is the boundary.
-//! `.edge` has all edges, with marker 1 on the boundary and 0 elsewhere.
+//! Numbers start at zero. Node attributes are h̄ and then the quantities. The attribute of an element is its
+//! level. Neighbour i is opposite corner i; −1 is the boundary. `.edge` has all edges.
+//!
+//! The boundary marker of edges and nodes is that of the piece of the boundary, and 0 inside; of a node in
+//! which pieces meet, the lower one. The format has no place for names.
 
 use std::io::{self, Write};
 
@@ -16,9 +18,10 @@ pub static FORMAT: FormatSpec = FormatSpec {
     beside: &[
         ("ele", |out, mesh, _, meter| write_elements(&mut meter.count(out), mesh)),
         ("neigh", |out, mesh, _, meter| write_neighbours(&mut meter.count(out), mesh)),
-        ("edge", |out, mesh, _, meter| write_edges(&mut meter.count(out), mesh)),
+        ("edge", |out, mesh, data, meter| write_edges(&mut meter.count(out), mesh, data)),
     ],
     write: |out, mesh, data, meter| write(&mut meter.count(out), mesh, data),
+    write_binary: None,
 };
 
 /// Writes the `.node` file: coordinates, h̄, quantities and boundary marker of each node.
@@ -26,14 +29,14 @@ pub static FORMAT: FormatSpec = FormatSpec {
 /// # Errors
 /// Errors of `out`.
 pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Result<()> {
-    let on_boundary = mesh.on_boundary();
+    let markers = data.boundary.node_markers(mesh);
     writeln!(out, "{} 2 {} 1", mesh.nodes().len(), data.node_values().count())?;
     for (id, p) in mesh.world_nodes().enumerate() {
         write!(out, "{id} {} {}", Number(p.x), Number(p.y))?;
         for (_, values) in data.node_values() {
             write!(out, " {}", Number(values[id]))?;
         }
-        writeln!(out, " {}", u8::from(on_boundary[id]))?;
+        writeln!(out, " {}", markers[id])?;
     }
     Ok(())
 }
@@ -64,15 +67,18 @@ pub fn write_neighbours(out: &mut impl Write, mesh: &Extract) -> io::Result<()> 
     Ok(())
 }
 
-/// Writes the `.edge` file: the ends of each edge, and whether it is on the boundary.
+/// Writes the `.edge` file: the ends of each edge, and its marker.
 ///
 /// # Errors
 /// Errors of `out`.
-pub fn write_edges(out: &mut impl Write, mesh: &Extract) -> io::Result<()> {
+pub fn write_edges(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Result<()> {
+    // Edges on the boundary are in the order of the boundary edges.
+    let mut pieces = data.boundary.piece_of_edge().iter();
     writeln!(out, "{} 1", mesh.edges().count())?;
     for (id, edge) in mesh.edges().enumerate() {
         let [from, to] = edge.ends;
-        writeln!(out, "{id} {from} {to} {}", u8::from(edge.on_boundary))?;
+        let piece = if edge.on_boundary { pieces.next() } else { None };
+        writeln!(out, "{id} {from} {to} {}", piece.map_or(0, |piece| piece + 1))?;
     }
     Ok(())
 }

@@ -13,6 +13,7 @@ pub static FORMAT: FormatSpec = FormatSpec {
     ending: "obj",
     beside: &[],
     write: |out, mesh, data, meter| write(&mut meter.count(out), mesh, data),
+    write_binary: None,
 };
 
 /// Writes the mesh, one group for each level.

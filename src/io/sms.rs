@@ -2,8 +2,10 @@
 //!
 //! z is the first quantity, usually the height of the ground, and 0 without quantities. All elements have
 //! material 1: a solver needs a description of each material, so levels are not written as materials.
-//! Nodestrings are the loops of the boundary with the domain on the left; each ends with its first node.
-//! Numbers start at one.
+//!
+//! Nodestrings are the pieces of the boundary with the domain on the left. One of a whole ring ends with its
+//! first node. A piece that is interrupted in the mesh has several nodestrings. The format has no place for
+//! names: comments give them by the numbers of the nodestrings. Numbers start at one.
 
 use std::io::{self, Write};
 
@@ -15,12 +17,13 @@ pub static FORMAT: FormatSpec = FormatSpec {
     ending: "2dm",
     beside: &[],
     write: |out, mesh, data, meter| write(&mut meter.count(out), mesh, data),
+    write_binary: None,
 };
 
 /// Nodes of a nodestring in one line.
 const NODES_A_LINE: usize = 10;
 
-/// Writes elements, nodes, and a nodestring for each loop of the boundary.
+/// Writes elements, nodes, and a nodestring for each piece of the boundary.
 ///
 /// # Errors
 /// Errors of `out`.
@@ -34,18 +37,25 @@ pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Resul
         let z = data.quantities.first().map_or(0.0, |quantity| quantity.values[node]);
         writeln!(out, "ND {} {} {} {}", node + 1, Number(p.x), Number(p.y), Number(z))?;
     }
-    for (id, nodes) in (1..).zip(mesh.boundary_loops()) {
-        write_nodestring(out, id, &nodes)?;
+    let runs = data.boundary.runs(mesh);
+    for (id, run) in (1..).zip(&runs) {
+        writeln!(out, "# nodestring {id}: {}", data.boundary.pieces().list()[run.piece].name)?;
     }
-    Ok(())
+    (1..).zip(&runs).try_for_each(|(id, run)| write_nodestring(out, id, &run.nodes))
 }
 
-/// The last node is negative, and the number of the nodestring follows it.
+/// The last node is negative, and the number of the nodestring follows it. py2dm requires two nodes in the
+/// first line.
 fn write_nodestring(out: &mut impl Write, id: usize, nodes: &[usize]) -> io::Result<()> {
-    for line in nodes.chunks(NODES_A_LINE) {
+    let lines = nodes.len().div_ceil(NODES_A_LINE);
+    for (number, line) in (1..).zip(nodes.chunks(NODES_A_LINE)) {
+        let Some((last, others)) = line.split_last() else { continue };
         write!(out, "NS")?;
-        line.iter().try_for_each(|node| write!(out, " {}", node + 1))?;
-        writeln!(out)?;
+        others.iter().try_for_each(|node| write!(out, " {}", node + 1))?;
+        match number == lines {
+            true => writeln!(out, " -{} {id}", last + 1)?,
+            false => writeln!(out, " {}", last + 1)?,
+        }
     }
-    writeln!(out, "NS -{} {id}", nodes[0] + 1)
+    Ok(())
 }

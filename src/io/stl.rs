@@ -17,6 +17,7 @@ pub static FORMAT: FormatSpec = FormatSpec {
         meter.expect(bytes(mesh));
         write(&mut meter.count(out), mesh, data)
     },
+    write_binary: None,
 };
 
 /// Must not begin with "solid", which marks the text form.

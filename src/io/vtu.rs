@@ -1,7 +1,11 @@
 //! `.vtu`: an unstructured grid for VTK and ParaView, as XML with appended binary data, compressed by zlib.
 //!
-//! Point data: `target_diameter` (h̄), the quantities, and `boundary`, which is 1 on the boundary and 0
-//! elsewhere; cell data: `level`. ParaView, VTK, PyVista and meshio read it.
+//! Point data: `target_diameter` (h̄), the quantities, and `boundary`, the marker of the piece of the
+//! boundary (the lower one where pieces meet), 0 elsewhere. Cell data: `level`, and `part`, the number of the
+//! connected part, from 0 for the largest. ParaView, VTK, PyVista and meshio read it.
+//!
+//! Field data: `boundary_names`, the names of the pieces in the order of their markers, a line for each, as
+//! bytes of UTF-8. (VTK has arrays of strings, but meshio refuses them.)
 //!
 //! The header has the offset of each array, and so depends on the compressed sizes of the arrays before it.
 //! Therefore every array is compressed twice, first to measure and then to write: that costs time, but only
@@ -23,8 +27,11 @@ pub static FORMAT: FormatSpec = FormatSpec {
     ending: "vtu",
     beside: &[],
     write: |mut out, mesh, data, meter| write_metered(&mut out, mesh, data, meter),
+    write_binary: None,
 };
 
+/// Bytes of names in one line.
+const BYTES_A_LINE: usize = 24;
 /// VTK's number for a triangle.
 const VTK_TRIANGLE: u8 = 5;
 
@@ -113,22 +120,27 @@ pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Resul
 /// # Errors
 /// As [`write()`], and when the work was cancelled.
 pub fn write_metered(out: &mut impl Write, mesh: &Extract, data: &MeshData, meter: &Meter) -> io::Result<()> {
-    let on_boundary = mesh.on_boundary();
+    let markers = data.boundary.node_markers(mesh);
     let mut sections = [
-        ("PointData", point_data(data, &on_boundary)),
-        ("CellData", vec![levels(mesh)]),
+        ("PointData", point_data(data, &markers)),
+        ("CellData", vec![levels(mesh), parts(data)]),
         ("Points", vec![points(mesh)]),
         ("Cells", topology(mesh)),
     ];
     let bytes: usize = sections.iter().flat_map(|(_, arrays)| arrays).map(|array| array.bytes).sum();
     meter.expect(2 * bytes as u64);
     sections.iter_mut().flat_map(|(_, arrays)| arrays).try_for_each(|array| array.measure(meter))?;
-    write_header(out, mesh, &sections)?;
+    write_header(out, mesh, data, &sections)?;
     sections.iter().flat_map(|(_, arrays)| arrays).rev().try_for_each(|array| array.append(out, meter))?;
     writeln!(out, "\n  </AppendedData>\n</VTKFile>")
 }
 
-fn write_header(out: &mut impl Write, mesh: &Extract, sections: &[(&str, Vec<Array<'_>>)]) -> io::Result<()> {
+fn write_header(
+    out: &mut impl Write,
+    mesh: &Extract,
+    data: &MeshData,
+    sections: &[(&str, Vec<Array<'_>>)],
+) -> io::Result<()> {
     let (nodes, triangles) = (mesh.nodes().len(), mesh.triangles().len());
     writeln!(out, "<?xml version=\"1.0\"?>")?;
     writeln!(
@@ -137,6 +149,7 @@ fn write_header(out: &mut impl Write, mesh: &Extract, sections: &[(&str, Vec<Arr
          header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">"
     )?;
     writeln!(out, "  <UnstructuredGrid>")?;
+    write_names(out, data)?;
     writeln!(out, "    <Piece NumberOfPoints=\"{nodes}\" NumberOfCells=\"{triangles}\">")?;
     let mut offset: u64 = sections.iter().flat_map(|(_, arrays)| arrays).map(Array::length).sum();
     for (section, arrays) in sections {
@@ -151,19 +164,40 @@ fn write_header(out: &mut impl Write, mesh: &Extract, sections: &[(&str, Vec<Arr
     write!(out, "_")
 }
 
-fn point_data<'a>(data: &'a MeshData<'a>, on_boundary: &'a [bool]) -> Vec<Array<'a>> {
+fn write_names(out: &mut impl Write, data: &MeshData) -> io::Result<()> {
+    let names: Vec<&str> = data.boundary.pieces().list().iter().map(|piece| piece.name.as_str()).collect();
+    let bytes = names.join("\n").into_bytes();
+    writeln!(out, "    <FieldData>")?;
+    let count = bytes.len();
+    write!(
+        out,
+        "      <DataArray type=\"UInt8\" Name=\"boundary_names\" NumberOfTuples=\"{count}\" format=\"ascii\">"
+    )?;
+    for line in bytes.chunks(BYTES_A_LINE) {
+        writeln!(out)?;
+        line.iter().try_for_each(|byte| write!(out, "{byte} "))?;
+    }
+    writeln!(out, "\n      </DataArray>\n    </FieldData>")
+}
+
+fn point_data<'a>(data: &'a MeshData<'a>, markers: &'a [u32]) -> Vec<Array<'a>> {
     let array = |(name, values): (&'a str, &'a [f64])| {
         Array::new(name, "Float64", 1, values.len(), move || values.iter().map(|v| v.to_le_bytes()))
     };
-    let boundary = || on_boundary.iter().map(|&on| [u8::from(on)]);
+    let boundary = || markers.iter().map(|marker| marker.to_le_bytes());
     let mut arrays: Vec<Array> = data.node_values().map(array).collect();
-    arrays.push(Array::new("boundary", "UInt8", 1, on_boundary.len(), boundary));
+    arrays.push(Array::new("boundary", "UInt32", 1, markers.len(), boundary));
     arrays
 }
 
 fn levels<'a>(mesh: &'a Extract) -> Array<'a> {
     let levels = || mesh.triangles().iter().map(|t| [t.level() as u8]);
     Array::new("level", "UInt8", 1, mesh.triangles().len(), levels)
+}
+
+fn parts<'a>(data: &'a MeshData<'a>) -> Array<'a> {
+    let parts = || data.parts.iter().map(|part| part.to_le_bytes());
+    Array::new("part", "UInt32", 1, data.parts.len(), parts)
 }
 
 fn points<'a>(mesh: &'a Extract) -> Array<'a> {

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use glam::DVec2;
 
 use super::super::segments::SegmentGrid;
-use super::super::{Domain, Polygon};
+use super::super::{Domain, Polygon, RegionError};
 use super::{BoundaryKind, BoundaryPieces};
 
 /// Most characters of a name; longer ones are cut.
@@ -58,6 +58,17 @@ impl BoundaryMarks {
         };
         let name: String = text.trim().chars().map(valid).take(LONGEST_NAME).collect();
         name.trim().to_owned()
+    }
+
+    /// The domain that named polygons cover, and the names that they bring.
+    ///
+    /// # Errors
+    /// As [`Domain::of_polygons`].
+    pub fn domain_of(polygons: &[NamedPolygon]) -> Result<(Domain, Self), RegionError> {
+        let plain: Vec<Polygon> = polygons.iter().map(|named| named.polygon.clone()).collect();
+        let domain = Domain::of_polygons(&plain)?;
+        let marks = Self::of_polygons(polygons, &domain);
+        Ok((domain, marks))
     }
 
     /// The names that the polygons of a domain bring: that of an outer ring for its coasts, and with `island`

@@ -102,12 +102,12 @@ impl MeshBoundary {
         (0..self.figures.len()).filter(|&piece| self.figures[piece].edges > 0)
     }
 
-    /// For each edge of [`Extract::boundary_edges`] the number of its piece.
+    /// The number of the piece of each edge of [`Extract::boundary_edges`].
     pub fn piece_of_edge(&self) -> &[u32] {
         &self.piece_of_edge
     }
 
-    /// For each node the number of its piece plus one, and 0 off the boundary; the lowest where pieces meet.
+    /// For each node the number of its piece plus one; 0 off the boundary, the lowest where pieces meet.
     ///
     /// # Panics
     /// When the extract is that of another mesh.

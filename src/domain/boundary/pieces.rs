@@ -311,9 +311,10 @@ fn give_names(pieces: &mut [BoundaryPiece], index: &Index, marks: &BoundaryMarks
     }
 }
 
-/// Adds a number to names that occur again. Given names come first.
+/// Adds a number to names that occur again. Given names come first. `domain` is the name of the triangles in
+/// files.
 fn make_unique(pieces: &mut [BoundaryPiece]) {
-    let mut taken: HashSet<String> = HashSet::new();
+    let mut taken: HashSet<String> = HashSet::from(["domain".to_owned()]);
     // The next number to try for each name, as thousands of pieces can have the same.
     let mut numbers: HashMap<String, usize> = HashMap::new();
     for is_named in [true, false] {

@@ -49,8 +49,8 @@ const PAINT: &str = "paint.tiles";
 
 /// Largest file read: twice the size of the largest picture.
 const MOST_BYTES: u64 = 512 << 20;
-/// Most bytes of the settings, far more than the longest formulas need.
-const MOST_SETTINGS: u64 = 1 << 20;
+/// Most bytes of the settings: enough for a name for each of 300,000 islands.
+const MOST_SETTINGS: u64 = 64 << 20;
 /// Most bytes of the polygons, more than a million corners need.
 const MOST_POLYGONS: u64 = 128 << 20;
 

@@ -9,7 +9,7 @@ use super::super::Flaw;
 use super::super::error::{PlacedFlaw, shown};
 use super::{FORMAT, VERSION};
 use crate::document::{Base, Settings};
-use crate::domain::{BoundaryTreatment, Domain, DomainShape, Polygon};
+use crate::domain::{BoundaryMarks, BoundaryTreatment, Domain, DomainShape, Polygon};
 use crate::field::{Formula, RefinementRule, Transfer};
 use crate::geometry::Rect;
 use crate::mesh::{Cleaning, KeptParts, MOST_TRIANGLES};
@@ -38,6 +38,8 @@ pub(super) struct Saved {
     /// Missing in files of older versions.
     #[serde(default)]
     cleaning: SavedCleaning,
+    #[serde(default, skip_serializing_if = "SavedMarks::is_empty")]
+    boundary_marks: SavedMarks,
     spacing: f64,
     transfer: SavedTransfer,
     base: SavedBase,
@@ -73,6 +75,48 @@ enum SavedBoundary {
     Fitted(f64),
     #[serde(rename = "on_outline_with_diameter")]
     OnOutline(f64),
+}
+
+#[derive(Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SavedMarks {
+    /// x and y of each place.
+    splits: Vec<[f64; 2]>,
+    names: Vec<SavedName>,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SavedName {
+    /// A point of the piece, x and y.
+    at: [f64; 2],
+    name: String,
+}
+
+impl SavedMarks {
+    fn of(marks: &BoundaryMarks) -> Self {
+        let name = |(at, name): &(DVec2, String)| SavedName { at: at.to_array(), name: name.clone() };
+        Self {
+            splits: marks.splits.iter().map(DVec2::to_array).collect(),
+            names: marks.names.iter().map(name).collect(),
+        }
+    }
+
+    fn is_empty(&self) -> bool {
+        self.splits.is_empty() && self.names.is_empty()
+    }
+
+    /// Names that are not valid are made so.
+    fn into_marks(self) -> BoundaryMarks {
+        let name = |saved: SavedName| {
+            let name = BoundaryMarks::valid_name(&saved.name);
+            (!name.is_empty()).then(|| (saved.at.into(), name))
+        };
+        BoundaryMarks {
+            splits: self.splits.into_iter().map(DVec2::from).collect(),
+            names: self.names.into_iter().filter_map(name).collect(),
+        }
+    }
 }
 
 #[derive(Serialize, Deserialize)]
@@ -177,6 +221,7 @@ impl Saved {
                 BoundaryTreatment::OnOutline { diameter } => SavedBoundary::OnOutline(diameter),
             },
             cleaning: settings.cleaning.into(),
+            boundary_marks: SavedMarks::of(&settings.boundary_marks),
             spacing: settings.spacing,
             transfer: SavedTransfer { h_min, h_max, shape },
             base: match &settings.base {
@@ -271,6 +316,7 @@ impl Saved {
                 SavedBoundary::OnOutline(diameter) => BoundaryTreatment::OnOutline { diameter },
             },
             cleaning: self.cleaning.into(),
+            boundary_marks: Arc::new(self.boundary_marks.into_marks()),
             spacing: self.spacing,
             transfer: Transfer {
                 h_min: self.transfer.h_min,

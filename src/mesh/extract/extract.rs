@@ -60,7 +60,9 @@ pub struct MeshEdge {
 pub struct BoundaryEdge {
     /// Its nodes, with the domain to the left.
     pub ends: [usize; 2],
-    /// The level of the triangle that it belongs to.
+    /// The triangle that it belongs to.
+    pub triangle: usize,
+    /// The level of the triangle.
     pub level: u32,
 }
 
@@ -183,10 +185,11 @@ impl Extract<'_> {
 
     /// All edges at which the domain ends, in the order of their triangles.
     pub fn boundary_edges(&self) -> impl Iterator<Item = BoundaryEdge> + Clone + '_ {
-        self.triangles.iter().flat_map(|triangle| {
+        self.triangles.iter().enumerate().flat_map(|(index, triangle)| {
             let edges = triangle.edge_nodes().into_iter().zip(triangle.raw_neighbours);
-            edges.filter(|(_, across)| across.triangle().is_none()).map(|((from, to), _)| BoundaryEdge {
+            edges.filter(|(_, across)| across.triangle().is_none()).map(move |((from, to), _)| BoundaryEdge {
                 ends: [from.index(), to.index()],
+                triangle: index,
                 level: triangle.level(),
             })
         })
