@@ -70,7 +70,7 @@ pub use mesh::{
 
 // Read and write files.
 pub use colormap::{Colormap, Ground, LevelColors};
-pub use io::{Cancelled, MeshData, MeshFormat, Meter, NodeValues, ReadError};
+pub use io::{Cancelled, MeshData, MeshFormat, MeshSource, Meter, NodeValues, Provenance, ReadError};
 pub use mesh::{BoundaryEdge, Cell, Extract, MeshEdge, MeshPatch, MeshView, PatchPieces, PatchTriangle};
 pub use outline::{DerivedMesh, DerivedViolation, OutlineFit};
 pub use render::Image;

@@ -8,7 +8,9 @@ use glam::{DVec2, dvec2};
 use meshbrush::internals::colormap::{Colormap, Ground, LevelColors};
 use meshbrush::internals::domain::MeshBoundary;
 use meshbrush::internals::geometry::{Lattice, Rect};
-use meshbrush::internals::io::{MeshData, NodeValues, csv, msh, node, obj, sms, stl, svg, vtu};
+use meshbrush::internals::io::{
+    MeshData, MeshSource, NodeValues, Provenance, csv, msh, node, obj, png, sms, stl, svg, vtu,
+};
 use meshbrush::internals::mesh::{Extract, Limits, Mesh, NodeId};
 
 /// A mesh as a reader finds it.
@@ -31,7 +33,11 @@ struct Sample {
     quantities: Vec<NodeValues>,
     boundary: MeshBoundary,
     parts: Vec<u32>,
+    provenance: Provenance,
 }
+
+/// A command with all that formats have to escape.
+const COMMAND: &str = "meshbrush mesh --target 'x < 1 & \"y\" > 2' ?> --quantity ä\n-o m";
 
 impl Sample {
     fn new(bounds: Rect, spacing: f64, inside: impl Fn(DVec2) -> bool, finest: f64) -> Self {
@@ -47,7 +53,8 @@ impl Sample {
         let height =
             NodeValues { name: "height".into(), values: nodes().map(|p| p.x * 1e-9 - p.y).collect() };
         let (boundary, parts) = (MeshBoundary::of_mesh(&mesh.extract()), mesh.extract().part_numbers());
-        Self { targets, quantities: vec![height], boundary, parts, mesh }
+        let provenance = Provenance::new(MeshSource::Command(COMMAND), mesh.fingerprint(), "x, y");
+        Self { targets, quantities: vec![height], boundary, parts, provenance, mesh }
     }
 
     /// A square, a rectangle whose cells are not square, and a ring with a hole.
@@ -67,8 +74,8 @@ impl Sample {
     }
 
     fn data(&self) -> MeshData<'_> {
-        let Self { targets, quantities, boundary, parts, .. } = self;
-        MeshData { target_diameter: targets, quantities, boundary, parts }
+        let Self { targets, quantities, boundary, parts, provenance, .. } = self;
+        MeshData { target_diameter: targets, quantities, boundary, parts, provenance }
     }
 
     /// The names of the pieces, in the order of their markers.
@@ -304,10 +311,10 @@ fn csv_reads_back() {
 #[test]
 fn node_ele_and_neigh_read_back() {
     for sample in Sample::all() {
-        let text = |bytes| String::from_utf8(bytes).unwrap();
+        let text = |bytes| without_comments(&String::from_utf8(bytes).unwrap());
         let nodes = text(sample.written(node::write));
-        let elements = text(sample.written(|out, mesh, _| node::write_elements(out, mesh)));
-        let neighbours = text(sample.written(|out, mesh, _| node::write_neighbours(out, mesh)));
+        let elements = text(sample.written(node::write_elements));
+        let neighbours = text(sample.written(node::write_neighbours));
         let mut found = Found::default();
         assert_eq!(numbers::<usize>(nodes.lines().next().unwrap())[1..], [2, 2, 1]);
         for (n, line) in nodes.lines().skip(1).enumerate() {
@@ -391,9 +398,11 @@ fn read_2dm(file: &str) -> (Found, Vec<Vec<usize>>, Vec<String>) {
     let (mut strings, mut string, mut names) = (Vec::new(), Vec::new(), Vec::new());
     for line in file.lines().skip(3) {
         let (card, rest) = line.split_once(' ').unwrap();
-        if let ("#", Some((number, name))) = (card, rest.split_once(": ")) {
-            names.push(name.to_owned());
-            assert_eq!(number, format!("nodestring {}", names.len()));
+        if let ("#", Some((word, name))) = (card, rest.split_once(": ")) {
+            if word.starts_with("nodestring") {
+                names.push(name.to_owned());
+                assert_eq!(word, format!("nodestring {}", names.len()));
+            }
             continue;
         }
         match (card, &numbers::<f64>(rest)[..]) {
@@ -580,6 +589,160 @@ fn read_msh(file: &str) -> (Found, Vec<([usize; 2], String)>) {
 }
 
 #[test]
+fn binary_msh_has_the_numbers_of_the_text() {
+    for sample in Sample::all() {
+        let text = String::from_utf8(sample.written(msh::write)).unwrap();
+        let binary = sample.written(msh::write_binary);
+        let (words, found) = read_binary_msh(&binary);
+        let mut expected: Vec<f64> = Vec::new();
+        let mut expected_words = Vec::new();
+        let mut section = String::new();
+        for line in text.lines() {
+            match line.strip_prefix('$') {
+                Some(name) if !name.starts_with("End") => section = name.to_owned(),
+                Some(_) => {}
+                None if ["Entities", "Nodes", "Elements"].contains(&&*section) => {
+                    expected.extend(numbers::<f64>(line))
+                }
+                None if section.ends_with("Data") && line.contains(' ') => {
+                    expected.extend(numbers::<f64>(line))
+                }
+                None => {}
+            }
+            if section == "PhysicalNames" || section == "Comments" {
+                expected_words.push(line.to_owned());
+            }
+        }
+        assert_eq!(words, expected_words);
+        assert!(found == expected, "{} and {} numbers", found.len(), expected.len());
+    }
+}
+
+/// The lines of names and comments, and all numbers of the other sections but for counts of data.
+fn read_binary_msh(file: &[u8]) -> (Vec<String>, Vec<f64>) {
+    let (mut at, mut words, mut found) = (0, Vec::new(), Vec::new());
+    let line = |at: &mut usize| {
+        let length = file[*at..].iter().position(|&byte| byte == b'\n').unwrap();
+        *at += length + 1;
+        std::str::from_utf8(&file[*at - length - 1..*at - 1]).unwrap()
+    };
+    let read = |at: &mut usize, kinds: &str, found: &mut Vec<f64>| -> f64 {
+        for kind in kinds.chars() {
+            let width = if kind == 'i' { 4 } else { 8 };
+            let bytes = &file[*at..*at + width];
+            *at += width;
+            found.push(match kind {
+                'i' => i32::from_le_bytes(bytes.try_into().unwrap()).into(),
+                'u' => u64::from_le_bytes(bytes.try_into().unwrap()) as f64,
+                _ => f64::from_le_bytes(bytes.try_into().unwrap()),
+            });
+        }
+        *found.last().unwrap()
+    };
+    while at < file.len() {
+        let name = line(&mut at).strip_prefix('$').expect("a section begins").to_owned();
+        match name.as_str() {
+            "MeshFormat" => {
+                assert_eq!(line(&mut at), "4.1 1 8");
+                assert_eq!(read(&mut at, "i", &mut Vec::new()), 1.0);
+            }
+            "PhysicalNames" | "Comments" => {
+                words.push(format!("${name}"));
+                loop {
+                    let text = line(&mut at);
+                    words.push(text.to_owned());
+                    if text.starts_with("$End") {
+                        break;
+                    }
+                }
+                continue;
+            }
+            "Entities" => {
+                read(&mut at, "uuuu", &mut found);
+                let curves = found[found.len() - 3];
+                for _ in 0..=curves as usize {
+                    let groups = read(&mut at, "iffffffu", &mut found);
+                    (0..groups as usize).for_each(|_| _ = read(&mut at, "i", &mut found));
+                    let bounds = read(&mut at, "u", &mut found);
+                    (0..bounds as usize).for_each(|_| _ = read(&mut at, "i", &mut found));
+                }
+            }
+            "Nodes" => {
+                read(&mut at, "uuuu", &mut found);
+                let count = read(&mut at, "iiiu", &mut found) as usize;
+                (0..count).for_each(|_| _ = read(&mut at, "u", &mut found));
+                (0..count).for_each(|_| _ = read(&mut at, "fff", &mut found));
+            }
+            "Elements" => {
+                read(&mut at, "uuuu", &mut found);
+                let blocks = found[found.len() - 4] as usize;
+                for _ in 0..blocks {
+                    let count = read(&mut at, "iiiu", &mut found) as usize;
+                    let kinds = if found[found.len() - 2] == 1.0 { "uuu" } else { "uuuu" };
+                    (0..count).for_each(|_| _ = read(&mut at, kinds, &mut found));
+                }
+            }
+            _ => {
+                let head: Vec<&str> = (0..8).map(|_| line(&mut at)).collect();
+                let count: usize = head[7].parse().unwrap();
+                (0..count).for_each(|_| _ = read(&mut at, "if", &mut found));
+            }
+        }
+        assert_eq!(line(&mut at), "");
+        assert_eq!(line(&mut at), format!("$End{name}"));
+    }
+    (words, found)
+}
+
+fn without_comments(text: &str) -> String {
+    text.lines().filter(|line| !line.starts_with('#')).map(|line| format!("{line}\n")).collect()
+}
+
+#[test]
+fn files_say_where_they_come_from() {
+    let sample = &Sample::all()[0];
+    let fingerprint = sample.mesh.fingerprint().to_string();
+    let command = COMMAND.replace('\n', " ");
+    let lines = [
+        concat!("program: Meshbrush ", env!("CARGO_PKG_VERSION")).to_owned(),
+        format!("command: {command}"),
+        format!("fingerprint: {fingerprint}"),
+        "coordinates: x, y".to_owned(),
+    ];
+    let comments: String = lines.iter().map(|line| format!("# {line}\n")).collect();
+    let text = |bytes| String::from_utf8(bytes).unwrap();
+    assert!(text(sample.written(obj::write)).starts_with(&comments));
+    assert!(text(sample.written(sms::write)).contains(&comments));
+    for written in [node::write, node::write_elements, node::write_neighbours, node::write_edges] {
+        assert!(text(sample.written(|out, mesh, data| written(out, mesh, data))).ends_with(&comments));
+    }
+    assert!(
+        text(sample.written(msh::write))
+            .contains(&format!("$Comments\n{}\n$EndComments\n", lines.join("\n")))
+    );
+    let stl = sample.written(stl::write);
+    let title = std::str::from_utf8(&stl[..80]).unwrap().trim_end();
+    assert_eq!(title, format!("Meshbrush {}, fingerprint {fingerprint}", env!("CARGO_PKG_VERSION")));
+    let vtu = sample.written(vtu::write);
+    let header = String::from_utf8_lossy(&vtu);
+    let instruction = header.split("<?meshbrush\n").nth(1).unwrap().split("\n?>").next().unwrap();
+    assert_eq!(instruction, lines.join("\n").replace("?>", "? >"));
+
+    let colors = LevelColors::new(Colormap::Viridis, Ground::Dark, 12);
+    let (size, background, edges) = ([80, 60], [1, 2, 3], true);
+    let style = svg::SvgStyle { size, level_colors: colors.as_table(), background, edges };
+    let svg = text(sample.written(|out, mesh, data| svg::write(out, mesh, &style, data.provenance)));
+    let description = svg.split("<desc>").nth(1).unwrap().split("</desc>").next().unwrap();
+    let escaped = lines.join("\n").replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;");
+    assert_eq!(description.trim_end(), escaped);
+    let mut picture = Vec::new();
+    png::write_described(&mut picture, [1, 1], &[9; 4], &sample.provenance).unwrap();
+    let picture = String::from_utf8_lossy(&picture);
+    assert!(picture.contains(&format!("tEXtFingerprint\0{fingerprint}")), "{picture}");
+    assert!(picture.contains(&command), "{picture}");
+}
+
+#[test]
 fn obj_reads_back() {
     for sample in Sample::all() {
         let file = String::from_utf8(sample.written(obj::write)).unwrap();
@@ -623,7 +786,10 @@ fn svg_shows_every_triangle_and_every_edge_once() {
             background: [1, 2, 3],
             edges: true,
         };
-        let file = String::from_utf8(sample.written(|out, mesh, _| svg::write(out, mesh, &style))).unwrap();
+        let file = String::from_utf8(
+            sample.written(|out, mesh, data| svg::write(out, mesh, &style, data.provenance)),
+        )
+        .unwrap();
         let view_box = numbers::<f64>(file.split("viewBox=\"").nth(1).unwrap().split('"').next().unwrap());
         let bounds = sample.mesh.lattice().bounds();
         let scale = bounds.size() / dvec2(view_box[2], view_box[3]);

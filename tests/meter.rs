@@ -10,7 +10,9 @@ use meshbrush::internals::domain::MeshBoundary;
 use meshbrush::internals::geometry::{Lattice, Rect};
 use meshbrush::internals::io::png::{Behind, read_metered as read_png};
 use meshbrush::internals::io::project::{self, Project};
-use meshbrush::internals::io::{MeshData, MeshFormat, Meter, geojson, stl, vtu, write_file_metered};
+use meshbrush::internals::io::{
+    MeshData, MeshFormat, Meter, Provenance, geojson, stl, vtu, write_file_metered,
+};
 use meshbrush::internals::mesh::{Limits, Mesh};
 use meshbrush::internals::raster::Raster;
 
@@ -45,15 +47,17 @@ fn mesh() -> (Mesh, Vec<f64>) {
 }
 
 /// Boundary and parts of a mesh, for its data.
-struct Details(MeshBoundary, Vec<u32>);
+struct Details(MeshBoundary, Vec<u32>, Provenance);
 
 impl Details {
     fn of(mesh: &Mesh) -> Self {
-        Self(MeshBoundary::of_mesh(&mesh.extract()), mesh.extract().part_numbers())
+        let (boundary, parts) = (MeshBoundary::of_mesh(&mesh.extract()), mesh.extract().part_numbers());
+        Self(boundary, parts, Provenance::default())
     }
 
     fn data<'a>(&'a self, targets: &'a [f64]) -> MeshData<'a> {
-        MeshData { target_diameter: targets, quantities: &[], boundary: &self.0, parts: &self.1 }
+        let Self(boundary, parts, provenance) = self;
+        MeshData { target_diameter: targets, quantities: &[], boundary, parts, provenance }
     }
 }
 

@@ -87,7 +87,17 @@ def read_msh(path):
     for name, (tag, dimension) in groups.items():
         edges = cells["line"][mesh.cell_data_dict["gmsh:physical"]["line"] == tag]
         assert dimension == 1 and edge_set(edges) == found.pieces[name], name
-    assert_quantity(found, mesh.point_data["quantity"])
+    found.quantity = mesh.point_data["quantity"]
+    assert_quantity(found, found.quantity)
+    return found
+
+
+def read_binary_msh(path):
+    """The numbers of the text."""
+    found, text = read_msh(path), read_msh(path.parent.parent / "m.msh")
+    for name in ["nodes", "triangles", "levels", "parts", "quantity"]:
+        assert (getattr(found, name) == getattr(text, name)).all(), name
+    assert found.pieces == text.pieces and path.read_bytes()[:15] == b"$MeshFormat\n4.1"
     return found
 
 
@@ -107,7 +117,8 @@ def read_stl(path):
 def read_triangle(path):
     parts = {ending: path.with_suffix("." + ending).read_text() for ending in ["node", "ele", "neigh", "edge"]}
     # That reader takes only Voronoi's edges from an .edge file; the segments of a .poly file are written the same.
-    data = triangle.data.loads(poly="0 2 0 1\n" + parts.pop("edge") + "0\n", **parts)
+    edges_only = "".join(line for line in parts.pop("edge").splitlines(True) if not line.startswith("#"))
+    data = triangle.data.loads(poly="0 2 0 1\n" + edges_only + "0\n", **parts)
     markers = data["segment_markers"].ravel()
     edges = data["segments"][markers > 0]
     found = Found(data["vertices"], data["triangles"], data["triangle_attributes"].ravel(), edges)
@@ -267,7 +278,7 @@ def check_case(program, folder, options):
         "csv": read_csv,
         "svg": lambda path: read_svg(path, sizes(options)),
     }
-    failures = []
+    failures = check_binary(program, folder, options, summary, area)
     for ending, read in readers.items():
         try:
             check(read(folder / f"m.{ending}"), summary, area)
@@ -275,6 +286,18 @@ def check_case(program, folder, options):
             failures.append(f".{ending}: {type(error).__name__}: {error}")
     read_png(folder / "m.png")
     return summary, failures
+
+
+def check_binary(program, folder, options, summary, area):
+    path = folder / "binary" / "m.msh"
+    path.parent.mkdir()
+    command = [program, "mesh", "--binary", "--target", TARGET, "--quantity", "x*y", *options, "-o", str(path)]
+    subprocess.run(command, check=True, stderr=subprocess.DEVNULL)
+    try:
+        check(read_binary_msh(path), summary, area)
+    except Exception as error:  # as below
+        return [f"binary .msh: {type(error).__name__}: {error}"]
+    return []
 
 
 def check_small_vtu(program, folder):

@@ -15,7 +15,7 @@ use crate::document::{Base, Document, Example, Setting, Settings};
 use crate::domain::{BoundaryMarks, MeshBoundary, NamedPolygon};
 use crate::geometry::Rect;
 use crate::io::png::{Behind, decode};
-use crate::io::{self, Cancelled, MeshData, Meter};
+use crate::io::{self, Cancelled, MeshData, MeshSource, Meter, Provenance};
 use crate::mesh::Extract;
 use crate::outline::DerivedMesh;
 use crate::raster::Raster;
@@ -99,7 +99,10 @@ pub fn export(session: &mut Session, view: &View, background: &mut Background, p
             let boundary = MeshBoundary::new(&extract, &settings.domain, &settings.boundary_marks);
             let parts = extract.part_numbers();
             let (target_diameter, quantities) = (&target_diameter, &[][..]);
-            let data = MeshData { target_diameter, quantities, boundary: &boundary, parts: &parts };
+            let source = MeshSource::Document(&settings.name);
+            let provenance = &Provenance::new(source, mesh.fingerprint(), "x, y");
+            let (boundary, parts) = (&boundary, &parts);
+            let data = MeshData { target_diameter, quantities, boundary, parts, provenance };
             format.write(&file, &mesh, &extract, &data, &look, meter)
         };
         let triangles = format::count(mesh.triangle_count() as u64);

@@ -222,6 +222,12 @@ pub struct MeshArguments {
     #[arg(long, value_name = "ENDING", help_heading = "Output")]
     pub format: Option<String>,
 
+    /// Write .msh in its binary form, which is quicker to write and to read
+    ///
+    /// .vtu and .stl are always binary, and other formats are always text.
+    #[arg(long, help_heading = "Output")]
+    pub binary: bool,
+
     /// A further value at the nodes, as a formula in x and y, with a name in .vtu, .msh and .csv; may be
     /// repeated
     ///

@@ -1,24 +1,34 @@
-//! What files and the JSON summary say about the boundary and the parts of a mesh.
+//! What files and the JSON summary say about a mesh besides its triangles.
 
 use glam::DVec2;
 use serde::Serialize;
 
 use super::build::FinishedMesh;
+use super::request::MeshRequest;
 use crate::domain::{BoundaryPiece, MeshBoundary, PieceFigures};
+use crate::io::{MeshSource, Provenance};
 use crate::mesh::Extract;
 
-/// The boundary in named pieces, and the parts of a mesh.
+/// The boundary in named pieces, the parts, and where the mesh comes from.
 pub struct MeshDetails {
     /// The pieces, and the piece of each boundary edge.
     pub boundary: MeshBoundary,
     /// For each triangle the number of its part, from the largest.
     pub parts: Vec<u32>,
+    /// Where the mesh comes from.
+    pub provenance: Provenance,
 }
 
 impl MeshDetails {
-    /// Those of a mesh as files get it.
-    pub fn of(finished: &FinishedMesh, extract: &Extract) -> Self {
-        Self { boundary: finished.boundary(extract), parts: extract.part_numbers() }
+    /// Those of a mesh as files get it, which the command `line` asked for.
+    pub fn of(finished: &FinishedMesh, extract: &Extract, line: &str, request: &MeshRequest) -> Self {
+        let coordinates = match request.region.as_ref().or(request.project.as_ref()) {
+            Some(file) => format!("x, y as in {}", file.display()),
+            None => "x, y".to_owned(),
+        };
+        let fingerprint = finished.mesh().fingerprint();
+        let provenance = Provenance::new(MeshSource::Command(line), fingerprint, &coordinates);
+        Self { boundary: finished.boundary(extract), parts: extract.part_numbers(), provenance }
     }
 
     /// The number of triangles of each part.

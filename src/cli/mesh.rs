@@ -1,6 +1,7 @@
 //! `meshbrush mesh`: build, check, write, summarise.
 
 use std::io::Write;
+use std::path::PathBuf;
 
 use super::args::MeshArguments;
 use super::build::{FinishedMesh, build};
@@ -18,16 +19,22 @@ use crate::text::Grouped;
 /// How many broken invariants are printed one by one; the rest are counted.
 const SHOWN_VIOLATIONS: usize = 20;
 
-/// Runs the command. `out` is standard output.
+/// Runs the command. `line` is how it was typed, and `out` is standard output.
 ///
 /// # Errors
 /// With the reason, when the arguments make no sense or the work failed.
-pub fn run(typed: &MeshArguments, out: &mut dyn Write, terminal: &mut Terminal) -> Result<(), Failure> {
+pub fn run(
+    typed: &MeshArguments,
+    line: &str,
+    out: &mut dyn Write,
+    terminal: &mut Terminal,
+) -> Result<(), Failure> {
     let request = MeshRequest::new(&typed.input)?;
     let look = RequestedLook::new(&typed.picture)?;
     let quantities = parse_quantities(&typed.quantity)?;
     let format = typed.format.as_deref();
-    let outputs = typed.output.iter().map(|path| Output::new(path, format)).collect::<Result<Vec<_>, _>>()?;
+    let output = |path: &PathBuf| Output::new(path, format, typed.binary);
+    let outputs = typed.output.iter().map(output).collect::<Result<Vec<_>, _>>()?;
     check_stdout(typed, &outputs)?;
     note_without_effect(typed, &request, &outputs, terminal);
     let inputs = request.input_files();
@@ -39,7 +46,7 @@ pub fn run(typed: &MeshArguments, out: &mut dyn Write, terminal: &mut Terminal) 
         false => None,
     };
     let wants_details = typed.json || !outputs.is_empty();
-    let details = wants_details.then(|| MeshDetails::of(&finished, &extract));
+    let details = wants_details.then(|| MeshDetails::of(&finished, &extract, line, &request));
     let summary = Summary::of(&finished, &extract, details.as_ref(), violations);
     if !typed.json {
         terminal.say(&summary.for_people());
@@ -115,9 +122,9 @@ fn write_files(
         target_diameter = finished.target_at_nodes(extract);
         quantities = asked.iter().map(|quantity| quantity.at_nodes(extract)).collect::<Result<_, _>>()?;
     }
-    let MeshDetails { boundary, parts } = details;
+    let MeshDetails { boundary, parts, provenance } = details;
     let (target_diameter, quantities) = (&target_diameter, &quantities);
-    let data = MeshData { target_diameter, quantities, boundary, parts };
+    let data = MeshData { target_diameter, quantities, boundary, parts, provenance };
     let interruption = Interruption::listen().map_err(|error| Failure::Work(format!("{error}.")))?;
     for output in outputs {
         let meter = interruption.meter();
@@ -144,6 +151,11 @@ fn note_without_effect(
     }
     if typed.format.is_some() && !outputs.iter().any(Output::is_stdout) {
         notes.push("--format changes nothing without -o -: the ending of a file chooses its format.".into());
+    }
+    if typed.binary && !outputs.iter().any(Output::is_binary) {
+        notes.push(
+            "--binary changes nothing: no .msh is written (-o), and other formats have one form.".into(),
+        );
     }
     if typed.picture.differs_from_default() && !outputs.iter().any(Output::is_picture) {
         notes.push("The options on pictures change nothing: no .svg or .png is written (-o).".into());

@@ -5,6 +5,7 @@
 
 mod args;
 mod build;
+mod command_line;
 mod details;
 mod failure;
 mod locate;
@@ -26,6 +27,7 @@ use std::process::ExitCode;
 use clap::{CommandFactory, Parser};
 
 use args::{Arguments, Command};
+use command_line::command_line;
 use failure::Failure;
 use terminal::Terminal;
 
@@ -40,7 +42,8 @@ pub struct Window {
 
 /// Runs the program. `arguments` begin with its name; `window` is `None` in a build without one.
 pub fn run(arguments: impl IntoIterator<Item = OsString>, window: Option<Window>) -> ExitCode {
-    let arguments = match Arguments::try_parse_from(arguments) {
+    let typed: Vec<OsString> = arguments.into_iter().collect();
+    let arguments = match Arguments::try_parse_from(&typed) {
         Ok(arguments) => arguments,
         Err(answer) => {
             // Help and version too come as an "error", with status 0. A closed pipe is no error.
@@ -49,7 +52,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>, window: Option<Window>
         }
     };
     let mut terminal = Terminal::new();
-    match run_command(arguments, window, &mut terminal) {
+    match run_command(arguments, &command_line(&typed), window, &mut terminal) {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) if failure.is_closed_pipe() => ExitCode::SUCCESS,
         Err(failure) => {
@@ -59,10 +62,16 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>, window: Option<Window>
     }
 }
 
-fn run_command(arguments: Arguments, window: Option<Window>, terminal: &mut Terminal) -> Result<(), Failure> {
+/// Runs a command; `line` is how it was typed.
+fn run_command(
+    arguments: Arguments,
+    line: &str,
+    window: Option<Window>,
+    terminal: &mut Terminal,
+) -> Result<(), Failure> {
     let mut out = io::stdout().lock();
     match (arguments.command, window) {
-        (Some(Command::Mesh(typed)), _) => mesh::run(&typed, &mut out, terminal),
+        (Some(Command::Mesh(typed)), _) => mesh::run(&typed, line, &mut out, terminal),
         (Some(Command::Locate(typed)), _) => locate::run(&typed, &mut out, terminal),
         (Some(Command::Completions(typed)), _) => {
             let mut script = Vec::new();

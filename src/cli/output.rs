@@ -17,18 +17,28 @@ pub struct Output {
     /// `None` for standard output.
     path: Option<PathBuf>,
     format: ExportFormat,
+    /// Whether it is the binary form of a format that is text otherwise.
+    is_binary: bool,
 }
 
 impl Output {
     /// A file, whose extension decides the format; or `-`, standard output, in the format of the extension
-    /// `stdout_format`.
+    /// `stdout_format`. A format that has a binary form takes it where `is_binary`.
     ///
     /// # Errors
     /// When the extension is unknown, or no format is given for standard output.
-    pub fn new(path: &Path, stdout_format: Option<&str>) -> Result<Self, Failure> {
+    pub fn new(path: &Path, stdout_format: Option<&str>, is_binary: bool) -> Result<Self, Failure> {
+        let mut output = Self::in_usual_form(path, stdout_format)?;
+        if let (true, Some(binary)) = (is_binary, output.format.binary()) {
+            (output.format, output.is_binary) = (binary, true);
+        }
+        Ok(output)
+    }
+
+    fn in_usual_form(path: &Path, stdout_format: Option<&str>) -> Result<Self, Failure> {
         if !is_standard_stream(path) {
             let format = ExportFormat::of(path).map_err(|error| Failure::Usage(format!("-o {error}")))?;
-            return Ok(Self { path: Some(path.to_owned()), format });
+            return Ok(Self { path: Some(path.to_owned()), format, is_binary: false });
         }
         let Some(ending) = stdout_format else {
             let problem = "-o -: standard output has no ending that chooses a format; name one with --format";
@@ -40,7 +50,7 @@ impl Output {
             Failure::Usage(format!("--format {ending}: use one of{endings}."))
         })?;
         match format.files(&file).len() {
-            1 => Ok(Self { path: None, format }),
+            1 => Ok(Self { path: None, format, is_binary: false }),
             files => {
                 let problem = format!("--format {ending}: this format has {files} files");
                 Err(Failure::Usage(format!("{problem}, and standard output is one. Name a file with -o.")))
@@ -60,6 +70,11 @@ impl Output {
     pub fn check_places(&self, inputs: &[PathBuf]) -> Result<(), Failure> {
         let files = self.path.iter().flat_map(|path| self.format.files(path));
         files.into_iter().try_for_each(|file| check_place(&file, inputs))
+    }
+
+    /// Whether it is the binary form of a format that is text otherwise.
+    pub fn is_binary(&self) -> bool {
+        self.is_binary
     }
 
     /// Whether some node data is written.

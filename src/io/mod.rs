@@ -27,10 +27,13 @@ pub mod obj;
 pub mod png;
 pub mod points;
 pub mod project;
+mod provenance;
 pub mod sms;
 pub mod stl;
 pub mod svg;
 pub mod vtu;
+
+use std::io::{self, Write};
 
 use crate::domain::MeshBoundary;
 pub use crate::text::Number;
@@ -39,6 +42,7 @@ pub use error::{Flaw, Place, ReadError};
 pub use interrupt::Interruption;
 pub use mesh_file::{FormatSpec, MeshFormat};
 pub use meter::{Cancelled, Counted, Meter};
+pub use provenance::{MeshSource, Provenance};
 
 /// The formats of meshes. A new one is a module and an entry here.
 static MESH_FORMATS: [&FormatSpec; 7] =
@@ -59,6 +63,8 @@ pub struct MeshData<'a> {
     ///
     /// [`Extract::part_numbers`]: crate::mesh::Extract::part_numbers
     pub parts: &'a [u32],
+    /// Where the mesh comes from: in all formats but `.csv`, whose readers take no comments.
+    pub provenance: &'a Provenance,
 }
 
 /// A value at each node, and its name in files.
@@ -71,6 +77,11 @@ pub struct NodeValues {
 }
 
 impl MeshData<'_> {
+    /// Where the mesh comes from, in lines that a format takes for comments.
+    fn write_comments(&self, out: &mut impl Write) -> io::Result<()> {
+        self.provenance.lines().try_for_each(|line| writeln!(out, "# {line}"))
+    }
+
     /// h̄ and then the quantities, each with its name.
     fn node_values(&self) -> impl Iterator<Item = (&str, &[f64])> + Clone {
         let further = self.quantities.iter().map(|q| (q.name.as_str(), q.values.as_slice()));

@@ -5,8 +5,8 @@
 //! the quantities are node data; `level` and `part` (the number of the connected part, from 0 for the
 //! largest) are element data. Tags count from one, triangles first: the tag of a triangle is its id plus one.
 //!
-//! Both forms hold the same numbers. The binary one is smaller and quicker to read; it is little-endian, as
-//! the machines are that write it.
+//! Both forms hold the same numbers. The binary one is quicker to write and to read, and not smaller. It is
+//! little-endian on every machine.
 
 use std::io::{self, Write};
 
@@ -62,7 +62,7 @@ struct Writer<'a, W> {
 impl<W: Write> Writer<'_, W> {
     fn write(mut self, mesh: &Extract, data: &MeshData) -> io::Result<()> {
         let curves = Curve::all(mesh, data);
-        self.write_head()?;
+        self.write_head(data)?;
         self.write_names(data, &curves)?;
         self.write_entities(mesh, &curves)?;
         self.write_nodes(mesh)?;
@@ -82,14 +82,16 @@ impl<W: Write> Writer<'_, W> {
         self.write_values("ElementData", "part", parts.map(f64::from))
     }
 
-    fn write_head(&mut self) -> io::Result<()> {
+    fn write_head(&mut self, data: &MeshData) -> io::Result<()> {
         let bytes = size_of::<u64>();
         writeln!(self.out, "$MeshFormat\n4.1 {} {bytes}", u8::from(self.is_binary))?;
         if self.is_binary {
             self.row(&[Int(1)])?; // tells readers the order of bytes
             writeln!(self.out)?;
         }
-        writeln!(self.out, "$EndMeshFormat")
+        writeln!(self.out, "$EndMeshFormat\n$Comments")?;
+        data.provenance.lines().try_for_each(|line| writeln!(self.out, "{line}"))?;
+        writeln!(self.out, "$EndComments")
     }
 
     fn write_names(&mut self, data: &MeshData, curves: &[Curve]) -> io::Result<()> {

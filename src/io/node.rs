@@ -5,7 +5,8 @@
 //! level. Neighbour i is opposite corner i; −1 is the boundary. `.edge` has all edges.
 //!
 //! The boundary marker of edges and nodes is that of the piece of the boundary, and 0 inside; of a node in
-//! which pieces meet, the lower one. The format has no place for names.
+//! which pieces meet, the lower one. The format has no place for names. Comments at the end of each file say
+//! where the mesh comes from.
 
 use std::io::{self, Write};
 
@@ -16,8 +17,8 @@ use crate::mesh::Extract;
 pub static FORMAT: FormatSpec = FormatSpec {
     ending: "node",
     beside: &[
-        ("ele", |out, mesh, _, meter| write_elements(&mut meter.count(out), mesh)),
-        ("neigh", |out, mesh, _, meter| write_neighbours(&mut meter.count(out), mesh)),
+        ("ele", |out, mesh, data, meter| write_elements(&mut meter.count(out), mesh, data)),
+        ("neigh", |out, mesh, data, meter| write_neighbours(&mut meter.count(out), mesh, data)),
         ("edge", |out, mesh, data, meter| write_edges(&mut meter.count(out), mesh, data)),
     ],
     write: |out, mesh, data, meter| write(&mut meter.count(out), mesh, data),
@@ -38,33 +39,33 @@ pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Resul
         }
         writeln!(out, " {}", markers[id])?;
     }
-    Ok(())
+    data.write_comments(out)
 }
 
 /// Writes the `.ele` file: corners and level of each triangle.
 ///
 /// # Errors
 /// Errors of `out`.
-pub fn write_elements(out: &mut impl Write, mesh: &Extract) -> io::Result<()> {
+pub fn write_elements(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Result<()> {
     writeln!(out, "{} 3 1", mesh.triangles().len())?;
     for (id, cell) in mesh.cells().enumerate() {
         let [a, b, c] = cell.corners;
         writeln!(out, "{id} {a} {b} {c} {}", cell.level)?;
     }
-    Ok(())
+    data.write_comments(out)
 }
 
 /// Writes the `.neigh` file: the triangle opposite each corner.
 ///
 /// # Errors
 /// Errors of `out`.
-pub fn write_neighbours(out: &mut impl Write, mesh: &Extract) -> io::Result<()> {
+pub fn write_neighbours(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Result<()> {
     writeln!(out, "{} 3", mesh.triangles().len())?;
     for (id, cell) in mesh.cells().enumerate() {
         let [a, b, c] = cell.opposite.map(|across| across.map_or(-1, |t| t as i64));
         writeln!(out, "{id} {a} {b} {c}")?;
     }
-    Ok(())
+    data.write_comments(out)
 }
 
 /// Writes the `.edge` file: the ends of each edge, and its marker.
@@ -80,5 +81,5 @@ pub fn write_edges(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io:
         let piece = if edge.on_boundary { pieces.next() } else { None };
         writeln!(out, "{id} {from} {to} {}", piece.map_or(0, |piece| piece + 1))?;
     }
-    Ok(())
+    data.write_comments(out)
 }

@@ -21,7 +21,8 @@ pub static FORMAT: FormatSpec = FormatSpec {
 /// # Errors
 /// Errors of `out`.
 pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Result<()> {
-    writeln!(out, "# Meshbrush: {} nodes, {} triangles", mesh.nodes().len(), mesh.triangles().len())?;
+    data.write_comments(out)?;
+    writeln!(out, "# {} nodes, {} triangles", mesh.nodes().len(), mesh.triangles().len())?;
     writeln!(out, "# texture coordinate u: target diameter; groups: level")?;
     for p in mesh.world_nodes() {
         writeln!(out, "v {} {} 0", Number(p.x), Number(p.y))?;

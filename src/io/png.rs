@@ -9,7 +9,7 @@ use png::{
 };
 
 use super::error::PlacedFlaw;
-use super::{Flaw, Meter, ReadError};
+use super::{Flaw, Meter, Provenance, ReadError};
 use crate::geometry::Rect;
 use crate::raster::{MAX_SIDE, Raster};
 
@@ -115,6 +115,36 @@ impl From<DecodingError> for Flaw {
 /// Errors of `out`, and when the number of bytes does not match `size`.
 pub fn write(out: &mut impl Write, size: [u32; 2], rgba: &[u8]) -> io::Result<()> {
     encode(Encoder::new(out, size[0], size[1]), ColorType::Rgba, rgba)
+}
+
+/// Writes a picture as [`write()`] does, with texts that say where it comes from.
+///
+/// # Errors
+/// As [`write()`].
+pub fn write_described(
+    out: &mut impl Write,
+    size: [u32; 2],
+    rgba: &[u8],
+    provenance: &Provenance,
+) -> io::Result<()> {
+    let mut encoder = Encoder::new(out, size[0], size[1]);
+    for (key, text) in provenance.entries() {
+        let keyword = match key {
+            "program" => "Software",
+            "command" => "Command",
+            "document" => "Document",
+            "fingerprint" => "Fingerprint",
+            _ => "Coordinates",
+        };
+        let (keyword, text) = (keyword.to_owned(), text.to_owned());
+        // Plain text chunks have Latin-1 only, and more programs show them.
+        let added = match text.is_ascii() {
+            true => encoder.add_text_chunk(keyword, text),
+            false => encoder.add_itxt_chunk(keyword, text),
+        };
+        added.map_err(|error| io::Error::other(error.to_string()))?;
+    }
+    encode(encoder, ColorType::Rgba, rgba)
 }
 
 /// Writes an opaque picture as [`write()`] does, in a smaller file and more slowly.

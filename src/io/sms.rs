@@ -29,6 +29,7 @@ const NODES_A_LINE: usize = 10;
 /// Errors of `out`.
 pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Result<()> {
     writeln!(out, "MESH2D\nMESHNAME \"Meshbrush\"\nNUM_MATERIALS_PER_ELEM 1")?;
+    data.write_comments(out)?;
     for (id, cell) in (1..).zip(mesh.cells()) {
         let [a, b, c] = cell.corners.map(|node| node + 1);
         writeln!(out, "E3T {id} {a} {b} {c} 1")?;

@@ -20,9 +20,6 @@ pub static FORMAT: FormatSpec = FormatSpec {
     write_binary: None,
 };
 
-/// Must not begin with "solid", which marks the text form.
-const TITLE: &[u8] = b"Meshbrush";
-
 /// Bytes of the header (title and number of triangles), and of a triangle.
 const HEAD: u64 = 84;
 const TRIANGLE: u64 = 50;
@@ -37,11 +34,9 @@ pub fn bytes(mesh: &Extract) -> u64 {
 /// # Errors
 /// Errors of `out`, when f32 is too coarse for the coordinates, and when there are more triangles than `u32`
 /// counts.
-pub fn write(out: &mut impl Write, mesh: &Extract, _: &MeshData) -> io::Result<()> {
+pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Result<()> {
     let count = u32::try_from(mesh.triangles().len()).map_err(io::Error::other)?;
-    let mut title = [b' '; 80];
-    title[..TITLE.len()].copy_from_slice(TITLE);
-    out.write_all(&title)?;
+    out.write_all(&title(data))?;
     out.write_all(&count.to_le_bytes())?;
     for cell in mesh.cells() {
         let corners = cell.corners.map(|node| mesh.world(NodeId::from_index(node)).as_vec2());
@@ -62,4 +57,15 @@ pub fn write(out: &mut impl Write, mesh: &Extract, _: &MeshData) -> io::Result<(
         out.write_all(&[0, 0])?; // no attributes
     }
     Ok(())
+}
+
+/// Program and fingerprint: there is no room for more.
+///
+/// It must not begin with "solid", which marks the text form.
+fn title(data: &MeshData) -> [u8; 80] {
+    let kept = data.provenance.entries().filter(|(key, _)| matches!(*key, "program" | "fingerprint"));
+    let text = kept.map(|(_, text)| text).collect::<Vec<_>>().join(", fingerprint ");
+    let mut title = [b' '; 80];
+    title.iter_mut().zip(text.bytes()).for_each(|(place, byte)| *place = byte);
+    title
 }

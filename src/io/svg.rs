@@ -7,6 +7,7 @@
 
 use std::io::{self, Write};
 
+use super::Provenance;
 use crate::geometry::LatticePoint;
 use crate::mesh::{Extract, NodeId, bisection_edge_length};
 
@@ -27,7 +28,12 @@ pub struct SvgStyle<'a> {
 ///
 /// # Errors
 /// Errors of `out`.
-pub fn write(out: &mut impl Write, mesh: &Extract, style: &SvgStyle) -> io::Result<()> {
+pub fn write(
+    out: &mut impl Write,
+    mesh: &Extract,
+    style: &SvgStyle,
+    provenance: &Provenance,
+) -> io::Result<()> {
     let page = Page::of(mesh);
     let [width, height] = style.size;
     writeln!(
@@ -38,6 +44,9 @@ pub fn write(out: &mut impl Write, mesh: &Extract, style: &SvgStyle) -> io::Resu
     )?;
     let triangles = mesh.triangles().len();
     writeln!(out, "<title>{triangles} triangles, {} nodes</title>", mesh.nodes().len())?;
+    write!(out, "<desc>")?;
+    provenance.lines().try_for_each(|line| writeln!(out, "{}", escaped(&line)))?;
+    writeln!(out, "</desc>")?;
     let [r, g, b] = style.background;
     writeln!(
         out,
@@ -49,6 +58,11 @@ pub fn write(out: &mut impl Write, mesh: &Extract, style: &SvgStyle) -> io::Resu
         write_edges(out, mesh, &page, style)?;
     }
     writeln!(out, "</svg>")
+}
+
+/// Text without the characters that are markup.
+fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }
 
 fn write_levels(out: &mut impl Write, mesh: &Extract, page: &Page, style: &SvgStyle) -> io::Result<()> {

@@ -5,7 +5,8 @@
 //! connected part, from 0 for the largest. ParaView, VTK, PyVista and meshio read it.
 //!
 //! Field data: `boundary_names`, the names of the pieces in the order of their markers, a line for each, as
-//! bytes of UTF-8. (VTK has arrays of strings, but meshio refuses them.)
+//! bytes of UTF-8. (VTK has arrays of strings, but meshio refuses them.) A processing instruction
+//! `<?meshbrush …?>` says where the mesh comes from; a comment could not hold the `--` of a command.
 //!
 //! The header has the offset of each array, and so depends on the compressed sizes of the arrays before it.
 //! Therefore every array is compressed twice, first to measure and then to write: that costs time, but only
@@ -143,6 +144,10 @@ fn write_header(
 ) -> io::Result<()> {
     let (nodes, triangles) = (mesh.nodes().len(), mesh.triangles().len());
     writeln!(out, "<?xml version=\"1.0\"?>")?;
+    writeln!(out, "<?meshbrush")?;
+    // What would end the instruction is taken apart.
+    data.provenance.lines().try_for_each(|line| writeln!(out, "{}", line.replace("?>", "? >")))?;
+    writeln!(out, "?>")?;
     writeln!(
         out,
         "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" \

@@ -50,6 +50,14 @@ impl ExportFormat {
         }
     }
 
+    /// The binary form of a format that is text otherwise, if there is one.
+    pub fn binary(self) -> Option<Self> {
+        match self {
+            Self::Mesh(format) => format.binary().map(Self::Mesh),
+            Self::Svg | Self::Png => None,
+        }
+    }
+
     /// All endings, without their dots.
     pub fn endings() -> impl Iterator<Item = &'static str> {
         MeshFormat::all().map(MeshFormat::ending).chain(["svg", "png"])
@@ -69,7 +77,7 @@ impl ExportFormat {
     }
 
     /// Writes the file, or the four files of `.node`, and returns their names. `extract` must be that of
-    /// `mesh`, and `data` belongs to its nodes; a picture needs no data.
+    /// `mesh`, and `data` belongs to its nodes; a picture needs only the provenance.
     ///
     /// # Errors
     /// When the file cannot be written, the format cannot hold the mesh, or the meter was cancelled. Existing
@@ -108,11 +116,13 @@ impl ExportFormat {
                 let several = || io::Error::other("the format has several files");
                 format.write_to(out, extract, data, meter).ok_or_else(several)?
             }
-            Self::Svg => svg::write(&mut meter.count(out), extract, &look.for_svg(mesh.lattice())),
+            Self::Svg => {
+                svg::write(&mut meter.count(out), extract, &look.for_svg(mesh.lattice()), data.provenance)
+            }
             Self::Png => {
                 let picture = look.draw(mesh, extract);
                 meter.check()?;
-                png::write(&mut meter.count(out), picture.size, &picture.rgba)
+                png::write_described(&mut meter.count(out), picture.size, &picture.rgba, data.provenance)
             }
         }
     }

@@ -122,8 +122,8 @@ impl MeshBoundary {
         markers
     }
 
-    /// The boundary as runs of edges of one piece each, in the order of the pieces, then of the longest first.
-    /// Most pieces have one run. More occur where straits are closed or islands joined in the mesh.
+    /// The boundary as runs of edges of one piece each, in the order of the pieces, the longest first. Most
+    /// pieces have one run. More occur where straits are closed or islands joined in the mesh.
     ///
     /// # Panics
     /// When the extract is that of another mesh.
