@@ -56,13 +56,17 @@ fn points_of(frame: usize) -> impl Iterator<Item = DVec2> {
     (0..POINTS_PER_FRAME).map(move |i| recorded((frame * POINTS_PER_FRAME + i) as f64 / last))
 }
 
-/// A field that is fine below a wave, so that the stroke crosses fine and coarse parts.
-fn document() -> Document {
+/// A field that is fine below a wave at this height, so that the stroke crosses fine and coarse parts.
+fn settings(wave: f64) -> Settings {
     let mut settings = Settings::default();
     settings.transfer.h_min = 0.0011;
-    let formula = "if(y < 0.45 + 0.1 * sin(7 * x), 0.0011, 0.2)";
-    settings.base = Base::Formula(Formula::parse(formula).expect("a valid formula"));
-    Document::new(settings, None).expect("valid settings")
+    let formula = format!("if(y < {wave} + 0.1 * sin(7 * x), 0.0011, 0.2)");
+    settings.base = Base::Formula(Formula::parse(&formula).expect("a valid formula"));
+    settings
+}
+
+fn square() -> Document {
+    Document::new(settings(0.45), None).expect("valid settings")
 }
 
 /// The same field in a lake with an island, with nodes on both outlines.
@@ -79,7 +83,7 @@ fn lake() -> Document {
     let polygons = [vec![ring(0.48), ring(0.25)]];
     let domain = Domain::of_polygons(&polygons).expect("two rings");
     let boundary = BoundaryTreatment::OnOutline { diameter: 0.0011 };
-    let settings = Settings { domain, boundary, ..document().settings().clone() };
+    let settings = Settings { domain, boundary, ..settings(0.65) };
     Document::new(settings, None).expect("valid settings")
 }
 
@@ -252,7 +256,7 @@ impl Screen {
 }
 
 fn main() {
-    for (domain, document) in [("Square", document()), ("Lake", lake())] {
+    for (domain, document) in [("Square", square()), ("Lake", lake())] {
         eprintln!("{domain}");
         run(&mut Bench::new(document));
     }

@@ -542,7 +542,10 @@ fn pieces_and_the_triangles_that_they_do_not_replace_are_the_mesh() {
         expected.sort_unstable();
         assert!(drawn(&pieces) == expected, "seed {seed}");
         // Retired everywhere: the mesh as it is, with the moved nodes where the patch has them.
-        let all = Changes { nodes: Vec::new(), triangles: vec![0..built.mesh.raw_triangle_count()] };
+        let all = Changes {
+            nodes: Vec::new(),
+            triangles: std::iter::once(0..built.mesh.raw_triangle_count()).collect(),
+        };
         assert!(!pieces.retire(&built.mesh, &all).is_empty());
         let moved: HashMap<NodeId, LatticePoint> = outline.patch().moved.iter().copied().collect();
         let shown = |id: TriangleId| {
