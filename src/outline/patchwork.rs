@@ -62,6 +62,8 @@ pub(super) struct Patchwork {
     pub(super) on_outline: Vec<bool>,
     /// For each node whether it is at a corner of the outline.
     pub(super) pinned: Vec<bool>,
+    /// For each node whether something around it changed since no better place was found for it.
+    pub(super) may_move: Vec<bool>,
 }
 
 impl Patchwork {
@@ -85,6 +87,14 @@ impl Patchwork {
             points: nodes.clone().map(|v| placement.point(v)).collect(),
             on_outline: nodes.map(|v| placement.is_on_outline(v)).collect(),
             pinned: placement.pinned.clone(),
+            may_move: vec![true; placement.homes.len()],
+        }
+    }
+
+    /// Notes that triangles get other corners, or a corner another place.
+    pub(super) fn note_change(&mut self, triangles: impl IntoIterator<Item = u32>) {
+        for t in triangles {
+            self.triangles.corners[t as usize].iter().for_each(|&v| self.may_move[v as usize] = true);
         }
     }
 
@@ -137,16 +147,17 @@ impl Patchwork {
                 })
                 .collect();
             flips.sort_by(|a, b| b.0.total_cmp(&a.0).then((a.1, a.2).cmp(&(b.1, b.2))));
-            let mut taken = Vec::new();
-            for (_, t, i) in flips.iter().copied() {
+            if flips.is_empty() {
+                return;
+            }
+            let mut taken = vec![false; self.inside.len()];
+            for (_, t, i) in flips {
                 let across = self.triangles.across[t as usize][i];
-                if !taken.contains(&t) && !taken.contains(&across) {
-                    taken.extend([t, across]);
+                if !taken[t as usize] && !taken[across as usize] {
+                    (taken[t as usize], taken[across as usize]) = (true, true);
+                    self.note_change([t, across]);
                     self.triangles.flip(t, i);
                 }
-            }
-            if taken.is_empty() {
-                return;
             }
         }
     }

@@ -51,8 +51,14 @@ impl Smoother<'_> {
         let mut nodes: Vec<u32> = poor.flat_map(|t| patchwork.triangles.corners[t as usize]).collect();
         nodes.sort_unstable();
         nodes.dedup();
+        nodes.retain(|&node| patchwork.may_move[node as usize]);
         let mut star = Vec::new();
-        let moves = nodes.into_iter().filter_map(|node| self.best_move(patchwork, node, &mut star)).collect();
+        let mut moves = Vec::new();
+        for node in nodes {
+            let best = self.best_move(patchwork, node, &mut star);
+            patchwork.may_move[node as usize] = best.is_some();
+            moves.extend(best);
+        }
         self.apply(patchwork, moves);
     }
 
@@ -86,6 +92,8 @@ impl Smoother<'_> {
         };
         let winners: Vec<Move> = moves.into_iter().filter(|best| beats_neighbours(best)).collect();
         for Move { node, to, on_outline, .. } in winners {
+            patchwork.triangles.star(node, &mut star);
+            patchwork.note_change(star.iter().map(|&(t, _)| t));
             patchwork.points[node as usize] = to;
             patchwork.on_outline[node as usize] = on_outline;
         }

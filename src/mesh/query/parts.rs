@@ -1,7 +1,6 @@
 //! The parts of an extract: triangles that edges join.
 
 use std::cmp::Reverse;
-use std::collections::HashMap;
 
 use super::forest::Forest;
 use crate::geometry::LatticePoint;
@@ -21,14 +20,15 @@ pub(super) struct Part {
 
 /// The parts of an extract without some of its triangles.
 pub(super) struct Parts {
-    /// For each triangle the one that stands for its part; of no meaning where it is left out.
-    roots: Vec<usize>,
-    by_root: HashMap<usize, Part>,
+    /// For each triangle the place of its part in `parts`; of no meaning where it is left out.
+    numbers: Vec<u32>,
+    parts: Vec<Part>,
 }
 
 impl Parts {
     /// The parts of the triangles that are not `removed`.
     pub fn new(extract: &Extract, removed: &[bool]) -> Self {
+        const UNKNOWN: u32 = u32::MAX;
         let count = extract.triangles().len();
         let stays = |index: &usize| !removed[*index];
         let mut forest = Forest::new(count);
@@ -36,30 +36,34 @@ impl Parts {
             let across = extract.triangles()[index].raw_neighbours.into_iter().filter_map(|n| n.triangle());
             across.map(TriangleId::index).filter(stays).for_each(|other| forest.join(index, other));
         }
-        let roots: Vec<usize> = (0..count).map(|index| forest.root(index)).collect();
-        let mut by_root = HashMap::new();
+        let (mut numbers, mut parts) = (vec![UNKNOWN; count], Vec::new());
         for index in (0..count).filter(stays) {
+            let root = forest.root(index);
             let at = TriangleId::from_index(index);
             let lowest = Reverse(place_key(extract, at));
-            let none = Part { doubled_area: 0, lowest, triangles: 0, at };
-            let part: &mut Part = by_root.entry(roots[index]).or_insert(none);
+            if numbers[root] == UNKNOWN {
+                numbers[root] = parts.len() as u32;
+                parts.push(Part { doubled_area: 0, lowest, triangles: 0, at });
+            }
+            numbers[index] = numbers[root];
+            let part = &mut parts[numbers[root] as usize];
             part.doubled_area += doubled_area(extract, at);
             part.triangles += 1;
             if lowest > part.lowest {
                 (part.lowest, part.at) = (lowest, at);
             }
         }
-        Self { roots, by_root }
+        Self { numbers, parts }
     }
 
     /// The part of a triangle that is not left out.
     pub fn of(&self, id: TriangleId) -> &Part {
-        &self.by_root[&self.roots[id.index()]]
+        &self.parts[self.numbers[id.index()] as usize]
     }
 
     /// All parts, in no order.
     pub fn iter(&self) -> impl Iterator<Item = &Part> {
-        self.by_root.values()
+        self.parts.iter()
     }
 }
 
@@ -67,12 +71,12 @@ impl Extract<'_> {
     /// For each triangle the number of its part, from 0 for the part with the largest area. A part is joined
     /// by edges; of equal ones the one at the lowest place comes first.
     pub fn part_numbers(&self) -> Vec<u32> {
-        let Parts { roots, by_root } = Parts::new(self, &vec![false; self.triangles().len()]);
-        let mut order: Vec<(Reverse<Part>, usize)> =
-            by_root.into_iter().map(|(root, part)| (Reverse(part), root)).collect();
-        order.sort_unstable();
-        let numbers: HashMap<usize, u32> = order.into_iter().map(|(_, root)| root).zip(0..).collect();
-        roots.iter().map(|root| numbers[root]).collect()
+        let Parts { numbers, parts } = Parts::new(self, &vec![false; self.triangles().len()]);
+        let mut order: Vec<usize> = (0..parts.len()).collect();
+        order.sort_unstable_by_key(|&number| Reverse(parts[number]));
+        let mut ranks = vec![0; parts.len()];
+        order.iter().zip(0..).for_each(|(&number, rank)| ranks[number] = rank);
+        numbers.iter().map(|&number| ranks[number as usize]).collect()
     }
 }
 
