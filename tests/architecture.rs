@@ -244,7 +244,7 @@ fn only_the_window_uses_egui() {
 /// Files of the window that may name a tool: the file, and why. All others read the table of tools.
 const NAMES_A_TOOL: [(&str, &str); 6] = [
     ("src/app/canvas/mod.rs", "Space and the middle button pan with every tool"),
-    ("src/app/catalog.rs", "the modes of the domain tool are commands"),
+    ("src/app/catalog.rs", "the modes of the tools for domain and boundary are commands"),
     ("src/app/execute.rs", "some commands belong to one tool"),
     ("src/app/panels/brush.rs", "brush and eraser share a section"),
     ("src/app/panels/domain.rs", "the section shows the tool's settings while it is selected"),
@@ -255,8 +255,8 @@ const NAMES_A_TOOL: [(&str, &str); 6] = [
 fn a_tool_is_one_file_and_one_entry_of_the_table() {
     let window = files().into_iter().filter(|file| file.path.starts_with("src/app/"));
     let window = window.filter(|file| !file.path.starts_with("src/app/tools/"));
-    let tools =
-        ["BRUSH", "ERASER", "QUERY", "DOMAIN", "PAN"].map(|tool| format!("crate::app::tools::{tool}"));
+    let tools = ["BRUSH", "ERASER", "QUERY", "DOMAIN", "BOUNDARY", "PAN"]
+        .map(|tool| format!("crate::app::tools::{tool}"));
     let tools: Vec<&str> = tools.iter().map(String::as_str).collect();
     let listed: Vec<String> = NAMES_A_TOOL.iter().map(|(file, _)| (*file).to_owned()).collect();
     let (mut found, mut met) = (Vec::new(), Vec::new());

@@ -2,10 +2,10 @@
 
 use eframe::egui::{Key, KeyboardShortcut, Modifiers, ThemePreference};
 
-use super::command::{Command, DomainCommand};
+use super::command::{BoundaryCommand, Command, DomainCommand};
 use super::dialogs::FileRequest;
 use super::frame::FrameState;
-use super::tools::{DOMAIN, DomainToolMode, PaintKind, TOOLS};
+use super::tools::{BOUNDARY, BoundaryToolMode, DOMAIN, DomainToolMode, PaintKind, TOOLS};
 use super::view::FieldOverlay;
 use crate::colormap::Colormap;
 use crate::document::Example;
@@ -108,8 +108,26 @@ fn domain_tool(state: &FrameState<'_>) -> Vec<CatalogItem> {
         mode("Draw the frame of the domain", DomainToolMode::Frame),
         item("Add to the domain", DomainCommand::Adds(!adds)).key(Key::X).checked(adds),
     ];
+    items.extend(boundary_tool(state));
     if !tools.domain.corners.is_empty() {
         items.push(item("Close the polygon", DomainCommand::ClosePolygon).key(Key::Enter));
+    }
+    items
+}
+
+fn boundary_tool(state: &FrameState<'_>) -> Vec<CatalogItem> {
+    let tools = state.tools;
+    let item = |title: &str, command| CatalogItem::new(Menu::Tool, title, Command::Boundary(command));
+    let current = |mode| tools.tool == &BOUNDARY && tools.boundary.mode == mode;
+    let (select, split) = (BoundaryToolMode::Select, BoundaryToolMode::Split);
+    let mut items = vec![
+        item("Select pieces of the boundary", BoundaryCommand::Mode(select)).checked(current(select)).group(),
+        item("Split the boundary", BoundaryCommand::Mode(split)).checked(current(split)),
+    ];
+    if tools.tool == &BOUNDARY {
+        let other = if tools.boundary.mode == split { select } else { split };
+        items.push(item("Select or split", BoundaryCommand::Mode(other)).key(Key::S));
+        items.push(item("Join the piece with the next", BoundaryCommand::Join));
     }
     items
 }

@@ -8,7 +8,7 @@ use glam::DVec2;
 use super::background::WorkId;
 use super::dialogs::FileRequest;
 use super::readout::Quantity;
-use super::tools::{DomainToolMode, PaintKind, Tool};
+use super::tools::{BoundaryToolMode, DomainToolMode, PaintKind, Tool};
 use super::view::FieldOverlay;
 use super::widgets::Answer;
 use crate::colormap::Colormap;
@@ -106,6 +106,8 @@ pub enum Command {
 
     /// Edits the domain, or sets up the tool for it.
     Domain(DomainCommand),
+    /// Selects or splits pieces of the boundary, or sets up the tool for it.
+    Boundary(BoundaryCommand),
 
     /// Shows the whole domain.
     Fit,
@@ -150,6 +152,19 @@ pub enum Command {
     AnswerRecovery(Answer),
     /// Shows a failure.
     Report(String),
+}
+
+/// What the boundary tool does.
+#[derive(Clone, Debug, PartialEq)]
+pub enum BoundaryCommand {
+    /// Selects or splits the piece at a point in world units, at most so far away.
+    Click(DVec2, f64),
+    /// Selects the piece at a point of the boundary.
+    Select(DVec2),
+    /// Selects the tool and what a click does.
+    Mode(BoundaryToolMode),
+    /// Joins the selected piece with the next one.
+    Join,
 }
 
 /// What the domain tool does.

@@ -6,14 +6,14 @@ use glam::DVec2;
 
 use super::App;
 use super::background::{Aim, Outcome, WorkId};
-use super::command::{Command, DomainCommand};
+use super::command::{BoundaryCommand, Command, DomainCommand};
 use super::dialogs::{Dialog, FileRequest};
 use super::journal::JournalKeeper;
 use super::readout::{Quantity, value_at};
-use super::tools::{BRUSH, DOMAIN, PaintKind, QUERY};
+use super::tools::{BOUNDARY, BRUSH, BoundaryToolMode, DOMAIN, PaintKind, QUERY};
 use super::{files, journal, project};
 use crate::document::{Document, Settings};
-use crate::domain::CutShape;
+use crate::domain::{BoundaryPieces, CutShape};
 use crate::mesh::TriangleId;
 
 impl App {
@@ -26,6 +26,7 @@ impl App {
         match self.execute_on_files(command, ctx) {
             None => {}
             Some(Command::Domain(command)) => self.execute_on_domain(command),
+            Some(Command::Boundary(command)) => self.execute_on_boundary(command),
             Some(command) => self.execute_on_document(command, ctx),
         }
     }
@@ -123,6 +124,40 @@ impl App {
                 self.tools.note_use(&DOMAIN);
             }
         }
+    }
+
+    fn execute_on_boundary(&mut self, command: BoundaryCommand) {
+        match command {
+            BoundaryCommand::Click(point, reach) => self.click_boundary(point, reach),
+            BoundaryCommand::Select(point) => {
+                self.tools.boundary.selected = Some(point);
+                self.view.reveal(point);
+            }
+            BoundaryCommand::Mode(mode) => {
+                self.tools.select(&BOUNDARY);
+                self.tools.boundary.mode = mode;
+            }
+            BoundaryCommand::Join => {
+                let selected = |pieces: &BoundaryPieces| self.tools.boundary.selected_of(pieces);
+                let marks =
+                    self.session.changed_marks(|pieces, marks| pieces.joined(marks, selected(pieces)?));
+                self.session.set_marks(marks);
+            }
+        }
+    }
+
+    /// Selects or splits what is at a point, at most `reach` away.
+    fn click_boundary(&mut self, point: DVec2, reach: f64) {
+        self.tools.note_use(&BOUNDARY);
+        if self.tools.boundary.mode == BoundaryToolMode::Split {
+            let marks = self.session.changed_marks(|pieces, marks| pieces.split(marks, point, reach));
+            return self.session.set_marks(marks);
+        }
+        let piece = self.session.boundary_pieces().and_then(|pieces| {
+            let (piece, _) = pieces.nearest(point, reach)?;
+            Some(pieces.list()[piece].middle())
+        });
+        self.tools.boundary.selected = piece;
     }
 
     fn reshape(&mut self, cut_shape: CutShape, adds: bool) {

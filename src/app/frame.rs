@@ -138,10 +138,11 @@ impl App {
         let cuts = self.session.advance_cuts(patience, ctx);
         let follows = self.session.follow(deadline);
         let derives = self.session.advance_derivation(patience, ctx);
+        let finds = self.tools.tool.finds_boundary && self.session.find_boundary(patience, ctx);
         let dab = if self.asks_something() { None } else { self.canvas.hovered_dab(ctx, &self.tools) };
         let prices = self.session.price_dab(dab, deadline);
         self.canvas.note_work(&self.session);
-        if cuts || follows || derives || prices {
+        if cuts || follows || derives || finds || prices {
             ctx.request_repaint();
         }
     }

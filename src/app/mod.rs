@@ -6,6 +6,7 @@
 //! are tables with a file for each entry.
 
 mod background;
+mod boundary;
 mod busy;
 mod canvas;
 mod catalog;

@@ -6,13 +6,14 @@ use std::time::{Duration, Instant};
 use eframe::egui::Context;
 use glam::DVec2;
 
+use super::boundary::BoundaryFinder;
 use super::cuts::CutQueue;
 use super::derivation::{Derivation, Derived, PiecesChange};
 use super::readout::{Quantity, Readout};
 use super::widgets::format;
 use crate::build::BuildError;
 use crate::document::{Document, Follower, MeshChange, Pricer, Setting, Stage};
-use crate::domain::CutShape;
+use crate::domain::{BoundaryMarks, BoundaryPieces, CutShape};
 use crate::geometry::Rect;
 use crate::mesh::{Location, Mesh, MeshView, Progress, RefineError};
 use crate::paint::Brush;
@@ -52,6 +53,7 @@ pub struct Session {
     work: Duration,
     last_update: Option<Duration>,
     derivation: Derivation,
+    boundary: BoundaryFinder,
     /// What became of the follower's mesh since the canvas last asked.
     mesh_change: Option<MeshChange>,
 }
@@ -75,6 +77,7 @@ impl Session {
             work: Duration::ZERO,
             last_update: Some(began.elapsed()),
             derivation: Derivation::default(),
+            boundary: BoundaryFinder::default(),
             mesh_change: None,
         })
     }
@@ -147,6 +150,33 @@ impl Session {
     pub fn advance_derivation(&mut self, patience: Duration, ctx: &Context) -> bool {
         let in_gesture = self.document.is_in_gesture() || self.is_cutting();
         self.derivation.advance(&self.follower, in_gesture, patience, ctx)
+    }
+
+    /// The pieces of the boundary; `None` until [`Self::find_boundary`] has found them.
+    pub fn boundary_pieces(&self) -> Option<&BoundaryPieces> {
+        self.boundary.pieces(&self.document)
+    }
+
+    /// Finds the pieces of the boundary, waiting for them up to `patience`. Returns whether some are being
+    /// found.
+    pub fn find_boundary(&mut self, patience: Duration, ctx: &Context) -> bool {
+        self.boundary.advance(&self.document, &self.follower, patience, ctx)
+    }
+
+    /// What a change makes of the names and splits of the boundary.
+    pub fn changed_marks(
+        &self,
+        change: impl FnOnce(&BoundaryPieces, &BoundaryMarks) -> Option<BoundaryMarks>,
+    ) -> Option<BoundaryMarks> {
+        change(self.boundary_pieces()?, &self.document.settings().boundary_marks)
+    }
+
+    /// Names and splits the boundary, as a gesture of its own.
+    pub fn set_marks(&mut self, marks: Option<BoundaryMarks>) {
+        if let Some(marks) = marks {
+            self.set(Setting::BoundaryMarks(marks));
+            self.end_gesture();
+        }
     }
 
     /// Time of the last complete update, the sum of its slices.

@@ -121,6 +121,36 @@ pub fn paint_outline(painter: &Painter, corners: impl Iterator<Item = Pos2>) {
     }
 }
 
+/// A line in a colour on a dark halo. Returns the length of what is in view, in points.
+pub fn paint_line(painter: &Painter, points: impl Iterator<Item = Pos2>, color: Color32, width: f32) -> f32 {
+    let view = painter.clip_rect().expand(width);
+    let (mut lines, mut last): (Vec<Vec<Pos2>>, Option<Pos2>) = (Vec::new(), None);
+    let mut length = 0.0;
+    let mut points = points.peekable();
+    while let Some(point) = points.next() {
+        let Some(from) = last else {
+            last = Some(point);
+            continue;
+        };
+        if points.peek().is_some() && from.distance_sq(point) < SHORTEST_PIECE * SHORTEST_PIECE {
+            continue;
+        }
+        last = Some(point);
+        if !Rect::from_two_pos(from, point).intersects(view) {
+            continue;
+        }
+        length += from.distance(point);
+        match lines.last_mut().filter(|line| line.last() == Some(&from)) {
+            Some(line) => line.push(point),
+            None => lines.push(vec![from, point]),
+        }
+    }
+    for stroke in [Stroke::new(width + 2.0, Color32::from_black_alpha(150)), Stroke::new(width, color)] {
+        painter.extend(lines.iter().map(|line| Shape::line(line.clone(), stroke)));
+    }
+    length
+}
+
 /// The pieces of a ring near a view. The ring is split where it turns back: a line drawn around such a corner
 /// would end in a spike far beyond it.
 fn visible_pieces(ring: &[Pos2], view: Rect) -> Vec<Vec<Pos2>> {

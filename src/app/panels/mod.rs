@@ -4,6 +4,7 @@
 //! What is being typed or set up in a control, and is no setting yet, is in egui's memory.
 
 mod bars;
+mod boundary;
 mod brush;
 mod domain;
 mod field;
@@ -18,6 +19,7 @@ mod view;
 
 use eframe::egui::{self, Frame, Id, Margin, Response, RichText, ScrollArea, Ui};
 
+pub use boundary::BOUNDARY;
 pub use brush::BRUSH;
 pub use domain::DOMAIN;
 pub use inspector::INSPECTOR;
@@ -40,7 +42,7 @@ pub struct Panel {
 }
 
 /// All sections of the side panel, from the top. Those of the selected tool move to the top.
-pub static PANELS: [&Panel; 9] = [
+pub static PANELS: [&Panel; 10] = [
     &BRUSH,
     &transfer::TRANSFER,
     &levels::LEVELS,
@@ -48,6 +50,7 @@ pub static PANELS: [&Panel; 9] = [
     &field::FIELD,
     &mesh::MESH,
     &DOMAIN,
+    &BOUNDARY,
     &fit::FIT,
     &view::VIEW,
 ];

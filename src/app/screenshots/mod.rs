@@ -9,8 +9,8 @@ use glam::{DVec2, dvec2};
 
 use super::SMALLEST_SIZE;
 use super::WINDOW_SIZE;
-use super::command::{Command, DomainCommand};
-use super::tools::{DomainToolMode, PaintKind, QUERY};
+use super::command::{BoundaryCommand, Command, DomainCommand};
+use super::tools::{BoundaryToolMode, DomainToolMode, PaintKind, QUERY};
 use crate::document::{Base, Example, Setting};
 use crate::field::{Formula, RefinementRule};
 use crate::io;
@@ -25,12 +25,13 @@ struct Scene {
     act: fn(&mut OffscreenWindow),
 }
 
-const SCENES: [Scene; 9] = [
+const SCENES: [Scene; 10] = [
     scene("window", window),
     scene("query", query),
     scene("diamond", diamond),
     scene("terrain", terrain),
     scene("aegean", aegean),
+    scene("boundary", boundary),
     scene("light", light),
     scene("deep", deep),
     scene("palette", palette),
@@ -99,6 +100,14 @@ fn aegean(window: &mut OffscreenWindow) {
     window.send(Command::Domain(DomainCommand::Mode(DomainToolMode::Brush)));
     window.send(Command::BrushRadius(0.2));
     point_at(window, dvec2(25.25, 38.1));
+}
+
+/// The pieces of a coast, one of them selected.
+fn boundary(window: &mut OffscreenWindow) {
+    window.send(Command::OpenExample(Example::Aegean));
+    window.send(Command::Boundary(BoundaryCommand::Mode(BoundaryToolMode::Select)));
+    window.send(Command::Boundary(BoundaryCommand::Click(dvec2(24.9, 35.35), 0.3)));
+    point_at(window, dvec2(26.0, 38.3));
 }
 
 /// The first example in the light theme.

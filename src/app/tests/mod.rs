@@ -3,6 +3,7 @@
 
 #[cfg(unix)]
 mod background;
+mod boundary;
 mod budget;
 mod commands;
 mod derivation;

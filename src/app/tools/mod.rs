@@ -4,6 +4,7 @@
 //! the tool strip, the side panel and the canvas read the table, so that a new tool is one file and one
 //! entry.
 
+mod boundary;
 mod brush;
 mod domain;
 mod eraser;
@@ -16,6 +17,7 @@ use std::fmt;
 use eframe::egui::{CursorIcon, Key, Painter, Pos2};
 use glam::DVec2;
 
+pub use boundary::{BOUNDARY, BoundaryTool, BoundaryToolMode};
 pub use brush::BRUSH;
 pub use domain::{DOMAIN, DomainTool, DomainToolMode};
 pub use eraser::ERASER;
@@ -30,7 +32,7 @@ use super::widgets::{Hint, Icon};
 use crate::paint::Brush;
 
 /// All tools, in the order of the tool strip.
-pub static TOOLS: [Tool; 5] = [&BRUSH, &ERASER, &QUERY, &DOMAIN, &PAN];
+pub static TOOLS: [Tool; 6] = [&BRUSH, &ERASER, &QUERY, &DOMAIN, &BOUNDARY, &PAN];
 
 /// One of [`TOOLS`].
 pub type Tool = &'static ToolSpec;
@@ -58,6 +60,8 @@ pub struct ToolSpec {
     pub brush: Option<fn(&Tools) -> Brush>,
     /// Whether the triangle under the pointer is highlighted.
     pub highlights_hovered: bool,
+    /// Whether it needs the pieces of the boundary.
+    pub finds_boundary: bool,
     /// Draws over the mesh while the tool is selected.
     pub paint: fn(&FrameState<'_>, &OverMesh<'_>),
     /// What happens when the primary button is pressed.
@@ -90,6 +94,7 @@ impl ToolSpec {
             has_ring: |_| false,
             brush: None,
             highlights_hovered: false,
+            finds_boundary: false,
             paint: |_, _| {},
             press: |_, _, _| None,
         }
@@ -138,6 +143,8 @@ pub struct Tools {
     pub last_painted: Option<DVec2>,
     /// The domain tool.
     pub domain: DomainTool,
+    /// The boundary tool.
+    pub boundary: BoundaryTool,
     /// How often each of [`TOOLS`] was used.
     uses: [u32; TOOLS.len()],
 }
@@ -156,6 +163,7 @@ impl Tools {
             diameter: 2.0 * h_min,
             last_painted: None,
             domain: DomainTool::default(),
+            boundary: BoundaryTool::default(),
             uses: [0; TOOLS.len()],
         }
     }
@@ -170,6 +178,7 @@ impl Tools {
     pub fn fit_to(&mut self, extent: f64, h_min: f64) {
         let fitting = Self::for_domain(extent, h_min);
         (self.radius, self.diameter) = (fitting.radius, fitting.diameter);
+        self.boundary.selected = None;
     }
 
     /// Whether the selected tool shows the brush ring.

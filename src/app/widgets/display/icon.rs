@@ -15,6 +15,8 @@ impl Icon {
     pub const QUERY: Self = Self(material::ICON_MY_LOCATION.codepoint);
     /// Edit the domain.
     pub const DOMAIN: Self = Self(material::ICON_HEXAGON.codepoint);
+    /// Name the boundary.
+    pub const BOUNDARY: Self = Self(material::ICON_LABEL.codepoint);
     /// Move the view.
     pub const PAN: Self = Self(material::ICON_DRAG_PAN.codepoint);
     /// Show all of the domain.

@@ -1,0 +1,75 @@
+//! Naming, splitting and joining pieces of the boundary.
+
+use eframe::egui::accesskit::Role;
+use eframe::egui::{Key, Modifiers, Vec2, vec2};
+use egui_kittest::kittest::Queryable as _;
+use glam::dvec2;
+
+use super::{Window, click, entries, fingerprint, key, send, settings, type_into, wait_until, window_of};
+use crate::app::command::Command;
+use crate::document::Settings;
+use crate::domain::{BoundaryPieces, Domain};
+
+const SIZE: Vec2 = vec2(1440.0, 1200.0);
+
+/// A window on a square sea with a square island, with the boundary tool in hand.
+fn window_on_a_sea() -> Window {
+    let square =
+        |half: f64| [(-half, -half), (half, -half), (half, half), (-half, half)].map(|(x, y)| dvec2(x, y));
+    let sea = Domain::of_polygons(&[vec![square(1.0).to_vec(), square(0.3).to_vec()]]).unwrap();
+    let mut window = window_of(SIZE);
+    send(&mut window, Command::NewWith(Box::new(Settings::for_domain("sea".into(), sea))));
+    key(&mut window, Modifiers::NONE, Key::N);
+    wait_until(&mut window, |window| window.state().session().boundary_pieces().is_some());
+    window
+}
+
+fn names(window: &Window) -> Vec<String> {
+    let Settings { domain, boundary_marks, .. } = settings(window);
+    let pieces = BoundaryPieces::of_domain(domain, boundary_marks).unwrap();
+    pieces.list().iter().map(|piece| piece.name.clone()).collect()
+}
+
+#[test]
+fn a_piece_is_clicked_named_and_the_name_undone() {
+    let mut window = window_on_a_sea();
+    let mesh = fingerprint(&window);
+    assert_eq!(names(&window), ["open south", "open east", "open north", "open west", "island 1"]);
+    assert!(window.query_by_label("Name").is_none(), "no piece is selected yet");
+    click(&mut window, dvec2(0.31, 0.05), Modifiers::NONE);
+    type_into(&mut window, "Name", "Rock");
+    key(&mut window, Modifiers::NONE, Key::Enter);
+    assert_eq!((names(&window)[4].as_str(), entries(&window)), ("Rock", 1));
+    assert_eq!(fingerprint(&window), mesh);
+    window.get_by_role_and_label(Role::Button, "Rock");
+    // A piece of the list.
+    window.get_by_role_and_label(Role::Button, "open west").click();
+    window.run();
+    type_into(&mut window, "Name", "Inflow");
+    key(&mut window, Modifiers::NONE, Key::Enter);
+    assert_eq!((names(&window)[3].as_str(), entries(&window)), ("Inflow", 2));
+    key(&mut window, Modifiers::COMMAND, Key::Z);
+    key(&mut window, Modifiers::COMMAND, Key::Z);
+    assert_eq!((names(&window)[3].as_str(), names(&window)[4].as_str()), ("open west", "island 1"));
+}
+
+#[test]
+fn a_side_is_split_by_a_click_and_joined_again() {
+    let mut window = window_on_a_sea();
+    key(&mut window, Modifiers::NONE, Key::S);
+    click(&mut window, dvec2(0.2, -1.0), Modifiers::NONE);
+    assert_eq!(names(&window)[..2], ["open south part 1", "open south part 2"]);
+    assert_eq!(entries(&window), 1);
+    click(&mut window, dvec2(0.7, 0.6), Modifiers::NONE);
+    assert_eq!(entries(&window), 1, "a click far from the boundary splits nothing");
+    // A ring takes two clicks.
+    click(&mut window, dvec2(0.3, 0.1), Modifiers::NONE);
+    click(&mut window, dvec2(-0.3, 0.1), Modifiers::NONE);
+    assert_eq!(names(&window)[5..], ["island 1 part 1", "island 1 part 2"]);
+    key(&mut window, Modifiers::NONE, Key::S);
+    click(&mut window, dvec2(-0.5, -1.0), Modifiers::NONE);
+    window.get_by_role_and_label(Role::Button, "Join with next").click();
+    window.run();
+    assert_eq!(names(&window)[..2], ["open south", "open east"]);
+    assert_eq!(entries(&window), 4);
+}
