@@ -89,7 +89,7 @@ pub fn export(session: &mut Session, view: &View, background: &mut Background, p
     let look = view.picture(session.document().settings());
     let file = path.to_owned();
     background.start(Aim::Export, path, move |meter| {
-        let write = || -> std::io::Result<Vec<PathBuf>> {
+        let write = || -> std::io::Result<(Vec<PathBuf>, usize)> {
             let extract = DerivedMesh::new(&mesh, &domain, &settings.derived_cleaning()).extract(&mesh);
             let target_diameter = if format.wants_node_data() {
                 at_nodes(&extract, meter, |node| field.target_by_rule(rule, Some(paint.as_paint()), node))?
@@ -103,11 +103,14 @@ pub fn export(session: &mut Session, view: &View, background: &mut Background, p
             let provenance = &Provenance::new(source, mesh.fingerprint(), "x, y");
             let (boundary, parts) = (&boundary, &parts);
             let data = MeshData { target_diameter, quantities, boundary, parts, provenance };
-            format.write(&file, &mesh, &extract, &data, &look, meter)
+            let files = format.write(&file, &mesh, &extract, &data, &look, meter)?;
+            Ok((files, extract.triangles().len()))
         };
-        let triangles = format::count(mesh.triangle_count() as u64);
         match write() {
-            Ok(files) => Outcome::News(format!("{triangles} triangles written to {}.", listed(&files))),
+            Ok((files, triangles)) => {
+                let triangles = format::count(triangles as u64);
+                Outcome::News(format!("{triangles} triangles written to {}.", listed(&files)))
+            }
             Err(_) if meter.is_cancelled() => Outcome::News(cancelled(Aim::Export, &file)),
             Err(error) => Outcome::NotWritten(format!("{} could not be written: {error}.", file.display())),
         }

@@ -7,9 +7,11 @@ use eframe::egui::{Event, Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
 use glam::dvec2;
 
-use super::{Window, fingerprint, key, notice, scratch, send, settings, stroke, wait_for_notice, window};
+use super::{
+    Window, fingerprint, key, notice, scratch, send, settings, stroke, wait_for_notice, wait_until, window,
+};
 use crate::app::command::Command;
-use crate::document::Base;
+use crate::document::{Base, Example};
 
 #[test]
 fn an_export_writes_the_file_and_tells() {
@@ -30,6 +32,22 @@ fn an_export_writes_the_file_and_tells() {
     assert!(wait_for_notice(&mut window).contains("could not be written: there is no folder"));
     stroke(&mut window, dvec2(0.1, 0.1), dvec2(0.2, 0.1));
     assert!(notice(&window).contains("no folder"), "what failed stays");
+}
+
+#[test]
+fn an_export_counts_the_triangles_of_the_file() {
+    let mut window = window();
+    send(&mut window, Command::OpenExample(Example::Aegean));
+    wait_until(&mut window, |window| window.state().session().derived().is_some());
+    let file = scratch("app-export-coast.obj");
+    let _ = std::fs::remove_file(&file); // absent at the first run
+    send(&mut window, Command::Export(file.clone()));
+    let message = wait_for_notice(&mut window);
+    let written =
+        std::fs::read_to_string(&file).unwrap().lines().filter(|line| line.starts_with("f ")).count();
+    assert_ne!(written, window.state().session().mesh().triangle_count(), "nodes are on the coast");
+    let count = crate::app::widgets::format::count(written as u64);
+    assert!(message.starts_with(&format!("{count} triangles written to")), "{written}: {message}");
 }
 
 #[test]
