@@ -55,7 +55,8 @@ impl Key {
 /// A mesh as files have it. Ids are the numbers in files.
 pub struct Derived {
     key: Key,
-    extract: Extract<'static>,
+    /// Shared with the thread that compares it with the outline.
+    extract: Arc<Extract<'static>>,
     locator: PatchedLocator,
     /// Triangles of each level.
     pub level_counts: Vec<usize>,
@@ -247,7 +248,7 @@ impl Derivation {
 /// Derives a mesh and compares it with the outline. The receiver may be gone, when the window closes.
 fn derive(key: Key, mesh: Arc<Mesh>, domain: &DomainOnLattice, sender: &Sender<Outcome>) {
     let derived_mesh = DerivedMesh::new(&mesh, domain, &key.cleaning);
-    let extract = derived_mesh.extract(&mesh);
+    let extract = Arc::new(derived_mesh.extract(&mesh).into_owned());
     let pieces = PatchPieces::new(&mesh, derived_mesh.patch(), &extract);
     let region = key.region.clone();
     let derived = Derived {
@@ -258,7 +259,7 @@ fn derive(key: Key, mesh: Arc<Mesh>, domain: &DomainOnLattice, sender: &Sender<O
         removed: derived_mesh.removed().clone(),
         outline_fit: derived_mesh.fit(),
         quality: None,
-        extract: extract.clone().into_owned(),
+        extract: extract.clone(),
     };
     if sender.send(Outcome::Derived(Box::new(derived), pieces)).is_ok() {
         let quality = FitQuality::of(&mesh, &extract, &region);
