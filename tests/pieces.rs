@@ -2,11 +2,13 @@
 
 mod coast;
 mod formula_mesh;
+mod kept_picture;
 
 use glam::{DVec2, dvec2};
+use kept_picture::keep;
 use meshbrush::internals::geometry::LatticePoint;
 use meshbrush::internals::mesh::{Extract, Mesh, MeshPatch, PatchPieces, TriangleId};
-use meshbrush::internals::render::{Image, software};
+use meshbrush::internals::render::software;
 use meshbrush::internals::scene::{Camera, ShownMesh, Style};
 
 const SIZE: [u32; 2] = [240, 180];
@@ -17,15 +19,6 @@ const TOLERANCE_PX: f64 = 0.05;
 fn style(edges: bool) -> Style {
     let colors: [[u8; 4]; 64] = std::array::from_fn(|level| [40 + 3 * level as u8, 90, 120, 255]);
     Style { edges, ..Style::dark(colors) }
-}
-
-fn keep(image: &Image, name: &str) {
-    let Some(folder) = std::env::var_os("MESHBRUSH_PICTURES") else { return };
-    let file = std::fs::File::create(std::path::Path::new(&folder).join(format!("{name}.png"))).unwrap();
-    let mut encoder = png::Encoder::new(file, image.size[0], image.size[1]);
-    encoder.set_color(png::ColorType::Rgba);
-    encoder.set_depth(png::BitDepth::Eight);
-    encoder.write_header().unwrap().write_image_data(&image.rgba).unwrap();
 }
 
 fn whole(mesh: &Mesh, size: [u32; 2]) -> Camera {

@@ -6,8 +6,10 @@
 
 mod coast;
 mod formula_mesh;
+mod kept_picture;
 
 use glam::{DVec2, dvec2};
+use kept_picture::keep;
 use meshbrush::internals::build::BuiltMesh;
 use meshbrush::internals::colormap::{LEVELS, LevelColors};
 use meshbrush::internals::geometry::{Lattice, LatticePoint, LatticeRect, Rect};
@@ -93,15 +95,6 @@ fn whole(mesh: &Mesh) -> Camera {
 /// A node on the curve of [`graded`], a little off the middle.
 fn close_up(mesh: &Mesh, zoom: f64) -> Camera {
     whole(mesh).zoomed(zoom, DVec2::ZERO).centered_on(dvec2(0.5, 0.55)).panned(dvec2(10.3, 5.8))
-}
-
-fn keep(image: &Image, name: &str) {
-    let Some(folder) = std::env::var_os("MESHBRUSH_PICTURES") else { return };
-    let file = std::fs::File::create(std::path::Path::new(&folder).join(format!("{name}.png"))).unwrap();
-    let mut encoder = png::Encoder::new(file, image.size[0], image.size[1]);
-    encoder.set_color(png::ColorType::Rgba);
-    encoder.set_depth(png::BitDepth::Eight);
-    encoder.write_header().unwrap().write_image_data(&image.rgba).unwrap();
 }
 
 /// Mean difference of a colour component, and the share of pixels that differ by more than 8 in one.
