@@ -242,10 +242,11 @@ fn only_the_window_uses_egui() {
 }
 
 /// Files of the window that may name a tool: the file, and why. All others read the table of tools.
-const NAMES_A_TOOL: [(&str, &str); 6] = [
+const NAMES_A_TOOL: [(&str, &str); 7] = [
     ("src/app/canvas/mod.rs", "Space and the middle button pan with every tool"),
-    ("src/app/catalog.rs", "the modes of the tools for domain and boundary are commands"),
-    ("src/app/execute.rs", "some commands belong to one tool"),
+    ("src/app/catalog/tool.rs", "the modes of the tools for domain and boundary are commands"),
+    ("src/app/execute/domain.rs", "commands of the tools for domain and boundary select them"),
+    ("src/app/execute/mod.rs", "some commands belong to one tool"),
     ("src/app/panels/brush.rs", "brush and eraser share a section"),
     ("src/app/panels/domain.rs", "the section shows the tool's settings while it is selected"),
     ("src/app/screenshots/mod.rs", "pictures of single tools"),

@@ -19,6 +19,7 @@ mod files;
 mod frame;
 mod journal;
 mod keys;
+mod notices;
 mod panels;
 mod project;
 pub mod readout;

@@ -9,27 +9,17 @@ use glam::DVec2;
 use super::boundary::BoundaryFinder;
 use super::cuts::CutQueue;
 use super::derivation::{Derivation, Derived, PiecesChange};
+use super::notices::{self, Notices};
 use super::readout::{Quantity, Readout};
-use super::widgets::format;
 use crate::build::BuildError;
 use crate::document::{Document, Follower, MeshChange, Pricer, Setting, Stage};
 use crate::domain::{BoundaryMarks, BoundaryPieces, CutShape};
 use crate::geometry::Rect;
-use crate::mesh::{Location, Mesh, MeshView, Progress, RefineError};
+use crate::mesh::{Location, Mesh, MeshView, Progress};
 use crate::paint::Brush;
-use crate::text::Bytes;
 
 /// Pixels or triangles in one slice of work: well below a millisecond.
 const SLICE: usize = 2048;
-
-/// A message that stays on the canvas until it is dismissed.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Notice {
-    /// Whether it reports a failure; else it is news.
-    pub failed: bool,
-    /// A sentence.
-    pub text: String,
-}
 
 /// What changed on the screen.
 #[derive(Clone, Debug, Default)]
@@ -47,9 +37,7 @@ pub struct Session {
     pricer: Pricer,
     cuts: CutQueue,
     queried: Option<DVec2>,
-    notice: Option<Notice>,
-    /// Says that the mesh stopped short of the document, as long as that is so.
-    standing: Option<Notice>,
+    notices: Notices,
     work: Duration,
     last_update: Option<Duration>,
     derivation: Derivation,
@@ -72,8 +60,7 @@ impl Session {
             pricer: Pricer::default(),
             cuts: CutQueue::default(),
             queried: None,
-            notice: None,
-            standing: None,
+            notices: Notices::default(),
             work: Duration::ZERO,
             last_update: Some(began.elapsed()),
             derivation: Derivation::default(),
@@ -189,40 +176,30 @@ impl Session {
         self.follower.stage()
     }
 
-    /// The message on the canvas.
-    pub fn notice(&self) -> Option<&Notice> {
-        self.notice.as_ref().or(self.standing.as_ref())
+    /// The messages on the canvas.
+    pub fn notices(&self) -> &Notices {
+        &self.notices
     }
 
-    /// Whether the message cannot be dismissed. It disappears once mesh and document agree.
-    pub fn notice_stands(&self) -> bool {
-        self.notice.is_none() && self.standing.is_some()
+    /// The messages on the canvas, to dismiss them.
+    pub fn notices_mut(&mut self) -> &mut Notices {
+        &mut self.notices
     }
 
     /// Shows news.
     pub fn tell(&mut self, text: String) {
-        self.notice = Some(Notice { failed: false, text });
-    }
-
-    /// Dismisses the message, except one that says that the mesh stopped short of the document.
-    pub fn dismiss_notice(&mut self) {
-        self.notice = None;
-    }
-
-    /// Dismisses news; a failure stays until the user dismisses it.
-    pub fn dismiss_news(&mut self) {
-        self.notice.take_if(|notice| !notice.failed);
+        self.notices.tell(text);
     }
 
     /// Shows a failure.
     pub fn report(&mut self, failure: impl std::fmt::Display) {
-        self.notice = Some(Notice { failed: true, text: failure.to_string() });
+        self.notices.report(failure);
     }
 
     /// Changes a setting. What cannot be met is reported, and the document stays as it was.
     pub fn set(&mut self, setting: Setting) {
         match self.document.set(setting) {
-            Ok(()) => self.notice = None,
+            Ok(()) => self.notices.dismiss(),
             Err(error) => self.report(error),
         }
     }
@@ -309,7 +286,7 @@ impl Session {
         self.cuts.discard(&mut self.document);
         self.document.replace_with(document);
         self.queried = None;
-        self.notice = None;
+        self.notices.dismiss();
     }
 
     /// Stops the cuts in progress, or else the update of the mesh. The document keeps the edits that reached
@@ -358,7 +335,7 @@ impl Session {
             }
         };
         if self.follower.stopped().is_none() {
-            self.standing = None;
+            self.notices.end_standing();
         }
         let left = left || !self.document.is_stroke_drawn();
         let changed = self.follower.revision() != revision;
@@ -402,49 +379,10 @@ impl Session {
             self.document.reject_last();
         }
         if self.document.revision() != revision {
-            self.report(format!("{error}{}", advice(error)));
+            self.report(format!("{error}{}", notices::advice(error)));
         } else {
-            let former = self.document.settings() != self.follower.settings();
-            let text = if former {
-                format!("{error}{} Until then the former mesh is shown.", advice(error))
-            } else {
-                standstill(error)
-            };
-            self.standing = Some(Notice { failed: true, text });
+            let shows_former = self.document.settings() != self.follower.settings();
+            self.notices.stand(error, shows_former);
         }
-    }
-}
-
-/// What would help against an error, as a further sentence.
-fn advice(error: &BuildError) -> &'static str {
-    match error {
-        BuildError::Refine(RefineError::TooFine { .. }) => {
-            " Raise the smallest diameter, or mesh a smaller domain."
-        }
-        BuildError::Refine(error) if error.is_over_budget() => {
-            " Raise the smallest diameter, paint less, or raise the limit."
-        }
-        _ => "",
-    }
-}
-
-/// The message while the mesh does not show all paint.
-fn standstill(error: &BuildError) -> String {
-    let kept = "what you painted is kept, but the mesh does not show all of it.";
-    let helps = "in the Mesh panel or the smallest diameter, erase, or undo.";
-    match error {
-        BuildError::Refine(RefineError::TooManyTriangles { limit }) => {
-            let limit = format::count(*limit as u64);
-            format!(
-                "The mesh stops at its limit of {limit} triangles: {kept} Raise the triangle budget {helps}"
-            )
-        }
-        BuildError::Refine(RefineError::TooMuchMemory { memory, .. }) => {
-            let limit = Bytes(memory.bytes);
-            format!(
-                "The mesh stops at its limit of {limit} of memory: {kept} Raise the memory budget {helps}"
-            )
-        }
-        other => format!("{other}{} Until then {kept}", advice(other)),
     }
 }

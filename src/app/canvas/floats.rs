@@ -24,7 +24,7 @@ impl Canvas {
         let mut places = self.draw_progress(ui, inner, state.session, files, commands);
         let hints = state.tools.hint();
         // In a small window only one of them fits.
-        if !hints.is_empty() && places.is_empty() && state.session.notice().is_none() {
+        if !hints.is_empty() && places.is_empty() && state.session.notices().shown().is_none() {
             hint_pill(ui, inner.left_bottom(), Align2::LEFT_BOTTOM, inner, hints);
         }
         places.extend(draw_notice(ui, inner, state.session, commands));
@@ -69,12 +69,12 @@ fn card(ui: &mut Ui, place: Rect) -> Ui {
 
 /// Draws the message. Returns its place.
 fn draw_notice(ui: &mut Ui, inner: Rect, session: &Session, commands: &mut Vec<Command>) -> Option<Rect> {
-    let notice = session.notice()?;
+    let notice = session.notices().shown()?;
     let width = inner.width().min(640.0);
     let place = Rect::from_center_size(pos2(inner.center().x, inner.top() + 40.0), vec2(width, 80.0));
     let mut child = ui.new_child(UiBuilder::new().max_rect(place));
     let banner = if notice.failed { Banner::error(&notice.text) } else { Banner::info(&notice.text) };
-    let banner = if session.notice_stands() { banner.standing().action("Undo") } else { banner };
+    let banner = if session.notices().shown_stands() { banner.standing().action("Undo") } else { banner };
     let answer = banner.show(&mut child);
     match answer {
         BannerAnswer::Open => {}

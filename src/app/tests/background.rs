@@ -37,7 +37,7 @@ fn writer(pipe: &Path) -> File {
 }
 
 fn message(window: &Window) -> String {
-    window.state().session().notice().map(|notice| notice.text.clone()).unwrap_or_default()
+    window.state().session().notices().shown().map(|notice| notice.text.clone()).unwrap_or_default()
 }
 
 fn shows(window: &Window, label: &str) -> bool {

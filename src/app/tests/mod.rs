@@ -183,7 +183,7 @@ fn entries(window: &Window) -> usize {
 }
 
 fn notice(window: &Window) -> String {
-    window.state().session().notice().map_or(String::new(), |notice| notice.text.clone())
+    window.state().session().notices().shown().map_or(String::new(), |notice| notice.text.clone())
 }
 
 /// The level of the triangle round a point.

@@ -196,7 +196,8 @@ fn what_cannot_be_opened_or_saved_is_told_and_changes_nothing() {
         let file = folder.join(name);
         fs::write(&file, bytes).unwrap();
         send(&mut window, Command::Open(file));
-        let message = |window: &Window| window.state().session().notice().map(|notice| notice.text.clone());
+        let message =
+            |window: &Window| window.state().session().notices().shown().map(|notice| notice.text.clone());
         wait(&mut window, name, |window| message(window).is_some_and(|text| text.contains(name)));
         let text = message(&window).unwrap();
         assert!(text.contains(word), "{text}");
@@ -204,14 +205,16 @@ fn what_cannot_be_opened_or_saved_is_told_and_changes_nothing() {
     assert_eq!(document(&window).version(), version);
     paint(&mut window, 0.9);
     send(&mut window, Command::SaveTo(folder.join("no-such-folder").join("d.meshbrush")));
-    let failed = |window: &Window| window.state().session().notice().is_some_and(|notice| notice.failed);
+    let failed =
+        |window: &Window| window.state().session().notices().shown().is_some_and(|notice| notice.failed);
     wait(&mut window, "the failure", failed);
     assert!(shows(&window, EDITED), "it is not saved");
     // Edits that were given up for a file which cannot be opened are asked about again.
     send(&mut window, Command::Open(folder.join("cut.meshbrush")));
     press(&mut window, "Do not save");
-    let message =
-        |window: &Window| window.state().session().notice().is_some_and(|n| n.text.contains("cut off"));
+    let message = |window: &Window| {
+        window.state().session().notices().shown().is_some_and(|n| n.text.contains("cut off"))
+    };
     wait(&mut window, "the failure", message);
     send(&mut window, Command::Quit);
     assert!(shows(&window, "Save changes to “Radar threats”?"));

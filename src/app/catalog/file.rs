@@ -1,0 +1,31 @@
+//! The menu File.
+
+use eframe::egui::{Key, Modifiers};
+
+use super::{CatalogItem, Menu};
+use crate::app::command::Command;
+use crate::app::dialogs::FileRequest;
+use crate::app::frame::FrameState;
+
+/// Documents and files.
+pub fn file(state: &FrameState<'_>) -> Vec<CatalogItem> {
+    use Menu::File;
+    let mut items = vec![
+        CatalogItem::new(File, "New", Command::New).ctrl(Key::N),
+        CatalogItem::new(File, "Open…", Command::Ask(FileRequest::Open)).ctrl(Key::O),
+        CatalogItem::new(File, "Save", Command::Save).ctrl(Key::S),
+        CatalogItem::new(File, "Save as…", Command::Ask(FileRequest::Save))
+            .keys(Modifiers::COMMAND | Modifiers::SHIFT, Key::S),
+        CatalogItem::new(File, "Open picture as risk…", Command::Ask(FileRequest::OpenImage)).group(),
+        CatalogItem::new(File, "Open domain…", Command::Ask(FileRequest::OpenDomain))
+            .keys(Modifiers::COMMAND | Modifiers::SHIFT, Key::O),
+        CatalogItem::new(File, "Export mesh…", Command::Ask(FileRequest::Export)).ctrl(Key::E),
+    ];
+    for (i, path) in state.project.recent().iter().enumerate() {
+        let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
+        let item = CatalogItem::new(File, format!("Open recent {name}"), Command::Open(path.clone()));
+        items.push(if i == 0 { item.group() } else { item });
+    }
+    items.push(CatalogItem::new(File, "Quit", Command::Quit).ctrl(Key::Q).group());
+    items
+}

@@ -1,0 +1,46 @@
+//! The menu View.
+
+use eframe::egui::{Key, Modifiers, ThemePreference};
+
+use super::{CatalogItem, Menu};
+use crate::app::command::Command;
+use crate::app::frame::FrameState;
+use crate::app::view::FieldOverlay;
+use crate::colormap::Colormap;
+
+/// What is shown.
+pub fn view(state: &FrameState<'_>) -> Vec<CatalogItem> {
+    use Menu::View;
+    let view = state.view;
+    let overlay = |title: &str, overlay| {
+        // The key of the overlay that is shown hides it.
+        let shown = view.overlay == overlay;
+        let next = if shown { FieldOverlay::None } else { overlay };
+        CatalogItem::new(View, title, Command::SetOverlay(next)).checked(shown)
+    };
+    let theme = |title: &str, theme| {
+        CatalogItem::new(View, title, Command::Theme(theme)).checked(view.theme == theme)
+    };
+    let mut items = vec![
+        CatalogItem::new(View, "Fit domain", Command::Fit).key(Key::Home),
+        CatalogItem::new(View, "Zoom in", Command::Zoom(1.5)).key(Key::Plus),
+        CatalogItem::new(View, "Zoom out", Command::Zoom(1.0 / 1.5)).key(Key::Minus),
+        CatalogItem::new(View, "Edges", Command::ToggleEdges).key(Key::G).checked(view.edges).group(),
+        overlay("No overlay", FieldOverlay::None).group(),
+        overlay("Overlay risk", FieldOverlay::Risk).key(Key::O),
+        overlay("Overlay target", FieldOverlay::Target).keys(Modifiers::SHIFT, Key::O),
+    ];
+    for (i, map) in Colormap::ALL.into_iter().enumerate() {
+        let title = format!("{} colours", map.name());
+        let item = CatalogItem::new(View, title, Command::Colormap(map)).checked(view.colormap == map);
+        items.push(if i == 0 { item.group() } else { item });
+    }
+    items.extend([
+        theme("Dark theme", ThemePreference::Dark).group(),
+        theme("Light theme", ThemePreference::Light),
+        theme("Theme of the desktop", ThemePreference::System),
+        CatalogItem::new(View, "Panels", Command::TogglePanels).key(Key::Tab).checked(view.panels).group(),
+        CatalogItem::new(View, "Find a command…", Command::Palette).ctrl(Key::P),
+    ]);
+    items
+}

@@ -1,0 +1,75 @@
+//! Commands about the domain and its boundary.
+
+use glam::DVec2;
+
+use crate::app::App;
+use crate::app::command::{BoundaryCommand, DomainCommand};
+use crate::app::tools::{BOUNDARY, BoundaryToolMode, DOMAIN};
+use crate::domain::{BoundaryPieces, CutShape};
+
+impl App {
+    pub(super) fn execute_on_domain(&mut self, command: DomainCommand) {
+        let tool = &mut self.tools.domain;
+        match command {
+            DomainCommand::Reshape(cut_shape, adds) => self.reshape(cut_shape, adds),
+            DomainCommand::AddCorner(corner) => tool.corners.push(corner),
+            DomainCommand::ClosePolygon => self.close_polygon(),
+            DomainCommand::Mode(mode) => {
+                self.tools.select(&DOMAIN);
+                self.tools.domain.mode = mode;
+            }
+            DomainCommand::Adds(adds) => tool.adds = adds,
+            DomainCommand::Bounds(bounds) => {
+                self.session.set_bounds(bounds);
+                self.tools.note_use(&DOMAIN);
+            }
+        }
+    }
+
+    pub(super) fn execute_on_boundary(&mut self, command: BoundaryCommand) {
+        match command {
+            BoundaryCommand::Click(point, reach) => self.click_boundary(point, reach),
+            BoundaryCommand::Select(point) => {
+                self.tools.boundary.selected = Some(point);
+                self.view.reveal(point);
+            }
+            BoundaryCommand::Mode(mode) => {
+                self.tools.select(&BOUNDARY);
+                self.tools.boundary.mode = mode;
+            }
+            BoundaryCommand::Join => {
+                let selected = |pieces: &BoundaryPieces| self.tools.boundary.selected_of(pieces);
+                let marks =
+                    self.session.changed_marks(|pieces, marks| pieces.joined(marks, selected(pieces)?));
+                self.session.set_marks(marks);
+            }
+        }
+    }
+
+    /// Selects or splits what is at a point, at most `reach` away.
+    fn click_boundary(&mut self, point: DVec2, reach: f64) {
+        self.tools.note_use(&BOUNDARY);
+        if self.tools.boundary.mode == BoundaryToolMode::Split {
+            let marks = self.session.changed_marks(|pieces, marks| pieces.split(marks, point, reach));
+            return self.session.set_marks(marks);
+        }
+        let piece = self.session.boundary_pieces().and_then(|pieces| {
+            let (piece, _) = pieces.nearest(point, reach)?;
+            Some(pieces.list()[piece].middle())
+        });
+        self.tools.boundary.selected = piece;
+    }
+
+    fn reshape(&mut self, cut_shape: CutShape, adds: bool) {
+        self.session.reshape(cut_shape, adds);
+        self.tools.note_use(&DOMAIN);
+    }
+
+    fn close_polygon(&mut self) {
+        let ring = std::mem::take(&mut self.tools.domain.corners);
+        if ring.len() >= 3 {
+            self.reshape(CutShape::Ring(ring), self.tools.domain.adds);
+            self.session.end_gesture();
+        }
+    }
+}

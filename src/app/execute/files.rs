@@ -1,0 +1,172 @@
+//! Commands about files, windows and dialogs, and what finished work on files does.
+
+use eframe::egui::{Context, ViewportCommand};
+
+use crate::app::App;
+use crate::app::background::{Aim, Outcome, WorkId};
+use crate::app::command::Command;
+use crate::app::dialogs::{Dialog, FileRequest};
+use crate::app::journal::JournalKeeper;
+use crate::app::{files, journal, project};
+use crate::document::{Document, Settings};
+
+impl App {
+    /// Runs commands about files, windows and dialogs, and returns others.
+    pub(super) fn execute_on_files(&mut self, command: Command, ctx: &Context) -> Option<Command> {
+        match command {
+            Command::New => self.open(new_document()),
+            Command::OpenExample(example) => self.open(files::example(example)),
+            Command::NewWith(settings) => self.new_with(*settings),
+            Command::Open(path) => match project::open_command(path) {
+                Ok(command) => self.send(command),
+                Err(problem) => self.session.report(problem),
+            },
+            Command::OpenProject(path) => project::open_project(&self.session, &mut self.background, &path),
+            Command::OpenImage(path) => files::load_image(&self.session, &mut self.background, &path),
+            Command::OpenDomain(path) => files::load_domain(&mut self.background, &path),
+            Command::Save => match self.project.path() {
+                Some(path) => self.send(Command::SaveTo(path.to_owned())),
+                None => self.dialogs.open(Dialog::Path(FileRequest::Save)),
+            },
+            Command::SaveAs(path) => self.commands.extend(self.project.save_as(path)),
+            Command::SaveTo(path) => {
+                self.project.save_to(path, &mut self.session, &mut self.background);
+            }
+            Command::ExportAs(path) => self.commands.extend(self.project.export_as(path)),
+            Command::Export(path) => {
+                files::export(&mut self.session, &self.view, &mut self.background, &path);
+            }
+            Command::CancelWork(id) => self.cancel_work(id),
+            Command::AnswerLeaving(answer) => {
+                self.commands.extend(self.project.answer_leaving(answer, &mut self.session));
+            }
+            Command::AnswerReplacing(answer) => self.commands.extend(self.project.answer_replacing(answer)),
+            Command::AnswerRecovery(answer) => {
+                self.commands.extend(self.journal.as_mut().and_then(|keeper| keeper.answer(answer)));
+            }
+            Command::Restore => self.restore(),
+            Command::Ask(request) => self.dialogs.open(Dialog::Path(request)),
+            Command::Browse(request) => self.dialogs.browse(request, ctx),
+            Command::Palette => self.dialogs.open(Dialog::Palette),
+            Command::About => self.dialogs.open(Dialog::About),
+            Command::CloseDialog => self.dialogs.close(),
+            Command::Quit => ctx.send_viewport_cmd(ViewportCommand::Close),
+            other => return Some(other),
+        }
+        None
+    }
+
+    fn open(&mut self, document: Document) {
+        self.show_document(document);
+        self.project.belongs_to(None, self.session.document().version(), true);
+    }
+
+    fn new_with(&mut self, settings: Settings) {
+        match Document::new(settings, None) {
+            Ok(document) => self.open(document),
+            Err(error) => self.session.report(error),
+        }
+    }
+
+    /// Opens another document in place of the current one, and fits brush and view to it. This cannot be
+    /// undone: [`super::project::ProjectFile::ask_before_leaving`] asks before edits are lost.
+    fn show_document(&mut self, document: Document) {
+        self.session.replace_document(document);
+        let settings = self.session.document().settings();
+        let extent = settings.domain.bounds.size().max_element();
+        self.tools.fit_to(extent, settings.transfer.h_min);
+        self.view.camera = None;
+    }
+
+    fn cancel_work(&mut self, id: WorkId) {
+        match self.background.cancel(id) {
+            Some((Aim::Read, name)) => {
+                self.session.tell(format!("Reading {name} was cancelled. The document is unchanged."));
+                self.project.keep_edits();
+            }
+            Some((Aim::Save(_), _)) => self.project.cancel_saving(),
+            Some((Aim::Export, _)) | None => {}
+        }
+    }
+
+    /// Opens the work of an earlier run that is offered, and records it in this run's journal from now on.
+    fn restore(&mut self) {
+        let Some(left) = self.journal.as_mut().and_then(JournalKeeper::take_offered) else { return };
+        let document = match left.project.clone().into_document() {
+            Ok(document) => document,
+            Err(problem) => return self.session.report(problem),
+        };
+        self.show_document(document);
+        let version = self.session.document().version();
+        self.project.belongs_to(left.home.clone(), version, false);
+        self.record_edits();
+        if let Some(keeper) = &self.journal {
+            keeper.forget(left);
+        }
+    }
+
+    /// Hands finished gestures to the journal.
+    pub(in crate::app) fn record_edits(&mut self) {
+        if let Some(keeper) = &mut self.journal {
+            journal::record(keeper, &mut self.session, &self.project);
+        }
+    }
+
+    /// Applies the outcomes of work on other threads.
+    pub(in crate::app) fn finish_work(&mut self) {
+        while let Some(outcome) = self.background.take_finished() {
+            self.finish(outcome);
+        }
+    }
+
+    fn finish(&mut self, outcome: Outcome) {
+        match outcome {
+            Outcome::Commands(commands) => self.commands.extend(commands),
+            Outcome::News(text) => self.session.tell(text),
+            Outcome::NotRead(problem) => {
+                self.project.keep_edits();
+                self.session.report(problem);
+            }
+            Outcome::NotWritten(problem) => {
+                self.project.stay();
+                self.session.report(problem);
+            }
+            Outcome::Opened { path, document, replaces } if replaces == self.session.document().version() => {
+                self.show_document(*document);
+                self.project.belongs_to(Some(path), self.session.document().version(), true);
+            }
+            Outcome::Opened { path, .. } => {
+                let problem = "was not opened, as the document was edited in the meantime. Open it again.";
+                self.session.report(format!("{} {problem}", path.display()));
+            }
+            Outcome::Saved { path, version } => {
+                self.session.tell(format!("Saved to {}.", path.display()));
+                self.project.belongs_to(Some(path), version, true);
+                self.finish_saving();
+            }
+            Outcome::SavingCancelled(text) => {
+                self.session.tell(text);
+                self.project.save_again(&mut self.session, &mut self.background);
+            }
+            Outcome::NotSaved(problem) => {
+                self.project.cancel_saving();
+                self.session.report(problem);
+            }
+        }
+    }
+
+    fn finish_saving(&mut self) {
+        if let Some(keeper) = self.journal.as_ref().filter(|_| !self.project.is_edited(&self.session)) {
+            keeper.note_saved(&self.project);
+        }
+        self.project.save_again(&mut self.session, &mut self.background);
+        if !self.background.saves() {
+            // It asks again about edits made since.
+            self.commands.extend(self.project.take_after_saving());
+        }
+    }
+}
+
+fn new_document() -> Document {
+    Document::new(Settings::default(), None).expect("the default settings are valid: a test opens them")
+}

@@ -1,0 +1,92 @@
+//! What each command does. A match arm is one call into the module that owns the data.
+
+mod domain;
+mod files;
+mod painting;
+
+use eframe::egui::Context;
+use glam::DVec2;
+
+use super::App;
+use super::command::Command;
+use super::tools::{BRUSH, QUERY};
+use crate::mesh::TriangleId;
+
+impl App {
+    /// Runs one command.
+    pub(super) fn execute(&mut self, command: Command, ctx: &Context) {
+        let Some(command) = self.project.ask_before_leaving(command, &mut self.session, &self.background)
+        else {
+            return;
+        };
+        match self.execute_on_files(command, ctx) {
+            None => {}
+            Some(Command::Domain(command)) => self.execute_on_domain(command),
+            Some(Command::Boundary(command)) => self.execute_on_boundary(command),
+            Some(command) => self.execute_on_document(command, ctx),
+        }
+    }
+
+    /// Runs commands about the document, the tools and the view.
+    fn execute_on_document(&mut self, command: Command, ctx: &Context) {
+        match command {
+            Command::Undo => self.keep_brush_share(|app| app.session.undo()),
+            Command::Redo => self.keep_brush_share(|app| app.session.redo()),
+            Command::ClearPaint => self.session.document_mut().clear_paint(),
+            Command::Set(setting) => self.session.set(setting),
+            Command::EndGesture => self.session.end_gesture(),
+            Command::CancelUpdate => self.session.cancel_update(),
+            Command::DismissNotice => self.session.notices_mut().dismiss(),
+            Command::Report(failure) => self.session.report(failure),
+            Command::Query(point) => self.query(point),
+            Command::QueryTriangle(id) => self.query_triangle(id),
+
+            Command::BeginStroke(point) => self.begin_stroke(point),
+            Command::DrawTo(point) => self.draw_to(point),
+            Command::EndStroke => self.session.document_mut().finish_stroke(),
+            Command::LineTo(point) => self.line_to(point),
+            Command::Escape => self.escape(),
+
+            Command::Use(tool) => self.tools.select(tool),
+            Command::Paint(kind) => (self.tools.kind, self.tools.tool) = (kind, &BRUSH),
+            Command::BrushRadius(radius) => self.set_brush_radius(radius),
+            Command::ScaleBrush(factor) => self.set_brush_radius(self.tools.radius * factor),
+            Command::BrushHardness(hardness) => self.tools.hardness = hardness.clamp(0.0, 1.0),
+            Command::BrushStrength(strength) => self.tools.set_strength(strength),
+            Command::BrushDiameter(diameter) => self.set_brush_diameter(diameter),
+            Command::PickValue(point) => self.pick_value(point),
+            other => self.view.execute(other, ctx),
+        }
+    }
+
+    /// Cancels what is in progress: the stroke, the cut, or the rectangle or polygon. Else clears query and
+    /// message.
+    fn escape(&mut self) {
+        if self.session.document().stroke().is_some() {
+            return self.session.document_mut().cancel_stroke();
+        }
+        let gesture_ended = self.canvas.end_gesture_on_escape();
+        let in_gesture = self.session.document().is_in_gesture();
+        if self.session.is_cutting() || (gesture_ended && in_gesture) {
+            self.session.drop_cut();
+        } else if gesture_ended || !self.tools.domain.corners.is_empty() {
+            self.tools.domain.corners.clear();
+        } else {
+            self.session.query(None);
+            self.session.notices_mut().dismiss();
+        }
+    }
+
+    fn query(&mut self, point: DVec2) {
+        self.session.query(Some(point));
+        self.tools.note_use(&QUERY);
+    }
+
+    /// Queries a triangle, and moves the view where it is out of sight.
+    fn query_triangle(&mut self, id: TriangleId) {
+        let [a, b, c] = self.session.view().world_corners(id);
+        let middle = (a + b + c) / 3.0;
+        self.session.query(Some(middle));
+        self.view.reveal(middle);
+    }
+}

@@ -1,0 +1,105 @@
+//! Messages on the canvas: news, failures, and the standing one while the mesh stops short of the document.
+
+use super::widgets::format;
+use crate::build::BuildError;
+use crate::mesh::RefineError;
+use crate::text::Bytes;
+
+/// A message that stays on the canvas until it is dismissed.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Notice {
+    /// Whether it reports a failure; else it is news.
+    pub failed: bool,
+    /// A sentence.
+    pub text: String,
+}
+
+/// The messages of a session.
+#[derive(Clone, Debug, Default)]
+pub struct Notices {
+    latest: Option<Notice>,
+    /// Says that the mesh stopped short of the document, as long as that is so.
+    standing: Option<Notice>,
+}
+
+impl Notices {
+    /// The message to show.
+    pub fn shown(&self) -> Option<&Notice> {
+        self.latest.as_ref().or(self.standing.as_ref())
+    }
+
+    /// Whether the message cannot be dismissed. It disappears once mesh and document agree.
+    pub fn shown_stands(&self) -> bool {
+        self.latest.is_none() && self.standing.is_some()
+    }
+
+    /// Shows news.
+    pub fn tell(&mut self, text: String) {
+        self.latest = Some(Notice { failed: false, text });
+    }
+
+    /// Shows a failure.
+    pub fn report(&mut self, failure: impl std::fmt::Display) {
+        self.latest = Some(Notice { failed: true, text: failure.to_string() });
+    }
+
+    /// Dismisses the message, except one that says that the mesh stopped short of the document.
+    pub fn dismiss(&mut self) {
+        self.latest = None;
+    }
+
+    /// Dismisses news; a failure stays until the user dismisses it.
+    pub fn dismiss_news(&mut self) {
+        self.latest.take_if(|notice| !notice.failed);
+    }
+
+    /// Says that the mesh stopped short of the document, until [`Self::end_standing`]. `shows_former`: the
+    /// mesh is that of former settings.
+    pub fn stand(&mut self, error: &BuildError, shows_former: bool) {
+        let text = if shows_former {
+            format!("{error}{} Until then the former mesh is shown.", advice(error))
+        } else {
+            standstill(error)
+        };
+        self.standing = Some(Notice { failed: true, text });
+    }
+
+    /// Mesh and document agree again.
+    pub fn end_standing(&mut self) {
+        self.standing = None;
+    }
+}
+
+/// What would help against an error, as a further sentence.
+pub fn advice(error: &BuildError) -> &'static str {
+    match error {
+        BuildError::Refine(RefineError::TooFine { .. }) => {
+            " Raise the smallest diameter, or mesh a smaller domain."
+        }
+        BuildError::Refine(error) if error.is_over_budget() => {
+            " Raise the smallest diameter, paint less, or raise the limit."
+        }
+        _ => "",
+    }
+}
+
+/// The message while the mesh does not show all paint.
+fn standstill(error: &BuildError) -> String {
+    let kept = "what you painted is kept, but the mesh does not show all of it.";
+    let helps = "in the Mesh panel or the smallest diameter, erase, or undo.";
+    match error {
+        BuildError::Refine(RefineError::TooManyTriangles { limit }) => {
+            let limit = format::count(*limit as u64);
+            format!(
+                "The mesh stops at its limit of {limit} triangles: {kept} Raise the triangle budget {helps}"
+            )
+        }
+        BuildError::Refine(RefineError::TooMuchMemory { memory, .. }) => {
+            let limit = Bytes(memory.bytes);
+            format!(
+                "The mesh stops at its limit of {limit} of memory: {kept} Raise the memory budget {helps}"
+            )
+        }
+        other => format!("{other}{} Until then {kept}", advice(other)),
+    }
+}
