@@ -61,6 +61,7 @@ pub use raster::{MAX_SIDE, PixelRect, Raster};
 // Paint.
 pub use document::{Base, Document, Example, Follower, MeshChange, Setting, Settings, SettingsError, Stage};
 pub use paint::{Brush, Medium, PaintRasters};
+pub use text::LengthUnit;
 
 // Query a mesh.
 pub use mesh::{

@@ -353,7 +353,8 @@ fn pieces_of_the_boundary_have_names() {
     assert!(file.contains(
         "\ncommand: meshbrush mesh --json --region named.geojson --spacing 1 --parts all -o m.msh\n"
     ));
-    assert!(file.contains("\ncoordinates: x, y as in named.geojson\n"));
+    assert!(file.contains("\ncoordinates: x, y as in named.geojson\nunit: degrees\n"));
+    assert_eq!(summary["unit"], "degrees");
     let fingerprint = format!("\nfingerprint: {}\n", summary["hash"].as_str().unwrap());
     assert!(file.contains(&fingerprint));
     folder.json("--region named.geojson --spacing 1 --parts all --binary -o b.msh");

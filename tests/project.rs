@@ -16,6 +16,7 @@ use meshbrush::internals::geometry::Rect;
 use meshbrush::internals::io::project::{self, Project};
 use meshbrush::internals::paint::{Brush, Medium};
 use meshbrush::internals::raster::Raster;
+use meshbrush::internals::text::LengthUnit;
 
 const NAME: &str = "test.meshbrush";
 
@@ -81,6 +82,7 @@ fn documents() -> Vec<Document> {
         let extent = domain.bounds.size().max_element();
         let settings = Settings {
             name: "Küste \"\\ \u{1f30a}".into(),
+            unit: LengthUnit::ALL[random.usize(..4)],
             boundary: BoundaryTreatment::Fitted { diameter: extent / (20.0 + random.f64()) },
             boundary_marks: Arc::new(marks(&domain)),
             spacing: extent / (3.0 + random.f64()),

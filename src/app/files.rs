@@ -100,7 +100,7 @@ pub fn export(session: &mut Session, view: &View, background: &mut Background, p
             let parts = extract.part_numbers();
             let (target_diameter, quantities) = (&target_diameter, &[][..]);
             let source = MeshSource::Document(&settings.name);
-            let provenance = &Provenance::new(source, mesh.fingerprint(), "x, y");
+            let provenance = &Provenance::new(source, mesh.fingerprint(), "x, y").with_unit(settings.unit);
             let (boundary, parts) = (&boundary, &parts);
             let data = MeshData { target_diameter, quantities, boundary, parts, provenance };
             let files = format.write(&file, &mesh, &extract, &data, &look, meter)?;
@@ -119,11 +119,12 @@ pub fn export(session: &mut Session, view: &View, background: &mut Background, p
 
 /// The settings of a new document on the polygons of a file.
 fn domain_of(path: &Path, meter: &Meter) -> Result<Settings, String> {
-    let polygons = io::geojson::read_named_metered(path, meter).map_err(|error| error.to_string())?;
-    let (domain, marks) =
-        BoundaryMarks::domain_of(&polygons).map_err(|error| format!("{}: {error}", path.display()))?;
+    let outline = io::geojson::read_outline(path, meter).map_err(|error| error.to_string())?;
+    let (domain, marks) = BoundaryMarks::domain_of(&outline.polygons)
+        .map_err(|error| format!("{}: {error}", path.display()))?;
     let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-    Ok(Settings { boundary_marks: Arc::new(marks), ..Settings::for_domain(name, domain) })
+    let (unit, boundary_marks) = (outline.unit, Arc::new(marks));
+    Ok(Settings { unit, boundary_marks, ..Settings::for_domain(name, domain) })
 }
 
 /// A value at each node, unless it is cancelled.

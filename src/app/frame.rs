@@ -26,6 +26,7 @@ use super::session::Session;
 use super::tools::Tools;
 use super::view::View;
 use super::{journal, keys, panels, project};
+use crate::text::LengthUnit;
 
 /// The least time of a frame that goes into updating the mesh.
 const FRAME_BUDGET: Duration = Duration::from_millis(7);
@@ -52,6 +53,13 @@ pub struct FrameState<'a> {
     pub readout: Option<&'a Readout>,
     /// Whether to leave out what differs from run to run.
     pub reproducible: bool,
+}
+
+impl FrameState<'_> {
+    /// The unit of the document's lengths and coordinates.
+    pub fn unit(&self) -> LengthUnit {
+        self.session.document().settings().unit
+    }
 }
 
 impl App {

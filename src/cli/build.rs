@@ -16,7 +16,7 @@ use crate::io;
 use crate::mesh::{CoarseError, Extract, InvalidTarget, Limits, Mesh, Progress, TriangleId};
 use crate::outline::DerivedMesh;
 use crate::paint::PaintRasters;
-use crate::text::Grouped;
+use crate::text::{Grouped, LengthUnit};
 
 /// Triangles visited, or pixels sampled, between two updates of the progress line.
 const SLICE: usize = 1 << 18;
@@ -30,6 +30,8 @@ pub struct FinishedMesh {
     paint: Option<PaintRasters>,
     domain: Domain,
     marks: Arc<BoundaryMarks>,
+    /// The unit of coordinates and lengths.
+    pub unit: LengthUnit,
     /// Time spent on refinement alone.
     pub refinement: Duration,
     /// Triangles that the level cap left coarser than their target.
@@ -99,7 +101,7 @@ impl FinishedMesh {
 /// # Errors
 /// When a file is of no use, the target is impossible somewhere, or a limit is reached.
 pub fn build(request: &MeshRequest, terminal: &mut Terminal) -> Result<FinishedMesh, Failure> {
-    let (spec, marks, paint) = read(request, terminal)?;
+    let ToMesh { spec, marks, unit, paint } = read(request, terminal)?;
     let (cleaning, domain) = (spec.cleaning, spec.domain.clone());
     let mut builder = MeshBuilder::new(spec);
     let refinement = run(&mut builder, paint.as_ref().map(PaintRasters::as_paint), terminal);
@@ -110,17 +112,22 @@ pub fn build(request: &MeshRequest, terminal: &mut Terminal) -> Result<FinishedM
     if derived.patch().leaves_nothing_of(&built.mesh) {
         return Err(CoarseError::EmptyDomain { spacing: built.mesh.lattice().spacing() }.into());
     }
-    Ok(FinishedMesh { built, derived, paint, domain, marks, refinement, capped })
+    Ok(FinishedMesh { built, derived, paint, domain, marks, unit, refinement, capped })
 }
 
 /// What to mesh: that of a saved document, as the window does, or what the options describe.
-type ToMesh = (MeshSpec, Arc<BoundaryMarks>, Option<PaintRasters>);
+struct ToMesh {
+    spec: MeshSpec,
+    marks: Arc<BoundaryMarks>,
+    unit: LengthUnit,
+    paint: Option<PaintRasters>,
+}
 
 fn read(request: &MeshRequest, terminal: &mut Terminal) -> Result<ToMesh, Failure> {
     let Some(path) = &request.project else {
-        let ReadSources { spec, marks, notes } = read_sources(request)?;
+        let ReadSources { spec, marks, unit, notes } = read_sources(request)?;
         notes.iter().for_each(|note| terminal.note(note));
-        return Ok((spec, Arc::new(marks), None));
+        return Ok(ToMesh { spec, marks: Arc::new(marks), unit, paint: None });
     };
     let document = io::project::read(path)?;
     let settings = document.settings();
@@ -129,7 +136,8 @@ fn read(request: &MeshRequest, terminal: &mut Terminal) -> Result<ToMesh, Failur
     // Without an option, the mesh is the one that the window shows.
     let spec = settings.mesh_spec().map_err(CoarseError::from)?;
     let spec = MeshSpec { limits, cleaning: request.cleaning(spec.cleaning), ..spec };
-    Ok((spec, settings.boundary_marks.clone(), Some(document.paint().clone())))
+    let (marks, paint) = (settings.boundary_marks.clone(), Some(document.paint().clone()));
+    Ok(ToMesh { spec, marks, unit: settings.unit, paint })
 }
 
 /// Builds in slices. Returns the time spent on refinement.

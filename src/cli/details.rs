@@ -28,6 +28,7 @@ impl MeshDetails {
         };
         let fingerprint = finished.mesh().fingerprint();
         let provenance = Provenance::new(MeshSource::Command(line), fingerprint, &coordinates);
+        let provenance = provenance.with_unit(finished.unit);
         Self { boundary: finished.boundary(extract), parts: extract.part_numbers(), provenance }
     }
 

@@ -12,9 +12,10 @@ use crate::build::{FieldSampling, MeshSpec};
 use crate::domain::{BoundaryMarks, BoundaryTreatment, Domain, DomainShape};
 use crate::field::{Source, TargetFieldSpec, Transfer, f32_not_below};
 use crate::geometry::{Lattice, Rect};
-use crate::io;
+use crate::io::{self, Meter};
 use crate::mesh::{Cleaning, CoarseError, bisection_edge_length};
 use crate::raster::{MAX_SIDE, Raster};
+use crate::text::LengthUnit;
 
 /// Pixels along the longer side of the domain unless `--resolution` or a raster says otherwise.
 const USUAL_RESOLUTION: u32 = 1024;
@@ -28,6 +29,8 @@ pub struct ReadSources {
     pub spec: MeshSpec,
     /// Names of the boundary.
     pub marks: BoundaryMarks,
+    /// The unit of coordinates and lengths, where a file says it.
+    pub unit: LengthUnit,
     /// Notes for the user, a sentence each.
     pub notes: Vec<String>,
 }
@@ -38,7 +41,7 @@ pub struct ReadSources {
 /// When a file cannot be read or used, or there is no coarse grid.
 pub fn read_sources(request: &MeshRequest) -> Result<ReadSources, Failure> {
     let placed = read_placed(request)?;
-    let (domain, marks) = domain(request, &placed)?;
+    let (domain, marks, unit) = domain(request, &placed)?;
     let bounds = domain.bounds;
     let rasters = read_images(request, placed, bounds)?;
     let spacing = request.spacing.unwrap_or(bounds.size().max_element() / USUAL_CELLS);
@@ -53,7 +56,7 @@ pub fn read_sources(request: &MeshRequest) -> Result<ReadSources, Failure> {
     let is_fitted = boundary != BoundaryTreatment::Report && domain.region().is_some();
     let cleaning = request.cleaning(if is_fitted { Cleaning::FOR_SOLVERS } else { Cleaning::NONE });
     let spec = MeshSpec { domain, boundary, lattice, field, rule, sampling, cleaning, limits };
-    Ok(ReadSources { spec, marks, notes })
+    Ok(ReadSources { spec, marks, unit, notes })
 }
 
 /// The rasters that say which rectangle they cover, in the order of the sources; `None` for other sources.
@@ -86,22 +89,27 @@ fn read_images(
     request.sources.iter().zip(placed).map(read).collect()
 }
 
-/// The domain that is asked for, with the names that its file has; if none is, the rectangle that the rasters
-/// cover, or the unit square.
-fn domain(request: &MeshRequest, placed: &[Option<Raster>]) -> Result<(Domain, BoundaryMarks), Failure> {
+/// The domain that is asked for, with the names and the unit that its file has; if none is, the rectangle
+/// that the rasters cover, or the unit square.
+fn domain(
+    request: &MeshRequest,
+    placed: &[Option<Raster>],
+) -> Result<(Domain, BoundaryMarks, LengthUnit), Failure> {
     if let Some(path) = &request.region {
-        let polygons = if is_standard_stream(path) {
-            io::geojson::read_named_from(stdin().lock(), Path::new("standard input"))?
+        let outline = if is_standard_stream(path) {
+            io::geojson::read_outline_from(stdin().lock(), Path::new("standard input"))?
         } else {
-            io::geojson::read_named(path)?
+            io::geojson::read_outline(path, &Meter::default())?
         };
-        return BoundaryMarks::domain_of(&polygons)
+        return BoundaryMarks::domain_of(&outline.polygons)
+            .map(|(domain, marks)| (domain, marks, outline.unit))
             .map_err(|error| Failure::Work(format!("{}: {error}", path.display())));
     }
     let bounds =
         request.domain.or_else(|| placed.iter().flatten().map(Raster::bounds).reduce(|a, b| a.union(&b)));
     let shape = request.inside.clone().map_or(DomainShape::Whole, DomainShape::Formula);
-    Ok((Domain { bounds: bounds.unwrap_or(Rect::UNIT), shape }, BoundaryMarks::default()))
+    let domain = Domain { bounds: bounds.unwrap_or(Rect::UNIT), shape };
+    Ok((domain, BoundaryMarks::default(), LengthUnit::None))
 }
 
 fn boundary(request: &MeshRequest, spacing: f64, lattice: &Lattice) -> Result<BoundaryTreatment, Failure> {

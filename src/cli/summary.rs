@@ -9,13 +9,16 @@ use crate::domain::{FitQuality, MeshBoundary, Region};
 use crate::field::RefinementRule;
 use crate::mesh::{Extract, Removed, RemovedPart, Topology};
 use crate::outline::OutlineFit;
-use crate::text::Grouped;
+use crate::text::{Grouped, LengthUnit};
 
 /// The figures of a mesh; its JSON is the answer of `--json`.
 #[derive(Debug, Serialize)]
 pub struct Summary {
     /// Number of triangles.
     pub triangles: usize,
+    /// The unit of lengths and coordinates: "m", "km" or "degrees".
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub unit: Option<&'static str>,
     /// Number of nodes.
     pub nodes: usize,
     /// The deepest level.
@@ -257,6 +260,7 @@ impl Summary {
         let boundary = details.map(|details| &details.boundary);
         Self {
             triangles: extract.triangles().len(),
+            unit: (finished.unit != LengthUnit::None).then(|| finished.unit.name()),
             nodes: extract.nodes().len(),
             area: if extract.is_patched() { extract.area() } else { mesh.area() },
             outline_nodes: finished.derived.fit().map(OutlineNodes::from),

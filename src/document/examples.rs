@@ -9,6 +9,7 @@ use crate::geometry::Rect;
 use crate::mesh::Cleaning;
 use crate::paint::{Brush, Medium};
 use crate::raster::Raster;
+use crate::text::LengthUnit;
 
 /// A document that comes with the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -77,6 +78,7 @@ fn diamond() -> Settings {
     let formula = Formula::parse("if(abs(x) + abs(y) < 8, 0.25, 20)").expect("a valid formula");
     Settings {
         name: Example::Diamond.name().into(),
+        unit: LengthUnit::None,
         domain: Domain::rectangle(Rect::around(DVec2::ZERO, 10.0)),
         spacing: 1.0,
         boundary: BoundaryTreatment::usual(1.0),
@@ -94,6 +96,7 @@ fn diamond() -> Settings {
 fn terrain(slope: Raster) -> Settings {
     Settings {
         name: Example::Terrain.name().into(),
+        unit: LengthUnit::Kilometre,
         domain: Domain::rectangle(slope.bounds()),
         spacing: slope.bounds().size().max_element() / 24.0,
         boundary: BoundaryTreatment::usual(slope.bounds().size().max_element() / 24.0),
@@ -121,7 +124,8 @@ fn aegean(sea: &[NamedPolygon]) -> Settings {
     let (domain, marks) = BoundaryMarks::domain_of(sea).expect("a valid outline");
     let settings = Settings::for_domain(Example::Aegean.name().into(), domain);
     let boundary = BoundaryTreatment::OnOutline { diameter: 0.02 };
-    Settings { spacing: 0.5, boundary, boundary_marks: Arc::new(marks), ..settings }
+    let (unit, boundary_marks) = (LengthUnit::Degree, Arc::new(marks));
+    Settings { unit, spacing: 0.5, boundary, boundary_marks, ..settings }
 }
 
 fn threats() -> Document {

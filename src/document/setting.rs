@@ -6,6 +6,7 @@ use crate::domain::{BoundaryMarks, BoundaryTreatment, Domain};
 use crate::field::RefinementRule;
 use crate::geometry::Rect;
 use crate::mesh::Cleaning;
+use crate::text::LengthUnit;
 
 /// One change of one setting, as a menu, a slider, a test or a script sends it.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,6 +40,8 @@ pub enum Setting {
     Cleaning(Cleaning),
     /// Names of pieces of the boundary, and where it is split.
     BoundaryMarks(BoundaryMarks),
+    /// The unit of coordinates and lengths.
+    LengthUnit(LengthUnit),
 }
 
 /// Which setting a [`Setting`] changes, at any value: changes of one kind can be one gesture.
@@ -68,6 +71,7 @@ impl Setting {
             Self::Boundary(_) => "boundary",
             Self::Cleaning(_) => "cleaning",
             Self::BoundaryMarks(_) => "boundary names",
+            Self::LengthUnit(_) => "unit",
         }
     }
 
@@ -94,6 +98,7 @@ impl Setting {
             Self::Boundary(boundary) => settings.boundary = boundary,
             Self::Cleaning(cleaning) => settings.cleaning = cleaning,
             Self::BoundaryMarks(marks) => settings.boundary_marks = Arc::new(marks),
+            Self::LengthUnit(unit) => settings.unit = unit,
         }
     }
 }

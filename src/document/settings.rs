@@ -8,14 +8,15 @@ use crate::field::{
 use crate::geometry::{GridError, Lattice, Rect};
 use crate::mesh::{Cleaning, KeptParts, Limits, MemoryLimit};
 use crate::raster::{MAX_SIDE, Raster};
-use crate::text::Bytes;
-use crate::text::{Grouped, Number};
+use crate::text::{Bytes, Grouped, LengthUnit, Number};
 
 /// Everything about a document that is not paint.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
     /// What the document is called.
     pub name: String,
+    /// The unit of coordinates and lengths. It does not change the mesh.
+    pub unit: LengthUnit,
     /// Ω.
     pub domain: Domain,
     /// How the mesh meets the boundary of a domain of polygons.
@@ -215,9 +216,9 @@ impl Settings {
             true => other.boundary,
             false => self.boundary,
         };
-        let Self { cleaning, max_triangles, max_memory, .. } = *other;
+        let Self { unit, cleaning, max_triangles, max_memory, .. } = *other;
         let boundary_marks = other.boundary_marks.clone();
-        Self { boundary, boundary_marks, cleaning, max_triangles, max_memory, ..self.clone() } == *other
+        Self { unit, boundary, boundary_marks, cleaning, max_triangles, max_memory, ..self.clone() } == *other
     }
 
     /// What the mesh may cost.
@@ -256,6 +257,7 @@ impl Default for Settings {
     fn default() -> Self {
         Self {
             name: "Untitled".into(),
+            unit: LengthUnit::None,
             domain: Domain::rectangle(Rect::UNIT),
             spacing: 1.0 / 24.0,
             boundary: BoundaryTreatment::usual(1.0 / 24.0),

@@ -11,12 +11,22 @@ use serde::de::{DeserializeSeed, Deserializer, Error, SeqAccess, Visitor};
 use serde_json::Value;
 
 use super::Meter;
+use super::coordinates;
 use super::error::{Flaw, PlacedFlaw, ReadError};
 use crate::domain::{MOST_CORNERS, NamedPolygon, Polygon};
-use crate::text::Grouped;
+use crate::text::{Grouped, LengthUnit};
 
 /// Largest file read.
 const MOST_BYTES: u64 = 256 << 20;
+
+/// What a file says of a domain.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Outline {
+    /// The polygons with their names.
+    pub polygons: Vec<NamedPolygon>,
+    /// The unit of their coordinates.
+    pub unit: LengthUnit,
+}
 
 /// Reads every polygon of a file: of a geometry, a feature, or a collection of either. Other geometries are
 /// ignored.
@@ -42,8 +52,16 @@ pub fn read_named(path: &Path) -> Result<Vec<NamedPolygon>, ReadError> {
 /// Reads as [`read_named`] does, and counts the bytes of the file.
 ///
 /// # Errors
-/// As [`read`], and when the work was cancelled.
+/// As [`read_outline`].
 pub fn read_named_metered(path: &Path, meter: &Meter) -> Result<Vec<NamedPolygon>, ReadError> {
+    read_outline(path, meter).map(|outline| outline.polygons)
+}
+
+/// Reads polygons with their names and their unit, and counts the bytes of the file.
+///
+/// # Errors
+/// As [`read`], and when the work was cancelled.
+pub fn read_outline(path: &Path, meter: &Meter) -> Result<Outline, ReadError> {
     let open = || -> Result<File, PlacedFlaw> {
         let file = File::open(path)?;
         let bytes = file.metadata()?.len();
@@ -54,9 +72,9 @@ pub fn read_named_metered(path: &Path, meter: &Meter) -> Result<Vec<NamedPolygon
         Ok(file)
     };
     let read = open().and_then(|file| {
-        let polygons = parse(BufReader::new(meter.count(file.take(MOST_BYTES))))?;
+        let outline = parse(BufReader::new(meter.count(file.take(MOST_BYTES))))?;
         meter.check()?;
-        Ok(polygons)
+        Ok(outline)
     });
     read.map_err(|flaw| flaw.in_file(path))
 }
@@ -74,6 +92,14 @@ pub fn read_from(input: impl Read, name: &Path) -> Result<Vec<Polygon>, ReadErro
 /// # Errors
 /// As [`read`].
 pub fn read_named_from(input: impl Read, name: &Path) -> Result<Vec<NamedPolygon>, ReadError> {
+    read_outline_from(input, name).map(|outline| outline.polygons)
+}
+
+/// Reads as [`read_outline`] does, from any input. Errors call the file `name`.
+///
+/// # Errors
+/// As [`read`].
+pub fn read_outline_from(input: impl Read, name: &Path) -> Result<Outline, ReadError> {
     // One byte more shows that there is more.
     let mut input = BufReader::new(input.take(MOST_BYTES + 1));
     let read = parse(&mut input);
@@ -95,18 +121,21 @@ fn too_long(bytes: u64) -> PlacedFlaw {
     .into()
 }
 
-/// Reads as [`read_named`] does, from any input.
-pub(super) fn parse(input: impl Read) -> Result<Vec<NamedPolygon>, PlacedFlaw> {
+/// Reads as [`read_outline`] does, from any input.
+pub(super) fn parse(input: impl Read) -> Result<Outline, PlacedFlaw> {
     let mut json = serde_json::Deserializer::from_reader(input);
     let object = Object::deserialize(&mut json).map_err(placed)?;
     json.end().map_err(placed)?;
+    let crs = object.crs.as_ref().and_then(|crs| crs["properties"]["name"].as_str()).map(str::to_owned);
     let mut polygons = Vec::new();
     let mut others = Vec::new();
     collect(object, "", &mut polygons, &mut others).map_err(Flaw::Syntax)?;
     if polygons.is_empty() {
         return Err(Flaw::Syntax(no_polygon(&others)).into());
     }
-    Ok(polygons)
+    let corners = polygons.iter().flat_map(|named: &NamedPolygon| named.polygon.iter().flatten());
+    let unit = coordinates::unit(crs.as_deref(), corners.copied());
+    Ok(Outline { polygons, unit })
 }
 
 /// Writes polygons as one geometry with one line for each ring. [`read`] returns the same polygons bit for
@@ -163,6 +192,9 @@ struct Object {
     coordinates: Option<Coordinates>,
     #[serde(default, rename = "properties", deserialize_with = "name_of")]
     name: String,
+    /// The coordinate reference system, as of the format before RFC 7946.
+    #[serde(default)]
+    crs: Option<Value>,
     #[serde(default)]
     geometry: Option<Box<Self>>,
     #[serde(default, deserialize_with = "with_polygons")]
@@ -228,7 +260,7 @@ fn collect(
     polygons: &mut Vec<NamedPolygon>,
     others: &mut Vec<String>,
 ) -> Result<(), String> {
-    let Object { kind, coordinates, name: own_name, geometry, geometries, features } = object;
+    let Object { kind, coordinates, name: own_name, geometry, geometries, features, .. } = object;
     let name = if own_name.is_empty() { name } else { &own_name };
     let named = |polygon| NamedPolygon { polygon, name: name.to_owned() };
     match (kind.as_str(), coordinates) {

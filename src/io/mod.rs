@@ -14,6 +14,7 @@
 pub mod asc;
 mod atomic;
 mod blocks;
+mod coordinates;
 pub mod csv;
 mod error;
 mod interrupt;

@@ -1,6 +1,7 @@
 //! Where a file comes from, as text for the formats that have a place for it.
 
 use crate::mesh::Fingerprint;
+use crate::text::LengthUnit;
 
 /// Where a file comes from. It has no time and no path that nobody typed: the same input gives the same
 /// file.
@@ -35,6 +36,15 @@ impl Provenance {
             ("coordinates", one_line(coordinates)),
         ];
         Self { lines: lines.into() }
+    }
+
+    /// With the unit of coordinates and lengths, if there is one.
+    #[must_use]
+    pub fn with_unit(mut self, unit: LengthUnit) -> Self {
+        if unit != LengthUnit::None {
+            self.lines.push(("unit", unit.name().to_owned()));
+        }
+        self
     }
 
     /// What is known, as pairs of a word and one line of text.

@@ -9,6 +9,7 @@ use crate::app::tools::BoundaryToolMode;
 use crate::app::widgets::{ActionButton, Section, TextRow, ValueRow, format, segmented, value_row};
 use crate::document::Setting;
 use crate::domain::BoundaryPieces;
+use crate::text::LengthUnit;
 
 /// The pieces, while the boundary tool is selected.
 pub static BOUNDARY: Panel = Panel { name: "boundary", only_with_tool: true, show };
@@ -40,7 +41,7 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
         if let Some(selected) = selected {
             selected_rows(ui, state, pieces, selected, commands);
         }
-        list(ui, pieces, selected, commands);
+        list(ui, pieces, selected, state.unit(), commands);
     });
 }
 
@@ -57,7 +58,7 @@ fn selected_rows(
         set_once(Setting::BoundaryMarks(pieces.renamed(marks, selected, &name)), commands);
     }
     value_row(ui, "Kind", piece.kind.name());
-    value_row(ui, "Length", &format::length(piece.length()));
+    value_row(ui, "Length", &format::length(piece.length(), state.unit()));
     value_row(ui, "Marker in files", &(selected + 1).to_string());
     if let Some(joined) = pieces.joined(marks, selected)
         && ui.add(ActionButton::new("Join with next")).clicked()
@@ -90,9 +91,15 @@ fn name_row(ui: &mut Ui, current: &str) -> Option<String> {
     new
 }
 
-fn list(ui: &mut Ui, pieces: &BoundaryPieces, selected: Option<usize>, commands: &mut Vec<Command>) {
+fn list(
+    ui: &mut Ui,
+    pieces: &BoundaryPieces,
+    selected: Option<usize>,
+    unit: LengthUnit,
+    commands: &mut Vec<Command>,
+) {
     for (number, piece) in pieces.list().iter().enumerate().take(MOST_ROWS) {
-        let value = format::length(piece.length());
+        let value = format::length(piece.length(), unit);
         let row = ValueRow::new(&piece.name, &value).stands_out(selected == Some(number)).link().show(ui);
         if row.on_hover_text(piece.kind.name()).clicked() {
             commands.push(Command::Boundary(BoundaryCommand::Select(piece.middle())));

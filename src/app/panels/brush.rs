@@ -41,6 +41,7 @@ pub fn size_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>
     let extent = state.session.document().settings().domain.bounds.size().max_element();
     let mut radius = state.tools.radius;
     let slider = SliderRow::new("Size", &mut radius, 1e-4 * extent..=0.5 * extent).logarithmic();
+    let slider = slider.unit(state.unit().symbol());
     if slider.help("Radius in world units. [ and ] change it, as does a drag with Shift.").show(ui).changed()
     {
         commands.push(Command::BrushRadius(radius));
@@ -71,6 +72,7 @@ fn diameter_rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command
     let mut diameter = state.tools.diameter.clamp(transfer.h_min, transfer.h_max);
     let level = field.level_of_diameter(diameter).map_or("–".into(), |level| level.to_string());
     let slider = SliderRow::new("Diameter", &mut diameter, transfer.h_min..=transfer.h_max).logarithmic();
+    let slider = slider.unit(state.unit().symbol());
     if slider.help("Target diameter that the brush paints.").show(ui).changed() {
         commands.push(Command::BrushDiameter(diameter));
     }

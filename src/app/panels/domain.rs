@@ -9,12 +9,13 @@ use crate::app::dialogs::FileRequest;
 use crate::app::frame::FrameState;
 use crate::app::tools::{DOMAIN as DOMAIN_TOOL, DomainToolMode};
 use crate::app::widgets::{
-    ActionButton, NumberRow, Section, SliderRow, format, segmented, toggle_row, value_row,
+    ActionButton, NumberRow, Section, SliderRow, dropdown_row, format, segmented, toggle_row, value_row,
 };
 use crate::document::Setting;
 use crate::domain::{BoundaryTreatment, Domain, DomainShape};
 use crate::geometry::Rect;
 use crate::mesh::{Cleaning, KeptParts};
+use crate::text::LengthUnit;
 
 /// Share of the area from which parts stay, to start with.
 const USUAL_SHARE: f64 = 0.01;
@@ -35,6 +36,7 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
             value_row(ui, "Corners", &format::count(region.corner_count() as u64));
             ui.add_space(4.0);
         }
+        unit_row(ui, state, commands);
         bounds_rows(ui, state, commands);
         formula_row(ui, state, commands);
         buttons(ui, state, commands);
@@ -119,7 +121,7 @@ fn diameter_row(ui: &mut Ui, state: &FrameState<'_>, mut diameter: f64, commands
     let extent = settings.domain.bounds.size().max_element();
     let row = SliderRow::new("At outline", &mut diameter, 1e-4 * extent..=0.1 * extent).logarithmic();
     let help = "Largest diameter of a triangle that the outline passes through.";
-    let response = row.help(help).show(ui);
+    let response = row.unit(state.unit().symbol()).help(help).show(ui);
     if response.changed() {
         commands.push(Command::Set(Setting::Boundary(settings.boundary.with_diameter(diameter))));
     }
@@ -159,12 +161,31 @@ fn cleaning_rows(ui: &mut Ui, cleaning: Cleaning, boundary: BoundaryTreatment, c
     }
 }
 
+/// The unit of coordinates and lengths.
+fn unit_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
+    let mut unit = state.unit();
+    let choices = LengthUnit::ALL.map(|unit| (unit, unit_title(unit)));
+    let help = "The unit of all coordinates and lengths of this document. Numbers are not converted.";
+    if dropdown_row(ui, "Unit", &mut unit, &choices).on_hover_text(help).changed() {
+        set_once(Setting::LengthUnit(unit), commands);
+    }
+}
+
+fn unit_title(unit: LengthUnit) -> &'static str {
+    match unit {
+        LengthUnit::None => "None",
+        LengthUnit::Metre => "Metres (m)",
+        LengthUnit::Kilometre => "Kilometres (km)",
+        LengthUnit::Degree => "Degrees (°)",
+    }
+}
+
 fn bounds_rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let bounds = state.session.document().settings().domain.bounds;
     let mut sides = [bounds.min.x, bounds.min.y, bounds.max.x, bounds.max.y];
     let mut changed = false;
     for (name, value) in ["Left", "Bottom", "Right", "Top"].into_iter().zip(&mut sides) {
-        changed |= NumberRow::new(name, value).show(ui).changed();
+        changed |= NumberRow::new(name, value).unit(state.unit().symbol()).show(ui).changed();
     }
     if changed {
         let [left, bottom, right, top] = sides;

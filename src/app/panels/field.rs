@@ -70,7 +70,7 @@ fn constant_row(ui: &mut Ui, state: &FrameState<'_>, base: &Base, commands: &mut
     let h_max = state.session.document().settings().transfer.h_max;
     let mut value = if let Base::Constant(value) = base { *value } else { h_max };
     let help = "Target diameter where nothing is painted; h_min and h_max bound it.";
-    if NumberRow::new("Diameter", &mut value).help(help).show(ui).changed() {
+    if NumberRow::new("Diameter", &mut value).unit(state.unit().symbol()).help(help).show(ui).changed() {
         set_once(Setting::Base(Base::Constant(value)), commands);
     }
 }

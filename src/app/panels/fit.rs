@@ -85,7 +85,7 @@ fn quality_rows(
     ];
     for (label, farthest, help) in farthest {
         let Some((distance, place)) = farthest else { continue };
-        let row = ValueRow::new(label, &format::length(distance)).link().show(ui);
+        let row = ValueRow::new(label, &format::length(distance, state.unit())).link().show(ui);
         go_to(row, place, state, help, commands);
     }
     let angles = [quality.smallest_angle, quality.largest_angle].map(|angle| format::fixed(angle, 1));

@@ -11,6 +11,7 @@ use crate::app::session::Session;
 use crate::app::theme::tokens;
 use crate::app::widgets::{Chip, Icon, Section, chips, empty_state, format, segmented, value_row};
 use crate::mesh::{Location, Neighbour, Orientation, TriangleId};
+use crate::text::LengthUnit;
 
 /// The queried triangle, its neighbours, and a quantity in it.
 pub static INSPECTOR: Panel = Panel { name: "inspector", only_with_tool: false, show };
@@ -54,12 +55,13 @@ fn triangle_rows(
         Orientation::Anticlockwise => "anticlockwise",
     };
     let step = state.view.world_per_px();
-    let place = |p: DVec2| format!("{} {}", format::coordinate(p.x, step), format::coordinate(p.y, step));
+    let unit = state.unit();
+    let place = |p: DVec2| [p.x, p.y].map(|value| format::coordinate(value, step, unit)).join(" ");
     let turn = value_row(ui, "Level · orientation", &format!("{} · {orientation}", triangle.level));
     turn.on_hover_text(
         "The order of v₁ v₂ v₃, as bisection made it. In files all triangles are anticlockwise.",
     );
-    value_row(ui, "Diameter", &format::length(triangle.diameter));
+    value_row(ui, "Diameter", &format::length(triangle.diameter, unit));
     value_row(ui, "Point", &place(point));
     if let Some(on) = where_on(location) {
         value_row(ui, "Lies", on);
@@ -67,7 +69,7 @@ fn triangle_rows(
     let [a, b, c] = triangle.zeta.map(|zeta| format::fixed(zeta, 3));
     value_row(ui, "ζ₁ ζ₂ ζ₃", &format!("{a} {b} {c}"));
     let hovered = neighbour_chips(ui, state.session, triangle, commands);
-    quantity_rows(ui, state.view.quantity, triangle, commands);
+    quantity_rows(ui, state, triangle, commands);
     ui.add_space(4.0);
     for (i, (node, corner)) in triangle.vertices.iter().enumerate() {
         let label = format!("v{} · {}", ["₁", "₂", "₃"][i], number(state.session, node.index()));
@@ -114,23 +116,34 @@ fn neighbour_chip(
     response.hovered().then_some(id)
 }
 
-fn quantity_rows(ui: &mut Ui, shown: Quantity, triangle: &TriangleReadout, commands: &mut Vec<Command>) {
+fn quantity_rows(
+    ui: &mut Ui,
+    state: &FrameState<'_>,
+    triangle: &TriangleReadout,
+    commands: &mut Vec<Command>,
+) {
+    let shown = state.view.quantity;
     let mut quantity = shown;
     let choices = [(Quantity::TargetDiameter, "h̄"), (Quantity::Risk, "Risk")];
     if segmented(ui, "Quantity", &mut quantity, &choices).changed() {
         commands.push(Command::Inspect(quantity));
     }
+    let unit = match shown {
+        Quantity::TargetDiameter => state.unit(),
+        Quantity::Risk => LengthUnit::None,
+    };
     let number = |value: f64| format::significant(value, 4);
     let [a, b, c] = triangle.at_vertices.map(number);
-    value_row(ui, "At v₁ v₂ v₃", &format!("{a} {b} {c}"));
-    value_row(ui, "Interpolated", &number(triangle.interpolated));
+    value_row(ui, "At v₁ v₂ v₃", &unit.after(&format!("{a} {b} {c}")));
+    value_row(ui, "Interpolated", &unit.after(&number(triangle.interpolated)));
     let difference = triangle.interpolated - triangle.exact;
     let sign = match difference {
         d if d < 0.0 => "−",
         d if d > 0.0 => "+",
         _ => "",
     };
-    let exact = format!("{} ({sign}{})", number(triangle.exact), format::significant(difference.abs(), 2));
+    let exact = unit.after(&number(triangle.exact));
+    let exact = format!("{exact} ({sign}{})", format::significant(difference.abs(), 2));
     value_row(ui, "True (difference)", &exact);
 }
 

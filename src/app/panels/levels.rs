@@ -28,7 +28,7 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
         let under_pointer = state.pointer.and_then(|point| state.session.locate(point).triangle());
         let lit = under_pointer.map(|id| state.session.view().triangle(id).level());
         ui.set_min_height(HEIGHT);
-        LevelLegend::new(&rows).lit(lit).max_height(HEIGHT).show(ui)
+        LevelLegend::new(&rows).unit(state.unit()).lit(lit).max_height(HEIGHT).show(ui)
     });
     let hovered = section.flatten();
     if hovered != state.view.lone_level {

@@ -31,7 +31,8 @@ fn spacing_rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>
     let mut spacing = settings.spacing;
     let help = "Side of a coarse cell. Cells are a little smaller where that fits the domain better.";
     let range = extent / 250.0..=extent;
-    let response = SliderRow::new("Spacing δ", &mut spacing, range).logarithmic().help(help).show(ui);
+    let slider = SliderRow::new("Spacing δ", &mut spacing, range).logarithmic();
+    let response = slider.unit(state.unit().symbol()).help(help).show(ui);
     if response.changed() {
         commands.push(Command::Set(Setting::Spacing(spacing)));
     }

@@ -50,8 +50,10 @@ fn fitting_cells(ui: &Ui, state: &FrameState<'_>) -> [Vec<StatusCell>; 2] {
 
 /// Position of the pointer, and h̄ there.
 fn pointer_cells(state: &FrameState<'_>) -> [StatusCell; 3] {
+    let unit = state.unit();
+    let chars = 8 + unit.after("").chars().count();
     let cells = |[x, y, target]: [String; 3]| {
-        [("x", x), ("y", y), ("h̄", target)].map(|(name, value)| StatusCell::new(name, value, 8))
+        [("x", x), ("y", y), ("h̄", target)].map(|(name, value)| StatusCell::new(name, value, chars))
     };
     let Some(point) = state.pointer else { return cells([NONE; 3].map(String::from)) };
     let step = state.view.world_per_px();
@@ -59,8 +61,9 @@ fn pointer_cells(state: &FrameState<'_>) -> [StatusCell; 3] {
         value_at(point, state.session.document(), state.session.follower(), Quantity::TargetDiameter);
     // The mesh decides: it may lack a part of the bounds.
     let inside = state.session.locate(point).triangle().is_some();
-    let target = if inside { format::length(target) } else { "outside".into() };
-    cells([format::coordinate(point.x, step), format::coordinate(point.y, step), target])
+    let target = if inside { format::length(target, unit) } else { "outside".into() };
+    let [x, y] = [point.x, point.y].map(|value| format::coordinate(value, step, unit));
+    cells([x, y, target])
 }
 
 fn mesh_cells(state: &FrameState<'_>) -> [StatusCell; 3] {

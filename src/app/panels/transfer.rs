@@ -30,6 +30,7 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
         let (document, follower) = (state.session.document(), state.session.follower());
         let risk = state.pointer.map(|point| value_at(point, document, follower, Quantity::Risk));
         let editor = TransferCurve::new(&mut shown, &curve, 1e-5 * extent..=2.0 * extent, SHAPES);
+        let editor = editor.unit(settings.unit);
         let response = editor.mark(risk.filter(|risk| risk.is_finite())).show(ui);
         if shown.h_max != h_max {
             commands.push(Command::Set(Setting::LargestDiameter(shown.h_max)));

@@ -2,7 +2,7 @@
 
 use eframe::egui;
 use egui::accesskit::Role;
-use egui::{Align2, Color32, Theme, Ui, vec2};
+use egui::{Align2, Color32, Event, Modifiers, PointerButton, Theme, Ui, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
@@ -596,6 +596,45 @@ fn the_transfer_curve_is_edited_by_its_handles() {
     drag(&mut harness, "h_min", -900.0);
     let after = harness.state().transfer;
     assert_eq!(after.h_min, after.h_max, "h_min stops at h_max");
+}
+
+/// A slow frame brings several events at once.
+#[test]
+fn a_handle_of_the_transfer_curve_follows_a_drag_within_one_frame() {
+    for in_first_frame in [1, 2, 3] {
+        let mut harness = harness(State::default());
+        let before = harness.state().transfer.h_max;
+        let handle = harness.get_by_role_and_label(Role::Slider, "h_max").rect().center();
+        harness.hover_at(handle);
+        harness.run();
+        let away = handle + vec2(0.0, 30.0);
+        let button = |pos, pressed| Event::PointerButton {
+            pos,
+            button: PointerButton::Primary,
+            pressed,
+            modifiers: Modifiers::NONE,
+        };
+        let events = [button(handle, true), Event::PointerMoved(away), button(away, false)];
+        let (first, second) = events.split_at(in_first_frame);
+        for events in [first, second] {
+            harness.input_mut().events.extend(events.iter().cloned());
+            harness.step();
+        }
+        harness.run();
+        assert!(harness.state().transfer.h_max < before, "{in_first_frame} events in the first frame");
+    }
+}
+
+#[test]
+fn the_numbers_of_the_transfer_curve_are_never_cut() {
+    let mut harness = harness(State::default());
+    harness.state_mut().transfer = CurveValues { h_max: 249_000.0, h_min: 12_300.0, shape: 1.0 };
+    harness.run();
+    for (name, number) in [("h_max value", "249,000"), ("h_min value", "12,300")] {
+        assert_eq!(value_of(&harness, Role::TextInput, name), number);
+        let field = harness.get_by_role_and_label(Role::TextInput, name).rect();
+        assert!(field.width() >= 80.0, "{name} has {} points", field.width());
+    }
 }
 
 #[test]

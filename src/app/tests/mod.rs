@@ -18,6 +18,7 @@ mod pictures;
 mod project;
 mod query;
 mod settings;
+mod unit;
 mod view;
 
 use std::fs;

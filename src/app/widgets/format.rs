@@ -4,7 +4,7 @@
 //! Numbers that change while they are shown keep their number of decimals ([`fixed`], [`significant`]), so
 //! nothing jumps.
 
-use crate::text::group_digits;
+use crate::text::{LengthUnit, group_digits};
 
 /// A count, grouped by thousands: `37,987`.
 pub fn count(value: u64) -> String {
@@ -59,14 +59,24 @@ pub fn digits(value: f64, digits: usize) -> String {
     format!("{}{exponent}", mantissa.trim_end_matches('0').trim_end_matches('.'))
 }
 
-/// A length in world units, with three significant digits: `0.0061`, `0.2`, `1,250`.
-pub fn length(value: f64) -> String {
-    digits(value, 3)
+/// A length in world units, with three significant digits and the unit: `0.0061`, `0.2°`, `1,250 m`.
+pub fn length(value: f64, unit: LengthUnit) -> String {
+    unit.after(&digits(value, 3))
 }
 
-/// A coordinate, with as many decimals as `step` (the size of a pixel, say) can tell apart: `0.5813`.
-pub fn coordinate(value: f64, step: f64) -> String {
-    fixed(value, decimals_for(step))
+/// A coordinate, with the unit and as many decimals as `step` (the size of a pixel, say) can tell apart:
+/// `0.5813`, `23.58°`.
+pub fn coordinate(value: f64, step: f64, unit: LengthUnit) -> String {
+    unit.after(&fixed(value, decimals_for(step)))
+}
+
+/// `number` with its unit, if there is one. Only the sign of degrees follows without a space.
+pub fn with_unit(number: &str, unit: &str) -> String {
+    match unit {
+        "" => number.to_owned(),
+        "°" => format!("{number}°"),
+        _ => format!("{number} {unit}"),
+    }
 }
 
 /// The number of decimals that tells apart values `step` from each other, at most 15.
@@ -99,15 +109,25 @@ pub fn padded(text: &str, width: usize) -> String {
 
 /// The number that a user typed, or `None` if the text is no number.
 ///
-/// Takes `−` and `-`, spaces and commas that group thousands, one comma as decimal sign, `1e-3`, and `unit`
-/// at the end.
+/// Takes `−` and `-`, spaces and commas that group thousands, one comma as decimal sign, `1e-3`, and at the
+/// end `unit` or a unit of length that can be converted into it: `2 km` is 2000 m.
 pub fn parse(text: &str, unit: &str) -> Option<f64> {
-    let text = text.trim();
-    let text = text.strip_suffix(unit.trim()).unwrap_or(text);
+    let (text, factor) = split_unit(text.trim(), unit.trim())?;
     let plain: String =
         text.chars().filter(|c| !c.is_whitespace()).map(|c| if c == '−' { '-' } else { c }).collect();
     let plain = if groups_thousands(&plain) { plain.replace(',', "") } else { plain.replacen(',', ".", 1) };
-    plain.parse().ok().filter(|value: &f64| value.is_finite())
+    plain.parse().ok().map(|value: f64| factor * value).filter(|value| value.is_finite())
+}
+
+/// The number in front of a typed unit, and the factor from that unit to `unit`.
+fn split_unit<'a>(text: &'a str, unit: &str) -> Option<(&'a str, f64)> {
+    let number = text.trim_end_matches(|c: char| c.is_alphabetic() || c == '°');
+    let typed = &text[number.len()..];
+    if typed.is_empty() || typed == unit {
+        return Some((number, 1.0));
+    }
+    let own = LengthUnit::ALL.into_iter().find(|own| own.symbol() == unit)?;
+    Some((number, own.factor_from(typed)?))
 }
 
 /// `value` rounded to `digits` significant digits: exactly what [`significant`] shows.
@@ -178,7 +198,9 @@ mod tests {
         assert_eq!(digits(100.0, 3), "100");
         assert_eq!(digits(1.2e-7, 5), "1.2e-7");
         assert_eq!(digits(0.0, 3), "0");
-        assert_eq!(length(0.00610351), "0.0061");
+        assert_eq!(length(0.00610351, LengthUnit::None), "0.0061");
+        assert_eq!(length(1250.0, LengthUnit::Metre), "1,250 m");
+        assert_eq!(length(0.25, LengthUnit::Degree), "0.25°");
     }
 
     #[test]
@@ -194,7 +216,8 @@ mod tests {
         {
             assert_eq!(decimals_for(step), decimals, "{step}");
         }
-        assert_eq!(coordinate(0.58134, 0.0004), "0.5813");
+        assert_eq!(coordinate(0.58134, 0.0004, LengthUnit::None), "0.5813");
+        assert_eq!(coordinate(23.58134, 0.01, LengthUnit::Degree), "23.58°");
     }
 
     #[test]
@@ -223,11 +246,15 @@ mod tests {
             ("−0.5", -0.5),
             (" 1e-3 ", 1e-3),
             ("12 m", 12.0),
+            ("2 km", 2000.0),
             ("1 000", 1000.0),
             (".5", 0.5),
         ] {
             assert_eq!(parse(text, " m"), Some(value), "{text}");
         }
+        assert_eq!(parse("0.5 deg", "°"), Some(0.5));
+        assert_eq!(parse("0.5 km", "°"), None, "degrees have no fixed length");
+        assert_eq!(parse("5 m", "px"), None);
         for text in ["", "x", "1,2,3", "inf", "nan", "--1"] {
             assert_eq!(parse(text, ""), None, "{text}");
         }

@@ -243,7 +243,9 @@ impl Parts for Packed<'_, '_> {
     fn polygons(&mut self) -> Result<Vec<Polygon>, PlacedFlaw> {
         let text = part(self.archive, DOMAIN)?.bytes(MOST_POLYGONS, self.meter);
         let text = text.map_err(|flaw| in_part(flaw, DOMAIN))?;
-        geojson::parse(&text[..]).map(geojson::without_names).map_err(|flaw| flaw.within(DOMAIN))
+        geojson::parse(&text[..])
+            .map(|outline| geojson::without_names(outline.polygons))
+            .map_err(|flaw| flaw.within(DOMAIN))
     }
 
     fn risks(&mut self, bounds: Rect, size: [u32; 2]) -> Result<Raster, PlacedFlaw> {

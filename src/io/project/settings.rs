@@ -14,7 +14,7 @@ use crate::field::{Formula, RefinementRule, Transfer};
 use crate::geometry::Rect;
 use crate::mesh::{Cleaning, KeptParts, MOST_TRIANGLES};
 use crate::raster::{MAX_SIDE, Raster};
-use crate::text::{Grouped, Number};
+use crate::text::{Grouped, LengthUnit, Number};
 
 /// The fields that every version of the format has.
 #[derive(Deserialize)]
@@ -33,6 +33,9 @@ pub(super) struct Saved {
     version: u64,
     written_by: String,
     name: String,
+    /// Missing in files of older versions, and where there is none.
+    #[serde(default, skip_serializing_if = "SavedUnit::is_none")]
+    unit: SavedUnit,
     domain: SavedDomain,
     boundary: SavedBoundary,
     /// Missing in files of older versions.
@@ -48,6 +51,47 @@ pub(super) struct Saved {
     max_triangles: usize,
     /// In bytes.
     max_memory: usize,
+}
+
+#[derive(Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+enum SavedUnit {
+    #[default]
+    #[serde(rename = "none")]
+    None,
+    #[serde(rename = "m")]
+    Metre,
+    #[serde(rename = "km")]
+    Kilometre,
+    #[serde(rename = "degrees")]
+    Degree,
+}
+
+impl SavedUnit {
+    fn is_none(&self) -> bool {
+        *self == Self::None
+    }
+}
+
+impl From<LengthUnit> for SavedUnit {
+    fn from(unit: LengthUnit) -> Self {
+        match unit {
+            LengthUnit::None => Self::None,
+            LengthUnit::Metre => Self::Metre,
+            LengthUnit::Kilometre => Self::Kilometre,
+            LengthUnit::Degree => Self::Degree,
+        }
+    }
+}
+
+impl From<SavedUnit> for LengthUnit {
+    fn from(saved: SavedUnit) -> Self {
+        match saved {
+            SavedUnit::None => Self::None,
+            SavedUnit::Metre => Self::Metre,
+            SavedUnit::Kilometre => Self::Kilometre,
+            SavedUnit::Degree => Self::Degree,
+        }
+    }
 }
 
 #[derive(Serialize, Deserialize)]
@@ -207,6 +251,7 @@ impl Saved {
             version: VERSION,
             written_by: concat!("Meshbrush ", env!("CARGO_PKG_VERSION")).into(),
             name: settings.name.clone(),
+            unit: settings.unit.into(),
             domain: SavedDomain {
                 bounds: corners(settings.domain.bounds),
                 shape: match &settings.domain.shape {
@@ -309,6 +354,7 @@ impl Saved {
         };
         let settings = Settings {
             name: self.name,
+            unit: self.unit.into(),
             domain: Domain { bounds, shape },
             boundary: match self.boundary {
                 SavedBoundary::Report => BoundaryTreatment::Report,

@@ -1,6 +1,7 @@
 //! Widgets that change a value or run a command.
 
 mod dropdown;
+mod grab;
 mod number;
 mod section;
 mod segmented;

@@ -175,7 +175,7 @@ impl<'a> NumberRow<'a> {
         let row = paint::row(ui);
         let columns = paint::Columns::of(row).widened_for(ui, self.label);
         paint::label(ui, columns.label, self.label, self.help);
-        let (shown, exact) = (with_unit(&self.text(), self.unit), self.exact());
+        let (shown, exact) = (format::with_unit(&self.text(), self.unit), self.exact());
         let cell = NumberCell {
             id: ui.make_persistent_id(("number", self.label)),
             rect: columns.rest.shrink2(vec2(8.0, 0.0)),
@@ -202,9 +202,4 @@ impl<'a> NumberRow<'a> {
     fn exact(&self) -> String {
         if self.integer { format!("{:.0}", *self.value) } else { self.value.to_string() }
     }
-}
-
-/// `text` with its unit, if there is one.
-fn with_unit(text: &str, unit: &str) -> String {
-    if unit.is_empty() { text.to_owned() } else { format!("{text} {unit}") }
 }

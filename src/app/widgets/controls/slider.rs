@@ -64,13 +64,14 @@ pub struct SliderRow<'a> {
     range: RangeInclusive<f64>,
     logarithmic: bool,
     step: Option<f64>,
+    unit: &'a str,
     help: &'a str,
 }
 
 impl<'a> SliderRow<'a> {
     /// A linear slider named `label` over `range`. The name must be unique in its section.
     pub fn new(label: &'a str, value: &'a mut f64, range: RangeInclusive<f64>) -> Self {
-        Self { label, value, range, logarithmic: false, step: None, help: "" }
+        Self { label, value, range, logarithmic: false, step: None, unit: "", help: "" }
     }
 
     /// Gives each factor of ten the same length. The range must be positive.
@@ -82,6 +83,12 @@ impl<'a> SliderRow<'a> {
     /// The value is a multiple of `step` above the range's start.
     pub fn step(mut self, step: f64) -> Self {
         self.step = Some(step);
+        self
+    }
+
+    /// Shown after the number, and may be typed.
+    pub fn unit(mut self, unit: &'a str) -> Self {
+        self.unit = unit;
         self
     }
 
@@ -135,11 +142,12 @@ impl<'a> SliderRow<'a> {
     }
 
     fn shown(&self) -> String {
-        if self.logarithmic {
+        let number = if self.logarithmic {
             format::significant(*self.value, 3)
         } else {
             format::fixed(*self.value, self.decimals())
-        }
+        };
+        format::with_unit(&number, self.unit)
     }
 
     /// The track: pointer and keys change the value, then it is painted.
@@ -214,7 +222,7 @@ impl<'a> SliderRow<'a> {
             name: &format!("{} value", self.label),
             shown: &self.shown(),
             exact: &self.value.to_string(),
-            unit: "",
+            unit: self.unit,
             align: Align::Max,
             boxed: false,
         };

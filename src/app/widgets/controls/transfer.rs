@@ -4,19 +4,23 @@ use std::ops::RangeInclusive;
 
 use eframe::egui::{
     self, Align, Color32, CursorIcon, Id, Mesh, Pos2, Rect, Response, Sense, Shape, Stroke, StrokeKind, Ui,
-    WidgetInfo, pos2, vec2,
+    Vec2, WidgetInfo, pos2, vec2,
 };
 use egui::accesskit::Action;
 
+use super::grab;
 use super::number::NumberCell;
 use super::slider::{key_steps, requested_value};
 use super::{format, paint};
 use crate::app::theme::{font, metrics, tokens};
+use crate::text::LengthUnit;
 
 /// Height of the plot; the numbers are in a row below it.
 const HEIGHT: f32 = 104.0;
-/// Least width of the cell in which a number is typed.
-const CELL: f32 = 52.0;
+/// Space between the two numbers below the plot.
+const NUMBER_GAP: f32 = 16.0;
+/// Width and height of the place where a handle is grabbed.
+const GRAB: Vec2 = vec2(20.0, 20.0);
 /// Width of the axis' numbers.
 const AXIS: f32 = 44.0;
 /// Radius of a handle.
@@ -47,6 +51,7 @@ pub struct TransferCurve<'a> {
     limits: RangeInclusive<f64>,
     shapes: RangeInclusive<f64>,
     mark: Option<f64>,
+    unit: LengthUnit,
 }
 
 #[derive(Clone, Copy, PartialEq)]
@@ -64,12 +69,18 @@ impl<'a> TransferCurve<'a> {
         limits: RangeInclusive<f64>,
         shapes: RangeInclusive<f64>,
     ) -> Self {
-        Self { value, curve, limits, shapes, mark: None }
+        Self { value, curve, limits, shapes, mark: None, unit: LengthUnit::None }
     }
 
     /// Marks a risk on the curve, such as that under the pointer on the canvas.
     pub fn mark(mut self, risk: Option<f64>) -> Self {
         self.mark = risk;
+        self
+    }
+
+    /// The unit of the diameters.
+    pub fn unit(mut self, unit: LengthUnit) -> Self {
+        self.unit = unit;
         self
     }
 
@@ -91,7 +102,8 @@ impl<'a> TransferCurve<'a> {
         for (handle, felt) in [Handle::Max, Handle::Shape, Handle::Min].into_iter().zip(&handles) {
             self.paint_handle(ui, &plot, handle, felt);
         }
-        response |= self.numbers(ui, id, hovered_risk);
+        self.paint_caption(ui, &plot, hovered_risk);
+        response |= self.numbers(ui, id);
         self.keep_axis(ui, id, &plot, handles.iter().any(Response::dragged));
         let mut response = handles.into_iter().fold(response, |all, one| all | one);
         if *self.value != before {
@@ -117,11 +129,13 @@ impl<'a> TransferCurve<'a> {
     /// Lets pointer and keys move a handle.
     fn handle(&mut self, ui: &Ui, id: Id, plot: &Plot, handle: Handle) -> Response {
         let id = id.with(handle.name());
-        let place = Rect::from_center_size(self.position(plot, handle), vec2(20.0, 20.0));
+        let position = self.position(plot, handle);
+        let place = Rect::from_center_size(position, GRAB);
+        let target = grab::target(ui, id, position, GRAB);
         let response =
             ui.interact(place, id, Sense::click_and_drag()).on_hover_cursor(CursorIcon::ResizeVertical);
-        if let Some(pointer) = response.interact_pointer_pos().filter(|_| response.dragged()) {
-            self.set(handle, plot.diameter_at(pointer.y));
+        if let Some(target) = target {
+            self.set(handle, plot.diameter_at(target.y));
         }
         let steps = key_steps(ui, &response);
         if steps != 0.0 {
@@ -265,53 +279,47 @@ impl<'a> TransferCurve<'a> {
         }
     }
 
-    /// The row below: both end points' numbers, which can be typed, and between them the curve under the
-    /// pointer.
-    fn numbers(&mut self, ui: &mut Ui, id: Id, risk: Option<f64>) -> Response {
-        let row = paint::row(ui);
-        let third = row.width() / 3.0;
-        let left = row.with_max_x(row.left() + third);
-        let right = row.with_min_x(row.right() - third);
-        let middle = Rect::from_x_y_ranges(left.right()..=right.left(), row.y_range());
+    /// What the curve makes of the risk under the pointer, in the corner that the curve leaves free.
+    fn paint_caption(&self, ui: &Ui, plot: &Plot, risk: Option<f64>) {
         let caption = match risk {
             Some(risk) => {
-                format!("{} → {}", format::fixed(risk, 2), format::length((self.curve)(self.value, risk)))
+                let diameter = format::length((self.curve)(self.value, risk), self.unit);
+                format!("{} → {diameter}", format::fixed(risk, 2))
             }
             None => "risk 0 → 1".to_owned(),
         };
-        paint::at_centre(ui, middle, paint::line(ui, &caption, font::small_value(), tokens(ui).faint));
+        let text = paint::line(ui, &caption, font::small_value(), tokens(ui).faint);
+        let row = Rect::from_min_size(plot.rect.min - vec2(0.0, 8.0), vec2(plot.rect.width(), 16.0));
+        // The line of a decade would strike the text through.
+        let ground = row.with_min_x(row.right() - text.size().x).expand2(vec2(4.0, 0.0));
+        ui.painter().rect_filled(ground, 0.0, tokens(ui).well);
+        paint::at_right(ui, row, text);
+    }
+
+    /// The row below: the numbers of both end points, which can be typed.
+    fn numbers(&mut self, ui: &mut Ui, id: Id) -> Response {
+        let row = paint::row(ui);
+        let half = (row.width() - NUMBER_GAP) / 2.0;
+        let left = row.with_max_x(row.left() + half);
+        let right = row.with_min_x(row.right() - half);
         self.number(ui, id, left, Handle::Max) | self.number(ui, id, right, Handle::Min)
     }
 
-    /// The name and number of an end point, at the left (`h_max`) or right (`h_min`) of `rect`.
+    /// The name and number of an end point.
     fn number(&mut self, ui: &mut Ui, id: Id, rect: Rect, handle: Handle) -> Response {
-        let t = tokens(ui);
-        let shown = format::length(self.number_of(handle));
-        let name = paint::line(ui, handle.name(), font::small_value(), t.label);
-        let number = paint::line(ui, &shown, font::value(), t.value).size().x;
-        let gap = name.size().x + 8.0;
-        let (name_at, cell_at, align) = match handle {
-            Handle::Min => {
-                // The cell keeps its place while its number is typed, and the name stays clear of it.
-                let cell = rect.with_min_x(rect.right() - number.max(CELL));
-                (rect.with_max_x(cell.left() - 4.0), cell, Align::Max)
-            }
-            _ => (rect.with_max_x(rect.left() + gap), rect.with_min_x(rect.left() + gap), Align::Min),
-        };
+        let name = paint::line(ui, handle.name(), font::small_value(), tokens(ui).label);
+        let cell = rect.with_min_x(rect.left() + name.size().x + 8.0).shrink2(vec2(8.0, 0.0));
+        paint::at_left(ui, rect, name);
         let cell = NumberCell {
             id: id.with((handle.name(), "number")),
-            rect: cell_at,
+            rect: cell,
             name: &format!("{} value", handle.name()),
-            shown: &shown,
+            shown: &format::length(self.number_of(handle), self.unit),
             exact: &self.number_of(handle).to_string(),
-            unit: "",
-            align,
-            boxed: false,
+            unit: self.unit.symbol(),
+            align: Align::Max,
+            boxed: true,
         };
-        let name_at = if align == Align::Min { name_at.with_max_x(name_at.right() - 8.0) } else { name_at };
-        if align == Align::Min || !cell.is_edited(ui) {
-            paint::at_right(ui, name_at, name);
-        }
         let (response, typed) = cell.show(ui);
         if let Some(typed) = typed {
             self.assign(handle, typed);

@@ -6,6 +6,7 @@ use eframe::egui::{
 
 use super::{format, paint};
 use crate::app::theme::{font, tokens};
+use crate::text::LengthUnit;
 
 /// Height of a row where all fit.
 const ROW: f32 = 18.0;
@@ -34,6 +35,7 @@ pub struct LevelRow {
 #[must_use = "call `show`"]
 pub struct LevelLegend<'a> {
     rows: &'a [LevelRow],
+    unit: LengthUnit,
     lit: Option<u32>,
     max_height: f32,
 }
@@ -41,7 +43,13 @@ pub struct LevelLegend<'a> {
 impl<'a> LevelLegend<'a> {
     /// A legend of `rows`, from the top down.
     pub fn new(rows: &'a [LevelRow]) -> Self {
-        Self { rows, lit: None, max_height: 360.0 }
+        Self { rows, unit: LengthUnit::None, lit: None, max_height: 360.0 }
+    }
+
+    /// The unit of the diameters.
+    pub fn unit(mut self, unit: LengthUnit) -> Self {
+        self.unit = unit;
+        self
     }
 
     /// Highlights a level, such as that of the triangle under the pointer.
@@ -79,7 +87,7 @@ impl<'a> LevelLegend<'a> {
             Rect::from_min_size(pos2(rect.left(), rect.top() + height * i as f32), vec2(rect.width(), height))
         };
         let responses: Vec<_> =
-            self.rows.iter().enumerate().map(|(i, row)| sense(ui, place(i), row)).collect();
+            self.rows.iter().enumerate().map(|(i, row)| sense(ui, place(i), row, self.unit)).collect();
         let hovered = responses
             .iter()
             .zip(self.rows)
@@ -95,12 +103,13 @@ impl<'a> LevelLegend<'a> {
 
 /// Registers a row for the pointer, tests and screen readers. Rows take no focus: there may be more than
 /// fifty.
-fn sense(ui: &Ui, rect: Rect, row: &LevelRow) -> Response {
+fn sense(ui: &Ui, rect: Rect, row: &LevelRow, unit: LengthUnit) -> Response {
     let response = ui.interact(rect, ui.scope_id().with(("level", row.level)), Sense::hover());
     let triangles = if row.count == 1 { "triangle" } else { "triangles" };
     let name = format!("Level {}: {} {triangles}", row.level, format::count(row.count));
     response.widget_info(|| WidgetInfo::labeled(Role::ListItem, true, &name));
-    response.on_hover_text_at_pointer(format!("{name}\nDiameter {}", format::digits(row.diameter, 4)))
+    let diameter = unit.after(&format::digits(row.diameter, 4));
+    response.on_hover_text_at_pointer(format!("{name}\nDiameter {diameter}"))
 }
 
 /// The widths of the legend's columns, which depend on all rows.

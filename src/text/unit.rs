@@ -1,0 +1,85 @@
+/// The unit of a document's coordinates and lengths. Numbers are never converted: it says what they mean.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum LengthUnit {
+    /// Plain numbers.
+    #[default]
+    None,
+    /// Metres.
+    Metre,
+    /// Kilometres.
+    Kilometre,
+    /// Degrees of longitude (x) and latitude (y).
+    Degree,
+}
+
+impl LengthUnit {
+    /// All units, in the order of menus.
+    pub const ALL: [Self; 4] = [Self::None, Self::Metre, Self::Kilometre, Self::Degree];
+
+    /// The symbol after a number; empty without a unit.
+    pub fn symbol(self) -> &'static str {
+        match self {
+            Self::None => "",
+            Self::Metre => "m",
+            Self::Kilometre => "km",
+            Self::Degree => "°",
+        }
+    }
+
+    /// Its name in menus and files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::None => "none",
+            Self::Metre => "m",
+            Self::Kilometre => "km",
+            Self::Degree => "degrees",
+        }
+    }
+
+    /// A number with the symbol: `12 m`, `0.5°`.
+    ///
+    /// ```
+    /// use meshbrush::LengthUnit;
+    ///
+    /// assert_eq!(LengthUnit::Metre.after("12"), "12 m");
+    /// assert_eq!(LengthUnit::Degree.after("0.5"), "0.5°");
+    /// assert_eq!(LengthUnit::None.after("0.5"), "0.5");
+    /// ```
+    pub fn after(self, number: &str) -> String {
+        match self {
+            Self::None => number.to_owned(),
+            Self::Degree => format!("{number}°"),
+            Self::Metre | Self::Kilometre => format!("{number} {}", self.symbol()),
+        }
+    }
+
+    /// The factor that turns a typed number with the given unit into this unit; `None` if the two cannot be
+    /// converted. Case is ignored.
+    pub fn factor_from(self, typed: &str) -> Option<f64> {
+        let typed = typed.to_lowercase();
+        match (self, typed.as_str()) {
+            (_, "") => Some(1.0),
+            (Self::Metre, "m") | (Self::Kilometre, "km") => Some(1.0),
+            (Self::Metre, "km") => Some(1000.0),
+            (Self::Kilometre, "m") => Some(0.001),
+            (Self::Degree, "°" | "deg" | "degree" | "degrees") => Some(1.0),
+            _ => None,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn typed_units_are_converted_where_that_is_exact() {
+        assert_eq!(LengthUnit::Metre.factor_from("km"), Some(1000.0));
+        assert_eq!(LengthUnit::Kilometre.factor_from("M"), Some(0.001));
+        assert_eq!(LengthUnit::Degree.factor_from("deg"), Some(1.0));
+        assert_eq!(LengthUnit::Degree.factor_from("km"), None);
+        assert_eq!(LengthUnit::None.factor_from("m"), None);
+        assert!(LengthUnit::ALL.iter().all(|unit| unit.factor_from(unit.symbol()) == Some(1.0)));
+    }
+}
