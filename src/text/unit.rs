@@ -53,33 +53,4 @@ impl LengthUnit {
             Self::Metre | Self::Kilometre => format!("{number} {}", self.symbol()),
         }
     }
-
-    /// The factor that turns a typed number with the given unit into this unit; `None` if the two cannot be
-    /// converted. Case is ignored.
-    pub fn factor_from(self, typed: &str) -> Option<f64> {
-        let typed = typed.to_lowercase();
-        match (self, typed.as_str()) {
-            (_, "") => Some(1.0),
-            (Self::Metre, "m") | (Self::Kilometre, "km") => Some(1.0),
-            (Self::Metre, "km") => Some(1000.0),
-            (Self::Kilometre, "m") => Some(0.001),
-            (Self::Degree, "°" | "deg" | "degree" | "degrees") => Some(1.0),
-            _ => None,
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn typed_units_are_converted_where_that_is_exact() {
-        assert_eq!(LengthUnit::Metre.factor_from("km"), Some(1000.0));
-        assert_eq!(LengthUnit::Kilometre.factor_from("M"), Some(0.001));
-        assert_eq!(LengthUnit::Degree.factor_from("deg"), Some(1.0));
-        assert_eq!(LengthUnit::Degree.factor_from("km"), None);
-        assert_eq!(LengthUnit::None.factor_from("m"), None);
-        assert!(LengthUnit::ALL.iter().all(|unit| unit.factor_from(unit.symbol()) == Some(1.0)));
-    }
 }

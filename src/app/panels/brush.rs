@@ -5,7 +5,7 @@ use eframe::egui::Ui;
 use super::Panel;
 use crate::app::command::Command;
 use crate::app::frame::FrameState;
-use crate::app::tools::{ERASER, PaintKind};
+use crate::app::tools::{ERASER, PaintKind, Tools};
 use crate::app::widgets::{Section, SliderRow, segmented, value_row};
 
 /// What the brush paints, its size, strength and hardness.
@@ -40,8 +40,12 @@ fn kind_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
 pub fn size_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let extent = state.session.document().settings().domain.bounds.size().max_element();
     let mut radius = state.tools.radius;
-    let slider = SliderRow::new("Size", &mut radius, 1e-4 * extent..=0.5 * extent).logarithmic();
-    let slider = slider.unit(state.unit().symbol());
+    let usual = Tools::for_domain(extent, 0.0);
+    let slider = SliderRow::new("Size", &mut radius, 1e-4 * extent..=0.5 * extent)
+        .logarithmic()
+        .typed_range(1e-4 * extent..=extent)
+        .default(usual.radius)
+        .unit(state.unit().symbol());
     if slider.help("Radius in world units. [ and ] change it, as does a drag with Shift.").show(ui).changed()
     {
         commands.push(Command::BrushRadius(radius));
@@ -51,14 +55,23 @@ pub fn size_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>
 fn strength_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let mut strength = state.tools.strength();
     let slider = SliderRow::new("Strength", &mut strength, 0.01..=1.0).step(0.01);
+    let slider = slider.default(usual_strength(state));
     if slider.help("How far one stroke moves the value. The digits 1 to 0 set it.").show(ui).changed() {
         commands.push(Command::BrushStrength(strength));
     }
 }
 
+/// The strength that the selected tool has at first.
+fn usual_strength(state: &FrameState<'_>) -> f64 {
+    let mut usual = Tools::for_domain(1.0, 0.0);
+    usual.select(state.tools.tool);
+    usual.strength()
+}
+
 fn hardness_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let mut hardness = state.tools.hardness;
     let slider = SliderRow::new("Hardness", &mut hardness, 0.0..=1.0).step(0.01);
+    let slider = slider.default(Tools::for_domain(1.0, 0.0).hardness);
     let help = "Share of the radius with full strength. Shift+[ and Shift+] change it.";
     if slider.help(help).show(ui).changed() {
         commands.push(Command::BrushHardness(hardness));
@@ -72,7 +85,7 @@ fn diameter_rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command
     let mut diameter = state.tools.diameter.clamp(transfer.h_min, transfer.h_max);
     let level = field.level_of_diameter(diameter).map_or("–".into(), |level| level.to_string());
     let slider = SliderRow::new("Diameter", &mut diameter, transfer.h_min..=transfer.h_max).logarithmic();
-    let slider = slider.unit(state.unit().symbol());
+    let slider = slider.default((2.0 * transfer.h_min).min(transfer.h_max)).unit(state.unit().symbol());
     if slider.help("Target diameter that the brush paints.").show(ui).changed() {
         commands.push(Command::BrushDiameter(diameter));
     }

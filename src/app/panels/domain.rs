@@ -3,7 +3,8 @@
 use eframe::egui::{Id, Ui};
 
 use super::brush::size_row;
-use super::{Panel, end_gesture_when_released, formula, remark, set_once};
+use super::formula::FormulaRow;
+use super::{Panel, end_gesture_when_released, remark, set_once};
 use crate::app::command::{Command, DomainCommand};
 use crate::app::dialogs::FileRequest;
 use crate::app::frame::FrameState;
@@ -121,6 +122,8 @@ fn diameter_row(ui: &mut Ui, state: &FrameState<'_>, mut diameter: f64, commands
     let extent = settings.domain.bounds.size().max_element();
     let row = SliderRow::new("At outline", &mut diameter, 1e-4 * extent..=0.1 * extent).logarithmic();
     let help = "Largest diameter of a triangle that the outline passes through.";
+    let usual = BoundaryTreatment::usual_diameter(settings.spacing);
+    let row = row.typed_range(f64::MIN_POSITIVE..=extent).default(usual);
     let response = row.unit(state.unit().symbol()).help(help).show(ui);
     if response.changed() {
         commands.push(Command::Set(Setting::Boundary(settings.boundary.with_diameter(diameter))));
@@ -144,6 +147,7 @@ fn cleaning_rows(ui: &mut Ui, cleaning: Cleaning, boundary: BoundaryTreatment, c
     ui.add_space(4.0);
     if let KeptParts::Share(mut share) = cleaning.parts {
         let row = SliderRow::new("From share", &mut share, 1e-4..=1.0).logarithmic();
+        let row = row.typed_range(0.0..=1.0).default(USUAL_SHARE);
         let response = row.help("Parts with at least this share of the area stay.").show(ui);
         if response.changed() {
             let parts = KeptParts::Share(share);
@@ -202,7 +206,9 @@ fn formula_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>)
     } else {
         "everywhere; or x^2 + y^2 < 1"
     };
-    if let Some(inside) = formula::row(ui, "Domain where", hint, domain.formula()) {
+    let help = "The part of the rectangle where this formula is true is the domain.";
+    let row = FormulaRow { label: "Domain where", hint, help };
+    if let Some(inside) = row.show(ui, state, domain.formula()) {
         let shape = inside.map_or(DomainShape::Whole, DomainShape::Formula);
         set_once(Setting::Domain(Domain { bounds: domain.bounds, shape }), commands);
     }

@@ -2,12 +2,13 @@
 
 use eframe::egui::Ui;
 
-use super::{Panel, formula, set_once};
+use super::formula::FormulaRow;
+use super::{Panel, set_once};
 use crate::app::command::Command;
 use crate::app::dialogs::FileRequest;
 use crate::app::frame::FrameState;
 use crate::app::widgets::{ActionButton, NumberRow, Section, segmented, value_row};
-use crate::document::{Base, RESOLUTIONS, Setting};
+use crate::document::{Base, RESOLUTIONS, Setting, Settings};
 
 /// The base field and its resolution.
 pub static FIELD: Panel = Panel { name: "field", only_with_tool: false, show };
@@ -36,7 +37,7 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
         ui.add_space(4.0);
         match kind {
             BaseKind::Constant => constant_row(ui, state, base, commands),
-            BaseKind::Formula => formula_row(ui, base, commands),
+            BaseKind::Formula => formula_row(ui, state, base, commands),
             BaseKind::Image => image_rows(ui, base, commands),
         }
         resolution_row(ui, state, commands);
@@ -47,8 +48,12 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
 /// document has it.
 fn kind_row(ui: &mut Ui, state: &FrameState<'_>, base: &Base, commands: &mut Vec<Command>) -> BaseKind {
     let id = ui.make_persistent_id("kind of base being set up");
-    let pending: Option<BaseKind> = ui.data(|data| data.get_temp(id));
+    let refused = refused_kind(ui, state, base);
+    let pending: Option<BaseKind> = refused.or_else(|| ui.data(|data| data.get_temp(id)));
     let mut kind = pending.unwrap_or(base.into());
+    if let Some(pending) = pending {
+        ui.data_mut(|data| data.insert_temp(id, pending));
+    }
     if kind == BaseKind::from(base) {
         ui.data_mut(|data| data.remove::<BaseKind>(id));
     }
@@ -66,19 +71,32 @@ fn kind_row(ui: &mut Ui, state: &FrameState<'_>, base: &Base, commands: &mut Vec
     kind
 }
 
+/// The kind of a base that the document had in the last frame and refused: what was typed for it stays.
+fn refused_kind(ui: &Ui, state: &FrameState<'_>, base: &Base) -> Option<BaseKind> {
+    let (id, kind) = (ui.make_persistent_id("kind of base in the last frame"), BaseKind::from(base));
+    let before = ui.data_mut(|data| std::mem::replace(data.get_temp_mut_or(id, kind), kind));
+    let failed = state.session.notices().shown().is_some_and(|notice| notice.failed);
+    (failed && before == BaseKind::Formula && before != kind).then_some(before)
+}
+
 fn constant_row(ui: &mut Ui, state: &FrameState<'_>, base: &Base, commands: &mut Vec<Command>) {
     let h_max = state.session.document().settings().transfer.h_max;
     let mut value = if let Base::Constant(value) = base { *value } else { h_max };
     let help = "Target diameter where nothing is painted; h_min and h_max bound it.";
-    if NumberRow::new("Diameter", &mut value).unit(state.unit().symbol()).help(help).show(ui).changed() {
+    let row = NumberRow::new("Diameter", &mut value).range(f64::MIN_POSITIVE..=f64::MAX).default(h_max);
+    if row.unit(state.unit().symbol()).help(help).show(ui).changed() {
         set_once(Setting::Base(Base::Constant(value)), commands);
     }
 }
 
-fn formula_row(ui: &mut Ui, base: &Base, commands: &mut Vec<Command>) {
+fn formula_row(ui: &mut Ui, state: &FrameState<'_>, base: &Base, commands: &mut Vec<Command>) {
     let current = if let Base::Formula(formula) = base { Some(formula) } else { None };
-    let hint = "if(abs(x) + abs(y) < 0.4, 0.01, 0.2)";
-    if let Some(Some(formula)) = formula::row(ui, "Target diameter h̄(x, y)", hint, current) {
+    let row = FormulaRow {
+        label: "Target diameter h̄(x, y)",
+        hint: "if(abs(x) + abs(y) < 0.4, 0.01, 0.2)",
+        help: "Target diameter at x and y where nothing is painted, as a formula; h_min and h_max bound it.",
+    };
+    if let Some(Some(formula)) = row.show(ui, state, current) {
         set_once(Setting::Base(Base::Formula(formula)), commands);
     }
 }
@@ -103,6 +121,7 @@ fn resolution_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Comman
     );
     let range = f64::from(*RESOLUTIONS.start())..=f64::from(*RESOLUTIONS.end());
     let row = NumberRow::new("Resolution", &mut resolution).integer().range(range).unit("px").help(&help);
+    let row = row.default(f64::from(Settings::default().resolution));
     if row.show(ui).changed() {
         set_once(Setting::Resolution(resolution as u32), commands);
     }

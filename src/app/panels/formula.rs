@@ -1,34 +1,126 @@
 //! A row in which a formula is typed.
 
-use eframe::egui::Ui;
+use eframe::egui::{Id, Key, Ui};
 
+use crate::app::frame::FrameState;
 use crate::app::widgets::{TextError, TextRow};
 use crate::field::Formula;
+use crate::field::formula::ParseError;
+
+/// Seconds without a key until a formula is applied: the beginning of `0.0005` is a valid formula, too.
+const PAUSE: f64 = 0.4;
+
+/// What a row is called and what it says.
+pub struct FormulaRow<'a> {
+    /// Its name.
+    pub label: &'a str,
+    /// Shown while it is empty.
+    pub hint: &'a str,
+    /// What it is for, in one sentence.
+    pub help: &'a str,
+}
 
 /// The text typed so far, in egui's memory. It need not be a valid formula yet.
 #[derive(Clone, Debug, Default)]
-struct TypedFormula {
+struct Typed {
     text: String,
     /// The formula of the document when the text was last equal to it.
     of: Option<Formula>,
+    /// When the text last changed, in egui's time.
+    changed_at: f64,
+    /// The formula that was sent last: it is sent once, also if the document refuses it.
+    sent: Option<Option<Formula>>,
 }
 
-/// Shows a row for the formula `current`. Returns the new formula once a valid one is complete; `Some(None)`
-/// once the row was emptied.
-pub fn row(ui: &mut Ui, label: &str, hint: &str, current: Option<&Formula>) -> Option<Option<Formula>> {
-    let id = ui.make_persistent_id(("typed formula", label));
-    let mut typed: TypedFormula = ui.data(|data| data.get_temp(id)).unwrap_or_default();
-    if typed.of.as_ref() != current {
-        // After undo, or in another document.
-        typed.text = current.map_or(String::new(), |formula| formula.source().to_owned());
-        typed.of = current.cloned();
+impl FormulaRow<'_> {
+    /// Shows the row for the formula `current` of the document. Returns a new formula as soon as it is valid
+    /// and typing has paused; `Some(None)` once the row was emptied.
+    ///
+    /// While the text is not in effect, the row says so. A text that cannot be read keeps the focus after
+    /// Enter, and so does one that the document refused.
+    pub fn show(
+        &self,
+        ui: &mut Ui,
+        state: &FrameState<'_>,
+        current: Option<&Formula>,
+    ) -> Option<Option<Formula>> {
+        let id = ui.make_persistent_id(("typed formula", self.label));
+        let mut typed: Typed = ui.data(|data| data.get_temp(id)).unwrap_or_default();
+        let parsed = parse(&typed.text);
+        let refused = typed.was_refused(parsed.as_ref().ok(), current, state);
+        if typed.of.as_ref() != current {
+            typed.follow(current, refused);
+        }
+        let parsed = parse(&typed.text);
+        let message = parsed.as_ref().err().map(ToString::to_string);
+        let error = parsed.as_ref().err().zip(message.as_deref());
+        let error = error.map(|(error, message)| TextError { message, at: Some(error.span().start) });
+        let in_effect = parsed.as_ref().is_ok_and(|formula| formula.as_ref() == current);
+        let row = TextRow::formula(self.label, &mut typed.text).hint(self.hint).help(self.help).error(error);
+        let response = row.mark((!in_effect).then_some("not applied")).show(ui);
+        if response.changed() {
+            typed.changed_at = ui.input(|input| input.time);
+        }
+        let entered = response.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
+        if entered && (parsed.is_err() || (refused && !in_effect)) {
+            response.request_focus();
+        }
+        let new = typed.take_finished(ui, parsed.ok(), current, response.lost_focus(), !response.has_focus());
+        store(ui, id, typed);
+        new
     }
-    let parsed = if typed.text.trim().is_empty() { Ok(None) } else { Formula::parse(&typed.text).map(Some) };
-    let message = parsed.as_ref().err().map(ToString::to_string);
-    let error = parsed.as_ref().err().zip(message.as_deref());
-    let error = error.map(|(error, message)| TextError { message, at: Some(error.span().start) });
-    let response = TextRow::formula(label, &mut typed.text).hint(hint).error(error).show(ui);
+}
+
+fn parse(text: &str) -> Result<Option<Formula>, ParseError> {
+    if text.trim().is_empty() { Ok(None) } else { Formula::parse(text).map(Some) }
+}
+
+fn store(ui: &Ui, id: Id, typed: Typed) {
     ui.data_mut(|data| data.insert_temp(id, typed));
-    let new = parsed.ok().filter(|formula| formula.as_ref() != current)?;
-    response.lost_focus().then_some(new)
+}
+
+impl Typed {
+    /// Whether the document refused the formula that was sent last.
+    fn was_refused(
+        &self,
+        parsed: Option<&Option<Formula>>,
+        current: Option<&Formula>,
+        state: &FrameState<'_>,
+    ) -> bool {
+        let failed = state.session.notices().shown().is_some_and(|notice| notice.failed);
+        let sent = self.sent.as_ref().filter(|sent| Some(*sent) == parsed);
+        failed && sent.is_some_and(|sent| sent.as_ref() != current)
+    }
+
+    /// Follows the document after undo and in another document. A text that was refused stays.
+    fn follow(&mut self, current: Option<&Formula>, refused: bool) {
+        self.of = current.cloned();
+        let is_own = self.sent.as_ref().is_some_and(|sent| sent.as_ref() == current);
+        if !refused && !is_own {
+            self.text = current.map_or(String::new(), |formula| formula.source().to_owned());
+            self.sent = None;
+        }
+    }
+
+    /// The formula to send, if it is valid and typing has ended or paused.
+    fn take_finished(
+        &mut self,
+        ui: &Ui,
+        parsed: Option<Option<Formula>>,
+        current: Option<&Formula>,
+        ended: bool,
+        at_rest: bool,
+    ) -> Option<Option<Formula>> {
+        let new = parsed.filter(|formula| formula.as_ref() != current)?;
+        if self.sent.as_ref() == Some(&new) && !ended {
+            return None;
+        }
+        let waited = ui.input(|input| input.time) - self.changed_at;
+        if !ended && !at_rest && waited < PAUSE {
+            ui.ctx().request_repaint_after(std::time::Duration::from_secs_f64(PAUSE - waited));
+            return None;
+        }
+        self.sent = Some(new.clone());
+        Some(new)
+    }
 }

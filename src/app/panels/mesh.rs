@@ -1,18 +1,24 @@
 //! The mesh: coarse spacing, refinement rule and budgets.
 
+use std::ops::RangeInclusive;
+
 use eframe::egui::Ui;
 
 use super::{Panel, end_gesture_when_released, remark, set_once};
 use crate::app::command::Command;
 use crate::app::frame::FrameState;
 use crate::app::widgets::{NumberRow, Section, SliderRow, format, segmented, value_row};
-use crate::document::{LEAST_MEMORY, Setting};
+use crate::document::{LEAST_MEMORY, Setting, Settings};
 use crate::field::RefinementRule;
 
-/// Triangles in a million.
-const MILLION: f64 = 1e6;
+/// Bytes in a megabyte.
+const MEGABYTE: f64 = 1e6;
 /// Bytes in a gigabyte.
-const BILLION: f64 = 1e9;
+const GIGABYTE: f64 = 1e9;
+/// The triangles that a budget can allow.
+const TRIANGLE_BUDGETS: RangeInclusive<f64> = 1000.0..=1e8;
+/// The most memory that a budget can allow, in gigabytes.
+const MOST_MEMORY: f64 = 1000.0;
 
 /// Coarse spacing, refinement rule and budgets.
 pub static MESH: Panel = Panel { name: "mesh", only_with_tool: false, show };
@@ -31,8 +37,9 @@ fn spacing_rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>
     let mut spacing = settings.spacing;
     let help = "Side of a coarse cell. Cells are a little smaller where that fits the domain better.";
     let range = extent / 250.0..=extent;
-    let slider = SliderRow::new("Spacing δ", &mut spacing, range).logarithmic();
-    let response = slider.unit(state.unit().symbol()).help(help).show(ui);
+    let row = SliderRow::new("Spacing δ", &mut spacing, range).logarithmic().help(help);
+    let row = row.typed_range(f64::MIN_POSITIVE..=extent).default(Settings::default().spacing * extent);
+    let response = row.unit(state.unit().symbol()).show(ui);
     if response.changed() {
         commands.push(Command::Set(Setting::Spacing(spacing)));
     }
@@ -59,23 +66,23 @@ fn rule_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
 
 fn budget_rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let settings = state.session.document().settings();
-    let mut millions = settings.max_triangles as f64 / MILLION;
-    let mut gigabytes = settings.max_memory as f64 / BILLION;
+    let usual = Settings::default();
+    let mut triangles = settings.max_triangles as f64;
     let help =
-        "Most triangles, in millions. A stroke that would need more stops there; a setting is taken back.";
-    let row = NumberRow::new("Triangle budget", &mut millions).range(0.001..=100.0).unit("M").help(help);
-    if row.show(ui).changed() {
-        let max_triangles = (millions * MILLION).round() as usize;
-        set_once(Setting::MaxTriangles(max_triangles), commands);
+        "Most triangles of the mesh. A stroke that would need more stops there; a setting is taken back.";
+    let row = NumberRow::new("Triangle budget", &mut triangles).integer().range(TRIANGLE_BUDGETS);
+    if row.default(usual.max_triangles as f64).help(help).show(ui).changed() {
+        set_once(Setting::MaxTriangles(triangles as usize), commands);
     }
+    let mut gigabytes = settings.max_memory as f64 / GIGABYTE;
     let help = "Most memory, in gigabytes, for the mesh and for the next one while that is built: 86 bytes a triangle. \
                 The smaller of the two budgets counts.";
-    let least = LEAST_MEMORY as f64 / BILLION;
-    let row = NumberRow::new("Memory budget", &mut gigabytes).range(least..=1000.0).unit("GB").help(help);
-    if row.show(ui).changed() {
-        let max_memory = (gigabytes * BILLION).round() as usize;
+    let range = LEAST_MEMORY as f64 / GIGABYTE..=MOST_MEMORY;
+    let row = NumberRow::new("Memory budget", &mut gigabytes).range(range).unit("GB").help(help);
+    if row.default(usual.max_memory as f64 / GIGABYTE).show(ui).changed() {
+        let max_memory = (gigabytes * GIGABYTE).round() as usize;
         set_once(Setting::MaxMemory(max_memory), commands);
     }
     let bytes = state.session.mesh().bytes() as f64;
-    value_row(ui, "Memory in use", &format!("{} MB", format::fixed(bytes / MILLION, 1)));
+    value_row(ui, "Memory in use", &format!("{} MB", format::fixed(bytes / MEGABYTE, 1)));
 }

@@ -9,7 +9,7 @@ use crate::app::command::Command;
 use crate::app::frame::FrameState;
 use crate::app::readout::{Quantity, value_at};
 use crate::app::widgets::{CurveValues, Section, TransferCurve};
-use crate::document::Setting;
+use crate::document::{Setting, Settings};
 use crate::field::{RiskToDiameter, Transfer};
 
 /// The curve from risk to diameter.
@@ -30,7 +30,10 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
         let (document, follower) = (state.session.document(), state.session.follower());
         let risk = state.pointer.map(|point| value_at(point, document, follower, Quantity::Risk));
         let editor = TransferCurve::new(&mut shown, &curve, 1e-5 * extent..=2.0 * extent, SHAPES);
-        let editor = editor.unit(settings.unit);
+        let usual = Settings::default().transfer;
+        let defaults =
+            CurveValues { h_max: usual.h_max * extent, h_min: usual.h_min * extent, shape: usual.shape };
+        let editor = editor.unit(settings.unit).defaults(defaults);
         let response = editor.mark(risk.filter(|risk| risk.is_finite())).show(ui);
         if shown.h_max != h_max {
             commands.push(Command::Set(Setting::LargestDiameter(shown.h_max)));

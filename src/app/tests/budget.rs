@@ -103,7 +103,7 @@ fn the_budgets_are_typed_in_the_panel_and_what_is_too_small_is_told() {
     open_section(&mut window, "Mesh");
     type_into(&mut window, "Memory budget", "0.5");
     assert_eq!(settings(&window).max_memory, 500_000_000);
-    type_into(&mut window, "Triangle budget", "1.5");
+    type_into(&mut window, "Triangle budget", "1.5M");
     assert_eq!(settings(&window).max_triangles, 1_500_000);
     let count = triangles(&window);
     // Room for fewer triangles than there are.

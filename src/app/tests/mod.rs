@@ -13,6 +13,7 @@ mod gallery;
 mod keys;
 mod long_work;
 mod menus;
+mod numbers;
 mod painting;
 mod pictures;
 mod project;

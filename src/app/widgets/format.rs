@@ -1,4 +1,4 @@
-//! Numbers as the window shows them, and as users type them.
+//! Numbers as the window shows them.
 //!
 //! Digits are grouped by thousands with commas, the minus sign is `−`, and there are just enough digits.
 //! Numbers that change while they are shown keep their number of decimals ([`fixed`], [`significant`]), so
@@ -107,41 +107,10 @@ pub fn padded(text: &str, width: usize) -> String {
     format!("{text:>width$}")
 }
 
-/// The number that a user typed, or `None` if the text is no number.
-///
-/// Takes `−` and `-`, spaces and commas that group thousands, one comma as decimal sign, `1e-3`, and at the
-/// end `unit` or a unit of length that can be converted into it: `2 km` is 2000 m.
-pub fn parse(text: &str, unit: &str) -> Option<f64> {
-    let (text, factor) = split_unit(text.trim(), unit.trim())?;
-    let plain: String =
-        text.chars().filter(|c| !c.is_whitespace()).map(|c| if c == '−' { '-' } else { c }).collect();
-    let plain = if groups_thousands(&plain) { plain.replace(',', "") } else { plain.replacen(',', ".", 1) };
-    plain.parse().ok().map(|value: f64| factor * value).filter(|value| value.is_finite())
-}
-
-/// The number in front of a typed unit, and the factor from that unit to `unit`.
-fn split_unit<'a>(text: &'a str, unit: &str) -> Option<(&'a str, f64)> {
-    let number = text.trim_end_matches(|c: char| c.is_alphabetic() || c == '°');
-    let typed = &text[number.len()..];
-    if typed.is_empty() || typed == unit {
-        return Some((number, 1.0));
-    }
-    let own = LengthUnit::ALL.into_iter().find(|own| own.symbol() == unit)?;
-    Some((number, own.factor_from(typed)?))
-}
-
 /// `value` rounded to `digits` significant digits: exactly what [`significant`] shows.
 pub fn rounded(value: f64, digits: usize) -> f64 {
     let text = format!("{:.*e}", digits.max(1) - 1, value);
     text.parse().unwrap_or(value)
-}
-
-/// Whether the commas of `text` stand where thousands are grouped: `1,234,567.8`, but not `0,123`.
-fn groups_thousands(text: &str) -> bool {
-    let whole = text.trim_start_matches(['-', '+']).split('.').next().unwrap_or_default();
-    let mut groups = whole.split(',');
-    let first = groups.next().unwrap_or_default();
-    (1..=3).contains(&first.len()) && !first.starts_with('0') && groups.all(|group| group.len() == 3)
 }
 
 fn not_finite(value: f64) -> String {
@@ -204,13 +173,6 @@ mod tests {
     }
 
     #[test]
-    fn the_shown_number_is_the_rounded_value() {
-        for value in [0.0637219, 12345.678, 9.9999, 1e-9, -3.24159] {
-            assert_eq!(parse(&significant(value, 3), ""), Some(rounded(value, 3)));
-        }
-    }
-
-    #[test]
     fn decimals_follow_the_step() {
         for (step, decimals) in [(1.0, 0), (0.5, 1), (0.01, 2), (0.001, 3), (25.0, 0), (0.0, 0), (1e-30, 15)]
         {
@@ -234,29 +196,6 @@ mod tests {
             (-1.0, "–"),
         ] {
             assert_eq!(time(seconds), text);
-        }
-    }
-
-    #[test]
-    fn typed_numbers_are_understood() {
-        for (text, value) in [
-            ("37,987", 37987.0),
-            ("0,064", 0.064),
-            ("1,234.5", 1234.5),
-            ("−0.5", -0.5),
-            (" 1e-3 ", 1e-3),
-            ("12 m", 12.0),
-            ("2 km", 2000.0),
-            ("1 000", 1000.0),
-            (".5", 0.5),
-        ] {
-            assert_eq!(parse(text, " m"), Some(value), "{text}");
-        }
-        assert_eq!(parse("0.5 deg", "°"), Some(0.5));
-        assert_eq!(parse("0.5 km", "°"), None, "degrees have no fixed length");
-        assert_eq!(parse("5 m", "px"), None);
-        for text in ["", "x", "1,2,3", "inf", "nan", "--1"] {
-            assert_eq!(parse(text, ""), None, "{text}");
         }
     }
 

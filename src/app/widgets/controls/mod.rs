@@ -3,6 +3,8 @@
 mod dropdown;
 mod grab;
 mod number;
+mod number_cell;
+mod number_input;
 mod section;
 mod segmented;
 mod slider;
@@ -10,6 +12,7 @@ mod text_row;
 mod toggle;
 mod tool_button;
 mod transfer;
+mod transfer_plot;
 
 pub use dropdown::dropdown_row;
 pub use number::NumberRow;

@@ -5,7 +5,8 @@ use std::ops::RangeInclusive;
 use eframe::egui::{self, Align, Event, EventFilter, Id, Key, Rect, Response, Sense, Ui, WidgetInfo, pos2};
 use egui::accesskit::{Action, ActionData};
 
-use super::number::NumberCell;
+use super::number_cell::NumberCell;
+use super::number_input::NumberInput;
 use super::{format, paint};
 use crate::app::theme::tokens;
 
@@ -53,8 +54,8 @@ impl Scale {
 
 /// A row with a name, a slider and its number.
 ///
-/// Values are in the caller's unit. A drag sets the number that is shown; typed numbers are kept exactly,
-/// within the range. Arrow keys move by a hundredth of the track (with Shift by a tenth, Home and End to its
+/// Values are in the caller's unit. A drag sets the number that is shown; typed numbers are kept exactly.
+/// Arrow keys move by a hundredth of the track (with Shift by a tenth, Home and End to its
 /// ends), dragging with Shift is ten times finer. The response has `changed` whenever the value did;
 /// [`crate::app::widgets::edit_done`] says when a gesture is complete.
 #[must_use = "call `show`"]
@@ -65,13 +66,25 @@ pub struct SliderRow<'a> {
     logarithmic: bool,
     step: Option<f64>,
     unit: &'a str,
+    typed_range: Option<RangeInclusive<f64>>,
+    default: Option<f64>,
     help: &'a str,
 }
 
 impl<'a> SliderRow<'a> {
     /// A linear slider named `label` over `range`. The name must be unique in its section.
     pub fn new(label: &'a str, value: &'a mut f64, range: RangeInclusive<f64>) -> Self {
-        Self { label, value, range, logarithmic: false, step: None, unit: "", help: "" }
+        Self {
+            label,
+            value,
+            range,
+            logarithmic: false,
+            step: None,
+            unit: "",
+            typed_range: None,
+            default: None,
+            help: "",
+        }
     }
 
     /// Gives each factor of ten the same length. The range must be positive.
@@ -92,6 +105,18 @@ impl<'a> SliderRow<'a> {
         self
     }
 
+    /// The numbers that can be typed, where they reach beyond the track.
+    pub fn typed_range(mut self, range: RangeInclusive<f64>) -> Self {
+        self.typed_range = Some(range);
+        self
+    }
+
+    /// What a double click on track or number sets.
+    pub fn default(mut self, default: f64) -> Self {
+        self.default = Some(default);
+        self
+    }
+
     /// Shown when the pointer rests on the name.
     pub fn help(mut self, help: &'a str) -> Self {
         self.help = help;
@@ -106,15 +131,16 @@ impl<'a> SliderRow<'a> {
         let id = ui.make_persistent_id(("slider", self.label));
         let before = *self.value;
         let mut response = self.track(ui, id, columns.middle);
-        let (cell, typed) = self.number(ui, id, columns.value);
-        if let Some(typed) = typed {
-            *self.value = typed.clamp(*self.range.start(), *self.range.end());
+        let (cell, entered) = self.number(ui, id, columns.value);
+        if let Some(entered) = entered {
+            *self.value = entered;
         }
         self.declare(ui, &response);
         response |= cell;
         if *self.value != before {
             response.mark_changed();
         }
+        NumberCell::show_remark(ui, number_id(id), row, *self.value);
         response
     }
 
@@ -141,11 +167,11 @@ impl<'a> SliderRow<'a> {
         format::decimals_for(self.step.unwrap_or((self.range.end() - self.range.start()) / 100.0))
     }
 
-    fn shown(&self) -> String {
+    fn shown(&self, value: f64) -> String {
         let number = if self.logarithmic {
-            format::significant(*self.value, 3)
+            format::significant(value, 3)
         } else {
-            format::fixed(*self.value, self.decimals())
+            format::fixed(value, self.decimals())
         };
         format::with_unit(&number, self.unit)
     }
@@ -158,6 +184,9 @@ impl<'a> SliderRow<'a> {
             *self.value = self.snapped(self.scale().value(share));
         }
         self.keys(ui, &response);
+        if let Some(default) = self.default.filter(|_| response.double_clicked()) {
+            *self.value = default;
+        }
         self.paint_track(ui, &response, rect);
         response
     }
@@ -217,14 +246,22 @@ impl<'a> SliderRow<'a> {
 
     fn number(&self, ui: &mut Ui, id: Id, rect: Rect) -> (Response, Option<f64>) {
         let cell = NumberCell {
-            id: id.with("number"),
+            id: number_id(id),
             rect,
             name: &format!("{} value", self.label),
-            shown: &self.shown(),
-            exact: &self.value.to_string(),
-            unit: self.unit,
+            input: NumberInput {
+                name: self.label,
+                value: *self.value,
+                range: self.typed_range.clone().unwrap_or_else(|| self.range.clone()),
+                unit: self.unit,
+                step: self.step,
+                logarithmic: self.logarithmic,
+                default: self.default,
+                show: &|value| self.shown(value),
+            },
             align: Align::Max,
             boxed: false,
+            live: true,
         };
         cell.show(ui)
     }
@@ -235,12 +272,17 @@ impl<'a> SliderRow<'a> {
         ui.ctx().accesskit_node_builder(response.id, |node| {
             node.set_min_numeric_value(*self.range.start());
             node.set_max_numeric_value(*self.range.end());
-            node.set_value(self.shown());
+            node.set_value(self.shown(*self.value));
             node.add_action(Action::SetValue);
             node.add_action(Action::Increment);
             node.add_action(Action::Decrement);
         });
     }
+}
+
+/// The cell of the number beside a slider.
+fn number_id(slider: Id) -> Id {
+    slider.with("number")
 }
 
 /// The number that assistive technology set.

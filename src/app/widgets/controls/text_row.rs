@@ -27,13 +27,15 @@ pub struct TextRow<'a> {
     text: &'a mut String,
     hint: &'a str,
     error: Option<TextError<'a>>,
+    help: &'a str,
+    mark: Option<&'a str>,
     formula: bool,
 }
 
 impl<'a> TextRow<'a> {
     /// A field beside its name.
     pub fn new(label: &'a str, text: &'a mut String) -> Self {
-        Self { label, text, hint: "", error: None, formula: false }
+        Self { label, text, hint: "", error: None, help: "", mark: None, formula: false }
     }
 
     /// A field for a formula: monospaced, full width, below its name.
@@ -47,6 +49,18 @@ impl<'a> TextRow<'a> {
         self
     }
 
+    /// Shown when the pointer rests on the name.
+    pub fn help(mut self, help: &'a str) -> Self {
+        self.help = help;
+        self
+    }
+
+    /// A word or two about the present text, at the right of a formula's name.
+    pub fn mark(mut self, mark: Option<&'a str>) -> Self {
+        self.mark = mark;
+        self
+    }
+
     /// What is wrong with the present text.
     pub fn error(mut self, error: Option<TextError<'a>>) -> Self {
         self.error = error;
@@ -57,11 +71,12 @@ impl<'a> TextRow<'a> {
     pub fn show(mut self, ui: &mut Ui) -> Response {
         let row = paint::row(ui);
         let place = if self.formula {
-            paint::label(ui, row, self.label, "");
+            paint::label(ui, row, self.label, self.help);
+            self.paint_mark(ui, row);
             ui.allocate_space(vec2(ui.available_width(), metrics::ROW + 4.0)).1
         } else {
             let columns = paint::Columns::of(row);
-            paint::label(ui, columns.label, self.label, "");
+            paint::label(ui, columns.label, self.label, self.help);
             columns.rest
         };
         let (response, error_at) = self.field(ui, place);
@@ -109,6 +124,17 @@ impl<'a> TextRow<'a> {
         ui.painter().rect(rect, metrics::RADIUS_CONTROL, t.field, edge, StrokeKind::Inside);
     }
 
+    fn paint_mark(&self, ui: &Ui, row: Rect) {
+        let Some(mark) = self.mark else { return };
+        let t = tokens(ui);
+        let color = if self.error.is_some() { t.danger } else { t.label };
+        let galley = paint::line(ui, mark, font::caption(), color);
+        let place = row.with_min_x(row.right() - galley.size().x);
+        let response = ui.interact(place, ui.scope_id().with(("mark", self.label)), Sense::hover());
+        response.widget_info(|| WidgetInfo::labeled(Role::Status, true, mark));
+        paint::at_right(ui, place, galley);
+    }
+
     fn paint_hint(&self, ui: &Ui, rect: Rect) {
         if self.text.is_empty() {
             let font: FontId = if self.formula { font::value() } else { font::body() };
@@ -130,7 +156,8 @@ fn paint_caret(ui: &Ui, tip: Pos2, pointed: bool) {
     }
 }
 
-fn message(ui: &mut Ui, field: Rect, text: &str) {
+/// A sentence below a field that says what is wrong with its contents.
+pub(super) fn message(ui: &mut Ui, field: Rect, text: &str) {
     let color = tokens(ui).danger;
     let galley = ui.painter().layout(text.to_owned(), font::caption(), color, field.width() - 8.0);
     let height = (galley.size().y + 6.0).max(metrics::ROW - 4.0);

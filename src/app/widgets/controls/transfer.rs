@@ -3,14 +3,15 @@
 use std::ops::RangeInclusive;
 
 use eframe::egui::{
-    self, Align, Color32, CursorIcon, Id, Mesh, Pos2, Rect, Response, Sense, Shape, Stroke, StrokeKind, Ui,
-    Vec2, WidgetInfo, pos2, vec2,
+    self, Align, CursorIcon, Id, Pos2, Rect, Response, Sense, Stroke, StrokeKind, Ui, Vec2, WidgetInfo, vec2,
 };
 use egui::accesskit::Action;
 
 use super::grab;
-use super::number::NumberCell;
+use super::number_cell::NumberCell;
+use super::number_input::NumberInput;
 use super::slider::{key_steps, requested_value};
+use super::transfer_plot::{Axis, Plot, area_under};
 use super::{format, paint};
 use crate::app::theme::{font, metrics, tokens};
 use crate::text::LengthUnit;
@@ -52,6 +53,7 @@ pub struct TransferCurve<'a> {
     shapes: RangeInclusive<f64>,
     mark: Option<f64>,
     unit: LengthUnit,
+    defaults: Option<CurveValues>,
 }
 
 #[derive(Clone, Copy, PartialEq)]
@@ -62,14 +64,16 @@ enum Handle {
 }
 
 impl<'a> TransferCurve<'a> {
-    /// An editor whose diameters stay within `limits` and whose shape within `shapes`, both positive.
+    /// An editor whose handles keep the diameters within `limits` and the shape within `shapes`, both
+    /// positive. Any positive diameter can be typed.
     pub fn new(
         value: &'a mut CurveValues,
         curve: &'a dyn Fn(&CurveValues, f64) -> f64,
         limits: RangeInclusive<f64>,
         shapes: RangeInclusive<f64>,
     ) -> Self {
-        Self { value, curve, limits, shapes, mark: None, unit: LengthUnit::None }
+        let (unit, defaults) = (LengthUnit::None, None);
+        Self { value, curve, limits, shapes, mark: None, unit, defaults }
     }
 
     /// Marks a risk on the curve, such as that under the pointer on the canvas.
@@ -81,6 +85,12 @@ impl<'a> TransferCurve<'a> {
     /// The unit of the diameters.
     pub fn unit(mut self, unit: LengthUnit) -> Self {
         self.unit = unit;
+        self
+    }
+
+    /// What a double click on a handle or its number sets.
+    pub fn defaults(mut self, defaults: CurveValues) -> Self {
+        self.defaults = Some(defaults);
         self
     }
 
@@ -144,6 +154,9 @@ impl<'a> TransferCurve<'a> {
         if let Some(value) = requested_value(ui, response.id) {
             self.assign(handle, value);
         }
+        if let Some(default) = self.default_of(handle).filter(|_| response.double_clicked()) {
+            self.enter(handle, default);
+        }
         self.declare(ui, handle, &response);
         response
     }
@@ -183,6 +196,35 @@ impl<'a> TransferCurve<'a> {
             Handle::Min => self.value.h_min = value.clamp(low, high).min(self.value.h_max),
             Handle::Shape => self.value.shape = value.clamp(*self.shapes.start(), *self.shapes.end()),
         }
+    }
+
+    /// The diameters that can be typed for an end point.
+    fn typed_range(&self, handle: Handle) -> RangeInclusive<f64> {
+        match handle {
+            Handle::Max => self.value.h_min..=f64::MAX,
+            Handle::Min => f64::MIN_POSITIVE..=self.value.h_max,
+            Handle::Shape => self.shapes.clone(),
+        }
+    }
+
+    /// Sets what a handle changes to a value of [`Self::typed_range`].
+    fn enter(&mut self, handle: Handle, value: f64) {
+        let range = self.typed_range(handle);
+        let value = value.clamp(*range.start(), *range.end());
+        match handle {
+            Handle::Max => self.value.h_max = value,
+            Handle::Min => self.value.h_min = value,
+            Handle::Shape => self.value.shape = value,
+        }
+    }
+
+    fn default_of(&self, handle: Handle) -> Option<f64> {
+        let defaults = self.defaults?;
+        Some(match handle {
+            Handle::Max => defaults.h_max,
+            Handle::Shape => defaults.shape,
+            Handle::Min => defaults.h_min,
+        })
     }
 
     /// Moves a handle by the keyboard, about five per cent a step.
@@ -302,7 +344,11 @@ impl<'a> TransferCurve<'a> {
         let half = (row.width() - NUMBER_GAP) / 2.0;
         let left = row.with_max_x(row.left() + half);
         let right = row.with_min_x(row.right() - half);
-        self.number(ui, id, left, Handle::Max) | self.number(ui, id, right, Handle::Min)
+        let response = self.number(ui, id, left, Handle::Max) | self.number(ui, id, right, Handle::Min);
+        for handle in [Handle::Max, Handle::Min] {
+            NumberCell::show_remark(ui, number_id(id, handle), row, self.number_of(handle));
+        }
+        response
     }
 
     /// The name and number of an end point.
@@ -311,21 +357,34 @@ impl<'a> TransferCurve<'a> {
         let cell = rect.with_min_x(rect.left() + name.size().x + 8.0).shrink2(vec2(8.0, 0.0));
         paint::at_left(ui, rect, name);
         let cell = NumberCell {
-            id: id.with((handle.name(), "number")),
+            id: number_id(id, handle),
             rect: cell,
             name: &format!("{} value", handle.name()),
-            shown: &format::length(self.number_of(handle), self.unit),
-            exact: &self.number_of(handle).to_string(),
-            unit: self.unit.symbol(),
+            input: NumberInput {
+                name: handle.name(),
+                value: self.number_of(handle),
+                range: self.typed_range(handle),
+                unit: self.unit.symbol(),
+                step: None,
+                logarithmic: true,
+                default: self.default_of(handle),
+                show: &|value| format::length(value, self.unit),
+            },
             align: Align::Max,
             boxed: true,
+            live: true,
         };
-        let (response, typed) = cell.show(ui);
-        if let Some(typed) = typed {
-            self.assign(handle, typed);
+        let (response, entered) = cell.show(ui);
+        if let Some(entered) = entered {
+            self.enter(handle, entered);
         }
         response
     }
+}
+
+/// The cell of a handle's number.
+fn number_id(id: Id, handle: Handle) -> Id {
+    id.with((handle.name(), "number"))
 }
 
 impl Handle {
@@ -344,76 +403,6 @@ impl Handle {
             Self::Min => 1.0,
         }
     }
-}
-
-/// A logarithmic axis from 10^low to 10^high.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Axis {
-    low: i32,
-    high: i32,
-}
-
-impl Axis {
-    /// The fewest whole decades that hold both diameters.
-    fn around(h_min: f64, h_max: f64) -> Self {
-        let low = (h_min.max(1e-300).log10() + 1e-9).floor() as i32;
-        let high = (h_max.max(1e-300).log10() - 1e-9).ceil() as i32;
-        Self { low, high: high.max(low + 1) }
-    }
-
-    /// The number of decades from one number on the axis to the next.
-    fn label_every(self) -> i32 {
-        ((self.high - self.low) / 5 + 1).max(1)
-    }
-
-    fn decades(self) -> RangeInclusive<i32> {
-        self.low..=self.high
-    }
-
-    /// The place of a diameter, 0 at the bottom, 1 at the top.
-    fn share(self, diameter: f64) -> f64 {
-        let share = (diameter.log10() - f64::from(self.low)) / f64::from(self.high - self.low);
-        if share.is_finite() { share.clamp(0.0, 1.0) } else { 0.0 }
-    }
-
-    fn diameter(self, share: f64) -> f64 {
-        10_f64.powf(f64::from(self.low) + share * f64::from(self.high - self.low))
-    }
-}
-
-struct Plot {
-    rect: Rect,
-    axis: Axis,
-}
-
-impl Plot {
-    fn point(&self, risk: f64, diameter: f64) -> Pos2 {
-        let x = egui::lerp(self.rect.x_range(), risk as f32);
-        pos2(x, egui::lerp(self.rect.bottom()..=self.rect.top(), self.axis.share(diameter) as f32))
-    }
-
-    fn risk_at(&self, x: f32) -> f64 {
-        f64::from(egui::remap_clamp(x, self.rect.x_range(), 0.0..=1.0))
-    }
-
-    fn diameter_at(&self, y: f32) -> f64 {
-        self.axis.diameter(f64::from(egui::remap(y, self.rect.bottom()..=self.rect.top(), 0.0..=1.0)))
-    }
-}
-
-/// The area between a curve and the line `bottom`, fading downwards.
-fn area_under(points: &[Pos2], bottom: f32, color: Color32) -> Shape {
-    let mut mesh = Mesh::default();
-    for (i, point) in points.iter().enumerate() {
-        mesh.colored_vertex(*point, color);
-        mesh.colored_vertex(pos2(point.x, bottom), Color32::TRANSPARENT);
-        if i > 0 {
-            let last = 2 * i as u32;
-            mesh.add_triangle(last - 2, last - 1, last);
-            mesh.add_triangle(last - 1, last, last + 1);
-        }
-    }
-    Shape::mesh(mesh)
 }
 
 #[cfg(test)]
@@ -442,13 +431,5 @@ mod tests {
         curve.assign(Handle::Min, 0.5);
         curve.assign(Handle::Max, 1e-9);
         assert_eq!(value, CurveValues { h_max: 0.2, h_min: 0.2, shape: 1.0 });
-    }
-
-    #[test]
-    fn the_axis_has_whole_decades() {
-        assert_eq!(Axis::around(0.0024, 0.2), Axis { low: -3, high: 0 });
-        assert_eq!(Axis::around(0.1, 0.1), Axis { low: -1, high: 0 });
-        assert_eq!(Axis::around(0.01, 1.0), Axis { low: -2, high: 0 });
-        assert!((Axis { low: -3, high: 0 }.diameter(0.5) - 10_f64.powf(-1.5)).abs() < 1e-12);
     }
 }

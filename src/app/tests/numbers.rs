@@ -1,0 +1,197 @@
+//! Number and formula fields: typed, dragged, turned by the wheel.
+
+use eframe::egui::accesskit::Role;
+use eframe::egui::{Event, Key, Modifiers, PointerButton, Pos2, vec2};
+use egui_kittest::Harness;
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
+
+use super::{
+    TALL, Window, button_event, entries, fingerprint, key, notice, open_section, press_at, release_at, set,
+    settings, type_into, value_of, wheel, window_with,
+};
+use crate::document::{Base, Setting, Settings};
+
+/// A tall window whose frames are as short as those on a screen, so that there is time within a double click.
+fn quick_window() -> Window {
+    window_with(Harness::builder().with_size(TALL).with_step_dt(0.02))
+}
+
+fn field(window: &Window, name: &str) -> Pos2 {
+    window.get_by_role_and_label(Role::TextInput, name).rect().center()
+}
+
+/// The sentences that the window shows about what was typed.
+fn alerts(window: &Window) -> String {
+    let alerts = window.query_all_by_role(Role::Alert);
+    alerts.filter_map(|node| node.accesskit_node().label()).collect::<Vec<_>>().join(" ")
+}
+
+fn drag_number(window: &mut Window, name: &str, by: f32, modifiers: Modifiers) {
+    let at = field(window, name);
+    press_at(window, at, PointerButton::Primary, modifiers);
+    for share in [0.1, 0.5, 1.0] {
+        window.event(Event::PointerMoved(at + vec2(share * by, 0.0)));
+        window.run();
+    }
+    release_at(window, at + vec2(by, 0.0), PointerButton::Primary);
+}
+
+/// Both clicks before anything else happens.
+fn double_click(window: &mut Window, at: Pos2) {
+    window.event(Event::PointerMoved(at));
+    for pressed in [true, false, true, false] {
+        window.event(button_event(at, PointerButton::Primary, pressed, Modifiers::NONE));
+    }
+    window.run();
+}
+
+#[test]
+fn a_number_beside_a_slider_is_dragged_as_one_gesture() {
+    let mut window = quick_window();
+    open_section(&mut window, "Mesh");
+    let before = settings(&window).spacing;
+    drag_number(&mut window, "Spacing δ value", 60.0, Modifiers::NONE);
+    assert!(settings(&window).spacing > 1.5 * before, "{}", settings(&window).spacing);
+    assert_eq!(entries(&window), 1);
+    let coarse = settings(&window).spacing;
+    drag_number(&mut window, "Spacing δ value", -60.0, Modifiers::SHIFT);
+    let fine = settings(&window).spacing;
+    assert!(fine < coarse && fine > 0.9 * coarse, "Shift is ten times finer: {coarse} to {fine}");
+}
+
+#[test]
+fn a_number_in_a_field_is_dragged_and_taken_where_the_drag_ends() {
+    let mut window = quick_window();
+    open_section(&mut window, "Base field");
+    drag_number(&mut window, "Resolution", -60.0, Modifiers::NONE);
+    // The first points of a movement decide that it is a drag.
+    assert_eq!(settings(&window).resolution, 550);
+    assert_eq!(entries(&window), 1);
+}
+
+#[test]
+fn the_wheel_turns_a_number_that_the_pointer_was_moved_onto() {
+    let mut window = quick_window();
+    open_section(&mut window, "Mesh");
+    let before = settings(&window).spacing;
+    let at = field(&window, "Spacing δ value");
+    window.hover_at(at - vec2(0.0, 2.0));
+    window.run();
+    for _ in 0..3 {
+        wheel(&mut window, at, 40.0);
+    }
+    window.run_steps(40);
+    assert!((settings(&window).spacing / before - 1.41).abs() < 0.02, "{}", settings(&window).spacing);
+    assert_eq!(entries(&window), 1, "one turn is one gesture");
+}
+
+#[test]
+fn a_double_click_sets_the_default() {
+    let mut window = quick_window();
+    open_section(&mut window, "Mesh");
+    set(&mut window, Setting::Spacing(0.1));
+    let at = field(&window, "Spacing δ value");
+    double_click(&mut window, at);
+    assert_eq!(settings(&window).spacing, Settings::default().spacing);
+    set(&mut window, Setting::Spacing(0.1));
+    let track = window.get_by_role_and_label(Role::Slider, "Spacing δ").rect().center();
+    double_click(&mut window, track);
+    assert_eq!(settings(&window).spacing, Settings::default().spacing);
+}
+
+#[test]
+fn typed_multiples_are_understood() {
+    let mut window = quick_window();
+    open_section(&mut window, "Mesh");
+    type_into(&mut window, "Triangle budget", "100k");
+    assert_eq!(settings(&window).max_triangles, 100_000);
+    type_into(&mut window, "Triangle budget", "2M");
+    assert_eq!(settings(&window).max_triangles, 2_000_000);
+    type_into(&mut window, "Memory budget", "500 MB");
+    assert_eq!(settings(&window).max_memory, 500_000_000);
+    type_into(&mut window, "Spacing δ value", "5e-2");
+    assert_eq!(settings(&window).spacing, 0.05);
+    assert_eq!(alerts(&window), "");
+}
+
+#[test]
+fn a_number_out_of_range_says_what_it_was_set_to() {
+    let mut window = quick_window();
+    type_into(&mut window, "Hardness value", "3");
+    assert_eq!(window.state().tools().hardness, 1.0);
+    let alert = alerts(&window);
+    assert_eq!(alert, "3 is above the largest value, 1.00. Hardness was set to that.");
+    type_into(&mut window, "Hardness value", "0.5");
+    assert_eq!(alerts(&window), "", "the sentence goes away with its cause");
+    type_into(&mut window, "h_min value", "7");
+    assert!(alerts(&window).contains("h_min was set to that"), "{}", alerts(&window));
+}
+
+#[test]
+fn what_is_no_number_keeps_the_focus_and_the_text() {
+    let mut window = quick_window();
+    let hardness = window.state().tools().hardness;
+    type_into(&mut window, "Hardness value", "soft");
+    assert!(alerts(&window).contains("“soft” is not a number"), "{}", alerts(&window));
+    assert!(window.get_by_role_and_label(Role::TextInput, "Hardness value").is_focused());
+    assert_eq!(value_of(&window, Role::TextInput, "Hardness value"), "soft");
+    key(&mut window, Modifiers::NONE, Key::Escape);
+    assert_eq!(window.state().tools().hardness, hardness);
+    type_into(&mut window, "Size value", "1 km");
+    assert!(alerts(&window).contains("has no unit"), "{}", alerts(&window));
+}
+
+fn type_formula(window: &mut Window, text: &str) {
+    open_section(window, "Base field");
+    window.get_by_role_and_label(Role::RadioButton, "Formula").click();
+    window.run();
+    window.get_by_role_and_label(Role::TextInput, FORMULA).focus();
+    window.run();
+    key(window, Modifiers::COMMAND, Key::A);
+    window.get_by_role_and_label(Role::TextInput, FORMULA).type_text(text);
+    window.run();
+}
+
+const FORMULA: &str = "Target diameter h̄(x, y)";
+
+fn is_marked(window: &Window) -> bool {
+    window.query_by_role_and_label(Role::Status, "not applied").is_some()
+}
+
+#[test]
+fn a_formula_is_applied_once_typing_pauses() {
+    let mut window = quick_window();
+    let before = fingerprint(&window);
+    type_formula(&mut window, "0.02 + 0.1*x");
+    assert!(is_marked(&window));
+    window.run_steps(60);
+    window.run();
+    assert!(matches!(settings(&window).base, Base::Formula(_)), "without Enter");
+    assert_ne!(fingerprint(&window), before);
+    assert!(!is_marked(&window));
+    assert!(window.get_by_role_and_label(Role::TextInput, FORMULA).is_focused());
+    assert_eq!(entries(&window), 1);
+}
+
+#[test]
+fn a_formula_that_cannot_be_read_keeps_the_focus_and_is_marked() {
+    let mut window = quick_window();
+    type_formula(&mut window, "0.1 + sqr(x)");
+    key(&mut window, Modifiers::NONE, Key::Enter);
+    assert!(window.get_by_role_and_label(Role::TextInput, FORMULA).is_focused());
+    assert!(is_marked(&window));
+    assert!(alerts(&window).contains("sqr"));
+}
+
+#[test]
+fn a_refused_formula_keeps_its_text_and_is_marked() {
+    let mut window = quick_window();
+    type_formula(&mut window, "0.1 - 0.2*(x > 0.5)");
+    key(&mut window, Modifiers::NONE, Key::Enter);
+    window.run_steps(60);
+    window.run();
+    assert!(notice(&window).contains("x = 0."), "{}", notice(&window));
+    assert_eq!(value_of(&window, Role::TextInput, FORMULA), "0.1 - 0.2*(x > 0.5)");
+    assert!(is_marked(&window));
+    assert_eq!(entries(&window), 0);
+}

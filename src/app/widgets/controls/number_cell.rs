@@ -1,0 +1,286 @@
+//! A number that is typed, dragged or turned by the wheel.
+
+use eframe::egui::{
+    self, Align, Align2, Color32, CursorIcon, Id, Key, Modifiers, Rect, Response, Role, Sense, Stroke,
+    StrokeKind, Ui, WidgetInfo, vec2,
+};
+use egui::text::CCursorRange;
+
+use super::number_input::{Entered, NumberInput, PX_PER_STEP};
+use super::paint;
+use super::text_row::message;
+use crate::app::theme::{font, metrics, tokens};
+use crate::app::widgets::typed;
+
+/// Seconds after the last turn of the wheel until its value is taken, so that a turn is one gesture.
+const WHEEL_REST: f64 = 0.25;
+/// Points of a wheel event that are one step of the wheel.
+const WHEEL_PX: f32 = 40.0;
+
+/// A number within a control.
+///
+/// A click or Tab turns it into a text field; the arrow keys Up and Down change it there. Dragging it
+/// sideways changes it, with Shift ten times finer; so does the wheel after the pointer was moved onto it. A
+/// double click sets the default, if there is one. If a number could not be taken as it was typed, a sentence
+/// says so; [`Self::show_remark`] shows it below the control.
+pub(super) struct NumberCell<'a> {
+    /// Keeps the focus while the cell moves.
+    pub id: Id,
+    /// Where the number is; its background is slightly larger.
+    pub rect: Rect,
+    /// Name for tests and screen readers.
+    pub name: &'a str,
+    /// The number and what it may be.
+    pub input: NumberInput<'a>,
+    /// Left or right.
+    pub align: Align,
+    /// Whether the background is visible while the pointer is elsewhere.
+    pub boxed: bool,
+    /// Whether each movement of a drag is returned, and not only where it ends.
+    pub live: bool,
+}
+
+/// A sentence about what was typed, in egui's memory. It goes away when the value changes.
+#[derive(Clone, Debug)]
+struct Remark {
+    text: String,
+    value: f64,
+}
+
+/// A value that is being dragged or turned, in egui's memory.
+#[derive(Clone, Copy, Debug)]
+struct Moving {
+    from: f64,
+    px: f64,
+    /// When the wheel was last turned.
+    at: f64,
+}
+
+impl NumberCell<'_> {
+    /// Shows the cell, and returns the number once it was changed.
+    ///
+    /// The response covers the cell's place. While a number is dragged it has the flags of the drag; it has
+    /// none of those of the text field within, which changes with each key.
+    pub fn show(&self, ui: &mut Ui) -> (Response, Option<f64>) {
+        let around = ui.interact(self.ground(), self.id.with("cell"), Sense::hover());
+        if ui.is_enabled() && self.is_edited(ui) {
+            return (around, self.edit(ui));
+        }
+        let typed = self.finish(ui, false);
+        let (response, moved) = self.rest(ui);
+        (around | response, typed.or(moved))
+    }
+
+    /// Whether a number is being typed.
+    pub fn is_edited(&self, ui: &Ui) -> bool {
+        ui.memory(|memory| memory.has_focus(self.id))
+    }
+
+    /// Shows the sentence about what was typed last, as long as the number is still `value`.
+    pub fn show_remark(ui: &mut Ui, id: Id, place: Rect, value: f64) {
+        let id = id.with("remark");
+        let Some(remark) = ui.data(|data| data.get_temp::<Remark>(id)) else { return };
+        if remark.value == value {
+            message(ui, place, &remark.text);
+        } else {
+            ui.data_mut(|data| data.remove::<Remark>(id));
+        }
+    }
+
+    fn keep_remark(&self, ui: &Ui, remark: Option<String>, value: f64) {
+        let id = self.id.with("remark");
+        match remark {
+            Some(text) => drop(ui.data_mut(|data| data.insert_temp(id, Remark { text, value }))),
+            None => ui.data_mut(|data| data.remove::<Remark>(id)),
+        }
+    }
+
+    /// The number while it is not typed: pointer and wheel change it.
+    fn rest(&self, ui: &Ui) -> (Response, Option<f64>) {
+        let response = ui
+            .interact(self.ground(), self.id, Sense::click_and_drag())
+            .on_hover_cursor(CursorIcon::ResizeHorizontal);
+        if response.clicked() {
+            response.request_focus();
+        }
+        let id = self.id.with("moving");
+        let mut moving: Option<Moving> = ui.data(|data| data.get_temp(id));
+        let done = self.drag(ui, &response, &mut moving) | self.turn(ui, &response, &mut moving);
+        let shown = moving.map_or(self.input.value, |moving| self.input.moved(moving.from, moving.px));
+        self.paint_rest(ui, &response, shown);
+        let taken = moving.filter(|_| done || (self.live && response.dragged())).map(|_| shown);
+        match moving.filter(|_| !done) {
+            Some(moving) => drop(ui.data_mut(|data| data.insert_temp(id, moving))),
+            None => ui.data_mut(|data| data.remove::<Moving>(id)),
+        }
+        (response, taken.filter(|value| *value != self.input.value))
+    }
+
+    /// Follows a drag; returns whether it ended.
+    fn drag(&self, ui: &Ui, response: &Response, moving: &mut Option<Moving>) -> bool {
+        if response.drag_started() {
+            *moving = Some(Moving { from: self.input.value, px: 0.0, at: f64::INFINITY });
+            self.keep_remark(ui, None, 0.0);
+        }
+        if let Some(moving) = moving.as_mut().filter(|_| response.dragged()) {
+            let fine = if ui.input(|input| input.modifiers.shift) { 0.1 } else { 1.0 };
+            moving.px += fine * f64::from(response.drag_delta().x);
+        }
+        response.drag_stopped()
+    }
+
+    /// Follows the wheel; returns whether it came to rest.
+    ///
+    /// The wheel turns a number onto which the pointer was moved, not one that scrolling brought under it.
+    fn turn(&self, ui: &Ui, response: &Response, moving: &mut Option<Moving>) -> bool {
+        let aimed = self.id.with("aimed");
+        let moved_here = ui.input(|input| input.pointer.delta() != egui::Vec2::ZERO);
+        let was_aimed = ui.data(|data| data.get_temp::<bool>(aimed)).unwrap_or(false);
+        let is_aimed = response.hovered() && (was_aimed || moved_here);
+        ui.data_mut(|data| data.insert_temp(aimed, is_aimed));
+        let now = ui.input(|input| input.time);
+        if is_aimed {
+            let steps = ui.input(wheel_steps);
+            ui.input_mut(|input| input.smooth_scroll_delta = egui::Vec2::ZERO);
+            if steps != 0.0 {
+                let from = moving.unwrap_or(Moving { from: self.input.value, px: 0.0, at: now });
+                *moving = Some(Moving { px: from.px + steps * PX_PER_STEP, at: now, ..from });
+                self.keep_remark(ui, None, 0.0);
+            }
+        }
+        let turned = moving.is_some_and(|moving| moving.at.is_finite());
+        let at_rest = moving.is_some_and(|moving| !is_aimed || now - moving.at > WHEEL_REST);
+        if turned && !at_rest {
+            ui.ctx().request_repaint_after(std::time::Duration::from_secs_f64(WHEEL_REST));
+        }
+        turned && at_rest
+    }
+
+    fn paint_rest(&self, ui: &Ui, response: &Response, value: f64) {
+        let t = tokens(ui);
+        let shown = (self.input.show)(value);
+        let enabled = ui.is_enabled();
+        response.widget_info(|| WidgetInfo {
+            current_text_value: Some(shown.clone()),
+            ..WidgetInfo::labeled(Role::TextInput, enabled, self.name)
+        });
+        let fill = match (response.hovered() || response.dragged(), self.boxed) {
+            (true, _) => t.hover,
+            (false, true) => t.field,
+            (false, false) => Color32::TRANSPARENT,
+        };
+        ui.painter().rect_filled(self.ground(), metrics::RADIUS_CONTROL, fill);
+        let text = paint::elided(ui, &shown, font::value(), t.value, self.rect.width());
+        match self.align {
+            Align::Max => paint::at_right(ui, self.rect, text),
+            _ => paint::at_left(ui, self.rect, text),
+        }
+    }
+
+    /// The number while it is typed.
+    fn edit(&self, ui: &mut Ui) -> Option<f64> {
+        let kept = ui.data(|data| data.get_temp::<String>(self.id));
+        let fresh = kept.is_none();
+        let mut text = kept.unwrap_or_else(|| self.input.exact());
+        if fresh {
+            self.keep_remark(ui, None, 0.0);
+        }
+        let stepped = self.step_by_keys(ui, &mut text);
+        self.paint_edited_ground(ui, typed::number(&text, self.input.unit).is_ok());
+        let response = self.text_edit(ui, &mut text, fresh || stepped);
+        if response.changed() {
+            self.keep_remark(ui, None, 0.0);
+        }
+        let untouched = text == self.input.exact();
+        ui.data_mut(|data| data.insert_temp(self.id, text));
+        if response.double_clicked() && untouched && self.input.default.is_some() {
+            ui.data_mut(|data| data.remove::<String>(self.id));
+            response.surrender_focus();
+            return self.input.default.filter(|default| *default != self.input.value);
+        }
+        if response.lost_focus() { self.finish(ui, true) } else { None }
+    }
+
+    /// The keys Up and Down; returns whether they changed the text.
+    fn step_by_keys(&self, ui: &Ui, text: &mut String) -> bool {
+        let steps = ui.input_mut(|input| {
+            let mut count = |key| input.count_and_consume_key(Modifiers::NONE, key) as f64;
+            count(Key::ArrowUp) - count(Key::ArrowDown)
+        });
+        let Some(typed) = typed::number(text, self.input.unit).ok().filter(|_| steps != 0.0) else {
+            return false;
+        };
+        *text = self.input.moved(typed, steps * PX_PER_STEP).to_string();
+        true
+    }
+
+    fn text_edit(&self, ui: &mut Ui, text: &mut String, select_all: bool) -> Response {
+        let mut child = ui.new_child(egui::UiBuilder::new().max_rect(self.rect));
+        let edit = egui::TextEdit::singleline(text)
+            .id(self.id)
+            .font(font::value())
+            .text_color(tokens(ui).value)
+            .align(Align2([self.align, Align::Center]))
+            .frame(egui::Frame::NONE)
+            .desired_width(self.rect.width())
+            .min_size(self.rect.size());
+        let mut output = child.name_inputs(self.name, |ui| edit.show(ui));
+        if select_all {
+            output.state.cursor.set_char_range(Some(CCursorRange::select_all(&output.galley)));
+            output.state.store(ui.ctx(), self.id);
+        }
+        output.response.response
+    }
+
+    fn paint_edited_ground(&self, ui: &Ui, valid: bool) {
+        let t = tokens(ui);
+        let edge = Stroke::new(1.0, if valid { t.accent } else { t.danger });
+        ui.painter().rect(self.ground(), metrics::RADIUS_CONTROL, t.field, edge, StrokeKind::Inside);
+    }
+
+    /// Ends an edit. Returns the number that was typed, unless Escape was pressed.
+    ///
+    /// Where the text cannot be read, a sentence says so; after Enter the field keeps the focus and the text.
+    fn finish(&self, ui: &Ui, in_field: bool) -> Option<f64> {
+        let text = ui.data_mut(|data| data.remove_temp::<String>(self.id))?;
+        let pressed = |key| ui.input(|input| input.key_pressed(key));
+        if pressed(Key::Escape) || text == self.input.exact() {
+            return None;
+        }
+        match self.input.read(&text) {
+            Ok(Entered { value, remark }) => {
+                self.keep_remark(ui, remark, value);
+                Some(value).filter(|value| *value != self.input.value)
+            }
+            Err(problem) if in_field && pressed(Key::Enter) => {
+                self.keep_remark(ui, Some(problem), self.input.value);
+                ui.data_mut(|data| data.insert_temp(self.id, text));
+                ui.memory_mut(|memory| memory.request_focus(self.id));
+                None
+            }
+            Err(problem) => {
+                let kept = (self.input.show)(self.input.value);
+                let text = format!("{problem} {} is still {kept}.", self.input.name);
+                self.keep_remark(ui, Some(text), self.input.value);
+                None
+            }
+        }
+    }
+
+    fn ground(&self) -> Rect {
+        self.rect.expand2(vec2(if self.boxed { 8.0 } else { 6.0 }, 0.0))
+    }
+}
+
+/// Steps of the wheel in this frame, up positive. With Ctrl the wheel zooms.
+fn wheel_steps(input: &egui::InputState) -> f64 {
+    let steps = input.events.iter().map(|event| match event {
+        egui::Event::MouseWheel { unit, delta, modifiers, .. } if !modifiers.command => match unit {
+            egui::MouseWheelUnit::Point => delta.y / WHEEL_PX,
+            egui::MouseWheelUnit::Line => delta.y,
+            egui::MouseWheelUnit::Page => 10.0 * delta.y,
+        },
+        _ => 0.0,
+    });
+    f64::from(steps.sum::<f32>())
+}

@@ -1,0 +1,89 @@
+//! The plot of the curve from risk to diameter: its axes and the area under the curve.
+
+use std::ops::RangeInclusive;
+
+use eframe::egui::{self, Color32, Mesh, Pos2, Rect, Shape, pos2};
+
+/// A logarithmic axis from 10^low to 10^high.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Axis {
+    pub low: i32,
+    pub high: i32,
+}
+
+impl Axis {
+    /// The fewest whole decades that hold both diameters.
+    pub fn around(h_min: f64, h_max: f64) -> Self {
+        let low = (h_min.max(1e-300).log10() + 1e-9).floor() as i32;
+        let high = (h_max.max(1e-300).log10() - 1e-9).ceil() as i32;
+        Self { low, high: high.max(low + 1) }
+    }
+
+    /// The number of decades from one number on the axis to the next.
+    pub fn label_every(self) -> i32 {
+        ((self.high - self.low) / 5 + 1).max(1)
+    }
+
+    pub fn decades(self) -> RangeInclusive<i32> {
+        self.low..=self.high
+    }
+
+    /// The place of a diameter, 0 at the bottom, 1 at the top.
+    fn share(self, diameter: f64) -> f64 {
+        let share = (diameter.log10() - f64::from(self.low)) / f64::from(self.high - self.low);
+        if share.is_finite() { share.clamp(0.0, 1.0) } else { 0.0 }
+    }
+
+    fn diameter(self, share: f64) -> f64 {
+        10_f64.powf(f64::from(self.low) + share * f64::from(self.high - self.low))
+    }
+}
+
+/// The rectangle of the curve and its axis.
+pub(super) struct Plot {
+    pub rect: Rect,
+    pub axis: Axis,
+}
+
+impl Plot {
+    pub fn point(&self, risk: f64, diameter: f64) -> Pos2 {
+        let x = egui::lerp(self.rect.x_range(), risk as f32);
+        pos2(x, egui::lerp(self.rect.bottom()..=self.rect.top(), self.axis.share(diameter) as f32))
+    }
+
+    pub fn risk_at(&self, x: f32) -> f64 {
+        f64::from(egui::remap_clamp(x, self.rect.x_range(), 0.0..=1.0))
+    }
+
+    pub fn diameter_at(&self, y: f32) -> f64 {
+        self.axis.diameter(f64::from(egui::remap(y, self.rect.bottom()..=self.rect.top(), 0.0..=1.0)))
+    }
+}
+
+/// The area between a curve and the line `bottom`, fading downwards.
+pub(super) fn area_under(points: &[Pos2], bottom: f32, color: Color32) -> Shape {
+    let mut mesh = Mesh::default();
+    for (i, point) in points.iter().enumerate() {
+        mesh.colored_vertex(*point, color);
+        mesh.colored_vertex(pos2(point.x, bottom), Color32::TRANSPARENT);
+        if i > 0 {
+            let last = 2 * i as u32;
+            mesh.add_triangle(last - 2, last - 1, last);
+            mesh.add_triangle(last - 1, last, last + 1);
+        }
+    }
+    Shape::mesh(mesh)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_axis_has_whole_decades() {
+        assert_eq!(Axis::around(0.0024, 0.2), Axis { low: -3, high: 0 });
+        assert_eq!(Axis::around(0.1, 0.1), Axis { low: -1, high: 0 });
+        assert_eq!(Axis::around(0.01, 1.0), Axis { low: -2, high: 0 });
+        assert!((Axis { low: -3, high: 0 }.diameter(0.5) - 10_f64.powf(-1.5)).abs() < 1e-12);
+    }
+}
