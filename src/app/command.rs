@@ -9,7 +9,7 @@ use super::background::WorkId;
 use super::dialogs::FileRequest;
 use super::readout::Quantity;
 use super::tools::{BoundaryToolMode, DomainToolMode, PaintKind, Tool};
-use super::view::FieldOverlay;
+use super::view::{CanvasAid, FieldOverlay};
 use super::widgets::Answer;
 use crate::colormap::Colormap;
 use crate::document::{Example, Setting, Settings};
@@ -101,6 +101,12 @@ pub enum Command {
     Query(DVec2),
     /// Queries a triangle.
     QueryTriangle(TriangleId),
+    /// Opens the question for a place to go to.
+    AskPlace,
+    /// Puts a point in the middle of the canvas, and queries it.
+    GoTo(DVec2),
+    /// Puts a triangle in the middle of the canvas, large enough to be seen, and queries it.
+    GoToTriangle(TriangleId),
     /// Chooses what the inspector interpolates.
     Inspect(Quantity),
 
@@ -123,6 +129,8 @@ pub enum Command {
     Pan(DVec2),
     /// Shows or hides edges.
     ToggleEdges,
+    /// Shows or hides something on the canvas that helps to find one's way.
+    ToggleAid(CanvasAid),
     /// Chooses what is drawn over the mesh.
     SetOverlay(FieldOverlay),
     /// Chooses the colours of the levels.

@@ -190,7 +190,7 @@ impl App {
         }
         project::questions(ctx, &state, self.dialogs.asks_for_path(), commands);
         if self.dialogs.is_open() {
-            self.dialogs.show(ctx, &catalog(&state), commands);
+            self.dialogs.show(ctx, &state, commands);
         }
     }
 

@@ -7,7 +7,7 @@ use super::command::Command;
 use super::readout::Quantity;
 use crate::colormap::{Colormap, Ground, LevelColors};
 use crate::document::Settings;
-use crate::geometry::Lattice;
+use crate::geometry::{Lattice, Rect};
 use crate::mesh::{TriangleId, level_for_diameter};
 use crate::render::export::Look;
 use crate::scene::{Camera, Style};
@@ -23,11 +23,48 @@ pub enum FieldOverlay {
     Target,
 }
 
+/// Something on the canvas that helps to find one's way, and can be switched off.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CanvasAid {
+    /// Ticks with coordinates along its sides.
+    Coordinates,
+    /// The scale bar.
+    ScaleBar,
+}
+
+/// Which of them are shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct CanvasAids {
+    /// Ticks with coordinates along the sides of the canvas.
+    pub coordinates: bool,
+    /// The scale bar.
+    pub scale_bar: bool,
+}
+
+impl Default for CanvasAids {
+    fn default() -> Self {
+        Self { coordinates: true, scale_bar: true }
+    }
+}
+
+impl CanvasAids {
+    fn toggle(&mut self, aid: CanvasAid) {
+        let shown = match aid {
+            CanvasAid::Coordinates => &mut self.coordinates,
+            CanvasAid::ScaleBar => &mut self.scale_bar,
+        };
+        *shown = !*shown;
+    }
+}
+
 /// What the window shows, and how.
 #[derive(Clone, Debug)]
 pub struct View {
     /// Where the canvas looks; `None` until its size is known, and after "fit".
     pub camera: Option<Camera>,
+    /// Whether the view shows the whole domain and was not moved since: it then follows the size of the
+    /// window.
+    pub is_fitted: bool,
     /// Colours of the levels.
     pub colormap: Colormap,
     /// Dark or light.
@@ -36,6 +73,8 @@ pub struct View {
     pub edges: bool,
     /// What is drawn over the mesh.
     pub overlay: FieldOverlay,
+    /// What is drawn to find one's way on the canvas.
+    pub aids: CanvasAids,
     /// Whether the panels are shown.
     pub panels: bool,
     /// A level that is shown alone, while the pointer is on it in the legend.
@@ -52,10 +91,12 @@ impl Default for View {
     fn default() -> Self {
         Self {
             camera: None,
+            is_fitted: true,
             colormap: Colormap::Viridis,
             ground: Ground::Dark,
             edges: true,
             overlay: FieldOverlay::None,
+            aids: CanvasAids::default(),
             panels: true,
             lone_level: None,
             hovered_neighbour: None,
@@ -97,7 +138,7 @@ impl View {
     /// Runs a command about the view.
     pub fn execute(&mut self, command: Command, ctx: &Context) {
         match command {
-            Command::Fit => self.camera = None,
+            Command::Fit => self.fit(),
             Command::LookAt(point) => self.move_camera(|camera| camera.centered_on(point)),
             Command::ShowArea(area) => {
                 self.move_camera(|camera| Camera::fit(camera.lattice(), area, camera.size_px(), 0.0));
@@ -106,6 +147,7 @@ impl View {
             Command::ZoomAt(factor, px) => self.move_camera(|camera| camera.zoomed(factor, px)),
             Command::Pan(delta_px) => self.move_camera(|camera| camera.panned(delta_px)),
             Command::ToggleEdges => self.edges = !self.edges,
+            Command::ToggleAid(aid) => self.aids.toggle(aid),
             Command::SetOverlay(overlay) => self.overlay = overlay,
             Command::Colormap(map) => self.colormap = map,
             Command::ShowLevel(level) => self.lone_level = level,
@@ -117,8 +159,16 @@ impl View {
         }
     }
 
+    /// Shows the whole domain, also when the window gets another size, until the view is moved.
+    pub fn fit(&mut self) {
+        (self.camera, self.is_fitted) = (None, true);
+    }
+
     fn move_camera(&mut self, moved: impl FnOnce(Camera) -> Camera) {
-        self.camera = self.camera.map(moved);
+        let camera = self.camera.map(moved);
+        if camera != self.camera {
+            (self.camera, self.is_fitted) = (camera, false);
+        }
     }
 
     /// Chooses a theme. It shows from the next frame on.
@@ -134,20 +184,27 @@ impl View {
         (self.lone_level, self.hovered_neighbour) = (None, None);
     }
 
-    /// Resizes the camera to a canvas. Where there is no camera yet, or the domain has other bounds, it shows
-    /// the whole domain with a margin, and leaves `below_px` pixels for hints below.
+    /// Resizes the camera to a canvas. Where there is no camera yet, the domain has other bounds, or the view
+    /// was never moved, it shows the whole domain with a margin, and leaves `below_px` pixels for hints
+    /// below.
     pub fn fit_camera(&mut self, lattice: &Lattice, size_px: [u32; 2], margin_px: f64, below_px: f64) {
         let bounds = lattice.bounds();
         self.camera = Some(match self.camera {
-            Some(camera) if camera.lattice().bounds() == bounds => {
+            Some(camera) if self.keeps(&camera, bounds, size_px) => {
                 camera.resized(size_px).on_lattice(lattice)
             }
             _ => {
+                self.is_fitted = true;
                 let above_hint = [size_px[0], size_px[1].saturating_sub(below_px as u32)];
                 let fitted = Camera::fit(lattice, bounds, above_hint, margin_px);
                 fitted.resized(size_px).panned(DVec2::new(0.0, -0.5 * below_px))
             }
         });
+    }
+
+    /// Whether a camera stays where it is when the canvas gets a size.
+    fn keeps(&self, camera: &Camera, bounds: Rect, size_px: [u32; 2]) -> bool {
+        camera.lattice().bounds() == bounds && (!self.is_fitted || camera.size_px() == size_px)
     }
 
     /// Takes up the ground of the theme that is shown.
@@ -162,11 +219,17 @@ impl View {
 
     /// Puts a point of the world in the middle, where it is out of sight.
     pub fn reveal(&mut self, point: DVec2) {
-        if let Some(camera) = &mut self.camera
-            && !camera.visible_world().contains(point)
-        {
-            *camera = camera.centered_on(point);
+        if self.camera.is_some_and(|camera| !camera.visible_world().contains(point)) {
+            self.move_camera(|camera| camera.centered_on(point));
         }
+    }
+
+    /// Puts a point of the world in the middle, and zooms in until a length is at least `px` long there.
+    pub fn go_to(&mut self, point: DVec2, length: f64, px: f64) {
+        self.move_camera(|camera| {
+            let factor = (px / (length * camera.px_per_world())).max(1.0);
+            camera.centered_on(point).zoomed(factor, camera.half_size_px())
+        });
     }
 }
 

@@ -2,7 +2,7 @@
 
 use eframe::egui::{Align2, Rect, Response, Ui, UiBuilder, pos2, vec2};
 
-use super::Canvas;
+use super::{Canvas, coordinates, way_back};
 use crate::app::background::Row;
 use crate::app::command::Command;
 use crate::app::frame::FrameState;
@@ -25,7 +25,16 @@ impl Canvas {
         let hints = state.tools.hint();
         // In a small window only one of them fits.
         if !hints.is_empty() && places.is_empty() && state.session.notices().shown().is_none() {
-            hint_pill(ui, inner.left_bottom(), Align2::LEFT_BOTTOM, inner, hints);
+            let room = if state.view.aids.scale_bar { coordinates::BAR_ROOM } else { 0.0 };
+            let bounds = inner.with_max_x(inner.right() - room);
+            hint_pill(ui, inner.left_bottom(), Align2::LEFT_BOTTOM, bounds, hints);
+        }
+        if let Some(camera) = state.view.camera {
+            // Where work is shown there is no room for it.
+            if state.view.aids.scale_bar && places.is_empty() {
+                coordinates::show_scale_bar(ui, inner, &camera, state.unit());
+            }
+            places.extend(way_back::show(ui, inner, state, &camera, commands));
         }
         places.extend(draw_notice(ui, inner, state.session, commands));
         places

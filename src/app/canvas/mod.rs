@@ -1,10 +1,12 @@
 //! The canvas: the mesh, what is drawn over it, and gestures of the pointer on it.
 
+mod coordinates;
 mod floats;
 mod gpu;
 pub mod marks;
 mod overlay;
 mod price;
+mod way_back;
 
 use eframe::egui::{self, Context, CursorIcon, Event, Id, Key, PointerButton, Rect, Response, Sense, Ui};
 use glam::DVec2;
@@ -281,6 +283,9 @@ impl Canvas {
         let Some(camera) = state.view.camera else { return };
         let (rect, px_per_point) = (response.rect, ui.pixels_per_point());
         let painter = ui.painter_at(rect);
+        if state.view.aids.coordinates {
+            coordinates::paint_frame(ui, rect, &camera, state.unit());
+        }
         let highlights = self.highlights(state);
         marks::paint_highlights(
             &painter,

@@ -5,7 +5,7 @@ use eframe::egui::{Key, Modifiers, ThemePreference};
 use super::{CatalogItem, Menu};
 use crate::app::command::Command;
 use crate::app::frame::FrameState;
-use crate::app::view::FieldOverlay;
+use crate::app::view::{CanvasAid, FieldOverlay};
 use crate::colormap::Colormap;
 
 /// What is shown.
@@ -18,6 +18,7 @@ pub fn view(state: &FrameState<'_>) -> Vec<CatalogItem> {
         let next = if shown { FieldOverlay::None } else { overlay };
         CatalogItem::new(View, title, Command::SetOverlay(next)).checked(shown)
     };
+    let aid = |title: &str, aid| CatalogItem::new(View, title, Command::ToggleAid(aid));
     let theme = |title: &str, theme| {
         CatalogItem::new(View, title, Command::Theme(theme)).checked(view.theme == theme)
     };
@@ -25,7 +26,10 @@ pub fn view(state: &FrameState<'_>) -> Vec<CatalogItem> {
         CatalogItem::new(View, "Fit domain", Command::Fit).key(Key::Home),
         CatalogItem::new(View, "Zoom in", Command::Zoom(1.5)).key(Key::Plus),
         CatalogItem::new(View, "Zoom out", Command::Zoom(1.0 / 1.5)).key(Key::Minus),
+        CatalogItem::new(View, "Go to…", Command::AskPlace).ctrl(Key::G),
         CatalogItem::new(View, "Edges", Command::ToggleEdges).key(Key::G).checked(view.edges).group(),
+        aid("Coordinates along the canvas", CanvasAid::Coordinates).checked(view.aids.coordinates),
+        aid("Scale bar", CanvasAid::ScaleBar).checked(view.aids.scale_bar),
         overlay("No overlay", FieldOverlay::None).group(),
         overlay("Overlay risk", FieldOverlay::Risk).key(Key::O),
         overlay("Overlay target", FieldOverlay::Target).keys(Modifiers::SHIFT, Key::O),

@@ -1,5 +1,6 @@
-//! The dialogs: the command palette, the question for a path, About.
+//! The dialogs: the command palette, the questions for a path and for a place, About.
 
+mod go_to;
 mod path;
 mod request;
 mod system;
@@ -10,8 +11,9 @@ use std::thread;
 
 use eframe::egui::Context;
 
-use super::catalog::{CatalogItem, shortcut_text};
+use super::catalog::{CatalogItem, catalog, shortcut_text};
 use super::command::Command;
+use super::frame::FrameState;
 use super::widgets::{self, ActionButton, PaletteAnswer, PaletteItem, dialog, dialog_title};
 pub use request::FileRequest;
 
@@ -22,6 +24,8 @@ pub enum Dialog {
     Palette,
     /// What the program is.
     About,
+    /// The question for a place on the canvas.
+    GoTo,
     /// The question for a path.
     Path(FileRequest),
 }
@@ -82,10 +86,11 @@ impl Dialogs {
     }
 
     /// Shows the open dialog.
-    pub fn show(&self, ctx: &Context, catalog: &[CatalogItem], commands: &mut Vec<Command>) {
+    pub fn show(&self, ctx: &Context, state: &FrameState<'_>, commands: &mut Vec<Command>) {
         match self.open {
-            Some(Dialog::Palette) => palette(ctx, catalog, commands),
+            Some(Dialog::Palette) => palette(ctx, &catalog(state), commands),
             Some(Dialog::About) => about(ctx, commands),
+            Some(Dialog::GoTo) => go_to::ask(ctx, state, commands),
             Some(Dialog::Path(request)) => path::ask(ctx, request, commands),
             None => {}
         }

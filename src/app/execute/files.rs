@@ -75,7 +75,7 @@ impl App {
         let settings = self.session.document().settings();
         let extent = settings.domain.bounds.size().max_element();
         self.tools.fit_to(extent, settings.transfer.h_min);
-        self.view.camera = None;
+        self.view.fit();
     }
 
     fn cancel_work(&mut self, id: WorkId) {

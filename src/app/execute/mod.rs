@@ -9,8 +9,12 @@ use glam::DVec2;
 
 use super::App;
 use super::command::Command;
+use super::dialogs::Dialog;
 use super::tools::{BRUSH, QUERY};
 use crate::mesh::TriangleId;
+
+/// A triangle that was asked for is shown at least so large, in pixels.
+const TRIANGLE_PX: f64 = 60.0;
 
 impl App {
     /// Runs one command.
@@ -40,6 +44,12 @@ impl App {
             Command::Report(failure) => self.session.report(failure),
             Command::Query(point) => self.query(point),
             Command::QueryTriangle(id) => self.query_triangle(id),
+            Command::AskPlace => self.dialogs.open(Dialog::GoTo),
+            Command::GoTo(point) => {
+                self.session.query(Some(point));
+                self.view.execute(Command::LookAt(point), ctx);
+            }
+            Command::GoToTriangle(id) => self.go_to_triangle(id),
 
             Command::BeginStroke(point) => self.begin_stroke(point),
             Command::DrawTo(point) => self.draw_to(point),
@@ -88,5 +98,12 @@ impl App {
         let middle = (a + b + c) / 3.0;
         self.session.query(Some(middle));
         self.view.reveal(middle);
+    }
+
+    fn go_to_triangle(&mut self, id: TriangleId) {
+        let [a, b, c] = self.session.view().world_corners(id);
+        let middle = (a + b + c) / 3.0;
+        self.session.query(Some(middle));
+        self.view.go_to(middle, self.session.view().diameter(id), TRIANGLE_PX);
     }
 }

@@ -5,7 +5,7 @@ use eframe::egui::{ThemePreference, Ui};
 use super::Panel;
 use crate::app::command::Command;
 use crate::app::frame::FrameState;
-use crate::app::view::FieldOverlay;
+use crate::app::view::{CanvasAid, FieldOverlay};
 use crate::app::widgets::{Section, dropdown_row, segmented, toggle_row};
 use crate::colormap::Colormap;
 
@@ -18,6 +18,14 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
         let mut edges = view.edges;
         if toggle_row(ui, "Edges", &mut edges).changed() {
             commands.push(Command::ToggleEdges);
+        }
+        for (name, aid, mut shown) in [
+            ("Coordinates", CanvasAid::Coordinates, view.aids.coordinates),
+            ("Scale bar", CanvasAid::ScaleBar, view.aids.scale_bar),
+        ] {
+            if toggle_row(ui, name, &mut shown).changed() {
+                commands.push(Command::ToggleAid(aid));
+            }
         }
         let mut map = view.colormap;
         if dropdown_row(ui, "Colours", &mut map, &Colormap::ALL.map(|map| (map, map.name()))).changed() {

@@ -14,6 +14,7 @@ mod keys;
 mod long_work;
 mod menus;
 mod numbers;
+mod orientation;
 mod painting;
 mod pictures;
 mod project;

@@ -10,7 +10,7 @@ mod display;
 mod floating;
 pub mod format;
 mod paint;
-mod typed;
+pub mod typed;
 
 pub use controls::*;
 pub use display::*;

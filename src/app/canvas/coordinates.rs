@@ -1,0 +1,201 @@
+//! The coordinate frame along two sides of the canvas, and the scale bar.
+
+use eframe::egui::{Align2, Pos2, Rect, Role, Sense, Stroke, Ui, Vec2, WidgetInfo, pos2, vec2};
+
+use crate::app::theme::{font, tokens};
+use crate::app::widgets::{format, paint_floating};
+use crate::scene::Camera;
+use crate::text::LengthUnit;
+
+/// Width that the scale bar and its distance from other things take, in points.
+pub const BAR_ROOM: f32 = LONGEST_BAR + 2.0 * BAR_MARGIN.x + 8.0;
+/// Least space between two labels, in points.
+const LABEL_GAP: f32 = 28.0;
+/// Least space between two labelled ticks, in points.
+const TICK_GAP: f32 = 88.0;
+/// Lengths of labelled ticks and of those between them, in points.
+const TICKS: [f32; 2] = [7.0, 4.0];
+/// Greatest length of the scale bar, in points.
+const LONGEST_BAR: f32 = 132.0;
+/// Space around the scale bar in its box, in points.
+const BAR_MARGIN: Vec2 = vec2(10.0, 7.0);
+/// Kilometres of one degree of latitude, on the sphere with the area of the Earth.
+const KM_PER_DEGREE: f64 = 111.195;
+
+/// The largest of 1, 2 and 5 times a power of ten that is at most `limit`, which is positive.
+fn round_length(limit: f64) -> f64 {
+    let decade = 10_f64.powf(limit.log10().floor());
+    // The logarithm may be rounded up to the next decade.
+    let decade = if decade > limit { decade / 10.0 } else { decade };
+    let factor = [5.0, 2.0].into_iter().find(|factor| factor * decade <= limit * (1.0 + 1e-12));
+    factor.unwrap_or(1.0) * decade
+}
+
+/// The smallest of 1, 2 and 5 times a power of ten that is at least `limit`, and into how many parts smaller
+/// ticks divide it.
+fn tick_step(limit: f64) -> (f64, u32) {
+    let below = round_length(limit);
+    let leading = below / 10_f64.powf(below.log10().floor());
+    let step = match leading.round() as u32 {
+        _ if below >= limit * (1.0 - 1e-12) => below,
+        1 => 2.0 * below,
+        2 => 2.5 * below,
+        _ => 2.0 * below,
+    };
+    let leading = step / 10_f64.powf((step.log10() + 1e-9).floor());
+    (step, if leading.round() as u32 == 2 { 4 } else { 5 })
+}
+
+/// A side of the canvas with ticks.
+#[derive(Clone, Copy)]
+enum Side {
+    Top,
+    Left,
+}
+
+/// Ticks with labels along the upper and the left side of the canvas. They take no clicks.
+pub fn paint_frame(ui: &Ui, rect: Rect, camera: &Camera, unit: LengthUnit) {
+    let per_point = f64::from(ui.pixels_per_point()) / camera.px_per_world();
+    let visible = camera.visible_world();
+    for (side, from, to) in
+        [(Side::Top, visible.min.x, visible.max.x), (Side::Left, visible.min.y, visible.max.y)]
+    {
+        let widest = [from, to].map(|end| label_size(ui, &label(end, per_point * 64.0, unit)).x);
+        let room = match side {
+            Side::Top => (widest[0].max(widest[1]) + LABEL_GAP).max(TICK_GAP),
+            Side::Left => TICK_GAP,
+        };
+        let (step, parts) = tick_step(f64::from(room) * per_point);
+        paint_side(ui, rect, side, [from, to], Ticks { step, parts, unit });
+    }
+}
+
+struct Ticks {
+    step: f64,
+    parts: u32,
+    unit: LengthUnit,
+}
+
+fn paint_side(ui: &Ui, rect: Rect, side: Side, [from, to]: [f64; 2], ticks: Ticks) {
+    let minor = ticks.step / f64::from(ticks.parts);
+    let (first, last) = ((from / minor).ceil() as i64, (to / minor).floor() as i64);
+    // At the deepest zoom coordinates can be too coarse for ticks.
+    if last - first > 10_000 {
+        return;
+    }
+    let t = tokens(ui);
+    for number in first..=last {
+        let value = number as f64 * minor;
+        let share = ((value - from) / (to - from)) as f32;
+        let major = number % i64::from(ticks.parts) == 0;
+        let length = TICKS[usize::from(!major)];
+        let (start, end) = match side {
+            Side::Top => (pos2(rect.left() + share * rect.width(), rect.top()), vec2(0.0, length)),
+            Side::Left => (pos2(rect.left(), rect.bottom() - share * rect.height()), vec2(length, 0.0)),
+        };
+        // On a ground of the canvas's colour, ticks are visible on any mesh.
+        ui.painter().line_segment([start, start + end], Stroke::new(3.0, t.canvas.gamma_multiply(0.6)));
+        ui.painter().line_segment([start, start + end], Stroke::new(1.0, t.faint));
+        if major {
+            let text = label(value, ticks.step, ticks.unit);
+            let (anchor, align) = match side {
+                Side::Top => (start + vec2(0.0, length + 1.0), Align2::CENTER_TOP),
+                Side::Left => (start + vec2(length + 3.0, 0.0), Align2::LEFT_CENTER),
+            };
+            paint_label(ui, rect, anchor, align, &text);
+        }
+    }
+}
+
+/// A coordinate with the digits that tell labels apart.
+fn label(value: f64, step: f64, unit: LengthUnit) -> String {
+    unit.after(&format::fixed(value, format::decimals_for(step)))
+}
+
+fn label_size(ui: &Ui, text: &str) -> Vec2 {
+    ui.painter().layout_no_wrap(text.to_owned(), font::axis(), tokens(ui).faint).size()
+}
+
+fn paint_label(ui: &Ui, rect: Rect, anchor: Pos2, align: Align2, text: &str) {
+    let t = tokens(ui);
+    let place = align.anchor_size(anchor, label_size(ui, text));
+    // A label that the other side's labels or the edge of the canvas would cut is left out.
+    let corner = Rect::from_min_size(rect.min, vec2(44.0, 22.0));
+    if !rect.contains_rect(place) || corner.intersects(place) {
+        return;
+    }
+    ui.painter().rect_filled(place.expand2(vec2(3.0, 0.0)), 3.0, t.canvas.gamma_multiply(0.72));
+    ui.painter().text(place.min, Align2::LEFT_TOP, text, font::axis(), t.label);
+}
+
+/// A bar of a round length in the lower right corner of `inner`. It takes no clicks.
+pub fn show_scale_bar(ui: &Ui, inner: Rect, camera: &Camera, unit: LengthUnit) {
+    let px_per_point = f64::from(ui.pixels_per_point());
+    let points_per_world = camera.px_per_world() / px_per_point;
+    let length = round_length(f64::from(LONGEST_BAR) / points_per_world);
+    let latitude = camera.visible_world().center().y;
+    let text = bar_text(length, unit, latitude);
+    let t = tokens(ui);
+    let text_size = ui.painter().layout_no_wrap(text.clone(), font::small_value(), t.label).size();
+    let bar = (length * points_per_world) as f32;
+    let size = vec2(bar.max(text_size.x), text_size.y + 8.0) + 2.0 * BAR_MARGIN;
+    let place = Rect::from_min_size(inner.right_bottom() - size, size);
+    let response = ui.interact(place, ui.scope_id().with("scale bar"), Sense::hover());
+    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("Scale: {text}")));
+    paint_floating(ui, place);
+    let within = place.shrink2(BAR_MARGIN);
+    ui.painter().text(within.left_top(), Align2::LEFT_TOP, &text, font::small_value(), t.value);
+    let (left, right, y) = (within.left(), within.left() + bar, within.bottom() - 2.0);
+    let stroke = Stroke::new(1.5, t.value);
+    ui.painter().hline(left..=right, y, stroke);
+    for x in [left, right] {
+        ui.painter().vline(x, y - 4.0..=y, stroke);
+    }
+}
+
+/// A length, and for degrees about how many kilometres it is along a parallel at a latitude.
+fn bar_text(length: f64, unit: LengthUnit, latitude: f64) -> String {
+    let text = format::length(length, unit);
+    if unit != LengthUnit::Degree || latitude.abs() > 89.0 {
+        return text;
+    }
+    let km = length * KM_PER_DEGREE * latitude.to_radians().cos();
+    let ground = if km < 1.0 {
+        format::length(format::rounded(1000.0 * km, 2), LengthUnit::Metre)
+    } else {
+        format::length(format::rounded(km, 2), LengthUnit::Kilometre)
+    };
+    format!("{text} ≈ {ground}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lengths_are_one_two_or_five() {
+        for (limit, length) in
+            [(1.0, 1.0), (1.9, 1.0), (2.0, 2.0), (4.99, 2.0), (731.0, 500.0), (0.099, 0.05)]
+        {
+            assert!((round_length(limit) / length - 1.0).abs() < 1e-12, "{limit}");
+        }
+    }
+
+    #[test]
+    fn ticks_are_no_closer_than_asked() {
+        for (limit, step, parts) in
+            [(1.0, 1.0, 5), (1.1, 2.0, 4), (2.1, 5.0, 5), (5.5, 10.0, 5), (0.03, 0.05, 5)]
+        {
+            let (found, divided) = tick_step(limit);
+            assert!((found / step - 1.0).abs() < 1e-9, "{limit}: {found}");
+            assert_eq!(divided, parts, "{limit}");
+        }
+    }
+
+    #[test]
+    fn a_degree_is_also_given_in_kilometres_at_the_latitude() {
+        assert_eq!(bar_text(1.0, LengthUnit::Degree, 0.0), "1° ≈ 110 km");
+        assert_eq!(bar_text(0.001, LengthUnit::Degree, 60.0), "0.001° ≈ 56 m");
+        assert_eq!(bar_text(2.0, LengthUnit::Kilometre, 60.0), "2 km");
+    }
+}

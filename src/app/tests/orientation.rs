@@ -1,0 +1,124 @@
+//! Finding one's way on the canvas: scale bar, coordinates, going to a place, the way back.
+
+use eframe::egui::accesskit::Role;
+use eframe::egui::{Key, Modifiers, vec2};
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use glam::dvec2;
+
+use super::{Window, choose, key, send, set, settings, triangles, type_into, wheel, window};
+use crate::app::command::Command;
+use crate::app::view::CanvasAid;
+use crate::document::{Example, Setting};
+use crate::domain::Domain;
+use crate::text::LengthUnit;
+
+/// What the scale bar says.
+fn scale(window: &Window) -> Option<String> {
+    let mut labels = window.query_all_by_role(Role::Label).filter_map(|node| node.accesskit_node().value());
+    labels.find_map(|label| label.strip_prefix("Scale: ").map(str::to_owned))
+}
+
+fn ask_for_place(window: &mut Window, text: &str) {
+    key(window, Modifiers::COMMAND, Key::G);
+    type_into(window, "Place", text);
+}
+
+#[test]
+fn the_scale_bar_has_a_round_length_with_the_unit() {
+    let mut window = window();
+    send(&mut window, Command::OpenExample(Example::Aegean));
+    let degrees = scale(&window).unwrap();
+    assert!(degrees.contains("° ≈ ") && degrees.ends_with(" km"), "{degrees}");
+    send(&mut window, Command::OpenExample(Example::Threats));
+    assert_eq!(scale(&window).as_deref(), Some("0.1"));
+    set(&mut window, Setting::LengthUnit(LengthUnit::Kilometre));
+    assert_eq!(scale(&window).as_deref(), Some("0.1 km"));
+    send(&mut window, Command::Zoom(4.0));
+    assert_eq!(scale(&window).as_deref(), Some("0.02 km"));
+    choose(&mut window, "View", "Scale bar");
+    assert_eq!(scale(&window), None);
+}
+
+#[test]
+fn coordinates_along_the_canvas_are_switched_off_in_the_menu() {
+    let mut window = window();
+    assert!(window.state().view().aids.coordinates);
+    choose(&mut window, "View", "Coordinates along the canvas");
+    assert!(!window.state().view().aids.coordinates);
+    send(&mut window, Command::ToggleAid(CanvasAid::Coordinates));
+    assert!(window.state().view().aids.coordinates);
+}
+
+#[test]
+fn a_point_and_a_triangle_are_gone_to_by_their_numbers() {
+    let mut window = window();
+    ask_for_place(&mut window, "0.25, 0.75");
+    let camera = window.state().view().camera.unwrap();
+    assert!(camera.visible_world().center().distance(dvec2(0.25, 0.75)) < 1e-9);
+    let queried = window.state().session().readout(window.state().view().quantity).unwrap();
+    assert_eq!(queried.point, dvec2(0.25, 0.75));
+
+    let last = triangles(&window) - 1;
+    ask_for_place(&mut window, &last.to_string());
+    let readout = window.state().session().readout(window.state().view().quantity).unwrap();
+    assert_eq!(readout.location.triangle().map(|id| id.index()), Some(last));
+    let camera = window.state().view().camera.unwrap();
+    let diameter = readout.triangle.unwrap().diameter;
+    assert!(diameter * camera.px_per_world() >= 59.0, "it is large enough to be seen");
+}
+
+#[test]
+fn a_place_that_does_not_exist_keeps_the_question_open() {
+    let mut window = window();
+    let camera = window.state().view().camera;
+    ask_for_place(&mut window, "5, 5");
+    assert!(window.query_by_label_contains("x is 0 to 1, and y is 0 to 1").is_some());
+    type_into(&mut window, "Place", "99,999,999");
+    assert!(window.query_by_label_contains("There is no such triangle").is_some());
+    assert_eq!(window.state().view().camera, camera);
+    key(&mut window, Modifiers::NONE, Key::Escape);
+    assert!(window.query_by_role_and_label(Role::TextInput, "Place").is_none());
+}
+
+#[test]
+fn an_arrow_leads_back_to_the_mesh_when_none_of_it_is_in_view() {
+    let mut window = window();
+    let square =
+        |low: f64, high: f64| vec![dvec2(low, low), dvec2(high, low), dvec2(high, high), dvec2(low, high)];
+    let frame = Domain::of_polygons(&[vec![square(0.0, 1.0), square(0.1, 0.9)]]).unwrap();
+    set(&mut window, Setting::Domain(frame));
+    let back = |window: &Window| window.query_by_role_and_label(Role::Button, "Back to the mesh").is_some();
+    assert!(!back(&window));
+    send(&mut window, Command::LookAt(dvec2(0.5, 0.5)));
+    send(&mut window, Command::Zoom(6.0));
+    assert!(back(&window));
+    window.get_by_role_and_label(Role::Button, "Back to the mesh").click();
+    window.run();
+    assert!(!back(&window));
+    let bounds = settings(&window).domain.bounds;
+    let seen = window.state().view().camera.unwrap().visible_world();
+    assert!(seen.contains(bounds.min) && seen.contains(bounds.max));
+}
+
+#[test]
+fn the_view_is_fitted_to_the_window_until_it_is_moved() {
+    let mut window = window();
+    let scale = |window: &Window| window.state().view().camera.unwrap().px_per_world();
+    let at_first = scale(&window);
+    window.set_size(vec2(1000.0, 640.0));
+    window.run();
+    assert!(scale(&window) < 0.8 * at_first);
+    window.set_size(vec2(1440.0, 900.0));
+    window.run();
+    assert_eq!(scale(&window), at_first);
+    let at = super::canvas(&window).center();
+    wheel(&mut window, at, 20.0);
+    let moved = scale(&window);
+    window.set_size(vec2(1000.0, 640.0));
+    window.run();
+    assert_eq!(scale(&window), moved, "a view that was moved stays");
+    key(&mut window, Modifiers::NONE, Key::Home);
+    window.set_size(vec2(1440.0, 900.0));
+    window.run();
+    assert_eq!(scale(&window), at_first, "after Home it follows again");
+}
