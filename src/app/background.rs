@@ -10,7 +10,6 @@ use eframe::egui::Context;
 
 use super::busy::Busy;
 use super::command::Command;
-use crate::document::Document;
 use crate::io::{self, Meter};
 
 /// How often an otherwise idle window shows the progress of work.
@@ -20,24 +19,19 @@ const LAST_WAIT: Duration = Duration::from_secs(5);
 
 /// What a piece of work came to. `execute::finish` applies it to the window.
 pub enum Outcome {
-    /// Commands to run.
-    Commands(Vec<Command>),
-    /// Something to tell the user.
-    News(String),
-    /// A file was not read. Edits that would have been lost for it are still there, and are asked about
-    /// again.
-    NotRead(String),
-    /// A file was not written. A window that was about to close stays open, so that the message is seen.
-    NotWritten(String),
-    /// A project was read.
-    Opened {
+    /// A file was read.
+    Read {
         /// Where it is.
         path: PathBuf,
-        /// What is in it.
-        document: Box<Document>,
-        /// The version of the document that it replaces.
-        replaces: u64,
+        /// What to do with its content.
+        commands: Vec<Command>,
     },
+    /// A file was not read.
+    NotRead(String),
+    /// An export ended, as it should or cancelled: a sentence about it.
+    Exported(String),
+    /// A file was not written. A window that was about to close stays open, so that the message is seen.
+    NotWritten(String),
     /// This version of the document was saved.
     Saved {
         /// Where to.
@@ -96,6 +90,8 @@ struct Work {
 /// The progress of one piece of work, as it is shown.
 pub struct Row {
     pub id: WorkId,
+    /// Whether it is read.
+    pub reads: bool,
     /// `Reading coast.geojson`.
     pub what: String,
     pub meter: Meter,
@@ -187,7 +183,12 @@ impl Background {
         let shown = self.works.iter().filter(|work| all || work.busy.is_long());
         let row = |work: &Work| {
             let doing = if work.meter.is_cancelled() { "Cancelling" } else { work.aim.doing() };
-            Row { id: work.id, what: format!("{doing} {}", work.name), meter: work.meter.clone() }
+            Row {
+                id: work.id,
+                reads: work.aim == Aim::Read,
+                what: format!("{doing} {}", work.name),
+                meter: work.meter.clone(),
+            }
         };
         shown.map(row).collect()
     }

@@ -1,6 +1,7 @@
 //! Everything that can be done, as data: menus, keys, panels, the palette and tests send the same commands.
 
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use eframe::egui::ThemePreference;
 use glam::DVec2;
@@ -12,7 +13,7 @@ use super::tools::{BoundaryToolMode, DomainToolMode, PaintKind, Tool};
 use super::view::{CanvasAid, FieldOverlay};
 use super::widgets::Answer;
 use crate::colormap::Colormap;
-use crate::document::{Example, Setting, Settings};
+use crate::document::{Document, Example, Setting};
 use crate::domain::CutShape;
 use crate::geometry::Rect;
 use crate::mesh::TriangleId;
@@ -24,20 +25,18 @@ pub enum Command {
     New,
     /// Opens one of the documents that come with the program.
     OpenExample(Example),
-    /// Asks for the path of a file.
+    /// Asks for a file.
     Ask(FileRequest),
-    /// Asks for it in the desktop's own dialog.
-    Browse(FileRequest),
     /// Opens a file; its ending says what it is.
     Open(PathBuf),
-    /// Opens a project in place of the document.
+    /// Reads a project, and opens it in place of the document.
     OpenProject(PathBuf),
     /// Reads a greyscale picture as the base field's risk.
     OpenImage(PathBuf),
-    /// Opens a file of polygons as a new document's domain.
+    /// Reads polygons, and opens a new document with them as its domain.
     OpenDomain(PathBuf),
-    /// Opens a document with these settings and no paint.
-    NewWith(Box<Settings>),
+    /// Opens a document that was read.
+    Show(Opened),
     /// Saves the document to its file, or asks where.
     Save,
     /// Saves it to a file, and asks before another one is replaced.
@@ -160,6 +159,21 @@ pub enum Command {
     AnswerRecovery(Answer),
     /// Shows a failure.
     Report(String),
+}
+
+/// A document that was read and not shown yet.
+#[derive(Clone, Debug)]
+pub struct Opened {
+    /// What was read.
+    pub document: Arc<Document>,
+    /// The project file that it belongs to, if it is from one.
+    pub home: Option<PathBuf>,
+}
+
+impl PartialEq for Opened {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.document, &other.document) && self.home == other.home
+    }
 }
 
 /// What the boundary tool does.

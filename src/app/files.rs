@@ -7,7 +7,7 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::background::{Aim, Background, Outcome, cancelled, name_of};
-use super::command::Command;
+use super::command::{Command, Opened};
 use super::session::Session;
 use super::view::View;
 use super::widgets::format;
@@ -56,7 +56,8 @@ pub fn load_image(session: &Session, background: &mut Background, path: &Path) {
         match io::png::read_metered(&file, bounds, Behind::Black, meter) {
             Ok(raster) => {
                 let base = Base::RiskImage { name: name_of(&file), raster: Arc::new(raster) };
-                Outcome::Commands(vec![Command::Set(Setting::Base(base)), Command::EndGesture])
+                let commands = vec![Command::Set(Setting::Base(base)), Command::EndGesture];
+                Outcome::Read { path: file, commands }
             }
             Err(error) => Outcome::not_read(error),
         }
@@ -67,21 +68,29 @@ pub fn load_image(session: &Session, background: &mut Background, path: &Path) {
 pub fn load_domain(background: &mut Background, path: &Path) {
     let file = path.to_owned();
     background.start(Aim::Read, path, move |meter| match domain_of(&file, meter) {
-        Ok(settings) => Outcome::Commands(vec![Command::NewWith(Box::new(settings))]),
+        Ok(document) => {
+            let opened = Opened { document: Arc::new(document), home: None };
+            Outcome::Read { path: file, commands: vec![Command::Show(opened)] }
+        }
         Err(problem) => Outcome::NotRead(problem),
     });
 }
 
 /// Writes the mesh on the screen with h̄ at its nodes, or a picture of all of it in the colours of the view.
-pub fn export(session: &mut Session, view: &View, background: &mut Background, path: &Path) {
-    let format = match ExportFormat::of(path) {
-        Ok(format) => format,
-        Err(error) => return session.report(format!("{error}.")),
-    };
+///
+/// # Errors
+/// A sentence, when it is clear at once that nothing can be written there.
+pub fn export(
+    session: &Session,
+    view: &View,
+    background: &mut Background,
+    path: &Path,
+) -> Result<(), String> {
+    let format = ExportFormat::of(path).map_err(|error| format!("{error}."))?;
     let blocked =
         |file: &PathBuf| Some(format!("{} could not be written: {}.", file.display(), io::obstacle(file)?));
     if let Some(problem) = format.files(path).iter().find_map(blocked) {
-        return session.report(problem);
+        return Err(problem);
     }
     let (mesh, domain) = (session.shared_mesh(), session.follower().domain().clone());
     let (field, settings) = (session.follower().field().clone(), session.follower().settings().clone());
@@ -109,22 +118,24 @@ pub fn export(session: &mut Session, view: &View, background: &mut Background, p
         match write() {
             Ok((files, triangles)) => {
                 let triangles = format::count(triangles as u64);
-                Outcome::News(format!("{triangles} triangles written to {}.", listed(&files)))
+                Outcome::Exported(format!("{triangles} triangles written to {}.", listed(&files)))
             }
-            Err(_) if meter.is_cancelled() => Outcome::News(cancelled(Aim::Export, &file)),
+            Err(_) if meter.is_cancelled() => Outcome::Exported(cancelled(Aim::Export, &file)),
             Err(error) => Outcome::NotWritten(format!("{} could not be written: {error}.", file.display())),
         }
     });
+    Ok(())
 }
 
-/// The settings of a new document on the polygons of a file.
-fn domain_of(path: &Path, meter: &Meter) -> Result<Settings, String> {
+/// A new document on the polygons of a file.
+fn domain_of(path: &Path, meter: &Meter) -> Result<Document, String> {
     let outline = io::geojson::read_outline(path, meter).map_err(|error| error.to_string())?;
     let (domain, marks) = BoundaryMarks::domain_of(&outline.polygons)
         .map_err(|error| format!("{}: {error}", path.display()))?;
     let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let (unit, boundary_marks) = (outline.unit, Arc::new(marks));
-    Ok(Settings { unit, boundary_marks, ..Settings::for_domain(name, domain) })
+    let settings = Settings { unit, boundary_marks, ..Settings::for_domain(name, domain) };
+    Document::new(settings, None).map_err(|error| format!("{}: {error}", path.display()))
 }
 
 /// A value at each node, unless it is cancelled.

@@ -20,6 +20,7 @@ use super::App;
 use super::catalog::catalog;
 use super::command::Command;
 use super::cuts::PATIENCE;
+use super::dialogs::FileFacts;
 use super::project::ProjectFile;
 use super::readout::Readout;
 use super::session::Session;
@@ -71,10 +72,10 @@ impl App {
         }
         let close = self.project.handle_close_request(&mut self.session, &self.background, ctx);
         self.commands.extend(close);
-        self.commands.extend(self.dialogs.take_browsed());
+        self.commands.extend(self.dialogs.take_answer(ctx));
         self.take_input(ctx);
         self.run_commands(ctx);
-        self.project.forget_saving(&self.background, self.dialogs.asks_for_path());
+        self.project.forget_saving(&self.background, self.dialogs.asks_for_file());
         self.project.set_window_title(&self.session, ctx);
         self.follow(ctx);
         self.record_edits();
@@ -183,12 +184,15 @@ impl App {
         self.canvas.note_floats(floats);
     }
 
-    fn draw_dialogs(&self, ctx: &Context, commands: &mut Vec<Command>) {
+    fn draw_dialogs(&mut self, ctx: &Context, commands: &mut Vec<Command>) {
+        let reads: Vec<_> = self.background.rows(true).into_iter().filter(|row| row.reads).collect();
+        let facts = FileFacts { triangles: self.session.triangle_count(), reads: &reads };
+        self.dialogs.show_file(ctx, &facts, commands);
         let state = self.state(None);
         if let Some(keeper) = &self.journal {
             journal::question(ctx, keeper, &self.project, commands);
         }
-        project::questions(ctx, &state, self.dialogs.asks_for_path(), commands);
+        project::questions(ctx, &state, self.dialogs.asks_for_file(), commands);
         if self.dialogs.is_open() {
             self.dialogs.show(ctx, &state, commands);
         }

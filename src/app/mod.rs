@@ -115,6 +115,7 @@ impl App {
     fn keep_in(&mut self, cc: &eframe::CreationContext<'_>) {
         if let Some(storage) = cc.storage {
             self.project.load(storage);
+            self.dialogs.load(storage);
             let theme = eframe::get_value(storage, THEME_KEY).unwrap_or(self.view.theme);
             self.view.set_theme(theme, &cc.egui_ctx);
         }
@@ -151,6 +152,7 @@ impl eframe::App for App {
 
     fn save(&mut self, storage: &mut dyn eframe::Storage) {
         self.project.store(storage);
+        self.dialogs.store(storage);
         eframe::set_value(storage, THEME_KEY, &self.view.theme);
     }
 
@@ -193,6 +195,7 @@ pub fn run(file: Option<PathBuf>) -> Result<(), String> {
     let create = |cc: &eframe::CreationContext<'_>| -> Result<Box<dyn eframe::App>, _> {
         let mut app = App::new(&cc.egui_ctx, cc.wgpu_render_state.as_ref())?;
         app.commands.extend(file.map(Command::Open));
+        app.dialogs.use_system();
         app.keep_in(cc);
         Ok(Box::new(app))
     };

@@ -2,11 +2,12 @@
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use eframe::egui::{Context, ViewportCommand};
 
 use super::background::{Aim, Background, Outcome, cancelled};
-use super::command::Command;
+use super::command::{Command, Opened};
 use super::files::listed;
 use super::frame::FrameState;
 use super::session::Session;
@@ -64,7 +65,7 @@ impl ProjectFile {
         self.path.as_deref()
     }
 
-    /// Files opened or saved, the last first.
+    /// Files of every kind that were opened or saved, the last first.
     pub fn recent(&self) -> &[PathBuf] {
         &self.recent
     }
@@ -87,14 +88,19 @@ impl ProjectFile {
         eframe::set_value(storage, RECENT_KEY, &named);
     }
 
+    /// Puts a file at the top of the recent ones.
+    pub fn note_recent(&mut self, path: PathBuf) {
+        self.recent.retain(|other| *other != path);
+        self.recent.insert(0, path);
+        self.recent.truncate(MOST_RECENT);
+    }
+
     /// Notes that the document is another one, or belongs to another file; `saved` if the file has this
     /// version.
     pub fn belongs_to(&mut self, path: Option<PathBuf>, version: u64, saved: bool) {
         self.saved_version = saved.then_some(version);
         if let Some(path) = &path {
-            self.recent.retain(|other| other != path);
-            self.recent.insert(0, path.clone());
-            self.recent.truncate(MOST_RECENT);
+            self.note_recent(path.clone());
         }
         self.path = path;
     }
@@ -105,7 +111,7 @@ impl ProjectFile {
     }
 
     /// Asks again about edits that the user agreed to lose.
-    pub fn keep_edits(&mut self) {
+    fn keep_edits(&mut self) {
         self.given_up = None;
     }
 
@@ -203,8 +209,8 @@ impl ProjectFile {
     }
 
     /// Forgets what was to follow saving, where nothing is being saved.
-    pub fn forget_saving(&mut self, background: &Background, asks_for_path: bool) {
-        if !background.saves() && !asks_for_path && self.replacing.is_none() {
+    pub fn forget_saving(&mut self, background: &Background, asks_for_file: bool) {
+        if !background.saves() && !asks_for_file && self.replacing.is_none() {
             self.after_saving = None;
         }
     }
@@ -292,13 +298,7 @@ impl ProjectFile {
 fn leaves(command: &Command) -> bool {
     matches!(
         command,
-        Command::New
-            | Command::OpenExample(_)
-            | Command::OpenProject(_)
-            | Command::OpenDomain(_)
-            | Command::NewWith(_)
-            | Command::Restore
-            | Command::Quit
+        Command::New | Command::OpenExample(_) | Command::Show(_) | Command::Restore | Command::Quit
     )
 }
 
@@ -311,9 +311,9 @@ fn announce_closing(command: &Command, session: &mut Session, background: &Backg
 }
 
 /// Asks about unsaved edits and existing files.
-pub fn questions(ctx: &Context, state: &FrameState<'_>, asks_for_path: bool, commands: &mut Vec<Command>) {
+pub fn questions(ctx: &Context, state: &FrameState<'_>, asks_for_file: bool, commands: &mut Vec<Command>) {
     let project = state.project;
-    if project.leaving.is_some() && project.replacing.is_none() && !asks_for_path {
+    if project.leaving.is_some() && project.replacing.is_none() && !asks_for_file {
         let question = format!("Save changes to “{}”?", project.document_name(state.session));
         let dialog = ConfirmDialog::new(&question, "Unsaved changes will be lost.", "Save");
         commands.extend(dialog.alternative("Do not save").show(ctx).map(Command::AnswerLeaving));
@@ -332,10 +332,13 @@ pub fn questions(ctx: &Context, state: &FrameState<'_>, asks_for_path: bool, com
 }
 
 /// Reads a project, which is shown once it is read.
-pub fn open_project(session: &Session, background: &mut Background, path: &Path) {
-    let (file, replaces) = (path.to_owned(), session.document().version());
+pub fn open_project(background: &mut Background, path: &Path) {
+    let file = path.to_owned();
     background.start(Aim::Read, path, move |meter| match io::project::read_metered(&file, meter) {
-        Ok(document) => Outcome::Opened { path: file, document: Box::new(document), replaces },
+        Ok(document) => {
+            let opened = Opened { document: Arc::new(document), home: Some(file.clone()) };
+            Outcome::Read { path: file, commands: vec![Command::Show(opened)] }
+        }
         Err(error) => Outcome::not_read(error),
     });
 }

@@ -9,12 +9,14 @@
 
 use std::io::{self, Write};
 
-use super::{FormatSpec, MeshData, NodeValues, Number};
+use super::{FormatSpec, MeshData, NodeValues, Number, TypicalSize};
 use crate::mesh::{Extract, NodeId};
 
 /// A table with a row for each triangle.
 pub static FORMAT: FormatSpec = FormatSpec {
     ending: "csv",
+    purpose: "Spreadsheets and scripts: a row for each triangle",
+    size: TypicalSize { bytes: 164.0, bytes_per_digit: 7.0 },
     beside: &[],
     write: |out, mesh, data, meter| write(&mut meter.count(out), mesh, data),
     write_binary: None,

@@ -17,12 +17,25 @@ pub struct MeshFormat {
 pub struct FormatSpec {
     /// The file name extension, in lower case and without the dot.
     pub ending: &'static str,
+    /// The programs that read it, and what it holds: a few words for a list of formats.
+    pub purpose: &'static str,
+    /// How long its files are.
+    pub size: TypicalSize,
     /// The files beside it: extensions and writers.
     pub beside: &'static [(&'static str, WriteMesh)],
     /// Writes a mesh.
     pub write: WriteMesh,
     /// Writes a mesh in binary form, if the format has a form of either kind.
     pub write_binary: Option<WriteMesh>,
+}
+
+/// How long the files of a format are, all together, as measured on graded meshes and coasts.
+#[derive(Clone, Copy, Debug)]
+pub struct TypicalSize {
+    /// Bytes for each triangle of a mesh of 10,000 triangles.
+    pub bytes: f64,
+    /// Further bytes for each triangle of a mesh ten times as large: its numbers have one more digit.
+    pub bytes_per_digit: f64,
 }
 
 /// Writes a mesh and its data, and updates the meter.
@@ -47,6 +60,19 @@ impl MeshFormat {
     /// The file name extension, in lower case and without the dot.
     pub fn ending(self) -> &'static str {
         self.spec.ending
+    }
+
+    /// The programs that read it, and what it holds, in a few words.
+    pub fn purpose(self) -> &'static str {
+        self.spec.purpose
+    }
+
+    /// About how many bytes the files of a mesh have, all together; the text is up to a third longer or
+    /// shorter where coordinates are.
+    pub fn approximate_bytes(self, triangles: usize) -> u64 {
+        let TypicalSize { bytes, bytes_per_digit } = self.spec.size;
+        let further_digits = libm::log10(triangles.max(1) as f64) - 4.0;
+        (triangles as f64 * (bytes + bytes_per_digit * further_digits).max(1.0)) as u64
     }
 
     /// The files that an export to `path` writes, `path` first.

@@ -17,6 +17,7 @@ mod blocks;
 mod coordinates;
 pub mod csv;
 mod error;
+mod folder;
 mod interrupt;
 mod mesh_file;
 mod meter;
@@ -40,8 +41,9 @@ use crate::domain::MeshBoundary;
 pub use crate::text::Number;
 pub use atomic::{exists, make_folder, obstacle, write_file, write_file_metered};
 pub use error::{Flaw, Place, ReadError};
+pub use folder::{FolderEntry, FolderListing, MOST_ENTRIES, is_folder, list_folder, resolve};
 pub use interrupt::Interruption;
-pub use mesh_file::{FormatSpec, MeshFormat};
+pub use mesh_file::{FormatSpec, MeshFormat, TypicalSize};
 pub use meter::{Cancelled, Counted, Meter};
 pub use provenance::{MeshSource, Provenance};
 

@@ -10,13 +10,15 @@
 
 use std::io::{self, Write};
 
-use super::{FormatSpec, MeshData, Number};
+use super::{FormatSpec, MeshData, Number, TypicalSize};
 use crate::geometry::Rect;
 use crate::mesh::{BoundaryEdge, Extract, NodeId};
 
 /// Gmsh 4.1.
 pub static FORMAT: FormatSpec = FormatSpec {
     ending: "msh",
+    purpose: "Gmsh 4.1: with h̄ and the boundary as named groups",
+    size: TypicalSize { bytes: 65.0, bytes_per_digit: 5.5 },
     beside: &[],
     write: |out, mesh, data, meter| write(&mut meter.count(out), mesh, data),
     write_binary: Some(|out, mesh, data, meter| write_binary(&mut meter.count(out), mesh, data)),

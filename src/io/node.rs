@@ -10,12 +10,14 @@
 
 use std::io::{self, Write};
 
-use super::{FormatSpec, MeshData, Number};
+use super::{FormatSpec, MeshData, Number, TypicalSize};
 use crate::mesh::Extract;
 
 /// Triangle's four files: nodes, elements, neighbours and edges.
 pub static FORMAT: FormatSpec = FormatSpec {
     ending: "node",
+    purpose: "Triangle: four files, nodes, elements, neighbours and edges",
+    size: TypicalSize { bytes: 93.0, bytes_per_digit: 13.0 },
     beside: &[
         ("ele", |out, mesh, data, meter| write_elements(&mut meter.count(out), mesh, data)),
         ("neigh", |out, mesh, data, meter| write_neighbours(&mut meter.count(out), mesh, data)),

@@ -5,12 +5,14 @@
 
 use std::io::{self, Write};
 
-use super::{FormatSpec, MeshData, Number};
+use super::{FormatSpec, MeshData, Number, TypicalSize};
 use crate::mesh::Extract;
 
 /// Wavefront.
 pub static FORMAT: FormatSpec = FormatSpec {
     ending: "obj",
+    purpose: "Blender and other 3D programs: a group for each level",
+    size: TypicalSize { bytes: 58.0, bytes_per_digit: 3.5 },
     beside: &[],
     write: |out, mesh, data, meter| write(&mut meter.count(out), mesh, data),
     write_binary: None,

@@ -9,12 +9,14 @@
 
 use std::io::{self, Write};
 
-use super::{FormatSpec, MeshData, Number};
+use super::{FormatSpec, MeshData, Number, TypicalSize};
 use crate::mesh::Extract;
 
 /// SMS.
 pub static FORMAT: FormatSpec = FormatSpec {
     ending: "2dm",
+    purpose: "SMS, TUFLOW, BASEMENT, QGIS: the boundary as nodestrings",
+    size: TypicalSize { bytes: 44.0, bytes_per_digit: 4.5 },
     beside: &[],
     write: |out, mesh, data, meter| write(&mut meter.count(out), mesh, data),
     write_binary: None,

@@ -6,12 +6,14 @@
 
 use std::io::{self, Write};
 
-use super::{FormatSpec, MeshData};
+use super::{FormatSpec, MeshData, TypicalSize};
 use crate::mesh::{Extract, NodeId};
 
 /// Triangles without shared nodes.
 pub static FORMAT: FormatSpec = FormatSpec {
     ending: "stl",
+    purpose: "CAD and 3D printing: triangles only, without h̄",
+    size: TypicalSize { bytes: 50.0, bytes_per_digit: 0.0 },
     beside: &[],
     write: |out, mesh, data, meter| {
         meter.expect(bytes(mesh));

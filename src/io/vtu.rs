@@ -20,12 +20,14 @@
 use std::io::{self, Write};
 
 use super::blocks::{BLOCK, Blocks};
-use super::{FormatSpec, MeshData, Meter};
+use super::{FormatSpec, MeshData, Meter, TypicalSize};
 use crate::mesh::Extract;
 
 /// VTK's unstructured grid.
 pub static FORMAT: FormatSpec = FormatSpec {
     ending: "vtu",
+    purpose: "ParaView and VTK, compressed: with h̄, levels and boundary",
+    size: TypicalSize { bytes: 10.5, bytes_per_digit: 0.6 },
     beside: &[],
     write: |mut out, mesh, data, meter| write_metered(&mut out, mesh, data, meter),
     write_binary: None,

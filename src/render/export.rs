@@ -58,9 +58,41 @@ impl ExportFormat {
         }
     }
 
+    /// All formats, those of meshes first.
+    pub fn all() -> impl Iterator<Item = Self> {
+        MeshFormat::all().map(Self::Mesh).chain([Self::Svg, Self::Png])
+    }
+
+    /// The ending of its file names, without the dot.
+    pub fn ending(self) -> &'static str {
+        match self {
+            Self::Mesh(format) => format.ending(),
+            Self::Svg => "svg",
+            Self::Png => "png",
+        }
+    }
+
+    /// The programs that read it, and what it holds, in a few words.
+    pub fn purpose(self) -> &'static str {
+        match self {
+            Self::Mesh(format) => format.purpose(),
+            Self::Svg => "A vector picture of the whole mesh in the present colours",
+            Self::Png => "A picture of the whole mesh in the present colours",
+        }
+    }
+
+    /// About how many bytes the export of a mesh takes, in all its files; `None` for a picture, whose size
+    /// depends on what it shows.
+    pub fn approximate_bytes(self, triangles: usize) -> Option<u64> {
+        match self {
+            Self::Mesh(format) => Some(format.approximate_bytes(triangles)),
+            Self::Svg | Self::Png => None,
+        }
+    }
+
     /// All endings, without their dots.
     pub fn endings() -> impl Iterator<Item = &'static str> {
-        MeshFormat::all().map(MeshFormat::ending).chain(["svg", "png"])
+        Self::all().map(Self::ending)
     }
 
     /// Whether the format contains data at the nodes.

@@ -59,7 +59,7 @@ impl Canvas {
             }
             rows += 1;
         }
-        for Row { id, what, meter } in files {
+        for Row { id, what, meter, .. } in files {
             if bytes_row(&mut card(ui, place(rows)), what, meter.done(), meter.total()) {
                 commands.push(Command::CancelWork(*id));
             }

@@ -1,13 +1,12 @@
-//! The dialogs: the command palette, the questions for a path and for a place, About.
+//! The dialogs: the command palette, the questions for a file and for a place, About.
 
+mod file;
+mod folders;
 mod go_to;
-mod path;
 mod request;
 mod system;
 
-use std::path::PathBuf;
-use std::sync::mpsc::{Receiver, Sender, channel};
-use std::thread;
+use std::path::Path;
 
 use eframe::egui::Context;
 
@@ -15,7 +14,14 @@ use super::catalog::{CatalogItem, catalog, shortcut_text};
 use super::command::Command;
 use super::frame::FrameState;
 use super::widgets::{self, ActionButton, PaletteAnswer, PaletteItem, dialog, dialog_title};
+pub use file::FileFacts;
+use file::{FileAnswer, FileDialog};
+use folders::LastFolders;
 pub use request::FileRequest;
+use system::{Answer, Question, SystemDialog};
+
+/// Chooses the file dialog: `window` for the one in the window, `system` for the desktop's own.
+const DIALOG_VARIABLE: &str = "MESHBRUSH_FILE_DIALOG";
 
 /// A dialog over the window.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,22 +32,17 @@ pub enum Dialog {
     About,
     /// The question for a place on the canvas.
     GoTo,
-    /// The question for a path.
-    Path(FileRequest),
 }
 
-/// The open dialog, and answers from the desktop's own.
+/// The open dialog, and the question for a file.
+#[derive(Default)]
 pub struct Dialogs {
     open: Option<Dialog>,
-    sender: Sender<(FileRequest, PathBuf)>,
-    receiver: Receiver<(FileRequest, PathBuf)>,
-}
-
-impl Default for Dialogs {
-    fn default() -> Self {
-        let (sender, receiver) = channel();
-        Self { open: None, sender, receiver }
-    }
+    file: Option<FileDialog>,
+    folders: LastFolders,
+    system: SystemDialog,
+    /// Whether files are asked for in the desktop's own dialog.
+    uses_system: bool,
 }
 
 impl Dialogs {
@@ -52,37 +53,83 @@ impl Dialogs {
 
     /// Closes it.
     pub fn close(&mut self) {
-        self.open = None;
+        (self.open, self.file) = (None, None);
     }
 
     /// Whether a dialog is open.
     pub fn is_open(&self) -> bool {
-        self.open.is_some()
+        self.open.is_some() || self.file.as_ref().is_some_and(FileDialog::is_shown)
     }
 
-    /// Whether a path is being asked for.
-    pub fn asks_for_path(&self) -> bool {
-        matches!(self.open, Some(Dialog::Path(_)))
+    /// Whether a file is being asked for.
+    pub fn asks_for_file(&self) -> bool {
+        self.file.is_some() || self.system.is_asking()
     }
 
-    /// Opens the desktop's own file dialog on another thread. On a desktop without one, nothing happens.
-    pub fn browse(&self, request: FileRequest, ctx: &Context) {
-        let (sender, ctx) = (self.sender.clone(), ctx.clone());
-        thread::spawn(move || {
-            if let Some(path) = system::ask(request) {
-                // The window may have closed in the meantime.
-                let _ = sender.send((request, path));
+    /// Asks for files in the desktop's own dialog from now on, unless the environment says otherwise.
+    pub fn use_system(&mut self) {
+        self.uses_system = std::env::var_os(DIALOG_VARIABLE).is_none_or(|choice| choice != "window");
+    }
+
+    /// Loads the folders of earlier runs from the window's own storage.
+    pub fn load(&mut self, storage: &dyn eframe::Storage) {
+        self.folders.load(storage);
+    }
+
+    /// Stores them there.
+    pub fn store(&self, storage: &mut dyn eframe::Storage) {
+        self.folders.store(storage);
+    }
+
+    /// Asks for a file. `home` is the file of the document, and `name` its name without an ending.
+    pub fn ask(&mut self, request: FileRequest, home: Option<&Path>, name: &str, ctx: &Context) {
+        let question = Question { request, folder: self.folders.of(request, home), name: name.to_owned() };
+        if self.uses_system {
+            self.system.ask(question, ctx);
+        } else {
+            self.open_file_dialog(&question, ctx);
+        }
+    }
+
+    fn open_file_dialog(&mut self, question: &Question, ctx: &Context) {
+        self.open = None;
+        self.file = Some(FileDialog::new(question.request, &question.folder, &question.name, ctx));
+    }
+
+    /// Takes the answer of the desktop's own dialog, and returns the command to run. Where there is no such
+    /// dialog, the one in the window opens, now and from then on.
+    pub fn take_answer(&mut self, ctx: &Context) -> Option<Command> {
+        let (question, answer) = self.system.take()?;
+        match answer {
+            Answer::Chosen(path) => {
+                self.folders.note(question.request, path.parent());
+                Some(question.request.command_after_browsing(path))
             }
-            ctx.request_repaint();
-        });
+            Answer::Cancelled => None,
+            Answer::NoDialog => {
+                self.uses_system = false;
+                self.open_file_dialog(&question, ctx);
+                None
+            }
+        }
     }
 
-    /// What to do with the paths chosen in the desktop's own dialog.
-    pub fn take_browsed(&self) -> Vec<Command> {
-        let chosen = self.receiver.try_iter();
-        chosen
-            .flat_map(|(request, path)| [Command::CloseDialog, request.command_after_browsing(path)])
-            .collect()
+    /// Shows a problem with the file that was given in the dialog. Returns whether there is such a dialog.
+    pub fn fail(&mut self, problem: &str) -> bool {
+        let waiting = self.file.as_mut().filter(|file| file.is_waiting());
+        waiting.map(|file| file.fail(problem.to_owned())).is_some()
+    }
+
+    /// Closes the file dialog if it waits for a file that is read (`true`) or written.
+    pub fn succeed(&mut self, reads: bool) {
+        self.file.take_if(|file| file.is_waiting() && file.request().writes() != reads);
+    }
+
+    /// Lets the file dialog go on: its answer was taken back.
+    pub fn resume(&mut self) {
+        if let Some(file) = &mut self.file {
+            file.resume();
+        }
     }
 
     /// Shows the open dialog.
@@ -91,8 +138,21 @@ impl Dialogs {
             Some(Dialog::Palette) => palette(ctx, &catalog(state), commands),
             Some(Dialog::About) => about(ctx, commands),
             Some(Dialog::GoTo) => go_to::ask(ctx, state, commands),
-            Some(Dialog::Path(request)) => path::ask(ctx, request, commands),
             None => {}
+        }
+    }
+
+    /// Shows the question for a file.
+    pub fn show_file(&mut self, ctx: &Context, facts: &FileFacts<'_>, commands: &mut Vec<Command>) {
+        let Some(file) = self.file.as_mut().filter(|file| file.is_shown()) else { return };
+        match file.show(ctx, facts) {
+            FileAnswer::Open => {}
+            FileAnswer::Closed => commands.push(Command::CloseDialog),
+            FileAnswer::CancelWork(id) => commands.push(Command::CancelWork(id)),
+            FileAnswer::Chosen(path) => {
+                self.folders.note(file.request(), path.parent());
+                commands.push(file.request().command(path));
+            }
         }
     }
 }

@@ -1,8 +1,10 @@
 //! What files are asked for, and what to do with the answer.
 
-use std::path::PathBuf;
+use std::ffi::OsStr;
+use std::path::{Path, PathBuf};
 
 use crate::app::command::Command;
+use crate::io::project::ENDING;
 use crate::render::export::ExportFormat;
 
 /// Why a path is asked for.
@@ -21,6 +23,7 @@ pub enum FileRequest {
 }
 
 impl FileRequest {
+    /// Title of the dialog.
     pub fn title(self) -> &'static str {
         match self {
             Self::Open => "Open",
@@ -31,6 +34,7 @@ impl FileRequest {
         }
     }
 
+    /// The word on the button.
     pub fn verb(self) -> &'static str {
         match self {
             Self::Open | Self::OpenImage | Self::OpenDomain => "Open",
@@ -39,17 +43,57 @@ impl FileRequest {
         }
     }
 
-    pub fn hint(self) -> String {
+    /// The endings of the files that it is about, without the dot.
+    pub fn endings(self) -> Vec<&'static str> {
         match self {
-            Self::Open => "path of a .meshbrush, a .geojson or a greyscale .png".into(),
-            Self::Save => "path ending in .meshbrush".into(),
-            Self::OpenImage => "path of a greyscale .png".into(),
-            Self::OpenDomain => "path of a .geojson with polygons".into(),
-            Self::Export => {
-                let endings: Vec<String> =
-                    ExportFormat::endings().map(|ending| format!(".{ending}")).collect();
-                format!("ending in {}", endings.join(" "))
-            }
+            Self::Open => vec![ENDING, "geojson", "json", "png"],
+            Self::Save => vec![ENDING],
+            Self::OpenImage => vec!["png"],
+            Self::OpenDomain => vec!["geojson", "json"],
+            Self::Export => ExportFormat::endings().collect(),
+        }
+    }
+
+    /// What those files are, in the words of a filter.
+    pub fn kinds(self) -> &'static str {
+        match self {
+            Self::Open => "Projects, domains, pictures",
+            Self::Save => "Projects",
+            Self::OpenImage => "Pictures",
+            Self::OpenDomain => "Polygons",
+            Self::Export => "Meshes and pictures",
+        }
+    }
+
+    /// Whether a file with this name can be the answer.
+    pub fn takes(self, name: &OsStr) -> bool {
+        let ending = Path::new(name).extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
+        self.endings().contains(&ending.as_str())
+    }
+
+    /// Names the kind of file: each has its own last folder.
+    pub fn folder_key(self) -> &'static str {
+        match self {
+            Self::Open | Self::Save => "projects",
+            Self::OpenImage => "pictures",
+            Self::OpenDomain => "domains",
+            Self::Export => "exports",
+        }
+    }
+
+    /// Whether a file is written.
+    pub fn writes(self) -> bool {
+        matches!(self, Self::Save | Self::Export)
+    }
+
+    /// The name that a file to write is given first; nothing for a file to read.
+    pub fn proposed_name(self, document: &str, format: ExportFormat) -> String {
+        let name: String =
+            document.chars().map(|c| if c == '/' || c == '\\' || c.is_control() { '-' } else { c }).collect();
+        match self {
+            Self::Save => format!("{name}.{ENDING}"),
+            Self::Export => format!("{name}.{}", format.ending()),
+            Self::Open | Self::OpenImage | Self::OpenDomain => String::new(),
         }
     }
 

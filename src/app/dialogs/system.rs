@@ -1,26 +1,122 @@
-//! The desktop's own file dialog.
+//! The desktop's own file dialog, on another thread.
 
 use std::path::PathBuf;
+use std::sync::mpsc::{Receiver, Sender, channel};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use eframe::egui::Context;
 
 use super::FileRequest;
-use crate::io::project::ENDING;
-use crate::render::export::ExportFormat;
 
-/// Asks with the desktop's own dialog, and waits for the answer.
-pub fn ask(request: FileRequest) -> Option<PathBuf> {
-    let dialog = rfd::FileDialog::new().set_title(request.title());
-    match request {
-        FileRequest::Open => {
-            dialog.add_filter("Projects, domains, pictures", &[ENDING, "geojson", "json", "png"]).pick_file()
-        }
-        FileRequest::Save => {
-            dialog.add_filter("Projects", &[ENDING]).set_file_name(format!("mesh.{ENDING}")).save_file()
-        }
-        FileRequest::OpenImage => dialog.add_filter("Pictures", &["png"]).pick_file(),
-        FileRequest::OpenDomain => dialog.add_filter("Polygons", &["geojson", "json"]).pick_file(),
-        FileRequest::Export => dialog
-            .add_filter("Meshes and pictures", &ExportFormat::endings().collect::<Vec<_>>())
-            .set_file_name("mesh.vtu")
-            .save_file(),
+/// Nobody cancels a dialog faster than this: it has not opened.
+const FASTEST_CANCEL: Duration = Duration::from_millis(150);
+
+/// What was asked for.
+#[derive(Clone, Debug)]
+pub struct Question {
+    /// What the file is for.
+    pub request: FileRequest,
+    /// Where the dialog begins.
+    pub folder: PathBuf,
+    /// The proposed name, with its ending.
+    pub name: String,
+}
+
+/// How a [`Question`] was answered.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Answer {
+    /// With a path.
+    Chosen(PathBuf),
+    /// Not at all.
+    Cancelled,
+    /// The desktop has no such dialog.
+    NoDialog,
+}
+
+/// Asks one question at a time.
+pub struct SystemDialog {
+    asking: bool,
+    sender: Sender<(Question, Answer)>,
+    receiver: Receiver<(Question, Answer)>,
+}
+
+impl Default for SystemDialog {
+    fn default() -> Self {
+        let (sender, receiver) = channel();
+        Self { asking: false, sender, receiver }
     }
+}
+
+impl SystemDialog {
+    /// Whether a question has not been answered yet.
+    pub fn is_asking(&self) -> bool {
+        self.asking
+    }
+
+    /// Asks a question, unless another one is open.
+    pub fn ask(&mut self, question: Question, ctx: &Context) {
+        if std::mem::replace(&mut self.asking, true) {
+            return;
+        }
+        let (sender, ctx) = (self.sender.clone(), ctx.clone());
+        thread::spawn(move || {
+            let answer = answer(&question);
+            // The window may have closed in the meantime.
+            let _ = sender.send((question, answer));
+            ctx.request_repaint();
+        });
+    }
+
+    /// The answer, once it is there.
+    pub fn take(&mut self) -> Option<(Question, Answer)> {
+        let answer = self.receiver.try_recv().ok();
+        self.asking &= answer.is_none();
+        answer
+    }
+}
+
+/// Shows the dialog, and waits for the answer.
+fn answer(question: &Question) -> Answer {
+    if !is_there() {
+        return Answer::NoDialog;
+    }
+    let request = question.request;
+    let began = Instant::now();
+    let dialog = rfd::FileDialog::new()
+        .set_title(request.title())
+        .set_directory(&question.folder)
+        .add_filter(request.kinds(), &request.endings());
+    let path =
+        if request.writes() { dialog.set_file_name(&question.name).save_file() } else { dialog.pick_file() };
+    match path {
+        Some(path) => Answer::Chosen(path),
+        None if began.elapsed() < FASTEST_CANCEL => Answer::NoDialog,
+        None => Answer::Cancelled,
+    }
+}
+
+/// Systems that always have a file dialog.
+#[cfg(any(windows, target_vendor = "apple"))]
+fn is_there() -> bool {
+    true
+}
+
+/// Whether the desktop has a file dialog. `rfd` answers a missing dialog and a cancelled one in the same way.
+#[cfg(not(any(windows, target_vendor = "apple")))]
+fn is_there() -> bool {
+    let folders = std::env::var_os("PATH").unwrap_or_default();
+    let has_zenity = std::env::split_paths(&folders).any(|folder| folder.join("zenity").is_file());
+    has_zenity || pollster::block_on(portal_version()).is_ok()
+}
+
+/// Asks the desktop portal for the version of its file dialog: it offers one only if there is a program that
+/// shows it.
+#[cfg(not(any(windows, target_vendor = "apple")))]
+async fn portal_version() -> zbus::Result<zbus::Message> {
+    let patience = Duration::from_secs(2);
+    let bus = zbus::connection::Builder::session()?.method_timeout(patience).build().await?;
+    let (portal, path) = ("org.freedesktop.portal.Desktop", "/org/freedesktop/portal/desktop");
+    let asked = ("org.freedesktop.portal.FileChooser", "version");
+    bus.call_method(Some(portal), path, Some("org.freedesktop.DBus.Properties"), "Get", &asked).await
 }

@@ -1,10 +1,12 @@
 //! Commands about files, windows and dialogs, and what finished work on files does.
 
+use std::sync::Arc;
+
 use eframe::egui::{Context, ViewportCommand};
 
 use crate::app::App;
 use crate::app::background::{Aim, Outcome, WorkId};
-use crate::app::command::Command;
+use crate::app::command::{Command, Opened};
 use crate::app::dialogs::{Dialog, FileRequest};
 use crate::app::journal::JournalKeeper;
 use crate::app::{files, journal, project};
@@ -16,17 +18,17 @@ impl App {
         match command {
             Command::New => self.open(new_document()),
             Command::OpenExample(example) => self.open(files::example(example)),
-            Command::NewWith(settings) => self.new_with(*settings),
+            Command::Show(opened) => self.show_opened(opened),
             Command::Open(path) => match project::open_command(path) {
                 Ok(command) => self.send(command),
-                Err(problem) => self.session.report(problem),
+                Err(problem) => self.fail(problem),
             },
-            Command::OpenProject(path) => project::open_project(&self.session, &mut self.background, &path),
+            Command::OpenProject(path) => project::open_project(&mut self.background, &path),
             Command::OpenImage(path) => files::load_image(&self.session, &mut self.background, &path),
             Command::OpenDomain(path) => files::load_domain(&mut self.background, &path),
             Command::Save => match self.project.path() {
                 Some(path) => self.send(Command::SaveTo(path.to_owned())),
-                None => self.dialogs.open(Dialog::Path(FileRequest::Save)),
+                None => self.send(Command::Ask(FileRequest::Save)),
             },
             Command::SaveAs(path) => self.commands.extend(self.project.save_as(path)),
             Command::SaveTo(path) => {
@@ -34,19 +36,24 @@ impl App {
             }
             Command::ExportAs(path) => self.commands.extend(self.project.export_as(path)),
             Command::Export(path) => {
-                files::export(&mut self.session, &self.view, &mut self.background, &path);
+                let started = files::export(&self.session, &self.view, &mut self.background, &path);
+                if let Err(problem) = started {
+                    self.fail(problem);
+                }
             }
             Command::CancelWork(id) => self.cancel_work(id),
             Command::AnswerLeaving(answer) => {
                 self.commands.extend(self.project.answer_leaving(answer, &mut self.session));
             }
-            Command::AnswerReplacing(answer) => self.commands.extend(self.project.answer_replacing(answer)),
+            Command::AnswerReplacing(answer) => match self.project.answer_replacing(answer) {
+                Some(command) => self.send(command),
+                None => self.dialogs.resume(),
+            },
             Command::AnswerRecovery(answer) => {
                 self.commands.extend(self.journal.as_mut().and_then(|keeper| keeper.answer(answer)));
             }
             Command::Restore => self.restore(),
-            Command::Ask(request) => self.dialogs.open(Dialog::Path(request)),
-            Command::Browse(request) => self.dialogs.browse(request, ctx),
+            Command::Ask(request) => self.ask_for_file(request, ctx),
             Command::Palette => self.dialogs.open(Dialog::Palette),
             Command::About => self.dialogs.open(Dialog::About),
             Command::CloseDialog => self.dialogs.close(),
@@ -56,16 +63,26 @@ impl App {
         None
     }
 
+    fn ask_for_file(&mut self, request: FileRequest, ctx: &Context) {
+        let name = self.project.document_name(&self.session);
+        self.dialogs.ask(request, self.project.path(), &name, ctx);
+    }
+
+    /// Says that a file was not read or written: in the dialog that asked for it, or else on the canvas.
+    fn fail(&mut self, problem: String) {
+        if !self.dialogs.fail(&problem) {
+            self.session.report(problem);
+        }
+    }
+
     fn open(&mut self, document: Document) {
         self.show_document(document);
         self.project.belongs_to(None, self.session.document().version(), true);
     }
 
-    fn new_with(&mut self, settings: Settings) {
-        match Document::new(settings, None) {
-            Ok(document) => self.open(document),
-            Err(error) => self.session.report(error),
-        }
+    fn show_opened(&mut self, opened: Opened) {
+        self.show_document(Arc::unwrap_or_clone(opened.document));
+        self.project.belongs_to(opened.home, self.session.document().version(), true);
     }
 
     /// Opens another document in place of the current one, and fits brush and view to it. This cannot be
@@ -82,7 +99,7 @@ impl App {
         match self.background.cancel(id) {
             Some((Aim::Read, name)) => {
                 self.session.tell(format!("Reading {name} was cancelled. The document is unchanged."));
-                self.project.keep_edits();
+                self.dialogs.resume();
             }
             Some((Aim::Save(_), _)) => self.project.cancel_saving(),
             Some((Aim::Export, _)) | None => {}
@@ -121,36 +138,34 @@ impl App {
 
     fn finish(&mut self, outcome: Outcome) {
         match outcome {
-            Outcome::Commands(commands) => self.commands.extend(commands),
-            Outcome::News(text) => self.session.tell(text),
-            Outcome::NotRead(problem) => {
-                self.project.keep_edits();
-                self.session.report(problem);
+            Outcome::Read { path, commands } => {
+                self.project.note_recent(path);
+                self.dialogs.succeed(true);
+                self.commands.extend(commands);
+            }
+            Outcome::NotRead(problem) => self.fail(problem),
+            Outcome::Exported(text) => {
+                self.dialogs.succeed(false);
+                self.session.tell(text);
             }
             Outcome::NotWritten(problem) => {
                 self.project.stay();
-                self.session.report(problem);
-            }
-            Outcome::Opened { path, document, replaces } if replaces == self.session.document().version() => {
-                self.show_document(*document);
-                self.project.belongs_to(Some(path), self.session.document().version(), true);
-            }
-            Outcome::Opened { path, .. } => {
-                let problem = "was not opened, as the document was edited in the meantime. Open it again.";
-                self.session.report(format!("{} {problem}", path.display()));
+                self.fail(problem);
             }
             Outcome::Saved { path, version } => {
+                self.dialogs.succeed(false);
                 self.session.tell(format!("Saved to {}.", path.display()));
                 self.project.belongs_to(Some(path), version, true);
                 self.finish_saving();
             }
             Outcome::SavingCancelled(text) => {
+                self.dialogs.succeed(false);
                 self.session.tell(text);
                 self.project.save_again(&mut self.session, &mut self.background);
             }
             Outcome::NotSaved(problem) => {
                 self.project.cancel_saving();
-                self.session.report(problem);
+                self.fail(problem);
             }
         }
     }

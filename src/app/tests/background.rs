@@ -155,19 +155,20 @@ fn a_read_that_is_left_alone_is_opened() {
 }
 
 #[test]
-fn edits_given_up_for_a_file_are_asked_about_again_when_that_is_cancelled() {
-    let file = pipe(folder("given-up").join("coast.geojson"));
+fn edits_are_asked_about_once_the_file_is_read() {
+    let file = pipe(folder("asked").join("coast.geojson"));
     let mut window = window();
     paint(&mut window, 0.9);
     send(&mut window, Command::OpenDomain(file.clone()));
-    window.get_by_label("Do not save").click();
-    window.run();
-    let coast = writer(&file);
+    let mut coast = writer(&file);
     wait(&mut window, "the bar", |window| has_bar(window, "Reading coast.geojson"));
-    cancel(&mut window, "Reading coast.geojson");
+    assert!(!shows(&window, QUESTION), "it is not clear yet that the file can be opened");
+    write!(coast, "{{\"type\": \"Polygon\", \"coordinates\": [[[0, 0], [1, 0], [0, 1], [0, 0]]]}}").unwrap();
     drop(coast);
-    send(&mut window, Command::Quit);
-    assert!(shows(&window, QUESTION));
+    wait(&mut window, "the question", |window| shows(window, QUESTION));
+    assert!(shows(&window, EDITED));
+    window.get_by_label("Do not save").click();
+    wait(&mut window, "opening", |window| shows(window, "coast"));
 }
 
 #[test]

@@ -5,8 +5,9 @@ use eframe::egui::{Key, Modifiers, Vec2, vec2};
 use egui_kittest::kittest::Queryable as _;
 use glam::dvec2;
 
-use super::{Window, click, entries, fingerprint, key, send, settings, type_into, wait_until, window_of};
-use crate::app::command::Command;
+use super::{
+    Window, click, entries, fingerprint, key, send, settings, show, type_into, wait_until, window_of,
+};
 use crate::document::Settings;
 use crate::domain::{BoundaryPieces, Domain};
 
@@ -18,7 +19,7 @@ fn window_on_a_sea() -> Window {
         |half: f64| [(-half, -half), (half, -half), (half, half), (-half, half)].map(|(x, y)| dvec2(x, y));
     let sea = Domain::of_polygons(&[vec![square(1.0).to_vec(), square(0.3).to_vec()]]).unwrap();
     let mut window = window_of(SIZE);
-    send(&mut window, Command::NewWith(Box::new(Settings::for_domain("sea".into(), sea))));
+    send(&mut window, show(Settings::for_domain("sea".into(), sea)));
     key(&mut window, Modifiers::NONE, Key::N);
     wait_until(&mut window, |window| window.state().session().boundary_pieces().is_some());
     window

@@ -6,7 +6,7 @@ use eframe::egui::{Key, Modifiers};
 use fastrand::Rng;
 use glam::{DVec2, dvec2};
 
-use super::{Window, key, send, wait_until, window};
+use super::{Window, key, send, show, wait_until, window};
 use crate::app::command::{Command, DomainCommand};
 use crate::document::{Document, Follower, Settings};
 use crate::domain::{CutShape, Domain};
@@ -61,7 +61,7 @@ fn lake() -> Settings {
 #[test]
 fn what_is_drawn_is_derived_from_scratch_whenever_the_mesh_is_up_to_date() {
     let mut window = window();
-    send(&mut window, Command::NewWith(Box::new(lake())));
+    send(&mut window, show(lake()));
     let mut random = Rng::with_seed(5);
     let mut some_retired = 0;
     for _ in 0..40 {

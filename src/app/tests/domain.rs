@@ -7,7 +7,8 @@ use glam::{DVec2, dvec2};
 
 use super::{
     FREE, TALL, Window, area, click, entries, fingerprint, key, level_at, move_to, open_section, press,
-    release, scratch, send, set, settings, stroke, value_of, wait_for_notice, wait_until, window, window_of,
+    release, scratch, send, set, settings, show, stroke, value_of, wait_for_notice, wait_until, window,
+    window_of,
 };
 use crate::app::command::{Command, DomainCommand};
 use crate::document::{Example, Setting, Settings};
@@ -89,7 +90,7 @@ fn window_on_a_long_coast() -> Window {
     };
     let coast = Domain::of_polygons(&[vec![(0..CORNERS).map(corner).collect()]]).unwrap();
     let mut window = window();
-    send(&mut window, Command::NewWith(Box::new(Settings::for_domain("coast".into(), coast))));
+    send(&mut window, show(Settings::for_domain("coast".into(), coast)));
     key(&mut window, Modifiers::NONE, Key::D);
     window
 }

@@ -8,6 +8,7 @@ mod budget;
 mod commands;
 mod derivation;
 mod domain;
+mod file_dialog;
 mod files;
 mod gallery;
 mod keys;
@@ -25,6 +26,7 @@ mod view;
 
 use std::fs;
 use std::path::PathBuf;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use eframe::App as _;
@@ -36,7 +38,7 @@ use glam::{DVec2, dvec2};
 
 use crate::app::App;
 use crate::app::canvas::CANVAS_NAME;
-use crate::app::command::Command;
+use crate::app::command::{Command, Opened};
 use crate::app::session::Session;
 use crate::app::tools::Tools;
 use crate::app::view::View;
@@ -77,6 +79,12 @@ fn window_with(builder: HarnessBuilder<App>) -> Window {
 fn send(window: &mut Window, command: Command) {
     window.state_mut().send(command);
     window.run();
+}
+
+/// The command that shows a new document, as one that was read.
+fn show(settings: Settings) -> Command {
+    let document = Document::new(settings, None).expect("valid settings");
+    Command::Show(Opened { document: Arc::new(document), home: None })
 }
 
 fn set(window: &mut Window, setting: Setting) {

@@ -102,6 +102,18 @@ pub fn time(seconds: f64) -> String {
     }
 }
 
+/// The size of a file: `312 B`, `14 kB`, `1.2 MB`.
+pub fn file_size(bytes: u64) -> String {
+    let (value, unit) = match bytes as f64 {
+        b if b < 999.5 => (b, "B"),
+        b if b < 999.5e3 => (b / 1e3, "kB"),
+        b if b < 999.5e6 => (b / 1e6, "MB"),
+        b => (b / 1e9, "GB"),
+    };
+    let decimals = usize::from(value < 9.95 && unit != "B");
+    format!("{} {unit}", fixed(value, decimals))
+}
+
 /// `text` with spaces before it, so that it takes at least `width` characters.
 pub fn padded(text: &str, width: usize) -> String {
     format!("{text:>width$}")
@@ -196,6 +208,22 @@ mod tests {
             (-1.0, "–"),
         ] {
             assert_eq!(time(seconds), text);
+        }
+    }
+
+    #[test]
+    fn file_sizes_have_a_suitable_unit() {
+        for (bytes, text) in [
+            (0, "0 B"),
+            (999, "999 B"),
+            (1_000, "1.0 kB"),
+            (14_400, "14 kB"),
+            (999_700, "1.0 MB"),
+            (1_250_000, "1.2 MB"),
+            (13_900_000, "14 MB"),
+            (2_300_000_000, "2.3 GB"),
+        ] {
+            assert_eq!(file_size(bytes), text);
         }
     }
 

@@ -39,6 +39,14 @@ impl Icon {
     pub const INFO: Self = Self(material::ICON_INFO.codepoint);
     /// Search.
     pub const SEARCH: Self = Self(material::ICON_SEARCH.codepoint);
+    /// A folder.
+    pub const FOLDER: Self = Self(material::ICON_FOLDER.codepoint);
+    /// A file.
+    pub const FILE: Self = Self(material::ICON_DRAFT.codepoint);
+    /// The folder above.
+    pub const UP: Self = Self(material::ICON_ARROW_UPWARD.codepoint);
+    /// The home folder.
+    pub const HOME: Self = Self(material::ICON_HOME.codepoint);
 
     /// The text that draws it, in the family [`crate::app::theme::font::ICONS`].
     pub const fn glyph(self) -> &'static str {

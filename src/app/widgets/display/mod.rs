@@ -2,6 +2,7 @@
 
 mod chip;
 mod empty;
+mod file_row;
 mod icon;
 mod levels;
 mod status;
@@ -9,6 +10,7 @@ mod value_row;
 
 pub use chip::{Chip, chips};
 pub use empty::empty_state;
+pub use file_row::FileRow;
 pub use icon::Icon;
 pub use levels::{LevelLegend, LevelRow};
 pub use status::StatusCell;

@@ -1,0 +1,210 @@
+//! The file dialog in the window, for desktops without one of their own.
+//!
+//! The list shows the folder that the text is about, and narrows as a name is typed; Tab completes it. A
+//! problem with the file is shown below the text, which stays.
+
+mod listing;
+mod view;
+
+use std::path::{Path, PathBuf};
+
+use eframe::egui::Context;
+
+use super::FileRequest;
+use crate::app::busy::Busy;
+use crate::io::{self, FolderEntry};
+use crate::render::export::ExportFormat;
+use listing::{Contents, Listing};
+pub use view::{FileAnswer, FileFacts};
+
+/// The state of the dialog.
+pub struct FileDialog {
+    request: FileRequest,
+    /// The folder that a relative path begins at.
+    folder: PathBuf,
+    home: Option<PathBuf>,
+    text: String,
+    /// Whether the text was typed, and not chosen from the list: then it narrows the list.
+    is_typed: bool,
+    /// The row of the list that the keyboard or a click selected.
+    selected: Option<usize>,
+    listing: Listing,
+    format: ExportFormat,
+    problem: Option<String>,
+    /// Set from the answer until its outcome is known.
+    waits: Option<Busy>,
+    /// The text is selected in the next frame, so that typing replaces it.
+    selects_text: bool,
+}
+
+impl FileDialog {
+    /// Asks for a file in a folder. `name` is the proposed name, without an ending.
+    pub fn new(request: FileRequest, folder: &Path, name: &str, ctx: &Context) -> Self {
+        let format = ExportFormat::all().next().expect("there are formats");
+        let mut dialog = Self {
+            request,
+            folder: folder.to_owned(),
+            home: std::env::home_dir(),
+            text: String::new(),
+            is_typed: false,
+            selected: None,
+            listing: Listing::of(folder, ctx),
+            format,
+            problem: None,
+            waits: None,
+            selects_text: true,
+        };
+        dialog.text = request.proposed_name(name, format);
+        dialog
+    }
+
+    /// What is asked for.
+    pub fn request(&self) -> FileRequest {
+        self.request
+    }
+
+    /// Whether the answer is being tried.
+    pub fn is_waiting(&self) -> bool {
+        self.waits.is_some()
+    }
+
+    /// Whether the dialog covers the window. It makes way for a file that takes long to write.
+    pub fn is_shown(&self) -> bool {
+        !(self.request.writes() && self.waits.is_some_and(|since| since.is_long()))
+    }
+
+    /// Shows why the answer did not do. The text stays.
+    pub fn fail(&mut self, problem: String) {
+        (self.problem, self.waits) = (Some(problem), None);
+        self.listing.read_again();
+    }
+
+    /// Waits no longer for the outcome of an answer: it was taken back.
+    pub fn resume(&mut self) {
+        self.waits = None;
+    }
+
+    /// The path that the text means.
+    fn path(&self) -> PathBuf {
+        let path = io::resolve(&self.text, &self.folder, self.home.as_deref());
+        match self.request {
+            FileRequest::Export if path.extension().is_none() => path.with_extension(self.format.ending()),
+            _ => path,
+        }
+    }
+
+    /// The folder and the beginning of a name that a typed text asks for.
+    fn typed(&self) -> (PathBuf, String) {
+        if !self.is_typed {
+            return (self.folder.clone(), String::new());
+        }
+        let (folder, name) = match self.text.rfind('/') {
+            Some(at) => self.text.split_at(at + 1),
+            None if self.text.trim() == "~" => (self.text.as_str(), ""),
+            None => ("", self.text.as_str()),
+        };
+        (io::resolve(folder, &self.folder, self.home.as_deref()), name.trim_start().to_owned())
+    }
+
+    /// The entries that the list shows.
+    fn rows(&self) -> Vec<FolderEntry> {
+        let Contents::Read(listing) = self.listing.contents() else { return Vec::new() };
+        let beginning = self.typed().1.to_lowercase();
+        let fits = |entry: &&FolderEntry| {
+            let name = entry.name.to_string_lossy().to_lowercase();
+            let hidden = name.starts_with('.') && !beginning.starts_with('.');
+            name.starts_with(&beginning) && !hidden && (entry.is_folder || self.request.takes(&entry.name))
+        };
+        listing.entries.iter().filter(fits).cloned().collect()
+    }
+
+    /// Goes to a folder. A name to write to stays.
+    fn enter(&mut self, folder: PathBuf) {
+        let name = self.text.rsplit('/').next().unwrap_or_default();
+        let keeps =
+            self.request.writes() && !(self.is_typed && folder.file_name().is_some_and(|f| f == name));
+        self.text = if keeps { name.to_owned() } else { String::new() };
+        (self.folder, self.is_typed, self.selected, self.problem) = (folder, false, None, None);
+    }
+
+    /// Takes a row of the list: goes to the folder, or puts the name of the file into the text.
+    fn choose(&mut self, entry: &FolderEntry) {
+        let path = self.typed().0.join(&entry.name);
+        if entry.is_folder {
+            return self.enter(path);
+        }
+        let name = entry.name.to_string_lossy().into_owned();
+        if let Some(folder) = path.parent() {
+            self.folder = folder.to_owned();
+        }
+        (self.text, self.is_typed, self.problem) = (name, false, None);
+        self.follow_ending();
+    }
+
+    /// Completes a typed name as far as the list allows. Returns whether anything was added.
+    fn complete(&mut self, rows: &[FolderEntry]) -> bool {
+        if !self.is_typed || rows.is_empty() {
+            return false;
+        }
+        if self.text.trim() == "~" {
+            self.text = "~/".into();
+            return true;
+        }
+        let beginning = self.typed().1;
+        let completed = common_beginning(rows);
+        if completed == beginning {
+            return false;
+        }
+        self.text.truncate(self.text.len() - beginning.len());
+        self.text.push_str(&completed);
+        self.follow_ending();
+        true
+    }
+
+    /// The path to try when the answer is given; a folder is entered instead.
+    fn accept(&mut self) -> Option<PathBuf> {
+        let path = self.path();
+        if io::is_folder(&path) {
+            self.enter(path);
+            return None;
+        }
+        if !self.request.writes() && !io::exists(&path) {
+            self.problem = Some(format!("There is no file {}.", path.display()));
+            return None;
+        }
+        (self.problem, self.waits) = (None, Some(Busy::now()));
+        Some(path)
+    }
+
+    /// The format follows the ending of the text.
+    fn follow_ending(&mut self) {
+        if let Ok(format) = ExportFormat::of(Path::new(self.text.trim())) {
+            self.format = format;
+        }
+    }
+
+    /// The ending of the text follows the format.
+    fn follow_format(&mut self) {
+        let path = Path::new(&self.text);
+        let stem = if ExportFormat::of(path).is_ok() { path.with_extension("") } else { path.to_owned() };
+        let name = stem.to_string_lossy().into_owned();
+        self.text = if name.is_empty() { name } else { format!("{name}.{}", self.format.ending()) };
+        (self.is_typed, self.problem) = (false, None);
+    }
+}
+
+/// What the names of all rows begin with, in the capitals of the first one; the only row, if it is a folder,
+/// with a slash.
+fn common_beginning(rows: &[FolderEntry]) -> String {
+    let names: Vec<String> = rows.iter().map(|row| row.name.to_string_lossy().into_owned()).collect();
+    let lower: Vec<Vec<char>> = names.iter().map(|name| name.to_lowercase().chars().collect()).collect();
+    let is_common = |at: &usize| lower.iter().all(|name| name.get(*at) == lower[0].get(*at));
+    let length = (0..lower[0].len()).take_while(is_common).count();
+    let common: String = names[0].chars().take(length).collect();
+    if let [only] = rows
+        && only.is_folder
+    {
+        return common + "/";
+    }
+    common
+}

@@ -1,0 +1,247 @@
+//! The file dialog in the window.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use eframe::egui::accesskit::Role;
+use eframe::egui::{Event, Key, Modifiers, PointerButton, vec2};
+use egui_kittest::Harness;
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
+
+use super::{
+    Window, button_event, choose, document, key, notice, paint, send, value_of, wait_for_notice, wait_until,
+    window, window_with,
+};
+use crate::app::command::Command;
+use crate::app::widgets::format;
+use crate::document::Example;
+use crate::io::project;
+use crate::render::export::ExportFormat;
+
+/// A folder with files and folders.
+fn folder(name: &str) -> PathBuf {
+    let folder = super::folder("app-file-dialog", name);
+    for name in ["coasts", "Maps", ".hidden"] {
+        fs::create_dir(folder.join(name)).unwrap();
+    }
+    let triangle = r#"{"type": "Polygon", "coordinates": [[[0, 0], [1, 0], [0, 1], [0, 0]]]}"#;
+    fs::write(folder.join("coasts/north.geojson"), triangle).unwrap();
+    fs::write(folder.join("coasts/north sea.geojson"), triangle).unwrap();
+    fs::write(folder.join("coasts/broken.geojson"), "{\"type\": \"Polygon\"").unwrap();
+    fs::write(folder.join("notes.txt"), "no domain").unwrap();
+    folder
+}
+
+fn press(window: &mut Window, button: &str) {
+    window.get_by_role_and_label(Role::Button, button).click();
+    window.run();
+}
+
+fn type_text(window: &mut Window, text: &str) {
+    window.event(Event::Text(text.to_owned()));
+    window.run();
+}
+
+fn text(window: &Window) -> String {
+    value_of(window, Role::TextInput, "Path")
+}
+
+/// The rows of the list, from the top.
+fn rows(window: &Window) -> Vec<String> {
+    let mut rows: Vec<_> = window.query_all_by_role(Role::ListBoxOption).collect();
+    rows.sort_by(|a, b| a.rect().top().total_cmp(&b.rect().top()));
+    rows.iter().map(|row| row.accesskit_node().label().unwrap_or_default()).collect()
+}
+
+fn row(window: &mut Window, name: &str) {
+    window.get_by_role_and_label(Role::ListBoxOption, name).click();
+    window.run();
+}
+
+fn wait_for_rows(window: &mut Window, expected: &[&str]) {
+    wait_until(window, |window| rows(window) == expected);
+}
+
+fn go_to(window: &mut Window, folder: &Path) {
+    key(window, Modifiers::COMMAND, Key::A);
+    type_text(window, folder.to_str().unwrap());
+    key(window, Modifiers::NONE, Key::Enter);
+}
+
+fn is_open(window: &Window) -> bool {
+    window.query_by_role_and_label(Role::TextInput, "Path").is_some()
+}
+
+#[test]
+fn a_domain_is_found_by_clicks_and_by_typing() {
+    let folder = folder("find");
+    // Frames short enough for a double click.
+    let mut window = window_with(Harness::builder().with_size(vec2(1440.0, 900.0)).with_step_dt(0.02));
+    choose(&mut window, "File", "Open domain… Ctrl+Shift+O");
+    go_to(&mut window, &folder);
+    wait_for_rows(&mut window, &["coasts/", "Maps/"]);
+    row(&mut window, "coasts/");
+    wait_for_rows(&mut window, &["broken.geojson", "north sea.geojson", "north.geojson"]);
+    press(&mut window, "Folder above");
+    wait_for_rows(&mut window, &["coasts/", "Maps/"]);
+
+    // The list narrows to what is typed, and Tab completes it.
+    type_text(&mut window, "CO");
+    wait_for_rows(&mut window, &["coasts/"]);
+    key(&mut window, Modifiers::NONE, Key::Tab);
+    assert_eq!(text(&window), "coasts/");
+    wait_for_rows(&mut window, &["broken.geojson", "north sea.geojson", "north.geojson"]);
+    type_text(&mut window, "n");
+    wait_for_rows(&mut window, &["north sea.geojson", "north.geojson"]);
+    key(&mut window, Modifiers::NONE, Key::Tab);
+    assert_eq!(text(&window), "coasts/north", "as far as they agree");
+    key(&mut window, Modifiers::NONE, Key::ArrowDown);
+    key(&mut window, Modifiers::NONE, Key::ArrowDown);
+    key(&mut window, Modifiers::NONE, Key::Enter);
+    wait_until(&mut window, |window| document(window).settings().name == "north");
+    assert!(!is_open(&window));
+
+    // The folder is remembered.
+    choose(&mut window, "File", "Open domain… Ctrl+Shift+O");
+    wait_for_rows(&mut window, &["broken.geojson", "north sea.geojson", "north.geojson"]);
+    let at = window.get_by_role_and_label(Role::ListBoxOption, "north sea.geojson").rect().center();
+    for _ in 0..2 {
+        window.event(Event::PointerMoved(at));
+        window.event(button_event(at, PointerButton::Primary, true, Modifiers::NONE));
+        window.event(button_event(at, PointerButton::Primary, false, Modifiers::NONE));
+    }
+    wait_until(&mut window, |window| document(window).settings().name == "north sea");
+}
+
+#[test]
+fn an_error_stays_in_the_dialog_and_keeps_what_was_typed() {
+    let folder = folder("errors");
+    let mut window = window();
+    let version = document(&window).version();
+    key(&mut window, Modifiers::COMMAND | Modifiers::SHIFT, Key::O);
+    for (name, problem) in [("coasts/broken.geojson", "cut off"), ("missing.geojson", "There is no file")] {
+        go_to(&mut window, &folder);
+        type_text(&mut window, name);
+        press(&mut window, "Open");
+        wait_until(&mut window, |window| window.query_by_role(Role::Alert).is_some());
+        let message = window.get_by_role(Role::Alert).accesskit_node().label().unwrap_or_default();
+        assert!(message.contains(problem), "{message}");
+        assert_eq!((text(&window).as_str(), notice(&window).as_str()), (name, ""));
+        type_text(&mut window, "x");
+        assert!(window.query_by_role(Role::Alert).is_none(), "the text is another one");
+    }
+    key(&mut window, Modifiers::NONE, Key::Escape);
+    assert!(!is_open(&window));
+    assert_eq!(document(&window).version(), version);
+
+    // To write to a folder that is not there.
+    key(&mut window, Modifiers::COMMAND, Key::E);
+    key(&mut window, Modifiers::COMMAND, Key::A);
+    let typed = folder.join("no folder/mesh.vtu");
+    type_text(&mut window, typed.to_str().unwrap());
+    press(&mut window, "Export");
+    wait_until(&mut window, |window| window.query_by_role(Role::Alert).is_some());
+    assert!(window.query_by_label_contains("there is no folder").is_some());
+    assert_eq!(text(&window), typed.to_str().unwrap());
+}
+
+#[test]
+fn edits_are_asked_about_only_for_a_file_that_can_be_opened() {
+    let folder = folder("asked");
+    let question = "Save changes to “Radar threats”?";
+    let mut window = window();
+    paint(&mut window, 0.9);
+    key(&mut window, Modifiers::COMMAND | Modifiers::SHIFT, Key::O);
+    go_to(&mut window, &folder.join("coasts"));
+    type_text(&mut window, "broken.geojson");
+    key(&mut window, Modifiers::NONE, Key::Enter);
+    wait_until(&mut window, |window| window.query_by_role(Role::Alert).is_some());
+    assert!(window.query_by_label(question).is_none());
+    key(&mut window, Modifiers::COMMAND, Key::A);
+    type_text(&mut window, "north.geojson");
+    key(&mut window, Modifiers::NONE, Key::Enter);
+    wait_until(&mut window, |window| window.query_by_label(question).is_some());
+    assert!(!is_open(&window) && document(&window).settings().name == "Radar threats");
+}
+
+#[test]
+fn an_export_proposes_a_name_and_says_what_it_writes() {
+    let folder = folder("export");
+    let mut window = window();
+    key(&mut window, Modifiers::COMMAND, Key::E);
+    assert_eq!(text(&window), "Radar threats.vtu");
+    let count = format::count(window.state().session().triangle_count() as u64);
+    let says = |window: &Window, text: &str| window.query_by_label_contains(text).is_some();
+    assert!(says(&window, &format!("{count} triangles, about")));
+    window.get_by_role_and_label(Role::ComboBox, "Format").click();
+    window.run();
+    window.get_by_label_contains(".node").click();
+    window.run();
+    assert_eq!(text(&window), "Radar threats.node");
+    assert!(says(&window, "in 4 files"));
+    type_text(&mut window, "x"); // replaces nothing: the cursor is at the end
+    key(&mut window, Modifiers::COMMAND, Key::A);
+    type_text(&mut window, &format!("{}/", folder.display()));
+    wait_for_rows(&mut window, &["coasts/", "Maps/"]);
+    row(&mut window, "coasts/");
+    key(&mut window, Modifiers::COMMAND, Key::A);
+    type_text(&mut window, "mesh");
+    key(&mut window, Modifiers::NONE, Key::Enter);
+    assert!(wait_for_notice(&mut window).contains("triangles written to"));
+    let written = folder.join("coasts/mesh.node");
+    assert!(written.exists(), "the ending is added");
+    assert!(!is_open(&window));
+
+    // A name that is there is asked about over the dialog, which stays.
+    send(&mut window, Command::Escape);
+    key(&mut window, Modifiers::COMMAND, Key::E);
+    key(&mut window, Modifiers::COMMAND, Key::A);
+    type_text(&mut window, "mesh.node");
+    key(&mut window, Modifiers::NONE, Key::Enter);
+    assert!(says(&window, "Replace 4 files?"));
+    let cancel = window.get_all_by_role_and_label(Role::Button, "Cancel").last().unwrap();
+    cancel.click();
+    window.run();
+    assert_eq!(text(&window), "mesh.node");
+}
+
+#[test]
+fn the_sizes_of_exports_are_about_right() {
+    let folder = folder("sizes");
+    for example in [Example::Threats, Example::Aegean] {
+        let mut window = window();
+        send(&mut window, Command::OpenExample(example));
+        wait_until(&mut window, |window| {
+            window.state().session().document().settings().domain.region().is_none()
+                || window.state().session().derived().is_some()
+        });
+        let triangles = window.state().session().triangle_count();
+        for format in ExportFormat::all() {
+            let Some(about) = format.approximate_bytes(triangles) else { continue };
+            let file = folder.join(format!("{example:?}.{}", format.ending()));
+            send(&mut window, Command::Export(file.clone()));
+            wait_for_notice(&mut window);
+            send(&mut window, Command::Escape);
+            let bytes: u64 = format.files(&file).iter().map(|file| fs::metadata(file).unwrap().len()).sum();
+            let ratio = about as f64 / bytes as f64;
+            assert!((0.6..1.5).contains(&ratio), "{format:?}: {about} instead of {bytes} bytes");
+        }
+    }
+}
+
+#[test]
+fn a_project_is_saved_under_the_name_of_the_document() {
+    let folder = folder("save");
+    let mut window = window();
+    key(&mut window, Modifiers::COMMAND, Key::S);
+    assert_eq!(text(&window), "Radar threats.meshbrush");
+    key(&mut window, Modifiers::COMMAND, Key::A);
+    type_text(&mut window, &format!("{}/coasts", folder.display()));
+    key(&mut window, Modifiers::NONE, Key::Enter);
+    assert!(is_open(&window), "it is a folder");
+    type_text(&mut window, "a");
+    press(&mut window, "Save");
+    wait_until(&mut window, |window| window.query_by_label("a").is_some());
+    let saved = project::read(&folder.join("coasts/a.meshbrush")).unwrap();
+    assert!(saved.settings() == document(&window).settings() && !is_open(&window));
+}
