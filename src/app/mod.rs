@@ -11,6 +11,7 @@ mod busy;
 mod canvas;
 mod catalog;
 pub mod command;
+mod contours;
 mod cuts;
 mod derivation;
 mod dialogs;

@@ -30,6 +30,8 @@ pub enum CanvasAid {
     Coordinates,
     /// The scale bar.
     ScaleBar,
+    /// Contour lines of h̄.
+    Contours,
 }
 
 /// Which of them are shown.
@@ -39,11 +41,13 @@ pub struct CanvasAids {
     pub coordinates: bool,
     /// The scale bar.
     pub scale_bar: bool,
+    /// Contour lines of h̄ where one level ends and the next begins.
+    pub contours: bool,
 }
 
 impl Default for CanvasAids {
     fn default() -> Self {
-        Self { coordinates: true, scale_bar: true }
+        Self { coordinates: true, scale_bar: true, contours: false }
     }
 }
 
@@ -52,6 +56,7 @@ impl CanvasAids {
         let shown = match aid {
             CanvasAid::Coordinates => &mut self.coordinates,
             CanvasAid::ScaleBar => &mut self.scale_bar,
+            CanvasAid::Contours => &mut self.contours,
         };
         *shown = !*shown;
     }
@@ -233,8 +238,10 @@ impl View {
     }
 }
 
-/// The deepest level that h_min can ask for.
+/// The deepest level that h_min or the diameter at the outline can ask for.
 pub fn deepest_level(settings: &Settings) -> u8 {
     let spacing = settings.lattice().map_or(settings.spacing, |lattice| lattice.spacing());
-    level_for_diameter(spacing, settings.transfer.h_min).unwrap_or(63).max(1) as u8
+    let at_outline = settings.domain.region().and_then(|_| settings.boundary.diameter());
+    let smallest = at_outline.map_or(settings.transfer.h_min, |at| at.min(settings.transfer.h_min));
+    level_for_diameter(spacing, smallest).unwrap_or(63).max(1) as u8
 }

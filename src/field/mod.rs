@@ -1,5 +1,6 @@
 //! h̄, the target diameter: formulas, rasters and paint, and the rules that compare a triangle with it.
 
+mod contours;
 pub mod formula;
 mod samples;
 mod source;
@@ -7,6 +8,7 @@ mod target_field;
 mod transfer;
 mod vertex_rule;
 
+pub use contours::{Contour, contours};
 pub use formula::Formula;
 pub use source::{Source, checked_target, smallest_target};
 pub use target_field::{PaintRef, RefinementRule, TargetField, TargetFieldSpec, f32_not_below};

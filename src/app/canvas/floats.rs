@@ -2,7 +2,7 @@
 
 use eframe::egui::{Align2, Rect, Response, Ui, UiBuilder, pos2, vec2};
 
-use super::{Canvas, coordinates, way_back};
+use super::{Canvas, coordinates, legend, way_back};
 use crate::app::background::Row;
 use crate::app::command::Command;
 use crate::app::frame::FrameState;
@@ -34,6 +34,7 @@ impl Canvas {
             if state.view.aids.scale_bar && places.is_empty() {
                 coordinates::show_scale_bar(ui, inner, &camera, state.unit());
             }
+            legend::show(ui, inner, state);
             places.extend(way_back::show(ui, inner, state, &camera, commands));
         }
         places.extend(draw_notice(ui, inner, state.session, commands));

@@ -121,8 +121,27 @@ pub fn paint_outline(painter: &Painter, corners: impl Iterator<Item = Pos2>) {
     }
 }
 
+/// A contour line: thin, and light on a dark halo, so that it is visible on the colour of any level.
+pub fn paint_contour(painter: &Painter, points: impl Iterator<Item = Pos2>) {
+    let (lines, _) = lines_in_view(painter, points, 2.0);
+    let strokes =
+        [Stroke::new(2.2, Color32::from_black_alpha(120)), Stroke::new(0.9, Color32::from_white_alpha(225))];
+    for stroke in strokes {
+        painter.extend(lines.iter().map(|line| Shape::line(line.clone(), stroke)));
+    }
+}
+
 /// A line in a colour on a dark halo. Returns the length of what is in view, in points.
 pub fn paint_line(painter: &Painter, points: impl Iterator<Item = Pos2>, color: Color32, width: f32) -> f32 {
+    let (lines, length) = lines_in_view(painter, points, width);
+    for stroke in [Stroke::new(width + 2.0, Color32::from_black_alpha(150)), Stroke::new(width, color)] {
+        painter.extend(lines.iter().map(|line| Shape::line(line.clone(), stroke)));
+    }
+    length
+}
+
+/// The parts of a line in view, without edges that are too short to be seen, and their length in points.
+fn lines_in_view(painter: &Painter, points: impl Iterator<Item = Pos2>, width: f32) -> (Vec<Vec<Pos2>>, f32) {
     let view = painter.clip_rect().expand(width);
     let (mut lines, mut last): (Vec<Vec<Pos2>>, Option<Pos2>) = (Vec::new(), None);
     let mut length = 0.0;
@@ -145,10 +164,7 @@ pub fn paint_line(painter: &Painter, points: impl Iterator<Item = Pos2>, color: 
             None => lines.push(vec![from, point]),
         }
     }
-    for stroke in [Stroke::new(width + 2.0, Color32::from_black_alpha(150)), Stroke::new(width, color)] {
-        painter.extend(lines.iter().map(|line| Shape::line(line.clone(), stroke)));
-    }
-    length
+    (lines, length)
 }
 
 /// The pieces of a ring near a view. The ring is split where it turns back: a line drawn around such a corner

@@ -3,12 +3,15 @@
 mod coordinates;
 mod floats;
 mod gpu;
+mod legend;
 pub mod marks;
 mod overlay;
 mod price;
 mod way_back;
 
-use eframe::egui::{self, Context, CursorIcon, Event, Id, Key, PointerButton, Rect, Response, Sense, Ui};
+use eframe::egui::{
+    self, Context, CursorIcon, Event, Id, Key, Painter, PointerButton, Rect, Response, Sense, Ui,
+};
 use glam::DVec2;
 
 pub use gpu::CanvasGpu;
@@ -16,6 +19,7 @@ use overlay::OverlayColors;
 
 use super::busy::Busy;
 use super::command::Command;
+use super::contours::ContourFinder;
 use super::frame::FrameState;
 use super::session::Session;
 use super::theme::tokens;
@@ -24,7 +28,7 @@ use super::view::View;
 use crate::geometry::Lattice;
 use crate::mesh::Progress;
 use crate::paint::Brush;
-use crate::scene::Highlights;
+use crate::scene::{Camera, Highlights};
 
 /// Free space around the domain when it is fitted, in points.
 const FIT_MARGIN: f32 = 24.0;
@@ -32,6 +36,8 @@ const FIT_MARGIN: f32 = 24.0;
 const HINT_HEIGHT: f32 = 32.0;
 /// Share by which one point of scrolling zooms; a notch of a wheel scrolls by about 50 points.
 const ZOOM_PER_POINT: f64 = 0.004;
+/// Most corners of contour lines that a frame draws.
+const MOST_CONTOUR_CORNERS: usize = 150_000;
 /// Name by which tests and screen readers find the canvas.
 pub const CANVAS_NAME: &str = "Mesh canvas";
 
@@ -39,6 +45,7 @@ pub const CANVAS_NAME: &str = "Mesh canvas";
 pub struct Canvas {
     gpu: Option<CanvasGpu>,
     overlay_colors: OverlayColors,
+    contours: ContourFinder,
     /// The widget of the last frame, and where it was.
     shown: Option<(Id, Rect)>,
     /// What floated over it in the last frame and takes clicks.
@@ -54,6 +61,7 @@ impl Canvas {
         Self {
             gpu,
             overlay_colors: OverlayColors::default(),
+            contours: ContourFinder::default(),
             shown: None,
             floats: Vec::new(),
             gesture: None,
@@ -261,6 +269,7 @@ impl Canvas {
 
     /// Sends the changes of the mesh to the GPU, and draws it.
     pub fn draw_mesh(&mut self, ui: &Ui, session: &mut Session, view: &View, commands: &mut Vec<Command>) {
+        self.follow_contours(ui.ctx(), session, view);
         let change = session.take_shown_change();
         let (Some(gpu), Some(camera), Some((_, rect))) = (&mut self.gpu, view.camera, self.shown) else {
             return;
@@ -278,11 +287,44 @@ impl Canvas {
         ui.painter().add(gpu.shape(rect, camera, style));
     }
 
+    /// Brings the contour lines closer to the field, while they are shown.
+    fn follow_contours(&mut self, ctx: &Context, session: &Session, view: &View) {
+        if !view.aids.contours {
+            return self.contours.clear();
+        }
+        let revision = session.document().revision() + session.follower().revision();
+        self.contours.advance(session.follower(), revision, ctx);
+    }
+
+    /// Draws the contour lines that are in view.
+    fn paint_contours(&self, painter: &Painter, rect: Rect, camera: &Camera) {
+        let (screen, visible) = (camera.screen_map(), camera.visible_world());
+        let at = |world| marks::point_from_px(rect, screen(world), painter.pixels_per_point());
+        let in_view = self.contours.lines().iter().filter(|line| {
+            let (line, view) = (line.bounds, visible);
+            line.min.cmple(view.max).all() && view.min.cmple(line.max).all()
+        });
+        let in_view: Vec<_> = in_view.map(|line| &line.contour).collect();
+        // Where there are very many, only every second level has lines, or every fourth.
+        let mut every = 1;
+        let corners = |every: u32| {
+            let shown = in_view.iter().filter(|line| line.level.is_multiple_of(every));
+            shown.map(|line| line.points.len()).sum::<usize>()
+        };
+        while every < 64 && corners(every) > MOST_CONTOUR_CORNERS {
+            every *= 2;
+        }
+        for line in in_view.iter().filter(|line| line.level.is_multiple_of(every)) {
+            marks::paint_contour(painter, line.points.iter().map(|&point| at(point)));
+        }
+    }
+
     /// Draws highlights, what the tool shows, the brush ring and the price beside it, and sets the cursor.
     pub fn draw_marks(&self, ui: &Ui, response: &Response, state: &FrameState<'_>) {
         let Some(camera) = state.view.camera else { return };
         let (rect, px_per_point) = (response.rect, ui.pixels_per_point());
         let painter = ui.painter_at(rect);
+        self.paint_contours(&painter, rect, &camera);
         if state.view.aids.coordinates {
             coordinates::paint_frame(ui, rect, &camera, state.unit());
         }

@@ -64,6 +64,6 @@ impl OverlayColors {
 }
 
 /// From nothing to a warm red; alpha carries the risk.
-fn risk_color(risk: u8) -> [u8; 4] {
+pub fn risk_color(risk: u8) -> [u8; 4] {
     [0xff, 0x5a - risk / 6, 0x3c, (f32::from(risk) * 0.8) as u8]
 }

@@ -22,6 +22,7 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
         for (name, aid, mut shown) in [
             ("Coordinates", CanvasAid::Coordinates, view.aids.coordinates),
             ("Scale bar", CanvasAid::ScaleBar, view.aids.scale_bar),
+            ("Contours of h̄", CanvasAid::Contours, view.aids.contours),
         ] {
             if toggle_row(ui, name, &mut shown).changed() {
                 commands.push(Command::ToggleAid(aid));

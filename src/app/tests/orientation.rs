@@ -1,11 +1,13 @@
 //! Finding one's way on the canvas: scale bar, coordinates, going to a place, the way back.
 
+use std::collections::HashSet;
+
 use eframe::egui::accesskit::Role;
 use eframe::egui::{Key, Modifiers, vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use glam::dvec2;
 
-use super::{Window, choose, key, send, set, settings, triangles, type_into, wheel, window};
+use super::{TALL, Window, choose, key, send, set, settings, triangles, type_into, wheel, window, window_of};
 use crate::app::command::Command;
 use crate::app::view::CanvasAid;
 use crate::document::{Example, Setting};
@@ -121,4 +123,45 @@ fn the_view_is_fitted_to_the_window_until_it_is_moved() {
     window.set_size(vec2(1440.0, 900.0));
     window.run();
     assert_eq!(scale(&window), at_first, "after Home it follows again");
+}
+
+/// What the legend on the canvas says.
+fn legend(window: &Window) -> Option<String> {
+    let mut labels = window.query_all_by_role(Role::Label).filter_map(|node| node.accesskit_node().value());
+    labels.find_map(|label| label.strip_prefix("Legend: ").map(str::to_owned))
+}
+
+#[test]
+fn an_overlay_and_contour_lines_have_a_legend() {
+    let mut window = window();
+    assert_eq!(legend(&window), None);
+    key(&mut window, Modifiers::NONE, Key::O);
+    assert_eq!(legend(&window).as_deref(), Some("risk 0 to 1"));
+    key(&mut window, Modifiers::SHIFT, Key::O);
+    assert_eq!(legend(&window).as_deref(), Some("diameters of levels 0 to 10"));
+    key(&mut window, Modifiers::SHIFT, Key::O);
+    assert_eq!(legend(&window), None);
+    choose(&mut window, "View", "Contour lines of h̄");
+    assert_eq!(legend(&window).as_deref(), Some("diameters of levels 0 to 10"));
+}
+
+#[test]
+fn every_level_along_an_outline_has_a_colour_of_its_own() {
+    let mut window = window_of(TALL);
+    send(&mut window, Command::OpenExample(Example::Aegean));
+    // The outline asks for finer triangles than any paint can.
+    set(&mut window, Setting::SmallestDiameter(0.2));
+    let deepest = window.state().session().level_counts().len() - 1;
+    let colors = window.state().view().level_colors(settings(&window));
+    let own: HashSet<_> = (0..=deepest).map(|level| colors.of(level as u8)).collect();
+    assert_eq!(own.len(), deepest + 1);
+    send(&mut window, Command::BeginStroke(dvec2(25.0, 38.0)));
+    send(&mut window, Command::DrawTo(dvec2(25.5, 38.0)));
+    send(&mut window, Command::EndStroke);
+    assert_eq!(window.state().view().level_colors(settings(&window)), colors, "paint changes no colour");
+    for level in 0..=deepest {
+        let name = format!("Level {level}: ");
+        let row = window.get_by_label_contains(&name);
+        assert!(row.rect().height() >= 14.0 && row.rect().bottom() < TALL.y, "level {level} is visible");
+    }
 }

@@ -143,9 +143,7 @@ impl Layout {
     /// Paints the bar and returns its right edge.
     fn bar(&self, ui: &Ui, rect: Rect, row: &LevelRow, opacity: f32) -> f32 {
         let left = rect.left() + LEVEL + 10.0;
-        if row.count == 0 {
-            return left - 8.0;
-        }
+        // A level without triangles has a swatch: the legend shows every colour of the canvas.
         let longest = (rect.right() - self.count - 8.0 - left).max(8.0);
         let width = (longest * row.count as f32 / self.total).max(3.0);
         let thickness = (rect.height() - 6.0).clamp(8.0, 11.0);

@@ -1,0 +1,101 @@
+//! The legend of what is drawn over the mesh.
+
+use eframe::egui::{Align2, Color32, Mesh, Rect, Role, Sense, Shape, Ui, Vec2, WidgetInfo, pos2, vec2};
+
+use super::overlay::risk_color;
+use crate::app::frame::FrameState;
+use crate::app::theme::{font, tokens};
+use crate::app::view::{FieldOverlay, deepest_level};
+use crate::app::widgets::{format, paint_floating};
+
+/// Width of the box and of a swatch, in points.
+const WIDTH: f32 = 124.0;
+const SWATCH: f32 = 18.0;
+/// Heights of the title and of a row with text, in points.
+const TITLE: f32 = 20.0;
+const ROW: f32 = 14.0;
+const MARGIN: Vec2 = vec2(10.0, 7.0);
+
+/// Shows the legend of the overlay or of the contour lines in the upper right corner of `inner`. It takes no
+/// clicks.
+pub fn show(ui: &Ui, inner: Rect, state: &FrameState<'_>) {
+    let inner = inner.with_min_y(inner.top() + 12.0);
+    match state.view.overlay {
+        FieldOverlay::Risk => risk_legend(ui, inner),
+        FieldOverlay::Target => target_legend(ui, inner, state),
+        FieldOverlay::None if state.view.aids.contours => target_legend(ui, inner, state),
+        FieldOverlay::None => {}
+    }
+}
+
+/// Draws the box of a legend with its title, and returns the place for its content.
+fn boxed(ui: &Ui, inner: Rect, height: f32, title: &str, spoken: &str) -> Rect {
+    let size = vec2(WIDTH, TITLE + height) + 2.0 * MARGIN;
+    let place = Rect::from_min_size(inner.right_top() - vec2(size.x, 0.0), size);
+    let response = ui.interact(place, ui.scope_id().with("legend"), Sense::hover());
+    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, spoken));
+    paint_floating(ui, place);
+    let within = place.shrink2(MARGIN);
+    ui.painter().text(within.min, Align2::LEFT_TOP, title, font::caption(), tokens(ui).label);
+    within.with_min_y(within.top() + TITLE)
+}
+
+/// Risk from 0 to 1 in the colours over level 0.
+fn risk_legend(ui: &Ui, inner: Rect) {
+    let place = boxed(ui, inner, 30.0, "Risk", "Legend: risk 0 to 1");
+    let t = tokens(ui);
+    let bar = place.with_max_y(place.top() + 12.0);
+    let mut mesh = Mesh::default();
+    for i in 0..=16_u8 {
+        let [r, g, b, a] = risk_color((f32::from(i) / 16.0 * 255.0) as u8);
+        let color = t.level_zero.blend(Color32::from_rgba_unmultiplied(r, g, b, a));
+        let x = bar.left() + bar.width() * f32::from(i) / 16.0;
+        mesh.colored_vertex(pos2(x, bar.top()), color);
+        mesh.colored_vertex(pos2(x, bar.bottom()), color);
+        if i > 0 {
+            let last = 2 * u32::from(i);
+            mesh.add_triangle(last - 2, last - 1, last);
+            mesh.add_triangle(last - 1, last, last + 1);
+        }
+    }
+    ui.painter().add(Shape::mesh(mesh));
+    for (x, align, text) in [
+        (bar.left(), Align2::LEFT_TOP, "0"),
+        (bar.center().x, Align2::CENTER_TOP, "0.5"),
+        (bar.right(), Align2::RIGHT_TOP, "1"),
+    ] {
+        ui.painter().text(pos2(x, bar.bottom() + 3.0), align, text, font::axis(), t.label);
+    }
+}
+
+/// The levels that h̄ can ask for, with the diameters of their triangles.
+fn target_legend(ui: &Ui, inner: Rect, state: &FrameState<'_>) {
+    let settings = state.session.follower().settings();
+    let levels = u32::from(deepest_level(settings)) + 1;
+    let room = (inner.height() * 0.7 - TITLE - 2.0 * MARGIN.y).max(ROW);
+    let row = (room / levels as f32).min(ROW);
+    let spoken = format!("Legend: diameters of levels 0 to {}", levels - 1);
+    let place = boxed(ui, inner, row * levels as f32, "h̄ by level", &spoken);
+    // Where rows are too low for text, only some have one.
+    let every = (ROW / row).ceil() as u32;
+    let (t, colors) = (tokens(ui), state.view.level_colors(settings));
+    for level in 0..levels {
+        let top = place.top() + row * level as f32;
+        let swatch = Rect::from_min_size(pos2(place.left(), top), vec2(SWATCH, row));
+        let [r, g, b, _] = colors.of(level as u8);
+        ui.painter().rect_filled(swatch, 0.0, Color32::from_rgb(r, g, b));
+        if level % every == 0 {
+            let y = swatch.center().y;
+            let number = level.to_string();
+            ui.painter().text(
+                pos2(swatch.right() + 22.0, y),
+                Align2::RIGHT_CENTER,
+                number,
+                font::axis(),
+                t.label,
+            );
+            let diameter = format::length(state.session.mesh().diameter(level), state.unit());
+            ui.painter().text(pos2(place.right(), y), Align2::RIGHT_CENTER, diameter, font::axis(), t.value);
+        }
+    }
+}
