@@ -94,8 +94,11 @@ use std::process::ExitCode;
 
 /// The window, in a build that has one.
 #[cfg(feature = "gui")]
-const WINDOW: Option<cli::Window> =
-    Some(cli::Window { open: app::run, write_screenshots: app::write_screenshots });
+const WINDOW: Option<cli::Window> = Some(cli::Window {
+    open: app::run,
+    write_screenshots: app::write_screenshots,
+    write_manual_pictures: app::write_manual_pictures,
+});
 #[cfg(not(feature = "gui"))]
 const WINDOW: Option<cli::Window> = None;
 

@@ -8,6 +8,7 @@ use glam::DVec2;
 
 use super::background::WorkId;
 use super::dialogs::FileRequest;
+use super::help::HelpTopic;
 use super::readout::Quantity;
 use super::tools::{BoundaryToolMode, DomainToolMode, PaintKind, Tool};
 use super::view::{CanvasAid, FieldOverlay};
@@ -147,6 +148,10 @@ pub enum Command {
     Palette,
     /// Shows what the program is.
     About,
+    /// Shows a topic of the help.
+    ShowHelp(HelpTopic),
+    /// Closes the help.
+    CloseHelp,
     /// Closes the open dialog.
     CloseDialog,
     /// Dismisses the message.
@@ -159,6 +164,8 @@ pub enum Command {
     AnswerRecovery(Answer),
     /// Shows a failure.
     Report(String),
+    /// Shows news.
+    Tell(String),
 }
 
 /// A document that was read and not shown yet.

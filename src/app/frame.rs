@@ -26,7 +26,7 @@ use super::readout::Readout;
 use super::session::Session;
 use super::tools::Tools;
 use super::view::View;
-use super::{journal, keys, panels, project};
+use super::{help, journal, keys, panels, project};
 use crate::text::LengthUnit;
 
 /// The least time of a frame that goes into updating the mesh.
@@ -193,6 +193,9 @@ impl App {
             journal::question(ctx, keeper, &self.project, commands);
         }
         project::questions(ctx, &state, self.dialogs.asks_for_file(), commands);
+        if let Some(topic) = self.help {
+            help::show(ctx, topic, &catalog(&state), commands);
+        }
         if self.dialogs.is_open() {
             self.dialogs.show(ctx, &state, commands);
         }

@@ -18,6 +18,7 @@ mod dialogs;
 mod execute;
 mod files;
 mod frame;
+mod help;
 mod journal;
 mod keys;
 mod notices;
@@ -44,9 +45,10 @@ use background::Background;
 use canvas::{Canvas, CanvasGpu};
 use command::Command;
 use dialogs::Dialogs;
+use help::HelpTopic;
 use journal::JournalKeeper;
 use project::ProjectFile;
-pub use screenshots::write as write_screenshots;
+pub use screenshots::{write as write_screenshots, write_manual as write_manual_pictures};
 use session::Session;
 use tools::Tools;
 use view::View;
@@ -58,6 +60,9 @@ use crate::render::gpu::device_descriptor;
 const APP_ID: &str = "meshbrush";
 /// Key of the theme in the window's own storage.
 const THEME_KEY: &str = "theme";
+/// What "the report" is, wherever a person meets it.
+const REPORT: &str = "J. R. Looker, Mesh Generation via Local Bisection Refinement of Triangulated Grids, DSTO-TR-3095, \
+                      Defence Science and Technology Organisation, Australia, 2015";
 /// Initial size of the window, in points.
 const WINDOW_SIZE: [f32; 2] = [1440.0, 900.0];
 /// Size below which the panels no longer fit, in points.
@@ -71,6 +76,8 @@ pub struct App {
     view: View,
     canvas: Canvas,
     dialogs: Dialogs,
+    /// What the help window shows, while it is open.
+    help: Option<HelpTopic>,
     background: Background,
     /// Absent in tests and screenshots.
     journal: Option<JournalKeeper>,
@@ -104,6 +111,7 @@ impl App {
             view,
             canvas: Canvas::new(gpu),
             dialogs: Dialogs::default(),
+            help: None,
             background: Background::new(ctx),
             journal: None,
             commands: Vec::new(),

@@ -312,4 +312,8 @@ pub struct ScreenshotsArguments {
     /// Folder to write to; created if it does not exist
     #[arg(value_name = "DIR")]
     pub folder: PathBuf,
+
+    /// Write the pictures of the manual instead of those of the README
+    #[arg(long)]
+    pub manual: bool,
 }

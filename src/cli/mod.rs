@@ -38,6 +38,9 @@ pub struct Window {
     /// Writes pictures of it into a folder, without a display, and returns the files.
     #[cfg(feature = "gui")]
     pub write_screenshots: fn(&Path) -> Result<Vec<PathBuf>, String>,
+    /// Writes the pictures of the manual likewise.
+    #[cfg(feature = "gui")]
+    pub write_manual_pictures: fn(&Path) -> Result<Vec<PathBuf>, String>,
 }
 
 /// Runs the program. `arguments` begin with its name; `window` is `None` in a build without one.
@@ -81,7 +84,8 @@ fn run_command(
         #[cfg(feature = "gui")]
         (Some(Command::Screenshots(typed)), window) => {
             let Some(window) = window else { return Err(without_window()) };
-            for file in (window.write_screenshots)(&typed.folder).map_err(Failure::Work)? {
+            let write = if typed.manual { window.write_manual_pictures } else { window.write_screenshots };
+            for file in write(&typed.folder).map_err(Failure::Work)? {
                 terminal.say(&file.display().to_string());
             }
             Ok(())

@@ -1,7 +1,10 @@
 //! The menus Examples and Help.
 
+use eframe::egui::{Key, Modifiers};
+
 use super::{CatalogItem, Menu};
 use crate::app::command::Command;
+use crate::app::help::HelpTopic;
 use crate::document::Example;
 
 /// Documents that come with the program.
@@ -11,7 +14,14 @@ pub fn examples() -> Vec<CatalogItem> {
     Example::ALL.map(item).into()
 }
 
-/// About the program.
+/// The manual, keys and gestures, and what the program is.
 pub fn help() -> Vec<CatalogItem> {
-    vec![CatalogItem::new(Menu::Help, "About Meshbrush", Command::About)]
+    let topic = |title: &str, topic| CatalogItem::new(Menu::Help, title, Command::ShowHelp(topic));
+    vec![
+        topic("Manual", HelpTopic::MANUAL).key(Key::F1),
+        topic("How it works", HelpTopic::HOW_IT_WORKS),
+        topic("Glossary", HelpTopic::GLOSSARY),
+        topic("Keyboard and mouse", HelpTopic::Keys).keys(Modifiers::SHIFT, Key::F1).group(),
+        CatalogItem::new(Menu::Help, "About Meshbrush", Command::About).group(),
+    ]
 }

@@ -2,6 +2,7 @@
 
 mod edit;
 mod file;
+mod gestures;
 mod help;
 mod tool;
 mod view;
@@ -10,6 +11,7 @@ use eframe::egui::{Key, KeyboardShortcut, Modifiers};
 
 use super::command::Command;
 use super::frame::FrameState;
+pub use gestures::{GESTURES, GestureHelp};
 
 /// Every command with a title, in menu order, with its present state.
 pub fn catalog(state: &FrameState<'_>) -> Vec<CatalogItem> {
@@ -37,7 +39,7 @@ pub enum Menu {
     View,
     /// Documents that come with the program.
     Examples,
-    /// About.
+    /// Manual, keys and gestures, About.
     Help,
 }
 
@@ -62,6 +64,8 @@ pub struct CatalogItem {
     pub title: String,
     /// Its shortcut.
     pub shortcut: Option<KeyboardShortcut>,
+    /// The pointer gesture that does the same, as shown beside the title.
+    pub gesture: &'static str,
     /// What it does.
     pub command: Command,
     /// Whether it can be run now.
@@ -79,6 +83,7 @@ impl CatalogItem {
             menu,
             title: title.into(),
             shortcut: None,
+            gesture: "",
             command,
             enabled: true,
             checked: false,
@@ -102,6 +107,17 @@ impl CatalogItem {
         self
     }
 
+    /// Done by a pointer gesture.
+    pub fn gesture(mut self, gesture: &'static str) -> Self {
+        self.gesture = gesture;
+        self
+    }
+
+    /// The shortcut or the gesture, as menus and the palette show it; empty if there is none.
+    pub fn keys_text(&self) -> String {
+        self.shortcut.as_ref().map_or_else(|| self.gesture.to_owned(), shortcut_text)
+    }
+
     /// Only where `enabled`.
     pub fn enabled(mut self, enabled: bool) -> Self {
         self.enabled = enabled;
@@ -121,8 +137,8 @@ impl CatalogItem {
     }
 }
 
-/// A shortcut as menus and the palette show it.
-pub fn shortcut_text(shortcut: &KeyboardShortcut) -> String {
+/// A shortcut in words.
+fn shortcut_text(shortcut: &KeyboardShortcut) -> String {
     let mut text = String::new();
     if shortcut.modifiers.command {
         text += "Ctrl+";

@@ -2,7 +2,7 @@
 
 use eframe::egui::{Key, Modifiers};
 
-use super::{CatalogItem, Menu};
+use super::{CatalogItem, GESTURES, GestureHelp, Menu};
 use crate::app::command::{BoundaryCommand, Command, DomainCommand};
 use crate::app::frame::FrameState;
 use crate::app::tools::{BOUNDARY, BoundaryToolMode, DOMAIN, DomainToolMode, PaintKind, TOOLS};
@@ -44,6 +44,7 @@ pub fn tool(state: &FrameState<'_>) -> Vec<CatalogItem> {
         harder("Harder brush", 0.1, Key::CloseCurlyBracket),
         harder("Softer brush", -0.1, Key::OpenCurlyBracket),
     ]);
+    items.extend(GESTURES.iter().filter(|gesture| !gesture.advice.is_empty()).map(gesture_item));
     items.extend(domain_tool(state));
     for (i, key) in DIGITS.into_iter().enumerate() {
         let percent = 10 * (i + 1);
@@ -52,6 +53,12 @@ pub fn tool(state: &FrameState<'_>) -> Vec<CatalogItem> {
         items.push(if i == 0 { item.group() } else { item });
     }
     items
+}
+
+/// An entry that names a gesture. Chosen, it says how the gesture is made.
+fn gesture_item(gesture: &GestureHelp) -> CatalogItem {
+    let command = Command::Tell(gesture.advice.to_owned());
+    CatalogItem::new(Menu::Tool, gesture.title, command).gesture(gesture.keys)
 }
 
 fn domain_tool(state: &FrameState<'_>) -> Vec<CatalogItem> {

@@ -10,7 +10,8 @@ use std::path::Path;
 
 use eframe::egui::Context;
 
-use super::catalog::{CatalogItem, catalog, shortcut_text};
+use super::REPORT;
+use super::catalog::{CatalogItem, catalog};
 use super::command::Command;
 use super::frame::FrameState;
 use super::widgets::{self, ActionButton, PaletteAnswer, PaletteItem, dialog, dialog_title};
@@ -158,8 +159,7 @@ impl Dialogs {
 }
 
 fn palette(ctx: &Context, catalog: &[CatalogItem], commands: &mut Vec<Command>) {
-    let keys: Vec<String> =
-        catalog.iter().map(|item| item.shortcut.as_ref().map(shortcut_text).unwrap_or_default()).collect();
+    let keys: Vec<String> = catalog.iter().map(CatalogItem::keys_text).collect();
     let items: Vec<_> = (catalog.iter().zip(&keys))
         .map(|(item, keys)| PaletteItem { title: &item.title, keys, enabled: item.enabled })
         .collect();
@@ -182,6 +182,8 @@ fn about(ctx: &Context, commands: &mut Vec<Command>) {
             "Paint where detail matters; the mesh follows the brush. Local bisection refinement of triangulated grids by \
              Maubach's method: always conforming, always right-angled.",
         );
+        ui.add_space(8.0);
+        ui.label(format!("The report that the method is from: {REPORT}."));
         ui.add_space(8.0);
         ui.add(ActionButton::new("Close")).clicked()
     });

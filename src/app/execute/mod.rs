@@ -42,6 +42,9 @@ impl App {
             Command::CancelUpdate => self.session.cancel_update(),
             Command::DismissNotice => self.session.notices_mut().dismiss(),
             Command::Report(failure) => self.session.report(failure),
+            Command::Tell(news) => self.session.notices_mut().tell(news),
+            Command::ShowHelp(topic) => self.help = Some(topic),
+            Command::CloseHelp => self.help = None,
             Command::Query(point) => self.query(point),
             Command::QueryTriangle(id) => self.query_triangle(id),
             Command::AskPlace => self.dialogs.open(Dialog::GoTo),
@@ -69,8 +72,8 @@ impl App {
         }
     }
 
-    /// Cancels what is in progress: the stroke, the cut, or the rectangle or polygon. Else clears query and
-    /// message.
+    /// Cancels what is in progress: the stroke, the cut, or the rectangle or polygon. Else closes the
+    /// help, or clears query and message.
     fn escape(&mut self) {
         if self.session.document().stroke().is_some() {
             return self.session.document_mut().cancel_stroke();
@@ -81,7 +84,7 @@ impl App {
             self.session.drop_cut();
         } else if gesture_ended || !self.tools.domain.corners.is_empty() {
             self.tools.domain.corners.clear();
-        } else {
+        } else if self.help.take().is_none() {
             self.session.query(None);
             self.session.notices_mut().dismiss();
         }

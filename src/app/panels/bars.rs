@@ -1,8 +1,9 @@
 //! The menu bar and the tool strip.
 
-use eframe::egui::{self, Align, Button, Layout, MenuBar, RichText, ScrollArea, Ui};
+use eframe::egui::accesskit::Toggled;
+use eframe::egui::{self, Align, Align2, Button, Layout, MenuBar, Rect, RichText, ScrollArea, Ui, vec2};
 
-use crate::app::catalog::{CatalogItem, Menu, catalog, shortcut_text};
+use crate::app::catalog::{CatalogItem, Menu, catalog};
 use crate::app::command::Command;
 use crate::app::frame::FrameState;
 use crate::app::theme::{font, metrics, tokens};
@@ -41,11 +42,21 @@ fn menu_item(ui: &mut Ui, item: &CatalogItem, commands: &mut Vec<Command>) {
     if item.begins_group {
         ui.separator();
     }
-    let mut button = Button::selectable(item.checked, &item.title);
-    if let Some(shortcut) = &item.shortcut {
-        button = button.shortcut_text(shortcut_text(shortcut));
+    let mut button = Button::new(&item.title);
+    let keys = item.keys_text();
+    if !keys.is_empty() {
+        button = button.shortcut_text(keys);
     }
-    if ui.add_enabled(item.enabled, button).clicked() {
+    // Room for the mark of the current choice.
+    ui.spacing_mut().button_padding.x = 26.0;
+    let response = ui.add_enabled(item.enabled, button);
+    if item.checked {
+        let mark = Rect::from_center_size(response.rect.left_center() + vec2(13.0, 0.0), vec2(16.0, 16.0));
+        let color = tokens(ui).accent;
+        ui.painter().text(mark.center(), Align2::CENTER_CENTER, Icon::CHECK.glyph(), font::icon(16.0), color);
+        ui.ctx().accesskit_node_builder(response.id, |node| node.set_toggled(Toggled::True));
+    }
+    if response.clicked() {
         commands.push(item.command.clone());
         ui.close();
     }

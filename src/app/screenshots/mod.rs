@@ -1,5 +1,6 @@
 //! The pictures of the repository, drawn by the program itself without a display.
 
+mod manual;
 mod offscreen;
 
 use std::path::{Path, PathBuf};
@@ -14,6 +15,8 @@ use super::tools::{BoundaryToolMode, DomainToolMode, PaintKind, QUERY};
 use crate::document::{Base, Example, Setting};
 use crate::field::{Formula, RefinementRule};
 use crate::io;
+use crate::render::Image;
+pub use manual::write as write_manual;
 use offscreen::OffscreenWindow;
 
 /// A picture: its name, the size of the window in points, pixels for a point, and what happens before it is
@@ -56,12 +59,16 @@ impl Scene {
         let mut window = OffscreenWindow::open(Vec2::from(self.size), self.px_per_point)?;
         (self.act)(&mut window);
         let picture = window.picture()?;
-        let file = folder.join(format!("{}.png", self.name));
-        let written =
-            io::write_file(&file, |mut out| io::png::write_small(&mut out, picture.size, &picture.rgba));
-        written.map_err(|error| format!("{} cannot be written: {error}.", file.display()))?;
-        Ok(file)
+        write_picture(folder, self.name, &picture)
     }
+}
+
+fn write_picture(folder: &Path, name: &str, picture: &Image) -> Result<PathBuf, String> {
+    let file = folder.join(format!("{name}.png"));
+    let written =
+        io::write_file(&file, |mut out| io::png::write_small(&mut out, picture.size, &picture.rgba));
+    written.map_err(|error| format!("{} cannot be written: {error}.", file.display()))?;
+    Ok(file)
 }
 
 /// The first example, about to be painted on, with a queried triangle.

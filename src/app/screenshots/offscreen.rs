@@ -55,6 +55,11 @@ impl OffscreenWindow {
         Some(point_from_px(self.app.canvas.rect()?, px, self.px_per_point))
     }
 
+    /// Where the canvas is on the screen, in points.
+    pub fn canvas_rect(&self) -> Option<Rect> {
+        self.app.canvas.rect()
+    }
+
     /// Runs a command and everything that follows from it.
     pub fn send(&mut self, command: Command) {
         self.app.send(command);

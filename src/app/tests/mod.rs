@@ -11,6 +11,7 @@ mod domain;
 mod file_dialog;
 mod files;
 mod gallery;
+mod help;
 mod keys;
 mod long_work;
 mod menus;

@@ -12,5 +12,6 @@ pub use confirm::{Answer, ConfirmDialog, dialog, dialog_title};
 pub use float::{Hint, floating_tag, hint_pill, paint_floating, tag_size};
 pub use palette::{PaletteAnswer, PaletteItem, command_palette};
 pub use progress::{bytes_row, progress_row};
+pub use search::matches;
 
 use super::{Icon, format, paint};

@@ -1,0 +1,68 @@
+//! What is done with the pointer. The list of keys shows all of it, the menu Tool what a person would miss.
+
+/// Where a gesture is made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// With the brush or the eraser.
+    Painting,
+    /// On the canvas, with any tool.
+    Canvas,
+    /// On a number or a slider of a panel.
+    Panel,
+}
+
+impl Place {
+    /// The heading in the list of keys.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Painting => "Painting with the pointer",
+            Self::Canvas => "On the canvas, with any tool",
+            Self::Panel => "Numbers and sliders",
+        }
+    }
+}
+
+/// Something done with the pointer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct GestureHelp {
+    /// What it does.
+    pub title: &'static str,
+    /// The keys and the movement.
+    pub keys: &'static str,
+    /// Where.
+    pub place: Place,
+    /// What its entry in the menu Tool says; empty for those that are in no menu.
+    pub advice: &'static str,
+}
+
+const fn gesture(place: Place, title: &'static str, keys: &'static str) -> GestureHelp {
+    GestureHelp { title, keys, place, advice: "" }
+}
+
+impl GestureHelp {
+    const fn in_menu(self, advice: &'static str) -> Self {
+        Self { advice, ..self }
+    }
+}
+
+/// All of them.
+pub static GESTURES: [GestureHelp; 14] = [
+    gesture(Place::Painting, "Paint or erase", "drag"),
+    gesture(Place::Painting, "Pick the value under the pointer", "Alt+click")
+        .in_menu("Hold Alt and click on the canvas: the brush takes the value under the pointer."),
+    gesture(Place::Painting, "Straight line from the last point", "Shift+click").in_menu(
+        "Hold Shift and click on the canvas: a straight line is painted from the last painted point.",
+    ),
+    gesture(Place::Painting, "Size of the brush", "Shift+drag")
+        .in_menu("Hold Shift and drag sideways on the canvas: the brush becomes larger or smaller."),
+    gesture(Place::Canvas, "Move the view", "Space+drag"),
+    gesture(Place::Canvas, "Move the view", "middle-drag"),
+    gesture(Place::Canvas, "Zoom at the pointer", "wheel"),
+    gesture(Place::Canvas, "Zoom at the pointer", "pinch"),
+    gesture(Place::Panel, "Change a number", "drag"),
+    gesture(Place::Panel, "Change a number ten times finer", "Shift+drag"),
+    gesture(Place::Panel, "Change the number under the pointer", "wheel"),
+    gesture(Place::Panel, "Set the default", "double-click"),
+    gesture(Place::Panel, "Type a number", "click"),
+    gesture(Place::Panel, "Step a number while it is typed", "Up"),
+];

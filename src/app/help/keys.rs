@@ -1,0 +1,82 @@
+//! Keyboard and mouse: every command with a key, and every gesture.
+
+use eframe::egui::{self, Id, Response, Role, Sense, TextEdit, Ui, WidgetInfo, vec2};
+
+use crate::app::catalog::{CatalogItem, GESTURES, Menu};
+use crate::app::theme::{font, metrics, tokens};
+use crate::app::widgets::{key_row, matches};
+
+/// A line of the list.
+struct Entry<'a> {
+    group: &'a str,
+    title: &'a str,
+    keys: String,
+}
+
+/// A search field, and below it the keys and gestures that match.
+pub fn show(ui: &mut Ui, catalog: &[CatalogItem]) {
+    let id = Id::unique("search in the list of keys");
+    let mut query: String = ui.data(|data| data.get_temp(id)).unwrap_or_default();
+    search_field(ui, &mut query);
+    let entries = entries(catalog);
+    let found: Vec<&Entry<'_>> = entries.iter().filter(|entry| entry.matches(&query)).collect();
+    if found.is_empty() {
+        ui.label("No key or gesture matches.");
+    }
+    let mut group = "";
+    for entry in found {
+        if entry.group != group {
+            group = entry.group;
+            heading(ui, group);
+        }
+        key_row(ui, entry.title, &entry.keys);
+    }
+    ui.data_mut(|data| data.insert_temp(id, query));
+}
+
+/// Gestures first: they are in no key list that a person knows.
+fn entries(catalog: &[CatalogItem]) -> Vec<Entry<'_>> {
+    let gestures = GESTURES.iter().map(|gesture| Entry {
+        group: gesture.place.name(),
+        title: gesture.title,
+        keys: gesture.keys.to_owned(),
+    });
+    let keys = Menu::ALL.iter().flat_map(|(menu, group)| {
+        let items = catalog.iter().filter(move |item| item.menu == *menu && item.shortcut.is_some());
+        items.map(move |item| Entry { group, title: &item.title, keys: item.keys_text() })
+    });
+    gestures.chain(keys).collect()
+}
+
+impl Entry<'_> {
+    fn matches(&self, query: &str) -> bool {
+        matches(query, self.title) || matches(query, &self.keys) || matches(query, self.group)
+    }
+}
+
+fn search_field(ui: &mut Ui, query: &mut String) -> Response {
+    let (_, rect) = ui.allocate_space(vec2(ui.available_width(), 32.0));
+    ui.painter().rect_filled(rect, metrics::RADIUS_CONTROL, tokens(ui).field);
+    let inner = rect.shrink2(vec2(10.0, 0.0));
+    let mut child = ui.new_child(egui::UiBuilder::new().max_rect(inner));
+    let edit = TextEdit::singleline(query)
+        .id(Id::unique("search for a key"))
+        .hint_text(egui::RichText::new("Search: a key, or what it does").color(tokens(ui).label))
+        .text_color(tokens(ui).value)
+        .align(egui::Align2::LEFT_CENTER)
+        .frame(egui::Frame::NONE)
+        .desired_width(inner.width())
+        .min_size(inner.size());
+    let response = child.add(edit);
+    ui.ctx().accesskit_node_builder(response.id, |node| node.set_label("Search for a key"));
+    response
+}
+
+fn heading(ui: &mut Ui, text: &str) {
+    ui.add_space(12.0);
+    let (_, rect) = ui.allocate_space(vec2(ui.available_width(), 20.0));
+    let response = ui.interact(rect, ui.scope_id().with(("keys", text)), Sense::hover());
+    response.widget_info(|| WidgetInfo::labeled(Role::Heading, true, text));
+    let galley = ui.painter().layout_no_wrap(text.to_owned(), font::strong(), tokens(ui).value);
+    ui.painter().galley(rect.left_top(), galley, tokens(ui).value);
+}

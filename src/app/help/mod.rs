@@ -1,0 +1,88 @@
+//! Help inside the window: the manual, and the list of keys and gestures.
+
+mod keys;
+mod manual;
+mod markdown;
+mod page;
+
+use eframe::egui::{self, Context, Frame, Margin, ScrollArea, Ui, vec2};
+
+use super::catalog::CatalogItem;
+use super::command::Command;
+use super::theme::tokens_of;
+
+/// What the help window shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum HelpTopic {
+    /// Keys and gestures.
+    Keys,
+    /// A page of the manual, by its file.
+    Page(&'static str),
+}
+
+impl HelpTopic {
+    /// The first page.
+    pub const MANUAL: Self = Self::Page("first-steps.md");
+    /// From risk to mesh, in one picture.
+    pub const HOW_IT_WORKS: Self = Self::Page("how-it-works.md");
+    /// The words of the field and of the program.
+    pub const GLOSSARY: Self = Self::Page("glossary.md");
+
+    fn title(self) -> &'static str {
+        match self {
+            Self::Keys => "Keyboard and mouse",
+            Self::Page(file) => manual::page_of(file).map_or("", |page| page.title),
+        }
+    }
+}
+
+/// Width of the list of pages.
+const LIST_WIDTH: f32 = 168.0;
+/// Size of the window where there is room, in points.
+const SIZE: egui::Vec2 = vec2(820.0, 600.0);
+
+/// Shows a topic in a window of its own, beside the list of all topics. The canvas stays usable.
+pub fn show(ctx: &Context, topic: HelpTopic, catalog: &[CatalogItem], commands: &mut Vec<Command>) {
+    let mut open = true;
+    let room = ctx.content_rect().size() - vec2(48.0, 96.0);
+    let frame = Frame::popup(&ctx.global_style()).inner_margin(Margin::same(12));
+    egui::Window::new("Help")
+        .open(&mut open)
+        .frame(frame.fill(tokens_of(ctx).panel))
+        .default_size(SIZE.min(room))
+        .min_size(vec2(480.0, 280.0))
+        .default_pos(ctx.content_rect().center() - SIZE.min(room) / 2.0)
+        .collapsible(false)
+        .show(ctx, |ui| contents(ui, topic, catalog, commands));
+    if !open {
+        commands.push(Command::CloseHelp);
+    }
+}
+
+fn contents(ui: &mut Ui, topic: HelpTopic, catalog: &[CatalogItem], commands: &mut Vec<Command>) {
+    egui::Panel::left("topics of the help").frame(Frame::NONE).resizable(false).exact_size(LIST_WIDTH).show(
+        ui,
+        |ui| {
+            let pages = manual::PAGES.iter().map(|page| HelpTopic::Page(page.file));
+            for other in std::iter::once(HelpTopic::Keys).chain(pages) {
+                if ui.selectable_label(other == topic, other.title()).clicked() {
+                    commands.push(Command::ShowHelp(other));
+                }
+            }
+        },
+    );
+    egui::CentralPanel::default().frame(Frame::new().inner_margin(Margin { left: 16, ..Margin::ZERO })).show(
+        ui,
+        |ui| {
+            // Each topic keeps how far it was scrolled.
+            ScrollArea::vertical().id_salt(topic.title()).auto_shrink(false).show(ui, |ui| match topic {
+                HelpTopic::Keys => keys::show(ui, catalog),
+                HelpTopic::Page(file) => {
+                    if let Some(page) = manual::page_of(file) {
+                        page::show(ui, page, commands);
+                    }
+                }
+            });
+        },
+    );
+}

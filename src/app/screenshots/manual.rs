@@ -1,0 +1,134 @@
+//! The pictures of the manual.
+
+use std::path::{Path, PathBuf};
+
+use eframe::egui::{Rect, Vec2, vec2};
+use glam::dvec2;
+
+use super::{OffscreenWindow, boundary, look_at, point_at, write_picture};
+use crate::app::command::Command;
+use crate::app::theme::metrics::PANEL_WIDTH;
+use crate::app::view::FieldOverlay;
+use crate::io;
+use crate::render::Image;
+
+/// Size of the windows of which a picture shows the most part, in points.
+const WINDOW: Vec2 = vec2(980.0, 640.0);
+/// Size of a window of which a picture shows the canvas only.
+const SQUARE: Vec2 = vec2(360.0, 460.0);
+/// Height of the hint at the bottom of the canvas, in points.
+const HINT: f32 = 56.0;
+/// A level beyond those of the first example.
+const NO_LEVEL: u32 = 62;
+/// Pixels between two pictures side by side, and their colour.
+const GAP: usize = 12;
+const GAP_COLOR: [u8; 4] = [0x15, 0x18, 0x1e, 0xff];
+
+/// Writes every picture of the manual into a folder, and returns the files.
+///
+/// # Errors
+/// A sentence, when there is no graphics driver or a file cannot be written.
+pub fn write(folder: &Path) -> Result<Vec<PathBuf>, String> {
+    io::make_folder(folder).map_err(|error| format!("{} cannot be made: {error}.", folder.display()))?;
+    let pictures = [
+        ("window", window()?),
+        ("how-it-works", how_it_works()?),
+        ("panel", panel()?),
+        ("triangle", triangle()?),
+    ];
+    let boundary = ("boundary", sea()?);
+    pictures.iter().chain([&boundary]).map(|(name, picture)| write_picture(folder, name, picture)).collect()
+}
+
+/// The first example, about to be painted on.
+fn window() -> Result<Image, String> {
+    let mut window = OffscreenWindow::open(WINDOW, 1.0)?;
+    window.send(Command::Query(dvec2(0.651, 0.464)));
+    point_at(&mut window, dvec2(0.56, 0.66));
+    window.picture()
+}
+
+/// The side panel of the first example.
+fn panel() -> Result<Image, String> {
+    let mut window = OffscreenWindow::open(WINDOW, 1.0)?;
+    let picture = window.picture()?;
+    let left = WINDOW.x - PANEL_WIDTH;
+    Ok(cropped(&picture, Rect::from_min_size(vec2(left, 40.0).to_pos2(), vec2(PANEL_WIDTH, 480.0))))
+}
+
+/// A queried triangle with its neighbours.
+fn triangle() -> Result<Image, String> {
+    let mut window = canvas_window(SQUARE)?;
+    let place = dvec2(0.593, 0.2215);
+    look_at(&mut window, place, 6.0);
+    window.send(Command::Query(place));
+    canvas_of(&mut window)
+}
+
+/// The pieces of a coast.
+fn sea() -> Result<Image, String> {
+    let mut window = canvas_window(vec2(560.0, 560.0))?;
+    boundary(&mut window);
+    canvas_of(&mut window)
+}
+
+/// Painted risk, the target diameter made from it, and the mesh.
+fn how_it_works() -> Result<Image, String> {
+    let mut window = canvas_window(SQUARE)?;
+    look_at(&mut window, dvec2(0.72, 0.74), 2.2);
+    window.send(Command::ToggleEdges);
+    // No triangle has this level: the overlay alone is drawn.
+    window.send(Command::ShowLevel(Some(NO_LEVEL)));
+    window.send(Command::SetOverlay(FieldOverlay::Risk));
+    let risk = canvas_of(&mut window)?;
+    window.send(Command::SetOverlay(FieldOverlay::Target));
+    let target = canvas_of(&mut window)?;
+    window.send(Command::SetOverlay(FieldOverlay::None));
+    window.send(Command::ShowLevel(None));
+    window.send(Command::ToggleEdges);
+    let mesh = canvas_of(&mut window)?;
+    Ok(side_by_side(&[risk, target, mesh]))
+}
+
+/// A window without panels that shows the whole first example.
+fn canvas_window(size: Vec2) -> Result<OffscreenWindow, String> {
+    let mut window = OffscreenWindow::open(size, 1.0)?;
+    window.send(Command::TogglePanels);
+    window.send(Command::Fit);
+    Ok(window)
+}
+
+/// The canvas without the hint below it.
+fn canvas_of(window: &mut OffscreenWindow) -> Result<Image, String> {
+    let picture = window.picture()?;
+    let canvas = window.canvas_rect().ok_or("The window has no canvas.")?;
+    Ok(cropped(&picture, canvas.with_max_y(canvas.bottom() - HINT)))
+}
+
+/// The part of a picture within a rectangle in points; a point is a pixel.
+fn cropped(picture: &Image, part: Rect) -> Image {
+    let [width, _] = picture.size.map(|side| side as usize);
+    let (left, right) = (part.left() as usize, part.right() as usize);
+    let rows = part.top() as usize..part.bottom() as usize;
+    let size = [(right - left) as u32, rows.len() as u32];
+    let rgba =
+        rows.flat_map(|y| &picture.rgba[4 * (y * width + left)..4 * (y * width + right)]).copied().collect();
+    Image { size, rgba }
+}
+
+/// Pictures of one height in a row.
+fn side_by_side(pictures: &[Image]) -> Image {
+    let mut rgba = Vec::new();
+    let height = pictures[0].size[1];
+    for y in 0..height as usize {
+        for (number, picture) in pictures.iter().enumerate() {
+            if number > 0 {
+                rgba.extend(GAP_COLOR.repeat(GAP));
+            }
+            let width = 4 * picture.size[0] as usize;
+            rgba.extend(&picture.rgba[y * width..(y + 1) * width]);
+        }
+    }
+    let width = rgba.len() / 4 / height as usize;
+    Image { size: [width as u32, height], rgba }
+}
