@@ -204,7 +204,11 @@ pub enum DomainCommand {
     Reshape(CutShape, bool),
     /// Sets the next corner of the polygon to cut with.
     AddCorner(DVec2),
-    /// Closes that polygon and cuts.
+    /// Moves one of its corners.
+    MoveCorner(usize, DVec2),
+    /// Removes its last corner.
+    RemoveCorner,
+    /// Closes that polygon and cuts. It needs three corners.
     ClosePolygon,
     /// Selects the tool and what it cuts with.
     Mode(DomainToolMode),

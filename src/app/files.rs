@@ -43,6 +43,11 @@ fn aegean_sea() -> Vec<NamedPolygon> {
         .expect("the outline is part of the program: a test opens it")
 }
 
+/// An empty document.
+pub fn new_document() -> Document {
+    Document::new(Settings::default(), None).expect("the default settings are valid: a test opens them")
+}
+
 /// A document that comes with the program.
 pub fn example(example: Example) -> Document {
     example.document(terrain_slope, aegean_sea)

@@ -176,7 +176,9 @@ impl App {
         let Some(response) = self.canvas.layout(ui, &mut self.view, self.session.mesh().lattice()) else {
             return;
         };
-        self.canvas.draw_mesh(ui, &mut self.session, &self.view, commands);
+        if !self.starts_with_file {
+            self.canvas.draw_mesh(ui, &mut self.session, &self.view, commands);
+        }
         let files = self.background.rows(self.project.is_leaving());
         let state = self.state(readout);
         self.canvas.draw_marks(ui, &response, &state);

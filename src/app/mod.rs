@@ -53,7 +53,7 @@ use session::Session;
 use tools::Tools;
 use view::View;
 
-use crate::document::Example;
+use crate::document::{Document, Example};
 use crate::render::gpu::device_descriptor;
 
 /// Identifies the program to the desktop, and its folder there.
@@ -83,6 +83,8 @@ pub struct App {
     journal: Option<JournalKeeper>,
     /// Commands for the next frame.
     commands: Vec<Command>,
+    /// Whether the file that the program was started with is being read.
+    starts_with_file: bool,
     /// The time of the last input that was handled.
     input_time: Option<f64>,
     /// Whether to leave out what differs from run to run: pictures must be the same every time.
@@ -95,10 +97,29 @@ impl App {
     /// # Errors
     /// When the graphics driver cannot draw a mesh.
     pub fn new(ctx: &Context, render_state: Option<&egui_wgpu::RenderState>) -> Result<Self, String> {
+        Self::with_document(ctx, render_state, files::example(Example::ALL[0]))
+    }
+
+    /// The app on a file, which is being read: until then the canvas stays empty.
+    fn with_file(
+        ctx: &Context,
+        render_state: Option<&egui_wgpu::RenderState>,
+        file: PathBuf,
+    ) -> Result<Self, String> {
+        let mut app = Self::with_document(ctx, render_state, files::new_document())?;
+        app.starts_with_file = true;
+        app.send(Command::Open(file));
+        Ok(app)
+    }
+
+    fn with_document(
+        ctx: &Context,
+        render_state: Option<&egui_wgpu::RenderState>,
+        document: Document,
+    ) -> Result<Self, String> {
         theme::install(ctx);
         let mut view = View::default();
         view.set_theme(view.theme, ctx);
-        let document = files::example(Example::ALL[0]);
         let session = Session::new(document).map_err(|error| error.to_string())?;
         let settings = session.document().settings();
         let extent = settings.domain.bounds.size().max_element();
@@ -115,6 +136,7 @@ impl App {
             background: Background::new(ctx),
             journal: None,
             commands: Vec::new(),
+            starts_with_file: false,
             input_time: None,
             reproducible: false,
         })
@@ -202,8 +224,11 @@ pub fn run(file: Option<PathBuf>) -> Result<(), String> {
         setup.device_descriptor = Arc::new(device_descriptor);
     }
     let create = |cc: &eframe::CreationContext<'_>| -> Result<Box<dyn eframe::App>, _> {
-        let mut app = App::new(&cc.egui_ctx, cc.wgpu_render_state.as_ref())?;
-        app.commands.extend(file.map(Command::Open));
+        let (ctx, render_state) = (&cc.egui_ctx, cc.wgpu_render_state.as_ref());
+        let mut app = match file {
+            Some(file) => App::with_file(ctx, render_state, file)?,
+            None => App::new(ctx, render_state)?,
+        };
         app.dialogs.use_system();
         app.keep_in(cc);
         Ok(Box::new(app))

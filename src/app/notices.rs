@@ -5,11 +5,16 @@ use crate::build::BuildError;
 use crate::mesh::RefineError;
 use crate::text::Bytes;
 
-/// A message that stays on the canvas until it is dismissed.
+/// A message on the canvas. News fade after some seconds; a failure stays until it is dismissed or its cause
+/// is gone.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Notice {
+    /// Tells it from every other message of the session.
+    pub number: u64,
     /// Whether it reports a failure; else it is news.
     pub failed: bool,
+    /// The version of the document in which an edit failed. In another version the failure is out of date.
+    failed_edit_of: Option<u64>,
     /// A sentence.
     pub text: String,
 }
@@ -18,6 +23,8 @@ pub struct Notice {
 #[derive(Clone, Debug, Default)]
 pub struct Notices {
     latest: Option<Notice>,
+    /// How many messages there were.
+    count: u64,
     /// Says that the mesh stopped short of the document, as long as that is so.
     standing: Option<Notice>,
 }
@@ -35,12 +42,27 @@ impl Notices {
 
     /// Shows news.
     pub fn tell(&mut self, text: String) {
-        self.latest = Some(Notice { failed: false, text });
+        self.latest = Some(self.numbered(false, None, text));
     }
 
     /// Shows a failure.
     pub fn report(&mut self, failure: impl std::fmt::Display) {
-        self.latest = Some(Notice { failed: true, text: failure.to_string() });
+        self.latest = Some(self.numbered(true, None, failure.to_string()));
+    }
+
+    /// Shows that an edit of a version of the document failed. The next edit dismisses it.
+    pub fn report_edit(&mut self, version: u64, failure: impl std::fmt::Display) {
+        self.latest = Some(self.numbered(true, Some(version), failure.to_string()));
+    }
+
+    /// Dismisses the failure of an edit that the document has left behind.
+    pub fn forget_failed_edit(&mut self, version: u64) {
+        self.latest.take_if(|notice| notice.failed_edit_of.is_some_and(|of| of != version));
+    }
+
+    fn numbered(&mut self, failed: bool, failed_edit_of: Option<u64>, text: String) -> Notice {
+        self.count += 1;
+        Notice { number: self.count, failed, failed_edit_of, text }
     }
 
     /// Dismisses the message, except one that says that the mesh stopped short of the document.
@@ -61,7 +83,7 @@ impl Notices {
         } else {
             standstill(error)
         };
-        self.standing = Some(Notice { failed: true, text });
+        self.standing = Some(self.numbered(true, None, text));
     }
 
     /// Mesh and document agree again.

@@ -196,18 +196,23 @@ impl Session {
         self.notices.report(failure);
     }
 
+    /// Shows that an edit failed. The next edit dismisses the message.
+    fn report_edit(&mut self, failure: impl std::fmt::Display) {
+        self.notices.report_edit(self.document.version(), failure);
+    }
+
     /// Changes a setting. What cannot be met is reported, and the document stays as it was.
     pub fn set(&mut self, setting: Setting) {
         match self.document.set(setting) {
             Ok(()) => self.notices.dismiss(),
-            Err(error) => self.report(error),
+            Err(error) => self.report_edit(error),
         }
     }
 
     /// Adds a shape to the domain (`true`) or removes it.
     pub fn reshape(&mut self, cut_shape: CutShape, adds: bool) {
         if self.document.settings().domain.formula().is_some() {
-            self.report(
+            self.report_edit(
                 "The domain is given by a formula, and a formula has no outline to cut. Empty the row \"Domain where\" to \
                  start from the whole rectangle.",
             );
@@ -247,7 +252,7 @@ impl Session {
         match self.cuts.advance(&mut self.document, patience, ctx) {
             Ok(left) => left,
             Err(error) => {
-                self.report(error);
+                self.report_edit(error);
                 self.is_cutting()
             }
         }
@@ -337,6 +342,7 @@ impl Session {
         if self.follower.stopped().is_none() {
             self.notices.end_standing();
         }
+        self.notices.forget_failed_edit(self.document.version());
         let left = left || !self.document.is_stroke_drawn();
         let changed = self.follower.revision() != revision;
         if left || changed {
@@ -379,7 +385,7 @@ impl Session {
             self.document.reject_last();
         }
         if self.document.revision() != revision {
-            self.report(format!("{error}{}", notices::advice(error)));
+            self.report_edit(format!("{error}{}", notices::advice(error)));
         } else {
             let shows_former = self.document.settings() != self.follower.settings();
             self.notices.stand(error, shows_former);

@@ -1,6 +1,8 @@
 //! Message, progress and hint, floating over the canvas.
 
-use eframe::egui::{Align2, Rect, Response, Ui, UiBuilder, pos2, vec2};
+use std::time::Duration;
+
+use eframe::egui::{Align2, Id, Rect, Response, Ui, UiBuilder, pos2, vec2};
 
 use super::{Canvas, coordinates, legend, way_back};
 use crate::app::background::Row;
@@ -9,6 +11,11 @@ use crate::app::frame::FrameState;
 use crate::app::session::Session;
 use crate::app::widgets::{Banner, BannerAnswer, bytes_row, format, hint_pill, paint_floating, progress_row};
 use crate::document::Stage;
+
+/// How long news are shown, in seconds.
+const NEWS_SECONDS: f64 = 5.0;
+/// How long they are shown after the pointer has left them, in seconds.
+const NEWS_SECONDS_AFTER_POINTER: f64 = 2.0;
 
 impl Canvas {
     /// Draws message, progress and hint. Returns the places that take clicks.
@@ -86,12 +93,31 @@ fn draw_notice(ui: &mut Ui, inner: Rect, session: &Session, commands: &mut Vec<C
     let banner = if notice.failed { Banner::error(&notice.text) } else { Banner::info(&notice.text) };
     let banner = if session.notices().shown_stands() { banner.standing().action("Undo") } else { banner };
     let answer = banner.show(&mut child);
+    if !notice.failed && has_faded(&child, notice.number) {
+        commands.push(Command::DismissNotice);
+    }
     match answer {
         BannerAnswer::Open => {}
         BannerAnswer::Acted => commands.push(Command::Undo),
         BannerAnswer::Dismissed => commands.push(Command::DismissNotice),
     }
     Some(child.min_rect())
+}
+
+/// Whether news have been shown long enough. Under the pointer they stay. The window sleeps meanwhile.
+fn has_faded(ui: &Ui, number: u64) -> bool {
+    let id = Id::unique("end of the news");
+    let now = ui.input(|input| input.time);
+    let known = ui.data(|data| data.get_temp::<(u64, f64)>(id)).filter(|(of, _)| *of == number);
+    let mut end = known.map_or(now + NEWS_SECONDS, |(_, end)| end);
+    if ui.rect_contains_pointer(ui.min_rect()) {
+        end = end.max(now + NEWS_SECONDS_AFTER_POINTER);
+    }
+    ui.data_mut(|data| data.insert_temp(id, (number, end)));
+    if now < end {
+        ui.ctx().request_repaint_after(Duration::from_secs_f64(end - now));
+    }
+    now >= end
 }
 
 /// What is being done to update the mesh, and its progress.

@@ -202,7 +202,7 @@ pub fn paint_cut_shape(painter: &Painter, cut_shape: &CutShape, at: &dyn Fn(DVec
     };
 }
 
-/// An open polygon: its next edge follows the pointer, and a click on the first corner closes it.
+/// An open polygon: its next edge follows the pointer, and its corners can be dragged.
 pub fn paint_open_polygon(painter: &Painter, corners: &[Pos2], pointer: Option<Pos2>) {
     let Some(&first) = corners.first() else { return };
     for edge in corners.windows(2) {
@@ -212,7 +212,17 @@ pub fn paint_open_polygon(painter: &Painter, corners: &[Pos2], pointer: Option<P
     if let (Some(pointer), Some(&last)) = (pointer, corners.last()) {
         paint_line_preview(painter, last, pointer);
     }
-    painter.circle(first, 4.5, Color32::WHITE, Stroke::new(1.5, Color32::from_black_alpha(200)));
+    if corners.len() >= 3
+        && let Some(pointer) = pointer
+    {
+        let closing = Stroke::new(1.0, Color32::from_white_alpha(110));
+        painter.extend(Shape::dashed_line(&[pointer, first], closing, 3.0, 5.0));
+    }
+    let rim = Stroke::new(1.5, Color32::from_black_alpha(200));
+    for &corner in &corners[1..] {
+        painter.circle(corner, 3.5, Color32::WHITE, rim);
+    }
+    painter.circle(first, 5.0, Color32::WHITE, rim);
 }
 
 /// A rectangle that is being drawn.

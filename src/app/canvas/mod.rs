@@ -215,6 +215,10 @@ fn press(
         PointerButton::Middle => panning(),
         PointerButton::Primary if space_is_down(ctx) => panning(),
         PointerButton::Primary => (pointer.tools.tool.press)(&press, pointer, commands),
+        PointerButton::Secondary => {
+            (pointer.tools.tool.press_secondary)(pointer.tools, commands);
+            None
+        }
         _ => None,
     }
 }

@@ -3,7 +3,7 @@
 use eframe::egui::{Key, Modifiers};
 
 use super::{CatalogItem, Menu};
-use crate::app::command::Command;
+use crate::app::command::{Command, DomainCommand};
 use crate::app::frame::FrameState;
 
 /// History and paint.
@@ -18,14 +18,25 @@ pub fn edit(state: &FrameState<'_>) -> Vec<CatalogItem> {
     let redo = named("Redo", history.redo_title());
     let can_undo = state.session.can_undo();
     let can_redo = history.redo_title().is_some();
-    vec![
-        CatalogItem::new(Edit, undo, Command::Undo).ctrl(Key::Z).enabled(can_undo),
+    let remove = || Command::Domain(DomainCommand::RemoveCorner);
+    let in_polygon = !state.tools.domain.corners.is_empty();
+    let undo = if in_polygon {
+        CatalogItem::new(Edit, "Undo corner of the polygon", remove())
+    } else {
+        CatalogItem::new(Edit, undo, Command::Undo).enabled(can_undo)
+    };
+    let mut items = vec![
+        undo.ctrl(Key::Z),
         CatalogItem::new(Edit, redo, Command::Redo)
             .keys(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z)
-            .enabled(can_redo),
+            .enabled(can_redo && !in_polygon),
         CatalogItem::new(Edit, "Clear paint", Command::ClearPaint)
             .keys(Modifiers::COMMAND, Key::Backspace)
             .group(),
         CatalogItem::new(Edit, "Cancel or deselect", Command::Escape).key(Key::Escape),
-    ]
+    ];
+    if in_polygon {
+        items.push(CatalogItem::new(Edit, "Remove the last corner", remove()).key(Key::Backspace));
+    }
+    items
 }

@@ -13,6 +13,14 @@ impl App {
         match command {
             DomainCommand::Reshape(cut_shape, adds) => self.reshape(cut_shape, adds),
             DomainCommand::AddCorner(corner) => tool.corners.push(corner),
+            DomainCommand::MoveCorner(index, corner) => {
+                if let Some(place) = tool.corners.get_mut(index) {
+                    *place = corner;
+                }
+            }
+            DomainCommand::RemoveCorner => {
+                tool.corners.pop();
+            }
             DomainCommand::ClosePolygon => self.close_polygon(),
             DomainCommand::Mode(mode) => {
                 self.tools.select(&DOMAIN);
@@ -66,10 +74,11 @@ impl App {
     }
 
     fn close_polygon(&mut self) {
-        let ring = std::mem::take(&mut self.tools.domain.corners);
-        if ring.len() >= 3 {
-            self.reshape(CutShape::Ring(ring), self.tools.domain.adds);
-            self.session.end_gesture();
+        if self.tools.domain.corners.len() < 3 {
+            return self.session.tell("A polygon needs three corners: click to set another one.".into());
         }
+        let ring = std::mem::take(&mut self.tools.domain.corners);
+        self.reshape(CutShape::Ring(ring), self.tools.domain.adds);
+        self.session.end_gesture();
     }
 }

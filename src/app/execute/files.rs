@@ -10,13 +10,13 @@ use crate::app::command::{Command, Opened};
 use crate::app::dialogs::{Dialog, FileRequest};
 use crate::app::journal::JournalKeeper;
 use crate::app::{files, journal, project};
-use crate::document::{Document, Settings};
+use crate::document::Document;
 
 impl App {
     /// Runs commands about files, windows and dialogs, and returns others.
     pub(super) fn execute_on_files(&mut self, command: Command, ctx: &Context) -> Option<Command> {
         match command {
-            Command::New => self.open(new_document()),
+            Command::New => self.open(files::new_document()),
             Command::OpenExample(example) => self.open(files::example(example)),
             Command::Show(opened) => self.show_opened(opened),
             Command::Open(path) => match project::open_command(path) {
@@ -70,6 +70,7 @@ impl App {
 
     /// Says that a file was not read or written: in the dialog that asked for it, or else on the canvas.
     fn fail(&mut self, problem: String) {
+        self.starts_with_file = false;
         if !self.dialogs.fail(&problem) {
             self.session.report(problem);
         }
@@ -98,6 +99,7 @@ impl App {
     fn cancel_work(&mut self, id: WorkId) {
         match self.background.cancel(id) {
             Some((Aim::Read, name)) => {
+                self.starts_with_file = false;
                 self.session.tell(format!("Reading {name} was cancelled. The document is unchanged."));
                 self.dialogs.resume();
             }
@@ -141,6 +143,8 @@ impl App {
             Outcome::Read { path, commands } => {
                 self.project.note_recent(path);
                 self.dialogs.succeed(true);
+                self.session.notices_mut().dismiss();
+                self.starts_with_file = false;
                 self.commands.extend(commands);
             }
             Outcome::NotRead(problem) => self.fail(problem),
@@ -180,8 +184,4 @@ impl App {
             self.commands.extend(self.project.take_after_saving());
         }
     }
-}
-
-fn new_document() -> Document {
-    Document::new(Settings::default(), None).expect("the default settings are valid: a test opens them")
 }

@@ -69,7 +69,8 @@ fn tool_rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
         DomainToolMode::Polygon => {
             remark(
                 ui,
-                "Click each corner; Enter, or a click on the first corner, closes the polygon. Esc cancels it.",
+                "Click each corner; drag one to move it. Double-click, right-click or Enter closes the polygon. Backspace removes \
+                 the last corner, Esc all.",
             );
         }
         DomainToolMode::Rectangle | DomainToolMode::Frame => {}

@@ -122,7 +122,8 @@ fn a_read_shows_how_far_it_is_and_cancelled_it_changes_nothing() {
     cancel(&mut window, "Reading coast.geojson");
     assert!(message(&window).contains("Reading coast.geojson was cancelled"), "{}", message(&window));
     assert!(!has_bar(&window, "Reading coast.geojson"));
-    assert_eq!(pause_before_next_frame(&window), Duration::MAX, "the window rests");
+    let pause = pause_before_next_frame(&window);
+    assert!(pause > Duration::from_secs(2), "the window rests until the message fades: {pause:?}");
     // Nobody reads on.
     let mut bytes = 0;
     let end = loop {
@@ -138,7 +139,7 @@ fn a_read_shows_how_far_it_is_and_cancelled_it_changes_nothing() {
         window.run();
     }
     assert_eq!(document(&window).version(), version);
-    assert!(shows(&window, EDITED) && message(&window).contains("was cancelled"));
+    assert!(shows(&window, EDITED));
 }
 
 #[test]

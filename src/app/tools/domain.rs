@@ -3,7 +3,7 @@
 use eframe::egui::{Key, Painter, Pos2, Rect};
 use glam::DVec2;
 
-use super::{Gesture, OverMesh, Pointer, Press, ToolSpec};
+use super::{Gesture, OverMesh, Pointer, Press, ToolSpec, Tools};
 use crate::app::canvas::marks;
 use crate::app::command::{Command, DomainCommand};
 use crate::app::frame::FrameState;
@@ -20,12 +20,13 @@ pub static DOMAIN: ToolSpec = ToolSpec {
     has_ring: |tools| tools.domain.mode == DomainToolMode::Brush,
     paint,
     press,
+    press_secondary,
     ..ToolSpec::new("Domain", Key::D, Icon::DOMAIN)
 };
 
-/// Points within which a click on the first corner of a polygon closes it.
-const CLOSING_POINTS: f64 = 9.0;
-/// Points that a rectangle must exceed in both directions: what is smaller was a click.
+/// Points within which a press takes hold of a corner of the open polygon.
+const CORNER_POINTS: f64 = 9.0;
+/// Points that a drag must exceed, a rectangle in both directions: what is smaller was a click.
 const CLICK_SLACK: f32 = 4.0;
 
 const HINT: &[Hint] = &[
@@ -76,14 +77,55 @@ fn press(press: &Press, pointer: &Pointer<'_>, commands: &mut Vec<Command>) -> O
         }
         DomainToolMode::Rectangle => Some(Box::new(Framing { from, to, adds: Some(adds) })),
         DomainToolMode::Frame => Some(Box::new(Framing { from, to, adds: None })),
-        DomainToolMode::Polygon => {
-            let closes = tool.corners.first().is_some_and(|&first| {
-                let px = pointer.camera.screen_from_world(first).distance(pointer.px(press.at));
-                px < CLOSING_POINTS * pointer.px_per_point
-            });
-            let corner = DomainCommand::AddCorner(point);
-            commands.push(Command::Domain(if closes { DomainCommand::ClosePolygon } else { corner }));
-            None
+        DomainToolMode::Polygon => Some(Box::new(press_corner(press, pointer, commands))),
+    }
+}
+
+/// Takes hold of the corner under the pointer, or sets a new one.
+fn press_corner(press: &Press, pointer: &Pointer<'_>, commands: &mut Vec<Command>) -> MovingCorner {
+    let corners = &pointer.tools.domain.corners;
+    let distance = |corner: DVec2| pointer.camera.screen_from_world(corner).distance(pointer.px(press.at));
+    let reach = CORNER_POINTS * pointer.px_per_point;
+    let near = (0..corners.len()).filter(|&i| distance(corners[i]) < reach);
+    let nearest = near.min_by(|&i, &j| distance(corners[i]).total_cmp(&distance(corners[j])));
+    let index = nearest.unwrap_or(corners.len());
+    if nearest.is_none() {
+        commands.push(Command::Domain(DomainCommand::AddCorner(pointer.world(press.at))));
+    }
+    let ends = index == 0 || index + 1 == corners.len();
+    MovingCorner { index, from: press.at, moved: false, closes: nearest.is_some() && ends }
+}
+
+/// The secondary button closes the polygon.
+fn press_secondary(tools: &Tools, commands: &mut Vec<Command>) {
+    if !tools.domain.corners.is_empty() {
+        commands.push(Command::Domain(DomainCommand::ClosePolygon));
+    }
+}
+
+/// Moving a corner of the open polygon. A click on its first or last corner closes it, and so does a double
+/// click, whose second click meets the corner that the first one set.
+#[derive(Debug)]
+struct MovingCorner {
+    index: usize,
+    /// Where the pointer went down, in points.
+    from: Pos2,
+    moved: bool,
+    closes: bool,
+}
+
+impl Gesture for MovingCorner {
+    fn moved(&mut self, at: Pos2, pointer: &Pointer<'_>, commands: &mut Vec<Command>) {
+        self.moved |= at.distance(self.from) > CLICK_SLACK;
+        if self.moved {
+            let corner = DomainCommand::MoveCorner(self.index, pointer.world(at));
+            commands.push(Command::Domain(corner));
+        }
+    }
+
+    fn released(&self, _at: Pos2, _pointer: &Pointer<'_>, commands: &mut Vec<Command>) {
+        if self.closes && !self.moved {
+            commands.push(Command::Domain(DomainCommand::ClosePolygon));
         }
     }
 }

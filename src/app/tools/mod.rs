@@ -66,6 +66,8 @@ pub struct ToolSpec {
     pub paint: fn(&FrameState<'_>, &OverMesh<'_>),
     /// What happens when the primary button is pressed.
     pub press: BeginGesture,
+    /// What happens when the secondary button is pressed.
+    pub press_secondary: fn(&Tools, &mut Vec<Command>),
 }
 
 /// Begins a gesture, or acts at once and returns `None`.
@@ -97,6 +99,7 @@ impl ToolSpec {
             finds_boundary: false,
             paint: |_, _| {},
             press: |_, _, _| None,
+            press_secondary: |_, _| {},
         }
     }
 }
