@@ -40,7 +40,7 @@ const POINTS_PER_FRAME: usize = 2;
 const ROUNDS: usize = 5;
 
 /// The window's default brush on the unit square.
-const BRUSH: Brush = Brush { medium: Medium::Risk, radius: 0.06, hardness: 0.35, strength: 0.8 };
+const BRUSH: Brush = Brush { medium: Medium::Risk(1.0), radius: 0.06, hardness: 0.35, strength: 0.8 };
 const ERASER: Brush = Brush { medium: Medium::Eraser, strength: 1.0, ..BRUSH };
 
 /// Position of the mouse after a share of the stroke: most of a figure eight, 2.4 units long, slow in the

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use glam::{DVec2, dvec2};
 use meshbrush::internals::build::RefinementCriterion;
 use meshbrush::internals::document::{
-    Base, Document, Example, Follower, History, MeshChange, Price, Pricer, Setting, Settings, Stage,
+    Base, Document, Example, Follower, History, MeshChange, NoChange, Price, Pricer, Setting, Settings, Stage,
 };
 use meshbrush::internals::domain::{
     BoundaryMarks, BoundaryPieces, CutShape, Domain, DomainShape, NamedPolygon, Polygon, Region, corners,
@@ -15,7 +15,7 @@ use meshbrush::internals::domain::{
 use meshbrush::internals::field::{Formula, RefinementRule};
 use meshbrush::internals::geometry::Rect;
 use meshbrush::internals::mesh::Progress;
-use meshbrush::internals::paint::{Brush, Medium};
+use meshbrush::internals::paint::{Brush, DiameterChange, Medium, Mirror, StrokePlan};
 use meshbrush::internals::raster::Raster;
 use meshbrush::internals::text::Grouped;
 use operations::{Choices, Driver, Operation, Scale, domains, run_bytes};
@@ -255,7 +255,7 @@ fn the_risk_at_a_point_is_the_higher_of_paint_and_picture() {
     let raster = Arc::new(Raster::from_values(half, [10, 1], values));
     let base = Base::RiskImage { name: "slope.png".into(), raster };
     let mut document = Document::new(Settings { base, ..Settings::default() }, None).unwrap();
-    document.begin_stroke(Brush { medium: Medium::Risk, radius: 0.1, hardness: 1.0, strength: 0.5 });
+    document.begin_stroke(Brush { medium: Medium::Risk(1.0), radius: 0.1, hardness: 1.0, strength: 0.5 });
     document.draw_to(dvec2(0.1, 0.5));
     document.draw_to(dvec2(0.9, 0.5));
     for (point, risk) in
@@ -271,7 +271,7 @@ fn the_risk_at_a_point_is_the_higher_of_paint_and_picture() {
 fn undo_stops_where_another_document_was_opened() {
     let mut document = Document::new(Settings::default(), None).unwrap();
     let mut follower = Follower::new(&mut document).unwrap();
-    document.begin_stroke(Brush { medium: Medium::Risk, radius: 0.1, hardness: 0.5, strength: 0.7 });
+    document.begin_stroke(Brush { medium: Medium::Risk(1.0), radius: 0.1, hardness: 0.5, strength: 0.7 });
     document.draw_to(dvec2(0.3, 0.4));
     document.end_stroke();
     document.set(Setting::Spacing(0.1)).unwrap();
@@ -317,13 +317,23 @@ fn the_area_rule_implies_the_vertex_rule() {
 }
 
 fn any_brush(random: &mut fastrand::Rng) -> Brush {
-    let media = [Medium::Risk, Medium::Diameter(0.01), Medium::Eraser, Medium::Eraser];
+    let diameter = |change| Medium::Diameter(0.01, change);
+    let media = [
+        Medium::Risk(1.0),
+        Medium::Risk(0.4),
+        Medium::Risk(0.0),
+        diameter(DiameterChange::Finer),
+        diameter(DiameterChange::Any),
+        diameter(DiameterChange::Coarser),
+        Medium::Eraser,
+        Medium::Eraser,
+    ];
     let medium = media[random.usize(..media.len())];
     Brush { medium, radius: 0.15 * random.f64(), hardness: random.f64(), strength: random.f64() }
 }
 
 #[test]
-fn the_price_of_a_dab_is_what_it_then_costs() {
+fn the_price_of_a_stroke_is_what_it_then_costs() {
     let mut random = fastrand::Rng::with_seed(21);
     let [mut dearer, mut cheaper, mut same] = [0; 3];
     for domain in domains() {
@@ -331,28 +341,33 @@ fn the_price_of_a_dab_is_what_it_then_costs() {
         let mut document = Document::new(settings, None).unwrap();
         let mut follower = Follower::new(&mut document).unwrap();
         let mut pricer = Pricer::default();
-        for dab in 0..200 {
+        for stroke in 0..200 {
             let brush = any_brush(&mut random);
-            let at = dvec2(random.f64(), random.f64()) * 1.2 - 0.1;
+            let plan = any_plan(brush, &mut random);
             // Now and then the pointer moves on before the price is known.
             for _ in 0..random.usize(..8) {
-                pricer.ask(Some((brush, at + 0.01 * random.f64())), &document, &follower);
+                let from = plan.from + 0.01 * random.f64();
+                pricer.ask(Some(StrokePlan { from, ..plan }), &document, &follower);
                 pricer.advance(&document, &follower, random.usize(1..2000));
             }
             let before = (follower.mesh().triangle_count(), follower.revision(), document.revision());
-            pricer.ask(Some((brush, at)), &document, &follower);
+            let fingerprint_before = follower.mesh().fingerprint();
+            pricer.ask(Some(plan), &document, &follower);
             let slice = 1 << random.u32(4..14);
             while pricer.advance(&document, &follower, slice) == Progress::More {}
             let price = pricer.price().unwrap();
             let after = (follower.mesh().triangle_count(), follower.revision(), document.revision());
             assert_eq!(before, after, "asking changes nothing");
 
-            document.begin_stroke(brush);
-            document.draw_to(at);
+            document.begin_mirrored_stroke(brush, plan.mirror);
+            [plan.from, plan.to].into_iter().for_each(|point| document.draw_to(point));
             document.end_stroke();
             settle(&mut follower, &mut document);
             let change = follower.mesh().triangle_count() as i64 - before.0 as i64;
-            assert_eq!(price, Price::Change(change), "dab {dab}: {brush:?} at {at}");
+            assert_eq!(price.change(), change, "stroke {stroke}: {plan:?}");
+            if let Price::Nothing(_) = price {
+                assert_eq!((change, fingerprint_before), (0, follower.mesh().fingerprint()), "{plan:?}");
+            }
             dearer += usize::from(change > 0);
             cheaper += usize::from(change < 0);
             same += usize::from(change == 0);
@@ -361,13 +376,64 @@ fn the_price_of_a_dab_is_what_it_then_costs() {
     assert!(dearer > 100 && cheaper > 100 && same > 10, "{dearer} {cheaper} {same}");
 }
 
+/// A click or a line, in the square and beside it, now and then mirrored.
+fn any_plan(brush: Brush, random: &mut fastrand::Rng) -> StrokePlan {
+    let mut point = || dvec2(random.f64(), random.f64()) * 1.2 - 0.1;
+    let (from, to) = (point(), point());
+    let to = if random.bool() { from } else { to };
+    let mut line = || (random.usize(..4) == 0).then(|| random.f64());
+    StrokePlan { brush, mirror: Mirror { x: line(), y: line() }, from, to }
+}
+
+#[test]
+fn the_price_of_a_stroke_that_changes_nothing_says_why() {
+    let risk = |aim, radius| Brush { medium: Medium::Risk(aim), radius, hardness: 1.0, strength: 1.0 };
+    let diameter = |target, change| Brush { medium: Medium::Diameter(target, change), ..risk(1.0, 0.2) };
+    let eraser = Brush { medium: Medium::Eraser, ..risk(1.0, 0.1) };
+    let reason = |base: Base, before: &[Brush], brush: Brush, at: DVec2| {
+        let settings = Settings { base, spacing: 0.1, resolution: 200, ..Settings::default() };
+        let mut document = Document::new(settings, None).unwrap();
+        for &brush in before {
+            document.begin_stroke(brush);
+            document.draw_to(dvec2(0.5, 0.5));
+            document.end_stroke();
+        }
+        let follower = Follower::new(&mut document).unwrap();
+        let mut pricer = Pricer::default();
+        pricer.ask(Some(StrokePlan::click(brush, at)), &document, &follower);
+        while pricer.advance(&document, &follower, 1000) == Progress::More {}
+        match pricer.price() {
+            Some(Price::Nothing(reason)) => Some(reason),
+            _ => None,
+        }
+    };
+    let [middle, beside] = [dvec2(0.5, 0.5), dvec2(3.0, 3.0)];
+    let (wide, narrow) = (risk(1.0, 0.3), risk(1.0, 0.02));
+    let coarse = || Base::Constant(0.2);
+    assert_eq!(reason(coarse(), &[], narrow, middle), None, "it refines");
+    assert_eq!(reason(coarse(), &[], narrow, beside), Some(NoChange::OutsideField));
+    assert_eq!(reason(coarse(), &[wide], narrow, middle), Some(NoChange::PaintedAlready));
+    assert_eq!(reason(coarse(), &[], eraser, middle), Some(NoChange::PaintedAlready));
+    let at_most_coarse = diameter(0.15, DiameterChange::Finer);
+    assert_eq!(reason(coarse(), &[], at_most_coarse, middle), Some(NoChange::CoarserThanGrid));
+    let finer = diameter(0.02, DiameterChange::Finer);
+    assert_eq!(reason(Base::Constant(0.01), &[], finer, middle), Some(NoChange::BaseDecides));
+    assert_eq!(reason(Base::Constant(0.01), &[finer], eraser, middle), Some(NoChange::BaseDecides));
+    assert_eq!(reason(coarse(), &[wide], finer, middle), Some(NoChange::OtherPaintDecides));
+    // Under a triangle that is finer than its pixels ask for, because of its neighbours.
+    let beside_fine = diameter(0.095, DiameterChange::Finer);
+    let fine = Brush { radius: 0.1, ..diameter(0.004, DiameterChange::Finer) };
+    let dab = Brush { radius: 0.005, ..beside_fine };
+    assert_eq!(reason(coarse(), &[fine], dab, dvec2(0.605, 0.5)), Some(NoChange::TrianglesFit));
+}
+
 #[test]
 fn there_is_no_price_where_there_can_be_none() {
     let mut document = Document::new(Settings { resolution: 160, ..Settings::default() }, None).unwrap();
     let mut follower = Follower::new(&mut document).unwrap();
     let mut pricer = Pricer::default();
-    let brush = Brush { medium: Medium::Risk, radius: 0.1, hardness: 1.0, strength: 1.0 };
-    let dab = Some((brush, dvec2(0.5, 0.5)));
+    let brush = Brush { medium: Medium::Risk(1.0), radius: 0.1, hardness: 1.0, strength: 1.0 };
+    let dab = Some(StrokePlan::click(brush, dvec2(0.5, 0.5)));
     let mut asked = |dab, document: &Document, follower: &Follower| {
         pricer.ask(dab, document, follower);
         while pricer.advance(document, follower, 1000) == Progress::More {}
@@ -375,7 +441,7 @@ fn there_is_no_price_where_there_can_be_none() {
     };
     assert!(matches!(asked(dab, &document, &follower), Some(Price::Change(1..))));
     assert_eq!(asked(None, &document, &follower), None);
-    assert_eq!(asked(Some((brush, dvec2(f64::NAN, 0.5))), &document, &follower), None);
+    assert_eq!(asked(Some(StrokePlan::click(brush, dvec2(f64::NAN, 0.5))), &document, &follower), None);
     // Nor is there one before the mesh shows what was painted, while one paints, and by the vertex rule.
     document.begin_stroke(brush);
     document.draw_to(dvec2(0.2, 0.2));
@@ -398,9 +464,9 @@ fn a_dab_too_dear_to_count_is_said_to_be() {
     let mut document = Document::new(Settings { resolution: 160, ..Settings::default() }, None).unwrap();
     document.set(Setting::SmallestDiameter(1e-4)).unwrap();
     let follower = Follower::new(&mut document).unwrap();
-    let brush = Brush { medium: Medium::Risk, radius: 0.3, hardness: 1.0, strength: 1.0 };
+    let brush = Brush { medium: Medium::Risk(1.0), radius: 0.3, hardness: 1.0, strength: 1.0 };
     let mut pricer = Pricer::default();
-    pricer.ask(Some((brush, dvec2(0.5, 0.5))), &document, &follower);
+    pricer.ask(Some(StrokePlan::click(brush, dvec2(0.5, 0.5))), &document, &follower);
     while pricer.advance(&document, &follower, 10_000) == Progress::More {}
     assert_eq!(pricer.price(), Some(Price::MoreThan(Price::MOST as i64)));
 }
@@ -411,7 +477,7 @@ fn the_memory_budget_holds_while_one_paints_and_while_the_mesh_is_made_anew() {
     let mut document = Document::new(settings, None).unwrap();
     let mut follower = Follower::new(&mut document).unwrap();
     let room = 2_000_000 / 86;
-    let brush = Brush { medium: Medium::Risk, radius: 0.1, hardness: 1.0, strength: 1.0 };
+    let brush = Brush { medium: Medium::Risk(1.0), radius: 0.1, hardness: 1.0, strength: 1.0 };
     let stroke = |document: &mut Document, y: f64| {
         document.begin_stroke(brush);
         document.draw_to(dvec2(0.1, y));
@@ -450,7 +516,7 @@ fn stopped_at_the_budget() -> (Document, Follower, usize) {
     let budget = follower.mesh().raw_triangle_count() + 3000;
     document.set(Setting::MaxTriangles(budget)).unwrap();
     settle(&mut follower, &mut document);
-    document.begin_stroke(Brush { medium: Medium::Risk, radius: 0.05, hardness: 1.0, strength: 1.0 });
+    document.begin_stroke(Brush { medium: Medium::Risk(1.0), radius: 0.05, hardness: 1.0, strength: 1.0 });
     document.draw_to(dvec2(0.2, 0.3));
     document.draw_to(dvec2(0.8, 0.3));
     document.end_stroke();
@@ -522,7 +588,7 @@ fn a_setting_changed_there_and_back_makes_no_other_mesh() {
     for _ in 0..5 {
         assert_ne!(follower.advance(&mut document, 10_000), Ok(Stage::InStep));
     }
-    document.begin_stroke(Brush { medium: Medium::Risk, radius: 0.05, hardness: 1.0, strength: 1.0 });
+    document.begin_stroke(Brush { medium: Medium::Risk(1.0), radius: 0.05, hardness: 1.0, strength: 1.0 });
     document.draw_to(dvec2(0.9, 0.5));
     document.end_stroke();
     follower.advance(&mut document, 10_000).unwrap();
@@ -616,7 +682,7 @@ fn a_large_outline_is_followed_in_slices_and_cuts_made_meanwhile_join() {
 #[test]
 fn a_stroke_drawn_in_slices_is_one_entry_once_lifted_and_others_wait_for_it() {
     let blank = || Document::new(Settings::default(), None).unwrap();
-    let brush = Brush { medium: Medium::Risk, radius: 0.3, hardness: 0.5, strength: 0.8 };
+    let brush = Brush { medium: Medium::Risk(1.0), radius: 0.3, hardness: 0.5, strength: 0.8 };
     let way = [dvec2(0.2, 0.3), dvec2(0.8, 0.6)];
     let lead = |document: &mut Document| {
         document.begin_stroke(brush);

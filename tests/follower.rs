@@ -33,7 +33,7 @@ fn large() -> (Document, Follower) {
 }
 
 fn paint(document: &mut Document) {
-    document.begin_stroke(Brush { medium: Medium::Risk, radius: 0.05, hardness: 1.0, strength: 1.0 });
+    document.begin_stroke(Brush { medium: Medium::Risk(1.0), radius: 0.05, hardness: 1.0, strength: 1.0 });
     document.draw_to(dvec2(0.3, 0.8));
     document.draw_to(dvec2(0.6, 0.8));
     document.end_stroke();

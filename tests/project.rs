@@ -14,7 +14,7 @@ use meshbrush::internals::domain::{
 use meshbrush::internals::field::{Formula, RefinementRule, Transfer};
 use meshbrush::internals::geometry::Rect;
 use meshbrush::internals::io::project::{self, Project};
-use meshbrush::internals::paint::{Brush, Medium};
+use meshbrush::internals::paint::{Brush, DiameterChange, Medium};
 use meshbrush::internals::raster::Raster;
 use meshbrush::internals::text::LengthUnit;
 
@@ -38,7 +38,9 @@ fn scribble(document: &mut Document, random: &mut fastrand::Rng) {
     let Rect { min, max } = document.settings().domain.bounds;
     let extent = (max - min).max_element();
     let h_min = document.settings().transfer.h_min;
-    for medium in [Medium::Risk, Medium::Diameter(h_min), Medium::Eraser, Medium::Risk] {
+    for medium in
+        [Medium::Risk(1.0), Medium::Diameter(h_min, DiameterChange::Finer), Medium::Eraser, Medium::Risk(1.0)]
+    {
         let radius = extent * (0.01 + 0.1 * random.f64());
         document.begin_stroke(Brush { medium, radius, hardness: random.f64(), strength: random.f64() });
         for _ in 0..3 {
@@ -173,7 +175,7 @@ fn a_painted_mesh_of_two_million_triangles_is_saved_and_opened() {
     while follower.mesh().triangle_count() < 2_000_000 {
         let [radius, hardness, strength] =
             [0.02 + 0.04 * random.f64(), random.f64(), 0.3 + 0.5 * random.f64()];
-        document.begin_stroke(Brush { medium: Medium::Risk, radius, hardness, strength });
+        document.begin_stroke(Brush { medium: Medium::Risk(1.0), radius, hardness, strength });
         (0..3).for_each(|_| document.draw_to(dvec2(random.f64(), random.f64())));
         document.end_stroke();
         while follower.advance(&mut document, 1 << 20).unwrap() != Stage::InStep {}

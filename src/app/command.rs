@@ -10,7 +10,7 @@ use super::background::WorkId;
 use super::dialogs::FileRequest;
 use super::help::HelpTopic;
 use super::readout::Quantity;
-use super::tools::{BoundaryToolMode, DomainToolMode, PaintKind, Tool};
+use super::tools::{BoundaryToolMode, BrushMode, DomainToolMode, PaintKind, PenEffect, Tool};
 use super::view::{CanvasAid, FieldOverlay};
 use super::widgets::Answer;
 use crate::colormap::Colormap;
@@ -82,20 +82,8 @@ pub enum Command {
 
     /// Selects a tool.
     Use(Tool),
-    /// Selects the brush and what it paints.
-    Paint(PaintKind),
-    /// Sets the radius of the brush.
-    BrushRadius(f64),
-    /// Makes the brush larger or smaller by a factor.
-    ScaleBrush(f64),
-    /// Sets the hardness of the brush, 0 to 1.
-    BrushHardness(f64),
-    /// Sets the strength of the selected tool, 0 to 1.
-    BrushStrength(f64),
-    /// Sets the diameter that the brush paints.
-    BrushDiameter(f64),
-    /// Takes the value at a point as the brush's own.
-    PickValue(DVec2),
+    /// Changes the brush.
+    Brush(BrushCommand),
 
     /// Queries a point.
     Query(DVec2),
@@ -181,6 +169,39 @@ impl PartialEq for Opened {
     fn eq(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.document, &other.document) && self.home == other.home
     }
+}
+
+/// What changes about the brush.
+#[derive(Clone, Debug, PartialEq)]
+pub enum BrushCommand {
+    /// Selects the brush and what it paints.
+    Kind(PaintKind),
+    /// Selects the brush and how a stroke changes the paint.
+    Mode(BrushMode),
+    /// Sets the radius of the brush.
+    Radius(f64),
+    /// Makes the brush larger or smaller by a factor.
+    Scale(f64),
+    /// Sets the hardness of the brush, 0 to 1.
+    Hardness(f64),
+    /// Sets the strength of the selected tool, 0 to 1.
+    Strength(f64),
+    /// Sets the risk that the brush paints in the mode *Set*, 0 to 1.
+    Risk(f64),
+    /// Sets the diameter that the brush paints.
+    Diameter(f64),
+    /// Takes the value at a point as the brush's own.
+    Pick(DVec2),
+    /// Sets the smoothing of strokes, 0 to 1.
+    Smoothing(f64),
+    /// Repeats strokes on the other side: left and right.
+    MirrorX(bool),
+    /// Repeats strokes on the other side: above and below.
+    MirrorY(bool),
+    /// Chooses what the pressure of a pen changes.
+    PenEffect(PenEffect),
+    /// Notes the pressure of the pen, 0 to 1, or that it was lifted.
+    Pen(Option<f64>),
 }
 
 /// What the boundary tool does.

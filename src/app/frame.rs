@@ -136,7 +136,7 @@ impl App {
         }
     }
 
-    /// Brings the mesh and the price of a dab closer to the document, until the frame's time is spent.
+    /// Brings the mesh and the price of a stroke closer to the document, until the frame's time is spent.
     fn follow(&mut self, ctx: &Context) {
         // With a time limit, what is shown on the way would depend on the machine's speed.
         let frame_time = ctx.input(|input| input.stable_dt);
@@ -148,8 +148,9 @@ impl App {
         let follows = self.session.follow(deadline);
         let derives = self.session.advance_derivation(patience, ctx);
         let finds = self.tools.tool.finds_boundary && self.session.find_boundary(patience, ctx);
-        let dab = if self.asks_something() { None } else { self.canvas.hovered_dab(ctx, &self.tools) };
-        let prices = self.session.price_dab(dab, deadline);
+        let bounds = self.session.document().settings().domain.bounds;
+        let plan = self.canvas.planned_stroke(ctx, &self.tools, bounds).filter(|_| !self.asks_something());
+        let prices = self.session.price_stroke(plan, deadline);
         self.canvas.note_work(&self.session);
         if cuts || follows || derives || finds || prices {
             ctx.request_repaint();

@@ -16,7 +16,7 @@ use crate::document::{Document, Follower, MeshChange, Pricer, Setting, Stage};
 use crate::domain::{BoundaryMarks, BoundaryPieces, CutShape};
 use crate::geometry::Rect;
 use crate::mesh::{Location, Mesh, MeshView, Progress};
-use crate::paint::Brush;
+use crate::paint::StrokePlan;
 
 /// Pixels or triangles in one slice of work: well below a millisecond.
 const SLICE: usize = 2048;
@@ -358,16 +358,16 @@ impl Session {
         left
     }
 
-    /// Computes the price of a dab until `deadline`. Returns whether work is left. `None` cancels.
-    pub fn price_dab(&mut self, dab: Option<(Brush, DVec2)>, deadline: Instant) -> bool {
-        self.pricer.ask(dab, &self.document, &self.follower);
+    /// Computes the price of a stroke until `deadline`. Returns whether work is left. `None` cancels.
+    pub fn price_stroke(&mut self, plan: Option<StrokePlan>, deadline: Instant) -> bool {
+        self.pricer.ask(plan, &self.document, &self.follower);
         while self.pricer.progress() == Progress::More && Instant::now() < deadline {
             self.pricer.advance(&self.document, &self.follower, SLICE);
         }
         self.pricer.progress() == Progress::More
     }
 
-    /// The price of the dab under the pointer.
+    /// The price of the stroke that a click would paint.
     pub fn pricer(&self) -> &Pricer {
         &self.pricer
     }

@@ -131,10 +131,10 @@ fn aegean(sea: &[NamedPolygon]) -> Settings {
 fn threats() -> Document {
     let mut document = document(Settings { name: Example::Threats.name().into(), ..Settings::default() });
     for (place, radius, hardness, strength) in SITES {
-        document.begin_stroke(Brush { medium: Medium::Risk, radius, hardness, strength });
+        document.begin_stroke(Brush { medium: Medium::Risk(1.0), radius, hardness, strength });
         document.draw_to(place);
     }
-    document.begin_stroke(Brush { medium: Medium::Risk, radius: 0.06, hardness: 0.15, strength: 0.97 });
+    document.begin_stroke(Brush { medium: Medium::Risk(1.0), radius: 0.06, hardness: 0.15, strength: 0.97 });
     for i in 0..=60 {
         let t = f64::from(i) / 60.0;
         let sway = libm::sin(t * 1.55 * std::f64::consts::PI);

@@ -19,13 +19,13 @@ pub use edits::Edits;
 pub use examples::Example;
 pub use follower::{Follower, MeshChange};
 pub use history::History;
-pub use pricer::{Price, Pricer};
+pub use pricer::{NoChange, Price, Pricer};
 pub use setting::{Setting, SettingKind};
 pub use settings::{Base, LEAST_MEMORY, MAX_COARSE_TRIANGLES, RESOLUTIONS, Settings, SettingsError};
 pub use stage::Stage;
 
 use crate::mesh::Progress;
-use crate::paint::{Brush, PaintRasters, Stroke};
+use crate::paint::{Brush, Mirror, PaintRasters, PathPoint, Stroke};
 use crate::raster::PixelRect;
 use history::{Entry, EntryData};
 
@@ -135,9 +135,14 @@ impl Document {
     /// Begins a stroke, which touches nothing until [`Self::extend_stroke`]. The current stroke or gesture
     /// ends first.
     pub fn begin_stroke(&mut self, brush: Brush) {
+        self.begin_mirrored_stroke(brush, Mirror::default());
+    }
+
+    /// Begins a stroke that is repeated in the lines of `mirror`, as [`Self::begin_stroke`] does.
+    pub fn begin_mirrored_stroke(&mut self, brush: Brush, mirror: Mirror) {
         self.end_stroke();
         self.end_gesture();
-        self.stroke = Some(Stroke::new(brush, self.settings.transfer.h_max));
+        self.stroke = Some(Stroke::new(brush, self.settings.transfer.h_max).mirrored(mirror));
         self.finishing = false;
     }
 
@@ -147,8 +152,8 @@ impl Document {
         while self.advance_stroke(usize::MAX) == Progress::More {}
     }
 
-    /// Extends the current stroke to a point in world units; [`Self::advance_stroke`] draws the new segment.
-    pub fn extend_stroke(&mut self, point: DVec2) {
+    /// Extends the current stroke to a point; [`Self::advance_stroke`] draws the new segment.
+    pub fn extend_stroke(&mut self, point: impl Into<PathPoint>) {
         if let Some(stroke) = &mut self.stroke {
             stroke.extend(&self.paint, point);
         }

@@ -1,32 +1,30 @@
-use glam::DVec2;
-
 use super::{Document, Follower};
 use crate::build::RefinementCriterion;
-use crate::field::RefinementRule;
+use crate::field::{RefinementRule, TargetField};
 use crate::mesh::{Forecast, Progress};
-use crate::paint::{Brush, Dab};
+use crate::paint::{Preview, StrokePlan};
 use crate::raster::{MaxMipmap, PixelRect};
 
-/// Computes in slices how one dab would change the number of triangles, without changing document or mesh.
+/// Computes in slices how a planned stroke would change the number of triangles, without changing document or
+/// mesh.
 ///
 /// By the area rule the answer is exact. Under the vertex rule there is none: every edit rebuilds the mesh.
 #[derive(Clone, Debug)]
 pub struct Pricer {
     question: Option<Question>,
     work: Work,
-    /// The levels that pixels would ask for: those of the field, except where the dab's are written.
+    /// The levels that pixels would ask for: those of the field, except where the stroke's are written.
     levels: MaxMipmap<u8>,
     /// The revision of the document from which the levels were copied.
     levels_of: Option<u64>,
-    /// Where levels of this dab, or of earlier ones, may be written.
+    /// Where levels of this stroke, or of earlier ones, may be written.
     written: Vec<PixelRect>,
 }
 
-/// A dab, and what its price depends on: the price is valid as long as none of this changes.
+/// A planned stroke, and what its price depends on: the price is valid as long as none of this changes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Question {
-    brush: Brush,
-    at: DVec2,
+    plan: StrokePlan,
     document: u64,
     mesh: u64,
 }
@@ -34,27 +32,80 @@ struct Question {
 #[derive(Clone, Debug)]
 enum Work {
     Idle,
-    /// The dab's levels are written where they differ; those of the dab before are restored.
+    /// The stroke's levels are written where they differ; those of the stroke before are restored.
     Writing {
-        dab: Dab,
+        preview: Preview,
         left: Vec<PixelRect>,
-        /// Bounds of all pixels so far that would ask for another level.
-        changed: PixelRect,
+        effect: Effect,
     },
     Counting(Box<Forecast>),
     Known(Price),
 }
 
-/// What a dab would do to the number of triangles.
+/// What a stroke does to the pixels under it.
+#[derive(Clone, Copy, Debug)]
+struct Effect {
+    /// Bounds of all pixels that would ask for another level.
+    levels_changed: PixelRect,
+    /// Whether it reaches any pixel.
+    reaches: bool,
+    /// Whether it changes the paint of any pixel.
+    paints: bool,
+    /// Whether the base field alone asks for the level of each pixel whose paint changes.
+    base_decides: bool,
+    /// Whether no pixel whose paint changes asks for more than the coarse grid.
+    coarse: bool,
+}
+
+impl Effect {
+    const NONE: Self =
+        Self { levels_changed: NO_PIXELS, reaches: false, paints: false, base_decides: true, coarse: true };
+
+    /// Why a stroke with this effect changes no triangle.
+    fn no_change(&self) -> NoChange {
+        match self {
+            Self { reaches: false, .. } => NoChange::OutsideField,
+            Self { paints: false, .. } => NoChange::PaintedAlready,
+            Self { levels_changed, .. } if !levels_changed.is_empty() => NoChange::TrianglesFit,
+            Self { coarse: true, .. } => NoChange::CoarserThanGrid,
+            Self { base_decides: true, .. } => NoChange::BaseDecides,
+            _ => NoChange::OtherPaintDecides,
+        }
+    }
+}
+
+/// What a stroke would do to the number of triangles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Price {
-    /// The number of new triangles; below zero where triangles are removed.
+    /// The number of new triangles; below zero where triangles are removed. It is zero where as many are
+    /// added as removed.
     Change(i64),
+    /// No triangle changes, and why.
+    Nothing(NoChange),
     /// More than this number would be added, or removed where it is below zero: counting them all would take
     /// too long.
     MoreThan(i64),
-    /// The dab asks for triangles finer than the lattice.
+    /// More than [`Self::MOST`] triangles would be added and others removed, or the other way around.
+    Many,
+    /// The stroke asks for triangles finer than the lattice.
     TooFine,
+}
+
+/// Why a stroke changes no triangle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NoChange {
+    /// It reaches no pixel of the field.
+    OutsideField,
+    /// The pixels are already painted so; for the eraser: nothing is painted there.
+    PaintedAlready,
+    /// Its target diameter is not below that of the coarse grid.
+    CoarserThanGrid,
+    /// The base field asks for a smaller diameter.
+    BaseDecides,
+    /// The other kind of paint asks for a smaller diameter.
+    OtherPaintDecides,
+    /// h̄ changes, but the triangles there suit it: they are as fine already, or their neighbours need them.
+    TrianglesFit,
 }
 
 impl Price {
@@ -65,7 +116,7 @@ impl Price {
     pub fn change(&self) -> i64 {
         match *self {
             Self::Change(change) | Self::MoreThan(change) => change,
-            Self::TooFine => 0,
+            Self::Nothing(_) | Self::Many | Self::TooFine => 0,
         }
     }
 }
@@ -80,17 +131,15 @@ impl Default for Pricer {
 }
 
 impl Pricer {
-    /// Asks for the price of a dab of a brush at a point in world units, or for none. Asking for the same dab
-    /// again keeps the price.
+    /// Asks for the price of a stroke, or for none. Asking for the same stroke again keeps the price.
     ///
     /// There is a price only while the follower is in step with its document and no stroke is being painted.
-    pub fn ask(&mut self, dab: Option<(Brush, DVec2)>, document: &Document, follower: &Follower) {
+    pub fn ask(&mut self, plan: Option<StrokePlan>, document: &Document, follower: &Follower) {
         let answerable = document.stroke().is_none()
             && document.settings().rule == RefinementRule::Area
             && follower.is_in_step(document);
-        let question = dab.filter(|(_, at)| answerable && at.is_finite()).map(|(brush, at)| Question {
-            brush,
-            at,
+        let question = plan.filter(|plan| answerable && plan.is_finite()).map(|plan| Question {
+            plan,
             document: document.revision(),
             mesh: follower.revision(),
         });
@@ -102,21 +151,20 @@ impl Pricer {
     }
 
     fn begin(&mut self, question: Question, document: &Document, follower: &Follower) -> Work {
-        // Dabs that were not restored pile up while the pointer moves: from some number on, a fresh copy is
-        // cheaper.
-        if self.levels_of != Some(question.document) || self.written.len() > 4 {
+        // Strokes that were not restored pile up while the pointer moves: from some number on, a fresh copy
+        // is cheaper.
+        if self.levels_of != Some(question.document) || self.written.len() > 16 {
             self.levels = follower.field().levels().clone();
             self.levels_of = Some(question.document);
             self.written.clear();
         }
         let h_max = document.settings().transfer.h_max;
-        let dab = Dab::new(question.brush, h_max, question.at, document.paint());
-        self.written.push(dab.area());
-        let left = self.written.iter().copied().filter(|area| !area.is_empty()).collect();
-        Work::Writing { dab, left, changed: NO_PIXELS }
+        let preview = Preview::new(&question.plan, h_max, document.paint());
+        self.written.extend(preview.areas());
+        Work::Writing { preview, left: self.written.clone(), effect: Effect::NONE }
     }
 
-    /// The price of the dab, once known.
+    /// The price of the stroke, once known.
     pub fn price(&self) -> Option<Price> {
         if let Work::Known(price) = self.work { Some(price) } else { None }
     }
@@ -134,15 +182,15 @@ impl Pricer {
     pub fn advance(&mut self, document: &Document, follower: &Follower, budget: usize) -> Progress {
         let next = match &mut self.work {
             Work::Idle | Work::Known(_) => return Progress::Done,
-            Work::Writing { dab, left, changed } => {
+            Work::Writing { preview, left, effect } => {
                 let Some(area) = left.pop() else {
-                    self.written = vec![dab.area()];
-                    self.work = count(*changed, follower);
+                    self.written = preview.areas().collect();
+                    self.work = count(effect, follower);
                     return self.progress();
                 };
                 let (now, later) = area.split_after(budget);
                 left.extend(later);
-                write(&mut self.levels, dab, now, changed, document, follower);
+                write(&mut self.levels, preview, now, effect, document, follower);
                 None
             }
             Work::Counting(forecast) => price_so_far(forecast, &self.levels, follower, budget),
@@ -154,35 +202,49 @@ impl Pricer {
     }
 }
 
-/// Writes the levels that the pixels of `area` would ask for: with the dab where it reaches, those of the
+/// Writes the levels that the pixels of `area` would ask for: with the stroke where it reaches, those of the
 /// field elsewhere.
 fn write(
     levels: &mut MaxMipmap<u8>,
-    dab: &Dab,
+    preview: &Preview,
     area: PixelRect,
-    changed: &mut PixelRect,
+    effect: &mut Effect,
     document: &Document,
     follower: &Follower,
 ) {
-    let field = follower.field();
+    let (field, paint) = (follower.field(), document.paint());
     levels.update(area, |x, y| {
         let before = field.levels().get(x, y);
-        if !dab.area().contains(x, y) {
+        let Some(painted) = preview.pixel(paint, x, y) else { return before };
+        effect.reaches = true;
+        if painted == [paint.risk.get(x, y), paint.diameter.get(x, y)] {
             return before;
         }
-        let after = field.level_with(x, y, dab.pixel(document.paint(), x, y));
-        if after != before {
-            *changed = changed.union(&PixelRect { min: [x, y], max: [x + 1, y + 1] });
-        }
+        let after = field.level_with(x, y, painted);
+        effect.note(field, [x, y], [before, after]);
         after
     });
 }
 
-fn count(changed: PixelRect, follower: &Follower) -> Work {
-    if changed.is_empty() {
-        return Work::Known(Price::Change(0));
+impl Effect {
+    /// Notes a pixel whose paint changes, with its levels before and after.
+    fn note(&mut self, field: &TargetField, [x, y]: [u32; 2], [before, after]: [u8; 2]) {
+        self.paints = true;
+        if after != before {
+            let pixel = PixelRect { min: [x, y], max: [x + 1, y + 1] };
+            self.levels_changed = self.levels_changed.union(&pixel);
+            return;
+        }
+        self.coarse &= after == 0;
+        self.base_decides &= after == field.level_with(x, y, [0.0, f32::INFINITY]);
     }
-    let area = follower.field().lattice_rect(changed);
+}
+
+fn count(effect: &Effect, follower: &Follower) -> Work {
+    if effect.levels_changed.is_empty() {
+        return Work::Known(Price::Nothing(effect.no_change()));
+    }
+    let area = follower.field().lattice_rect(effect.levels_changed);
     Work::Counting(Box::new(Forecast::new(follower.mesh(), area, &follower.settings().limits())))
 }
 
@@ -200,10 +262,11 @@ fn price_so_far(
     let [added, removed] = [forecast.added(), forecast.removed()];
     match progress {
         Err(_) => Some(Price::TooFine),
+        Ok(Progress::Done) if added == 0 && removed == 0 => Some(Price::Nothing(NoChange::TrianglesFit)),
         Ok(Progress::Done) => Some(Price::Change(forecast.change())),
-        // A brush only refines and an eraser only coarsens, so the rest cannot cancel what is counted.
-        Ok(Progress::More) if added > Price::MOST => Some(Price::MoreThan(Price::MOST as i64)),
-        Ok(Progress::More) if removed > Price::MOST => Some(Price::MoreThan(-(Price::MOST as i64))),
-        Ok(Progress::More) => None,
+        Ok(Progress::More) if added.max(removed) <= Price::MOST => None,
+        Ok(Progress::More) if removed == 0 => Some(Price::MoreThan(Price::MOST as i64)),
+        Ok(Progress::More) if added == 0 => Some(Price::MoreThan(-(Price::MOST as i64))),
+        Ok(Progress::More) => Some(Price::Many),
     }
 }

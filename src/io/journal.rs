@@ -295,7 +295,7 @@ fn split_home(content: &[u8]) -> Option<(Option<PathBuf>, &[u8])> {
 mod tests {
     use super::*;
     use crate::document::{Document, Edits, Example, Setting};
-    use crate::paint::{Brush, Medium};
+    use crate::paint::{Brush, DiameterChange, Medium};
     use glam::dvec2;
 
     fn folder(name: &str) -> PathBuf {
@@ -312,7 +312,7 @@ mod tests {
 
     /// Paints or erases, and returns the tiles that it touched.
     fn gesture(document: &mut Document, n: u32) -> Tiles {
-        let medium = if n % 3 == 2 { Medium::Eraser } else { Medium::Diameter(0.01) };
+        let medium = if n % 3 == 2 { Medium::Eraser } else { Medium::Diameter(0.01, DiameterChange::Finer) };
         document.begin_stroke(Brush { medium, radius: 0.05, hardness: 0.5, strength: 0.7 });
         let at = f64::from(n) * 0.618 % 1.0;
         document.draw_to(dvec2(at, 0.3));

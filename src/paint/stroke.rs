@@ -2,9 +2,9 @@ use std::collections::{BTreeMap, VecDeque};
 
 use glam::DVec2;
 
+use super::brush::{least_radius, nearest_on_segment};
 use super::tiles::{TILE, TilePixels, TilePlace, tile_area, tiles_touching};
-use super::{Brush, Medium, PaintRasters, Patch, distance_to_segment};
-use crate::field::f32_not_below;
+use super::{Brush, Mirror, PaintRasters, Patch, PathPoint};
 use crate::geometry::Rect;
 use crate::raster::PixelRect;
 
@@ -28,8 +28,9 @@ pub struct Stroke {
     brush: Brush,
     /// The largest target diameter, in world units: a painted diameter grows to it at the rim.
     h_max: f64,
-    /// The last point of the path, in world units.
-    last: Option<DVec2>,
+    mirror: Mirror,
+    /// The last point of the path.
+    last: Option<PathPoint>,
     /// Segments that are not drawn yet, in order.
     pending: VecDeque<Segment>,
     touched: BTreeMap<TilePlace, Touched>,
@@ -38,8 +39,7 @@ pub struct Stroke {
 /// A straight piece of the path, from one point of the pointer to the next.
 #[derive(Clone, Debug)]
 struct Segment {
-    /// Its ends, in world units.
-    ends: [DVec2; 2],
+    ends: [PathPoint; 2],
     /// The pixels that it may change.
     area: PixelRect,
     /// The tiles in `area` that it reaches and that are not stamped yet.
@@ -58,7 +58,13 @@ struct Touched {
 impl Stroke {
     /// A stroke that has touched nothing yet. `h_max` is the largest target diameter, in world units.
     pub fn new(brush: Brush, h_max: f64) -> Self {
-        Self { brush, h_max, last: None, pending: VecDeque::new(), touched: BTreeMap::new() }
+        let mirror = Mirror::default();
+        Self { brush, h_max, mirror, last: None, pending: VecDeque::new(), touched: BTreeMap::new() }
+    }
+
+    /// The stroke, repeated in the lines of `mirror`.
+    pub fn mirrored(self, mirror: Mirror) -> Self {
+        Self { mirror, ..self }
     }
 
     /// The brush in use.
@@ -66,12 +72,17 @@ impl Stroke {
         &self.brush
     }
 
-    /// Extends the path to `point`, in world units; [`Self::advance`] draws the new segment. A point that is
-    /// not finite is ignored.
-    pub fn extend(&mut self, paint: &PaintRasters, point: DVec2) {
+    /// Extends the path to a point; [`Self::advance`] draws the new segment. A point that is not finite is
+    /// ignored.
+    pub fn extend(&mut self, paint: &PaintRasters, point: impl Into<PathPoint>) {
+        let point = point.into();
         if point.is_finite() {
+            // As thin as the rasters can show, at least.
+            let least = least_radius(paint) / self.brush.on(paint).radius;
+            let point = PathPoint { size: point.size.max(least), ..point };
             let from = self.last.replace(point).unwrap_or(point);
-            self.pending.push_back(Segment::new([from, point], self.brush.on(paint).radius, paint));
+            let segments = self.mirror.segments([from, point]);
+            self.pending.extend(segments.map(|ends| Segment::new(ends, &self.brush, paint)));
         }
     }
 
@@ -79,14 +90,12 @@ impl Stroke {
     /// have changed, `None` if nothing was left to draw.
     pub fn advance(&mut self, paint: &mut PaintRasters, pixels: usize) -> Option<PixelRect> {
         let mut segment = self.pending.pop_front()?;
-        let [from, to] = segment.ends;
-        let brush = self.brush.on(paint);
+        let (ends, brush) = (segment.ends, self.brush.on(paint));
         let mut changed = PixelRect { min: [0, 0], max: [0, 0] };
         for _ in 0..pixels.div_ceil((TILE * TILE) as usize) {
             let Some(place) = segment.tiles.pop() else { return Some(changed) };
-            let stamped = self.stamp_tile(paint, place, segment.area, |pixel| {
-                brush.coverage(distance_to_segment(pixel, from, to))
-            });
+            let stamped =
+                self.stamp_tile(paint, place, segment.area, |pixel| brush.coverage_of_segment(pixel, ends));
             changed = changed.union(&stamped);
         }
         self.pending.push_front(segment);
@@ -131,9 +140,8 @@ impl Stroke {
                 // From the pixel before the stroke, not from its present value: the order of the segments
                 // does not matter.
                 touched.coverage[i] = coverage;
-                let amount = f64::from(coverage) * self.brush.strength;
                 let old = [touched.before.risk[i], touched.before.diameter[i]];
-                let [risk, diameter] = painted_pixel(self.brush.medium, amount, old, self.h_max);
+                let [risk, diameter] = self.brush.painted_pixel(coverage, old, self.h_max);
                 paint.risk.set(x, y, risk);
                 paint.diameter.set(x, y, diameter);
             }
@@ -143,15 +151,16 @@ impl Stroke {
 }
 
 impl Segment {
-    fn new(ends: [DVec2; 2], radius: f64, paint: &PaintRasters) -> Self {
-        let [from, to] = ends;
+    fn new(ends: [PathPoint; 2], brush: &Brush, paint: &PaintRasters) -> Self {
+        let [from, to] = ends.map(|end| end.at);
+        let radius = widest(&ends, brush, paint);
         let area = paint.risk.pixels_touching(&Rect::spanning(from, to).expanded(radius));
         let (size, pixel) = (paint.risk.size(), paint.risk.pixel_size());
         let reaches = |&place: &TilePlace| {
             let PixelRect { min, max } = tile_area(place, size);
             let [low, high] = [min, max].map(|[x, y]| DVec2::new(x.into(), y.into()) * pixel);
             let (middle, half_diagonal) = (0.5 * (low + high), 0.5 * (high - low).length());
-            let distance = distance_to_segment(paint.risk.bounds().min + middle, from, to);
+            let (_, distance) = nearest_on_segment(paint.risk.bounds().min + middle, from, to);
             // Rounding does not matter: at the rim the coverage is 0.
             distance <= radius + half_diagonal
         };
@@ -159,70 +168,23 @@ impl Segment {
     }
 }
 
-/// A stroke of a single point, computed without changing the rasters. [`Dab::pixel`] gives what that stroke
-/// would paint.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Dab {
-    brush: Brush,
-    /// The largest target diameter, in world units.
-    h_max: f64,
-    at: DVec2,
-    area: PixelRect,
-}
-
-impl Dab {
-    /// A dab of `brush` at a point in world units, which must be finite. `h_max` is the largest target
-    /// diameter, in world units.
-    pub fn new(brush: Brush, h_max: f64, at: DVec2, paint: &PaintRasters) -> Self {
-        let brush = brush.on(paint);
-        let area = paint.risk.pixels_touching(&Rect::around(at, brush.radius));
-        Self { brush, h_max, at, area }
-    }
-
-    /// The pixels that may change.
-    pub fn area(&self) -> PixelRect {
-        self.area
-    }
-
-    /// [risk, target diameter] of the pixel in column `x` and row `y` after the dab.
-    pub fn pixel(&self, paint: &PaintRasters, x: u32, y: u32) -> [f32; 2] {
-        let old = [paint.risk.get(x, y), paint.diameter.get(x, y)];
-        let coverage = self.brush.coverage((paint.risk.pixel_center(x, y) - self.at).length()) as f32;
-        if coverage > 0.0 {
-            painted_pixel(self.brush.medium, f64::from(coverage) * self.brush.strength, old, self.h_max)
-        } else {
-            old
-        }
-    }
-}
-
-/// New [risk, diameter] of a pixel from the old values. `amount` is coverage times strength, 0 to 1.
-fn painted_pixel(medium: Medium, amount: f64, [risk, diameter]: [f32; 2], h_max: f64) -> [f32; 2] {
-    match medium {
-        Medium::Risk => [(f64::from(risk) + amount * (1.0 - f64::from(risk))) as f32, diameter],
-        Medium::Diameter(target) => {
-            let graded = if amount >= 1.0 { target } else { h_max * libm::pow(target / h_max, amount) };
-            [risk, diameter.min(f32_not_below(graded))]
-        }
-        Medium::Eraser => {
-            // A remainder below a hundredth becomes blank: it would keep the mesh refined without being
-            // visible.
-            let risk = f64::from(risk) * (1.0 - amount);
-            let risk = if risk < 0.01 { 0.0 } else { risk as f32 };
-            let diameter = f64::from(diameter);
-            let raised = diameter * libm::pow((h_max / diameter).max(1.0), amount);
-            [risk, if raised >= 0.99 * h_max { f32::INFINITY } else { raised as f32 }]
-        }
-    }
+/// The largest radius along a segment, in world units.
+pub(super) fn widest(ends: &[PathPoint; 2], brush: &Brush, paint: &PaintRasters) -> f64 {
+    brush.on(paint).radius * ends[0].size.max(ends[1].size)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::field::f32_not_below;
+    use crate::paint::{DiameterChange, Medium, Preview, StrokePlan};
     use glam::dvec2;
 
     const SIZE: [u32; 2] = [200, 150];
-    const RISK: Brush = Brush { medium: Medium::Risk, radius: 0.1, hardness: 0.5, strength: 0.8 };
+    const FINER: Medium = Medium::Diameter(0.01, DiameterChange::Finer);
+    const COARSER: Medium = Medium::Diameter(0.03, DiameterChange::Coarser);
+    const ANY: Medium = Medium::Diameter(0.02, DiameterChange::Any);
+    const RISK: Brush = Brush { medium: Medium::Risk(1.0), radius: 0.1, hardness: 0.5, strength: 0.8 };
 
     fn painted(paint: &mut PaintRasters, brush: Brush, points: &[DVec2]) -> Patch {
         let mut stroke = Stroke::new(brush, 0.5);
@@ -237,7 +199,7 @@ mod tests {
         let blank = PaintRasters::blank(Rect::UNIT, SIZE);
         let mut paint = blank.clone();
         let mut done = vec![];
-        for medium in [Medium::Risk, Medium::Diameter(0.01), Medium::Eraser, Medium::Risk] {
+        for medium in [Medium::Risk(1.0), FINER, ANY, COARSER, Medium::Eraser, Medium::Risk(0.5)] {
             let points: Vec<_> = (0..5).map(|_| dvec2(random.f64(), random.f64()) * 1.2).collect();
             let before = paint.clone();
             let patch = painted(&mut paint, Brush { medium, ..RISK }, &points);
@@ -293,7 +255,7 @@ mod tests {
 
     #[test]
     fn a_brush_smaller_than_a_pixel_paints_a_pixel() {
-        for medium in [Medium::Risk, Medium::Diameter(0.01)] {
+        for medium in [Medium::Risk(1.0), FINER, ANY] {
             let mut paint = PaintRasters::blank(Rect::UNIT, SIZE);
             let brush = Brush { medium, radius: 1e-9, hardness: 1.0, strength: 1.0 };
             painted(&mut paint, brush, &[dvec2(0.33333, 0.77777)]);
@@ -302,23 +264,29 @@ mod tests {
     }
 
     #[test]
-    fn a_dab_equals_a_stroke_of_one_point() {
+    fn a_preview_equals_the_stroke() {
         let mut random = fastrand::Rng::with_seed(4);
         let mut paint = PaintRasters::blank(Rect::UNIT, SIZE);
         let mut changed = 0;
         for _ in 0..60 {
-            let media = [Medium::Risk, Medium::Diameter(0.01), Medium::Eraser];
-            let medium = media[random.usize(..3)];
+            let media = [Medium::Risk(1.0), Medium::Risk(0.3), FINER, COARSER, ANY, Medium::Eraser];
+            let medium = media[random.usize(..media.len())];
             let radius = 0.3 * random.f64().powi(4);
             let brush = Brush { medium, radius, hardness: random.f64(), strength: random.f64() };
-            let at = dvec2(random.f64(), random.f64()) * 1.2 - 0.1;
+            let from = dvec2(random.f64(), random.f64()) * 1.2 - 0.1;
+            let to = if random.bool() { from } else { dvec2(random.f64(), random.f64()) };
+            let mirror = Mirror { x: random.bool().then_some(0.5), y: random.bool().then_some(0.4) };
             let before = paint.clone();
-            let dab = Dab::new(brush, 0.5, at, &before);
-            painted(&mut paint, brush, &[at]);
+            let preview = Preview::new(&StrokePlan { brush, mirror, from, to }, 0.5, &before);
+            let mut stroke = Stroke::new(brush, 0.5).mirrored(mirror);
+            [from, to].into_iter().for_each(|point| stroke.extend(&paint, point));
+            while stroke.advance(&mut paint, usize::MAX).is_some() {}
             for (x, y) in before.risk.all().pixels() {
                 let was = [before.risk.get(x, y), before.diameter.get(x, y)];
-                let predicted = if dab.area().contains(x, y) { dab.pixel(&before, x, y) } else { was };
-                assert_eq!([paint.risk.get(x, y), paint.diameter.get(x, y)], predicted);
+                let predicted = preview.pixel(&before, x, y).unwrap_or(was);
+                assert_eq!([paint.risk.get(x, y), paint.diameter.get(x, y)], predicted, "{brush:?}");
+                let listed = preview.areas().any(|area| area.contains(x, y));
+                assert!(listed || predicted == was);
                 changed += usize::from(predicted != was);
             }
         }
@@ -326,11 +294,86 @@ mod tests {
     }
 
     #[test]
+    fn setting_a_risk_reaches_it_from_below_and_above_in_one_stroke() {
+        let at = dvec2(0.5, 0.5);
+        for start in [0.0, 0.3, 0.9] {
+            let mut paint = PaintRasters::blank(Rect::UNIT, SIZE);
+            painted(&mut paint, Brush { medium: Medium::Risk(start), strength: 1.0, ..RISK }, &[at]);
+            painted(&mut paint, Brush { medium: Medium::Risk(0.55), strength: 1.0, ..RISK }, &[at]);
+            assert_eq!(paint.risk.sample(at), Some(0.55), "from {start}");
+        }
+    }
+
+    #[test]
+    fn lowering_removes_a_share_of_the_risk_and_ends_blank() {
+        let at = dvec2(0.5, 0.5);
+        let mut paint = PaintRasters::blank(Rect::UNIT, SIZE);
+        painted(&mut paint, Brush { strength: 1.0, ..RISK }, &[at]);
+        let lower = Brush { medium: Medium::Risk(0.0), strength: 0.5, hardness: 1.0, radius: 0.2 };
+        painted(&mut paint, lower, &[at]);
+        assert_eq!(paint.risk.sample(at), Some(0.5));
+        for _ in 0..10 {
+            painted(&mut paint, lower, &[at]);
+        }
+        assert!(paint.is_blank());
+    }
+
+    #[test]
+    fn diameters_change_only_in_the_directions_of_the_brush() {
+        let at = dvec2(0.5, 0.5);
+        let start = Brush { medium: ANY, strength: 1.0, ..RISK };
+        let after = |medium| {
+            let mut paint = PaintRasters::blank(Rect::UNIT, SIZE);
+            painted(&mut paint, start, &[at]);
+            painted(&mut paint, Brush { medium, ..start }, &[at]);
+            [paint.diameter.sample(at).unwrap(), paint.diameter.sample(dvec2(0.1, 0.1)).unwrap()]
+        };
+        let blank = f32::INFINITY;
+        assert_eq!(after(Medium::Diameter(0.01, DiameterChange::Finer)), [f32_not_below(0.01), blank]);
+        assert_eq!(after(Medium::Diameter(0.01, DiameterChange::Coarser)), [f32_not_below(0.02), blank]);
+        assert_eq!(after(Medium::Diameter(0.04, DiameterChange::Finer)), [f32_not_below(0.02), blank]);
+        assert_eq!(after(Medium::Diameter(0.04, DiameterChange::Coarser)), [f32_not_below(0.04), blank]);
+        assert_eq!(after(Medium::Diameter(0.01, DiameterChange::Any)), [f32_not_below(0.01), blank]);
+        assert_eq!(after(Medium::Diameter(0.04, DiameterChange::Any)), [f32_not_below(0.04), blank]);
+    }
+
+    #[test]
+    fn a_mirrored_stroke_is_symmetric_and_one_gesture() {
+        let size = [200, 200];
+        let mut paint = PaintRasters::blank(Rect::UNIT, size);
+        let mut stroke = Stroke::new(RISK, 0.5).mirrored(Mirror { x: Some(0.5), y: Some(0.5) });
+        for point in [dvec2(0.2, 0.3), dvec2(0.3, 0.1), dvec2(0.55, 0.2)] {
+            stroke.extend(&paint, point);
+        }
+        while stroke.advance(&mut paint, 1).is_some() {}
+        for (x, y) in paint.risk.all().pixels() {
+            let images = [(199 - x, y), (x, 199 - y), (199 - x, 199 - y)];
+            for (i, j) in images {
+                assert!((paint.risk.get(x, y) - paint.risk.get(i, j)).abs() < 1e-5);
+            }
+        }
+        stroke.finish().exchange(&mut paint);
+        assert!(paint.is_blank());
+    }
+
+    #[test]
+    fn size_and_strength_of_a_path_follow_its_points() {
+        let mut paint = PaintRasters::blank(Rect::UNIT, [400, 400]);
+        let mut stroke = Stroke::new(Brush { hardness: 1.0, strength: 1.0, ..RISK }, 0.5);
+        stroke.extend(&paint, PathPoint { at: dvec2(0.2, 0.5), size: 0.2, strength: 0.5 });
+        stroke.extend(&paint, PathPoint { at: dvec2(0.8, 0.5), size: 1.0, strength: 1.0 });
+        while stroke.advance(&mut paint, usize::MAX).is_some() {}
+        let risk = |x, y| paint.risk.sample(dvec2(x, y)).unwrap();
+        assert!((risk(0.2, 0.5) - 0.5).abs() < 0.01 && risk(0.8, 0.5) > 0.99);
+        assert!(risk(0.2, 0.53) == 0.0 && risk(0.8, 0.59) > 0.9, "thin where it begins, thick where it ends");
+    }
+
+    #[test]
     fn erasing_at_full_strength_leaves_blank_rasters() {
         let mut paint = PaintRasters::blank(Rect::UNIT, SIZE);
         let points = [dvec2(0.3, 0.3), dvec2(0.6, 0.7)];
         painted(&mut paint, RISK, &points);
-        painted(&mut paint, Brush { medium: Medium::Diameter(0.01), ..RISK }, &points);
+        painted(&mut paint, Brush { medium: FINER, ..RISK }, &points);
         assert!(!paint.is_blank());
         let eraser = Brush { medium: Medium::Eraser, radius: 0.3, hardness: 1.0, strength: 1.0 };
         painted(&mut paint, eraser, &points);

@@ -15,7 +15,7 @@ use meshbrush::internals::geometry::{LatticePoint, Rect};
 use meshbrush::internals::io::project::{self, Project};
 use meshbrush::internals::mesh::{Cleaning, KeptParts, NodeId, Progress, Triangle};
 use meshbrush::internals::outline::DerivedMesh;
-use meshbrush::internals::paint::{Brush, Medium};
+use meshbrush::internals::paint::{Brush, DiameterChange, Medium};
 
 /// Where operations come from: random numbers, or the bytes of a fuzzer.
 pub trait Choices {
@@ -163,7 +163,8 @@ fn reopened(document: &Document) -> Document {
 }
 
 fn brush(choices: &mut impl Choices) -> Brush {
-    let media = [Medium::Risk, Medium::Risk, Medium::Diameter(0.01), Medium::Eraser];
+    let media =
+        [Medium::Risk(1.0), Medium::Risk(1.0), Medium::Diameter(0.01, DiameterChange::Finer), Medium::Eraser];
     Brush {
         medium: media[choices.below(media.len())],
         radius: 0.02 + 0.1 * choices.share(),

@@ -11,7 +11,7 @@ use meshbrush::internals::document::{Base, Document, Settings};
 use meshbrush::internals::domain::Domain;
 use meshbrush::internals::geometry::Rect;
 use meshbrush::internals::io::project::{self, Project};
-use meshbrush::internals::paint::{Brush, Medium};
+use meshbrush::internals::paint::{Brush, DiameterChange, Medium};
 use meshbrush::internals::raster::Raster;
 
 /// Name and content of each part.
@@ -50,7 +50,7 @@ fn sample() -> Project {
         ..Settings::default()
     };
     let mut document = Document::new(settings, None).unwrap();
-    for medium in [Medium::Risk, Medium::Diameter(0.05)] {
+    for medium in [Medium::Risk(1.0), Medium::Diameter(0.05, DiameterChange::Finer)] {
         document.begin_stroke(Brush { medium, radius: 0.1, hardness: 0.5, strength: 1.0 });
         document.draw_to(dvec2(0.5, 0.98));
         document.draw_to(dvec2(0.98, 0.98));

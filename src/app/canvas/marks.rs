@@ -5,9 +5,11 @@ use glam::DVec2;
 
 use super::super::theme::font;
 use super::super::tools::Tools;
+use super::super::widgets::Icon;
 use crate::colormap::Ground;
 use crate::domain::CutShape;
 use crate::mesh::{MeshView, TriangleId};
+use crate::paint::Mirror;
 use crate::scene::{Camera, Highlights, Outline as HighlightOutline, highlight_outlines};
 
 /// Side of a triangle in points below which its number would not fit.
@@ -95,6 +97,48 @@ pub fn paint_brush_ring(painter: &Painter, at: Pos2, tools: &Tools, radius: f32)
             painter.line_segment(ends, Stroke::new(1.0, Color32::WHITE));
         }
     }
+}
+
+/// An eyedropper with its tip at the pointer.
+pub fn paint_eyedropper(painter: &Painter, tip: Pos2) {
+    let icon = |offset: [f32; 2], color| {
+        let at = tip + vec2(-2.0, 2.0) + offset.into();
+        painter.text(at, Align2::LEFT_BOTTOM, Icon::PICK.glyph(), font::icon(22.0), color);
+    };
+    for offset in [[-1.5, 0.0], [1.5, 0.0], [0.0, -1.5], [0.0, 1.5]] {
+        icon(offset, Color32::from_black_alpha(170));
+    }
+    icon([0.0, 0.0], Color32::WHITE);
+}
+
+/// The lines of a mirror, and the images of a brush ring at `pointer`, in world units.
+pub fn paint_mirror(
+    painter: &Painter,
+    screen_from_world: &dyn Fn(DVec2) -> Pos2,
+    mirror: &Mirror,
+    pointer: DVec2,
+    radius: f32,
+) {
+    let view = painter.clip_rect();
+    let middle = screen_from_world(DVec2::new(mirror.x.unwrap_or(0.0), mirror.y.unwrap_or(0.0)));
+    let vertical = mirror.x.map(|_| [pos2(middle.x, view.top()), pos2(middle.x, view.bottom())]);
+    let horizontal = mirror.y.map(|_| [pos2(view.left(), middle.y), pos2(view.right(), middle.y)]);
+    for line in [vertical, horizontal].into_iter().flatten() {
+        painter.line_segment(line, Stroke::new(2.5, Color32::from_black_alpha(70)));
+        painter.extend(Shape::dashed_line(&line, Stroke::new(1.0, Color32::from_white_alpha(110)), 8.0, 6.0));
+    }
+    for image in mirror.images(pointer).skip(1) {
+        let at = screen_from_world(image);
+        painter.circle_stroke(at, radius.max(2.0), Stroke::new(2.5, Color32::from_black_alpha(70)));
+        painter.circle_stroke(at, radius.max(2.0), Stroke::new(1.0, Color32::from_white_alpha(130)));
+    }
+}
+
+/// The string on which the pointer pulls the brush.
+pub fn paint_string(painter: &Painter, brush: Pos2, pointer: Pos2) {
+    painter.line_segment([brush, pointer], Stroke::new(3.0, Color32::from_black_alpha(90)));
+    painter.line_segment([brush, pointer], Stroke::new(1.0, Color32::from_white_alpha(160)));
+    painter.circle_filled(pointer, 2.5, Color32::WHITE);
 }
 
 /// The straight line that Shift and a click would paint.

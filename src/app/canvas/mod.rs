@@ -10,7 +10,8 @@ mod price;
 mod way_back;
 
 use eframe::egui::{
-    self, Context, CursorIcon, Event, Id, Key, Painter, PointerButton, Rect, Response, Sense, Ui,
+    self, Context, CursorIcon, Event, Id, Key, Modifiers, Painter, PointerButton, Rect, Response, Sense,
+    TouchPhase, Ui,
 };
 use glam::DVec2;
 
@@ -18,16 +19,16 @@ pub use gpu::CanvasGpu;
 use overlay::OverlayColors;
 
 use super::busy::Busy;
-use super::command::Command;
+use super::command::{BrushCommand, Command};
 use super::contours::ContourFinder;
 use super::frame::FrameState;
 use super::session::Session;
 use super::theme::tokens;
 use super::tools::{Gesture, OverMesh, PAN, Panning, Pointer, Press, Tools};
 use super::view::View;
-use crate::geometry::Lattice;
+use crate::geometry::{Lattice, Rect as WorldRect};
 use crate::mesh::Progress;
-use crate::paint::Brush;
+use crate::paint::StrokePlan;
 use crate::scene::{Camera, Highlights};
 
 /// Free space around the domain when it is fitted, in points.
@@ -132,6 +133,9 @@ impl Canvas {
                     gesture.released(pos, &pointer, commands);
                 }
             }
+            Event::Touch { phase, force, .. } => {
+                commands.extend(pen_pressure(phase, force).map(BrushCommand::Pen).map(Command::Brush));
+            }
             Event::WindowFocused(false) => self.interrupt(commands),
             _ => {}
         }
@@ -189,16 +193,32 @@ impl Canvas {
         }
     }
 
-    /// The dab that a click would paint at the pointer; none where a click does something else.
-    pub fn hovered_dab(&self, ctx: &Context, tools: &Tools) -> Option<(Brush, DVec2)> {
+    /// The stroke that a click would paint at the pointer: a dab, or with Shift a line from the last painted
+    /// point. None where a click does something else.
+    pub fn planned_stroke(&self, ctx: &Context, tools: &Tools, bounds: WorldRect) -> Option<StrokePlan> {
+        let (brush, to) = tools.brush().zip(self.pointer)?;
         let (id, _) = self.shown?;
         let at = ctx.read_response(id)?.hover_pos()?;
-        let free = self.gesture.is_none() && !self.floats.iter().any(|float| float.contains(at));
-        let plain = ctx.input(|input| {
-            let keys = input.modifiers.shift || input.modifiers.alt || input.modifiers.command;
-            !keys && !input.key_down(Key::Space) && !input.pointer.any_down()
+        let is_free = self.gesture.is_none() && !self.floats.iter().any(|float| float.contains(at));
+        let (shift, paints) = ctx.input(|input| {
+            let paints = !picks(input.modifiers) && !input.key_down(Key::Space) && !input.pointer.any_down();
+            (input.modifiers.shift, paints)
         });
-        tools.brush().zip(self.pointer).filter(|_| free && plain)
+        let from = tools.last_painted.filter(|_| shift).unwrap_or(to);
+        (is_free && paints).then(|| StrokePlan { brush, mirror: tools.mirror(bounds), from, to })
+    }
+}
+
+/// Whether a click picks the value under the pointer instead of painting.
+pub fn picks(modifiers: Modifiers) -> bool {
+    modifiers.alt || modifiers.command
+}
+
+/// The pressure of a pen, 0 to 1, or `None` when it is lifted.
+fn pen_pressure(phase: TouchPhase, force: Option<f32>) -> Option<Option<f64>> {
+    match phase {
+        TouchPhase::Start | TouchPhase::Move => force.map(|force| Some(force.into())),
+        TouchPhase::End | TouchPhase::Cancel => Some(None),
     }
 }
 
@@ -354,9 +374,7 @@ impl Canvas {
         }
         if let Some(pointer) = pointer {
             let radius = state.tools.radius as f32 * camera.px_per_world() as f32 / px_per_point;
-            if state.tools.has_ring() {
-                self.draw_ring(ui, &over, pointer, state.tools, radius);
-            }
+            self.draw_brush(ui, state, &over, pointer, radius);
             price::show(ui, state, rect, pointer, radius);
         }
         if response.contains_pointer() || self.gesture.is_some() {
@@ -375,8 +393,28 @@ impl Canvas {
         highlights
     }
 
-    /// The brush ring, and with Shift held the line that a click would paint.
-    fn draw_ring(&self, ui: &Ui, over: &OverMesh<'_>, pointer: egui::Pos2, tools: &Tools, radius: f32) {
+    /// The brush ring and its mirror images, and with Shift held the line that a click would paint; the
+    /// eyedropper where a click picks a value.
+    fn draw_brush(
+        &self,
+        ui: &Ui,
+        state: &FrameState<'_>,
+        over: &OverMesh<'_>,
+        pointer: egui::Pos2,
+        radius: f32,
+    ) {
+        let tools = state.tools;
+        if !tools.has_ring() {
+            return;
+        }
+        if self.is_picking(ui.ctx(), tools) {
+            return marks::paint_eyedropper(over.painter, pointer);
+        }
+        if tools.paints() {
+            let mirror = tools.mirror(state.session.document().settings().domain.bounds);
+            let pointer = state.pointer.unwrap_or_default();
+            marks::paint_mirror(over.painter, over.screen_from_world, &mirror, pointer, radius);
+        }
         if let Some(center) = self.gesture.as_ref().and_then(|gesture| gesture.ring_center()) {
             return marks::paint_brush_ring(over.painter, center, tools, radius);
         }
@@ -386,6 +424,11 @@ impl Canvas {
             marks::paint_line_preview(over.painter, (over.screen_from_world)(last), pointer);
         }
         marks::paint_brush_ring(over.painter, pointer, tools, radius);
+    }
+
+    /// Whether a click would pick a value for the brush.
+    fn is_picking(&self, ctx: &Context, tools: &Tools) -> bool {
+        tools.paints() && self.gesture.is_none() && ctx.input(|input| picks(input.modifiers))
     }
 
     fn cursor(&self, ctx: &Context, tools: &Tools) -> CursorIcon {

@@ -2,45 +2,105 @@
 
 use eframe::egui::{Align2, Color32, Pos2, Rect, Ui, Vec2, vec2};
 
+use super::picks;
 use crate::app::frame::FrameState;
+use crate::app::readout::{Quantity, value_at};
 use crate::app::theme::{Tokens, tokens};
+use crate::app::tools::PaintKind;
 use crate::app::widgets::{floating_tag, format, tag_size};
-use crate::document::{Price, Settings};
+use crate::document::{NoChange, Price, Settings};
 use crate::mesh::Progress;
+use crate::paint::{DiameterChange, Medium};
 
 /// Space between ring and tag, in points.
 const GAP: f32 = 14.0;
 /// The tag is no farther from the pointer than this, in points: in a larger ring it is inside.
 const FARTHEST: f32 = 120.0;
 
+/// Radius around the eyedropper that the tag leaves free, in points.
+const PICKER: f32 = 18.0;
+
 /// Shows the tag beside a ring of the given radius in points.
 pub fn show(ui: &Ui, state: &FrameState<'_>, canvas: Rect, pointer: Pos2, radius: f32) {
-    let pricer = state.session.pricer();
-    let t = tokens(ui);
-    let count = state.session.mesh().raw_triangle_count();
-    let (text, color) = match (pricer.price(), pricer.progress()) {
-        (Some(price), _) => tag(price, count, state.session.document().settings(), t),
-        // Whether there is such a frame depends on the machine's speed.
-        (None, Progress::More) if state.reproducible => return,
-        (None, Progress::More) => ("counting …".to_owned(), t.faint),
-        (None, Progress::Done) => return,
-    };
+    let picks = state.tools.paints() && ui.input(|input| picks(input.modifiers) && !input.pointer.any_down());
+    let (tag, reach) =
+        if picks { (picked_tag(state, tokens(ui)), PICKER) } else { (price_tag(state, tokens(ui)), radius) };
+    let Some((text, color)) = tag else { return };
     let bounds = canvas.shrink(8.0);
-    let (anchor, align) = place(bounds, pointer, radius, tag_size(ui, &text));
+    let (anchor, align) = place(bounds, pointer, reach, tag_size(ui, &text));
     floating_tag(ui, anchor, align, bounds, &text, color);
+}
+
+/// What a click would pick.
+fn picked_tag(state: &FrameState<'_>, t: &Tokens) -> Option<(String, Color32)> {
+    let (session, point) = (state.session, state.pointer?);
+    let value = |quantity| value_at(point, session.document(), session.follower(), quantity);
+    let text = match state.tools.kind {
+        PaintKind::Risk => format!("risk {}", format::digits(value(Quantity::Risk), 3)),
+        PaintKind::Diameter => {
+            let diameter = value(Quantity::TargetDiameter);
+            let level = session.follower().field().level_of_diameter(diameter);
+            let level = level.map_or(String::new(), |level| format!(" · level {level}"));
+            format!("h̄ {}{level}", format::length(diameter, state.unit()))
+        }
+    };
+    Some((text, t.value))
+}
+
+fn price_tag(state: &FrameState<'_>, t: &Tokens) -> Option<(String, Color32)> {
+    let (session, pricer) = (state.session, state.session.pricer());
+    let count = session.mesh().raw_triangle_count();
+    match (pricer.price(), pricer.progress()) {
+        (Some(Price::Nothing(reason)), _) => {
+            let is_outside = state.pointer.is_some_and(|point| session.locate(point).triangle().is_none());
+            let reason = if is_outside { NoChange::OutsideField } else { reason };
+            let brush = state.tools.brush()?;
+            Some((format!("no change: {}", why_nothing(reason, brush.medium)), t.label))
+        }
+        (Some(price), _) => Some(tag(price, count, session.document().settings(), t)),
+        // Whether there is such a frame depends on the machine's speed.
+        (None, Progress::More) if state.reproducible => None,
+        (None, Progress::More) => Some(("counting …".to_owned(), t.faint)),
+        (None, Progress::Done) => None,
+    }
+}
+
+/// Why a stroke changes no triangle.
+fn why_nothing(reason: NoChange, medium: Medium) -> &'static str {
+    let lowers = matches!(medium, Medium::Eraser | Medium::Diameter(_, DiameterChange::Coarser))
+        || medium == Medium::Risk(0.0);
+    match (reason, medium) {
+        (NoChange::OutsideField, _) => "outside the domain",
+        (NoChange::PaintedAlready, Medium::Eraser) => "nothing is painted here",
+        (NoChange::PaintedAlready, Medium::Risk(0.0)) => "no risk is painted here",
+        (NoChange::PaintedAlready, Medium::Risk(1.0)) => "the risk is 1 already",
+        (NoChange::PaintedAlready, Medium::Diameter(_, DiameterChange::Finer)) => "painted as fine already",
+        (NoChange::PaintedAlready, Medium::Diameter(_, DiameterChange::Coarser)) => {
+            "nothing finer is painted here"
+        }
+        (NoChange::PaintedAlready, _) => "this value is painted already",
+        (NoChange::CoarserThanGrid, _) => "h̄ is coarser than the grid here",
+        (NoChange::BaseDecides, _) => "the base field decides here",
+        (NoChange::OtherPaintDecides, Medium::Diameter(..)) => "the painted risk decides here",
+        (NoChange::OtherPaintDecides, _) => "the painted diameter decides here",
+        (NoChange::TrianglesFit, _) if lowers => "finer triangles nearby need these",
+        (NoChange::TrianglesFit, _) => "already finer here",
+    }
 }
 
 /// What the tag says of a price, on a mesh of `count` triangles.
 fn tag(price: Price, count: usize, settings: &Settings, t: &Tokens) -> (String, Color32) {
     let text = match price {
-        Price::Change(0) => return ("no change".into(), t.label),
+        Price::Change(0) => return ("as many triangles as before".into(), t.label),
         Price::Change(change) => {
             let noun = if change.abs() == 1 { "triangle" } else { "triangles" };
             format!("{} {noun}", format::change(change))
         }
         Price::MoreThan(most @ 1..) => format!("over {} triangles", format::change(most)),
         Price::MoreThan(most) => format!("frees over {} triangles", format::count(most.unsigned_abs())),
+        Price::Many => format!("changes over {} triangles", format::count(Price::MOST as u64)),
         Price::TooFine => return ("finer than the lattice".into(), t.danger),
+        Price::Nothing(_) => return ("no change".into(), t.label),
     };
     let after = count as i64 + price.change();
     if price.change() > 0 && after > settings.limits().most_triangles() as i64 {
@@ -74,7 +134,7 @@ mod tests {
     fn the_tag_says_the_number_and_whether_it_passes_the_budget() {
         let settings = Settings { max_triangles: 1000, ..Settings::default() };
         let says = |price, count| tag(price, count, &settings, &DARK);
-        assert_eq!(says(Price::Change(0), 1000), ("no change".into(), DARK.label));
+        assert_eq!(says(Price::Change(0), 1000), ("as many triangles as before".into(), DARK.label));
         assert_eq!(says(Price::Change(1), 999), ("+1 triangle".into(), DARK.value));
         assert_eq!(says(Price::Change(-3200), 9000), ("−3,200 triangles".into(), DARK.value));
         let over = ("+2 triangles, over the budget".into(), DARK.danger);

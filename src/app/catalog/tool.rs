@@ -3,9 +3,11 @@
 use eframe::egui::{Key, Modifiers};
 
 use super::{CatalogItem, GESTURES, GestureHelp, Menu};
-use crate::app::command::{BoundaryCommand, Command, DomainCommand};
+use crate::app::command::{BoundaryCommand, BrushCommand, Command, DomainCommand};
 use crate::app::frame::FrameState;
-use crate::app::tools::{BOUNDARY, BoundaryToolMode, DOMAIN, DomainToolMode, PaintKind, TOOLS};
+use crate::app::tools::{
+    BOUNDARY, BoundaryToolMode, BrushMode, DOMAIN, DomainToolMode, ERASER, PaintKind, TOOLS, Tools,
+};
 
 const DIGITS: [Key; 10] = [
     Key::Num1,
@@ -24,11 +26,20 @@ const DIGITS: [Key; 10] = [
 pub fn tool(state: &FrameState<'_>) -> Vec<CatalogItem> {
     use Menu::Tool as InTool;
     let tools = state.tools;
-    let kind =
-        |title: &str, kind| CatalogItem::new(InTool, title, Command::Paint(kind)).checked(tools.kind == kind);
+    let kind = |title: &str, kind| {
+        CatalogItem::new(InTool, title, Command::Brush(BrushCommand::Kind(kind))).checked(tools.kind == kind)
+    };
+    let mode = |mode, title: &str| {
+        let item = CatalogItem::new(InTool, title, Command::Brush(BrushCommand::Mode(mode)));
+        item.checked(tools.mode == mode)
+    };
+    let mirror = |title: &str, command: fn(bool) -> BrushCommand, on: bool| {
+        CatalogItem::new(InTool, title, Command::Brush(command(!on))).checked(on)
+    };
     let harder = |title: &str, step: f64, key| {
         let hardness = (tools.hardness + step).clamp(0.0, 1.0);
-        CatalogItem::new(InTool, title, Command::BrushHardness(hardness)).keys(Modifiers::SHIFT, key)
+        CatalogItem::new(InTool, title, Command::Brush(BrushCommand::Hardness(hardness)))
+            .keys(Modifiers::SHIFT, key)
     };
     let mut items: Vec<CatalogItem> = (TOOLS.iter())
         .map(|tool| {
@@ -39,19 +50,22 @@ pub fn tool(state: &FrameState<'_>) -> Vec<CatalogItem> {
     items.extend([
         kind("Paint risk", PaintKind::Risk).key(Key::R).group(),
         kind("Paint target diameter", PaintKind::Diameter).key(Key::T),
-        CatalogItem::new(InTool, "Larger brush", Command::ScaleBrush(1.15)).key(Key::CloseBracket).group(),
-        CatalogItem::new(InTool, "Smaller brush", Command::ScaleBrush(1.0 / 1.15)).key(Key::OpenBracket),
+        mode(BrushMode::BuildUp, "Build up").key(Key::U).group(),
+        mode(BrushMode::Set, "Set the value").key(Key::V),
+        mode(BrushMode::Lower, "Lower").key(Key::L),
+        mirror("Mirror strokes left and right", BrushCommand::MirrorX, tools.mirrored[0]).group(),
+        mirror("Mirror strokes above and below", BrushCommand::MirrorY, tools.mirrored[1]),
+        CatalogItem::new(InTool, "Larger brush", Command::Brush(BrushCommand::Scale(1.15)))
+            .key(Key::CloseBracket)
+            .group(),
+        CatalogItem::new(InTool, "Smaller brush", Command::Brush(BrushCommand::Scale(1.0 / 1.15)))
+            .key(Key::OpenBracket),
         harder("Harder brush", 0.1, Key::CloseCurlyBracket),
         harder("Softer brush", -0.1, Key::OpenCurlyBracket),
     ]);
     items.extend(GESTURES.iter().filter(|gesture| !gesture.advice.is_empty()).map(gesture_item));
     items.extend(domain_tool(state));
-    for (i, key) in DIGITS.into_iter().enumerate() {
-        let percent = 10 * (i + 1);
-        let command = Command::BrushStrength(percent as f64 / 100.0);
-        let item = CatalogItem::new(InTool, format!("Strength {percent} %"), command).key(key);
-        items.push(if i == 0 { item.group() } else { item });
-    }
+    items.extend(amounts(tools));
     items
 }
 
@@ -59,6 +73,24 @@ pub fn tool(state: &FrameState<'_>) -> Vec<CatalogItem> {
 fn gesture_item(gesture: &GestureHelp) -> CatalogItem {
     let command = Command::Tell(gesture.advice.to_owned());
     CatalogItem::new(Menu::Tool, gesture.title, command).gesture(gesture.keys)
+}
+
+/// What the digits set: the strength, or the risk in the mode *Set*. A diameter is no share, so there they do
+/// nothing.
+fn amounts(tools: &Tools) -> impl Iterator<Item = CatalogItem> + use<> {
+    let paints = tools.tool != &ERASER;
+    let sets_risk = paints && tools.kind == PaintKind::Risk && tools.mode == BrushMode::Set;
+    let is_share = !paints || tools.kind == PaintKind::Risk;
+    DIGITS.into_iter().enumerate().map(move |(i, key)| {
+        let share = (i + 1) as f64 / 10.0;
+        let (title, command) = if sets_risk {
+            (format!("Risk {share}"), BrushCommand::Risk(share))
+        } else {
+            (format!("Strength {} %", 10 * (i + 1)), BrushCommand::Strength(share))
+        };
+        let item = CatalogItem::new(Menu::Tool, title, Command::Brush(command)).key(key).enabled(is_share);
+        if i == 0 { item.group() } else { item }
+    })
 }
 
 fn domain_tool(state: &FrameState<'_>) -> Vec<CatalogItem> {

@@ -10,7 +10,7 @@ use glam::DVec2;
 use super::App;
 use super::command::Command;
 use super::dialogs::Dialog;
-use super::tools::{BRUSH, QUERY};
+use super::tools::QUERY;
 use crate::mesh::TriangleId;
 
 /// A triangle that was asked for is shown at least so large, in pixels.
@@ -61,13 +61,7 @@ impl App {
             Command::Escape => self.escape(),
 
             Command::Use(tool) => self.tools.select(tool),
-            Command::Paint(kind) => (self.tools.kind, self.tools.tool) = (kind, &BRUSH),
-            Command::BrushRadius(radius) => self.set_brush_radius(radius),
-            Command::ScaleBrush(factor) => self.set_brush_radius(self.tools.radius * factor),
-            Command::BrushHardness(hardness) => self.tools.hardness = hardness.clamp(0.0, 1.0),
-            Command::BrushStrength(strength) => self.tools.set_strength(strength),
-            Command::BrushDiameter(diameter) => self.set_brush_diameter(diameter),
-            Command::PickValue(point) => self.pick_value(point),
+            Command::Brush(command) => self.execute_on_brush(command),
             other => self.view.execute(other, ctx),
         }
     }

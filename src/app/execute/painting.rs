@@ -3,10 +3,37 @@
 use glam::DVec2;
 
 use crate::app::App;
+use crate::app::command::BrushCommand;
 use crate::app::readout::{Quantity, value_at};
-use crate::app::tools::PaintKind;
+use crate::app::tools::{BrushMode, PaintKind};
 
 impl App {
+    pub(super) fn execute_on_brush(&mut self, command: BrushCommand) {
+        let tools = &mut self.tools;
+        match command {
+            BrushCommand::Kind(kind) => {
+                tools.kind = kind;
+                tools.select_brush();
+            }
+            BrushCommand::Mode(mode) => {
+                tools.mode = mode;
+                tools.select_brush();
+            }
+            BrushCommand::Radius(radius) => self.set_brush_radius(radius),
+            BrushCommand::Scale(factor) => self.set_brush_radius(self.tools.radius * factor),
+            BrushCommand::Hardness(hardness) => tools.hardness = hardness.clamp(0.0, 1.0),
+            BrushCommand::Strength(strength) => tools.set_strength(strength),
+            BrushCommand::Risk(risk) => tools.risk = risk.clamp(0.0, 1.0),
+            BrushCommand::Diameter(diameter) => self.set_brush_diameter(diameter),
+            BrushCommand::Pick(point) => self.pick_value(point),
+            BrushCommand::Smoothing(smoothing) => tools.smoothing = smoothing.clamp(0.0, 1.0),
+            BrushCommand::MirrorX(mirrored) => tools.mirrored[0] = mirrored,
+            BrushCommand::MirrorY(mirrored) => tools.mirrored[1] = mirrored,
+            BrushCommand::PenEffect(effect) => tools.pen.effect = effect,
+            BrushCommand::Pen(pressure) => tools.pen.set_pressure(pressure),
+        }
+    }
+
     /// Runs an undo or a redo. Where that changes the domain, the brush keeps its share of it.
     pub(super) fn keep_brush_share(&mut self, step: fn(&mut Self)) {
         let extent = |app: &Self| app.session.document().settings().domain.bounds.size().max_element();
@@ -21,19 +48,20 @@ impl App {
 
     pub(super) fn begin_stroke(&mut self, point: DVec2) {
         let Some(brush) = self.tools.brush() else { return };
+        let mirror = self.tools.mirror(self.session.document().settings().domain.bounds);
         self.session.notices_mut().dismiss_news();
         // Record the last stroke before the next begins: both may come in one frame.
         self.session.document_mut().end_stroke();
         self.record_edits();
         let document = self.session.document_mut();
-        document.begin_stroke(brush);
-        document.extend_stroke(point);
+        document.begin_mirrored_stroke(brush, mirror);
+        document.extend_stroke(self.tools.path_point(point));
         self.tools.last_painted = Some(point);
         self.tools.note_use(self.tools.tool);
     }
 
     pub(super) fn draw_to(&mut self, point: DVec2) {
-        self.session.document_mut().extend_stroke(point);
+        self.session.document_mut().extend_stroke(self.tools.path_point(point));
         self.tools.last_painted = Some(point);
     }
 
@@ -43,14 +71,14 @@ impl App {
         self.session.document_mut().finish_stroke();
     }
 
-    pub(super) fn set_brush_radius(&mut self, radius: f64) {
+    fn set_brush_radius(&mut self, radius: f64) {
         let extent = self.session.document().settings().domain.bounds.size().max_element();
         if radius.is_finite() {
             self.tools.radius = radius.clamp(1e-4 * extent, extent);
         }
     }
 
-    pub(super) fn set_brush_diameter(&mut self, diameter: f64) {
+    fn set_brush_diameter(&mut self, diameter: f64) {
         let transfer = self.session.document().settings().transfer;
         if diameter.is_finite() {
             self.tools.diameter = diameter.clamp(transfer.h_min, transfer.h_max);
@@ -58,16 +86,20 @@ impl App {
     }
 
     /// Risk becomes the brush's strength, a diameter the brush's diameter.
-    pub(super) fn pick_value(&mut self, point: DVec2) {
+    /// Makes a picked risk or diameter the brush's own: painted in the mode *Set*, it is reproduced.
+    fn pick_value(&mut self, point: DVec2) {
         let value = |quantity| value_at(point, self.session.document(), self.session.follower(), quantity);
         match self.tools.kind {
             PaintKind::Risk => {
                 let risk = value(Quantity::Risk);
-                if risk > 0.0 {
-                    self.tools.paint_strength = risk.clamp(0.01, 1.0);
+                if risk.is_nan() {
+                    return;
                 }
+                self.tools.risk = risk;
             }
             PaintKind::Diameter => self.set_brush_diameter(value(Quantity::TargetDiameter)),
         }
+        self.tools.mode = BrushMode::Set;
+        self.tools.select_brush();
     }
 }

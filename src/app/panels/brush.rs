@@ -3,61 +3,100 @@
 use eframe::egui::Ui;
 
 use super::Panel;
-use crate::app::command::Command;
+use crate::app::command::{BrushCommand, Command};
 use crate::app::frame::FrameState;
-use crate::app::tools::{ERASER, PaintKind, Tools};
-use crate::app::widgets::{Section, SliderRow, segmented, value_row};
+use crate::app::tools::{BrushMode, ERASER, PaintKind, PenEffect, Tools};
+use crate::app::widgets::{Section, SliderRow, format, segmented, toggle_row, value_row};
+use crate::field::{RiskToDiameter, Transfer};
 
-/// What the brush paints, its size, strength and hardness.
+/// What the brush paints and how, its radius, strength and hardness, and how strokes are drawn.
 pub static BRUSH: Panel = Panel { name: "brush", only_with_tool: true, show };
 
 fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
-    let erases = state.tools.tool == &ERASER;
+    let mut sent = Vec::new();
     Section::new(state.tools.tool.name).id("brush").show(ui, |ui| {
-        if !erases {
-            kind_row(ui, state, commands);
+        if state.tools.tool != &ERASER {
+            kind_rows(ui, state, &mut sent);
         }
-        size_row(ui, state, commands);
-        if !erases && state.tools.kind == PaintKind::Diameter {
-            diameter_rows(ui, state, commands);
-        } else {
-            strength_row(ui, state, commands);
+        // The same number of rows for all kinds and modes, so that nothing below moves.
+        radius_row(ui, state, commands);
+        amount_row(ui, state, &mut sent);
+        hardness_row(ui, state, &mut sent);
+        if state.tools.tool != &ERASER {
+            value_row(ui, "h̄ · level", &painted(state)).on_hover_text(
+                "What one stroke asks for where nothing is painted; in the mode Lower: what it leaves of risk 1.",
+            );
         }
-        hardness_row(ui, state, commands);
     });
+    Section::new("Stroke").id("stroke").closed().show(ui, |ui| {
+        smoothing_row(ui, state, &mut sent);
+        mirror_rows(ui, state, &mut sent);
+        pen_row(ui, state, &mut sent);
+    });
+    commands.extend(sent.into_iter().map(Command::Brush));
 }
 
-fn kind_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
-    let mut kind = state.tools.kind;
+fn kind_rows(ui: &mut Ui, state: &FrameState<'_>, sent: &mut Vec<BrushCommand>) {
+    let (mut kind, mut mode) = (state.tools.kind, state.tools.mode);
     let choices = [(PaintKind::Risk, "Risk"), (PaintKind::Diameter, "Diameter")];
     if segmented(ui, "What the brush paints", &mut kind, &choices).changed() {
-        commands.push(Command::Paint(kind));
+        sent.push(BrushCommand::Kind(kind));
     }
+    ui.add_space(4.0);
+    let changes = segmented(ui, "How a stroke changes the paint", &mut mode, &BrushMode::ALL);
+    if changes.changed() {
+        sent.push(BrushCommand::Mode(mode));
+    }
+    changes.on_hover_text(mode_help(kind));
     ui.add_space(4.0);
 }
 
-/// The size of the brush, which the domain tool shares.
-pub fn size_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
-    let extent = state.session.document().settings().domain.bounds.size().max_element();
-    let mut radius = state.tools.radius;
-    let usual = Tools::for_domain(extent, 0.0);
-    let slider = SliderRow::new("Size", &mut radius, 1e-4 * extent..=0.5 * extent)
-        .logarithmic()
-        .typed_range(1e-4 * extent..=extent)
-        .default(usual.radius)
-        .unit(state.unit().symbol());
-    if slider.help("Radius in world units. [ and ] change it, as does a drag with Shift.").show(ui).changed()
-    {
-        commands.push(Command::BrushRadius(radius));
+fn mode_help(kind: PaintKind) -> &'static str {
+    match kind {
+        PaintKind::Risk => {
+            "Build up (U) raises the risk with each stroke, Set (V) paints one value, Lower (L) takes a share of the \
+             risk away."
+        }
+        PaintKind::Diameter => {
+            "Build up (U) only refines, Set (V) paints one diameter, Lower (L) only makes painted diameters larger."
+        }
     }
 }
 
-fn strength_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
+/// The radius of the brush, which the domain tool shares.
+pub fn radius_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
+    let extent = state.session.document().settings().domain.bounds.size().max_element();
+    let mut radius = state.tools.radius;
+    let slider = SliderRow::new("Radius", &mut radius, 1e-4 * extent..=0.5 * extent)
+        .logarithmic()
+        .typed_range(1e-4 * extent..=extent)
+        .default(Tools::for_domain(extent, 0.0).radius)
+        .unit(state.unit().symbol());
+    let help =
+        "Radius of the brush, in the unit of the document. [ and ] change it, as does a drag with Shift.";
+    if slider.help(help).show(ui).changed() {
+        commands.push(Command::Brush(BrushCommand::Radius(radius)));
+    }
+}
+
+/// What the brush paints: a strength, a risk or a diameter.
+fn amount_row(ui: &mut Ui, state: &FrameState<'_>, sent: &mut Vec<BrushCommand>) {
+    let tools = state.tools;
+    match (tools.kind, tools.mode) {
+        _ if tools.tool == &ERASER => strength_row(ui, state, sent),
+        (PaintKind::Diameter, _) => diameter_row(ui, state, sent),
+        (PaintKind::Risk, BrushMode::Set) => risk_row(ui, state, sent),
+        (PaintKind::Risk, BrushMode::BuildUp | BrushMode::Lower) => strength_row(ui, state, sent),
+    }
+}
+
+fn strength_row(ui: &mut Ui, state: &FrameState<'_>, sent: &mut Vec<BrushCommand>) {
     let mut strength = state.tools.strength();
     let slider = SliderRow::new("Strength", &mut strength, 0.01..=1.0).step(0.01);
     let slider = slider.default(usual_strength(state));
-    if slider.help("How far one stroke moves the value. The digits 1 to 0 set it.").show(ui).changed() {
-        commands.push(Command::BrushStrength(strength));
+    if slider.help("How far one stroke moves the value, 0 to 1. The digits 1 to 0 set it.").show(ui).changed()
+    {
+        sent.push(BrushCommand::Strength(strength));
     }
 }
 
@@ -68,26 +107,85 @@ fn usual_strength(state: &FrameState<'_>) -> f64 {
     usual.strength()
 }
 
-fn hardness_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
-    let mut hardness = state.tools.hardness;
-    let slider = SliderRow::new("Hardness", &mut hardness, 0.0..=1.0).step(0.01);
-    let slider = slider.default(Tools::for_domain(1.0, 0.0).hardness);
-    let help = "Share of the radius with full strength. Shift+[ and Shift+] change it.";
+fn risk_row(ui: &mut Ui, state: &FrameState<'_>, sent: &mut Vec<BrushCommand>) {
+    let mut risk = state.tools.risk;
+    let slider = SliderRow::new("Value", &mut risk, 0.0..=1.0).step(0.01).default(0.5);
+    let help = "The risk that a stroke leaves, 0 to 1. The digits 1 to 0 set it; Alt+click picks it.";
     if slider.help(help).show(ui).changed() {
-        commands.push(Command::BrushHardness(hardness));
+        sent.push(BrushCommand::Risk(risk));
     }
 }
 
-/// The painted diameter, with its level.
-fn diameter_rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
-    let transfer = state.session.document().settings().transfer;
-    let field = state.session.follower().field();
-    let mut diameter = state.tools.diameter.clamp(transfer.h_min, transfer.h_max);
-    let level = field.level_of_diameter(diameter).map_or("–".into(), |level| level.to_string());
-    let slider = SliderRow::new("Diameter", &mut diameter, transfer.h_min..=transfer.h_max).logarithmic();
-    let slider = slider.default((2.0 * transfer.h_min).min(transfer.h_max)).unit(state.unit().symbol());
-    if slider.help("Target diameter that the brush paints.").show(ui).changed() {
-        commands.push(Command::BrushDiameter(diameter));
+fn diameter_row(ui: &mut Ui, state: &FrameState<'_>, sent: &mut Vec<BrushCommand>) {
+    let Transfer { h_min, h_max, .. } = state.session.document().settings().transfer;
+    let mut diameter = state.tools.diameter.clamp(h_min, h_max);
+    let slider = SliderRow::new("Diameter", &mut diameter, h_min..=h_max).logarithmic();
+    let slider = slider.default((2.0 * h_min).min(h_max)).unit(state.unit().symbol());
+    let help = "Target diameter that the brush paints, in the unit of the document. Alt+click picks it.";
+    if slider.help(help).show(ui).changed() {
+        sent.push(BrushCommand::Diameter(diameter));
     }
-    value_row(ui, "Refines to level", &level);
+}
+
+fn hardness_row(ui: &mut Ui, state: &FrameState<'_>, sent: &mut Vec<BrushCommand>) {
+    let mut hardness = state.tools.hardness;
+    let slider = SliderRow::new("Hardness", &mut hardness, 0.0..=1.0).step(0.01);
+    let slider = slider.default(Tools::for_domain(1.0, 0.0).hardness);
+    let help = "Share of the radius with full strength, 0 to 1. Shift+[ and Shift+] change it.";
+    if slider.help(help).show(ui).changed() {
+        sent.push(BrushCommand::Hardness(hardness));
+    }
+}
+
+fn smoothing_row(ui: &mut Ui, state: &FrameState<'_>, sent: &mut Vec<BrushCommand>) {
+    let mut smoothing = state.tools.smoothing;
+    let slider = SliderRow::new("Smoothing", &mut smoothing, 0.0..=1.0).step(0.01).default(0.0);
+    let help = "Steadies the hand, 0 to 1: the pointer pulls the brush on a string, the longer the more.";
+    if slider.help(help).show(ui).changed() {
+        sent.push(BrushCommand::Smoothing(smoothing));
+    }
+}
+
+/// The target diameter and the level that a stroke paints.
+fn painted(state: &FrameState<'_>) -> String {
+    let (tools, transfer) = (state.tools, state.session.document().settings().transfer);
+    let diameter = match (tools.kind, tools.mode) {
+        (PaintKind::Diameter, _) => tools.diameter.clamp(transfer.h_min, transfer.h_max),
+        (PaintKind::Risk, BrushMode::BuildUp) => transfer.diameter(tools.paint_strength),
+        (PaintKind::Risk, BrushMode::Set) => transfer.diameter(tools.risk),
+        (PaintKind::Risk, BrushMode::Lower) => transfer.diameter(1.0 - tools.paint_strength),
+    };
+    let level = state.session.follower().field().level_of_diameter(diameter);
+    let level = level.map_or("–".into(), |level| level.to_string());
+    format!("{} · {level}", format::length(diameter, state.unit()))
+}
+
+fn mirror_rows(ui: &mut Ui, state: &FrameState<'_>, sent: &mut Vec<BrushCommand>) {
+    let [mut x, mut y] = state.tools.mirrored;
+    ui.columns(2, |columns| {
+        let help = "Repeats strokes in a line through the middle of the domain: left and right.";
+        let row = toggle_row(&mut columns[0], "Mirror x", &mut x);
+        if row.on_hover_text(help).changed() {
+            sent.push(BrushCommand::MirrorX(x));
+        }
+        let help = "Repeats strokes in a line through the middle of the domain: above and below.";
+        if toggle_row(&mut columns[1], "Mirror y", &mut y).on_hover_text(help).changed() {
+            sent.push(BrushCommand::MirrorY(y));
+        }
+    });
+}
+
+/// What the pressure of a pen does, once a pen has reported one.
+fn pen_row(ui: &mut Ui, state: &FrameState<'_>, sent: &mut Vec<BrushCommand>) {
+    if !state.tools.pen.is_known() {
+        return;
+    }
+    let mut effect = state.tools.pen.effect;
+    let choices =
+        [(PenEffect::None, "No pressure"), (PenEffect::Size, "Radius"), (PenEffect::Strength, "Strength")];
+    let row = segmented(ui, "What the pressure of the pen changes", &mut effect, &choices);
+    if row.changed() {
+        sent.push(BrushCommand::PenEffect(effect));
+    }
+    row.on_hover_text("What the pressure of the pen changes during a stroke.");
 }

@@ -2,7 +2,7 @@
 
 use eframe::egui::{Id, Ui};
 
-use super::brush::size_row;
+use super::brush::radius_row;
 use super::formula::FormulaRow;
 use super::{Panel, end_gesture_when_released, remark, set_once};
 use crate::app::command::{Command, DomainCommand};
@@ -65,7 +65,7 @@ fn tool_rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     }
     ui.add_space(4.0);
     match mode {
-        DomainToolMode::Brush => size_row(ui, state, commands),
+        DomainToolMode::Brush => radius_row(ui, state, commands),
         DomainToolMode::Polygon => {
             remark(
                 ui,

@@ -10,7 +10,7 @@ use glam::{DVec2, dvec2};
 
 use super::SMALLEST_SIZE;
 use super::WINDOW_SIZE;
-use super::command::{BoundaryCommand, Command, DomainCommand};
+use super::command::{BoundaryCommand, BrushCommand, Command, DomainCommand};
 use super::tools::{BoundaryToolMode, DomainToolMode, PaintKind, QUERY};
 use crate::document::{Base, Example, Setting};
 use crate::field::{Formula, RefinementRule};
@@ -105,7 +105,7 @@ fn terrain(window: &mut OffscreenWindow) {
 fn aegean(window: &mut OffscreenWindow) {
     window.send(Command::OpenExample(Example::Aegean));
     window.send(Command::Domain(DomainCommand::Mode(DomainToolMode::Brush)));
-    window.send(Command::BrushRadius(0.2));
+    window.send(Command::Brush(BrushCommand::Radius(0.2)));
     point_at(window, dvec2(25.25, 38.1));
 }
 
@@ -145,7 +145,7 @@ fn palette(window: &mut OffscreenWindow) {
 
 /// The smallest window, painting a diameter.
 fn smallest(window: &mut OffscreenWindow) {
-    window.send(Command::Paint(PaintKind::Diameter));
+    window.send(Command::Brush(BrushCommand::Kind(PaintKind::Diameter)));
     point_at(window, dvec2(0.9, 0.5));
 }
 

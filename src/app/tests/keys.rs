@@ -6,10 +6,9 @@ use egui_kittest::kittest::Queryable as _;
 use glam::dvec2;
 
 use super::{
-    FREE, TALL, Window, canvas, click, entries, fingerprint, key, level_at, move_to, press, release, send,
-    stroke, wheel, window, window_of,
+    FREE, TALL, Window, canvas, click, entries, fingerprint, key, level_at, move_to, press, release, stroke,
+    wheel, window, window_of,
 };
-use crate::app::command::Command;
 use crate::app::tools::{BRUSH, TOOLS};
 
 #[test]
@@ -69,9 +68,8 @@ fn brackets_and_digits_set_the_brush() {
 #[test]
 fn alt_or_ctrl_click_picks_the_value_under_the_pointer() {
     let mut window = window();
-    send(&mut window, Command::BrushStrength(0.11));
     click(&mut window, dvec2(0.245, 0.765), Modifiers::ALT);
-    assert!((window.state().tools().paint_strength - 0.72).abs() < 0.02, "the risk of the first site");
+    assert!((window.state().tools().risk - 0.72).abs() < 0.02, "the risk of the first site");
     key(&mut window, Modifiers::NONE, Key::T);
     let before = window.state().tools().diameter;
     click(&mut window, dvec2(0.245, 0.765), Modifiers::COMMAND);
@@ -106,12 +104,12 @@ fn keys_typed_into_a_field_stay_there() {
     let mut window = window_of(TALL);
     stroke(&mut window, FREE, FREE);
     let painted = fingerprint(&window);
-    window.get_by_role_and_label(Role::TextInput, "Size value").focus();
+    window.get_by_role_and_label(Role::TextInput, "Radius value").focus();
     window.run();
     for letter in [Key::E, Key::Q, Key::G, Key::Num1] {
         key(&mut window, Modifiers::NONE, letter);
     }
-    window.get_by_role_and_label(Role::TextInput, "Size value").type_text("0.05");
+    window.get_by_role_and_label(Role::TextInput, "Radius value").type_text("0.05");
     window.run();
     key(&mut window, Modifiers::COMMAND, Key::Z);
     key(&mut window, Modifiers::COMMAND, Key::Backspace);

@@ -4,6 +4,7 @@
 #[cfg(unix)]
 mod background;
 mod boundary;
+mod brush;
 mod budget;
 mod commands;
 mod derivation;

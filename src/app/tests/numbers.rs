@@ -137,7 +137,7 @@ fn what_is_no_number_keeps_the_focus_and_the_text() {
     assert_eq!(value_of(&window, Role::TextInput, "Hardness value"), "soft");
     key(&mut window, Modifiers::NONE, Key::Escape);
     assert_eq!(window.state().tools().hardness, hardness);
-    type_into(&mut window, "Size value", "1 km");
+    type_into(&mut window, "Radius value", "1 km");
     assert!(alerts(&window).contains("has no unit"), "{}", alerts(&window));
 }
 

@@ -44,7 +44,7 @@ fn every_length_carries_the_unit() {
     open_section(&mut window, "Mesh");
     open_section(&mut window, "Base field");
     move_to(&mut window, FREE);
-    for name in ["Size value", "h_max value", "h_min value", "Spacing δ value", "Diameter"] {
+    for name in ["Radius value", "h_max value", "h_min value", "Spacing δ value", "Diameter"] {
         let value = window.get_by_role_and_label(Role::TextInput, name);
         let value = egui_kittest::kittest::NodeT::accesskit_node(&value).value().unwrap();
         assert!(value.ends_with(" m"), "{name}: {value}");

@@ -1,13 +1,14 @@
 //! The brush, and the gestures of painting that the eraser shares.
 
-use eframe::egui::{Key, Pos2};
+use eframe::egui::{Key, Painter, Pos2};
 
 use super::{Gesture, PaintKind, Pointer, Press, ToolSpec, Tools};
-use crate::app::command::Command;
+use crate::app::canvas::marks;
+use crate::app::command::{BrushCommand, Command};
 use crate::app::panels;
 use crate::app::widgets::Hint::{self, Key as HintKey, Text};
 use crate::app::widgets::Icon;
-use crate::paint::{Brush, Medium};
+use crate::paint::{Brush, DiameterChange, Medium};
 
 /// Paints risk or target diameters.
 pub static BRUSH: ToolSpec = ToolSpec {
@@ -21,6 +22,9 @@ pub static BRUSH: ToolSpec = ToolSpec {
 
 /// Points that the pointer must move, with Shift held, before a click becomes a drag of the brush's size.
 const CLICK_SLACK: f32 = 4.0;
+
+/// Length of the string on which the pointer pulls the brush at full smoothing, in points.
+const LONGEST_STRING: f32 = 80.0;
 
 const PAINT_RISK: &[Hint] = &[
     Text("Drag to paint risk: the mesh follows"),
@@ -46,13 +50,40 @@ const PAINT_DIAMETER: &[Hint] = &[
     Text("click draws a line"),
 ];
 
+/// How a stroke of the brush changes the paint.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BrushMode {
+    /// Raises the risk, with each stroke by the strength; makes the painted diameter smaller, never larger.
+    BuildUp,
+    /// Gives risk or diameter one value, from below and from above.
+    Set,
+    /// Lowers the risk, with each stroke by the strength; makes the painted diameter larger, never smaller.
+    Lower,
+}
+
+impl BrushMode {
+    /// All modes with their names, in the order of the panel.
+    pub const ALL: [(Self, &'static str); 3] =
+        [(Self::BuildUp, "Build up"), (Self::Set, "Set"), (Self::Lower, "Lower")];
+}
+
 fn brush(tools: &Tools) -> Brush {
-    // A painted diameter is a length, not a share: a lower strength would make it another length.
-    let (medium, strength) = match tools.kind {
-        PaintKind::Risk => (Medium::Risk, tools.paint_strength),
-        PaintKind::Diameter => (Medium::Diameter(tools.diameter), 1.0),
+    // A value is no share: with a lower strength it would be another value.
+    let (medium, strength) = match (tools.kind, tools.mode) {
+        (PaintKind::Risk, BrushMode::BuildUp) => (Medium::Risk(1.0), tools.paint_strength),
+        (PaintKind::Risk, BrushMode::Set) => (Medium::Risk(tools.risk), 1.0),
+        (PaintKind::Risk, BrushMode::Lower) => (Medium::Risk(0.0), tools.paint_strength),
+        (PaintKind::Diameter, mode) => (Medium::Diameter(tools.diameter, diameter_change(mode)), 1.0),
     };
     Brush { medium, radius: tools.radius, hardness: tools.hardness, strength }
+}
+
+fn diameter_change(mode: BrushMode) -> DiameterChange {
+    match mode {
+        BrushMode::BuildUp => DiameterChange::Finer,
+        BrushMode::Set => DiameterChange::Any,
+        BrushMode::Lower => DiameterChange::Coarser,
+    }
 }
 
 /// Alt or Ctrl picks the value under the pointer; Shift draws a line or, dragged, sizes the brush; else a
@@ -64,27 +95,54 @@ pub fn press_to_paint(
 ) -> Option<Box<dyn Gesture>> {
     let point = pointer.world(press.at);
     if press.modifiers.alt || press.modifiers.command {
-        commands.push(Command::PickValue(point));
+        commands.push(Command::Brush(BrushCommand::Pick(point)));
         return None;
     }
     if press.modifiers.shift {
         return Some(Box::new(Sizing { from: press.at, radius: pointer.tools.radius, dragged: false }));
     }
     commands.push(Command::BeginStroke(point));
-    Some(Box::new(Painting))
+    let slack = LONGEST_STRING * pointer.tools.smoothing as f32;
+    Some(Box::new(Painting { brush: press.at, pointer: press.at, slack }))
 }
 
-/// A stroke.
+/// A stroke. With smoothing, the pointer pulls the brush on a string, so that small movements of the hand do
+/// not move it.
 #[derive(Debug)]
-struct Painting;
+struct Painting {
+    /// Where the brush is, in points.
+    brush: Pos2,
+    /// Where the pointer is, in points.
+    pointer: Pos2,
+    /// Length of the string, in points; 0 without smoothing.
+    slack: f32,
+}
 
 impl Gesture for Painting {
     fn moved(&mut self, at: Pos2, pointer: &Pointer<'_>, commands: &mut Vec<Command>) {
-        commands.push(Command::DrawTo(pointer.world(at)));
+        self.pointer = at;
+        let (pull, distance) = (at - self.brush, at.distance(self.brush));
+        if distance > self.slack {
+            self.brush = at - pull * (self.slack / distance);
+            commands.push(Command::DrawTo(pointer.world(self.brush)));
+        }
     }
 
-    fn released(&self, _at: Pos2, _pointer: &Pointer<'_>, commands: &mut Vec<Command>) {
+    fn released(&self, at: Pos2, pointer: &Pointer<'_>, commands: &mut Vec<Command>) {
+        if at != self.brush {
+            commands.push(Command::DrawTo(pointer.world(at)));
+        }
         commands.push(Command::EndStroke);
+    }
+
+    fn ring_center(&self) -> Option<Pos2> {
+        (self.slack > 0.0).then_some(self.brush)
+    }
+
+    fn paint(&self, painter: &Painter) {
+        if self.slack > 0.0 {
+            marks::paint_string(painter, self.brush, self.pointer);
+        }
     }
 
     fn interrupted(&self, commands: &mut Vec<Command>) {
@@ -108,7 +166,8 @@ impl Gesture for Sizing {
         self.dragged |= self.from.distance(at) > CLICK_SLACK;
         if self.dragged {
             let px = f64::from(at.x - self.from.x) * pointer.px_per_point;
-            commands.push(Command::BrushRadius(self.radius + px / pointer.camera.px_per_world()));
+            commands
+                .push(Command::Brush(BrushCommand::Radius(self.radius + px / pointer.camera.px_per_world())));
         }
     }
 

@@ -10,6 +10,7 @@ mod domain;
 mod eraser;
 mod gesture;
 mod pan;
+mod pen;
 mod query;
 
 use std::fmt;
@@ -18,18 +19,20 @@ use eframe::egui::{CursorIcon, Key, Painter, Pos2};
 use glam::DVec2;
 
 pub use boundary::{BOUNDARY, BoundaryTool, BoundaryToolMode};
-pub use brush::BRUSH;
+pub use brush::{BRUSH, BrushMode};
 pub use domain::{DOMAIN, DomainTool, DomainToolMode};
 pub use eraser::ERASER;
 pub use gesture::{Gesture, Pointer, Press};
 pub use pan::{PAN, Panning};
+pub use pen::{Pen, PenEffect};
 pub use query::QUERY;
 
 use super::command::Command;
 use super::frame::FrameState;
 use super::panels::Panel;
 use super::widgets::{Hint, Icon};
-use crate::paint::Brush;
+use crate::geometry::Rect;
+use crate::paint::{Brush, Mirror, PathPoint};
 
 /// All tools, in the order of the tool strip.
 pub static TOOLS: [Tool; 6] = [&BRUSH, &ERASER, &QUERY, &DOMAIN, &BOUNDARY, &PAN];
@@ -132,6 +135,8 @@ pub struct Tools {
     pub tool: Tool,
     /// What the brush paints.
     pub kind: PaintKind,
+    /// How a stroke of the brush changes the paint.
+    pub mode: BrushMode,
     /// Radius of brush and eraser in world units.
     pub radius: f64,
     /// Hardness of brush and eraser, 0 to 1.
@@ -140,8 +145,16 @@ pub struct Tools {
     pub paint_strength: f64,
     /// Strength of the eraser, 0 to 1.
     pub erase_strength: f64,
+    /// The risk that the brush paints in the mode *Set*, 0 to 1.
+    pub risk: f64,
     /// The diameter that the brush paints, in world units.
     pub diameter: f64,
+    /// How strongly strokes are smoothed, 0 to 1.
+    pub smoothing: f64,
+    /// Whether strokes are repeated: left and right, above and below.
+    pub mirrored: [bool; 2],
+    /// The pen, where there is one.
+    pub pen: Pen,
     /// Where the last stroke ended, in world units.
     pub last_painted: Option<DVec2>,
     /// The domain tool.
@@ -159,11 +172,16 @@ impl Tools {
         Self {
             tool: &BRUSH,
             kind: PaintKind::Risk,
+            mode: BrushMode::BuildUp,
             radius: 0.06 * extent,
             hardness: 0.35,
             paint_strength: 0.8,
             erase_strength: 1.0,
+            risk: 0.5,
             diameter: 2.0 * h_min,
+            smoothing: 0.0,
+            mirrored: [false; 2],
+            pen: Pen::default(),
             last_painted: None,
             domain: DomainTool::default(),
             boundary: BoundaryTool::default(),
@@ -175,6 +193,11 @@ impl Tools {
     pub fn select(&mut self, tool: Tool) {
         self.tool = tool;
         self.domain.corners.clear();
+    }
+
+    /// Selects the brush.
+    pub fn select_brush(&mut self) {
+        self.select(&BRUSH);
     }
 
     /// Fits radius and diameter to another domain.
@@ -197,6 +220,18 @@ impl Tools {
     /// The brush of the selected tool's strokes, if it paints.
     pub fn brush(&self) -> Option<Brush> {
         self.tool.brush.map(|brush| brush(self))
+    }
+
+    /// The lines in which strokes are repeated, through the middle of the domain.
+    pub fn mirror(&self, bounds: Rect) -> Mirror {
+        let [x, y] = self.mirrored;
+        let middle = bounds.center();
+        Mirror { x: x.then_some(middle.x), y: y.then_some(middle.y) }
+    }
+
+    /// A point of a stroke, in world units, with the brush as the pressure of the pen makes it.
+    pub fn path_point(&self, at: DVec2) -> PathPoint {
+        self.pen.path_point(at)
     }
 
     /// Strength of the selected tool.

@@ -7,6 +7,8 @@ use egui_material_icons::icons as material;
 pub struct Icon(&'static str);
 
 impl Icon {
+    /// Picking a value.
+    pub const PICK: Self = Self(material::ICON_COLORIZE.codepoint);
     /// Paint.
     pub const BRUSH: Self = Self(material::ICON_BRUSH.codepoint);
     /// Remove paint.
