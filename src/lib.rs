@@ -59,7 +59,10 @@ pub use mesh::{
 pub use raster::{MAX_SIDE, PixelRect, Raster};
 
 // Paint.
-pub use document::{Base, Document, Example, Follower, MeshChange, Setting, Settings, SettingsError, Stage};
+pub use document::{
+    Background, Base, Document, Example, Follower, MeshChange, Picture, Setting, Settings, SettingsError,
+    Stage,
+};
 pub use paint::{Brush, Medium, PaintRasters};
 pub use text::LengthUnit;
 

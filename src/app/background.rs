@@ -26,6 +26,8 @@ pub enum Outcome {
         /// What to do with its content.
         commands: Vec<Command>,
     },
+    /// A file that is only a part of a document was read: it is no recent file. What to do with its content.
+    PartRead(Vec<Command>),
     /// A file was not read.
     NotRead(String),
     /// An export ended, as it should or cancelled: a sentence about it.

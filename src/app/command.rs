@@ -34,6 +34,8 @@ pub enum Command {
     OpenProject(PathBuf),
     /// Reads a greyscale picture as the base field's risk.
     OpenImage(PathBuf),
+    /// Reads a picture to be shown behind the mesh.
+    OpenBackground(PathBuf),
     /// Reads polygons, and opens a new document with them as its domain.
     OpenDomain(PathBuf),
     /// Opens a document that was read.

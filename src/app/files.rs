@@ -11,7 +11,7 @@ use super::command::{Command, Opened};
 use super::session::Session;
 use super::view::View;
 use super::widgets::format;
-use crate::document::{Base, Document, Example, Setting, Settings};
+use crate::document::{self, Base, Document, Example, Setting, Settings};
 use crate::domain::{BoundaryMarks, MeshBoundary, NamedPolygon};
 use crate::geometry::Rect;
 use crate::io::png::{Behind, decode};
@@ -63,6 +63,28 @@ pub fn load_image(session: &Session, background: &mut Background, path: &Path) {
                 let base = Base::RiskImage { name: name_of(&file), raster: Arc::new(raster) };
                 let commands = vec![Command::Set(Setting::Base(base)), Command::EndGesture];
                 Outcome::Read { path: file, commands }
+            }
+            Err(error) => Outcome::not_read(error),
+        }
+    });
+}
+
+/// Reads a picture to be shown behind the mesh. A world file beside it says where it lies; without one it
+/// covers the bounds of the domain.
+pub fn load_background(session: &Session, background: &mut Background, path: &Path) {
+    let bounds = session.document().settings().domain.bounds;
+    let file = path.to_owned();
+    background.start(Aim::Read, path, move |meter| {
+        let read = io::png::read_picture(&file, meter).and_then(|picture| {
+            let placed = io::world_file::bounds_beside(&file, picture.size)?;
+            Ok((picture, placed.unwrap_or(bounds)))
+        });
+        match read {
+            Ok((picture, bounds)) => {
+                let (name, picture) = (name_of(&file), Arc::new(picture));
+                let opacity = document::Background::USUAL_OPACITY;
+                let shown = document::Background { name, picture, bounds, opacity };
+                Outcome::PartRead(vec![Command::Set(Setting::Background(Some(shown))), Command::EndGesture])
             }
             Err(error) => Outcome::not_read(error),
         }

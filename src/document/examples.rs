@@ -79,6 +79,7 @@ fn diamond() -> Settings {
     Settings {
         name: Example::Diamond.name().into(),
         unit: LengthUnit::None,
+        background: None,
         domain: Domain::rectangle(Rect::around(DVec2::ZERO, 10.0)),
         spacing: 1.0,
         boundary: BoundaryTreatment::usual(1.0),
@@ -97,6 +98,7 @@ fn terrain(slope: Raster) -> Settings {
     Settings {
         name: Example::Terrain.name().into(),
         unit: LengthUnit::Kilometre,
+        background: None,
         domain: Domain::rectangle(slope.bounds()),
         spacing: slope.bounds().size().max_element() / 24.0,
         boundary: BoundaryTreatment::usual(slope.bounds().size().max_element() / 24.0),

@@ -56,8 +56,17 @@ fn shared_data(settings: &Settings) -> impl Iterator<Item = SharedData> {
         Base::Formula(formula) => (Some(formula), None),
         Base::RiskImage { raster, .. } => (None, Some((Arc::as_ptr(raster).addr(), raster.bytes()))),
     };
+    let background = settings
+        .background
+        .as_ref()
+        .map(|background| (Arc::as_ptr(&background.picture).addr(), background.picture.rgba.len()));
     let formulas = [settings.domain.formula(), base_formula].into_iter().flatten();
-    formulas.map(|formula| (formula.address(), formula.bytes())).chain(outline).chain([marks]).chain(picture)
+    formulas
+        .map(|formula| (formula.address(), formula.bytes()))
+        .chain(outline)
+        .chain([marks])
+        .chain(picture)
+        .chain(background)
 }
 
 /// One gesture, done or undone.

@@ -1,6 +1,7 @@
 //! What the user edits: settings and paint, with the inverse of every edit. A [`Follower`] derives field and
 //! mesh from it; these are never saved.
 
+mod background;
 mod edits;
 mod examples;
 mod follower;
@@ -15,6 +16,7 @@ mod stage;
 
 use glam::DVec2;
 
+pub use background::{Background, Picture};
 pub use edits::Edits;
 pub use examples::Example;
 pub use follower::{Follower, MeshChange};

@@ -1,7 +1,7 @@
 use std::mem::Discriminant;
 use std::sync::Arc;
 
-use super::{Base, Settings};
+use super::{Background, Base, Settings};
 use crate::domain::{BoundaryMarks, BoundaryTreatment, Domain};
 use crate::field::RefinementRule;
 use crate::geometry::Rect;
@@ -42,6 +42,8 @@ pub enum Setting {
     BoundaryMarks(BoundaryMarks),
     /// The unit of coordinates and lengths.
     LengthUnit(LengthUnit),
+    /// The picture behind the mesh, or none.
+    Background(Option<Background>),
 }
 
 /// Which setting a [`Setting`] changes, at any value: changes of one kind can be one gesture.
@@ -72,6 +74,7 @@ impl Setting {
             Self::Cleaning(_) => "cleaning",
             Self::BoundaryMarks(_) => "boundary names",
             Self::LengthUnit(_) => "unit",
+            Self::Background(_) => "background",
         }
     }
 
@@ -99,6 +102,7 @@ impl Setting {
             Self::Cleaning(cleaning) => settings.cleaning = cleaning,
             Self::BoundaryMarks(marks) => settings.boundary_marks = Arc::new(marks),
             Self::LengthUnit(unit) => settings.unit = unit,
+            Self::Background(background) => settings.background = background,
         }
     }
 }

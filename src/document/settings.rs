@@ -1,5 +1,6 @@
 use std::sync::Arc;
 
+use super::Background;
 use crate::build::{FieldSampling, MeshSpec};
 use crate::domain::{BoundaryMarks, BoundaryTreatment, Domain};
 use crate::field::{
@@ -17,6 +18,8 @@ pub struct Settings {
     pub name: String,
     /// The unit of coordinates and lengths. It does not change the mesh.
     pub unit: LengthUnit,
+    /// The picture behind the mesh. It does not change the mesh.
+    pub background: Option<Background>,
     /// Ω.
     pub domain: Domain,
     /// How the mesh meets the boundary of a domain of polygons.
@@ -88,6 +91,12 @@ pub enum SettingsError {
     /// The share of the area is none.
     #[error("Parts with a share of {} of the area cannot be kept: a share is between 0 and 1.", Number(*.0))]
     PartShare(f64),
+    /// The background picture would have no extent.
+    #[error(
+        "The background picture cannot be placed there: its right side is right of the left one, and its top is \
+         above the bottom."
+    )]
+    BackgroundBounds,
     /// The domain is empty.
     #[error("Nothing would be left of the domain: keep some of it.")]
     EmptyDomain,
@@ -133,6 +142,11 @@ impl Settings {
     pub fn checked(self) -> Result<Self, SettingsError> {
         self.lattice()?;
         self.transfer.checked()?;
+        if let Some(Background { bounds, .. }) = self.background
+            && !(bounds.is_proper() && bounds.size().is_finite())
+        {
+            return Err(SettingsError::BackgroundBounds);
+        }
         if let Some(diameter) = self.boundary.diameter() {
             checked_target(diameter, self.domain.bounds.center())
                 .map_err(|e| SettingsError::BoundaryDiameter(e.value))?;
@@ -217,8 +231,9 @@ impl Settings {
             false => self.boundary,
         };
         let Self { unit, cleaning, max_triangles, max_memory, .. } = *other;
-        let boundary_marks = other.boundary_marks.clone();
-        Self { unit, boundary, boundary_marks, cleaning, max_triangles, max_memory, ..self.clone() } == *other
+        let (boundary_marks, background) = (other.boundary_marks.clone(), other.background.clone());
+        let derived = Self { boundary, boundary_marks, cleaning, max_triangles, max_memory, ..self.clone() };
+        Self { unit, background, ..derived } == *other
     }
 
     /// What the mesh may cost.
@@ -258,6 +273,7 @@ impl Default for Settings {
         Self {
             name: "Untitled".into(),
             unit: LengthUnit::None,
+            background: None,
             domain: Domain::rectangle(Rect::UNIT),
             spacing: 1.0 / 24.0,
             boundary: BoundaryTreatment::usual(1.0 / 24.0),

@@ -34,6 +34,7 @@ pub mod sms;
 pub mod stl;
 pub mod svg;
 pub mod vtu;
+pub mod world_file;
 
 use std::io::{self, Write};
 

@@ -10,8 +10,10 @@ use png::{
 
 use super::error::PlacedFlaw;
 use super::{Flaw, Meter, Provenance, ReadError};
+use crate::document::Picture;
 use crate::geometry::Rect;
 use crate::raster::{MAX_SIDE, Raster};
+use crate::text::Grouped;
 
 /// The colour behind transparent pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -86,6 +88,55 @@ pub fn decode(source: impl BufRead + Seek, bounds: Rect, behind: Behind) -> Resu
     Ok(Raster::from_values(bounds, size, values))
 }
 
+/// Reads an image in colour, and counts the bytes of the file.
+///
+/// # Errors
+/// When the file cannot be read or is not a PNG image, when it has more than [`Picture::MOST_PIXELS`] pixels,
+/// and when the work was cancelled.
+pub fn read_picture(path: &Path, meter: &Meter) -> Result<Picture, ReadError> {
+    let decoded = File::open(path).map_err(PlacedFlaw::from).and_then(|file| {
+        meter.expect(file.metadata()?.len());
+        Ok(decode_picture(BufReader::new(meter.count(file)))?)
+    });
+    decoded.map_err(|flaw| flaw.in_file(path))
+}
+
+/// Reads as [`read_picture`] does, from any source of bytes.
+///
+/// # Errors
+/// As [`read_picture`].
+pub fn decode_picture(source: impl BufRead + Seek) -> Result<Picture, Flaw> {
+    let mut decoder = Decoder::new(source);
+    decoder.set_transformations(Transformations::EXPAND | Transformations::ALPHA | Transformations::STRIP_16);
+    let header = decoder.read_header_info()?;
+    let size = [header.width, header.height];
+    let pixels = u64::from(size[0]) * u64::from(size[1]);
+    if pixels == 0 || pixels > Picture::MOST_PIXELS {
+        return Err(Flaw::Syntax(format!(
+            "a background picture has at most {} pixels, and this one has {} × {}. Scale it first.",
+            Grouped(Picture::MOST_PIXELS as usize),
+            Grouped(size[0] as usize),
+            Grouped(size[1] as usize)
+        )));
+    }
+    let mut reader = decoder.read_info()?;
+    if reader.info().palette.as_ref().is_some_and(|palette| palette.len() % 3 != 0) {
+        return Err(Flaw::Png("its palette is not a list of colours".into()));
+    }
+    let mut bytes = vec![0; reader.output_buffer_size().ok_or(DecodingError::LimitsExceeded)?];
+    let frame = reader.next_frame(&mut bytes)?;
+    if [frame.width, frame.height] != size {
+        return Err(Flaw::Png("its first frame does not fill the image".into()));
+    }
+    bytes.truncate(frame.buffer_size());
+    let rgba = match frame.color_type {
+        ColorType::Rgba => bytes,
+        ColorType::GrayscaleAlpha => bytes.chunks_exact(2).flat_map(|p| [p[0], p[0], p[0], p[1]]).collect(),
+        other => return Err(Flaw::Png(format!("its colours are of the kind {other:?}"))),
+    };
+    Ok(Picture { size, rgba })
+}
+
 /// The value of a pixel from its samples, each 0 to 1.
 fn value(color: ColorType, sample: impl Fn(usize) -> f64, behind: Behind) -> f64 {
     let luma = || 0.2126 * sample(0) + 0.7152 * sample(1) + 0.0722 * sample(2);
@@ -134,6 +185,7 @@ pub fn write_described(
             "command" => "Command",
             "document" => "Document",
             "fingerprint" => "Fingerprint",
+            "unit" => "Unit",
             _ => "Coordinates",
         };
         let (keyword, text) = (keyword.to_owned(), text.to_owned());

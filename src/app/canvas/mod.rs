@@ -1,5 +1,6 @@
 //! The canvas: the mesh, what is drawn over it, and gestures of the pointer on it.
 
+mod background;
 mod coordinates;
 mod floats;
 mod gpu;
@@ -15,6 +16,7 @@ use eframe::egui::{
 };
 use glam::DVec2;
 
+use background::BackgroundTexture;
 pub use gpu::CanvasGpu;
 use overlay::OverlayColors;
 
@@ -46,6 +48,7 @@ pub const CANVAS_NAME: &str = "Mesh canvas";
 pub struct Canvas {
     gpu: Option<CanvasGpu>,
     overlay_colors: OverlayColors,
+    background: BackgroundTexture,
     contours: ContourFinder,
     /// The widget of the last frame, and where it was.
     shown: Option<(Id, Rect)>,
@@ -62,6 +65,7 @@ impl Canvas {
         Self {
             gpu,
             overlay_colors: OverlayColors::default(),
+            background: BackgroundTexture::default(),
             contours: ContourFinder::default(),
             shown: None,
             floats: Vec::new(),
@@ -309,6 +313,8 @@ impl Canvas {
             Err(error) => commands.push(Command::Report(error.to_string())),
         }
         ui.painter().add(gpu.shape(rect, camera, style));
+        let background = session.document().settings().background.as_ref();
+        self.background.paint(&ui.painter_at(rect), rect, &camera, background);
     }
 
     /// Brings the contour lines closer to the field, while they are shown.

@@ -16,6 +16,8 @@ pub enum FileRequest {
     Save,
     /// To open a picture as risk.
     OpenImage,
+    /// To open a picture to trace.
+    OpenBackground,
     /// To open polygons as a domain.
     OpenDomain,
     /// To write the mesh.
@@ -29,6 +31,7 @@ impl FileRequest {
             Self::Open => "Open",
             Self::Save => "Save project",
             Self::OpenImage => "Open picture as risk",
+            Self::OpenBackground => "Open background picture",
             Self::OpenDomain => "Open domain",
             Self::Export => "Export mesh",
         }
@@ -37,7 +40,7 @@ impl FileRequest {
     /// The word on the button.
     pub fn verb(self) -> &'static str {
         match self {
-            Self::Open | Self::OpenImage | Self::OpenDomain => "Open",
+            Self::Open | Self::OpenImage | Self::OpenBackground | Self::OpenDomain => "Open",
             Self::Save => "Save",
             Self::Export => "Export",
         }
@@ -48,7 +51,7 @@ impl FileRequest {
         match self {
             Self::Open => vec![ENDING, "geojson", "json", "png"],
             Self::Save => vec![ENDING],
-            Self::OpenImage => vec!["png"],
+            Self::OpenImage | Self::OpenBackground => vec!["png"],
             Self::OpenDomain => vec!["geojson", "json"],
             Self::Export => ExportFormat::endings().collect(),
         }
@@ -59,7 +62,7 @@ impl FileRequest {
         match self {
             Self::Open => "Projects, domains, pictures",
             Self::Save => "Projects",
-            Self::OpenImage => "Pictures",
+            Self::OpenImage | Self::OpenBackground => "Pictures",
             Self::OpenDomain => "Polygons",
             Self::Export => "Meshes and pictures",
         }
@@ -76,6 +79,7 @@ impl FileRequest {
         match self {
             Self::Open | Self::Save => "projects",
             Self::OpenImage => "pictures",
+            Self::OpenBackground => "backgrounds",
             Self::OpenDomain => "domains",
             Self::Export => "exports",
         }
@@ -93,7 +97,7 @@ impl FileRequest {
         match self {
             Self::Save => format!("{name}.{ENDING}"),
             Self::Export => format!("{name}.{}", format.ending()),
-            Self::Open | Self::OpenImage | Self::OpenDomain => String::new(),
+            Self::Open | Self::OpenImage | Self::OpenBackground | Self::OpenDomain => String::new(),
         }
     }
 
@@ -103,6 +107,7 @@ impl FileRequest {
             Self::Open => Command::Open(path),
             Self::Save => Command::SaveAs(path),
             Self::OpenImage => Command::OpenImage(path),
+            Self::OpenBackground => Command::OpenBackground(path),
             Self::OpenDomain => Command::OpenDomain(path),
             Self::Export => Command::ExportAs(path),
         }

@@ -25,6 +25,9 @@ impl App {
             },
             Command::OpenProject(path) => project::open_project(&mut self.background, &path),
             Command::OpenImage(path) => files::load_image(&self.session, &mut self.background, &path),
+            Command::OpenBackground(path) => {
+                files::load_background(&self.session, &mut self.background, &path);
+            }
             Command::OpenDomain(path) => files::load_domain(&mut self.background, &path),
             Command::Save => match self.project.path() {
                 Some(path) => self.send(Command::SaveTo(path.to_owned())),
@@ -145,6 +148,10 @@ impl App {
                 self.dialogs.succeed(true);
                 self.session.notices_mut().dismiss();
                 self.starts_with_file = false;
+                self.commands.extend(commands);
+            }
+            Outcome::PartRead(commands) => {
+                self.dialogs.succeed(true);
                 self.commands.extend(commands);
             }
             Outcome::NotRead(problem) => self.fail(problem),

@@ -3,6 +3,7 @@
 //!
 //! What is being typed or set up in a control, and is no setting yet, is in egui's memory.
 
+mod background;
 mod bars;
 mod boundary;
 mod brush;
@@ -42,7 +43,7 @@ pub struct Panel {
 }
 
 /// All sections of the side panel, from the top. Those of the selected tool move to the top.
-pub static PANELS: [&Panel; 10] = [
+pub static PANELS: [&Panel; 11] = [
     &BRUSH,
     &transfer::TRANSFER,
     &levels::LEVELS,
@@ -52,6 +53,7 @@ pub static PANELS: [&Panel; 10] = [
     &DOMAIN,
     &BOUNDARY,
     &fit::FIT,
+    &background::BACKGROUND,
     &view::VIEW,
 ];
 

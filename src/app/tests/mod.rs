@@ -3,6 +3,7 @@
 
 #[cfg(unix)]
 mod background;
+mod background_picture;
 mod boundary;
 mod brush;
 mod budget;

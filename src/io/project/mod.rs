@@ -6,6 +6,7 @@
 //!   exactly.
 //! - `domain.geojson`, if the domain has polygons: their corners in world units.
 //! - `base.risk`, if the base field is a picture: 32-bit floats, row by row from the lowest.
+//! - `background.png`, if there is a picture behind the mesh.
 //! - `paint.tiles`: the painted tiles of 64 × 64 pixels. Each has its column and row (16 bits each,
 //!   little-endian), a byte with bit 0 for risk and bit 1 for diameter, and the pixels of each of these.
 //!
@@ -19,15 +20,16 @@
 
 mod archive;
 mod pixels;
+mod saved_background;
 mod settings;
 
 use std::fs::File;
-use std::io::{self, Read, Write};
+use std::io::{self, Cursor, Read, Write};
 use std::path::Path;
 
 use super::error::{Flaw, PlacedFlaw, ReadError};
-use super::{Meter, geojson};
-use crate::document::{Base, Document, Settings};
+use super::{Meter, geojson, png};
+use crate::document::{Background, Base, Document, Picture, Settings};
 use crate::domain::Polygon;
 use crate::geometry::Rect;
 use crate::paint::{PaintRasters, Tiles};
@@ -45,12 +47,15 @@ const FORMAT: &str = "Meshbrush project";
 const SETTINGS: &str = "settings.json";
 const DOMAIN: &str = "domain.geojson";
 const BASE: &str = "base.risk";
+const BACKGROUND: &str = "background.png";
 const PAINT: &str = "paint.tiles";
 
 /// Largest file read: twice the size of the largest picture.
 const MOST_BYTES: u64 = 512 << 20;
 /// Most bytes of the settings: enough for a name for each of 300,000 islands.
 const MOST_SETTINGS: u64 = 64 << 20;
+/// Most bytes of the background picture, packed.
+const MOST_BACKGROUND: u64 = 128 << 20;
 /// Most bytes of the polygons, more than a million corners need.
 const MOST_POLYGONS: u64 = 128 << 20;
 
@@ -171,6 +176,9 @@ fn parts(project: &Project) -> Vec<ToWrite<'_>> {
     if let Base::RiskImage { raster, .. } = &settings.base {
         parts.push((BASE, Box::new(|out| pixels::write_raster(out, raster))));
     }
+    if let Some(Background { picture, .. }) = &settings.background {
+        parts.push((BACKGROUND, Box::new(|mut out| png::write(&mut out, picture.size, &picture.rgba))));
+    }
     parts.push((PAINT, Box::new(|out| pixels::write_tiles(out, tiles))));
     parts
 }
@@ -246,6 +254,12 @@ impl Parts for Packed<'_, '_> {
         geojson::parse(&text[..])
             .map(|outline| geojson::without_names(outline.polygons))
             .map_err(|flaw| flaw.within(DOMAIN))
+    }
+
+    fn background(&mut self) -> Result<Picture, PlacedFlaw> {
+        let bytes = part(self.archive, BACKGROUND)?.bytes(MOST_BACKGROUND, self.meter);
+        let picture = bytes.and_then(|bytes| png::decode_picture(Cursor::new(bytes)));
+        picture.map_err(|flaw| in_part(flaw, BACKGROUND))
     }
 
     fn risks(&mut self, bounds: Rect, size: [u32; 2]) -> Result<Raster, PlacedFlaw> {

@@ -7,8 +7,9 @@ use serde::{Deserialize, Serialize};
 
 use super::super::Flaw;
 use super::super::error::{PlacedFlaw, shown};
+use super::saved_background::SavedBackground;
 use super::{FORMAT, VERSION};
-use crate::document::{Base, Settings};
+use crate::document::{Base, Picture, Settings};
 use crate::domain::{BoundaryMarks, BoundaryTreatment, Domain, DomainShape, Polygon};
 use crate::field::{Formula, RefinementRule, Transfer};
 use crate::geometry::Rect;
@@ -36,6 +37,8 @@ pub(super) struct Saved {
     /// Missing in files of older versions, and where there is none.
     #[serde(default, skip_serializing_if = "SavedUnit::is_none")]
     unit: SavedUnit,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    background: Option<SavedBackground>,
     domain: SavedDomain,
     boundary: SavedBoundary,
     /// Missing in files of older versions.
@@ -239,6 +242,8 @@ enum SavedRule {
 pub(super) trait Parts {
     /// The polygons of the domain.
     fn polygons(&mut self) -> Result<Vec<Polygon>, PlacedFlaw>;
+    /// The picture behind the mesh.
+    fn background(&mut self) -> Result<Picture, PlacedFlaw>;
     /// The pixels of the base field.
     fn risks(&mut self, bounds: Rect, size: [u32; 2]) -> Result<Raster, PlacedFlaw>;
 }
@@ -252,6 +257,7 @@ impl Saved {
             written_by: concat!("Meshbrush ", env!("CARGO_PKG_VERSION")).into(),
             name: settings.name.clone(),
             unit: settings.unit.into(),
+            background: settings.background.as_ref().map(SavedBackground::of),
             domain: SavedDomain {
                 bounds: corners(settings.domain.bounds),
                 shape: match &settings.domain.shape {
@@ -352,9 +358,11 @@ impl Saved {
                 Base::RiskImage { name, raster: Arc::new(raster) }
             }
         };
+        let background = self.background.map(|saved| saved.with(parts.background()?)).transpose()?;
         let settings = Settings {
             name: self.name,
             unit: self.unit.into(),
+            background,
             domain: Domain { bounds, shape },
             boundary: match self.boundary {
                 SavedBoundary::Report => BoundaryTreatment::Report,
@@ -382,11 +390,11 @@ impl Saved {
     }
 }
 
-fn corners(rect: Rect) -> [f64; 4] {
+pub(super) fn corners(rect: Rect) -> [f64; 4] {
     [rect.min.x, rect.min.y, rect.max.x, rect.max.y]
 }
 
-fn rect(of: &str, [x0, y0, x1, y1]: [f64; 4]) -> Result<Rect, PlacedFlaw> {
+pub(super) fn rect(of: &str, [x0, y0, x1, y1]: [f64; 4]) -> Result<Rect, PlacedFlaw> {
     let rect = Rect::new(DVec2::new(x0, y0), DVec2::new(x1, y1));
     if rect.is_proper() && rect.size().is_finite() {
         return Ok(rect);

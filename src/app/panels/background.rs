@@ -1,0 +1,77 @@
+//! The picture behind the mesh.
+
+use eframe::egui::Ui;
+use glam::dvec2;
+
+use super::{Panel, end_gesture_when_released, remark, set_once};
+use crate::app::command::Command;
+use crate::app::dialogs::FileRequest;
+use crate::app::frame::FrameState;
+use crate::app::widgets::{ActionButton, NumberRow, Section, SliderRow, value_row};
+use crate::document::{Background, Setting};
+use crate::geometry::Rect;
+
+/// The background picture: opacity and place.
+pub static BACKGROUND: Panel = Panel { name: "background", only_with_tool: false, show };
+
+fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
+    Section::new("Background picture").closed().show(ui, |ui| {
+        let settings = state.session.document().settings();
+        match &settings.background {
+            Some(background) => {
+                rows(ui, state, background, commands);
+                buttons(ui, settings.domain.bounds, background, commands);
+            }
+            None => {
+                remark(
+                    ui,
+                    "A map or photograph to trace. A world file beside it (.pgw, .wld) says where it lies.",
+                );
+                if ui.add(ActionButton::new("Open background…")).clicked() {
+                    commands.push(Command::Ask(FileRequest::OpenBackground));
+                }
+            }
+        }
+    });
+}
+
+fn rows(ui: &mut Ui, state: &FrameState<'_>, background: &Background, commands: &mut Vec<Command>) {
+    let changed = |background: Background| Setting::Background(Some(background));
+    value_row(ui, "Picture", &background.name);
+    let mut opacity = background.opacity;
+    let help = "How strongly the picture covers the mesh.";
+    let response = SliderRow::new("Opacity", &mut opacity, 0.0..=1.0).step(0.01).help(help).show(ui);
+    if response.changed() {
+        commands.push(Command::Set(changed(Background { opacity, ..background.clone() })));
+    }
+    end_gesture_when_released(&response, commands);
+    let Rect { min, max } = background.bounds;
+    let mut sides = [min.x, min.y, max.x, max.y];
+    let mut moved = false;
+    let names = ["Picture left", "Picture bottom", "Picture right", "Picture top"];
+    for (name, side) in names.into_iter().zip(&mut sides) {
+        moved |= NumberRow::new(name, side).unit(state.unit().symbol()).show(ui).changed();
+    }
+    if moved {
+        let [left, bottom, right, top] = sides;
+        let bounds = Rect::new(dvec2(left, bottom), dvec2(right, top));
+        set_once(changed(Background { bounds, ..background.clone() }), commands);
+    }
+}
+
+fn buttons(ui: &mut Ui, domain: Rect, background: &Background, commands: &mut Vec<Command>) {
+    ui.add_space(4.0);
+    ui.horizontal(|ui| {
+        if ui
+            .add_enabled_ui(background.bounds != domain, |ui| ui.add(ActionButton::new("Cover the domain")))
+            .inner
+            .clicked()
+        {
+            let covering = Background { bounds: domain, ..background.clone() };
+            set_once(Setting::Background(Some(covering)), commands);
+        }
+        if ui.add(ActionButton::new("Remove picture")).clicked() {
+            set_once(Setting::Background(None), commands);
+        }
+    });
+}
