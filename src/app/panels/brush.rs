@@ -43,24 +43,10 @@ fn kind_rows(ui: &mut Ui, state: &FrameState<'_>, sent: &mut Vec<BrushCommand>) 
         sent.push(BrushCommand::Kind(kind));
     }
     ui.add_space(4.0);
-    let changes = segmented(ui, "How a stroke changes the paint", &mut mode, &BrushMode::ALL);
-    if changes.changed() {
+    if segmented(ui, "How a stroke changes the paint", &mut mode, &BrushMode::ALL).changed() {
         sent.push(BrushCommand::Mode(mode));
     }
-    changes.on_hover_text(mode_help(kind));
     ui.add_space(4.0);
-}
-
-fn mode_help(kind: PaintKind) -> &'static str {
-    match kind {
-        PaintKind::Risk => {
-            "Build up (U) raises the risk with each stroke, Set (V) paints one value, Lower (L) takes a share of the \
-             risk away."
-        }
-        PaintKind::Diameter => {
-            "Build up (U) only refines, Set (V) paints one diameter, Lower (L) only makes painted diameters larger."
-        }
-    }
 }
 
 /// The radius of the brush, which the domain tool shares.
@@ -163,13 +149,10 @@ fn painted(state: &FrameState<'_>) -> String {
 fn mirror_rows(ui: &mut Ui, state: &FrameState<'_>, sent: &mut Vec<BrushCommand>) {
     let [mut x, mut y] = state.tools.mirrored;
     ui.columns(2, |columns| {
-        let help = "Repeats strokes in a line through the middle of the domain: left and right.";
-        let row = toggle_row(&mut columns[0], "Mirror x", &mut x);
-        if row.on_hover_text(help).changed() {
+        if toggle_row(&mut columns[0], "Mirror x", &mut x).changed() {
             sent.push(BrushCommand::MirrorX(x));
         }
-        let help = "Repeats strokes in a line through the middle of the domain: above and below.";
-        if toggle_row(&mut columns[1], "Mirror y", &mut y).on_hover_text(help).changed() {
+        if toggle_row(&mut columns[1], "Mirror y", &mut y).changed() {
             sent.push(BrushCommand::MirrorY(y));
         }
     });
@@ -187,5 +170,4 @@ fn pen_row(ui: &mut Ui, state: &FrameState<'_>, sent: &mut Vec<BrushCommand>) {
     if row.changed() {
         sent.push(BrushCommand::PenEffect(effect));
     }
-    row.on_hover_text("What the pressure of the pen changes during a stroke.");
 }

@@ -158,9 +158,7 @@ fn cleaning_rows(ui: &mut Ui, cleaning: Cleaning, boundary: BoundaryTreatment, c
     }
     if matches!(boundary, BoundaryTreatment::Fitted { .. }) {
         let mut keeps_pinches = cleaning.keeps_pinches;
-        let help =
-            "Keep triangles that meet others of the domain only in a node. Most solvers do not accept them.";
-        if toggle_row(ui, "Keep pinched nodes", &mut keeps_pinches).on_hover_text(help).changed() {
+        if toggle_row(ui, "Keep pinched nodes", &mut keeps_pinches).changed() {
             set_once(Setting::Cleaning(Cleaning { keeps_pinches, ..cleaning }), commands);
         }
     }
@@ -170,8 +168,7 @@ fn cleaning_rows(ui: &mut Ui, cleaning: Cleaning, boundary: BoundaryTreatment, c
 fn unit_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let mut unit = state.unit();
     let choices = LengthUnit::ALL.map(|unit| (unit, unit_title(unit)));
-    let help = "The unit of all coordinates and lengths of this document. Numbers are not converted.";
-    if dropdown_row(ui, "Unit", &mut unit, &choices).on_hover_text(help).changed() {
+    if dropdown_row(ui, "Unit", &mut unit, &choices).changed() {
         set_once(Setting::LengthUnit(unit), commands);
     }
 }

@@ -27,6 +27,7 @@ mod project;
 mod query;
 mod settings;
 mod unit;
+mod tips;
 mod view;
 
 use std::fs;

@@ -10,6 +10,7 @@ mod display;
 mod floating;
 pub mod format;
 mod paint;
+pub mod tips;
 pub mod typed;
 
 pub use controls::*;

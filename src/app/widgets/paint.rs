@@ -7,6 +7,7 @@ use egui::emath::GuiRounding as _;
 use egui::text::{LayoutJob, TextFormat, TextWrapping};
 
 use crate::app::theme::{font, metrics, tokens};
+use crate::app::widgets::tips;
 
 /// One line of text.
 pub(super) fn line(ui: &Ui, text: &str, font: FontId, color: Color32) -> Arc<Galley> {
@@ -113,7 +114,7 @@ pub(super) fn label(ui: &Ui, rect: Rect, text: &str, help: &str) {
     at_left(ui, rect, galley);
     if cut || !help.is_empty() {
         let response = ui.interact(rect, ui.scope_id().with(("label", text)), egui::Sense::hover());
-        response.on_hover_text(if help.is_empty() { text } else { help });
+        tips::explain(ui, response, if help.is_empty() { text } else { help });
     }
 }
 

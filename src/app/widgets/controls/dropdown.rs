@@ -4,6 +4,7 @@ use eframe::egui::{self, Response, Ui, UiBuilder};
 
 use super::{Icon, paint};
 use crate::app::theme::{font, metrics};
+use crate::app::widgets::tips;
 
 /// A name and a drop-down list. `choices` are values with their names; the response has `changed` when
 /// `value` did.
@@ -31,7 +32,7 @@ pub fn dropdown_row<T: PartialEq + Copy>(
     if *value != before {
         response.mark_changed();
     }
-    response
+    tips::explain(ui, response, tips::sentence(label))
 }
 
 fn entries<T: PartialEq + Copy>(ui: &mut Ui, value: &mut T, choices: &[(T, &str)]) {

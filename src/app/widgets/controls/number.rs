@@ -7,6 +7,7 @@ use eframe::egui::{Align, Response, Ui, vec2};
 use super::number_cell::NumberCell;
 use super::number_input::NumberInput;
 use super::{format, paint};
+use crate::app::widgets::tips;
 
 /// A name and a number in a field, for values that have no useful slider: coordinates, limits, counts.
 ///
@@ -71,6 +72,7 @@ impl<'a> NumberRow<'a> {
             id,
             rect: columns.rest.shrink2(vec2(8.0, 0.0)),
             name: self.label,
+            help: if self.help.is_empty() { tips::sentence(self.label) } else { self.help },
             input: NumberInput {
                 name: self.label,
                 value: *self.value,

@@ -10,7 +10,7 @@ use super::number_input::{Entered, NumberInput, PX_PER_STEP};
 use super::paint;
 use super::text_row::message;
 use crate::app::theme::{font, metrics, tokens};
-use crate::app::widgets::typed;
+use crate::app::widgets::{tips, typed};
 
 /// Seconds after the last turn of the wheel until its value is taken, so that a turn is one gesture.
 const WHEEL_REST: f64 = 0.25;
@@ -30,6 +30,8 @@ pub(super) struct NumberCell<'a> {
     pub rect: Rect,
     /// Name for tests and screen readers.
     pub name: &'a str,
+    /// What it is, in a sentence with its unit.
+    pub help: &'a str,
     /// The number and what it may be.
     pub input: NumberInput<'a>,
     /// Left or right.
@@ -108,6 +110,7 @@ impl NumberCell<'_> {
         let done = self.drag(ui, &response, &mut moving) | self.turn(ui, &response, &mut moving);
         let shown = moving.map_or(self.input.value, |moving| self.input.moved(moving.from, moving.px));
         self.paint_rest(ui, &response, shown);
+        let response = tips::explain(ui, response, self.help);
         let taken = moving.filter(|_| done || (self.live && response.dragged())).map(|_| shown);
         match moving.filter(|_| !done) {
             Some(moving) => drop(ui.data_mut(|data| data.insert_temp(id, moving))),

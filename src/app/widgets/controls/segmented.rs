@@ -6,6 +6,7 @@ use eframe::egui::{
 
 use super::paint;
 use crate::app::theme::{font, metrics, tokens};
+use crate::app::widgets::tips;
 
 /// Segments side by side, one of them chosen: `Risk | Diameter`. Takes the full width.
 ///
@@ -70,7 +71,7 @@ fn segment(ui: &Ui, rect: Rect, group: &str, label: &str, chosen: bool) -> Respo
     };
     paint::focus_ring(ui, &response, rect.shrink(2.0), metrics::RADIUS_CONTROL - 3);
     paint::at_centre(ui, rect, paint::elided(ui, label, font::body(), ink, rect.width() - 8.0));
-    response
+    tips::explain(ui, response, tips::sentence(&format!("{group}/{label}")))
 }
 
 /// The segment that an arrow key asks for while segment `index` of `count` has the focus.

@@ -9,6 +9,7 @@ use super::number_cell::NumberCell;
 use super::number_input::NumberInput;
 use super::{format, paint};
 use crate::app::theme::tokens;
+use crate::app::widgets::tips;
 
 /// Radius of the thumb.
 const THUMB: f32 = 6.0;
@@ -136,6 +137,7 @@ impl<'a> SliderRow<'a> {
             *self.value = entered;
         }
         self.declare(ui, &response);
+        response = tips::explain(ui, response, self.help);
         response |= cell;
         if *self.value != before {
             response.mark_changed();
@@ -249,6 +251,7 @@ impl<'a> SliderRow<'a> {
             id: number_id(id),
             rect,
             name: &format!("{} value", self.label),
+            help: self.help,
             input: NumberInput {
                 name: self.label,
                 value: *self.value,

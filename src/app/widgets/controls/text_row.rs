@@ -8,6 +8,7 @@ use egui::text::CCursor;
 
 use super::paint;
 use crate::app::theme::{font, metrics, tokens};
+use crate::app::widgets::tips;
 
 /// What is wrong with a text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -111,7 +112,8 @@ impl<'a> TextRow<'a> {
             let x = output.galley_pos.x + output.galley.pos_from_cursor(CCursor::new(index)).center().x;
             x.clamp(inner.left(), inner.right())
         });
-        (output.response.response, x)
+        let help = if self.help.is_empty() { tips::sentence(label) } else { self.help };
+        (tips::explain(ui, output.response.response, help), x)
     }
 
     fn paint_ground(&self, ui: &Ui, rect: Rect, focused: bool) {

@@ -4,6 +4,7 @@ use eframe::egui::{Rect, Response, Role, Sense, Stroke, StrokeKind, Ui, WidgetIn
 
 use super::{Icon, paint};
 use crate::app::theme::{font, tokens};
+use crate::app::widgets::tips;
 
 /// A check box with its name; the whole row is the target. The response has `changed` when `on` did.
 pub fn toggle_row(ui: &mut Ui, label: &str, on: &mut bool) -> Response {
@@ -19,7 +20,7 @@ pub fn toggle_row(ui: &mut Ui, label: &str, on: &mut bool) -> Response {
     let ink = if response.hovered() { tokens(ui).value } else { tokens(ui).text };
     let text = row.with_min_x(square.right() + 8.0);
     paint::at_left(ui, text, paint::elided(ui, label, font::body(), ink, text.width()));
-    response
+    tips::explain(ui, response, tips::sentence(label))
 }
 
 fn paint_box(ui: &Ui, rect: Rect, response: &Response, on: bool) {

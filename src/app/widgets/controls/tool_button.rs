@@ -4,6 +4,7 @@ use eframe::egui::{self, Color32, Rect, Response, Role, Sense, Ui, Vec2, WidgetI
 
 use super::{Icon, paint};
 use crate::app::theme::{font, metrics, tokens};
+use crate::app::widgets::tips;
 
 /// A square button with an icon, a name for tests and screen readers, and a tooltip with its key.
 #[must_use = "call `show`"]
@@ -44,7 +45,9 @@ impl<'a> ToolButton<'a> {
         response
             .widget_info(|| WidgetInfo::selected(Role::Button, ui.is_enabled(), self.selected, self.name));
         self.paint(ui, rect, &response);
-        response.on_hover_ui(|ui| self.tooltip(ui))
+        let text = tips::sentence(self.name);
+        let text = if text.is_empty() { self.name } else { text };
+        tips::explain_with(ui, response, text, |ui| self.tooltip(ui))
     }
 
     fn paint(&self, ui: &Ui, rect: Rect, response: &Response) {
@@ -69,6 +72,10 @@ impl<'a> ToolButton<'a> {
         let (rect, _) = ui.allocate_exact_size(vec2(name.size().x + keys, 20.0), Sense::hover());
         paint::at_left(ui, rect, name);
         paint::shortcut_at_right(ui, rect, self.key);
+        let text = tips::sentence(self.name);
+        if !text.is_empty() {
+            ui.label(egui::RichText::new(text).color(tokens(ui).label));
+        }
     }
 }
 
@@ -126,6 +133,6 @@ impl egui::Widget for ActionButton<'_> {
         ui.painter().rect_filled(rect, metrics::RADIUS_CONTROL, if response.hovered() { lit } else { rest });
         paint::at_centre(ui, rect, text);
         paint::focus_ring(ui, &response, rect, metrics::RADIUS_CONTROL);
-        response
+        tips::explain(ui, response, tips::sentence(self.text))
     }
 }

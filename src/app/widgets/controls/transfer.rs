@@ -14,6 +14,7 @@ use super::slider::{key_steps, requested_value};
 use super::transfer_plot::{Axis, Plot, area_under};
 use super::{format, paint};
 use crate::app::theme::{font, metrics, tokens};
+use crate::app::widgets::tips;
 use crate::text::LengthUnit;
 
 /// Height of the plot; the numbers are in a row below it.
@@ -158,7 +159,7 @@ impl<'a> TransferCurve<'a> {
             self.enter(handle, default);
         }
         self.declare(ui, handle, &response);
-        response
+        tips::explain(ui, response, tips::sentence(handle.name()))
     }
 
     fn declare(&self, ui: &Ui, handle: Handle, response: &Response) {
@@ -360,6 +361,7 @@ impl<'a> TransferCurve<'a> {
             id: number_id(id, handle),
             rect: cell,
             name: &format!("{} value", handle.name()),
+            help: tips::sentence(handle.name()),
             input: NumberInput {
                 name: handle.name(),
                 value: self.number_of(handle),

@@ -6,6 +6,7 @@ use eframe::egui::{
 
 use super::paint;
 use crate::app::theme::{font, metrics, tokens};
+use crate::app::widgets::tips;
 
 /// A chip: a coloured dot and a text, to click on.
 #[must_use = "call `show`"]
@@ -45,9 +46,9 @@ impl<'a> Chip<'a> {
         self.paint(ui, rect, &response);
         paint::at_left(ui, rect.with_min_x(rect.left() + 22.0), label);
         if self.enabled {
-            return response.on_hover_cursor(CursorIcon::PointingHand).on_hover_text(self.name);
+            return tips::explain(ui, response.on_hover_cursor(CursorIcon::PointingHand), self.name);
         }
-        response.on_hover_text(self.name)
+        tips::explain(ui, response, self.name)
     }
 
     fn paint(&self, ui: &Ui, rect: Rect, response: &Response) {

@@ -1,0 +1,173 @@
+//! Tooltips: one sentence for each control, beside the panel that it is in.
+
+use eframe::egui::{Rect, RectAlign, Response, Tooltip, Ui, pos2};
+
+/// Points at an edge of the window within which a panel counts as being at that edge.
+const EDGE: f32 = 2.0;
+
+/// The sentences of controls that have no unit or number in it, by the name of the control. The name of a
+/// choice is that of its group and its own.
+static SENTENCES: [(&str, &str); 65] = [
+    (
+        "What the brush paints/Risk",
+        "The brush paints risk, from 0 to 1, which the transfer curve turns into a diameter.",
+    ),
+    ("What the brush paints/Diameter", "The brush paints the target diameter itself."),
+    (
+        "How a stroke changes the paint/Build up",
+        "Each stroke raises the risk, or only refines where a diameter is painted; U.",
+    ),
+    ("How a stroke changes the paint/Set", "A stroke paints one value, whatever was painted there; V."),
+    (
+        "How a stroke changes the paint/Lower",
+        "A stroke takes a share of the risk away, or makes painted diameters larger; L.",
+    ),
+    ("Mirror x", "Repeats strokes left and right of the middle of the domain."),
+    ("Mirror y", "Repeats strokes above and below the middle of the domain."),
+    ("What the pressure of the pen changes/No pressure", "The pressure of the pen changes nothing."),
+    (
+        "What the pressure of the pen changes/Radius",
+        "The pressure of the pen changes the radius of the brush.",
+    ),
+    (
+        "What the pressure of the pen changes/Strength",
+        "The pressure of the pen changes the strength of the brush.",
+    ),
+    ("h_max", "Target diameter at risk 0, in the unit of the document."),
+    ("h_min", "Target diameter at risk 1, in the unit of the document."),
+    ("Curve shape", "Bends the curve between h_max and h_min: its exponent, without a unit."),
+    ("Base field/Constant", "The same target diameter everywhere before you paint."),
+    ("Base field/Formula", "A target diameter before you paint that depends on x and y."),
+    ("Base field/Picture", "A greyscale picture as risk before you paint: black 0, white 1."),
+    ("Open picture…", "Reads a greyscale PNG file as the risk before you paint."),
+    ("Refinement rule/Area rule", "A triangle obeys h̄ everywhere inside it."),
+    (
+        "Refinement rule/Vertex rule",
+        "A triangle obeys h̄ at its three corners only: Eq. (12) of the report, DSTO-TR-3095 by J. R. Looker.",
+    ),
+    ("What cuts the domain/Brush", "Cuts the domain with a round brush."),
+    ("What cuts the domain/Rectangle", "Cuts the domain with a rectangle that you drag."),
+    ("What cuts the domain/Polygon", "Cuts the domain with a polygon whose corners you click."),
+    ("What cuts the domain/Frame", "Draws the rectangle that the coarse grid covers."),
+    ("Add or remove/Remove", "The domain tool removes area; X switches."),
+    ("Add or remove/Add", "The domain tool adds area; X switches."),
+    (
+        "Boundary treatment/On outline",
+        "Moves nodes onto the outline, with all angles between 18.4° and 143.2°.",
+    ),
+    (
+        "Boundary treatment/Fitted",
+        "Keeps the triangles whose centroid is inside: the boundary is a staircase.",
+    ),
+    (
+        "Boundary treatment/As in report",
+        "Keeps coarse triangles with three corners inside: Appendix A of the report, DSTO-TR-3095 by J. R. Looker.",
+    ),
+    ("Parts that stay/Largest part", "Only the largest connected part of the mesh stays."),
+    ("Parts that stay/Large parts", "Connected parts with at least a given share of the area stay."),
+    ("Parts that stay/All parts", "All connected parts of the mesh stay."),
+    (
+        "Keep pinched nodes",
+        "Keeps triangles that meet others only in a node; most solvers do not accept them.",
+    ),
+    ("Unit", "What coordinates and lengths mean; numbers are not converted."),
+    ("Left", "Smallest x of the domain, in the unit of the document."),
+    ("Bottom", "Smallest y of the domain, in the unit of the document."),
+    ("Right", "Largest x of the domain, in the unit of the document."),
+    ("Top", "Largest y of the domain, in the unit of the document."),
+    ("Open domain…", "Reads polygons from a GeoJSON file as the domain of a new document."),
+    ("Whole rectangle", "Makes the whole rectangle the domain."),
+    ("What a click does/Select", "A click selects a piece of the boundary; S switches."),
+    ("What a click does/Split", "A click ends a piece of the boundary there; S switches."),
+    ("Join with next", "Makes one piece of this one and the next along the boundary."),
+    ("Name", "Name of the piece in files."),
+    ("Edges", "Draws the edges of the triangles; G switches."),
+    ("Coordinates", "Draws the coordinates along two sides of the canvas, in the unit of the document."),
+    ("Scale bar", "Draws a bar whose length on the canvas is written on it, in the unit of the document."),
+    (
+        "Contours of h̄",
+        "Draws lines along which h̄ is the same, with their length in the unit of the document.",
+    ),
+    ("Colours", "The colours of the levels."),
+    ("Field overlay/No overlay", "Shows the mesh alone."),
+    ("Field overlay/Risk", "Shows the risk over the mesh, from 0 to 1; O switches."),
+    ("Field overlay/Target", "Shows over the mesh the level that h̄ asks for; Shift+O switches."),
+    ("Theme/Dark", "Light text on a dark window."),
+    ("Theme/Light", "Dark text on a light window."),
+    ("Theme/Desktop", "Dark or light, as the desktop is set."),
+    ("Quantity/h̄", "The inspector interpolates the target diameter."),
+    ("Quantity/Risk", "The inspector interpolates the risk, from 0 to 1."),
+    ("Brush", "Paints risk or a target diameter."),
+    ("Eraser", "Takes paint away, and the mesh coarsens."),
+    ("Query", "Shows the triangle that you click and its neighbours."),
+    ("Domain", "Adds area to the domain or removes it."),
+    ("Boundary", "Names, splits and joins the pieces of the boundary."),
+    ("Pan", "Moves the view."),
+    ("Undo", "Takes back the last gesture."),
+    ("Redo", "Does the last undone gesture again."),
+    ("Fit domain", "Shows the whole domain."),
+];
+
+/// The sentence for a control, or an empty text.
+pub fn sentence(name: &str) -> &'static str {
+    SENTENCES.iter().find(|(known, _)| *known == name).map_or("", |(_, text)| text)
+}
+
+/// Adds a sentence to a control, for the pointer and for screen readers.
+///
+/// It appears beside the panel that the control is in, so that it covers no other control.
+pub fn explain(ui: &Ui, response: Response, text: &str) -> Response {
+    explain_with(ui, response, text, |ui| drop(ui.label(text)))
+}
+
+/// As [`explain`], with other contents for the pointer.
+pub fn explain_with(ui: &Ui, response: Response, text: &str, contents: impl FnOnce(&mut Ui)) -> Response {
+    if text.is_empty() {
+        return response;
+    }
+    ui.ctx().accesskit_node_builder(response.id, |node| node.set_description(text));
+    let mut tooltip = Tooltip::for_enabled(&response);
+    if let Some((beside, align)) = place(ui.clip_rect(), ui.ctx().content_rect(), response.rect) {
+        tooltip.popup = tooltip.popup.anchor(beside).align(align).gap(8.0);
+    }
+    tooltip.show(contents);
+    response
+}
+
+/// Where the tooltip of a control at `rect` goes, if its panel is at the left or right edge of the window.
+fn place(panel: Rect, window: Rect, rect: Rect) -> Option<(Rect, RectAlign)> {
+    let at_right = panel.right() > window.right() - EDGE && panel.left() > window.center().x;
+    let at_left = panel.left() < window.left() + EDGE && panel.right() < window.center().x;
+    let row = |x: f32| Rect::from_min_max(pos2(x, rect.top()), pos2(x, rect.bottom()));
+    match (at_left, at_right) {
+        (false, true) => Some((row(panel.left()), RectAlign::LEFT_START)),
+        (true, false) => Some((row(panel.right()), RectAlign::RIGHT_START)),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tooltips_are_beside_the_panel_and_not_over_it() {
+        let window = Rect::from_min_max(pos2(0.0, 0.0), pos2(1000.0, 600.0));
+        let panel = Rect::from_min_max(pos2(680.0, 36.0), pos2(1000.0, 570.0));
+        let control = Rect::from_min_max(pos2(700.0, 100.0), pos2(980.0, 124.0));
+        let (beside, align) = place(panel, window, control).unwrap();
+        assert_eq!((beside.left(), align), (680.0, RectAlign::LEFT_START));
+        let strip = Rect::from_min_max(pos2(0.0, 36.0), pos2(52.0, 570.0));
+        let (beside, align) = place(strip, window, control).unwrap();
+        assert_eq!((beside.left(), align), (52.0, RectAlign::RIGHT_START));
+        assert!(place(window, window, control).is_none());
+    }
+
+    #[test]
+    fn every_sentence_ends_with_a_full_stop_and_every_name_occurs_once() {
+        for (number, (name, text)) in SENTENCES.iter().enumerate() {
+            assert!(text.ends_with('.'), "{name}: {text}");
+            assert!(SENTENCES[..number].iter().all(|(other, _)| other != name), "{name}");
+        }
+    }
+}
