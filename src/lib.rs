@@ -75,7 +75,9 @@ pub use mesh::{
 // Read and write files.
 pub use colormap::{Colormap, Ground, LevelColors};
 pub use io::{Cancelled, MeshData, MeshFormat, MeshSource, Meter, NodeValues, Provenance, ReadError};
-pub use mesh::{BoundaryEdge, Cell, Extract, MeshEdge, MeshPatch, MeshView, PatchPieces, PatchTriangle};
+pub use mesh::{
+    BoundaryEdge, Cell, Extract, MeshEdge, MeshPatch, MeshStatistics, MeshView, PatchPieces, PatchTriangle,
+};
 pub use outline::{DerivedMesh, DerivedViolation, OutlineFit};
 pub use render::Image;
 pub use render::export::{ExportFormat, LARGEST_PICTURE, Look, UnknownEnding};

@@ -348,6 +348,9 @@ fn pieces_of_the_boundary_have_names() {
         summary["part_triangles"].as_array().unwrap().iter().map(|count| count.as_u64().unwrap()).collect();
     assert_eq!(parts.iter().sum::<u64>(), summary["triangles"].as_u64().unwrap());
     assert_eq!(parts.len(), 3);
+    let [shortest, longest, ratio] = ["shortest_edge", "longest_edge", "size_ratio"]
+        .map(|name| summary["statistics"][name].as_f64().unwrap());
+    assert!(0.0 < shortest && shortest < longest && longest < 2.0 && (1.0..4.0).contains(&ratio));
     let file = folder.read("m.msh");
     assert!(file.contains("\n1 5 \"Forest 'A' island 1\"\n2 1 \"domain\"\n$EndPhysicalNames\n"), "{file}");
     assert!(file.contains(

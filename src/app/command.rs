@@ -97,6 +97,10 @@ pub enum Command {
     GoTo(DVec2),
     /// Puts a triangle in the middle of the canvas, large enough to be seen, and queries it.
     GoToTriangle(TriangleId),
+    /// Computes the figures of the mesh.
+    Measure,
+    /// Copies a text to the clipboard.
+    Copy(String),
     /// Chooses what the inspector interpolates.
     Inspect(Quantity),
 

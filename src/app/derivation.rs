@@ -76,6 +76,11 @@ impl Derived {
         self.extract.view()
     }
 
+    /// Nodes and triangles, for work on another thread.
+    pub fn shared_extract(&self) -> Arc<Extract<'static>> {
+        self.extract.clone()
+    }
+
     /// Finds a point, given where the mesh of the follower finds it.
     pub fn locate(&self, point: DVec2, in_mesh: Location) -> Location {
         self.locator.locate(&self.extract, point, in_mesh)

@@ -148,11 +148,12 @@ impl App {
         let follows = self.session.follow(deadline);
         let derives = self.session.advance_derivation(patience, ctx);
         let finds = self.tools.tool.finds_boundary && self.session.find_boundary(patience, ctx);
+        let measures = self.session.take_figures(patience);
         let bounds = self.session.document().settings().domain.bounds;
         let plan = self.canvas.planned_stroke(ctx, &self.tools, bounds).filter(|_| !self.asks_something());
         let prices = self.session.price_stroke(plan, deadline);
         self.canvas.note_work(&self.session);
-        if cuts || follows || derives || finds || prices {
+        if cuts || follows || derives || finds || measures || prices {
             ctx.request_repaint();
         }
     }

@@ -21,12 +21,14 @@ mod frame;
 mod help;
 mod journal;
 mod keys;
+mod latest;
 mod notices;
 mod panels;
 mod project;
 pub mod readout;
 mod screenshots;
 pub mod session;
+mod statistics;
 #[cfg(test)]
 mod tests;
 pub mod theme;
@@ -61,8 +63,7 @@ const APP_ID: &str = "meshbrush";
 /// Key of the theme in the window's own storage.
 const THEME_KEY: &str = "theme";
 /// What "the report" is, wherever a person meets it.
-const REPORT: &str = "J. R. Looker, Mesh Generation via Local Bisection Refinement of Triangulated Grids, DSTO-TR-3095, \
-                      Defence Science and Technology Organisation, Australia, 2015";
+const REPORT: &str = "Mesh Generation via Local Bisection Refinement of Triangulated Grids";
 /// Initial size of the window, in points.
 const WINDOW_SIZE: [f32; 2] = [1440.0, 900.0];
 /// Size below which the panels no longer fit, in points.

@@ -11,6 +11,7 @@ use super::cuts::CutQueue;
 use super::derivation::{Derivation, Derived, PiecesChange};
 use super::notices::{self, Notices};
 use super::readout::{Quantity, Readout};
+use super::statistics::{Measured, Statistician};
 use crate::build::BuildError;
 use crate::document::{Document, Follower, MeshChange, Pricer, Setting, Stage};
 use crate::domain::{BoundaryMarks, BoundaryPieces, CutShape};
@@ -42,6 +43,7 @@ pub struct Session {
     last_update: Option<Duration>,
     derivation: Derivation,
     boundary: BoundaryFinder,
+    statistician: Statistician,
     /// What became of the follower's mesh since the canvas last asked.
     mesh_change: Option<MeshChange>,
 }
@@ -65,6 +67,7 @@ impl Session {
             last_update: Some(began.elapsed()),
             derivation: Derivation::default(),
             boundary: BoundaryFinder::default(),
+            statistician: Statistician::default(),
             mesh_change: None,
         })
     }
@@ -148,6 +151,27 @@ impl Session {
     /// found.
     pub fn find_boundary(&mut self, patience: Duration, ctx: &Context) -> bool {
         self.boundary.advance(&self.document, &self.follower, patience, ctx)
+    }
+
+    /// The figures of the mesh that were computed last, and whether they are those of the mesh as it is.
+    pub fn figures(&self) -> Option<(&Measured, bool)> {
+        self.statistician.figures(&self.follower, &self.derivation)
+    }
+
+    /// Whether [`Self::measure`] would compute figures.
+    pub fn is_measuring_due(&self) -> bool {
+        self.statistician.is_due(&self.document, &self.follower, &self.derivation)
+    }
+
+    /// Computes the figures of the mesh on another thread.
+    pub fn measure(&mut self, ctx: &Context) {
+        self.statistician.measure(&self.document, &self.follower, &self.derivation, ctx);
+    }
+
+    /// Takes the figures that are ready, waiting for them up to `patience`. Returns whether some are being
+    /// computed.
+    pub fn take_figures(&mut self, patience: Duration) -> bool {
+        self.statistician.take(patience)
     }
 
     /// What a change makes of the names and splits of the boundary.

@@ -7,7 +7,7 @@ use super::build::FinishedMesh;
 use super::details::{LostIsland, MeshDetails, PieceSummary};
 use crate::domain::{FitQuality, MeshBoundary, Region};
 use crate::field::RefinementRule;
-use crate::mesh::{Extract, Removed, RemovedPart, Topology};
+use crate::mesh::{Extract, MeshStatistics, Removed, RemovedPart, Topology};
 use crate::outline::OutlineFit;
 use crate::text::{Grouped, LengthUnit};
 
@@ -41,6 +41,8 @@ pub struct Summary {
     pub boundary: Option<Vec<PieceSummary>>,
     /// Triangles of each edge-connected part, the largest first.
     pub part_triangles: Option<Vec<usize>>,
+    /// Edges, areas, angles and gradation.
+    pub statistics: Option<MeshStatistics>,
     /// Side δ of a coarse cell, in world units.
     pub spacing: f64,
     /// "vertex" or "area".
@@ -267,6 +269,7 @@ impl Summary {
             outline: region.map(|region| Outline::of(finished, extract, region, boundary)),
             boundary: boundary.map(PieceSummary::of_all),
             part_triangles: details.map(MeshDetails::part_triangles),
+            statistics: details.and_then(|_| extract.statistics()),
             max_level: levels.len() - 1,
             hash: mesh.fingerprint().to_string(),
             seconds: finished.refinement.as_secs_f64(),

@@ -129,7 +129,8 @@ impl Region {
         let grid = Grid::over(&self.frame);
         let operation = OverlayOperation(rule, fill);
         let area = grid.region(overlay(&grid.contours_of(self), &grid.contours(rings), operation)).area;
-        area.max(0.0) // the empty sum is -0
+        // The empty sum is -0, and `max` may return either zero.
+        if area > 0.0 { area } else { 0.0 }
     }
 
     /// The area covered, in square world units.

@@ -25,7 +25,9 @@ mod kernel;
 mod extract;
 mod query;
 
-pub use extract::{BoundaryEdge, Cell, Extract, MeshEdge, MeshPatch, MeshView, PatchPieces, PatchTriangle};
+pub use extract::{
+    BoundaryEdge, Cell, Extract, MeshEdge, MeshPatch, MeshStatistics, MeshView, PatchPieces, PatchTriangle,
+};
 pub use kernel::{
     Changes, CoarseError, Element, InvalidTarget, Limits, MOST_TRIANGLES, MemoryLimit, Mesh, MeshCopy,
     Neighbour, NodeId, Orientation, Progress, RefineError, Refiner, Triangle, TriangleId, Updater,

@@ -183,7 +183,7 @@ fn about(ctx: &Context, commands: &mut Vec<Command>) {
              Maubach's method: always conforming, always right-angled.",
         );
         ui.add_space(8.0);
-        ui.label(format!("The report that the method is from: {REPORT}."));
+        ui.label(format!("The report that the method is from: “{REPORT}”."));
         ui.add_space(8.0);
         ui.add(ActionButton::new("Close")).clicked()
     });

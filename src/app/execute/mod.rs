@@ -45,6 +45,8 @@ impl App {
             Command::Tell(news) => self.session.notices_mut().tell(news),
             Command::ShowHelp(topic) => self.help = Some(topic),
             Command::CloseHelp => self.help = None,
+            Command::Measure => self.session.measure(ctx),
+            Command::Copy(text) => self.copy(text, ctx),
             Command::Query(point) => self.query(point),
             Command::QueryTriangle(id) => self.query_triangle(id),
             Command::AskPlace => self.dialogs.open(Dialog::GoTo),
@@ -82,6 +84,11 @@ impl App {
             self.session.query(None);
             self.session.notices_mut().dismiss();
         }
+    }
+
+    fn copy(&mut self, text: String, ctx: &Context) {
+        self.session.tell(format!("Copied: {text}"));
+        ctx.copy_text(text);
     }
 
     fn query(&mut self, point: DVec2) {

@@ -14,6 +14,7 @@ mod formula;
 mod inspector;
 mod levels;
 mod mesh;
+mod statistics;
 mod status;
 mod transfer;
 mod view;
@@ -43,13 +44,14 @@ pub struct Panel {
 }
 
 /// All sections of the side panel, from the top. Those of the selected tool move to the top.
-pub static PANELS: [&Panel; 11] = [
+pub static PANELS: [&Panel; 12] = [
     &BRUSH,
     &transfer::TRANSFER,
     &levels::LEVELS,
     &INSPECTOR,
     &field::FIELD,
     &mesh::MESH,
+    &statistics::STATISTICS,
     &DOMAIN,
     &BOUNDARY,
     &fit::FIT,

@@ -80,5 +80,5 @@ fn the_menu_names_the_gestures_of_painting_and_says_how_they_are_made() {
 fn about_names_the_report() {
     let mut window = window();
     choose(&mut window, "Help", "About Meshbrush");
-    assert!(window.query_by_label_contains("DSTO-TR-3095").is_some());
+    assert!(window.query_by_label_contains("Local Bisection Refinement of Triangulated Grids").is_some());
 }

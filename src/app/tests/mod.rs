@@ -26,6 +26,7 @@ mod polygon;
 mod project;
 mod query;
 mod settings;
+mod statistics;
 mod unit;
 mod tips;
 mod view;
@@ -48,6 +49,7 @@ use crate::app::command::{Command, Opened};
 use crate::app::session::Session;
 use crate::app::tools::Tools;
 use crate::app::view::View;
+use crate::app::widgets::format;
 use crate::document::{Document, Setting, Settings};
 use crate::mesh::{Fingerprint, TriangleId};
 

@@ -43,7 +43,7 @@ static SENTENCES: [(&str, &str); 65] = [
     ("Refinement rule/Area rule", "A triangle obeys h̄ everywhere inside it."),
     (
         "Refinement rule/Vertex rule",
-        "A triangle obeys h̄ at its three corners only: Eq. (12) of the report, DSTO-TR-3095 by J. R. Looker.",
+        "A triangle obeys h̄ at its three corners only: Eq. (12) of the report “Mesh Generation via Local Bisection Refinement of Triangulated Grids”.",
     ),
     ("What cuts the domain/Brush", "Cuts the domain with a round brush."),
     ("What cuts the domain/Rectangle", "Cuts the domain with a rectangle that you drag."),
@@ -61,7 +61,7 @@ static SENTENCES: [(&str, &str); 65] = [
     ),
     (
         "Boundary treatment/As in report",
-        "Keeps coarse triangles with three corners inside: Appendix A of the report, DSTO-TR-3095 by J. R. Looker.",
+        "Keeps coarse triangles with three corners inside: Appendix A of the report “Mesh Generation via Local Bisection Refinement of Triangulated Grids”.",
     ),
     ("Parts that stay/Largest part", "Only the largest connected part of the mesh stays."),
     ("Parts that stay/Large parts", "Connected parts with at least a given share of the area stay."),

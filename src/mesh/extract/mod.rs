@@ -5,9 +5,11 @@ mod extract;
 mod boundary;
 mod patch;
 mod pieces;
+mod statistics;
 mod view;
 
 pub use extract::{BoundaryEdge, Cell, Extract, MeshEdge};
 pub use patch::{MeshPatch, PatchTriangle};
 pub use pieces::PatchPieces;
+pub use statistics::MeshStatistics;
 pub use view::MeshView;

@@ -78,6 +78,13 @@ impl Extract<'_> {
         order.iter().zip(0..).for_each(|(&number, rank)| ranks[number] = rank);
         numbers.iter().map(|&number| ranks[number as usize]).collect()
     }
+
+    /// The number of triangles of each part, in the order of [`Self::part_numbers`].
+    pub fn part_sizes(&self) -> Vec<usize> {
+        let Parts { mut parts, .. } = Parts::new(self, &vec![false; self.triangles().len()]);
+        parts.sort_unstable_by_key(|&part| Reverse(part));
+        parts.iter().map(|part| part.triangles).collect()
+    }
 }
 
 /// Three times the centroid in lattice coordinates, y first: no two triangles of a mesh share it.

@@ -1,0 +1,143 @@
+//! The figures by which people judge a mesh.
+
+use eframe::egui::Ui;
+use glam::DVec2;
+
+use super::Panel;
+use crate::app::command::Command;
+use crate::app::frame::FrameState;
+use crate::app::statistics::Measured;
+use crate::app::widgets::{Section, ValueRow, format, value_row};
+use crate::mesh::MeshStatistics;
+
+/// Connected parts with a row of their own.
+const MOST_PARTS: usize = 5;
+
+/// Edges, areas, angles, gradation, parts, whether h̄ is honoured, and the fingerprint.
+pub static STATISTICS: Panel = Panel { name: "statistics", only_with_tool: false, show };
+
+fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
+    Section::new("Statistics").closed().show(ui, |ui| {
+        let figures = state.session.figures();
+        let is_current = figures.is_some_and(|(_, is_current)| is_current);
+        if state.session.is_measuring_due() {
+            // They are computed only while the section is open.
+            commands.push(Command::Measure);
+        }
+        let Some((measured, _)) = figures else {
+            value_row(ui, "Mesh", "being measured");
+            return;
+        };
+        // The figures of the former mesh stay until those of the new one are known: nothing jumps.
+        ui.scope(|ui| {
+            if !is_current {
+                ui.set_opacity(0.5);
+            }
+            count_rows(ui, measured);
+            if let Some(statistics) = &measured.statistics {
+                edge_rows(ui, statistics, state, commands);
+                shape_rows(ui, statistics, measured, state, commands);
+            }
+            target_row(ui, measured, state, commands);
+            fingerprint_row(ui, measured, commands);
+        });
+    });
+}
+
+fn count(number: usize) -> String {
+    format::count(number as u64)
+}
+
+fn count_rows(ui: &mut Ui, measured: &Measured) {
+    let triangles = measured.part_sizes.iter().sum();
+    value_row(ui, "Triangles", &count(triangles)).on_hover_text("Triangles of the mesh, as files get it.");
+    value_row(ui, "Nodes", &count(measured.nodes)).on_hover_text("Nodes of the mesh, as files get it.");
+    let parts = &measured.part_sizes;
+    if parts.len() < 2 {
+        return;
+    }
+    for (number, &size) in parts.iter().enumerate().take(MOST_PARTS) {
+        value_row(ui, &format!("Part {}", number + 1), &count(size))
+            .on_hover_text("Triangles of a connected part. The first has the largest area.");
+    }
+    if let Some(rest) = parts.get(MOST_PARTS..).filter(|rest| !rest.is_empty()) {
+        let label = format!("{} smaller parts", rest.len());
+        value_row(ui, &label, &count(rest.iter().sum())).on_hover_text("Triangles of all other parts.");
+    }
+}
+
+fn edge_rows(ui: &mut Ui, statistics: &MeshStatistics, state: &FrameState<'_>, commands: &mut Vec<Command>) {
+    let length = |value| format::length(value, state.unit());
+    let shortest = length(statistics.shortest_edge);
+    place_row(ui, "Shortest edge", &shortest, statistics.shortest_edge_at, commands);
+    let longest = length(statistics.longest_edge);
+    place_row(ui, "Longest edge", &longest, statistics.longest_edge_at, commands);
+}
+
+fn shape_rows(
+    ui: &mut Ui,
+    statistics: &MeshStatistics,
+    measured: &Measured,
+    state: &FrameState<'_>,
+    commands: &mut Vec<Command>,
+) {
+    let symbol = state.unit().symbol();
+    let square = if symbol.is_empty() { String::new() } else { format!("{symbol}²") };
+    value_row(ui, "Area", &format::with_unit(&format::digits(measured.area, 6), &square))
+        .on_hover_text("Area of all triangles.");
+    let angles = [statistics.smallest_angle, statistics.largest_angle].map(|angle| format::fixed(angle, 1));
+    value_row(ui, "Angles", &format!("{}° to {}°", angles[0], angles[1]))
+        .on_hover_text("The smallest and the largest angle of all triangles.");
+    let ratio = format!("× {}", format::fixed(statistics.size_ratio, 2));
+    place_row(ui, "Gradation", &ratio, statistics.size_ratio_at, commands);
+}
+
+/// Whether the mesh honours h̄: Eq. (14) of the report.
+fn target_row(ui: &mut Ui, measured: &Measured, state: &FrameState<'_>, commands: &mut Vec<Command>) {
+    let label = "h̄ honoured";
+    match measured.too_coarse.as_deref() {
+        Some([]) => {
+            value_row(ui, label, "everywhere").on_hover_text(
+                "No triangle is longer than h̄ asks for by the refinement rule. Nodes that move onto an outline \
+                 afterwards can lengthen their triangles a little.",
+            );
+        }
+        Some(too_coarse @ [first, ..]) => {
+            let value = format!("not in {} triangles", count(too_coarse.len()));
+            let mesh = state.session.mesh().view();
+            let Some(place) =
+                mesh.get(*first).map(|_| mesh.world_corners(*first).iter().sum::<DVec2>() / 3.0)
+            else {
+                return;
+            };
+            place_row(ui, label, &value, place, commands);
+        }
+        None => {
+            value_row(ui, label, "h̄ is no length somewhere");
+        }
+    }
+}
+
+fn fingerprint_row(ui: &mut Ui, measured: &Measured, commands: &mut Vec<Command>) {
+    let row = ValueRow::new("Fingerprint", &measured.fingerprint).link().show(ui);
+    let row = row.on_hover_text(
+        "Equal for equal meshes; the command line prints it as “hash”. A click copies it to the clipboard.",
+    );
+    if row.clicked() {
+        commands.push(Command::Copy(measured.fingerprint.clone()));
+    }
+}
+
+/// A row whose click goes to a place.
+fn place_row(ui: &mut Ui, label: &str, value: &str, place: DVec2, commands: &mut Vec<Command>) {
+    let help = match label {
+        "Gradation" => {
+            "The largest ratio of the diameters of two neighbouring triangles. A click goes there."
+        }
+        "h̄ honoured" => "Triangles that are longer than h̄ asks for. A click goes to the first of them.",
+        _ => "A click goes to this edge.",
+    };
+    if ValueRow::new(label, value).link().show(ui).on_hover_text(help).clicked() {
+        commands.push(Command::LookAt(place));
+    }
+}

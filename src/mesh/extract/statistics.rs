@@ -1,0 +1,160 @@
+use glam::DVec2;
+use serde::Serialize;
+
+use super::Extract;
+use crate::mesh::kernel::{NodeId, Triangle};
+
+/// The figures of a mesh by which people judge it. Lengths and areas are in world units, angles in degrees.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct MeshStatistics {
+    /// Length of the shortest edge.
+    pub shortest_edge: f64,
+    /// Middle of the shortest edge.
+    #[serde(skip)]
+    pub shortest_edge_at: DVec2,
+    /// Length of the longest edge.
+    pub longest_edge: f64,
+    /// Middle of the longest edge.
+    #[serde(skip)]
+    pub longest_edge_at: DVec2,
+    /// Area of the smallest triangle.
+    pub smallest_area: f64,
+    /// Area of the largest triangle.
+    pub largest_area: f64,
+    /// The smallest angle.
+    pub smallest_angle: f64,
+    /// The largest angle.
+    pub largest_angle: f64,
+    /// Gradation: the largest ratio of the diameters of two triangles that share an edge, at least 1.
+    pub size_ratio: f64,
+    /// Middle of the edge between these two triangles.
+    #[serde(skip)]
+    pub size_ratio_at: DVec2,
+}
+
+impl Extract<'_> {
+    /// The figures of all triangles; `None` without triangles.
+    pub fn statistics(&self) -> Option<MeshStatistics> {
+        let mut extremes = Extremes::default();
+        for triangle in self.triangles() {
+            extremes.note_edges(self, triangle);
+            extremes.note_ratios(self, triangle);
+        }
+        let (shortest, longest) = (extremes.shortest?, extremes.longest?);
+        let [smallest_angle, largest_angle] = self.angle_range();
+        let [smallest_area, largest_area] = extremes.areas?;
+        let (size_ratio, size_ratio_at) = extremes.ratio.unwrap_or((1.0, longest.1));
+        Some(MeshStatistics {
+            shortest_edge: shortest.0,
+            shortest_edge_at: shortest.1,
+            longest_edge: longest.0,
+            longest_edge_at: longest.1,
+            smallest_area,
+            largest_area,
+            smallest_angle,
+            largest_angle,
+            size_ratio,
+            size_ratio_at,
+        })
+    }
+
+    /// World coordinates of the ends of each edge of a triangle.
+    fn edge_ends(&self, triangle: &Triangle) -> [[DVec2; 2]; 3] {
+        triangle.edge_nodes().map(|(from, to)| [self.world(from), self.world(to)])
+    }
+
+    /// The longest edge of a triangle, in world units.
+    fn diameter_of(&self, triangle: &Triangle) -> f64 {
+        self.edge_ends(triangle).map(|[from, to]| from.distance(to)).into_iter().fold(0.0, f64::max)
+    }
+}
+
+/// A length or a ratio, and where it was found.
+type Placed = (f64, DVec2);
+
+#[derive(Default)]
+struct Extremes {
+    shortest: Option<Placed>,
+    longest: Option<Placed>,
+    ratio: Option<Placed>,
+    areas: Option<[f64; 2]>,
+}
+
+impl Extremes {
+    fn note_edges(&mut self, extract: &Extract, triangle: &Triangle) {
+        let ends = extract.edge_ends(triangle);
+        for [from, to] in ends {
+            let edge = (from.distance(to), 0.5 * (from + to));
+            if self.shortest.is_none_or(|shortest| edge.0 < shortest.0) {
+                self.shortest = Some(edge);
+            }
+            if self.longest.is_none_or(|longest| edge.0 > longest.0) {
+                self.longest = Some(edge);
+            }
+        }
+        let [[a, b], [_, c], _] = ends;
+        let area = 0.5 * (b - a).perp_dot(c - a).abs();
+        let [low, high] = self.areas.unwrap_or([area; 2]);
+        self.areas = Some([low.min(area), high.max(area)]);
+    }
+
+    /// Compares a triangle with its neighbours that are not larger.
+    fn note_ratios(&mut self, extract: &Extract, triangle: &Triangle) {
+        let diameter = extract.diameter_of(triangle);
+        for ((from, to), across) in triangle.edge_nodes().into_iter().zip(triangle.raw_neighbours) {
+            let Some(neighbour) = across.triangle() else { continue };
+            let ratio = diameter / extract.diameter_of(&extract.triangles()[neighbour.index()]);
+            if ratio >= 1.0 && self.ratio.is_none_or(|largest| ratio > largest.0) {
+                self.ratio = Some((ratio, middle(extract, from, to)));
+            }
+        }
+    }
+}
+
+fn middle(extract: &Extract, from: NodeId, to: NodeId) -> DVec2 {
+    0.5 * (extract.world(from) + extract.world(to))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::{Lattice, Rect};
+    use crate::mesh::{Limits, Mesh};
+
+    fn unit_square() -> Mesh {
+        let lattice = Lattice::covering(Rect::UNIT, 0.5, 1_000_000).unwrap();
+        Mesh::coarse_grid(&lattice, |_| true, &Limits::default()).unwrap()
+    }
+
+    fn near(a: f64, b: f64) -> bool {
+        (a - b).abs() < 1e-12
+    }
+
+    #[test]
+    fn a_coarse_grid_has_one_size() {
+        let mesh = unit_square();
+        let statistics = mesh.extract().statistics().unwrap();
+        assert!(near(statistics.shortest_edge, 0.5) && near(statistics.longest_edge, 0.5_f64.sqrt()));
+        assert!(near(statistics.smallest_area, 0.125) && near(statistics.largest_area, 0.125));
+        assert!(near(statistics.size_ratio, 1.0));
+        assert!((statistics.smallest_angle - 45.0).abs() < 1e-6);
+        assert!((statistics.largest_angle - 90.0).abs() < 1e-6);
+    }
+
+    #[test]
+    fn a_refined_corner_shows_in_the_extremes_and_their_places() {
+        let mut mesh = unit_square();
+        let corner = DVec2::ZERO;
+        let contains = |corners: [DVec2; 3]| corners.contains(&corner);
+        let rule = |element: &crate::mesh::Element| {
+            Ok(element.triangle.level() < 8 && contains(element.world_corners()))
+        };
+        mesh.refine(&Limits::default(), rule).unwrap();
+        let statistics = mesh.extract().statistics().unwrap();
+        assert!(near(statistics.shortest_edge, 0.5 / 16.0), "{}", statistics.shortest_edge);
+        assert!(statistics.shortest_edge_at.length() < 0.1);
+        assert!(near(statistics.longest_edge, 0.5_f64.sqrt()) && statistics.longest_edge_at.length() > 0.3);
+        assert!(near(statistics.size_ratio, 2.0_f64.sqrt()), "neighbours differ by one level at most");
+        assert!(near(statistics.largest_area / statistics.smallest_area, 256.0));
+    }
+}
