@@ -15,7 +15,7 @@ use super::view::{CanvasAid, FieldOverlay};
 use super::widgets::Answer;
 use crate::colormap::Colormap;
 use crate::document::{Document, Example, Setting};
-use crate::domain::CutShape;
+use crate::domain::{CutShape, Domain};
 use crate::geometry::Rect;
 use crate::mesh::TriangleId;
 
@@ -32,12 +32,16 @@ pub enum Command {
     Open(PathBuf),
     /// Reads a project, and opens it in place of the document.
     OpenProject(PathBuf),
-    /// Reads a greyscale picture as the base field's risk.
+    /// Reads a greyscale picture, or a grid of its own placement, as the base field's risk.
     OpenImage(PathBuf),
     /// Reads a picture to be shown behind the mesh.
     OpenBackground(PathBuf),
     /// Reads polygons, and opens a new document with them as its domain.
     OpenDomain(PathBuf),
+    /// Reads polygons, and adds them to the domain of the document.
+    AddOutline(PathBuf),
+    /// Adds an outline that was read.
+    SetOutline(Box<OutlineChange>),
     /// Opens a document that was read.
     Show(Opened),
     /// Saves the document to its file, or asks where.
@@ -208,6 +212,17 @@ pub enum BrushCommand {
     PenEffect(PenEffect),
     /// Notes the pressure of the pen, 0 to 1, or that it was lifted.
     Pen(Option<f64>),
+}
+
+/// An outline that was read for a domain.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OutlineChange {
+    /// Name of the file.
+    pub name: String,
+    /// The domain that it was added to.
+    pub before: Domain,
+    /// The change of the document.
+    pub setting: Setting,
 }
 
 /// What the boundary tool does.

@@ -7,11 +7,11 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::background::{Aim, Background, Outcome, cancelled, name_of};
-use super::command::{Command, Opened};
+use super::command::{Command, Opened, OutlineChange};
 use super::session::Session;
 use super::view::View;
 use super::widgets::format;
-use crate::document::{self, Base, Document, Example, Setting, Settings};
+use crate::document::{self, Base, Document, Example, Setting, Settings, extent};
 use crate::domain::{BoundaryMarks, MeshBoundary, NamedPolygon};
 use crate::geometry::Rect;
 use crate::io::png::{Behind, decode};
@@ -57,15 +57,13 @@ pub fn example(example: Example) -> Document {
 pub fn load_image(session: &Session, background: &mut Background, path: &Path) {
     let bounds = session.document().settings().domain.bounds;
     let file = path.to_owned();
-    background.start(Aim::Read, path, move |meter| {
-        match io::png::read_metered(&file, bounds, Behind::Black, meter) {
-            Ok(raster) => {
-                let base = Base::RiskImage { name: name_of(&file), raster: Arc::new(raster) };
-                let commands = vec![Command::Set(Setting::Base(base)), Command::EndGesture];
-                Outcome::Read { path: file, commands }
-            }
-            Err(error) => Outcome::not_read(error),
+    background.start(Aim::Read, path, move |meter| match risk_of(&file, bounds, meter) {
+        Ok(raster) => {
+            let base = Base::RiskImage { name: name_of(&file), raster: Arc::new(raster) };
+            let commands = vec![Command::Set(Setting::Base(base)), Command::EndGesture];
+            Outcome::Read { path: file, commands }
         }
+        Err(problem) => Outcome::NotRead(problem),
     });
 }
 
@@ -91,6 +89,38 @@ pub fn load_background(session: &Session, background: &mut Background, path: &Pa
     });
 }
 
+/// Risks by pixel: a picture over `bounds`, or a grid, which has a placement of its own.
+fn risk_of(path: &Path, bounds: Rect, meter: &Meter) -> Result<Raster, String> {
+    if !path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("asc")) {
+        let picture = io::png::read_metered(path, bounds, Behind::Black, meter);
+        return picture.map_err(|error| error.to_string());
+    }
+    let grid = io::asc::read(path).map_err(|error| error.to_string())?;
+    let file = path.display();
+    if grid.bounds().intersection(&bounds).is_none_or(|common| !common.is_proper()) {
+        let (grid, document) = (extent(&grid.bounds()), extent(&bounds));
+        return Err(format!(
+            "{file}: the grid lies outside this document: it covers {grid}, and the document {document}. Set the bounds in \
+             the Domain panel first."
+        ));
+    }
+    if let Some((x, y)) = grid.all().pixels().find(|&(x, y)| !is_risk(grid.get(x, y))) {
+        let (value, at) = (grid.get(x, y), grid.pixel_center(x, y));
+        return Err(format!(
+            "{file}: the risk is {value} at x = {}, y = {}; it must lie from 0 to 1. Scale the values first. The command \
+             line takes target diameters with --target-raster.",
+            at.x, at.y
+        ));
+    }
+    let values = grid.values().iter().map(|&risk| if risk.is_nan() { 0.0 } else { risk }).collect();
+    Ok(Raster::from_values(grid.bounds(), grid.size(), values))
+}
+
+/// Whether a pixel of a grid is a risk, or has no value.
+fn is_risk(value: f32) -> bool {
+    value.is_nan() || (0.0..=1.0).contains(&value)
+}
+
 /// Reads polygons, and opens a document with them as its domain.
 pub fn load_domain(background: &mut Background, path: &Path) {
     let file = path.to_owned();
@@ -100,6 +130,24 @@ pub fn load_domain(background: &mut Background, path: &Path) {
             Outcome::Read { path: file, commands: vec![Command::Show(opened)] }
         }
         Err(problem) => Outcome::NotRead(problem),
+    });
+}
+
+/// Reads polygons, and adds them to the domain of the document.
+pub fn load_outline(session: &Session, background: &mut Background, path: &Path) {
+    let (file, settings) = (path.to_owned(), session.document().settings().clone());
+    background.start(Aim::Read, path, move |meter| {
+        let polygons = match io::geojson::read_named_metered(&file, meter) {
+            Ok(polygons) => polygons,
+            Err(error) => return Outcome::not_read(error),
+        };
+        match settings.with_outline(&polygons) {
+            Ok(setting) => {
+                let change = OutlineChange { name: name_of(&file), before: settings.domain, setting };
+                Outcome::Read { path: file, commands: vec![Command::SetOutline(Box::new(change))] }
+            }
+            Err(error) => Outcome::NotRead(format!("{}: {error}", file.display())),
+        }
     });
 }
 

@@ -351,10 +351,10 @@ pub fn open_command(path: PathBuf) -> Result<Command, String> {
     let ending = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
     match ending.as_str() {
         ENDING => Ok(Command::OpenProject(path)),
-        "png" => Ok(Command::OpenImage(path)),
+        "png" | "asc" => Ok(Command::OpenImage(path)),
         "geojson" | "json" => Ok(Command::OpenDomain(path)),
         _ => Err(format!(
-            "{} cannot be opened: a project ends in .{ENDING}, a domain of polygons in .geojson, a greyscale picture of risk in .png.",
+            "{} cannot be opened: a project ends in .{ENDING}, a domain of polygons in .geojson, a greyscale picture of risk in .png, a grid of risk in .asc.",
             path.display()
         )),
     }

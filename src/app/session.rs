@@ -34,6 +34,7 @@ pub struct ShownChange {
 /// A document and its mesh in the window.
 pub struct Session {
     document: Document,
+    opened_documents: u64,
     follower: Follower,
     pricer: Pricer,
     cuts: CutQueue,
@@ -58,6 +59,7 @@ impl Session {
         let follower = Follower::new(&mut document)?;
         Ok(Self {
             document,
+            opened_documents: 0,
             follower,
             pricer: Pricer::default(),
             cuts: CutQueue::default(),
@@ -75,6 +77,11 @@ impl Session {
     /// The document.
     pub fn document(&self) -> &Document {
         &self.document
+    }
+
+    /// How many documents were opened in place of the first one: tells documents apart.
+    pub fn opened_documents(&self) -> u64 {
+        self.opened_documents
     }
 
     /// The document, to be edited.
@@ -314,6 +321,7 @@ impl Session {
     pub fn replace_document(&mut self, document: Document) {
         self.cuts.discard(&mut self.document);
         self.document.replace_with(document);
+        self.opened_documents += 1;
         self.queried = None;
         self.notices.dismiss();
     }

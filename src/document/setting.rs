@@ -34,6 +34,15 @@ pub enum Setting {
     Bounds(Rect),
     /// The whole domain.
     Domain(Domain),
+    /// Another outline, with what depends on it: see [`Settings::with_outline`].
+    Outline {
+        /// The domain.
+        domain: Domain,
+        /// The names of its boundary.
+        boundary_marks: Arc<BoundaryMarks>,
+        /// Pixels of the field along the longer side.
+        resolution: u32,
+    },
     /// How the mesh meets the boundary of the domain.
     Boundary(BoundaryTreatment),
     /// Which triangles of the domain stay in the derived mesh.
@@ -70,6 +79,7 @@ impl Setting {
             Self::MaxMemory(_) => "memory budget",
             Self::Bounds(_) => "domain",
             Self::Domain(_) => "domain shape",
+            Self::Outline { .. } => "outline",
             Self::Boundary(_) => "boundary",
             Self::Cleaning(_) => "cleaning",
             Self::BoundaryMarks(_) => "boundary names",
@@ -98,6 +108,10 @@ impl Setting {
             Self::MaxMemory(max_memory) => settings.max_memory = max_memory,
             Self::Bounds(bounds) => settings.domain = settings.domain.with_bounds(bounds),
             Self::Domain(domain) => settings.domain = domain,
+            Self::Outline { domain, boundary_marks, resolution } => {
+                (settings.domain, settings.resolution) = (domain, resolution);
+                settings.boundary_marks = boundary_marks;
+            }
             Self::Boundary(boundary) => settings.boundary = boundary,
             Self::Cleaning(cleaning) => settings.cleaning = cleaning,
             Self::BoundaryMarks(marks) => settings.boundary_marks = Arc::new(marks),

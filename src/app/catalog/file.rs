@@ -20,6 +20,7 @@ pub fn file(state: &FrameState<'_>) -> Vec<CatalogItem> {
         CatalogItem::new(File, "Open background picture…", Command::Ask(FileRequest::OpenBackground)),
         CatalogItem::new(File, "Open domain…", Command::Ask(FileRequest::OpenDomain))
             .keys(Modifiers::COMMAND | Modifiers::SHIFT, Key::O),
+        CatalogItem::new(File, "Add outline to this document…", Command::Ask(FileRequest::AddOutline)),
         CatalogItem::new(File, "Export mesh…", Command::Ask(FileRequest::Export)).ctrl(Key::E),
     ];
     for (i, path) in state.project.recent().iter().enumerate() {

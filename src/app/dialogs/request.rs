@@ -14,12 +14,14 @@ pub enum FileRequest {
     Open,
     /// To save the document.
     Save,
-    /// To open a picture as risk.
+    /// To open a picture or a grid as risk.
     OpenImage,
     /// To open a picture to trace.
     OpenBackground,
     /// To open polygons as a domain.
     OpenDomain,
+    /// To add polygons to the domain of the document.
+    AddOutline,
     /// To write the mesh.
     Export,
 }
@@ -33,6 +35,7 @@ impl FileRequest {
             Self::OpenImage => "Open picture as risk",
             Self::OpenBackground => "Open background picture",
             Self::OpenDomain => "Open domain",
+            Self::AddOutline => "Add outline to this document",
             Self::Export => "Export mesh",
         }
     }
@@ -41,6 +44,7 @@ impl FileRequest {
     pub fn verb(self) -> &'static str {
         match self {
             Self::Open | Self::OpenImage | Self::OpenBackground | Self::OpenDomain => "Open",
+            Self::AddOutline => "Add",
             Self::Save => "Save",
             Self::Export => "Export",
         }
@@ -49,10 +53,11 @@ impl FileRequest {
     /// The endings of the files that it is about, without the dot.
     pub fn endings(self) -> Vec<&'static str> {
         match self {
-            Self::Open => vec![ENDING, "geojson", "json", "png"],
+            Self::Open => vec![ENDING, "geojson", "json", "png", "asc"],
             Self::Save => vec![ENDING],
-            Self::OpenImage | Self::OpenBackground => vec!["png"],
-            Self::OpenDomain => vec!["geojson", "json"],
+            Self::OpenImage => vec!["png", "asc"],
+            Self::OpenBackground => vec!["png"],
+            Self::OpenDomain | Self::AddOutline => vec!["geojson", "json"],
             Self::Export => ExportFormat::endings().collect(),
         }
     }
@@ -60,10 +65,11 @@ impl FileRequest {
     /// What those files are, in the words of a filter.
     pub fn kinds(self) -> &'static str {
         match self {
-            Self::Open => "Projects, domains, pictures",
+            Self::Open => "Projects, domains, pictures, grids",
             Self::Save => "Projects",
-            Self::OpenImage | Self::OpenBackground => "Pictures",
-            Self::OpenDomain => "Polygons",
+            Self::OpenImage => "Pictures and grids",
+            Self::OpenBackground => "Pictures",
+            Self::OpenDomain | Self::AddOutline => "Polygons",
             Self::Export => "Meshes and pictures",
         }
     }
@@ -80,7 +86,7 @@ impl FileRequest {
             Self::Open | Self::Save => "projects",
             Self::OpenImage => "pictures",
             Self::OpenBackground => "backgrounds",
-            Self::OpenDomain => "domains",
+            Self::OpenDomain | Self::AddOutline => "domains",
             Self::Export => "exports",
         }
     }
@@ -97,7 +103,9 @@ impl FileRequest {
         match self {
             Self::Save => format!("{name}.{ENDING}"),
             Self::Export => format!("{name}.{}", format.ending()),
-            Self::Open | Self::OpenImage | Self::OpenBackground | Self::OpenDomain => String::new(),
+            Self::Open | Self::OpenImage | Self::OpenBackground | Self::OpenDomain | Self::AddOutline => {
+                String::new()
+            }
         }
     }
 
@@ -109,6 +117,7 @@ impl FileRequest {
             Self::OpenImage => Command::OpenImage(path),
             Self::OpenBackground => Command::OpenBackground(path),
             Self::OpenDomain => Command::OpenDomain(path),
+            Self::AddOutline => Command::AddOutline(path),
             Self::Export => Command::ExportAs(path),
         }
     }

@@ -6,7 +6,7 @@ use eframe::egui::{Context, ViewportCommand};
 
 use crate::app::App;
 use crate::app::background::{Aim, Outcome, WorkId};
-use crate::app::command::{Command, Opened};
+use crate::app::command::{Command, Opened, OutlineChange};
 use crate::app::dialogs::{Dialog, FileRequest};
 use crate::app::journal::JournalKeeper;
 use crate::app::{files, journal, project};
@@ -18,6 +18,8 @@ impl App {
         match command {
             Command::New => self.open(files::new_document()),
             Command::OpenExample(example) => self.open(files::example(example)),
+            Command::AddOutline(path) => files::load_outline(&self.session, &mut self.background, &path),
+            Command::SetOutline(change) => self.set_outline(*change),
             Command::Show(opened) => self.show_opened(opened),
             Command::Open(path) => match project::open_command(path) {
                 Ok(command) => self.send(command),
@@ -82,6 +84,25 @@ impl App {
     fn open(&mut self, document: Document) {
         self.show_document(document);
         self.project.belongs_to(None, self.session.document().version(), true);
+    }
+
+    fn set_outline(&mut self, change: OutlineChange) {
+        let OutlineChange { name, before, setting } = change;
+        let settings = self.session.document().settings();
+        if settings.domain != before || self.session.is_cutting() {
+            let problem = "was not added, as the domain was edited in the meantime. Add it again.";
+            return self.session.report(format!("{name} {problem}"));
+        }
+        self.session.end_gesture();
+        self.session.set(setting);
+        self.session.end_gesture();
+        let settings = self.session.document().settings();
+        if settings.domain != before {
+            let grows = settings.domain.bounds != before.bounds;
+            let frame = if grows { " The frame grew to hold it." } else { "" };
+            self.session.tell(format!("The outline {name} was added to the domain.{frame}"));
+            self.view.camera = self.view.camera.filter(|_| !grows);
+        }
     }
 
     fn show_opened(&mut self, opened: Opened) {

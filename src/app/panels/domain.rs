@@ -218,11 +218,14 @@ fn buttons(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
         if ui.add(ActionButton::new("Open domain…")).clicked() {
             commands.push(Command::Ask(FileRequest::OpenDomain));
         }
-        let domain = &state.session.document().settings().domain;
-        let whole = Domain::rectangle(domain.bounds);
-        let button = ActionButton::new("Whole rectangle");
-        if ui.add_enabled_ui(*domain != whole, |ui| ui.add(button)).inner.clicked() {
-            set_once(Setting::Domain(whole), commands);
+        if ui.add(ActionButton::new("Add outline…")).clicked() {
+            commands.push(Command::Ask(FileRequest::AddOutline));
         }
     });
+    let domain = &state.session.document().settings().domain;
+    let whole = Domain::rectangle(domain.bounds);
+    let button = ActionButton::new("Whole rectangle");
+    if ui.add_enabled_ui(*domain != whole, |ui| ui.add(button)).inner.clicked() {
+        set_once(Setting::Domain(whole), commands);
+    }
 }

@@ -44,29 +44,36 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     });
 }
 
-/// Chooses a kind of base. One that needs a formula or a file first is kept in egui's memory until the
-/// document has it.
+/// Chooses a kind of base. A formula that is not typed yet is kept in egui's memory until the document has it
+/// or another document is opened.
 fn kind_row(ui: &mut Ui, state: &FrameState<'_>, base: &Base, commands: &mut Vec<Command>) -> BaseKind {
     let id = ui.make_persistent_id("kind of base being set up");
     let refused = refused_kind(ui, state, base);
-    let pending: Option<BaseKind> = refused.or_else(|| ui.data(|data| data.get_temp(id)));
+    let opened = state.session.opened_documents();
+    let begun = ui.data(|data| data.get_temp::<(BaseKind, u64)>(id)).filter(|(_, of)| *of == opened);
+    let pending = refused.or(begun.map(|(kind, _)| kind));
     let mut kind = pending.unwrap_or(base.into());
     if let Some(pending) = pending {
-        ui.data_mut(|data| data.insert_temp(id, pending));
+        ui.data_mut(|data| data.insert_temp(id, (pending, opened)));
     }
     if kind == BaseKind::from(base) {
-        ui.data_mut(|data| data.remove::<BaseKind>(id));
+        ui.data_mut(|data| data.remove::<(BaseKind, u64)>(id));
     }
     let choices =
         [(BaseKind::Constant, "Constant"), (BaseKind::Formula, "Formula"), (BaseKind::Image, "Picture")];
     if segmented(ui, "Base field", &mut kind, &choices).changed() {
-        ui.data_mut(|data| data.insert_temp(id, kind));
         let h_max = state.session.document().settings().transfer.h_max;
         match kind {
             BaseKind::Constant => set_once(Setting::Base(Base::Constant(h_max)), commands),
             BaseKind::Image => commands.push(Command::Ask(FileRequest::OpenImage)),
             BaseKind::Formula => {}
         }
+        // A picture is chosen in a dialog, which can be cancelled: until then the former kind stays.
+        if kind == BaseKind::Image {
+            ui.data_mut(|data| data.remove::<(BaseKind, u64)>(id));
+            return base.into();
+        }
+        ui.data_mut(|data| data.insert_temp(id, (kind, opened)));
     }
     kind
 }

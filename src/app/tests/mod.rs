@@ -20,6 +20,7 @@ mod menus;
 mod messages;
 mod numbers;
 mod orientation;
+mod outline;
 mod painting;
 mod pictures;
 mod polygon;
@@ -58,7 +59,7 @@ type Window = Harness<'static, App>;
 /// Where tests write files.
 const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/target/tmp");
 /// Room for every section of the side panel at once, so that nothing must be scrolled to.
-const TALL: Vec2 = vec2(1440.0, 1900.0);
+const TALL: Vec2 = vec2(1440.0, 2000.0);
 
 /// Off the canvas, over nothing.
 const RESTING_PLACE: Pos2 = pos2(600.0, 10.0);

@@ -1,0 +1,147 @@
+//! An outline that is added to a document with paint.
+
+use std::path::PathBuf;
+
+use eframe::egui::accesskit::Role;
+use eframe::egui::{Key, Modifiers};
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable as _;
+use glam::{DVec2, dvec2};
+
+use super::{
+    TALL, Window, area, document, entries, folder, level_at, open_section, paint, send, settings,
+    wait_for_notice, wait_until, window, window_of, window_with,
+};
+use crate::app::command::Command;
+use crate::document::Base;
+use crate::geometry::Rect;
+
+/// Writes a file with a square that has a square hole.
+fn square(name: &str, min: DVec2, side: f64) -> PathBuf {
+    let ring = |min: DVec2, side: f64| {
+        let [x, y, u, v] = [min.x, min.y, min.x + side, min.y + side];
+        format!("[[{x}, {y}], [{u}, {y}], [{u}, {v}], [{x}, {v}], [{x}, {y}]]")
+    };
+    let (outer, hole) = (ring(min, side), ring(min + 0.1 * side, 0.2 * side));
+    let file = folder("app-outline", name).join("coast.geojson");
+    std::fs::write(&file, format!("{{\"type\": \"Polygon\", \"coordinates\": [{outer}, {hole}]}}")).unwrap();
+    file
+}
+
+/// A new document with a stroke at x = 0.5.
+fn painted() -> Window {
+    // Frames so short that no message fades while the mesh is built.
+    let mut window = window_with(Harness::builder().with_size(TALL).with_step_dt(0.01));
+    send(&mut window, Command::New);
+    paint(&mut window, 0.5);
+    window
+}
+
+fn wait_for_outline(window: &mut Window) {
+    wait_until(window, |window| {
+        settings(window).domain.region().is_some() && window.state().session().derived().is_some()
+    });
+}
+
+#[test]
+fn a_coast_comes_after_the_paint() {
+    let mut window = painted();
+    let (before, level) = (document(&window).paint().clone(), level_at(&window, dvec2(0.5, 0.55)));
+    send(&mut window, Command::AddOutline(square("inside", dvec2(0.2, 0.2), 0.6)));
+    let message = wait_for_notice(&mut window);
+    assert!(message.contains("was added to the domain"), "{message}");
+    wait_for_outline(&mut window);
+    assert!(*document(&window).paint() == before, "the bounds are the same, so is the paint");
+    assert_eq!((settings(&window).domain.bounds, entries(&window)), (Rect::UNIT, 2));
+    assert_eq!(level_at(&window, dvec2(0.5, 0.55)), level);
+    let square = 0.36 * (1.0 - 0.04);
+    assert!((settings(&window).domain.region().unwrap().area() - square).abs() < 1e-6, "with its hole");
+
+    // A second outline is added to the first, which keeps its hole.
+    send(&mut window, Command::AddOutline(self::square("second", dvec2(0.85, 0.85), 0.1)));
+    wait_until(&mut window, |window| entries(window) == 3);
+    let both = square + 0.01 * (1.0 - 0.04);
+    assert!((settings(&window).domain.region().unwrap().area() - both).abs() < 1e-6);
+
+    send(&mut window, Command::Undo);
+    send(&mut window, Command::Undo);
+    assert!(settings(&window).domain.region().is_none() && *document(&window).paint() == before);
+    wait_until(&mut window, |window| (area(window) - 1.0).abs() < 1e-9);
+}
+
+#[test]
+fn the_frame_grows_to_hold_an_outline_that_reaches_beyond_it() {
+    let mut window = painted();
+    let level = level_at(&window, dvec2(0.5, 0.55));
+    send(&mut window, Command::AddOutline(square("beyond", DVec2::splat(-0.5), 1.6)));
+    let message = wait_for_notice(&mut window);
+    assert!(message.contains("The frame grew"), "{message}");
+    wait_for_outline(&mut window);
+    assert_eq!(settings(&window).domain.bounds, Rect::new(DVec2::splat(-0.5), DVec2::splat(1.1)));
+    assert_eq!(settings(&window).resolution, 1639, "as many pixels a length as before");
+    let level_after = level_at(&window, dvec2(0.5, 0.55));
+    assert!(level_after.abs_diff(level) <= 2, "the paint stays where it was: {level_after} and {level}");
+    send(&mut window, Command::Undo);
+    assert_eq!((settings(&window).domain.bounds, settings(&window).resolution), (Rect::UNIT, 1024));
+}
+
+#[test]
+fn an_outline_elsewhere_or_far_too_large_is_refused_with_a_sentence() {
+    for (name, min, side, reason) in [
+        ("elsewhere", dvec2(5.0, 5.0), 1.0, "lies outside this document"),
+        ("large", dvec2(-1e5, -1e5), 4e5, "reaches too far beyond this document"),
+    ] {
+        let mut window = painted();
+        let version = document(&window).version();
+        send(&mut window, Command::AddOutline(square(name, min, side)));
+        let message = wait_for_notice(&mut window);
+        assert!(message.contains(reason) && message.contains("coast.geojson"), "{message}");
+        assert_eq!(document(&window).version(), version);
+    }
+}
+
+#[test]
+fn the_base_field_shows_what_the_document_has() {
+    let mut window = window_of(TALL);
+    send(&mut window, Command::New);
+    open_section(&mut window, "Base field");
+    let chosen = |window: &Window, name: &str| {
+        use egui_kittest::kittest::NodeT as _;
+        let node = window.get_by_role_and_label(Role::RadioButton, name);
+        node.accesskit_node().data().toggled() == Some(eframe::egui::accesskit::Toggled::True)
+    };
+    window.get_by_role_and_label(Role::RadioButton, "Picture").click();
+    window.run();
+    window.key_press_modifiers(Modifiers::NONE, Key::Escape);
+    window.run();
+    assert!(chosen(&window, "Constant"), "no picture was chosen");
+    window.get_by_role_and_label(Role::RadioButton, "Formula").click();
+    window.run();
+    assert!(chosen(&window, "Formula"));
+    send(&mut window, Command::New);
+    assert!(chosen(&window, "Constant"), "the new document has no formula");
+}
+
+#[test]
+fn a_grid_opens_as_risk_at_its_own_place() {
+    let folder = folder("app-outline", "grid");
+    let grid = |name: &str, corner: f64, value: f64| {
+        let file = folder.join(name);
+        let header = format!("ncols 2\nnrows 1\nxllcorner {corner}\nyllcorner 0.25\ncellsize 0.25\n");
+        std::fs::write(&file, format!("{header}NODATA_value -9\n{value} -9\n")).unwrap();
+        file
+    };
+    let mut window = window();
+    send(&mut window, Command::New);
+    send(&mut window, Command::Open(grid("large.asc", 0.25, 7.0)));
+    assert!(wait_for_notice(&mut window).contains("it must lie from 0 to 1"));
+    send(&mut window, Command::Escape);
+    send(&mut window, Command::Open(grid("far.asc", 9.0, 0.5)));
+    assert!(wait_for_notice(&mut window).contains("outside this document"));
+    send(&mut window, Command::Open(grid("risk.asc", 0.25, 1.0)));
+    wait_until(&mut window, |window| matches!(settings(window).base, Base::RiskImage { .. }));
+    wait_until(&mut window, |window| level_at(window, dvec2(0.3, 0.4)) > 5);
+    assert_eq!(level_at(&window, dvec2(0.9, 0.9)), 0);
+    super::open_menu(&mut window, "File");
+    assert!(window.query_by_label("Open recent risk.asc").is_some());
+}

@@ -1,0 +1,81 @@
+//! Adding an outline to a document that has paint already.
+
+use std::sync::Arc;
+
+use super::{RESOLUTIONS, Setting, Settings};
+use crate::domain::{BoundaryMarks, Domain, NamedPolygon, Polygon, RegionError};
+use crate::geometry::{GridError, Rect};
+use crate::text::Number;
+
+/// Why polygons cannot be added to a document.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum OutlineError {
+    /// They are not a domain.
+    #[error(transparent)]
+    Region(#[from] RegionError),
+    /// The domain is given by a formula.
+    #[error(
+        "The domain of this document is given by a formula, and polygons cannot be added to that. Empty the row \"Domain \
+         where\" first."
+    )]
+    Formula,
+    /// They lie elsewhere.
+    #[error(
+        "The outline lies outside this document: it covers {}, and the document {}. Open it as a document of its own, or \
+         check that both have the same coordinates.",
+        extent(outline),
+        extent(document)
+    )]
+    Outside {
+        /// Bounds of the outline.
+        outline: Rect,
+        /// Bounds of the document.
+        document: Rect,
+    },
+    /// They reach so far beyond the document that the coarse grid is impossible.
+    #[error(
+        "The outline reaches too far beyond this document. {0} Raise the coarse spacing first, or open the outline as a \
+         document of its own."
+    )]
+    TooLarge(GridError),
+}
+
+/// Ranges of x and y, in words.
+pub fn extent(bounds: &Rect) -> String {
+    let [x0, y0, x1, y1] = [bounds.min.x, bounds.min.y, bounds.max.x, bounds.max.y].map(Number);
+    format!("x from {x0} to {x1} and y from {y0} to {y1}")
+}
+
+impl Settings {
+    /// The setting that makes polygons the domain, or adds them to the polygons that it is given by. Paint
+    /// and all other settings stay.
+    ///
+    /// The bounds grow as far as the polygons need, and the field gets more pixels in proportion, so that the
+    /// paint stays as sharp as it was.
+    ///
+    /// # Errors
+    /// When the polygons are not a domain, lie outside the bounds, or need too large a coarse grid.
+    pub fn with_outline(&self, polygons: &[NamedPolygon]) -> Result<Setting, OutlineError> {
+        let before = &self.domain;
+        if before.formula().is_some() {
+            return Err(OutlineError::Formula);
+        }
+        let plain: Vec<Polygon> = polygons.iter().map(|named| named.polygon.clone()).collect();
+        let outline = Domain::of_polygons(&plain)?.bounds;
+        if before.bounds.intersection(&outline).is_none_or(|common| !common.is_proper()) {
+            return Err(OutlineError::Outside { outline, document: before.bounds });
+        }
+        let bounds = before.bounds.union(&outline);
+        let earlier = before.region().map_or(&[][..], |region| region.polygons());
+        let domain = Domain::of_stored_polygons([earlier, &plain].concat(), bounds)?;
+        let growth = bounds.size().max_element() / before.bounds.size().max_element();
+        let resolution = (f64::from(self.resolution) * growth).ceil() as u32;
+        let resolution = resolution.clamp(self.resolution, *RESOLUTIONS.end());
+        let mut marks = (*self.boundary_marks).clone();
+        marks.names.extend(BoundaryMarks::of_polygons(polygons, &domain).names);
+        let grown = Self { domain: domain.clone(), ..self.clone() };
+        grown.lattice().map_err(OutlineError::TooLarge)?;
+        Ok(Setting::Outline { domain, boundary_marks: Arc::new(marks), resolution })
+    }
+}
