@@ -103,10 +103,9 @@ pub fn ask(ctx: &Context, state: &FrameState<'_>, commands: &mut Vec<Command>) {
         let problem = command.as_ref().and_then(|command| command.as_ref().err()).cloned();
         let error = problem.as_deref().map(|message| TextError { message, at: None });
         let hint = "x, y or the number of a triangle";
-        let field = TextRow::formula("Place", &mut text).hint(hint).error(error).show(ui);
-        if !field.lost_focus() && text.is_empty() {
-            field.request_focus();
-        }
+        let takes_focus = text.is_empty() || ui.memory(|memory| memory.focused().is_none());
+        let field =
+            TextRow::formula("Place", &mut text).hint(hint).error(error).take_focus(takes_focus).show(ui);
         let entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
         let ready = command.and_then(Result::ok);
         let understood = ready.as_ref().and(place).map(|place| place.name(state.unit()));

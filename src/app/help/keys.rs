@@ -1,10 +1,10 @@
 //! Keyboard and mouse: every command with a key, and every gesture.
 
-use eframe::egui::{self, Id, Response, Role, Sense, TextEdit, Ui, WidgetInfo, vec2};
+use eframe::egui::{Id, Role, Sense, Ui, WidgetInfo, vec2};
 
 use crate::app::catalog::{CatalogItem, GESTURES, Menu};
-use crate::app::theme::{font, metrics, tokens};
-use crate::app::widgets::{key_row, matches};
+use crate::app::theme::{font, tokens};
+use crate::app::widgets::{SearchField, key_row, matches};
 
 /// A line of the list.
 struct Entry<'a> {
@@ -17,7 +17,7 @@ struct Entry<'a> {
 pub fn show(ui: &mut Ui, catalog: &[CatalogItem]) {
     let id = Id::unique("search in the list of keys");
     let mut query: String = ui.data(|data| data.get_temp(id)).unwrap_or_default();
-    search_field(ui, &mut query);
+    SearchField::new("Search for a key", "Search: a key, or what it does").show(ui, &mut query);
     let entries = entries(catalog);
     let found: Vec<&Entry<'_>> = entries.iter().filter(|entry| entry.matches(&query)).collect();
     if found.is_empty() {
@@ -52,24 +52,6 @@ impl Entry<'_> {
     fn matches(&self, query: &str) -> bool {
         matches(query, self.title) || matches(query, &self.keys) || matches(query, self.group)
     }
-}
-
-fn search_field(ui: &mut Ui, query: &mut String) -> Response {
-    let (_, rect) = ui.allocate_space(vec2(ui.available_width(), 32.0));
-    ui.painter().rect_filled(rect, metrics::RADIUS_CONTROL, tokens(ui).field);
-    let inner = rect.shrink2(vec2(10.0, 0.0));
-    let mut child = ui.new_child(egui::UiBuilder::new().max_rect(inner));
-    let edit = TextEdit::singleline(query)
-        .id(Id::unique("search for a key"))
-        .hint_text(egui::RichText::new("Search: a key, or what it does").color(tokens(ui).label))
-        .text_color(tokens(ui).value)
-        .align(egui::Align2::LEFT_CENTER)
-        .frame(egui::Frame::NONE)
-        .desired_width(inner.width())
-        .min_size(inner.size());
-    let response = child.add(edit);
-    ui.ctx().accesskit_node_builder(response.id, |node| node.set_label("Search for a key"));
-    response
 }
 
 fn heading(ui: &mut Ui, text: &str) {

@@ -3,10 +3,10 @@
 use std::collections::BTreeSet;
 
 use eframe::egui::accesskit::Role;
-use eframe::egui::{Event, Key, Modifiers, pos2, vec2};
+use eframe::egui::{Event, Key, Modifiers, Shape, pos2, vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
-use super::{FREE, Window, choose, click, key, open_menu, selected, wheel, window, window_of};
+use super::{FREE, Window, choose, click, key, open_menu, selected, value_of, wheel, window, window_of};
 use crate::app::tools::QUERY;
 
 #[test]
@@ -85,4 +85,43 @@ fn escape_closes_what_is_open_first() {
     key(&mut window, Modifiers::NONE, Key::Escape);
     assert!(window.query_by_label_contains("Maubach").is_none());
     assert!(selected(&window).is_some(), "the queried triangle is let go by the next Escape");
+}
+
+#[test]
+fn letters_typed_at_once_with_the_key_of_a_dialog_arrive_and_are_seen() {
+    for (opens, name) in [(Key::P, "Command"), (Key::G, "Place")] {
+        // Letters that arrive in the frame of the key, and in those after it.
+        for frames in
+            [["over", "", ""], ["", "over", ""], ["o", "v", "er"], ["", "ov", "er"], ["", "", "over"]]
+        {
+            let mut window = window();
+            window.input_mut().events.push(pressed(opens, Modifiers::COMMAND));
+            for letters in frames {
+                // A slow window gets several events in one frame.
+                let typed = letters.chars().map(|letter| Event::Text(letter.into()));
+                window.input_mut().events.extend(typed);
+                window.step();
+            }
+            let value = value_of(&window, Role::TextInput, name);
+            assert_eq!(value, "over", "{name} {frames:?}");
+            assert!(is_painted(&window, "over"), "{name} {frames:?}: it is not painted in this frame");
+        }
+    }
+}
+
+fn pressed(key: Key, modifiers: Modifiers) -> Event {
+    Event::Key { key, physical_key: None, pressed: true, repeat: false, modifiers }
+}
+
+/// Whether this text was painted in the last frame.
+fn is_painted(window: &Window, text: &str) -> bool {
+    window.output().shapes.iter().any(|clipped| holds(&clipped.shape, text))
+}
+
+fn holds(shape: &Shape, text: &str) -> bool {
+    match shape {
+        Shape::Text(painted) => painted.galley.text() == text && painted.opacity_factor > 0.0,
+        Shape::Vec(shapes) => shapes.iter().any(|shape| holds(shape, text)),
+        _ => false,
+    }
 }

@@ -31,12 +31,13 @@ pub struct TextRow<'a> {
     help: &'a str,
     mark: Option<&'a str>,
     formula: bool,
+    takes_focus: bool,
 }
 
 impl<'a> TextRow<'a> {
     /// A field beside its name.
     pub fn new(label: &'a str, text: &'a mut String) -> Self {
-        Self { label, text, hint: "", error: None, help: "", mark: None, formula: false }
+        Self { label, text, hint: "", error: None, help: "", mark: None, formula: false, takes_focus: false }
     }
 
     /// A field for a formula: monospaced, full width, below its name.
@@ -59,6 +60,12 @@ impl<'a> TextRow<'a> {
     /// A word or two about the present text, at the right of a formula's name.
     pub fn mark(mut self, mark: Option<&'a str>) -> Self {
         self.mark = mark;
+        self
+    }
+
+    /// All letters go into this field, also those typed before it is seen.
+    pub fn take_focus(mut self, takes_focus: bool) -> Self {
+        self.takes_focus = takes_focus;
         self
     }
 
@@ -92,6 +99,9 @@ impl<'a> TextRow<'a> {
     /// The field in `rect`, and the x of the error.
     fn field(&mut self, ui: &mut Ui, rect: Rect) -> (Response, Option<f32>) {
         let id = ui.make_persistent_id(("text", self.label));
+        if self.takes_focus {
+            ui.memory_mut(|memory| memory.request_focus(id));
+        }
         self.paint_ground(ui, rect, ui.memory(|memory| memory.has_focus(id)));
         let inner = rect.shrink2(vec2(8.0, 0.0));
         let mut child = ui.new_child(egui::UiBuilder::new().max_rect(inner));

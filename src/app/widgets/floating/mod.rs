@@ -6,6 +6,7 @@ mod float;
 mod palette;
 mod progress;
 mod search;
+mod search_field;
 
 pub use banner::{Banner, BannerAnswer};
 pub use confirm::{Answer, ConfirmDialog, dialog, dialog_title};
@@ -13,5 +14,6 @@ pub use float::{Hint, floating_tag, hint_pill, paint_floating, tag_size};
 pub use palette::{PaletteAnswer, PaletteItem, command_palette};
 pub use progress::{bytes_row, progress_row};
 pub use search::matches;
+pub use search_field::SearchField;
 
 use super::{Icon, format, paint};

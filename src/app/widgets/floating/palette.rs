@@ -1,13 +1,13 @@
 //! The command palette: finds a command by a few letters.
 
 use eframe::egui::{
-    self, Align2, Context, Frame, Id, Key, Margin, Modifiers, Rect, Response, Role, Sense, TextEdit, Ui,
-    WidgetInfo, vec2,
+    self, Align2, Context, Frame, Id, Key, Margin, Modifiers, Rect, Response, Role, Sense, Ui, WidgetInfo,
+    vec2,
 };
 use egui::text::{LayoutJob, TextFormat};
 
 use super::search::find;
-use super::{Icon, paint};
+use super::{SearchField, paint};
 use crate::app::theme::{font, metrics, tokens, tokens_of};
 
 const WIDTH: f32 = 520.0;
@@ -86,28 +86,10 @@ impl Palette {
     }
 
     fn query_ui(&mut self, ui: &mut Ui) {
-        let t = tokens(ui);
-        let (_, rect) = ui.allocate_space(vec2(ui.available_width(), 36.0));
-        ui.painter().rect_filled(rect, metrics::RADIUS_CONTROL, t.field);
-        let glass = paint::line(ui, Icon::SEARCH.glyph(), font::icon(18.0), t.label);
-        paint::at_left(ui, rect.with_min_x(rect.left() + 10.0), glass);
-        let inner = rect.with_min_x(rect.left() + 36.0).shrink2(vec2(4.0, 0.0));
-        let mut child = ui.new_child(egui::UiBuilder::new().max_rect(inner));
-        let edit = TextEdit::singleline(&mut self.query)
-            .id(Id::unique("command palette query"))
-            .font(egui::FontId::proportional(14.0))
-            .text_color(t.value)
-            .hint_text(egui::RichText::new("Type a command").color(t.label))
-            .align(Align2::LEFT_CENTER)
-            .frame(Frame::NONE)
-            .desired_width(inner.width())
-            .min_size(inner.size());
-        let response = child.add(edit);
-        ui.ctx().accesskit_node_builder(response.id, |node| node.set_label("Command"));
-        if response.changed() {
+        let field = SearchField::new("Command", "Type a command").take_focus();
+        if field.show(ui, &mut self.query).changed() {
             (self.selected, self.moved) = (0, true);
         }
-        response.request_focus();
     }
 
     /// Moves the selection; it wraps at both ends.
