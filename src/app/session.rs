@@ -40,7 +40,8 @@ pub struct Session {
     cuts: CutQueue,
     queried: Option<DVec2>,
     notices: Notices,
-    work: Duration,
+    /// When the update in progress began.
+    update_began: Option<Instant>,
     last_update: Option<Duration>,
     derivation: Derivation,
     boundary: BoundaryFinder,
@@ -65,7 +66,7 @@ impl Session {
             cuts: CutQueue::default(),
             queried: None,
             notices: Notices::default(),
-            work: Duration::ZERO,
+            update_began: None,
             last_update: Some(began.elapsed()),
             derivation: Derivation::default(),
             boundary: BoundaryFinder::default(),
@@ -197,9 +198,15 @@ impl Session {
         }
     }
 
-    /// Time of the last complete update, the sum of its slices.
+    /// Time on the clock of the last complete update, from the edit to the mesh, with the frames drawn
+    /// meanwhile.
     pub fn last_update(&self) -> Option<Duration> {
         self.last_update
+    }
+
+    /// Time on the clock since the update in progress began.
+    pub fn update_so_far(&self) -> Option<Duration> {
+        self.update_began.map(|began| began.elapsed())
     }
 
     /// The present stage of the update.
@@ -355,7 +362,7 @@ impl Session {
     /// Reports what turns out to be impossible. A setting that caused it is taken back; paint stays, for the
     /// user to undo or erase.
     pub fn follow(&mut self, deadline: Instant) -> bool {
-        let began = Instant::now();
+        let began = self.update_began.unwrap_or_else(Instant::now);
         let revision = self.follower.revision();
         let left = loop {
             if self.document.advance_stroke(SLICE) == Progress::More && Instant::now() < deadline {
@@ -377,11 +384,10 @@ impl Session {
         self.notices.forget_failed_edit(self.document.version());
         let left = left || !self.document.is_stroke_drawn();
         let changed = self.follower.revision() != revision;
-        if left || changed {
-            self.work += began.elapsed();
-        }
-        if !left && self.work > Duration::ZERO {
-            self.last_update = Some(std::mem::take(&mut self.work));
+        let was_in_progress = self.update_began.is_some();
+        self.update_began = left.then_some(began);
+        if !left && (was_in_progress || changed) {
+            self.last_update = Some(began.elapsed());
         }
         if let Some(change) = self.follower.take_change() {
             self.derivation.note_change(&change, self.follower.mesh());

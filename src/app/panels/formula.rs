@@ -44,7 +44,7 @@ impl FormulaRow<'_> {
         state: &FrameState<'_>,
         current: Option<&Formula>,
     ) -> Option<Option<Formula>> {
-        let id = ui.make_persistent_id(("typed formula", self.label));
+        let id = ui.make_persistent_id(("typed formula", self.label, state.session.opened_documents()));
         let mut typed: Typed = ui.data(|data| data.get_temp(id)).unwrap_or_default();
         let parsed = parse(&typed.text);
         let refused = typed.was_refused(parsed.as_ref().ok(), current, state);

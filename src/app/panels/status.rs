@@ -1,5 +1,7 @@
 //! The status bar.
 
+use std::time::Duration;
+
 use eframe::egui::{Align, Layout, Ui};
 
 use crate::app::frame::FrameState;
@@ -81,7 +83,7 @@ fn mesh_cells(state: &FrameState<'_>) -> [StatusCell; 3] {
     ]
 }
 
-/// The rule, and the time of the last update or the progress of the present one.
+/// The rule, and the time of the last update or of the present one so far.
 fn work_cells(state: &FrameState<'_>) -> [StatusCell; 2] {
     let rule = match state.session.follower().settings().rule {
         RefinementRule::Area => "area",
@@ -91,15 +93,16 @@ fn work_cells(state: &FrameState<'_>) -> [StatusCell; 2] {
 }
 
 fn update_text(state: &FrameState<'_>) -> String {
-    match state.session.stage() {
+    let session = state.session;
+    let time = |time: Option<Duration>| time.map_or(NONE.into(), |time| format::time(time.as_secs_f64()));
+    match session.stage() {
         // Also during work: which glyphs it needed would depend on the machine's speed.
         _ if state.reproducible => NONE.into(),
-        Stage::InStep => {
-            state.session.last_update().map_or(NONE.into(), |time| format::time(time.as_secs_f64()))
+        Stage::InStep => time(session.last_update()),
+        // How far it is, the canvas says.
+        Stage::Indexing | Stage::Sampling { .. } | Stage::Copying { .. } | Stage::Refining { .. } => {
+            format!("{}…", time(session.update_so_far()))
         }
-        Stage::Indexing => "indexing".into(),
-        Stage::Sampling { .. } => "sampling".into(),
-        Stage::Copying { triangles } | Stage::Refining { triangles } => format::count(triangles as u64),
         Stage::GaveUp(None) => "cancelled".into(),
         Stage::GaveUp(Some(_)) => "stopped".into(),
     }

@@ -9,8 +9,8 @@ use egui_kittest::kittest::Queryable as _;
 use glam::dvec2;
 
 use super::{
-    FREE, button_event, fingerprint, key, level_at, notice, on_screen, release_at, stroke, triangles, window,
-    window_of, window_with,
+    FREE, Window, button_event, fingerprint, key, level_at, notice, on_screen, release_at, stroke, triangles,
+    value_of, window, window_of, window_with,
 };
 use crate::app::command::Command;
 use crate::document::{Document, Example, Follower, Setting, Stage};
@@ -114,4 +114,25 @@ fn a_long_stroke_never_waits_for_the_mesh() {
     assert!(document.paint().risk.sample(FREE - dvec2(0.05, 0.0)).unwrap() > 0.1, "paint does not wait");
     release_at(&mut window, from, PointerButton::Primary);
     assert!(level_at(&window, FREE) > 10);
+}
+
+#[test]
+fn the_time_of_an_update_is_that_on_the_clock_with_a_unit() {
+    let mut window = window();
+    let update = |window: &Window| value_of(window, Role::Definition, "update");
+    let has_unit = |text: &str| [" ms", " s"].iter().any(|unit| text.trim_end_matches('…').ends_with(unit));
+    let began = Instant::now();
+    window.state_mut().send(Command::Set(Setting::SmallestDiameter(1e-3)));
+    window.step();
+    assert_ne!(window.state().session().stage(), Stage::InStep);
+    assert!(update(&window).ends_with('…') && has_unit(&update(&window)), "{}", update(&window));
+    // What is drawn between the slices takes time, too.
+    std::thread::sleep(Duration::from_millis(300));
+    window.run();
+    assert!(has_unit(&update(&window)), "{}", update(&window));
+    let measured = window.state().session().last_update().unwrap();
+    assert!(measured >= Duration::from_millis(300) && measured <= began.elapsed(), "{measured:?}");
+    stroke(&mut window, FREE, FREE);
+    let stroke = window.state().session().last_update().unwrap();
+    assert!(stroke < measured, "{stroke:?}: another update begins anew");
 }

@@ -179,3 +179,19 @@ fn the_rule_switches_and_says_what_it_misses() {
     window.run();
     assert_eq!(fingerprint(&window), area);
 }
+
+#[test]
+fn a_formula_typed_for_another_document_is_gone() {
+    let mut window = window_of(TALL);
+    open_section(&mut window, "Base field");
+    let field = "Target diameter h̄(x, y)";
+    window.get_by_role_and_label(Role::RadioButton, "Formula").click();
+    window.run();
+    window.get_by_role_and_label(Role::TextInput, field).type_text("0.1*");
+    window.run();
+    send(&mut window, Command::New);
+    assert!(window.query_by_role_and_label(Role::TextInput, field).is_none());
+    window.get_by_role_and_label(Role::RadioButton, "Formula").click();
+    window.run();
+    assert_eq!(value_of(&window, Role::TextInput, field), "");
+}
