@@ -27,6 +27,10 @@ pub struct Style {
 
 /// The share of its own colour that a faded level keeps.
 const FADED_FILL: f32 = 0.12;
+/// Mean brightness, 0 to 1, below which the edges of a fill are lighter than it.
+const ALMOST_BLACK: f32 = 0.2;
+/// How far such edges are mixed with white, 0 to 1.
+const LIGHTER_EDGE: f32 = 0.13;
 /// The share of its edges that a faded level keeps.
 const FADED_EDGE: f32 = 0.5;
 
@@ -119,7 +123,7 @@ impl LevelPaint {
         let fill = fill_color(level, style);
         Self {
             fill,
-            edge: fill.map(|c| c * style.edge_shade),
+            edge: edge_color(fill, style),
             edge_alpha: edge_alpha(leg_px as f32, style) * if style.shows(level) { 1.0 } else { FADED_EDGE },
             leg_px: leg_px as f32,
             apex_height_px: apex_height_px as f32,
@@ -131,6 +135,13 @@ impl LevelPaint {
 fn fill_color(level: u32, style: &Style) -> [f32; 3] {
     let own = unit_color(style.level_colors.of(level as u8));
     if style.shows(level) { own } else { mixed(style.ground_color(), own, FADED_FILL) }
+}
+
+/// A darker tint of the fill; on a fill that is almost black a lighter one, so that an unrefined mesh is
+/// visible.
+fn edge_color(fill: [f32; 3], style: &Style) -> [f32; 3] {
+    let is_almost_black = fill.iter().sum::<f32>() < 3.0 * ALMOST_BLACK;
+    if is_almost_black { mixed(fill, [1.0; 3], LIGHTER_EDGE) } else { fill.map(|c| c * style.edge_shade) }
 }
 
 fn edge_alpha(leg_px: f32, style: &Style) -> f32 {
@@ -154,6 +165,7 @@ fn mixed(from: [f32; 3], to: [f32; 3], share: f32) -> [f32; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::colormap::{Colormap, Ground, LevelColors};
     use crate::geometry::{Lattice, Rect};
     use glam::DVec2;
 
@@ -184,6 +196,25 @@ mod tests {
         let below_three_px = paints.iter().find(|p| p.leg_px < 3.0).unwrap();
         assert_eq!(below_three_px.edge_alpha, 0.0);
         assert!(paints.iter().all(|p| p.edge.iter().all(|&c| c > 0.3)));
+    }
+
+    #[test]
+    fn the_edges_of_an_unrefined_mesh_can_be_seen() {
+        for ground in [Ground::Dark, Ground::Light] {
+            let colors = LevelColors::new(Colormap::Viridis, ground, 10);
+            let style = if ground == Ground::Dark { Style::dark(colors) } else { Style::light(colors) };
+            let paint = paints(&style, 1.0)[0];
+            let luminance = |color: [f32; 3]| {
+                let linear = color.map(|c| c.powf(2.2));
+                0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
+            };
+            let [low, high] = {
+                let both = [luminance(paint.fill), luminance(paint.edge)];
+                [both[0].min(both[1]), both[0].max(both[1])]
+            };
+            let contrast = (high + 0.05) / (low + 0.05);
+            assert!(contrast > 1.45, "{ground:?}: {contrast}");
+        }
     }
 
     #[test]
