@@ -86,6 +86,13 @@ impl Notices {
         self.standing = Some(self.numbered(true, None, text));
     }
 
+    /// Says that the user stopped the update of the mesh, until [`Self::end_standing`].
+    pub fn stand_cancelled(&mut self) {
+        let text =
+            "The mesh was not updated: it still shows an earlier state. The next edit brings it up to date.";
+        self.standing = Some(self.numbered(false, None, text.into()));
+    }
+
     /// Mesh and document agree again.
     pub fn end_standing(&mut self) {
         self.standing = None;

@@ -341,9 +341,7 @@ impl Session {
             return;
         }
         self.follower.cancel(&self.document);
-        let text =
-            "The mesh was not updated: it still shows an earlier state. The next edit brings it up to date.";
-        self.tell(text.into());
+        self.notices.stand_cancelled();
     }
 
     /// Queries a point in world units, or none.
@@ -378,7 +376,7 @@ impl Session {
                 }
             }
         };
-        if self.follower.stopped().is_none() {
+        if self.follower.stopped().is_none() && self.stage() != Stage::GaveUp(None) {
             self.notices.end_standing();
         }
         self.notices.forget_failed_edit(self.document.version());

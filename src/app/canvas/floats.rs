@@ -91,9 +91,10 @@ fn draw_notice(ui: &mut Ui, inner: Rect, session: &Session, commands: &mut Vec<C
     let place = Rect::from_center_size(pos2(inner.center().x, inner.top() + 40.0), vec2(width, 80.0));
     let mut child = ui.new_child(UiBuilder::new().max_rect(place));
     let banner = if notice.failed { Banner::error(&notice.text) } else { Banner::info(&notice.text) };
-    let banner = if session.notices().shown_stands() { banner.standing().action("Undo") } else { banner };
+    let stands = session.notices().shown_stands();
+    let banner = if stands { banner.standing().action("Undo") } else { banner };
     let answer = banner.show(&mut child);
-    if !notice.failed && has_faded(&child, notice.number) {
+    if !notice.failed && !stands && has_faded(&child, notice.number) {
         commands.push(Command::DismissNotice);
     }
     match answer {

@@ -138,7 +138,8 @@ fn past_the_budget_the_message_says_so_and_undo_brings_the_mesh_back() {
 fn a_message_is_dismissed_by_its_cross_and_nothing_is_painted_under_it() {
     let mut window = window();
     send(&mut window, Command::CancelUpdate);
-    assert!(!notice(&window).is_empty());
+    assert_eq!(notice(&window), "", "there is no update to cancel");
+    send(&mut window, Command::Report("It failed.".into()));
     let (before, version) = (fingerprint(&window), window.state().session().document().version());
     window.get_by_label("Dismiss").click();
     window.run();

@@ -66,7 +66,12 @@ fn cancel_gives_a_long_update_up_and_the_next_edit_takes_it_up_again() {
     assert_eq!(fingerprint(&window), before);
     assert!(notice(&window).contains("not updated"), "{}", notice(&window));
     assert!(window.query_by_label("Cancel").is_none());
+    for _ in 0..40 {
+        window.step();
+    }
+    assert!(notice(&window).contains("not updated"), "it is no news that fades: it is still so");
     key(&mut window, Modifiers::COMMAND, Key::Z);
+    assert_eq!(notice(&window), "");
     assert_eq!(fingerprint(&window), before);
     stroke(&mut window, FREE, FREE);
     assert_ne!(fingerprint(&window), before);
