@@ -100,8 +100,9 @@ fn list(
 ) {
     for (number, piece) in pieces.list().iter().enumerate().take(MOST_ROWS) {
         let value = format::length(piece.length(), unit);
-        let row = ValueRow::new(&piece.name, &value).stands_out(selected == Some(number)).link().show(ui);
-        if row.on_hover_text(piece.kind.name()).clicked() {
+        let help = format!("Length of a piece; its kind is {}. A click selects it.", piece.kind.name());
+        let row = ValueRow::new(&piece.name, &value).help(&help).stands_out(selected == Some(number));
+        if row.link().show(ui).clicked() {
             commands.push(Command::Boundary(BoundaryCommand::Select(piece.middle())));
         }
     }

@@ -23,9 +23,7 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
         amount_row(ui, state, &mut sent);
         hardness_row(ui, state, &mut sent);
         if state.tools.tool != &ERASER {
-            value_row(ui, "h̄ · level", &painted(state)).on_hover_text(
-                "What one stroke asks for where nothing is painted; in the mode Lower: what it leaves of risk 1.",
-            );
+            value_row(ui, "h̄ · level", &painted(state));
         }
     });
     Section::new("Stroke").id("stroke").closed().show(ui, |ui| {

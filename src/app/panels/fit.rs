@@ -34,9 +34,7 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
         }
         if let Some(fit) = derived.outline_fit {
             let nodes = format!("{} of {}", count(fit.on_outline), count(fit.nodes));
-            value_row(ui, "Nodes on outline", &nodes).on_hover_text(
-                "Nodes of the boundary that lie on the outline. The others would make an angle too small.",
-            );
+            value_row(ui, "Nodes on outline", &nodes);
         }
         removed_rows(ui, derived, region, commands, state);
     });
@@ -46,12 +44,12 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
 fn count_rows(ui: &mut Ui, derived: &Derived, region: &Region) {
     let topology = derived.topology;
     let rows = [
-        ("Parts", topology.parts, region.polygons().len(), "Edge-connected parts of the mesh, and polygons"),
-        ("Holes", topology.holes, region.hole_count(), "Holes of the mesh, and of the outline"),
+        ("Parts", topology.parts, region.polygons().len(), "Edge-connected parts of the mesh, and polygons."),
+        ("Holes", topology.holes, region.hole_count(), "Holes of the mesh, and of the outline."),
     ];
     for (label, mesh, outline, help) in rows {
         let value = format!("{} (outline {})", count(mesh), count(outline));
-        ValueRow::new(label, &value).stands_out(mesh != outline).show(ui).on_hover_text(help);
+        ValueRow::new(label, &value).help(help).stands_out(mesh != outline).show(ui);
     }
 }
 
@@ -65,28 +63,36 @@ fn quality_rows(
     let kept = quality.islands - quality.lost_islands.len();
     let islands = format!("{} of {}", count(kept), count(quality.islands));
     if let Some(&lost) = quality.lost_islands.first() {
-        let row = ValueRow::new("Islands kept", &islands).stands_out(true).link().show(ui);
-        go_to(row, lost, state, "Go to an island that the mesh covers.", commands);
+        let help = "Islands of the outline that are no part of the mesh. A click goes to one that it covers.";
+        let row = ValueRow::new("Islands kept", &islands).help(help).stands_out(true).link().show(ui);
+        go_to(&row, lost, state, commands);
     } else if quality.islands > 0 {
         value_row(ui, "Islands kept", &islands);
     }
     let percent = |area: f64| 100.0 * area / region.area();
     let sign = if quality.net_area < 0.0 { "−" } else { "+" };
     let net = format!("{sign}{} %", format::digits(percent(quality.net_area.abs()), 3));
-    value_row(ui, "Net area", &net).on_hover_text("Area of the mesh without that of the outline");
+    value_row(ui, "Net area", &net);
     let misclassified = format!("{} %", format::digits(percent(quality.misclassified_area), 2));
-    value_row(ui, "Misclassified", &misclassified)
-        .on_hover_text("Area that only the mesh or only the outline covers");
+    value_row(ui, "Misclassified", &misclassified);
     let longer = format!("× {}", format::digits(quality.boundary_length / quality.outline_length, 2));
-    value_row(ui, "Length", &longer).on_hover_text("Length of the boundary, compared with the outline");
+    ValueRow::new("Length", &longer).help("Length of the boundary, compared with the outline.").show(ui);
     let farthest = [
-        ("Mesh off outline", quality.farthest_from_outline, "Go to the boundary farthest from the outline."),
-        ("Outline off mesh", quality.farthest_from_mesh, "Go to the outline farthest from the boundary."),
+        (
+            "Mesh off outline",
+            quality.farthest_from_outline,
+            "Largest distance of the boundary from the outline. A click goes there.",
+        ),
+        (
+            "Outline off mesh",
+            quality.farthest_from_mesh,
+            "Largest distance of the outline from the boundary. A click goes there.",
+        ),
     ];
     for (label, farthest, help) in farthest {
         let Some((distance, place)) = farthest else { continue };
-        let row = ValueRow::new(label, &format::length(distance, state.unit())).link().show(ui);
-        go_to(row, place, state, help, commands);
+        let row = ValueRow::new(label, &format::length(distance, state.unit())).help(help).link().show(ui);
+        go_to(&row, place, state, commands);
     }
     let angles = [quality.smallest_angle, quality.largest_angle].map(|angle| format::fixed(angle, 1));
     value_row(ui, "Angles", &format!("{}° to {}°", angles[0], angles[1]));
@@ -106,29 +112,24 @@ fn removed_rows(
     }
     let area = format::digits(100.0 * removed.area / region.area(), 3);
     let value = format!("{} triangles, {area} %", count(removed.triangles));
-    value_row(ui, "Removed", &value).on_hover_text(format!(
-        "{} parts and the smaller sides of {} nodes in which the domain touched itself",
+    let help = format!(
+        "{} parts and the smaller sides of {} nodes in which the domain touched itself.",
         count(removed.parts.len()),
         count(removed.pinches)
-    ));
+    );
+    ValueRow::new("Removed", &value).help(&help).show(ui);
     if let Some(part) = removed.parts.first() {
         let value = format!("{} triangles", count(part.triangles));
         let row = ValueRow::new("Largest part removed", &value).link().show(ui);
-        go_to(row, part.place, state, "Go to the largest part that was removed.", commands);
+        go_to(&row, part.place, state, commands);
     }
 }
 
 /// Shows a place closely when its row is clicked.
-fn go_to(
-    row: eframe::egui::Response,
-    place: DVec2,
-    state: &FrameState<'_>,
-    help: &str,
-    commands: &mut Vec<Command>,
-) {
+fn go_to(row: &eframe::egui::Response, place: DVec2, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let settings = state.session.follower().settings();
     let diameter = settings.boundary.diameter().unwrap_or(settings.spacing);
-    if row.on_hover_text(help).clicked() {
+    if row.clicked() {
         commands.push(Command::ShowArea(Rect::around(place, 0.5 * AREA_IN_DIAMETERS * diameter)));
     }
 }

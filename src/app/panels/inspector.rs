@@ -9,7 +9,7 @@ use crate::app::frame::FrameState;
 use crate::app::readout::{Quantity, Readout, TriangleReadout};
 use crate::app::session::Session;
 use crate::app::theme::tokens;
-use crate::app::widgets::{Chip, Icon, Section, chips, empty_state, format, segmented, value_row};
+use crate::app::widgets::{Chip, Icon, Section, ValueRow, chips, empty_state, format, segmented, value_row};
 use crate::mesh::{Location, Neighbour, Orientation, TriangleId};
 use crate::text::LengthUnit;
 
@@ -57,10 +57,7 @@ fn triangle_rows(
     let step = state.view.world_per_px();
     let unit = state.unit();
     let place = |p: DVec2| [p.x, p.y].map(|value| format::coordinate(value, step, unit)).join(" ");
-    let turn = value_row(ui, "Level · orientation", &format!("{} · {orientation}", triangle.level));
-    turn.on_hover_text(
-        "The order of v₁ v₂ v₃, as bisection made it. In files all triangles are anticlockwise.",
-    );
+    value_row(ui, "Level · orientation", &format!("{} · {orientation}", triangle.level));
     value_row(ui, "Diameter", &format::length(triangle.diameter, unit));
     value_row(ui, "Point", &place(point));
     if let Some(on) = where_on(location) {
@@ -73,7 +70,8 @@ fn triangle_rows(
     ui.add_space(4.0);
     for (i, (node, corner)) in triangle.vertices.iter().enumerate() {
         let label = format!("v{} · {}", ["₁", "₂", "₃"][i], number(state.session, node.index()));
-        value_row(ui, &label, &place(*corner));
+        let help = "A vertex with its number in files, and its x and y in the unit of the document.";
+        ValueRow::new(&label, &place(*corner)).help(help).show(ui);
     }
     hovered
 }

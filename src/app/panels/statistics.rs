@@ -50,19 +50,19 @@ fn count(number: usize) -> String {
 
 fn count_rows(ui: &mut Ui, measured: &Measured) {
     let triangles = measured.part_sizes.iter().sum();
-    value_row(ui, "Triangles", &count(triangles)).on_hover_text("Triangles of the mesh, as files get it.");
-    value_row(ui, "Nodes", &count(measured.nodes)).on_hover_text("Nodes of the mesh, as files get it.");
+    value_row(ui, "Triangles", &count(triangles));
+    value_row(ui, "Nodes", &count(measured.nodes));
     let parts = &measured.part_sizes;
     if parts.len() < 2 {
         return;
     }
     for (number, &size) in parts.iter().enumerate().take(MOST_PARTS) {
-        value_row(ui, &format!("Part {}", number + 1), &count(size))
-            .on_hover_text("Triangles of a connected part. The first has the largest area.");
+        let help = "Triangles of a connected part. The first has the largest area.";
+        ValueRow::new(&format!("Part {}", number + 1), &count(size)).help(help).show(ui);
     }
     if let Some(rest) = parts.get(MOST_PARTS..).filter(|rest| !rest.is_empty()) {
         let label = format!("{} smaller parts", rest.len());
-        value_row(ui, &label, &count(rest.iter().sum())).on_hover_text("Triangles of all other parts.");
+        ValueRow::new(&label, &count(rest.iter().sum())).help("Triangles of all other parts.").show(ui);
     }
 }
 
@@ -83,11 +83,9 @@ fn shape_rows(
 ) {
     let symbol = state.unit().symbol();
     let square = if symbol.is_empty() { String::new() } else { format!("{symbol}²") };
-    value_row(ui, "Area", &format::with_unit(&format::digits(measured.area, 6), &square))
-        .on_hover_text("Area of all triangles.");
+    value_row(ui, "Area", &format::with_unit(&format::digits(measured.area, 6), &square));
     let angles = [statistics.smallest_angle, statistics.largest_angle].map(|angle| format::fixed(angle, 1));
-    value_row(ui, "Angles", &format!("{}° to {}°", angles[0], angles[1]))
-        .on_hover_text("The smallest and the largest angle of all triangles.");
+    value_row(ui, "Angles", &format!("{}° to {}°", angles[0], angles[1]));
     let ratio = format!("× {}", format::fixed(statistics.size_ratio, 2));
     place_row(ui, "Gradation", &ratio, statistics.size_ratio_at, commands);
 }
@@ -97,10 +95,9 @@ fn target_row(ui: &mut Ui, measured: &Measured, state: &FrameState<'_>, commands
     let label = "h̄ honoured";
     match measured.too_coarse.as_deref() {
         Some([]) => {
-            value_row(ui, label, "everywhere").on_hover_text(
-                "No triangle is longer than h̄ asks for by the refinement rule. Nodes that move onto an outline \
-                 afterwards can lengthen their triangles a little.",
-            );
+            let help = "No triangle is longer than h̄ asks for by the refinement rule. Nodes that move onto an outline \
+                        afterwards can lengthen their triangles a little.";
+            ValueRow::new(label, "everywhere").help(help).show(ui);
         }
         Some(too_coarse @ [first, ..]) => {
             let value = format!("not in {} triangles", count(too_coarse.len()));
@@ -113,17 +110,14 @@ fn target_row(ui: &mut Ui, measured: &Measured, state: &FrameState<'_>, commands
             place_row(ui, label, &value, place, commands);
         }
         None => {
-            value_row(ui, label, "h̄ is no length somewhere");
+            let help = "At some point the target diameter is not a positive number.";
+            ValueRow::new(label, "h̄ is no length somewhere").help(help).show(ui);
         }
     }
 }
 
 fn fingerprint_row(ui: &mut Ui, measured: &Measured, commands: &mut Vec<Command>) {
-    let row = ValueRow::new("Fingerprint", &measured.fingerprint).link().show(ui);
-    let row = row.on_hover_text(
-        "Equal for equal meshes; the command line prints it as “hash”. A click copies it to the clipboard.",
-    );
-    if row.clicked() {
+    if ValueRow::new("Fingerprint", &measured.fingerprint).link().show(ui).clicked() {
         commands.push(Command::Copy(measured.fingerprint.clone()));
     }
 }
@@ -137,7 +131,7 @@ fn place_row(ui: &mut Ui, label: &str, value: &str, place: DVec2, commands: &mut
         "h̄ honoured" => "Triangles that are longer than h̄ asks for. A click goes to the first of them.",
         _ => "A click goes to this edge.",
     };
-    if ValueRow::new(label, value).link().show(ui).on_hover_text(help).clicked() {
+    if ValueRow::new(label, value).help(help).link().show(ui).clicked() {
         commands.push(Command::LookAt(place));
     }
 }

@@ -4,20 +4,29 @@ use eframe::egui::accesskit::Role;
 use eframe::egui::{Key, Modifiers, vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
-use super::{FREE, TALL, Window, canvas, choose, key, open_section, send, window_of};
+use super::{FREE, TALL, Window, canvas, choose, key, open_section, send, wait_until, window_of};
 use crate::app::command::Command;
 use crate::app::tools::TOOLS;
 
-const CONTROLS: [Role; 6] =
-    [Role::Button, Role::Slider, Role::TextInput, Role::RadioButton, Role::CheckBox, Role::ComboBox];
+const CONTROLS: [Role; 7] = [
+    Role::Button,
+    Role::Slider,
+    Role::TextInput,
+    Role::RadioButton,
+    Role::CheckBox,
+    Role::ComboBox,
+    Role::Definition,
+];
 
-/// Names of the controls in tool strip and side panel that have no sentence.
+/// Names of the controls and values in tool strip and side panel that have no sentence.
 fn unexplained(window: &Window) -> Vec<String> {
     let canvas = canvas(window);
     let in_panels = |x: f32| x < canvas.left() || x > canvas.right();
     let controls = CONTROLS.into_iter().flat_map(|role| window.query_all_by_role(role));
     controls
         .filter(|node| in_panels(node.rect().center().x) && node.rect().top() >= canvas.top())
+        // The status bar.
+        .filter(|node| node.rect().bottom() <= canvas.bottom())
         // The title of a section shows that it folds.
         .filter(|node| {
             node.accesskit_node().data().is_expanded().is_none()
@@ -30,11 +39,13 @@ fn unexplained(window: &Window) -> Vec<String> {
 
 #[test]
 fn every_control_of_the_panels_has_a_sentence() {
-    let mut window = window_of(vec2(TALL.x, 2600.0));
+    let mut window = window_of(vec2(TALL.x, 3000.0));
     send(&mut window, Command::Query(FREE));
-    for section in ["Base field", "Mesh", "Domain", "View"] {
+    for section in ["Stroke", "Base field", "Mesh", "Statistics", "Domain", "View"] {
         open_section(&mut window, section);
     }
+    wait_until(&mut window, |window| window.query_by_label("Fingerprint").is_some());
+    assert!(window.query_by_label("Interpolated").is_some(), "of the queried triangle");
     assert_eq!(unexplained(&window), [""; 0]);
     window.get_by_role_and_label(Role::RadioButton, "Formula").click();
     for tool in TOOLS {
@@ -42,6 +53,8 @@ fn every_control_of_the_panels_has_a_sentence() {
         assert_eq!(unexplained(&window), [""; 0], "{}", tool.name);
     }
     choose(&mut window, "Examples", "Aegean Sea");
+    open_section(&mut window, "Fit to outline");
+    wait_until(&mut window, |window| window.query_by_label("Misclassified").is_some());
     for tool in TOOLS {
         send(&mut window, Command::Use(tool));
         assert_eq!(unexplained(&window), [""; 0], "{} in a domain of polygons", tool.name);
@@ -60,6 +73,10 @@ fn a_tooltip_is_beside_the_panel() {
     window.run_steps(8);
     let tooltip = window.get_by_label_contains("Takes paint away").rect();
     assert!(tooltip.left() >= canvas(&window).left(), "{tooltip:?}");
+    window.hover_at(window.get_by_role_and_label(Role::Definition, "h̄ · level").rect().center());
+    window.run_steps(8);
+    let tooltip = window.get_by_label_contains("What one stroke asks for").rect();
+    assert!(tooltip.right() <= canvas(&window).right(), "{tooltip:?}");
 }
 
 #[test]

@@ -7,7 +7,7 @@ const EDGE: f32 = 2.0;
 
 /// The sentences of controls that have no unit or number in it, by the name of the control. The name of a
 /// choice is that of its group and its own.
-static SENTENCES: [(&str, &str); 65] = [
+static SENTENCES: [(&str, &str); 95] = [
     (
         "What the brush paints/Risk",
         "The brush paints risk, from 0 to 1, which the transfer curve turns into a diameter.",
@@ -76,6 +76,10 @@ static SENTENCES: [(&str, &str); 65] = [
     ("Right", "Largest x of the domain, in the unit of the document."),
     ("Top", "Largest y of the domain, in the unit of the document."),
     ("Open domain…", "Reads polygons from a GeoJSON file as the domain of a new document."),
+    (
+        "Add outline…",
+        "Reads polygons from a GeoJSON file as the domain of this document, and keeps the paint.",
+    ),
     ("Whole rectangle", "Makes the whole rectangle the domain."),
     ("What a click does/Select", "A click selects a piece of the boundary; S switches."),
     ("What a click does/Split", "A click ends a piece of the boundary there; S switches."),
@@ -106,6 +110,47 @@ static SENTENCES: [(&str, &str); 65] = [
     ("Undo", "Takes back the last gesture."),
     ("Redo", "Does the last undone gesture again."),
     ("Fit domain", "Shows the whole domain."),
+    (
+        "h̄ · level",
+        "What one stroke asks for where nothing is painted; in the mode Lower: what it leaves of risk 1.",
+    ),
+    ("Coarse grid", "Cells of the grid that bisection starts from: columns and rows."),
+    ("Memory in use", "Memory that this document and its mesh take."),
+    ("Kind", "What the piece bounds: outside, a hole, or an edge of the domain."),
+    ("Length", "Length of the piece, in the unit of the document."),
+    ("Marker in files", "The number that files give the edges of this piece."),
+    ("Risk from", "The file that the risk was read from."),
+    ("Pixels", "Columns and rows of the picture."),
+    ("Corners", "Corners of all polygons of the domain."),
+    ("Picture", "The file of the picture behind the mesh."),
+    ("Mesh", "The figures appear when the mesh is complete."),
+    ("Triangles", "Triangles of the mesh, as files get it."),
+    ("Nodes", "Nodes of the mesh, as files get it."),
+    ("Area", "Area of all triangles."),
+    ("Angles", "The smallest and the largest angle of all triangles."),
+    (
+        "Fingerprint",
+        "Equal for equal meshes; the command line prints it as “hash”. A click copies it to the clipboard.",
+    ),
+    (
+        "Level · orientation",
+        "How often bisection made it; and the order of v₁ v₂ v₃. In files all triangles are anticlockwise.",
+    ),
+    ("Diameter", "The longest edge of the triangle, in the unit of the document."),
+    ("Point", "The x and y that you clicked, in the unit of the document."),
+    ("Lies", "Where in the triangle the point is."),
+    ("ζ₁ ζ₂ ζ₃", "Barycentric coordinates of the point: its weights for v₁, v₂ and v₃, which add up to 1."),
+    ("At v₁ v₂ v₃", "The values at the vertices."),
+    ("Interpolated", "The value at the point, interpolated linearly from the vertices."),
+    ("True (difference)", "The value of the field at the point, and by how much the interpolation differs."),
+    (
+        "Nodes on outline",
+        "Nodes of the boundary that lie on the outline. The others would make an angle too small.",
+    ),
+    ("Islands kept", "Islands of the outline that are no part of the mesh."),
+    ("Net area", "Area of the mesh without that of the outline."),
+    ("Misclassified", "Area that only the mesh or only the outline covers."),
+    ("Largest part removed", "Triangles of the largest part that was removed. A click goes there."),
 ];
 
 /// The sentence for a control, or an empty text.

@@ -4,15 +4,17 @@ use eframe::egui::{CursorIcon, Response, Role, Sense, Stroke, Ui, WidgetInfo};
 
 use super::paint;
 use crate::app::theme::{font, tokens};
+use crate::app::widgets::tips;
 
 /// A grey name at the left, a bright monospaced value at the right.
 ///
-/// Where both do not fit the value ends in `…`; a tooltip shows all of it. Tests find the row by its name and
-/// read the value from it.
+/// Where both do not fit the value ends in `…`; the tooltip shows all of it. Tests find the row by its name
+/// and read the value from it.
 #[must_use = "call `show`"]
 pub struct ValueRow<'a> {
     label: &'a str,
     value: &'a str,
+    help: &'a str,
     stands_out: bool,
     is_link: bool,
 }
@@ -25,7 +27,12 @@ pub fn value_row(ui: &mut Ui, label: &str, value: &str) -> Response {
 impl<'a> ValueRow<'a> {
     /// A row.
     pub fn new(label: &'a str, value: &'a str) -> Self {
-        Self { label, value, stands_out: false, is_link: false }
+        Self { label, value, help: "", stands_out: false, is_link: false }
+    }
+
+    /// Shown when the pointer rests on the row; without it, the sentence known for its name.
+    pub fn help(self, help: &'a str) -> Self {
+        Self { help, ..self }
     }
 
     /// Colours the value, where it needs attention.
@@ -40,7 +47,7 @@ impl<'a> ValueRow<'a> {
 
     /// Shows the row.
     pub fn show(self, ui: &mut Ui) -> Response {
-        let Self { label, value, stands_out, is_link } = self;
+        let Self { label, value, help, stands_out, is_link } = self;
         let t = tokens(ui);
         let row = paint::row(ui);
         let (sense, role) =
@@ -64,6 +71,12 @@ impl<'a> ValueRow<'a> {
         paint::at_left(ui, row, name);
         paint::at_right(ui, row, number);
         let response = if is_link { response.on_hover_cursor(CursorIcon::PointingHand) } else { response };
-        if cut { response.on_hover_text(format!("{label}: {value}")) } else { response }
+        let help = if help.is_empty() { tips::sentence(label) } else { help };
+        let all = format!("{label}: {value}");
+        match (cut, help) {
+            (false, help) => tips::explain(ui, response, help),
+            (true, "") => tips::explain(ui, response, &all),
+            (true, help) => tips::explain(ui, response, &format!("{all}\n{help}")),
+        }
     }
 }
