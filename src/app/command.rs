@@ -34,6 +34,8 @@ pub enum Command {
     OpenProject(PathBuf),
     /// Reads a greyscale picture, or a grid of its own placement, as the base field's risk.
     OpenImage(PathBuf),
+    /// Reads a grid as the base field's target diameters.
+    OpenDiameters(PathBuf),
     /// Reads a picture to be shown behind the mesh.
     OpenBackground(PathBuf),
     /// Reads polygons, and opens a new document with them as its domain.

@@ -89,26 +89,62 @@ pub fn load_background(session: &Session, background: &mut Background, path: &Pa
     });
 }
 
+/// Reads a grid and makes it the base field's target diameters.
+pub fn load_diameters(session: &Session, background: &mut Background, path: &Path) {
+    let bounds = session.document().settings().domain.bounds;
+    let file = path.to_owned();
+    background.start(Aim::Read, path, move |_| match diameters_of(&file, bounds) {
+        Ok(raster) => {
+            let base = Base::DiameterGrid { name: name_of(&file), raster: Arc::new(raster) };
+            Outcome::PartRead(vec![Command::Set(Setting::Base(base)), Command::EndGesture])
+        }
+        Err(problem) => Outcome::NotRead(problem),
+    });
+}
+
+/// Target diameters by pixel; infinite where the grid has no value.
+fn diameters_of(path: &Path, bounds: Rect) -> Result<Raster, String> {
+    let grid = grid_within(path, bounds)?;
+    if let Some((x, y)) = grid.all().pixels().find(|&(x, y)| grid.get(x, y) <= 0.0) {
+        let (value, at) = (grid.get(x, y), grid.pixel_center(x, y));
+        return Err(format!(
+            "{}: the target diameter is {value} at x = {}, y = {}; it must be positive.",
+            path.display(),
+            at.x,
+            at.y
+        ));
+    }
+    let values =
+        grid.values().iter().map(|&value| if value.is_nan() { f32::INFINITY } else { value }).collect();
+    Ok(Raster::from_values(grid.bounds(), grid.size(), values))
+}
+
+/// A grid that covers some of `bounds`.
+fn grid_within(path: &Path, bounds: Rect) -> Result<Raster, String> {
+    let grid = io::asc::read(path).map_err(|error| error.to_string())?;
+    if grid.bounds().intersection(&bounds).is_none_or(|common| !common.is_proper()) {
+        let (file, grid, document) = (path.display(), extent(&grid.bounds()), extent(&bounds));
+        return Err(format!(
+            "{file}: the grid lies outside this document: it covers {grid}, and the document {document}. Set the bounds in \
+             the Domain panel first."
+        ));
+    }
+    Ok(grid)
+}
+
 /// Risks by pixel: a picture over `bounds`, or a grid, which has a placement of its own.
 fn risk_of(path: &Path, bounds: Rect, meter: &Meter) -> Result<Raster, String> {
     if !path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("asc")) {
         let picture = io::png::read_metered(path, bounds, Behind::Black, meter);
         return picture.map_err(|error| error.to_string());
     }
-    let grid = io::asc::read(path).map_err(|error| error.to_string())?;
+    let grid = grid_within(path, bounds)?;
     let file = path.display();
-    if grid.bounds().intersection(&bounds).is_none_or(|common| !common.is_proper()) {
-        let (grid, document) = (extent(&grid.bounds()), extent(&bounds));
-        return Err(format!(
-            "{file}: the grid lies outside this document: it covers {grid}, and the document {document}. Set the bounds in \
-             the Domain panel first."
-        ));
-    }
     if let Some((x, y)) = grid.all().pixels().find(|&(x, y)| !is_risk(grid.get(x, y))) {
         let (value, at) = (grid.get(x, y), grid.pixel_center(x, y));
         return Err(format!(
-            "{file}: the risk is {value} at x = {}, y = {}; it must lie from 0 to 1. Scale the values first. The command \
-             line takes target diameters with --target-raster.",
+            "{file}: the risk is {value} at x = {}, y = {}; it must lie from 0 to 1. If the values are target \
+             diameters, use *Open grid as target diameter…* in the menu File; else scale them first.",
             at.x, at.y
         ));
     }

@@ -39,7 +39,7 @@ impl EntryData {
 
 fn own_bytes(settings: &Settings) -> usize {
     let picture_name = match &settings.base {
-        Base::RiskImage { name, .. } => name.capacity(),
+        Base::RiskImage { name, .. } | Base::DiameterGrid { name, .. } => name.capacity(),
         Base::Constant(_) | Base::Formula(_) => 0,
     };
     size_of::<Settings>() + settings.name.capacity() + picture_name
@@ -54,7 +54,9 @@ fn shared_data(settings: &Settings) -> impl Iterator<Item = SharedData> {
     let (base_formula, picture) = match &settings.base {
         Base::Constant(_) => (None, None),
         Base::Formula(formula) => (Some(formula), None),
-        Base::RiskImage { raster, .. } => (None, Some((Arc::as_ptr(raster).addr(), raster.bytes()))),
+        Base::RiskImage { raster, .. } | Base::DiameterGrid { raster, .. } => {
+            (None, Some((Arc::as_ptr(raster).addr(), raster.bytes())))
+        }
     };
     let background = settings
         .background

@@ -110,7 +110,7 @@ impl Document {
         let painted = self.paint.risk.sample(point).map(f64::from)?;
         let base = match &self.settings.base {
             Base::RiskImage { raster, .. } => raster.sample(point).map_or(0.0, f64::from),
-            Base::Constant(_) | Base::Formula(_) => 0.0,
+            Base::Constant(_) | Base::Formula(_) | Base::DiameterGrid { .. } => 0.0,
         };
         Some(painted.max(base))
     }

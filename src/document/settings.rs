@@ -59,6 +59,13 @@ pub enum Base {
         /// Risks over the domain's rectangle, or with a placement of its own.
         raster: Arc<Raster>,
     },
+    /// A grid of target diameters, in world units.
+    DiameterGrid {
+        /// Name of the file, for a person.
+        name: String,
+        /// Diameters at their own place; infinite where the grid has no value.
+        raster: Arc<Raster>,
+    },
 }
 
 impl PartialEq for Base {
@@ -67,7 +74,8 @@ impl PartialEq for Base {
         match (self, other) {
             (Self::Constant(a), Self::Constant(b)) => a == b,
             (Self::Formula(a), Self::Formula(b)) => a == b,
-            (Self::RiskImage { name: a, raster: x }, Self::RiskImage { name: b, raster: y }) => {
+            (Self::RiskImage { name: a, raster: x }, Self::RiskImage { name: b, raster: y })
+            | (Self::DiameterGrid { name: a, raster: x }, Self::DiameterGrid { name: b, raster: y }) => {
                 a == b && (Arc::ptr_eq(x, y) || x == y)
             }
             _ => false,
@@ -195,6 +203,7 @@ impl Settings {
             Base::Constant(value) => Source::Constant(*value),
             Base::Formula(formula) => Source::TargetFormula(formula.clone()),
             Base::RiskImage { raster, .. } => Source::RiskRaster(raster.clone()),
+            Base::DiameterGrid { raster, .. } => Source::TargetRaster(raster.clone()),
         };
         let (transfer, size) = (self.transfer, self.raster_size());
         TargetFieldSpec { sources: vec![source], transfer, unasked: transfer.h_max, size }

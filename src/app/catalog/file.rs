@@ -17,6 +17,7 @@ pub fn file(state: &FrameState<'_>) -> Vec<CatalogItem> {
         CatalogItem::new(File, "Save as…", Command::Ask(FileRequest::Save))
             .keys(Modifiers::COMMAND | Modifiers::SHIFT, Key::S),
         CatalogItem::new(File, "Open picture as risk…", Command::Ask(FileRequest::OpenImage)).group(),
+        CatalogItem::new(File, "Open grid as target diameter…", Command::Ask(FileRequest::OpenDiameters)),
         CatalogItem::new(File, "Open background picture…", Command::Ask(FileRequest::OpenBackground)),
         CatalogItem::new(File, "Open domain…", Command::Ask(FileRequest::OpenDomain))
             .keys(Modifiers::COMMAND | Modifiers::SHIFT, Key::O),

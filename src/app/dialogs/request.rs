@@ -16,6 +16,8 @@ pub enum FileRequest {
     Save,
     /// To open a picture or a grid as risk.
     OpenImage,
+    /// To open a grid as target diameters.
+    OpenDiameters,
     /// To open a picture to trace.
     OpenBackground,
     /// To open polygons as a domain.
@@ -33,6 +35,7 @@ impl FileRequest {
             Self::Open => "Open",
             Self::Save => "Save project",
             Self::OpenImage => "Open picture as risk",
+            Self::OpenDiameters => "Open grid as target diameter",
             Self::OpenBackground => "Open background picture",
             Self::OpenDomain => "Open domain",
             Self::AddOutline => "Add outline to this document",
@@ -43,7 +46,9 @@ impl FileRequest {
     /// The word on the button.
     pub fn verb(self) -> &'static str {
         match self {
-            Self::Open | Self::OpenImage | Self::OpenBackground | Self::OpenDomain => "Open",
+            Self::Open | Self::OpenImage | Self::OpenDiameters | Self::OpenBackground | Self::OpenDomain => {
+                "Open"
+            }
             Self::AddOutline => "Add",
             Self::Save => "Save",
             Self::Export => "Export",
@@ -56,6 +61,7 @@ impl FileRequest {
             Self::Open => vec![ENDING, "geojson", "json", "png", "asc"],
             Self::Save => vec![ENDING],
             Self::OpenImage => vec!["png", "asc"],
+            Self::OpenDiameters => vec!["asc"],
             Self::OpenBackground => vec!["png"],
             Self::OpenDomain | Self::AddOutline => vec!["geojson", "json"],
             Self::Export => ExportFormat::endings().collect(),
@@ -68,6 +74,7 @@ impl FileRequest {
             Self::Open => "Projects, domains, pictures, grids",
             Self::Save => "Projects",
             Self::OpenImage => "Pictures and grids",
+            Self::OpenDiameters => "Grids",
             Self::OpenBackground => "Pictures",
             Self::OpenDomain | Self::AddOutline => "Polygons",
             Self::Export => "Meshes and pictures",
@@ -84,7 +91,7 @@ impl FileRequest {
     pub fn folder_key(self) -> &'static str {
         match self {
             Self::Open | Self::Save => "projects",
-            Self::OpenImage => "pictures",
+            Self::OpenImage | Self::OpenDiameters => "pictures",
             Self::OpenBackground => "backgrounds",
             Self::OpenDomain | Self::AddOutline => "domains",
             Self::Export => "exports",
@@ -103,9 +110,7 @@ impl FileRequest {
         match self {
             Self::Save => format!("{name}.{ENDING}"),
             Self::Export => format!("{name}.{}", format.ending()),
-            Self::Open | Self::OpenImage | Self::OpenBackground | Self::OpenDomain | Self::AddOutline => {
-                String::new()
-            }
+            _ => String::new(),
         }
     }
 
@@ -115,6 +120,7 @@ impl FileRequest {
             Self::Open => Command::Open(path),
             Self::Save => Command::SaveAs(path),
             Self::OpenImage => Command::OpenImage(path),
+            Self::OpenDiameters => Command::OpenDiameters(path),
             Self::OpenBackground => Command::OpenBackground(path),
             Self::OpenDomain => Command::OpenDomain(path),
             Self::AddOutline => Command::AddOutline(path),

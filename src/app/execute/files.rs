@@ -26,6 +26,7 @@ impl App {
                 Err(problem) => self.fail(problem),
             },
             Command::OpenProject(path) => project::open_project(&mut self.background, &path),
+            Command::OpenDiameters(path) => files::load_diameters(&self.session, &mut self.background, &path),
             Command::OpenImage(path) => files::load_image(&self.session, &mut self.background, &path),
             Command::OpenBackground(path) => {
                 files::load_background(&self.session, &mut self.background, &path);

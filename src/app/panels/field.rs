@@ -7,7 +7,7 @@ use super::{Panel, set_once};
 use crate::app::command::Command;
 use crate::app::dialogs::FileRequest;
 use crate::app::frame::FrameState;
-use crate::app::widgets::{ActionButton, NumberRow, Section, segmented, value_row};
+use crate::app::widgets::{ActionButton, NumberRow, Section, ValueRow, segmented};
 use crate::document::{Base, RESOLUTIONS, Setting, Settings};
 
 /// The base field and its resolution.
@@ -25,7 +25,7 @@ impl From<&Base> for BaseKind {
         match base {
             Base::Constant(_) => Self::Constant,
             Base::Formula(_) => Self::Formula,
-            Base::RiskImage { .. } => Self::Image,
+            Base::RiskImage { .. } | Base::DiameterGrid { .. } => Self::Image,
         }
     }
 }
@@ -109,13 +109,22 @@ fn formula_row(ui: &mut Ui, state: &FrameState<'_>, base: &Base, commands: &mut 
 }
 
 fn image_rows(ui: &mut Ui, base: &Base, commands: &mut Vec<Command>) {
-    if let Base::RiskImage { name, raster } = base {
+    let shown = match base {
+        Base::RiskImage { name, raster } => Some(("Risk from", name, raster)),
+        Base::DiameterGrid { name, raster } => Some(("Diameters from", name, raster)),
+        Base::Constant(_) | Base::Formula(_) => None,
+    };
+    if let Some((label, name, raster)) = shown {
         let [columns, rows] = raster.size();
-        value_row(ui, "Risk from", name);
-        value_row(ui, "Pixels", &format!("{columns} × {rows}"));
+        ValueRow::new(label, name).help("The file that the base field was read from.").show(ui);
+        let pixels = format!("{columns} × {rows}");
+        ValueRow::new("Pixels", &pixels).help("Columns and rows of that file.").show(ui);
     }
     if ui.add(ActionButton::new("Open picture…")).clicked() {
         commands.push(Command::Ask(FileRequest::OpenImage));
+    }
+    if ui.add(ActionButton::new("Open diameters…")).clicked() {
+        commands.push(Command::Ask(FileRequest::OpenDiameters));
     }
 }
 

@@ -1,6 +1,6 @@
 //! An outline that is added to a document with paint.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use eframe::egui::accesskit::Role;
 use eframe::egui::{Key, Modifiers};
@@ -9,8 +9,8 @@ use egui_kittest::kittest::Queryable as _;
 use glam::{DVec2, dvec2};
 
 use super::{
-    TALL, Window, area, document, entries, folder, level_at, open_section, paint, send, settings,
-    wait_for_notice, wait_until, window, window_of, window_with,
+    TALL, Window, area, document, entries, fingerprint, folder, level_at, open_section, paint, send,
+    settings, wait_for_notice, wait_until, window, window_of, window_with,
 };
 use crate::app::command::Command;
 use crate::document::Base;
@@ -122,15 +122,41 @@ fn the_base_field_shows_what_the_document_has() {
     assert!(chosen(&window, "Constant"), "the new document has no formula");
 }
 
+/// Writes a grid of two pixels, of which the right one has no value.
+fn write_grid(file: &Path, corner: f64, value: f64) -> PathBuf {
+    let header = format!("ncols 2\nnrows 1\nxllcorner {corner}\nyllcorner 0.25\ncellsize 0.25\n");
+    std::fs::write(file, format!("{header}NODATA_value -9\n{value} -9\n")).unwrap();
+    file.to_owned()
+}
+
+#[test]
+fn a_grid_opens_as_target_diameters_and_is_saved_with_the_document() {
+    let folder = folder("app-outline", "diameters");
+    let file = |name: &str| folder.join(name);
+    let mut window = window_of(TALL);
+    send(&mut window, Command::New);
+    send(&mut window, Command::OpenDiameters(write_grid(&file("zero.asc"), 0.25, 0.0)));
+    assert!(wait_for_notice(&mut window).contains("it must be positive"));
+    send(&mut window, Command::OpenDiameters(write_grid(&file("lengths.asc"), 0.25, 0.02)));
+    wait_until(&mut window, |window| matches!(settings(window).base, Base::DiameterGrid { .. }));
+    wait_until(&mut window, |window| level_at(window, dvec2(0.3, 0.4)) == 4);
+    assert_eq!(level_at(&window, dvec2(0.9, 0.9)), 0);
+    super::open_section(&mut window, "Base field");
+    assert_eq!(super::value_of(&window, Role::Definition, "Diameters from"), "lengths.asc");
+    let before = fingerprint(&window);
+    let project = file("grid.meshbrush");
+    send(&mut window, Command::SaveTo(project.clone()));
+    wait_until(&mut window, |_| project.exists());
+    send(&mut window, Command::New);
+    send(&mut window, Command::OpenProject(project.clone()));
+    wait_until(&mut window, |window| matches!(settings(window).base, Base::DiameterGrid { .. }));
+    wait_until(&mut window, |window| fingerprint(window) == before);
+}
+
 #[test]
 fn a_grid_opens_as_risk_at_its_own_place() {
     let folder = folder("app-outline", "grid");
-    let grid = |name: &str, corner: f64, value: f64| {
-        let file = folder.join(name);
-        let header = format!("ncols 2\nnrows 1\nxllcorner {corner}\nyllcorner 0.25\ncellsize 0.25\n");
-        std::fs::write(&file, format!("{header}NODATA_value -9\n{value} -9\n")).unwrap();
-        file
-    };
+    let grid = |name: &str, corner: f64, value: f64| write_grid(&folder.join(name), corner, value);
     let mut window = window();
     send(&mut window, Command::New);
     send(&mut window, Command::Open(grid("large.asc", 0.25, 7.0)));

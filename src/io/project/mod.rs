@@ -5,7 +5,8 @@
 //! - `settings.json`: `format`, `version`, the program that wrote it, and all settings; numbers read back
 //!   exactly.
 //! - `domain.geojson`, if the domain has polygons: their corners in world units.
-//! - `base.risk`, if the base field is a picture: 32-bit floats, row by row from the lowest.
+//! - `base.risk`, if the base field is a picture, or `base.diameter`, if it is a grid of target diameters:
+//!   32-bit floats, row by row from the lowest.
 //! - `background.png`, if there is a picture behind the mesh.
 //! - `paint.tiles`: the painted tiles of 64 × 64 pixels. Each has its column and row (16 bits each,
 //!   little-endian), a byte with bit 0 for risk and bit 1 for diameter, and the pixels of each of these.
@@ -34,7 +35,7 @@ use crate::domain::Polygon;
 use crate::geometry::Rect;
 use crate::paint::{PaintRasters, Tiles};
 use crate::raster::Raster;
-use archive::{Archive, ArchiveWriter, Part};
+use archive::{Archive, ArchiveWriter, Part, Unpacking};
 use settings::{Parts, Saved};
 
 /// The extension of project files.
@@ -46,7 +47,8 @@ const FORMAT: &str = "Meshbrush project";
 
 const SETTINGS: &str = "settings.json";
 const DOMAIN: &str = "domain.geojson";
-const BASE: &str = "base.risk";
+const BASE_RISK: &str = "base.risk";
+const BASE_DIAMETER: &str = "base.diameter";
 const BACKGROUND: &str = "background.png";
 const PAINT: &str = "paint.tiles";
 
@@ -173,8 +175,14 @@ fn parts(project: &Project) -> Vec<ToWrite<'_>> {
     if let Some(region) = settings.domain.region() {
         parts.push((DOMAIN, Box::new(|out| geojson::write(out, region.polygons()))));
     }
-    if let Base::RiskImage { raster, .. } = &settings.base {
-        parts.push((BASE, Box::new(|out| pixels::write_raster(out, raster))));
+    match &settings.base {
+        Base::RiskImage { raster, .. } => {
+            parts.push((BASE_RISK, Box::new(|out| pixels::write_raster(out, raster))));
+        }
+        Base::DiameterGrid { raster, .. } => {
+            parts.push((BASE_DIAMETER, Box::new(|out| pixels::write_raster(out, raster))));
+        }
+        Base::Constant(_) | Base::Formula(_) => {}
     }
     if let Some(Background { picture, .. }) = &settings.background {
         parts.push((BACKGROUND, Box::new(|mut out| png::write(&mut out, picture.size, &picture.rgba))));
@@ -247,6 +255,24 @@ struct Packed<'b, 'a> {
     meter: &'b Meter,
 }
 
+impl Packed<'_, '_> {
+    /// The pixels of a raster of [columns, rows], which are a part of their own.
+    fn raster(
+        &self,
+        name: &'static str,
+        [columns, rows]: [u32; 2],
+        read: impl FnOnce(&mut Unpacking) -> Result<Raster, Flaw>,
+    ) -> Result<Raster, PlacedFlaw> {
+        let bytes = 4 * u64::from(columns) * u64::from(rows);
+        let raster = part(self.archive, name)?.unpack(bytes, self.meter).and_then(|mut unpacking| {
+            let raster = read(&mut unpacking)?;
+            unpacking.finish()?;
+            Ok(raster)
+        });
+        raster.map_err(|flaw| in_part(flaw, name))
+    }
+}
+
 impl Parts for Packed<'_, '_> {
     fn polygons(&mut self) -> Result<Vec<Polygon>, PlacedFlaw> {
         let text = part(self.archive, DOMAIN)?.bytes(MOST_POLYGONS, self.meter);
@@ -263,12 +289,10 @@ impl Parts for Packed<'_, '_> {
     }
 
     fn risks(&mut self, bounds: Rect, size: [u32; 2]) -> Result<Raster, PlacedFlaw> {
-        let bytes = 4 * u64::from(size[0]) * u64::from(size[1]);
-        let raster = part(self.archive, BASE)?.unpack(bytes, self.meter).and_then(|mut unpacking| {
-            let raster = pixels::read_risks(&mut unpacking, bounds, size)?;
-            unpacking.finish()?;
-            Ok(raster)
-        });
-        raster.map_err(|flaw| in_part(flaw, BASE))
+        self.raster(BASE_RISK, size, |unpacking| pixels::read_risks(unpacking, bounds, size))
+    }
+
+    fn diameters(&mut self, bounds: Rect, size: [u32; 2]) -> Result<Raster, PlacedFlaw> {
+        self.raster(BASE_DIAMETER, size, |unpacking| pixels::read_diameters(unpacking, bounds, size))
     }
 }

@@ -89,9 +89,27 @@ pub fn write_raster(out: &mut dyn Write, raster: &Raster) -> io::Result<()> {
 /// # Errors
 /// When the bytes end too early, or a value is not between 0 and 1.
 pub fn read_risks(input: &mut Unpacking, bounds: Rect, size: [u32; 2]) -> Result<Raster, Flaw> {
+    read_raster(input, bounds, size, is_risk, "risk")
+}
+
+/// Reads a raster of target diameters; where it asks for nothing they are infinite.
+///
+/// # Errors
+/// When the bytes end too early, or a value is not positive.
+pub fn read_diameters(input: &mut Unpacking, bounds: Rect, size: [u32; 2]) -> Result<Raster, Flaw> {
+    read_raster(input, bounds, size, |value| value > 0.0, "target diameter")
+}
+
+fn read_raster(
+    input: &mut Unpacking,
+    bounds: Rect,
+    size: [u32; 2],
+    is_valid: fn(f32) -> bool,
+    what: &'static str,
+) -> Result<Raster, Flaw> {
     let mut values = Vec::new();
     for _ in 0..size[1] {
-        values.extend(read_floats(input, size[0] as usize, is_risk, "risk")?);
+        values.extend(read_floats(input, size[0] as usize, is_valid, what)?);
     }
     Ok(Raster::from_values(bounds, size, values))
 }

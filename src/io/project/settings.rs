@@ -223,12 +223,35 @@ enum SavedBase {
     Constant(f64),
     Formula(String),
     /// A picture, whose pixels are in the part `base.risk`.
-    RiskImage {
-        name: String,
-        bounds: [f64; 4],
-        columns: u32,
-        rows: u32,
-    },
+    RiskImage(SavedRaster),
+    /// A grid, whose pixels are in the part `base.diameter`.
+    DiameterGrid(SavedRaster),
+}
+
+/// A raster without its pixels.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SavedRaster {
+    name: String,
+    bounds: [f64; 4],
+    columns: u32,
+    rows: u32,
+}
+
+impl SavedRaster {
+    fn of(name: &str, raster: &Raster) -> Self {
+        let [columns, rows] = raster.size();
+        Self { name: name.to_owned(), bounds: corners(raster.bounds()), columns, rows }
+    }
+
+    /// The place and the size of the raster.
+    fn checked(&self) -> Result<(Rect, [u32; 2]), PlacedFlaw> {
+        let size = [self.columns, self.rows];
+        if size.iter().any(|side| !(1..=MAX_SIDE).contains(side)) {
+            return Err(Flaw::Size { columns: self.columns.into(), rows: self.rows.into() }.into());
+        }
+        Ok((rect("base", self.bounds)?, size))
+    }
 }
 
 #[derive(Serialize, Deserialize)]
@@ -244,8 +267,10 @@ pub(super) trait Parts {
     fn polygons(&mut self) -> Result<Vec<Polygon>, PlacedFlaw>;
     /// The picture behind the mesh.
     fn background(&mut self) -> Result<Picture, PlacedFlaw>;
-    /// The pixels of the base field.
+    /// The risks of the base field.
     fn risks(&mut self, bounds: Rect, size: [u32; 2]) -> Result<Raster, PlacedFlaw>;
+    /// The target diameters of the base field.
+    fn diameters(&mut self, bounds: Rect, size: [u32; 2]) -> Result<Raster, PlacedFlaw>;
 }
 
 impl Saved {
@@ -278,15 +303,8 @@ impl Saved {
             base: match &settings.base {
                 Base::Constant(diameter) => SavedBase::Constant(*diameter),
                 Base::Formula(formula) => SavedBase::Formula(formula.source().into()),
-                Base::RiskImage { name, raster } => {
-                    let [columns, rows] = raster.size();
-                    SavedBase::RiskImage {
-                        name: name.clone(),
-                        bounds: corners(raster.bounds()),
-                        columns,
-                        rows,
-                    }
-                }
+                Base::RiskImage { name, raster } => SavedBase::RiskImage(SavedRaster::of(name, raster)),
+                Base::DiameterGrid { name, raster } => SavedBase::DiameterGrid(SavedRaster::of(name, raster)),
             },
             rule: match settings.rule {
                 RefinementRule::Vertex => SavedRule::Vertex,
@@ -349,13 +367,13 @@ impl Saved {
         let base = match self.base {
             SavedBase::Constant(diameter) => Base::Constant(diameter),
             SavedBase::Formula(text) => Base::Formula(formula("base", &text)?),
-            SavedBase::RiskImage { name, bounds, columns, rows } => {
-                let size = [columns, rows];
-                if size.iter().any(|side| !(1..=MAX_SIDE).contains(side)) {
-                    return Err(Flaw::Size { columns: columns.into(), rows: rows.into() }.into());
-                }
-                let raster = parts.risks(rect("base", bounds)?, size)?;
-                Base::RiskImage { name, raster: Arc::new(raster) }
+            SavedBase::RiskImage(saved) => {
+                let (bounds, size) = saved.checked()?;
+                Base::RiskImage { raster: Arc::new(parts.risks(bounds, size)?), name: saved.name }
+            }
+            SavedBase::DiameterGrid(saved) => {
+                let (bounds, size) = saved.checked()?;
+                Base::DiameterGrid { raster: Arc::new(parts.diameters(bounds, size)?), name: saved.name }
             }
         };
         let background = self.background.map(|saved| saved.with(parts.background()?)).transpose()?;
