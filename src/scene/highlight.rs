@@ -4,7 +4,16 @@ use super::Camera;
 use crate::colormap::Ground;
 use crate::mesh::{MeshView, TriangleId};
 
-const WHITE: [u8; 4] = [0xff; 4];
+const WHITE: [u8; 3] = [0xff; 3];
+/// The outer part of every line. White and bright lines alone are hard to see on yellow, and on the light
+/// canvas.
+const HALO: [u8; 4] = [0, 0, 0, 0xe0];
+/// How far the halo extends beyond each side of its line, in points.
+const HALO_POINTS: f32 = 1.5;
+/// Opacity of the fills: the colour of the level stays visible.
+const NEIGHBOUR_FILL: u8 = 0x50;
+const HOVERED_FILL: u8 = 0x18;
+const SELECTED_FILL: u8 = 0x30;
 /// Outlines are clipped this far outside the canvas, further than any line width.
 const CLIP_MARGIN_PX: f64 = 32.0;
 
@@ -40,37 +49,34 @@ pub struct Outline {
     pub line_width_px: f32,
 }
 
-/// The outlines of the highlights, in drawing order. `px_per_point` scales line widths on dense screens.
+/// The outlines of the highlights, in drawing order: each line after its dark halo, so that it is visible on
+/// the colour of any level. `px_per_point` scales line widths on dense screens.
 ///
 /// Ids that the mesh no longer has and triangles off the canvas have no outline.
 pub fn highlight_outlines(
     mesh: MeshView<'_>,
     camera: &Camera,
     highlights: &Highlights,
-    ground: Ground,
     px_per_point: f32,
 ) -> Vec<Outline> {
     let mut outlines = Vec::new();
-    let mut draw = |id: Option<TriangleId>, fill: [u8; 4], line: [u8; 4], width: f32| {
-        if let Some(polygon) = id.and_then(|id| polygon_on_screen(mesh, camera, id)) {
+    let mut draw = |id: Option<TriangleId>, [r, g, b]: [u8; 3], fill_alpha: u8, width: f32| {
+        let Some(polygon) = id.and_then(|id| polygon_on_screen(mesh, camera, id)) else { return };
+        let (halo_width, none) = (width + 2.0 * HALO_POINTS, [0; 4]);
+        let mut add = |polygon, fill, line, width: f32| {
             outlines.push(Outline { polygon, fill, line, line_width_px: width * px_per_point });
-        }
+        };
+        add(polygon.clone(), [r, g, b, fill_alpha], HALO, halo_width);
+        add(polygon, none, [r, g, b, 0xff], width);
     };
-    for (id, [r, g, b]) in highlights.neighbours.into_iter().zip(ground.neighbours()) {
-        let color = [r, g, b, 0xff];
-        draw(id, translucent(color, 0x60), color, 1.5);
+    for (id, color) in highlights.neighbours.into_iter().zip(Ground::ON_LEVELS) {
+        draw(id, color, NEIGHBOUR_FILL, 1.5);
     }
     if highlights.hovered != highlights.selected {
-        draw(highlights.hovered, translucent(WHITE, 0x14), translucent(WHITE, 0xb0), 1.0);
+        draw(highlights.hovered, WHITE, HOVERED_FILL, 1.0);
     }
-    // White alone is hard to see on yellow, so it gets a dark halo.
-    draw(highlights.selected, translucent(WHITE, 0x30), [0, 0, 0, 0x70], 4.0);
-    draw(highlights.selected, [0; 4], WHITE, 2.0);
+    draw(highlights.selected, WHITE, SELECTED_FILL, 2.0);
     outlines
-}
-
-fn translucent([r, g, b, _]: [u8; 4], alpha: u8) -> [u8; 4] {
-    [r, g, b, alpha]
 }
 
 fn polygon_on_screen(mesh: MeshView<'_>, camera: &Camera, id: TriangleId) -> Option<Vec<[f32; 2]>> {
@@ -112,6 +118,7 @@ fn clip_to_canvas(mut polygon: Vec<DVec2>, camera: &Camera) -> Vec<DVec2> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::colormap::{Colormap, LevelColors, contrast_ratio};
     use crate::geometry::{Lattice, Rect};
     use crate::mesh::{Limits, Mesh};
 
@@ -129,12 +136,12 @@ mod tests {
         let mesh = mesh();
         let camera = Camera::fit(mesh.lattice(), Rect::UNIT, [100, 100], 0.0);
         let highlights = Highlights::around(mesh.view(), TriangleId::from_index(0));
-        let outlines = highlight_outlines(mesh.view(), &camera, &highlights, Ground::Dark, 1.0);
-        // Two sides of the first triangle are on the boundary; the selected one has a halo.
-        assert_eq!(outlines.len(), 3);
-        assert_eq!(outlines[0].line[..3], Ground::Dark.neighbours()[0]);
+        let outlines = highlight_outlines(mesh.view(), &camera, &highlights, 1.0);
+        // Two sides of the first triangle are on the boundary; each line has a halo.
+        assert_eq!(outlines.len(), 4);
+        assert_eq!(outlines[1].line[..3], Ground::ON_LEVELS[0]);
         let white = outlines.last().unwrap();
-        assert_eq!((white.line, white.line_width_px), (WHITE, 2.0));
+        assert_eq!((white.line, white.line_width_px), ([0xff; 4], 2.0));
         for corner in [[0.0, 50.0], [0.0, 100.0], [50.0, 100.0]] {
             assert!(white.polygon.contains(&corner), "{:?}", white.polygon);
         }
@@ -157,6 +164,50 @@ mod tests {
         let camera = Camera::fit(mesh.lattice(), Rect::UNIT, [100, 100], 0.0);
         let highlights =
             Highlights { hovered: Some(TriangleId::from_index(1_000_000)), ..Highlights::default() };
-        assert_eq!(highlight_outlines(mesh.view(), &camera, &highlights, Ground::Dark, 1.0), []);
+        assert_eq!(highlight_outlines(mesh.view(), &camera, &highlights, 1.0), []);
+    }
+
+    /// `color` over `below`, as the screen blends them.
+    fn over(below: [u8; 3], [r, g, b, alpha]: [u8; 4]) -> [u8; 3] {
+        let share = f64::from(alpha) / 255.0;
+        let mix = |from: u8, to: u8| f64::from(from) + share * (f64::from(to) - f64::from(from));
+        [mix(below[0], r), mix(below[1], g), mix(below[2], b)].map(|c| c.round() as u8)
+    }
+
+    /// What outlines look like on the colour of each level, with every map on both grounds.
+    fn on_every_level(mut check: impl FnMut(&str, [u8; 3])) {
+        for map in Colormap::ALL {
+            for ground in [Ground::Dark, Ground::Light] {
+                let colors = LevelColors::new(map, ground, 20);
+                for level in 0..=20 {
+                    let [r, g, b, _] = colors.of(level);
+                    check(&format!("level {level}, {map:?} on {ground:?}"), [r, g, b]);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn each_outline_stands_out_from_the_colour_of_every_level() {
+        let mesh = mesh();
+        let camera = Camera::fit(mesh.lattice(), Rect::UNIT, [100, 100], 0.0);
+        let ids: Vec<_> = [0, 1, 2, 3, 4].map(TriangleId::from_index).map(Some).to_vec();
+        let neighbours = [ids[1], ids[2], ids[3]];
+        let highlights = Highlights { selected: ids[0], neighbours, hovered: ids[4] };
+        let outlines = highlight_outlines(mesh.view(), &camera, &highlights, 1.0);
+        assert_eq!(outlines.len(), 10, "halo and line of five triangles");
+        for pair in outlines.chunks(2) {
+            let (halo, line) = (&pair[0], &pair[1]);
+            on_every_level(|place, level| {
+                for beside in [level, over(level, halo.fill)] {
+                    let dark = over(beside, halo.line);
+                    let bright = over(dark, line.line);
+                    let seen = contrast_ratio(dark, beside).max(contrast_ratio(bright, beside));
+                    assert!(seen >= 3.0, "{:?} at {place}: only {seen:.2}", line.line);
+                    let core = contrast_ratio(bright, dark);
+                    assert!(core >= 3.0, "{:?} in its halo at {place}: only {core:.2}", line.line);
+                }
+            });
+        }
     }
 }

@@ -25,14 +25,12 @@ pub fn paint_highlights(
     mesh: MeshView<'_>,
     camera: &Camera,
     highlights: &Highlights,
-    ground: Ground,
 ) {
     let px_per_point = painter.pixels_per_point();
-    for outline in highlight_outlines(mesh, camera, highlights, ground, px_per_point) {
+    for outline in highlight_outlines(mesh, camera, highlights, px_per_point) {
         painter.add(outline_shape(&outline, rect, px_per_point));
     }
-    for (i, (neighbour, [r, g, b])) in highlights.neighbours.iter().zip(Ground::Dark.neighbours()).enumerate()
-    {
+    for (i, (neighbour, [r, g, b])) in highlights.neighbours.iter().zip(Ground::ON_LEVELS).enumerate() {
         if let Some(id) = *neighbour
             && let Some(at) = middle_if_large(painter, rect, mesh, camera, id)
         {

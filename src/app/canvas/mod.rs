@@ -359,14 +359,7 @@ impl Canvas {
             coordinates::paint_frame(ui, rect, &camera, state.unit());
         }
         let highlights = self.highlights(state);
-        marks::paint_highlights(
-            &painter,
-            rect,
-            state.session.view(),
-            &camera,
-            &highlights,
-            state.view.ground,
-        );
+        marks::paint_highlights(&painter, rect, state.session.view(), &camera, &highlights);
         let screen = camera.screen_map();
         let screen_from_world = |world| marks::point_from_px(rect, screen(world), px_per_point);
         if let Some(readout) = state.readout {
