@@ -97,8 +97,14 @@ pub enum Command {
     Query(DVec2),
     /// Queries a triangle.
     QueryTriangle(TriangleId),
+    /// Queries a neighbour of the queried triangle, by its place from 0; 0 is the bisection neighbour.
+    QueryNeighbour(usize),
+    /// Copies everything that the inspector shows of the queried triangle.
+    CopyReadout,
     /// Opens the question for a place to go to.
     AskPlace,
+    /// Opens it with a point typed in.
+    AskPlaceNear(DVec2),
     /// Puts a point in the middle of the canvas, and queries it.
     GoTo(DVec2),
     /// Puts a triangle in the middle of the canvas, large enough to be seen, and queries it.

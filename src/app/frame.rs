@@ -13,7 +13,7 @@
 
 use std::time::{Duration, Instant};
 
-use eframe::egui::{self, Context, Event, Frame, Popup, Ui};
+use eframe::egui::{self, Context, Event, Frame, Key, Modifiers, Popup, Ui};
 use glam::DVec2;
 
 use super::App;
@@ -119,7 +119,12 @@ impl App {
     }
 
     fn command_of_key(&self, event: &Event, ctx: &Context) -> Option<Command> {
-        let &Event::Key { key, pressed: true, modifiers, .. } = event else { return None };
+        let (key, modifiers) = match *event {
+            Event::Key { key, pressed: true, modifiers, .. } => (key, modifiers),
+            // Ctrl+C reaches the window as this event only.
+            Event::Copy => (Key::C, Modifiers::COMMAND),
+            _ => return None,
+        };
         // A menu or a dialog takes Escape and Enter itself.
         if self.asks_something() || Popup::is_any_open(ctx) {
             return None;
@@ -163,6 +168,7 @@ impl App {
         let readout = self.session.readout(self.view.quantity);
         let mut commands = Vec::new();
         panels::show(ui, &self.state(readout.as_ref()), &mut commands);
+        self.view.reveals_inspector = false;
         egui::CentralPanel::default()
             .frame(Frame::NONE)
             .show(ui, |ui| self.draw_canvas(ui, readout.as_ref(), &mut commands));

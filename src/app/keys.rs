@@ -49,7 +49,7 @@ pub fn catch_tab(ctx: &Context, raw_input: &mut RawInput) -> Vec<Command> {
 
 /// Whether a shortcut belongs to a text field that has the focus.
 fn edits_text(shortcut: &KeyboardShortcut) -> bool {
-    !shortcut.modifiers.command || matches!(shortcut.logical_key, Key::Z | Key::Backspace)
+    !shortcut.modifiers.command || matches!(shortcut.logical_key, Key::Z | Key::C | Key::Backspace)
 }
 
 fn modifier_count(modifiers: Modifiers) -> u8 {

@@ -19,6 +19,7 @@ mod execute;
 mod files;
 mod frame;
 mod help;
+mod inspection;
 mod journal;
 mod keys;
 mod latest;

@@ -16,7 +16,7 @@ use crate::build::BuildError;
 use crate::document::{Document, Follower, MeshChange, Pricer, Setting, Stage};
 use crate::domain::{BoundaryMarks, BoundaryPieces, CutShape};
 use crate::geometry::Rect;
-use crate::mesh::{Location, Mesh, MeshView, Progress};
+use crate::mesh::{Location, Mesh, MeshView, Progress, TriangleId};
 use crate::paint::StrokePlan;
 
 /// Pixels or triangles in one slice of work: well below a millisecond.
@@ -307,6 +307,11 @@ impl Session {
         if !self.cuts.discard(&mut self.document) {
             self.document.undo();
         }
+    }
+
+    /// The triangle around the queried point.
+    pub fn queried_triangle(&self) -> Option<TriangleId> {
+        self.queried.and_then(|point| self.locate(point).triangle())
     }
 
     /// Does the last undone gesture again.

@@ -5,6 +5,7 @@ use glam::DVec2;
 
 use super::command::Command;
 use super::readout::Quantity;
+use super::widgets::format;
 use crate::colormap::{Colormap, Ground, LevelColors};
 use crate::document::Settings;
 use crate::geometry::{Lattice, Rect};
@@ -88,6 +89,8 @@ pub struct View {
     pub hovered_neighbour: Option<TriangleId>,
     /// What the inspector interpolates.
     pub quantity: Quantity,
+    /// Whether the inspector is opened and scrolled to in this frame.
+    pub reveals_inspector: bool,
     /// Dark, light, or as the desktop has it.
     pub theme: ThemePreference,
 }
@@ -106,6 +109,7 @@ impl Default for View {
             lone_level: None,
             hovered_neighbour: None,
             quantity: Quantity::TargetDiameter,
+            reveals_inspector: false,
             theme: ThemePreference::Dark,
         }
     }
@@ -215,6 +219,12 @@ impl View {
     /// Takes up the ground of the theme that is shown.
     pub fn follow_theme(&mut self, ctx: &Context) {
         self.ground = if ctx.theme() == Theme::Dark { Ground::Dark } else { Ground::Light };
+    }
+
+    /// A point as a person would type it: with the digits that a pixel can tell apart, without commas.
+    pub fn typed_point(&self, point: DVec2) -> String {
+        let decimals = format::decimals_for(self.world_per_px());
+        format!("{:.decimals$}, {:.decimals$}", point.x, point.y)
     }
 
     /// World units of one pixel.

@@ -7,7 +7,7 @@ use crate::mesh::{MeshView, TriangleId};
 const WHITE: [u8; 3] = [0xff; 3];
 /// The outer part of every line. White and bright lines alone are hard to see on yellow, and on the light
 /// canvas.
-const HALO: [u8; 4] = [0, 0, 0, 0xe0];
+const HALO: [u8; 4] = [0, 0, 0, 0xf0];
 /// How far the halo extends beyond each side of its line, in points.
 const HALO_POINTS: f32 = 1.5;
 /// Opacity of the fills: the colour of the level stays visible.

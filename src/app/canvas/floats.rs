@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use eframe::egui::{Align2, Id, Rect, Response, Ui, UiBuilder, pos2, vec2};
 
-use super::{Canvas, coordinates, legend, way_back};
+use super::{Canvas, coordinates, legend, menu, way_back};
 use crate::app::background::Row;
 use crate::app::command::Command;
 use crate::app::frame::FrameState;
@@ -44,6 +44,7 @@ impl Canvas {
             legend::show(ui, inner, state);
             places.extend(way_back::show(ui, inner, state, &camera, commands));
         }
+        menu::show(ui, state, commands);
         places.extend(draw_notice(ui, inner, state.session, commands));
         places
     }

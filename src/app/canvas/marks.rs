@@ -1,6 +1,6 @@
 //! What is drawn over the mesh: the brush ring, highlighted triangles and their numbers.
 
-use eframe::egui::{Align2, Color32, Painter, Pos2, Rect, Shape, Stroke, StrokeKind, pos2, vec2};
+use eframe::egui::{Align2, Color32, Painter, Pos2, Rect, Shape, Stroke, StrokeKind, Vec2, pos2, vec2};
 use glam::DVec2;
 
 use super::super::theme::font;
@@ -40,6 +40,39 @@ pub fn paint_highlights(
             painter.text(at, Align2::CENTER_CENTER, number, font::strong(), Color32::from_rgb(r, g, b));
         }
     }
+}
+
+/// Shortest side of a triangle, in points, at which its corners have room for their names.
+const SHORTEST_NAMED: f32 = 40.0;
+/// Distance of the middle of a name from its corner, away from the triangle, in points.
+const NAME_DISTANCE: f32 = 15.0;
+/// Width and height of the ground of a name, in points.
+const NAME_SIZE: Vec2 = vec2(24.0, 17.0);
+
+/// Names the corners of a triangle v₁ v₂ v₃, where it is large enough.
+pub fn paint_corner_names(
+    painter: &Painter,
+    rect: Rect,
+    mesh: MeshView<'_>,
+    camera: &Camera,
+    id: TriangleId,
+) {
+    let px_per_point = painter.pixels_per_point();
+    let corners = mesh.corners(id).map(|corner| camera.screen_from_lattice(corner));
+    let corners = corners.map(|px| point_from_px(rect, px, px_per_point));
+    let Some(places) = corner_name_places(corners) else { return };
+    for (at, name) in places.into_iter().zip(["v₁", "v₂", "v₃"]) {
+        painter.rect_filled(Rect::from_center_size(at, NAME_SIZE), 5.0, NUMBER_DISC);
+        painter.text(at, Align2::CENTER_CENTER, name, font::strong(), Color32::WHITE);
+    }
+}
+
+/// The middles of the names: outside the triangle, so that they cover none of it and no number of a
+/// neighbour. None where the triangle is too small for them.
+fn corner_name_places(corners: [Pos2; 3]) -> Option<[Pos2; 3]> {
+    let middle = corners.iter().fold(Vec2::ZERO, |sum, corner| sum + corner.to_vec2()) / 3.0;
+    let has_room = (0..3).all(|i| corners[i].distance(corners[(i + 1) % 3]) >= SHORTEST_NAMED);
+    has_room.then(|| corners.map(|corner| corner + NAME_DISTANCE * (corner.to_vec2() - middle).normalized()))
 }
 
 fn outline_shape(outline: &HighlightOutline, rect: Rect, px_per_point: f32) -> Shape {
@@ -276,4 +309,45 @@ pub fn paint_frame(painter: &Painter, frame: Rect) {
 /// Where a canvas pixel is, in points.
 pub fn point_from_px(rect: Rect, px: DVec2, px_per_point: f32) -> Pos2 {
     pos2(rect.min.x + px.x as f32 / px_per_point, rect.min.y + px.y as f32 / px_per_point)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::{Lattice, Rect as WorldRect};
+    use crate::mesh::{Element, Limits, Mesh};
+
+    #[test]
+    fn names_of_corners_cover_no_number_of_a_neighbour_and_not_the_triangle() {
+        let lattice = Lattice::covering(WorldRect::UNIT, 0.2, 1_000_000).unwrap();
+        let mut mesh = Mesh::coarse_grid(&lattice, |_| true, &Limits::default()).unwrap();
+        let half = 5 * lattice.cell_steps() / 2;
+        let deeper = |element: &Element<'_>| {
+            Ok(element.triangle.level() < 3 && element.corners.iter().all(|corner| corner.x < half))
+        };
+        mesh.refine(&Limits::default(), deeper).unwrap();
+        let view = mesh.view();
+        for scale in [200.0, 400.0, 1000.0, 3000.0] {
+            let at = |world: DVec2| pos2((scale * world.x) as f32, (scale * world.y) as f32);
+            let named = (0..mesh.raw_triangle_count()).map(TriangleId::from_index).filter_map(|id| {
+                let corners = view.world_corners(id).map(at);
+                corner_name_places(corners).map(|places| (id, corners, places))
+            });
+            for (id, corners, places) in named {
+                let grounds = places.map(|place| Rect::from_center_size(place, NAME_SIZE));
+                let numbers = view.neighbours(id).into_iter().filter_map(|across| {
+                    let [a, b, c] = view.world_corners(across.triangle()?);
+                    Some(at((a + b + c) / 3.0))
+                });
+                for number in numbers {
+                    let free = grounds.iter().all(|ground| ground.distance_to_pos(number) >= 9.0);
+                    assert!(free, "{id:?} at {scale}: {number:?} in {grounds:?}");
+                }
+                let middle = corners.iter().fold(Vec2::ZERO, |sum, corner| sum + corner.to_vec2()) / 3.0;
+                assert!(grounds.iter().all(|ground| !ground.contains(middle.to_pos2())));
+            }
+        }
+        let small = [pos2(0.0, 0.0), pos2(30.0, 0.0), pos2(0.0, 30.0)];
+        assert_eq!(corner_name_places(small), None);
+    }
 }

@@ -5,14 +5,15 @@ mod coordinates;
 mod floats;
 mod gpu;
 mod legend;
+mod menu;
 pub mod marks;
 mod overlay;
 mod price;
 mod way_back;
 
 use eframe::egui::{
-    self, Context, CursorIcon, Event, Id, Key, Modifiers, Painter, PointerButton, Rect, Response, Sense,
-    TouchPhase, Ui,
+    self, Context, CursorIcon, Event, Id, Key, Modifiers, Painter, PointerButton, Popup, Rect, Response,
+    Sense, TouchPhase, Ui,
 };
 use glam::DVec2;
 
@@ -187,7 +188,8 @@ impl Canvas {
         let handle = ctx.global_style().interaction.resize_grab_radius_side;
         let on_top = ctx.read_response(id).map(|response| response.layer_id) == ctx.layer_id_at(pos);
         let covered = self.floats.iter().any(|float| float.contains(pos));
-        on_top && rect.shrink(handle).contains(pos) && !covered
+        // A press beside an open menu only closes it.
+        on_top && rect.shrink(handle).contains(pos) && !covered && !Popup::is_any_open(ctx)
     }
 
     /// Ends the gesture where it is.
@@ -240,7 +242,9 @@ fn press(
         PointerButton::Primary if space_is_down(ctx) => panning(),
         PointerButton::Primary => (pointer.tools.tool.press)(&press, pointer, commands),
         PointerButton::Secondary => {
-            (pointer.tools.tool.press_secondary)(pointer.tools, commands);
+            if !(pointer.tools.tool.press_secondary)(pointer.tools, commands) {
+                menu::open(ctx, press.at, pointer.world(press.at));
+            }
             None
         }
         _ => None,
@@ -359,7 +363,11 @@ impl Canvas {
             coordinates::paint_frame(ui, rect, &camera, state.unit());
         }
         let highlights = self.highlights(state);
-        marks::paint_highlights(&painter, rect, state.session.view(), &camera, &highlights);
+        let mesh = state.session.view();
+        marks::paint_highlights(&painter, rect, mesh, &camera, &highlights);
+        if let Some(selected) = highlights.selected {
+            marks::paint_corner_names(&painter, rect, mesh, &camera, selected);
+        }
         let screen = camera.screen_map();
         let screen_from_world = |world| marks::point_from_px(rect, screen(world), px_per_point);
         if let Some(readout) = state.readout {

@@ -33,6 +33,10 @@ pub fn edit(state: &FrameState<'_>) -> Vec<CatalogItem> {
         CatalogItem::new(Edit, "Clear paint", Command::ClearPaint)
             .keys(Modifiers::COMMAND, Key::Backspace)
             .group(),
+        CatalogItem::new(Edit, "Copy the values of the triangle", Command::CopyReadout)
+            .ctrl(Key::C)
+            .enabled(state.session.queried_triangle().is_some())
+            .group(),
         CatalogItem::new(Edit, "Cancel or deselect", Command::Escape).key(Key::Escape),
     ];
     if in_polygon {

@@ -5,6 +5,8 @@
 pub enum Place {
     /// With the brush or the eraser.
     Painting,
+    /// With the query tool.
+    Querying,
     /// On the canvas, with any tool.
     Canvas,
     /// On a number or a slider of a panel.
@@ -16,6 +18,7 @@ impl Place {
     pub fn name(self) -> &'static str {
         match self {
             Self::Painting => "Painting with the pointer",
+            Self::Querying => "Inspecting triangles",
             Self::Canvas => "On the canvas, with any tool",
             Self::Panel => "Numbers and sliders",
         }
@@ -46,7 +49,7 @@ impl GestureHelp {
 }
 
 /// All of them.
-pub static GESTURES: [GestureHelp; 14] = [
+pub static GESTURES: [GestureHelp; 19] = [
     gesture(Place::Painting, "Paint or erase", "drag"),
     gesture(Place::Painting, "Pick the value under the pointer", "Alt+click")
         .in_menu("Hold Alt and click on the canvas: the brush takes the value under the pointer."),
@@ -55,6 +58,11 @@ pub static GESTURES: [GestureHelp; 14] = [
     ),
     gesture(Place::Painting, "Size of the brush", "Shift+drag")
         .in_menu("Hold Shift and drag sideways on the canvas: the brush becomes larger or smaller."),
+    gesture(Place::Querying, "Inspect a triangle", "click"),
+    gesture(Place::Querying, "Go to a neighbour of the triangle", "1, 2, 3"),
+    gesture(Place::Querying, "Copy a value of the triangle", "click on it"),
+    gesture(Place::Querying, "Copy all its values", "Ctrl+C"),
+    gesture(Place::Canvas, "Menu for a point", "right-click"),
     gesture(Place::Canvas, "Move the view", "Space+drag"),
     gesture(Place::Canvas, "Move the view", "middle-drag"),
     gesture(Place::Canvas, "Zoom at the pointer", "wheel"),

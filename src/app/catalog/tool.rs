@@ -6,7 +6,7 @@ use super::{CatalogItem, GESTURES, GestureHelp, Menu};
 use crate::app::command::{BoundaryCommand, BrushCommand, Command, DomainCommand};
 use crate::app::frame::FrameState;
 use crate::app::tools::{
-    BOUNDARY, BoundaryToolMode, BrushMode, DOMAIN, DomainToolMode, ERASER, PaintKind, TOOLS, Tools,
+    BOUNDARY, BoundaryToolMode, BrushMode, DOMAIN, DomainToolMode, ERASER, PaintKind, QUERY, TOOLS, Tools,
 };
 
 const DIGITS: [Key; 10] = [
@@ -65,6 +65,7 @@ pub fn tool(state: &FrameState<'_>) -> Vec<CatalogItem> {
     ]);
     items.extend(GESTURES.iter().filter(|gesture| !gesture.advice.is_empty()).map(gesture_item));
     items.extend(domain_tool(state));
+    items.extend(neighbours(state));
     items.extend(amounts(tools));
     items
 }
@@ -75,9 +76,22 @@ fn gesture_item(gesture: &GestureHelp) -> CatalogItem {
     CatalogItem::new(Menu::Tool, gesture.title, command).gesture(gesture.keys)
 }
 
+/// The neighbours of the queried triangle. With the query tool they have the numbers on the canvas as keys.
+fn neighbours(state: &FrameState<'_>) -> impl Iterator<Item = CatalogItem> + use<> {
+    let titles = ["Go to the bisection neighbour", "Go to the second neighbour", "Go to the third neighbour"];
+    let has_keys = state.tools.tool == &QUERY;
+    let is_queried = state.session.queried_triangle().is_some();
+    titles.into_iter().enumerate().map(move |(place, title)| {
+        let item = CatalogItem::new(Menu::Tool, title, Command::QueryNeighbour(place)).enabled(is_queried);
+        let item = if has_keys { item.key(DIGITS[place]) } else { item };
+        if place == 0 { item.group() } else { item }
+    })
+}
+
 /// What the digits set: the strength, or the risk in the mode *Set*. A diameter is no share, so there they do
-/// nothing.
+/// nothing. With the query tool they belong to the neighbours.
 fn amounts(tools: &Tools) -> impl Iterator<Item = CatalogItem> + use<> {
+    let has_keys = tools.tool != &QUERY;
     let paints = tools.tool != &ERASER;
     let sets_risk = paints && tools.kind == PaintKind::Risk && tools.mode == BrushMode::Set;
     let is_share = !paints || tools.kind == PaintKind::Risk;
@@ -88,7 +102,8 @@ fn amounts(tools: &Tools) -> impl Iterator<Item = CatalogItem> + use<> {
         } else {
             (format!("Strength {} %", 10 * (i + 1)), BrushCommand::Strength(share))
         };
-        let item = CatalogItem::new(Menu::Tool, title, Command::Brush(command)).key(key).enabled(is_share);
+        let item = CatalogItem::new(Menu::Tool, title, Command::Brush(command)).enabled(is_share);
+        let item = if has_keys { item.key(key) } else { item };
         if i == 0 { item.group() } else { item }
     })
 }

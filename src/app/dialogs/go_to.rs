@@ -90,9 +90,19 @@ fn is_grouped(text: &str) -> bool {
     groups.iter().all(digits) && grouped
 }
 
-/// Asks for a point or the number of a triangle. The text typed so far is in egui's memory.
+/// The text typed so far, in egui's memory.
+fn typed_text() -> Id {
+    Id::unique("place typed so far")
+}
+
+/// Types a text in before the question is opened.
+pub fn fill_in_place(ctx: &Context, text: String) {
+    ctx.data_mut(|data| data.insert_temp(typed_text(), text));
+}
+
+/// Asks for a point or the number of a triangle.
 pub fn ask(ctx: &Context, state: &FrameState<'_>, commands: &mut Vec<Command>) {
-    let id = Id::unique("place typed so far");
+    let id = typed_text();
     let mut text = ctx.data(|data| data.get_temp::<String>(id)).unwrap_or_default();
     let shown = dialog(ctx, "go to", |ui| {
         ui.set_width(400.0);

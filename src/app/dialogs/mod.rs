@@ -18,6 +18,7 @@ use super::widgets::{self, ActionButton, PaletteAnswer, PaletteItem, dialog, dia
 pub use file::FileFacts;
 use file::{FileAnswer, FileDialog};
 use folders::LastFolders;
+pub use go_to::fill_in_place;
 pub use request::FileRequest;
 use system::{Answer, Question, SystemDialog};
 

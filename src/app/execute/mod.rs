@@ -9,7 +9,8 @@ use glam::DVec2;
 
 use super::App;
 use super::command::Command;
-use super::dialogs::Dialog;
+use super::dialogs::{Dialog, fill_in_place};
+use super::inspection::{Inspection, NEIGHBOURS};
 use super::tools::QUERY;
 use crate::mesh::TriangleId;
 
@@ -49,7 +50,13 @@ impl App {
             Command::Copy(text) => self.copy(text, ctx),
             Command::Query(point) => self.query(point),
             Command::QueryTriangle(id) => self.query_triangle(id),
+            Command::QueryNeighbour(place) => self.query_neighbour(place),
+            Command::CopyReadout => self.copy_readout(ctx),
             Command::AskPlace => self.dialogs.open(Dialog::GoTo),
+            Command::AskPlaceNear(point) => {
+                fill_in_place(ctx, self.view.typed_point(point));
+                self.dialogs.open(Dialog::GoTo);
+            }
             Command::GoTo(point) => {
                 self.session.query(Some(point));
                 self.view.execute(Command::LookAt(point), ctx);
@@ -91,7 +98,27 @@ impl App {
         ctx.copy_text(text);
     }
 
+    fn copy_readout(&mut self, ctx: &Context) {
+        let Some(readout) = self.session.readout(self.view.quantity) else { return };
+        let Some(inspection) = Inspection::of(&readout, &self.session, &self.view) else { return };
+        ctx.copy_text(inspection.full_text());
+        let news = format!("Copied: all values of {}", inspection.title().to_lowercase());
+        self.session.tell(news);
+    }
+
+    fn query_neighbour(&mut self, place: usize) {
+        let Some(id) = self.session.queried_triangle() else { return };
+        match self.session.view().neighbours(id)[place].triangle() {
+            Some(neighbour) => self.query_triangle(neighbour),
+            None => {
+                let name = NEIGHBOURS[place].to_lowercase();
+                self.session.tell(format!("There is no {name}: that edge is on the boundary."));
+            }
+        }
+    }
+
     fn query(&mut self, point: DVec2) {
+        self.view.reveals_inspector = true;
         self.session.query(Some(point));
         self.tools.note_use(&QUERY);
     }

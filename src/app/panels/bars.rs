@@ -38,7 +38,8 @@ pub fn menu_bar(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>
     });
 }
 
-fn menu_item(ui: &mut Ui, item: &CatalogItem, commands: &mut Vec<Command>) {
+/// An entry of a menu.
+pub fn menu_item(ui: &mut Ui, item: &CatalogItem, commands: &mut Vec<Command>) {
     if item.begins_group {
         ui.separator();
     }

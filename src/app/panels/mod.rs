@@ -21,6 +21,7 @@ mod view;
 
 use eframe::egui::{self, Frame, Id, Margin, Response, RichText, ScrollArea, Ui};
 
+pub use bars::menu_item;
 pub use boundary::BOUNDARY;
 pub use brush::BRUSH;
 pub use domain::DOMAIN;

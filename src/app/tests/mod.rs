@@ -14,6 +14,7 @@ mod file_dialog;
 mod files;
 mod gallery;
 mod help;
+mod inspection;
 mod keys;
 mod long_work;
 mod menus;

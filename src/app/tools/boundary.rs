@@ -25,6 +25,14 @@ pub static BOUNDARY: ToolSpec = ToolSpec {
         commands.push(Command::Boundary(BoundaryCommand::Click(pointer.world(press.at), reach)));
         None
     },
+    menu: |state, point| {
+        let reach = REACH_POINTS * state.view.world_per_px();
+        let click = Command::Boundary(BoundaryCommand::Click(point, reach));
+        match state.tools.boundary.mode {
+            BoundaryToolMode::Select => vec![("Select the piece here", click)],
+            BoundaryToolMode::Split => vec![("Split the boundary here", click)],
+        }
+    },
     ..ToolSpec::new("Boundary", Key::N, Icon::BOUNDARY)
 };
 

@@ -1,10 +1,12 @@
 //! The brush, and the gestures of painting that the eraser shares.
 
 use eframe::egui::{Key, Painter, Pos2};
+use glam::DVec2;
 
 use super::{Gesture, PaintKind, Pointer, Press, ToolSpec, Tools};
 use crate::app::canvas::marks;
 use crate::app::command::{BrushCommand, Command};
+use crate::app::frame::FrameState;
 use crate::app::panels;
 use crate::app::widgets::Hint::{self, Key as HintKey, Text};
 use crate::app::widgets::Icon;
@@ -17,6 +19,7 @@ pub static BRUSH: ToolSpec = ToolSpec {
     has_ring: |_| true,
     brush: Some(brush),
     press: press_to_paint,
+    menu: line_to_here,
     ..ToolSpec::new("Brush", Key::B, Icon::BRUSH)
 };
 
@@ -84,6 +87,12 @@ fn diameter_change(mode: BrushMode) -> DiameterChange {
         BrushMode::Set => DiameterChange::Any,
         BrushMode::Lower => DiameterChange::Coarser,
     }
+}
+
+/// The menu of the tools that paint.
+pub fn line_to_here(state: &FrameState<'_>, point: DVec2) -> Vec<(&'static str, Command)> {
+    let line = state.tools.last_painted.map(|_| ("Straight line to here", Command::LineTo(point)));
+    line.into_iter().collect()
 }
 
 /// Alt or Ctrl picks the value under the pointer; Shift draws a line or, dragged, sizes the brush; else a

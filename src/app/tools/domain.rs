@@ -21,6 +21,7 @@ pub static DOMAIN: ToolSpec = ToolSpec {
     paint,
     press,
     press_secondary,
+    menu,
     ..ToolSpec::new("Domain", Key::D, Icon::DOMAIN)
 };
 
@@ -97,10 +98,22 @@ fn press_corner(press: &Press, pointer: &Pointer<'_>, commands: &mut Vec<Command
 }
 
 /// The secondary button closes the polygon.
-fn press_secondary(tools: &Tools, commands: &mut Vec<Command>) {
-    if !tools.domain.corners.is_empty() {
+fn press_secondary(tools: &Tools, commands: &mut Vec<Command>) -> bool {
+    let has_polygon = !tools.domain.corners.is_empty();
+    if has_polygon {
         commands.push(Command::Domain(DomainCommand::ClosePolygon));
     }
+    has_polygon
+}
+
+fn menu(state: &FrameState<'_>, point: DVec2) -> Vec<(&'static str, Command)> {
+    let tool = &state.tools.domain;
+    let swap = if tool.adds { "Remove from the domain" } else { "Add to the domain" };
+    let mut entries = vec![(swap, Command::Domain(DomainCommand::Adds(!tool.adds)))];
+    if tool.mode == DomainToolMode::Polygon {
+        entries.push(("Begin a polygon here", Command::Domain(DomainCommand::AddCorner(point))));
+    }
+    entries
 }
 
 /// Moving a corner of the open polygon. A click on its first or last corner closes it, and so does a double

@@ -2,7 +2,7 @@
 
 use eframe::egui::Key;
 
-use super::brush::press_to_paint;
+use super::brush::{line_to_here, press_to_paint};
 use super::{ToolSpec, Tools};
 use crate::app::panels;
 use crate::app::widgets::Hint::{self, Key as HintKey, Text};
@@ -16,6 +16,7 @@ pub static ERASER: ToolSpec = ToolSpec {
     has_ring: |_| true,
     brush: Some(brush),
     press: press_to_paint,
+    menu: line_to_here,
     ..ToolSpec::new("Eraser", Key::E, Icon::ERASER)
 };
 

@@ -69,8 +69,11 @@ pub struct ToolSpec {
     pub paint: fn(&FrameState<'_>, &OverMesh<'_>),
     /// What happens when the primary button is pressed.
     pub press: BeginGesture,
-    /// What happens when the secondary button is pressed.
-    pub press_secondary: fn(&Tools, &mut Vec<Command>),
+    /// What happens when the secondary button is pressed. Returns whether anything does: if not, the menu of
+    /// the canvas opens.
+    pub press_secondary: fn(&Tools, &mut Vec<Command>) -> bool,
+    /// Entries of the canvas's menu at a point, in world units.
+    pub menu: fn(&FrameState<'_>, DVec2) -> Vec<(&'static str, Command)>,
 }
 
 /// Begins a gesture, or acts at once and returns `None`.
@@ -102,7 +105,8 @@ impl ToolSpec {
             finds_boundary: false,
             paint: |_, _| {},
             press: |_, _, _| None,
-            press_secondary: |_, _| {},
+            press_secondary: |_, _| false,
+            menu: |_, _| Vec::new(),
         }
     }
 }

@@ -13,6 +13,10 @@ pub static QUERY: ToolSpec = ToolSpec {
     panels: &[&panels::INSPECTOR],
     hint: |_| HINT,
     highlights_hovered: true,
+    menu: |state, _| match state.readout.and_then(|readout| readout.triangle.as_ref()) {
+        Some(_) => vec![("Copy the values of the triangle", Command::CopyReadout)],
+        None => Vec::new(),
+    },
     press: |press, pointer, commands| {
         commands.push(Command::Query(pointer.world(press.at)));
         None
@@ -20,5 +24,14 @@ pub static QUERY: ToolSpec = ToolSpec {
     ..ToolSpec::new("Query", Key::Q, Icon::QUERY)
 };
 
-const HINT: &[Hint] =
-    &[Text("Click a triangle to inspect it"), HintKey("B"), Text("brush"), HintKey("Esc"), Text("deselect")];
+const HINT: &[Hint] = &[
+    Text("Click a triangle to inspect it"),
+    HintKey("1"),
+    HintKey("2"),
+    HintKey("3"),
+    Text("neighbours"),
+    HintKey("Ctrl+C"),
+    Text("copy values"),
+    HintKey("Esc"),
+    Text("deselect"),
+];

@@ -59,6 +59,14 @@ pub fn digits(value: f64, digits: usize) -> String {
     format!("{}{exponent}", mantissa.trim_end_matches('0').trim_end_matches('.'))
 }
 
+/// All digits of `value`: exactly this number when it is read again. Without commas, for other programs.
+pub fn exact(value: f64) -> String {
+    match value.abs() {
+        size if value == 0.0 || (1e-5..1e16).contains(&size) => value.to_string(),
+        _ => format!("{value:e}"),
+    }
+}
+
 /// A length in world units, with three significant digits and the unit: `0.0061`, `0.2°`, `1,250 m`.
 pub fn length(value: f64, unit: LengthUnit) -> String {
     unit.after(&digits(value, 3))

@@ -16,12 +16,13 @@ pub struct Section<'a> {
     note: &'a str,
     id: &'a str,
     open: bool,
+    reveal: bool,
 }
 
 impl<'a> Section<'a> {
     /// A section that is open at first.
     pub fn new(title: &'a str) -> Self {
-        Self { title, note: "", id: title, open: true }
+        Self { title, note: "", id: title, open: true, reveal: false }
     }
 
     /// A faint note at the right of the title.
@@ -42,13 +43,21 @@ impl<'a> Section<'a> {
         self
     }
 
+    /// Opens the section now, and scrolls to it.
+    pub fn reveal(mut self, reveal: bool) -> Self {
+        self.reveal = reveal;
+        self
+    }
+
     /// Shows the section. `contents` runs only while it is open; returns `None` while it is not.
     pub fn show<R>(self, ui: &mut Ui, contents: impl FnOnce(&mut Ui) -> R) -> Option<R> {
         let id = ui.make_persistent_id(("section", self.id));
         let mut state = CollapsingState::load_with_default_open(ui.ctx(), id, self.open);
         ui.add_space(12.0);
         let header = self.header(ui, id, state.is_open());
-        if header.clicked() {
+        if self.reveal {
+            state.set_open(true);
+        } else if header.clicked() {
             state.set_open(!state.is_open());
         }
         let inner = state.is_open().then(|| {
@@ -56,6 +65,9 @@ impl<'a> Section<'a> {
             ui.push_id(self.id, contents).inner
         });
         state.store(ui.ctx());
+        if self.reveal {
+            scroll_to(ui, header.rect.with_max_y(ui.cursor().top()));
+        }
         ui.add_space(12.0 - metrics::ROW_GAP);
         divider(ui);
         inner
@@ -85,6 +97,12 @@ impl<'a> Section<'a> {
         paint::at_centre(ui, after_title, arrow);
         paint::at_right(ui, rect, note);
     }
+}
+
+/// Scrolls no further than needed for a section to be seen: its top, where it is taller than the panel.
+fn scroll_to(ui: &Ui, section: Rect) {
+    let is_tall = section.height() > ui.clip_rect().height();
+    ui.scroll_to_rect(section, is_tall.then_some(egui::Align::TOP));
 }
 
 /// A hair line over the panel's full width, margins included.

@@ -1,7 +1,8 @@
 //! A coloured dot with a number: a neighbour to go to, a pin.
 
 use eframe::egui::{
-    self, Color32, CursorIcon, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui, WidgetInfo, pos2, vec2,
+    self, Align2, Color32, CursorIcon, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui, WidgetInfo, pos2,
+    vec2,
 };
 
 use super::paint;
@@ -14,6 +15,8 @@ pub struct Chip<'a> {
     color: Color32,
     text: &'a str,
     name: &'a str,
+    help: &'a str,
+    number: String,
     enabled: bool,
 }
 
@@ -21,7 +24,19 @@ impl<'a> Chip<'a> {
     /// A chip with a dot in `color`; tooltip, tests and screen readers use `name`, which says what a click
     /// does.
     pub fn new(color: Color32, text: &'a str, name: &'a str) -> Self {
-        Self { color, text, name, enabled: true }
+        Self { color, text, name, help: name, number: String::new(), enabled: true }
+    }
+
+    /// With a number in the dot, such as that of the key that does the same.
+    pub fn number(mut self, number: usize) -> Self {
+        self.number = number.to_string();
+        self
+    }
+
+    /// A sentence for the tooltip, in place of the name.
+    pub fn help(mut self, help: &'a str) -> Self {
+        self.help = help;
+        self
     }
 
     /// Whether it can be clicked; a neighbour that is the boundary cannot.
@@ -35,7 +50,7 @@ impl<'a> Chip<'a> {
         let t = tokens(ui);
         let ink = if self.enabled { t.value } else { t.faint };
         let label = paint::line(ui, self.text, font::value(), ink);
-        let size = vec2(label.size().x.ceil() + 30.0, metrics::ROW);
+        let size = vec2(label.size().x.ceil() + self.text_left() + 8.0, metrics::ROW);
         let sense = if self.enabled { Sense::click() } else { Sense::hover() };
         let (rect, response) = ui.allocate_exact_size(size, sense);
         let enabled = self.enabled && ui.is_enabled();
@@ -44,11 +59,16 @@ impl<'a> Chip<'a> {
             ..WidgetInfo::labeled(Role::Button, enabled, self.name)
         });
         self.paint(ui, rect, &response);
-        paint::at_left(ui, rect.with_min_x(rect.left() + 22.0), label);
+        paint::at_left(ui, rect.with_min_x(rect.left() + self.text_left()), label);
         if self.enabled {
-            return tips::explain(ui, response.on_hover_cursor(CursorIcon::PointingHand), self.name);
+            return tips::explain(ui, response.on_hover_cursor(CursorIcon::PointingHand), self.help);
         }
-        tips::explain(ui, response, self.name)
+        tips::explain(ui, response, self.help)
+    }
+
+    /// Where the text begins, in points from the left side.
+    fn text_left(&self) -> f32 {
+        if self.number.is_empty() { 22.0 } else { 27.0 }
     }
 
     fn paint(&self, ui: &Ui, rect: Rect, response: &Response) {
@@ -56,9 +76,13 @@ impl<'a> Chip<'a> {
         let lit = self.enabled && response.hovered();
         let (fill, edge) = if lit { (t.hover, self.color) } else { (t.well, t.line) };
         ui.painter().rect(rect, metrics::RADIUS_CONTROL, fill, Stroke::new(1.0, edge), StrokeKind::Inside);
-        let dot = Rect::from_center_size(pos2(rect.left() + 13.0, rect.center().y), vec2(8.0, 8.0));
+        let side = if self.number.is_empty() { 8.0 } else { 15.0 };
+        let middle = pos2(rect.left() + 9.0 + side / 2.0, rect.center().y);
+        let middle = if self.number.is_empty() { middle } else { middle - vec2(2.0, 0.0) };
         let opacity = if self.enabled { 1.0 } else { 0.4 };
-        ui.painter().rect_filled(dot, 2.0, self.color.gamma_multiply(opacity));
+        let dot = Rect::from_center_size(middle, vec2(side, side));
+        ui.painter().rect_filled(dot, 3.0, self.color.gamma_multiply(opacity));
+        ui.painter().text(middle, Align2::CENTER_CENTER, &self.number, font::caption(), t.panel);
         paint::focus_ring(ui, response, rect, metrics::RADIUS_CONTROL);
     }
 }

@@ -17,6 +17,8 @@ pub struct ValueRow<'a> {
     help: &'a str,
     stands_out: bool,
     is_link: bool,
+    /// What a click copies.
+    copies: Option<&'a str>,
 }
 
 /// A row that only shows its value.
@@ -27,7 +29,7 @@ pub fn value_row(ui: &mut Ui, label: &str, value: &str) -> Response {
 impl<'a> ValueRow<'a> {
     /// A row.
     pub fn new(label: &'a str, value: &'a str) -> Self {
-        Self { label, value, help: "", stands_out: false, is_link: false }
+        Self { label, value, help: "", stands_out: false, is_link: false, copies: None }
     }
 
     /// Shown when the pointer rests on the row; without it, the sentence known for its name.
@@ -45,13 +47,18 @@ impl<'a> ValueRow<'a> {
         Self { is_link: true, ..self }
     }
 
-    /// Shows the row.
+    /// A click copies `exact`, the value in full, which the tooltip shows.
+    pub fn copies(self, exact: &'a str) -> Self {
+        Self { copies: Some(exact), ..self }
+    }
+
+    /// Shows the row. Where it is a link or copies, `clicked` says when to act.
     pub fn show(self, ui: &mut Ui) -> Response {
-        let Self { label, value, help, stands_out, is_link } = self;
+        let Self { label, value, help, stands_out, is_link, copies } = self;
         let t = tokens(ui);
         let row = paint::row(ui);
-        let (sense, role) =
-            if is_link { (Sense::click(), Role::Button) } else { (Sense::hover(), Role::Definition) };
+        let sense = if is_link || copies.is_some() { Sense::click() } else { Sense::hover() };
+        let role = if is_link { Role::Button } else { Role::Definition };
         let response = ui.interact(row, ui.make_persistent_id(("value", label)), sense);
         response.widget_info(|| WidgetInfo {
             current_text_value: Some(value.to_owned()),
@@ -61,7 +68,8 @@ impl<'a> ValueRow<'a> {
         let name = paint::elided(ui, label, font::body(), t.label, row.width() * 0.6);
         let number = paint::elided(ui, value, font::value(), ink, row.width() - name.size().x - 8.0);
         let cut = number.elided || name.elided;
-        if is_link {
+        let is_lit = is_link || copies.is_some() && (response.hovered() || response.has_focus());
+        if is_lit {
             let under = row.right() - number.size().x..=row.right();
             let width = if response.hovered() { 1.5 } else { 1.0 };
             let line = Stroke::new(width, if response.hovered() { ink } else { t.faint });
@@ -70,13 +78,11 @@ impl<'a> ValueRow<'a> {
         }
         paint::at_left(ui, row, name);
         paint::at_right(ui, row, number);
-        let response = if is_link { response.on_hover_cursor(CursorIcon::PointingHand) } else { response };
+        let response = if is_lit { response.on_hover_cursor(CursorIcon::PointingHand) } else { response };
         let help = if help.is_empty() { tips::sentence(label) } else { help };
-        let all = format!("{label}: {value}");
-        match (cut, help) {
-            (false, help) => tips::explain(ui, response, help),
-            (true, "") => tips::explain(ui, response, &all),
-            (true, help) => tips::explain(ui, response, &format!("{all}\n{help}")),
-        }
+        let all = if cut { format!("{label}: {value}") } else { String::new() };
+        let copying = copies.map_or(String::new(), |exact| format!("A click copies {exact}."));
+        let lines: Vec<&str> = [&all, help, &copying].into_iter().filter(|line| !line.is_empty()).collect();
+        tips::explain(ui, response, &lines.join("\n"))
     }
 }

@@ -1,0 +1,51 @@
+//! The menu that the secondary button opens on the canvas.
+
+use eframe::egui::{Context, Id, Popup, PopupKind, Pos2, Ui};
+use glam::DVec2;
+
+use crate::app::catalog::{CatalogItem, Menu};
+use crate::app::command::{BrushCommand, Command};
+use crate::app::frame::FrameState;
+use crate::app::panels::menu_item;
+
+/// Identifies the menu, and where it was opened in egui's memory.
+fn id() -> Id {
+    Id::unique("menu of the canvas")
+}
+
+/// Opens the menu at a place in points, which is `world` in world units.
+pub fn open(ctx: &Context, at: Pos2, world: DVec2) {
+    ctx.data_mut(|data| data.insert_temp(id(), (at, world)));
+    Popup::open_id(ctx, id());
+    ctx.request_repaint();
+}
+
+/// Shows the menu while it is open.
+pub fn show(ui: &Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
+    let Some((at, world)) = ui.data(|data| data.get_temp::<(Pos2, DVec2)>(id())) else { return };
+    let popup = Popup::new(id(), ui.ctx().clone(), at, ui.layer_id()).kind(PopupKind::Menu).open_memory(None);
+    popup.style(eframe::egui::containers::menu::menu_style).show(|ui| {
+        ui.set_min_width(220.0);
+        for item in items(state, world) {
+            menu_item(ui, &item, commands);
+        }
+    });
+}
+
+/// What can be done at a point, in world units: the entries of the tool first.
+fn items(state: &FrameState<'_>, world: DVec2) -> Vec<CatalogItem> {
+    let item = |title: &str, command| CatalogItem::new(Menu::View, title, command);
+    let of_tool = (state.tools.tool.menu)(state, world);
+    let is_first = of_tool.is_empty();
+    let mut items: Vec<_> = of_tool.into_iter().map(|(title, command)| item(title, command)).collect();
+    let query = item("Query here", Command::Query(world));
+    items.extend([
+        if is_first { query } else { query.group() },
+        item("Pick the value for the brush", Command::Brush(BrushCommand::Pick(world))),
+        item("Copy the coordinates", Command::Copy(state.view.typed_point(world))).group(),
+        item("Go to… from here", Command::AskPlaceNear(world)),
+        item("Centre here", Command::LookAt(world)),
+        item("Fit domain", Command::Fit),
+    ]);
+    items
+}
