@@ -14,10 +14,10 @@ const KEY: &str = "folders";
 pub struct LastFolders(BTreeMap<String, PathBuf>);
 
 impl LastFolders {
-    /// Where to look first: in the last folder for such files, else beside the document, else at home.
-    pub fn of(&self, request: FileRequest, document: Option<&Path>) -> PathBuf {
+    /// Where to look first: in the last folder for such files, else beside a known file, else at home.
+    pub fn of(&self, request: FileRequest, file: Option<&Path>) -> PathBuf {
         let last = self.0.get(request.folder_key()).map(PathBuf::as_path);
-        let beside = document.and_then(Path::parent);
+        let beside = file.and_then(Path::parent);
         let known = last.into_iter().chain(beside).find(|folder| io::is_folder(folder));
         let elsewhere = || std::env::home_dir().or(std::env::current_dir().ok());
         known.map(Path::to_owned).or_else(elsewhere).unwrap_or_else(|| PathBuf::from("/"))

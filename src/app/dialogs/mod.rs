@@ -83,9 +83,10 @@ impl Dialogs {
         self.folders.store(storage);
     }
 
-    /// Asks for a file. `home` is the file of the document, and `name` its name without an ending.
-    pub fn ask(&mut self, request: FileRequest, home: Option<&Path>, name: &str, ctx: &Context) {
-        let question = Question { request, folder: self.folders.of(request, home), name: name.to_owned() };
+    /// Asks for a file: beside the file `beside`, where no folder for such files is known. `name` is the name
+    /// of the document without an ending.
+    pub fn ask(&mut self, request: FileRequest, beside: Option<&Path>, name: &str, ctx: &Context) {
+        let question = Question { request, folder: self.folders.of(request, beside), name: name.to_owned() };
         if self.uses_system {
             self.system.ask(question, ctx);
         } else {

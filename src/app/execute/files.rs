@@ -1,5 +1,6 @@
 //! Commands about files, windows and dialogs, and what finished work on files does.
 
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use eframe::egui::{Context, ViewportCommand};
@@ -71,7 +72,9 @@ impl App {
 
     fn ask_for_file(&mut self, request: FileRequest, ctx: &Context) {
         let name = self.project.document_name(&self.session);
-        self.dialogs.ask(request, self.project.path(), &name, ctx);
+        // A document that was not saved yet is often made from the last file that was opened.
+        let beside = self.project.path().or(self.project.recent().first().map(PathBuf::as_path));
+        self.dialogs.ask(request, beside, &name, ctx);
     }
 
     /// Says that a file was not read or written: in the dialog that asked for it, or else on the canvas.

@@ -43,7 +43,8 @@ pub fn menu_item(ui: &mut Ui, item: &CatalogItem, commands: &mut Vec<Command>) {
     if item.begins_group {
         ui.separator();
     }
-    let mut button = Button::new(&item.title);
+    // A title is one line: the menu is as wide as its longest.
+    let mut button = Button::new(&item.title).wrap_mode(egui::TextWrapMode::Extend);
     let keys = item.keys_text();
     if !keys.is_empty() {
         button = button.shortcut_text(keys);

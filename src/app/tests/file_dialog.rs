@@ -245,3 +245,14 @@ fn a_project_is_saved_under_the_name_of_the_document() {
     let saved = project::read(&folder.join("coasts/a.meshbrush")).unwrap();
     assert!(saved.settings() == document(&window).settings() && !is_open(&window));
 }
+
+#[test]
+fn a_new_project_is_saved_beside_the_file_that_it_was_made_from() {
+    let folder = folder("beside");
+    let mut window = window();
+    send(&mut window, Command::Open(folder.join("coasts/north.geojson")));
+    wait_until(&mut window, |window| document(window).settings().name == "north");
+    key(&mut window, Modifiers::COMMAND, Key::S);
+    assert_eq!(text(&window), "north.meshbrush");
+    wait_until(&mut window, |window| window.query_by_role_and_label(Role::Button, "coasts").is_some());
+}

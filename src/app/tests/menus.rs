@@ -25,6 +25,16 @@ fn the_palette_finds_and_runs_a_command() {
 }
 
 #[test]
+fn every_entry_of_a_menu_is_one_line() {
+    let mut window = window();
+    open_menu(&mut window, "Tool");
+    let height = |window: &Window, entry: &str| {
+        window.query_all_by_label_contains(entry).next().unwrap().rect().height()
+    };
+    assert_eq!(height(&window, "Straight line from"), height(&window, "Larger brush"));
+}
+
+#[test]
 fn a_long_menu_scrolls_in_a_small_window() {
     let mut window = window_of(vec2(900.0, 600.0));
     open_menu(&mut window, "Tool");

@@ -155,11 +155,11 @@ impl FileDialog {
             Contents::Read(_) if !self.typed().1.is_empty() => {
                 format!("Nothing here begins with “{}”", self.typed().1)
             }
-            Contents::Read(_) if self.request.writes() => "No such files here".into(),
+            Contents::Read(_) if self.request.writes() => "No files of this kind in this folder".into(),
             Contents::Read(_) => {
                 let endings: Vec<String> =
                     self.request.endings().iter().map(|ending| format!(".{ending}")).collect();
-                format!("No such files here: {}", endings.join(" "))
+                format!("No files of this kind in this folder: {}", endings.join(" "))
             }
         }
     }
