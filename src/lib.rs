@@ -103,6 +103,7 @@ const WINDOW: Option<cli::Window> = Some(cli::Window {
     open: app::run,
     write_screenshots: app::write_screenshots,
     write_manual_pictures: app::write_manual_pictures,
+    write_tour: app::write_tour,
 });
 #[cfg(not(feature = "gui"))]
 const WINDOW: Option<cli::Window> = None;

@@ -242,7 +242,7 @@ fn only_the_window_uses_egui() {
 }
 
 /// Files of the window that may name a tool: the file, and why. All others read the table of tools.
-const NAMES_A_TOOL: [(&str, &str); 7] = [
+const NAMES_A_TOOL: [(&str, &str); 8] = [
     ("src/app/canvas/mod.rs", "Space and the middle button pan with every tool"),
     ("src/app/catalog/tool.rs", "the modes of the tools for domain and boundary are commands"),
     ("src/app/execute/domain.rs", "commands of the tools for domain and boundary select them"),
@@ -250,6 +250,7 @@ const NAMES_A_TOOL: [(&str, &str); 7] = [
     ("src/app/panels/brush.rs", "brush and eraser share a section"),
     ("src/app/panels/domain.rs", "the section shows the tool's settings while it is selected"),
     ("src/app/screenshots/mod.rs", "pictures of single tools"),
+    ("src/app/screenshots/tour.rs", "pictures of single tools"),
 ];
 
 #[test]

@@ -25,6 +25,9 @@ use crate::render::export::ExportFormat;
 /// N.
 const TERRAIN_KM: DVec2 = DVec2::new(30.0, 31.8);
 
+/// The sea between Greece and Turkey, as a file.
+pub const AEGEAN_SEA: &[u8] = include_bytes!("../../assets/aegean_sea.geojson");
+
 /// Nodes whose h̄ is computed between two checks of the meter: some milliseconds of work.
 const NODES_BETWEEN_CHECKS: usize = 1 << 16;
 
@@ -38,8 +41,7 @@ pub fn terrain_slope() -> Raster {
 
 /// The sea between Greece and Turkey.
 fn aegean_sea() -> Vec<NamedPolygon> {
-    let file = include_bytes!("../../assets/aegean_sea.geojson");
-    io::geojson::read_named_from(&file[..], Path::new("aegean_sea.geojson"))
+    io::geojson::read_named_from(AEGEAN_SEA, Path::new("aegean_sea.geojson"))
         .expect("the outline is part of the program: a test opens it")
 }
 

@@ -51,7 +51,7 @@ use dialogs::Dialogs;
 use help::HelpTopic;
 use journal::JournalKeeper;
 use project::ProjectFile;
-pub use screenshots::{write as write_screenshots, write_manual as write_manual_pictures};
+pub use screenshots::{write as write_screenshots, write_manual as write_manual_pictures, write_tour};
 use session::Session;
 use tools::Tools;
 use view::View;

@@ -316,4 +316,8 @@ pub struct ScreenshotsArguments {
     /// Write the pictures of the manual instead of those of the README
     #[arg(long)]
     pub manual: bool,
+
+    /// Write the steps of a first session, from opening a coast to exporting its mesh, instead
+    #[arg(long, conflicts_with = "manual")]
+    pub tour: bool,
 }

@@ -41,6 +41,9 @@ pub struct Window {
     /// Writes the pictures of the manual likewise.
     #[cfg(feature = "gui")]
     pub write_manual_pictures: fn(&Path) -> Result<Vec<PathBuf>, String>,
+    /// Writes pictures of the steps of a first session likewise.
+    #[cfg(feature = "gui")]
+    pub write_tour: fn(&Path) -> Result<Vec<PathBuf>, String>,
 }
 
 /// Runs the program. `arguments` begin with its name; `window` is `None` in a build without one.
@@ -84,7 +87,11 @@ fn run_command(
         #[cfg(feature = "gui")]
         (Some(Command::Screenshots(typed)), window) => {
             let Some(window) = window else { return Err(without_window()) };
-            let write = if typed.manual { window.write_manual_pictures } else { window.write_screenshots };
+            let write = match (typed.manual, typed.tour) {
+                (true, _) => window.write_manual_pictures,
+                (_, true) => window.write_tour,
+                _ => window.write_screenshots,
+            };
             for file in write(&typed.folder).map_err(Failure::Work)? {
                 terminal.say(&file.display().to_string());
             }

@@ -2,6 +2,7 @@
 
 mod manual;
 mod offscreen;
+mod tour;
 
 use std::path::{Path, PathBuf};
 
@@ -18,6 +19,7 @@ use crate::io;
 use crate::render::Image;
 pub use manual::write as write_manual;
 use offscreen::OffscreenWindow;
+pub use tour::write as write_tour;
 
 /// A picture: its name, the size of the window in points, pixels for a point, and what happens before it is
 /// taken.

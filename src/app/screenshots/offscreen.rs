@@ -3,7 +3,9 @@
 //! It does what eframe does for a real window, and nothing more: it passes input in, and draws the shapes
 //! that come out.
 
+use std::path::PathBuf;
 use std::sync::Arc;
+use std::time::Duration;
 
 use eframe::egui::{Context, Event, FullOutput, Pos2, RawInput, Rect, Vec2, ViewportId};
 use eframe::{egui_wgpu, wgpu};
@@ -40,13 +42,26 @@ impl OffscreenWindow {
     /// # Errors
     /// A sentence, when there is no graphics driver that can paint it.
     pub fn open(size: Vec2, px_per_point: f32) -> Result<Self, String> {
-        let state = render_state()?;
-        let ctx = Context::default();
-        let mut app = App::new(&ctx, Some(&state))?;
+        let (state, ctx) = (render_state()?, Context::default());
+        let app = App::new(&ctx, Some(&state))?;
+        Ok(Self::show(app, ctx, state, size, px_per_point))
+    }
+
+    /// Opens the app on a file.
+    ///
+    /// # Errors
+    /// A sentence, when there is no graphics driver that can paint it.
+    pub fn open_file(size: Vec2, px_per_point: f32, file: PathBuf) -> Result<Self, String> {
+        let (state, ctx) = (render_state()?, Context::default());
+        let app = App::with_file(&ctx, Some(&state), file)?;
+        Ok(Self::show(app, ctx, state, size, px_per_point))
+    }
+
+    fn show(mut app: App, ctx: Context, state: RenderState, size: Vec2, px_per_point: f32) -> Self {
         app.be_reproducible();
         let mut window = Self { app, ctx, state, size, px_per_point, frames: 0, events: Vec::new() };
         window.settle();
-        Ok(window)
+        window
     }
 
     /// Where a point in world units is on the screen, in points.
@@ -80,9 +95,19 @@ impl OffscreenWindow {
             let session = &self.app.session;
             let is_settled = session.stage().is_settled()
                 && session.pricer().progress() == Progress::Done
-                && !session.is_cutting();
+                && !session.is_cutting()
+                && !self.works_on_files();
             quiet = if is_settled { quiet + 1 } else { 0 };
         }
+    }
+
+    /// Whether a file is being read or written, which is waited for a little.
+    fn works_on_files(&self) -> bool {
+        let works = !self.app.background.rows(true).is_empty();
+        if works {
+            std::thread::sleep(Duration::from_millis(2));
+        }
+        works
     }
 
     fn frame(&mut self) -> FullOutput {

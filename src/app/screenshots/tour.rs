@@ -1,0 +1,106 @@
+//! What a person does at first, step by step in one window.
+
+use std::path::{Path, PathBuf};
+
+use eframe::egui::{Event, Modifiers, PointerButton, Vec2, vec2};
+use glam::{DVec2, dvec2};
+
+use super::{OffscreenWindow, look_at, on_screen, point_at, write_picture};
+use crate::app::command::{BrushCommand, Command, DomainCommand};
+use crate::app::dialogs::FileRequest;
+use crate::app::files::AEGEAN_SEA;
+use crate::app::tools::{BrushMode, DomainToolMode, ERASER, QUERY};
+use crate::io;
+
+/// Size of the window, in points.
+const WINDOW: Vec2 = vec2(980.0, 640.0);
+
+/// A step: the name of its picture, and what is done before it is taken.
+type Step = (&'static str, fn(&mut OffscreenWindow));
+
+const STEPS: [Step; 8] = [
+    ("1-open", |window| point_at(window, dvec2(26.4, 38.9))),
+    ("2-paint", paint),
+    ("3-erase", erase),
+    ("4-pick", pick),
+    ("5-query", query),
+    ("6-cut", cut),
+    ("7-save", |window| window.send(Command::Ask(FileRequest::Save))),
+    ("8-export", export),
+];
+
+/// Writes a picture of each step into a folder, and returns the files.
+///
+/// # Errors
+/// A sentence, when there is no graphics driver or a file cannot be written.
+pub fn write(folder: &Path) -> Result<Vec<PathBuf>, String> {
+    io::make_folder(folder).map_err(|error| format!("{} cannot be made: {error}.", folder.display()))?;
+    let scratch = std::env::temp_dir().join("meshbrush-tour");
+    io::make_folder(&scratch).map_err(|error| format!("{} cannot be made: {error}.", scratch.display()))?;
+    let coast = scratch.join("coast.geojson");
+    let written = io::write_file(&coast, |mut out| std::io::Write::write_all(&mut out, AEGEAN_SEA));
+    written.map_err(|error| format!("{} cannot be written: {error}.", coast.display()))?;
+    let mut window = OffscreenWindow::open_file(WINDOW, 1.0, coast)?;
+    let pictures = STEPS.iter().map(|(name, act)| {
+        act(&mut window);
+        write_picture(folder, name, &window.picture()?)
+    });
+    pictures.collect()
+}
+
+/// A stroke along the middle of the sea.
+fn paint(window: &mut OffscreenWindow) {
+    window.send(Command::Brush(BrushCommand::Radius(0.25)));
+    drag(window, &[dvec2(24.4, 38.9), dvec2(24.9, 38.4), dvec2(25.3, 37.9), dvec2(25.6, 37.2)]);
+    point_at(window, dvec2(25.9, 36.9));
+}
+
+fn erase(window: &mut OffscreenWindow) {
+    window.send(Command::Use(&ERASER));
+    drag(window, &[dvec2(25.0, 38.3), dvec2(25.2, 38.1)]);
+}
+
+/// The value of the stroke, painted elsewhere.
+fn pick(window: &mut OffscreenWindow) {
+    window.send(Command::Brush(BrushCommand::Mode(BrushMode::BuildUp)));
+    window.send(Command::Brush(BrushCommand::Pick(dvec2(25.5, 37.5))));
+    drag(window, &[dvec2(25.9, 39.0), dvec2(25.6, 39.3)]);
+    point_at(window, dvec2(25.2, 39.3));
+}
+
+fn query(window: &mut OffscreenWindow) {
+    let place = dvec2(25.15, 37.75);
+    window.send(Command::Use(&QUERY));
+    look_at(window, place, 8.0);
+    window.send(Command::Query(place));
+}
+
+fn cut(window: &mut OffscreenWindow) {
+    window.send(Command::Fit);
+    window.send(Command::Domain(DomainCommand::Mode(DomainToolMode::Polygon)));
+    for corner in [dvec2(23.4, 40.2), dvec2(24.6, 40.5), dvec2(24.4, 39.6)] {
+        window.send(Command::Domain(DomainCommand::AddCorner(corner)));
+    }
+    point_at(window, dvec2(23.6, 39.5));
+}
+
+fn export(window: &mut OffscreenWindow) {
+    window.send(Command::CloseDialog);
+    window.send(Command::Domain(DomainCommand::ClosePolygon));
+    window.send(Command::Ask(FileRequest::Export));
+}
+
+fn drag(window: &mut OffscreenWindow, points: &[DVec2]) {
+    point_at(window, points[0]);
+    press(window, points[0], true);
+    for &point in &points[1..] {
+        point_at(window, point);
+    }
+    press(window, points[points.len() - 1], false);
+}
+
+fn press(window: &mut OffscreenWindow, world: DVec2, pressed: bool) {
+    let pos = on_screen(window, world);
+    let (button, modifiers) = (PointerButton::Primary, Modifiers::NONE);
+    window.event(Event::PointerButton { pos, button, pressed, modifiers });
+}
