@@ -216,6 +216,27 @@ fn an_overlay_and_a_level_filter_agree() {
 }
 
 #[test]
+fn a_translucent_fill_agrees_and_its_edges_stay_opaque() {
+    let Some(mut gpu) = gpu() else { return };
+    let mesh = graded();
+    gpu.show(&mesh, 1).unwrap();
+    let camera = close_up(&mesh, 3.0);
+    let style = Style { fill_opacity: 0.4, ..Style::dark(colors()) };
+    let shown = gpu.picture(&camera, &style).unwrap();
+    let mut expected = software::draw(&mesh, &camera, &style, None, &[]);
+    let alphas: Vec<u8> = expected.pixels().iter().map(|pixel| pixel[3]).collect();
+    assert!([0, 102, 255].iter().all(|alpha| alphas.contains(alpha)), "ground, fill and edges");
+    // The canvas below the mesh has the colour of the ground.
+    for pixel in expected.rgba.chunks_exact_mut(4) {
+        let below = 1.0 - f32::from(pixel[3]) / 255.0;
+        for (channel, ground) in pixel.iter_mut().zip(style.ground) {
+            *channel = (f32::from(*channel) + below * f32::from(ground)).round() as u8;
+        }
+    }
+    assert_agree("translucent fill", &shown, &expected);
+}
+
+#[test]
 fn a_mesh_in_many_chunks_looks_the_same() {
     let Some(gpu) = gpu() else { return };
     let mesh = graded();

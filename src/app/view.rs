@@ -130,7 +130,9 @@ impl View {
             Ground::Light => Style::light(colors),
         };
         let shown_levels = self.lone_level.map_or(u64::MAX, |level| 1 << level.min(63));
-        Style { edges: self.edges, shown_levels, ..style }.at_density(px_per_point)
+        // Edges and highlights stay sharp over the picture.
+        let fill_opacity = settings.background.as_ref().map_or(1.0, |picture| 1.0 - picture.opacity as f32);
+        Style { edges: self.edges, shown_levels, fill_opacity, ..style }.at_density(px_per_point)
     }
 
     /// How a picture of the whole mesh looks in a file.

@@ -139,7 +139,7 @@ impl Ground {
 
     /// Colours of the three neighbours of a triangle on a dark halo over the colour of any level, the
     /// bisection neighbour first.
-    pub const ON_LEVELS: [[u8; 3]; 3] = Self::Dark.neighbours();
+    pub(crate) const ON_LEVELS: [[u8; 3]; 3] = Self::Dark.neighbours();
 
     /// Colours of the three neighbours of a triangle in panels, the bisection neighbour first.
     pub const fn neighbours(self) -> [[u8; 3]; 3] {

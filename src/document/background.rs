@@ -33,7 +33,7 @@ pub struct Background {
     pub picture: Arc<Picture>,
     /// The rectangle that it covers, in world units.
     pub bounds: Rect,
-    /// How strongly it covers the mesh, 0 to 1.
+    /// How strongly it shows through the fill of the mesh, 0 to 1.
     pub opacity: f64,
 }
 

@@ -12,6 +12,9 @@ pub struct Style {
     pub level_colors: LevelColors,
     /// The colour of the canvas, seen where there is no mesh.
     pub ground: [u8; 4],
+    /// Opacity of the fill, 0 to 1; edges are always opaque. If it is less than 1, the ground is transparent,
+    /// and colours are premultiplied by their opacity: another picture can be drawn below.
+    pub fill_opacity: f32,
     /// Whether edges are drawn.
     pub edges: bool,
     /// Width of an edge in pixels.
@@ -40,6 +43,7 @@ impl Style {
         Self {
             level_colors: level_colors.into(),
             ground: opaque(Ground::Dark.canvas()),
+            fill_opacity: 1.0,
             edges: true,
             edge_width_px: 1.0,
             edge_fade_px: [3.0, 8.0],
@@ -76,6 +80,13 @@ impl Style {
     /// Whether a level is shown in full.
     pub fn shows(&self, level: u32) -> bool {
         self.shown_levels >> level & 1 == 1
+    }
+
+    /// The colour of pixels without a triangle, channels from 0 to 1: the ground, or nothing where something
+    /// may be drawn below the mesh.
+    pub fn clear_color(&self) -> [f32; 4] {
+        let [r, g, b] = self.ground_color();
+        if self.fill_opacity < 1.0 { [0.0; 4] } else { [r, g, b, 1.0] }
     }
 
     /// The colour of the ground, channels from 0 to 1.

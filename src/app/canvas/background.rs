@@ -15,7 +15,7 @@ pub struct BackgroundTexture {
 }
 
 impl BackgroundTexture {
-    /// Draws the picture over the mesh, which stays visible through it as its opacity says.
+    /// Draws the picture below the mesh, whose fill is as transparent as the picture is opaque.
     pub fn paint(&mut self, painter: &Painter, rect: Rect, camera: &Camera, background: Option<&Background>) {
         let Some(background) = background else {
             self.shown = None;
@@ -27,7 +27,7 @@ impl BackgroundTexture {
         let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
         // At a deep zoom f32 cannot place the whole picture: only what is in view is drawn.
         let Some((place, part)) = in_view(place, whole, rect) else { return };
-        painter.image(texture, place, part, Color32::WHITE.gamma_multiply(background.opacity as f32));
+        painter.image(texture, place, part, Color32::WHITE.gamma_multiply(beside_mesh(background.opacity)));
     }
 
     fn texture(&mut self, ctx: &Context, picture: &Arc<Picture>) -> eframe::egui::TextureId {
@@ -43,6 +43,12 @@ impl BackgroundTexture {
         self.shown = Some((kept, texture));
         id
     }
+}
+
+/// The opacity of the picture itself: full from the middle of the range on, so that it is clear below and
+/// beside the mesh, and still nothing at 0.
+fn beside_mesh(opacity: f64) -> f32 {
+    (2.0 * opacity).min(1.0) as f32
 }
 
 /// The part of a picture at `place`, with texture coordinates `whole`, that lies in `view`.

@@ -316,9 +316,9 @@ impl Canvas {
             Ok(Progress::More) => ui.ctx().request_repaint(),
             Err(error) => commands.push(Command::Report(error.to_string())),
         }
-        ui.painter().add(gpu.shape(rect, camera, style));
         let background = session.document().settings().background.as_ref();
         self.background.paint(&ui.painter_at(rect), rect, &camera, background);
+        ui.painter().add(gpu.shape(rect, camera, style));
     }
 
     /// Brings the contour lines closer to the field, while they are shown.

@@ -39,7 +39,7 @@ fn rows(ui: &mut Ui, state: &FrameState<'_>, background: &Background, commands: 
     let changed = |background: Background| Setting::Background(Some(background));
     value_row(ui, "Picture", &background.name);
     let mut opacity = background.opacity;
-    let help = "How strongly the picture covers the mesh.";
+    let help = "How strongly the picture shows through the triangles.";
     let response = SliderRow::new("Opacity", &mut opacity, 0.0..=1.0).step(0.01).help(help).show(ui);
     if response.changed() {
         commands.push(Command::Set(changed(Background { opacity, ..background.clone() })));

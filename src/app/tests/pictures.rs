@@ -6,10 +6,13 @@ use eframe::egui::{Key, Modifiers, Pos2, vec2};
 use egui_kittest::Harness;
 use glam::dvec2;
 
-use super::{FREE, RESTING_PLACE, Window, canvas, choose, key, on_screen, scratch, send, stroke};
+use super::{
+    FREE, RESTING_PLACE, Window, canvas, choose, key, on_screen, scratch, send, set, settings, stroke,
+};
 use crate::app::App;
 use crate::app::command::Command;
 use crate::app::view::FieldOverlay;
+use crate::document::{self, Setting};
 
 /// A window whose canvas is drawn, on the software driver. Slower: only for what is judged by its picture.
 fn drawn_window() -> Window {
@@ -108,6 +111,31 @@ fn an_overlay_and_the_light_theme_are_seen_on_the_canvas() {
     let light = picture(&mut window);
     let corner = canvas(&window).left_top() + vec2(3.0, 3.0);
     assert!(pixel(&plain, corner)[0] < 40 && pixel(&light, corner)[0] > 180);
+}
+
+#[test]
+fn a_background_picture_shows_through_the_fill_and_edges_stay_dark() {
+    let mut window = drawn_window();
+    window.hover_at(RESTING_PLACE);
+    window.run();
+    let plain = picture(&mut window);
+    let bounds = settings(&window).domain.bounds;
+    let red = Arc::new(document::Picture { size: [1, 1], rgba: vec![240, 30, 20, 255] });
+    let background =
+        |opacity| document::Background { name: "red".into(), picture: red.clone(), bounds, opacity };
+    let at = on_screen(&window, FREE) + vec2(3.0, 1.0);
+    let mut shown = |opacity| {
+        set(&mut window, Setting::Background(Some(background(opacity))));
+        picture(&mut window)
+    };
+    assert_eq!(pixel(&shown(1.0), at), [240, 30, 20], "the picture alone");
+    let half = pixel(&shown(0.5), at);
+    let expected = (u32::from(pixel(&plain, at)[0]) + 240) / 2;
+    assert!(u32::from(half[0]).abs_diff(expected) <= 2, "{half:?} is the mean of {expected}");
+    // Edges keep their own colour: pixels along a row are not all the picture's.
+    let image = shown(1.0);
+    let row = (-40..40).map(|x| pixel(&image, at + vec2(x as f32, 0.0)));
+    assert!(row.clone().any(|color| color[0] < 120), "{:?}", row.collect::<Vec<_>>());
 }
 
 #[test]

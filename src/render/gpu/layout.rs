@@ -47,7 +47,8 @@ pub(super) struct MeshView {
     node_chunk_bits: u32,
     rim_px: f32,
     huge_px: f32,
-    unused: [u32; 3],
+    fill_opacity: f32,
+    unused: [u32; 2],
     levels: [Level; LEVELS],
 }
 
@@ -64,7 +65,8 @@ impl MeshView {
             node_chunk_bits,
             rim_px: style.rim_px(),
             huge_px: HUGE_PX,
-            unused: [0; 3],
+            fill_opacity: style.fill_opacity,
+            unused: [0; 2],
             levels: LevelPaint::all(camera, style).map(Level::from),
         }
     }

@@ -24,9 +24,9 @@ struct View {
     node_chunk_bits: u32,
     rim_px: f32,
     huge_px: f32,
+    fill_opacity: f32,
     unused_0: u32,
     unused_1: u32,
-    unused_2: u32,
     levels: array<Level, 64>,
 }
 
@@ -298,5 +298,6 @@ fn fs_main(in: Corner) -> @location(0) vec4<f32> {
     let from_edge = in.inside_px - in.rims_px;
     let nearest_px = min(from_edge.x, min(from_edge.y, from_edge.z));
     let share = clamp(view.edge_reach_px - nearest_px, 0.0, 1.0) * in.edge.a;
-    return vec4(mix(in.fill, in.edge.rgb, share), 1.0);
+    // Premultiplied.
+    return mix(vec4(in.fill, 1.0) * view.fill_opacity, vec4(in.edge.rgb, 1.0), share);
 }

@@ -147,7 +147,8 @@ impl Offscreen {
 
     fn paint(&self, encoder: &mut wgpu::CommandEncoder, canvas: &wgpu::Texture, style: &Style) {
         let view = canvas.create_view(&wgpu::TextureViewDescriptor::default());
-        self.renderer.paint(&mut begin_pass(encoder, &view, style.ground_color()));
+        let [r, g, b] = style.ground_color();
+        self.renderer.paint(&mut begin_pass(encoder, &view, [r, g, b, 1.0]));
     }
 
     fn canvas(&self, camera: &Camera) -> Result<wgpu::Texture, GpuError> {

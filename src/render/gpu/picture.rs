@@ -50,9 +50,10 @@ impl MeshPicture {
             entries: &[texel_entry(0)],
         });
         let shader = device.create_shader_module(wgpu::include_wgsl!("blit.wgsl"));
+        let blend = wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING;
         Self {
             mesh_pass: MeshPass::new(device, FORMAT, mirror),
-            blit: render_pipeline(device, &shader, &[&blit_layout], format, None),
+            blit: render_pipeline(device, &shader, &[&blit_layout], format, Some(blend)),
             blit_layout,
             target: None,
             drawn: None,
@@ -73,7 +74,7 @@ impl MeshPicture {
         let source = Source::Mirror(mirror.generation());
         let Some(wanted) = self.if_not_drawn(source, camera, style) else { return Ok(()) };
         let target = self.target_with_size(device, camera.size_px())?;
-        let mut pass = begin_pass(encoder, &target.view, style.ground_color());
+        let mut pass = begin_pass(encoder, &target.view, style.clear_color());
         self.mesh_pass.draw(queue, &mut pass, mirror, camera, style);
         drop(pass);
         self.keep(target, wanted);
@@ -158,20 +159,20 @@ fn write_image(queue: &wgpu::Queue, texture: &wgpu::Texture, image: &Image) {
     queue.write_texture(texture.as_image_copy(), &image.rgba, layout, texture.size());
 }
 
-/// Begins a render pass onto one texture, which is first cleared to `ground`.
+/// Begins a render pass onto one texture, which is first cleared to `color`, premultiplied.
 pub(super) fn begin_pass<'e>(
     encoder: &'e mut wgpu::CommandEncoder,
     view: &wgpu::TextureView,
-    ground: [f32; 3],
+    color: [f32; 4],
 ) -> wgpu::RenderPass<'e> {
-    let [r, g, b] = ground.map(f64::from);
+    let [r, g, b, a] = color.map(f64::from);
     encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
         color_attachments: &[Some(wgpu::RenderPassColorAttachment {
             view,
             depth_slice: None,
             resolve_target: None,
             ops: wgpu::Operations {
-                load: wgpu::LoadOp::Clear(wgpu::Color { r, g, b, a: 1.0 }),
+                load: wgpu::LoadOp::Clear(wgpu::Color { r, g, b, a }),
                 store: wgpu::StoreOp::Store,
             },
         })],

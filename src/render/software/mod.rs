@@ -52,8 +52,7 @@ pub fn draw_extract(extract: &Extract, camera: &Camera, style: &Style) -> Image 
 }
 
 fn ground(camera: &Camera, style: &Style) -> Image {
-    let [r, g, b, _] = style.ground;
-    Image::filled(camera.size_px(), [r, g, b, 0xff])
+    Image::filled(camera.size_px(), style.clear_color().map(|c| (255.0 * c).round() as u8))
 }
 
 /// Triangles and their nodes. A neighbour that is one of `triangles` shares an edge.

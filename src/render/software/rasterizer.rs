@@ -34,7 +34,7 @@ pub(super) fn is_huge([a, b, c]: [[i32; 2]; 3]) -> bool {
 /// Colours the pixels of the triangles of one level.
 pub(super) struct LevelShader {
     fill: [u8; 4],
-    fill_and_step: [[f32; 2]; 3],
+    fill_and_step: [[f32; 2]; 4],
     edge_alpha: f32,
     edge_reach_px: f32,
     rim_px: f32,
@@ -42,14 +42,12 @@ pub(super) struct LevelShader {
 
 impl LevelShader {
     pub(super) fn new(paint: &LevelPaint, style: &Style) -> Self {
-        let fill_and_step = std::array::from_fn(|i| {
-            let fill = 255.0 * paint.fill[i];
-            [fill, 255.0 * paint.edge[i] - fill]
-        });
-        let [r, g, b] = paint.fill.map(|c| (255.0 * c).round() as u8);
+        let ([r, g, b], [edge_r, edge_g, edge_b]) = (paint.fill, paint.edge);
+        let fill = [r, g, b, 1.0].map(|c| 255.0 * style.fill_opacity * c);
+        let edge = [edge_r, edge_g, edge_b, 1.0].map(|c| 255.0 * c);
         Self {
-            fill: [r, g, b, 0xff],
-            fill_and_step,
+            fill: fill.map(|c| c.round() as u8),
+            fill_and_step: std::array::from_fn(|i| [fill[i], edge[i] - fill[i]]),
             edge_alpha: paint.edge_alpha,
             edge_reach_px: style.edge_reach_px(),
             rim_px: style.rim_px(),
@@ -73,8 +71,7 @@ impl LevelShader {
         if share == 0.0 {
             return self.fill;
         }
-        let [r, g, b] = self.fill_and_step.map(|[fill, step]| (fill + share * step + 0.5) as u8);
-        [r, g, b, 0xff]
+        self.fill_and_step.map(|[fill, step]| (fill + share * step + 0.5) as u8)
     }
 }
 
