@@ -33,6 +33,8 @@ pub enum CanvasAid {
     ScaleBar,
     /// Contour lines of h̄.
     Contours,
+    /// Handles at the corners of the background picture.
+    PictureCorners,
 }
 
 /// Which of them are shown.
@@ -44,11 +46,13 @@ pub struct CanvasAids {
     pub scale_bar: bool,
     /// Contour lines of h̄ where one level ends and the next begins.
     pub contours: bool,
+    /// Handles at the corners of the background picture.
+    pub picture_corners: bool,
 }
 
 impl Default for CanvasAids {
     fn default() -> Self {
-        Self { coordinates: true, scale_bar: true, contours: false }
+        Self { coordinates: true, scale_bar: true, contours: false, picture_corners: false }
     }
 }
 
@@ -58,6 +62,7 @@ impl CanvasAids {
             CanvasAid::Coordinates => &mut self.coordinates,
             CanvasAid::ScaleBar => &mut self.scale_bar,
             CanvasAid::Contours => &mut self.contours,
+            CanvasAid::PictureCorners => &mut self.picture_corners,
         };
         *shown = !*shown;
     }

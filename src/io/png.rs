@@ -5,7 +5,8 @@ use std::io::{self, BufRead, BufReader, Seek, Write};
 use std::path::Path;
 
 use png::{
-    BitDepth, ColorType, Compression, Decoder, DecodingError, Encoder, EncodingError, Filter, Transformations,
+    BitDepth, ColorType, Compression, Decoder, DecodingError, Encoder, EncodingError, Filter, OutputInfo,
+    Transformations,
 };
 
 use super::error::PlacedFlaw;
@@ -62,16 +63,7 @@ pub fn decode(source: impl BufRead + Seek, bounds: Rect, behind: Behind) -> Resu
     if size.iter().any(|side| !(1..=MAX_SIDE).contains(side)) {
         return Err(Flaw::Size { columns: size[0].into(), rows: size[1].into() });
     }
-    let mut reader = decoder.read_info()?;
-    // The decoder relies on three bytes for each colour.
-    if reader.info().palette.as_ref().is_some_and(|palette| palette.len() % 3 != 0) {
-        return Err(Flaw::Png("its palette is not a list of colours".into()));
-    }
-    let mut bytes = vec![0; reader.output_buffer_size().ok_or(DecodingError::LimitsExceeded)?];
-    let frame = reader.next_frame(&mut bytes)?;
-    if [frame.width, frame.height] != size {
-        return Err(Flaw::Png("its first frame does not fill the image".into()));
-    }
+    let (bytes, frame) = first_frame(decoder, size)?;
     let samples = frame.color_type.samples();
     let bytes_per_sample = if frame.bit_depth == BitDepth::Sixteen { 2 } else { 1 };
     let pixel_bytes = samples * bytes_per_sample;
@@ -101,6 +93,24 @@ pub fn read_picture(path: &Path, meter: &Meter) -> Result<Picture, ReadError> {
     decoded.map_err(|flaw| flaw.in_file(path))
 }
 
+/// The samples of an image of [columns, rows], and their format.
+fn first_frame<R: BufRead + Seek>(
+    decoder: Decoder<R>,
+    size: [u32; 2],
+) -> Result<(Vec<u8>, OutputInfo), Flaw> {
+    let mut reader = decoder.read_info()?;
+    // The decoder relies on three bytes for each colour.
+    if reader.info().palette.as_ref().is_some_and(|palette| palette.len() % 3 != 0) {
+        return Err(Flaw::Png("its palette is not a list of colours".into()));
+    }
+    let mut bytes = vec![0; reader.output_buffer_size().ok_or(DecodingError::LimitsExceeded)?];
+    let frame = reader.next_frame(&mut bytes)?;
+    if [frame.width, frame.height] != size {
+        return Err(Flaw::Png("its first frame does not fill the image".into()));
+    }
+    Ok((bytes, frame))
+}
+
 /// Reads as [`read_picture`] does, from any source of bytes.
 ///
 /// # Errors
@@ -119,15 +129,7 @@ pub fn decode_picture(source: impl BufRead + Seek) -> Result<Picture, Flaw> {
             Grouped(size[1] as usize)
         )));
     }
-    let mut reader = decoder.read_info()?;
-    if reader.info().palette.as_ref().is_some_and(|palette| palette.len() % 3 != 0) {
-        return Err(Flaw::Png("its palette is not a list of colours".into()));
-    }
-    let mut bytes = vec![0; reader.output_buffer_size().ok_or(DecodingError::LimitsExceeded)?];
-    let frame = reader.next_frame(&mut bytes)?;
-    if [frame.width, frame.height] != size {
-        return Err(Flaw::Png("its first frame does not fill the image".into()));
-    }
+    let (mut bytes, frame) = first_frame(decoder, size)?;
     bytes.truncate(frame.buffer_size());
     let rgba = match frame.color_type {
         ColorType::Rgba => bytes,

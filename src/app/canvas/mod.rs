@@ -8,12 +8,13 @@ mod legend;
 mod menu;
 pub mod marks;
 mod overlay;
+pub mod picture_corners;
 mod price;
 mod way_back;
 
 use eframe::egui::{
-    self, Context, CursorIcon, Event, Id, Key, Modifiers, Painter, PointerButton, Popup, Rect, Response,
-    Sense, TouchPhase, Ui,
+    self, Context, CursorIcon, Event, Id, Key, Painter, PointerButton, Popup, Rect, Response, Sense,
+    TouchPhase, Ui,
 };
 use glam::DVec2;
 
@@ -27,7 +28,7 @@ use super::contours::ContourFinder;
 use super::frame::FrameState;
 use super::session::Session;
 use super::theme::tokens;
-use super::tools::{Gesture, OverMesh, PAN, Panning, Pointer, Press, Tools};
+use super::tools::{Gesture, OverMesh, PAN, Panning, Pointer, Press, Tools, picks};
 use super::view::View;
 use crate::geometry::{Lattice, Rect as WorldRect};
 use crate::mesh::Progress;
@@ -213,11 +214,6 @@ impl Canvas {
         let from = tools.last_painted.filter(|_| shift).unwrap_or(to);
         (is_free && paints).then(|| StrokePlan { brush, mirror: tools.mirror(bounds), from, to })
     }
-}
-
-/// Whether a click picks the value under the pointer instead of painting.
-pub fn picks(modifiers: Modifiers) -> bool {
-    modifiers.alt || modifiers.command
 }
 
 /// The pressure of a pen, 0 to 1, or `None` when it is lifted.

@@ -2,11 +2,10 @@
 
 use eframe::egui::{Align2, Color32, Pos2, Rect, Ui, Vec2, vec2};
 
-use super::picks;
 use crate::app::frame::FrameState;
 use crate::app::readout::{Quantity, value_at};
 use crate::app::theme::{Tokens, tokens};
-use crate::app::tools::PaintKind;
+use crate::app::tools::{PaintKind, picks};
 use crate::app::widgets::{floating_tag, format, tag_size};
 use crate::document::{NoChange, Price, Settings};
 use crate::mesh::Progress;

@@ -7,7 +7,8 @@ use super::{Panel, end_gesture_when_released, remark, set_once};
 use crate::app::command::Command;
 use crate::app::dialogs::FileRequest;
 use crate::app::frame::FrameState;
-use crate::app::widgets::{ActionButton, NumberRow, Section, SliderRow, value_row};
+use crate::app::view::CanvasAid;
+use crate::app::widgets::{ActionButton, NumberRow, Section, SliderRow, toggle_row, value_row};
 use crate::document::{Background, Setting};
 use crate::geometry::Rect;
 
@@ -45,6 +46,10 @@ fn rows(ui: &mut Ui, state: &FrameState<'_>, background: &Background, commands: 
         commands.push(Command::Set(changed(Background { opacity, ..background.clone() })));
     }
     end_gesture_when_released(&response, commands);
+    let mut shown = state.view.aids.picture_corners;
+    if toggle_row(ui, "Drag corners on the canvas", &mut shown).changed() {
+        commands.push(Command::ToggleAid(CanvasAid::PictureCorners));
+    }
     let Rect { min, max } = background.bounds;
     let mut sides = [min.x, min.y, max.x, max.y];
     let mut moved = false;

@@ -4,14 +4,15 @@ use std::fs;
 use std::path::PathBuf;
 
 use eframe::egui::accesskit::Role;
-use eframe::egui::{Key, Modifiers};
+use eframe::egui::{Key, Modifiers, PointerButton};
 use egui_kittest::kittest::Queryable as _;
 use glam::dvec2;
 
 use super::{
-    TALL, Window, choose, document, entries, fingerprint, folder, key, notice, open_section, send, set,
-    settings, type_into, value_of, wait_for_notice, wait_until, window_of,
+    TALL, Window, choose, document, entries, fingerprint, folder, key, move_to, notice, open_section,
+    press_at, release, send, set, settings, type_into, value_of, wait_for_notice, wait_until, window_of,
 };
+use crate::app::canvas::picture_corners::NAMES;
 use crate::app::command::Command;
 use crate::document::{Background, Document, Setting};
 use crate::geometry::Rect;
@@ -94,4 +95,27 @@ fn a_picture_that_cannot_be_shown_is_refused_with_a_sentence() {
     choose(&mut window, "File", "Open background picture…");
     set(&mut window, Setting::Background(None));
     assert_eq!(entries(&window), 0);
+}
+
+#[test]
+fn the_corners_of_the_picture_are_dragged_on_the_canvas() {
+    let mut window = with_background(folder("background picture", "corners"));
+    let handle =
+        |window: &Window, name| window.query_by_role_and_label(Role::Button, name).map(|node| node.rect());
+    assert!(handle(&window, NAMES[0]).is_none());
+    open_section(&mut window, "Background picture");
+    window.get_by_role_and_label(Role::CheckBox, "Drag corners on the canvas").click();
+    window.run();
+    let before = entries(&window);
+    let from = handle(&window, NAMES[1]).unwrap().center();
+    press_at(&mut window, from, PointerButton::Primary, Modifiers::NONE);
+    for share in [0.3, 0.6, 0.75] {
+        move_to(&mut window, dvec2(share, 0.5));
+    }
+    release(&mut window, dvec2(0.75, 0.5));
+    let bounds = background(&window).unwrap().bounds;
+    assert!(bounds.min == dvec2(0.0, 0.0) && bounds.max.distance(dvec2(0.75, 0.5)) < 0.01, "{bounds:?}");
+    assert_eq!(entries(&window), before + 1, "one entry for the drag");
+    key(&mut window, Modifiers::COMMAND, Key::Z);
+    assert_eq!(background(&window).unwrap().bounds, Rect::UNIT);
 }

@@ -1,6 +1,6 @@
 //! The brush, and the gestures of painting that the eraser shares.
 
-use eframe::egui::{Key, Painter, Pos2};
+use eframe::egui::{Key, Modifiers, Painter, Pos2};
 use glam::DVec2;
 
 use super::{Gesture, PaintKind, Pointer, Press, ToolSpec, Tools};
@@ -81,6 +81,11 @@ fn brush(tools: &Tools) -> Brush {
     Brush { medium, radius: tools.radius, hardness: tools.hardness, strength }
 }
 
+/// Whether a click picks the value under the pointer instead of painting.
+pub fn picks(modifiers: Modifiers) -> bool {
+    modifiers.alt || modifiers.command
+}
+
 fn diameter_change(mode: BrushMode) -> DiameterChange {
     match mode {
         BrushMode::BuildUp => DiameterChange::Finer,
@@ -103,7 +108,7 @@ pub fn press_to_paint(
     commands: &mut Vec<Command>,
 ) -> Option<Box<dyn Gesture>> {
     let point = pointer.world(press.at);
-    if press.modifiers.alt || press.modifiers.command {
+    if picks(press.modifiers) {
         commands.push(Command::Brush(BrushCommand::Pick(point)));
         return None;
     }

@@ -19,7 +19,7 @@ use eframe::egui::{CursorIcon, Key, Painter, Pos2};
 use glam::DVec2;
 
 pub use boundary::{BOUNDARY, BoundaryTool, BoundaryToolMode};
-pub use brush::{BRUSH, BrushMode};
+pub use brush::{BRUSH, BrushMode, picks};
 pub use domain::{DOMAIN, DomainTool, DomainToolMode};
 pub use eraser::ERASER;
 pub use gesture::{Gesture, Pointer, Press};

@@ -7,7 +7,7 @@ const EDGE: f32 = 2.0;
 
 /// The sentences of controls that have no unit or number in it, by the name of the control. The name of a
 /// choice is that of its group and its own.
-static SENTENCES: [(&str, &str); 96] = [
+static SENTENCES: [(&str, &str); 97] = [
     (
         "What the brush paints/Risk",
         "The brush paints risk, from 0 to 1, which the transfer curve turns into a diameter.",
@@ -40,6 +40,10 @@ static SENTENCES: [(&str, &str); 96] = [
     ("Base field/Formula", "A target diameter before you paint that depends on x and y."),
     ("Base field/Picture", "A greyscale picture as risk before you paint: black 0, white 1."),
     ("Open diameters…", "Reads a grid of target diameters (.asc), in the unit of the document."),
+    (
+        "Drag corners on the canvas",
+        "Shows handles at two corners of the picture, which place and scale it over the domain.",
+    ),
     ("Open picture…", "Reads a greyscale PNG file as the risk before you paint."),
     ("Refinement rule/Area rule", "A triangle obeys h̄ everywhere inside it."),
     (
