@@ -36,9 +36,10 @@ fn drag_number(window: &mut Window, name: &str, by: f32, modifiers: Modifiers) {
     release_at(window, at + vec2(by, 0.0), PointerButton::Primary);
 }
 
-/// Both clicks before anything else happens.
+/// Both clicks before anything else happens, after the pointer has rested at the place.
 fn double_click(window: &mut Window, at: Pos2) {
     window.event(Event::PointerMoved(at));
+    window.run_steps(20);
     for pressed in [true, false, true, false] {
         window.event(button_event(at, PointerButton::Primary, pressed, Modifiers::NONE));
     }
