@@ -127,7 +127,7 @@ fn the_time_of_an_update_is_that_on_the_clock_with_a_unit() {
     let update = |window: &Window| value_of(window, Role::Definition, "update");
     let has_unit = |text: &str| [" ms", " s"].iter().any(|unit| text.trim_end_matches('…').ends_with(unit));
     let began = Instant::now();
-    window.state_mut().send(Command::Set(Setting::SmallestDiameter(1e-3)));
+    window.state_mut().send(Command::Set(Setting::SmallestDiameter(TWO_MILLIONS)));
     window.step();
     assert_ne!(window.state().session().stage(), Stage::InStep);
     assert!(update(&window).ends_with('…') && has_unit(&update(&window)), "{}", update(&window));
@@ -139,5 +139,5 @@ fn the_time_of_an_update_is_that_on_the_clock_with_a_unit() {
     assert!(measured >= Duration::from_millis(300) && measured <= began.elapsed(), "{measured:?}");
     stroke(&mut window, FREE, FREE);
     let stroke = window.state().session().last_update().unwrap();
-    assert!(stroke < measured, "{stroke:?}: another update begins anew");
+    assert!(stroke < measured, "{stroke:?}: the time of another update");
 }
