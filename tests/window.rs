@@ -23,7 +23,7 @@ const SIZE: (usize, usize) = (1440, 900);
 const CANVAS: Area = Area { x: 60..1140, y: 50..860 };
 const PANEL: Area = Area { x: 1170..1430, y: 50..860 };
 /// In the corner of the canvas where a row shows the progress of long work, below the domain.
-const PROGRESS: Area = Area { x: 800..1100, y: 836..852 };
+const PROGRESS: Area = Area { x: 800..940, y: 836..852 };
 /// The pointer rests here, off the canvas, while a picture is taken.
 const RESTING_PLACE: (usize, usize) = (720, 890);
 /// The fill of level 0 where edges are far, and how much a driver may be off.
