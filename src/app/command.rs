@@ -135,7 +135,7 @@ pub enum Command {
     Pan(DVec2),
     /// Shows or hides edges.
     ToggleEdges,
-    /// Shows or hides something on the canvas that helps to find one's way.
+    /// Shows or hides an aid to orientation on the canvas.
     ToggleAid(CanvasAid),
     /// Chooses what is drawn over the mesh.
     SetOverlay(FieldOverlay),

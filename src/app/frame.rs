@@ -195,9 +195,11 @@ impl App {
     }
 
     fn draw_dialogs(&mut self, ctx: &Context, commands: &mut Vec<Command>) {
-        let reads: Vec<_> = self.background.rows(true).into_iter().filter(|row| row.reads).collect();
-        let facts = FileFacts { triangles: self.session.triangle_count(), reads: &reads };
-        self.dialogs.show_file(ctx, &facts, commands);
+        if self.dialogs.asks_for_file() {
+            let reads: Vec<_> = self.background.rows(true).into_iter().filter(|row| row.reads).collect();
+            let facts = FileFacts { triangles: self.session.triangle_count(), reads: &reads };
+            self.dialogs.show_file(ctx, &facts, commands);
+        }
         let state = self.state(None);
         if let Some(keeper) = &self.journal {
             journal::question(ctx, keeper, &self.project, commands);

@@ -5,11 +5,11 @@ use crate::build::BuildError;
 use crate::mesh::RefineError;
 use crate::text::Bytes;
 
-/// A message on the canvas. News fade after some seconds; a failure stays until it is dismissed or its cause
-/// is gone.
+/// A message on the canvas. News disappears after some seconds; a failure stays until it is dismissed or its
+/// cause is gone.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Notice {
-    /// Tells it from every other message of the session.
+    /// Distinguishes it from all other messages of the session.
     pub number: u64,
     /// Whether it reports a failure; else it is news.
     pub failed: bool,

@@ -9,7 +9,7 @@ use super::derivation::Derivation;
 use super::latest::Latest;
 use crate::build::RefinementCriterion;
 use crate::document::{Document, Follower};
-use crate::mesh::{Extract, MeshStatistics, TriangleId};
+use crate::mesh::{MeshStatistics, TriangleId};
 
 /// The figures of a mesh as files get it.
 pub struct Measured {
@@ -77,9 +77,15 @@ impl Statistician {
         let (rule, paint) = (follower.settings().rule, document.paint().clone());
         let measure = move || {
             let mut criterion = RefinementCriterion::new(&domain, &field, rule, Some(paint.as_paint()));
-            let too_coarse = mesh.unsatisfied(|element| criterion.exceeds(element)).ok();
             let extract = extract.unwrap_or_else(|| Arc::new(mesh.extract().into_owned()));
-            Measured { too_coarse, fingerprint: mesh.fingerprint().to_string(), ..Measured::of(&extract) }
+            Measured {
+                statistics: extract.statistics(),
+                area: extract.area(),
+                nodes: extract.nodes().len(),
+                part_sizes: extract.part_sizes(),
+                fingerprint: mesh.fingerprint().to_string(),
+                too_coarse: mesh.unsatisfied(|element| criterion.exceeds(element)).ok(),
+            }
         };
         self.0.start(MeasuredMesh::now(follower, derivation), measure, ctx);
     }
@@ -88,18 +94,5 @@ impl Statistician {
 impl MeasuredMesh {
     fn now(follower: &Follower, derivation: &Derivation) -> Self {
         Self { follower: follower.revision(), derived: derivation.pieces_revision() }
-    }
-}
-
-impl Measured {
-    fn of(extract: &Extract) -> Self {
-        Self {
-            statistics: extract.statistics(),
-            area: extract.area(),
-            nodes: extract.nodes().len(),
-            part_sizes: extract.part_sizes(),
-            fingerprint: String::new(),
-            too_coarse: None,
-        }
     }
 }

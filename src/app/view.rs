@@ -24,7 +24,7 @@ pub enum FieldOverlay {
     Target,
 }
 
-/// Something on the canvas that helps to find one's way, and can be switched off.
+/// An aid to orientation on the canvas, which can be switched off.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CanvasAid {
     /// Ticks with coordinates along its sides.
@@ -84,7 +84,7 @@ pub struct View {
     pub edges: bool,
     /// What is drawn over the mesh.
     pub overlay: FieldOverlay,
-    /// What is drawn to find one's way on the canvas.
+    /// The aids to orientation that are shown.
     pub aids: CanvasAids,
     /// Whether the panels are shown.
     pub panels: bool,

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use glam::DVec2;
 
-use crate::geometry::Rect;
+use crate::geometry::{Rect, nearest_on_segment};
 
 /// Segments in a grid of square cells, about one cell for each segment.
 #[derive(Clone, Debug)]
@@ -112,15 +112,6 @@ impl<'a> SegmentGrid<'a> {
 
 fn distance_to_segment(p: DVec2, segment: [DVec2; 2]) -> f64 {
     p.distance(nearest_on_segment(p, segment))
-}
-
-/// The point of a segment that is nearest to `p`.
-pub fn nearest_on_segment(p: DVec2, [a, b]: [DVec2; 2]) -> DVec2 {
-    let along = b - a;
-    if along == DVec2::ZERO {
-        return a;
-    }
-    a + ((p - a).dot(along) / along.length_squared()).clamp(0.0, 1.0) * along
 }
 
 #[cfg(test)]

@@ -5,8 +5,10 @@ mod lattice;
 mod lattice_rect;
 mod predicates;
 mod rect;
+mod segment;
 
 pub use lattice::{GridError, LATTICE_BITS, Lattice, LatticePoint};
 pub use lattice_rect::LatticeRect;
 pub use predicates::{Side, exact_sum_sign, side_of_edge, side_of_line};
 pub use rect::Rect;
+pub use segment::{nearest_on_segment, nearest_share};

@@ -2,6 +2,7 @@ use glam::{DVec2, dvec2};
 
 use super::PaintRasters;
 use crate::field::f32_not_below;
+use crate::geometry::nearest_share;
 
 /// What a brush does to the pixels under it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -59,7 +60,7 @@ impl Brush {
     ///
     /// Size and strength change linearly along the segment; those at the place nearest to the pixel count.
     pub(super) fn coverage_of_segment(&self, point: DVec2, [from, to]: [PathPoint; 2]) -> f64 {
-        let (share, distance) = nearest_on_segment(point, from.at, to.at);
+        let (share, distance) = nearest_on_path(point, [from.at, to.at]);
         let between = |a: f64, b: f64| a + share * (b - a);
         let radius = self.radius * between(from.size, to.size);
         between(from.strength, to.strength) * Self { radius, ..*self }.coverage(distance)
@@ -184,11 +185,8 @@ impl Mirror {
     }
 }
 
-/// The place on the segment from `a` to `b` that is nearest to `point`: its share of the segment, 0 to 1, and
-/// its distance.
-pub(super) fn nearest_on_segment(point: DVec2, a: DVec2, b: DVec2) -> (f64, f64) {
-    let (along, from_a) = (b - a, point - a);
-    let length_squared = along.length_squared();
-    let share = if length_squared > 0.0 { (from_a.dot(along) / length_squared).clamp(0.0, 1.0) } else { 0.0 };
-    (share, (from_a - along * share).length())
+/// The place on a segment that is nearest to `point`: its share of the segment, 0 to 1, and its distance.
+pub(super) fn nearest_on_path(point: DVec2, [a, b]: [DVec2; 2]) -> (f64, f64) {
+    let share = nearest_share(point, [a, b]);
+    (share, (point - a - (b - a) * share).length())
 }

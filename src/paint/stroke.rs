@@ -2,7 +2,7 @@ use std::collections::{BTreeMap, VecDeque};
 
 use glam::DVec2;
 
-use super::brush::{least_radius, nearest_on_segment};
+use super::brush::{least_radius, nearest_on_path};
 use super::tiles::{TILE, TilePixels, TilePlace, tile_area, tiles_touching};
 use super::{Brush, Mirror, PaintRasters, Patch, PathPoint};
 use crate::geometry::Rect;
@@ -160,7 +160,7 @@ impl Segment {
             let PixelRect { min, max } = tile_area(place, size);
             let [low, high] = [min, max].map(|[x, y]| DVec2::new(x.into(), y.into()) * pixel);
             let (middle, half_diagonal) = (0.5 * (low + high), 0.5 * (high - low).length());
-            let (_, distance) = nearest_on_segment(paint.risk.bounds().min + middle, from, to);
+            let (_, distance) = nearest_on_path(paint.risk.bounds().min + middle, [from, to]);
             // Rounding does not matter: at the rim the coverage is 0.
             distance <= radius + half_diagonal
         };

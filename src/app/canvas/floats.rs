@@ -12,9 +12,9 @@ use crate::app::session::Session;
 use crate::app::widgets::{Banner, BannerAnswer, bytes_row, format, hint_pill, paint_floating, progress_row};
 use crate::document::Stage;
 
-/// How long news are shown, in seconds.
+/// How long news is shown, in seconds.
 const NEWS_SECONDS: f64 = 5.0;
-/// How long they are shown after the pointer has left them, in seconds.
+/// How long it is shown after the pointer has left it, in seconds.
 const NEWS_SECONDS_AFTER_POINTER: f64 = 2.0;
 
 impl Canvas {
@@ -107,7 +107,7 @@ fn draw_notice(ui: &mut Ui, inner: Rect, session: &Session, commands: &mut Vec<C
     Some(child.min_rect())
 }
 
-/// Whether news have been shown long enough. Under the pointer they stay. The window sleeps meanwhile.
+/// Whether news has been shown long enough. Under the pointer it stays. The window sleeps meanwhile.
 fn has_faded(ui: &Ui, number: u64) -> bool {
     let id = Id::unique("end of the news");
     let now = ui.input(|input| input.time);

@@ -65,8 +65,7 @@ fn direction_to_mesh(session: &Session, camera: &Camera) -> Option<DVec2> {
         let towards = domain.bounds.center() - middle;
         return (!visible.contains(domain.bounds.center()) && towards != DVec2::ZERO).then_some(towards);
     };
-    let nearest = |[a, b]: [DVec2; 2]| nearest_on_edge(middle, a, b);
-    let nearest = region.edges().map(nearest).min_by(|a, b| {
+    let nearest = region.edges().map(|edge| geometry::nearest_on_segment(middle, edge)).min_by(|a, b| {
         let distance = |place: &DVec2| place.distance_squared(middle);
         distance(a).total_cmp(&distance(b))
     })?;
@@ -78,11 +77,4 @@ fn probes(visible: geometry::Rect) -> impl Iterator<Item = DVec2> {
     let share = |i: u32| (f64::from(i) + 0.5) / f64::from(PROBES);
     (0..PROBES * PROBES)
         .map(move |i| visible.min + visible.size() * dvec2(share(i % PROBES), share(i / PROBES)))
-}
-
-/// The point of the edge from `a` to `b` nearest to `place`.
-fn nearest_on_edge(place: DVec2, a: DVec2, b: DVec2) -> DVec2 {
-    let along = b - a;
-    let share = (place - a).dot(along) / along.length_squared().max(f64::MIN_POSITIVE);
-    a + share.clamp(0.0, 1.0) * along
 }

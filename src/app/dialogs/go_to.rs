@@ -25,10 +25,9 @@ impl Place {
     fn parse(text: &str, unit: LengthUnit) -> Option<Self> {
         let text = text.trim();
         let number = |text: &str| typed::number(text, unit.symbol()).ok();
-        if let Some(digits) = text.strip_prefix('#').or(Some(text)).map(|text| text.replace(',', ""))
-            && is_grouped(text.trim_start_matches('#'))
-        {
-            return digits.parse().ok().map(Self::Triangle);
+        let digits = text.strip_prefix('#').unwrap_or(text);
+        if is_grouped(digits) {
+            return digits.replace(',', "").parse().ok().map(Self::Triangle);
         }
         let parts = |separator: fn(char) -> bool| -> Vec<&str> {
             text.split(separator).map(str::trim).filter(|part| !part.is_empty()).collect()

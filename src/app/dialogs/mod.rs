@@ -128,7 +128,7 @@ impl Dialogs {
         self.file.take_if(|file| file.is_waiting() && file.request().writes() != reads);
     }
 
-    /// Lets the file dialog go on: its answer was taken back.
+    /// Lets the user edit the file dialog again, after its answer was cancelled.
     pub fn resume(&mut self) {
         if let Some(file) = &mut self.file {
             file.resume();

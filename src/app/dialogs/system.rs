@@ -9,7 +9,7 @@ use eframe::egui::Context;
 
 use super::FileRequest;
 
-/// Nobody cancels a dialog faster than this: it has not opened.
+/// A dialog that is answered faster than this has not opened.
 const FASTEST_CANCEL: Duration = Duration::from_millis(150);
 
 /// What was asked for.

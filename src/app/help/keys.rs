@@ -34,7 +34,7 @@ pub fn show(ui: &mut Ui, catalog: &[CatalogItem]) {
     ui.data_mut(|data| data.insert_temp(id, query));
 }
 
-/// Gestures first: they are in no key list that a person knows.
+/// Gestures first: they are the hardest to guess.
 fn entries(catalog: &[CatalogItem]) -> Vec<Entry<'_>> {
     let gestures = GESTURES.iter().map(|gesture| Entry {
         group: gesture.place.name(),

@@ -68,10 +68,11 @@ fn count_rows(ui: &mut Ui, measured: &Measured) {
 
 fn edge_rows(ui: &mut Ui, statistics: &MeshStatistics, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let length = |value| format::length(value, state.unit());
-    let shortest = length(statistics.shortest_edge);
-    place_row(ui, "Shortest edge", &shortest, statistics.shortest_edge_at, commands);
-    let longest = length(statistics.longest_edge);
-    place_row(ui, "Longest edge", &longest, statistics.longest_edge_at, commands);
+    let help = "A click goes to this edge.";
+    let (value, place) = (&length(statistics.shortest_edge), statistics.shortest_edge_at);
+    PlaceRow { label: "Shortest edge", value, help, place }.show(ui, commands);
+    let (value, place) = (&length(statistics.longest_edge), statistics.longest_edge_at);
+    PlaceRow { label: "Longest edge", value, help, place }.show(ui, commands);
 }
 
 fn shape_rows(
@@ -86,8 +87,10 @@ fn shape_rows(
     value_row(ui, "Area", &format::with_unit(&format::digits(measured.area, 6), &square));
     let angles = [statistics.smallest_angle, statistics.largest_angle].map(|angle| format::fixed(angle, 1));
     value_row(ui, "Angles", &format!("{}° to {}°", angles[0], angles[1]));
-    let ratio = format!("× {}", format::fixed(statistics.size_ratio, 2));
-    place_row(ui, "Gradation", &ratio, statistics.size_ratio_at, commands);
+    let (value, place) =
+        (&format!("× {}", format::fixed(statistics.size_ratio, 2)), statistics.size_ratio_at);
+    let help = "The largest ratio of the diameters of two neighbouring triangles. A click goes there.";
+    PlaceRow { label: "Gradation", value, help, place }.show(ui, commands);
 }
 
 /// Whether the mesh honours h̄: Eq. (14) of the report.
@@ -107,7 +110,8 @@ fn target_row(ui: &mut Ui, measured: &Measured, state: &FrameState<'_>, commands
             else {
                 return;
             };
-            place_row(ui, label, &value, place, commands);
+            let help = "Triangles that are longer than h̄ asks for. A click goes to the first of them.";
+            PlaceRow { label, value: &value, help, place }.show(ui, commands);
         }
         None => {
             let help = "At some point the target diameter is not a positive number.";
@@ -123,15 +127,17 @@ fn fingerprint_row(ui: &mut Ui, measured: &Measured, commands: &mut Vec<Command>
 }
 
 /// A row whose click goes to a place.
-fn place_row(ui: &mut Ui, label: &str, value: &str, place: DVec2, commands: &mut Vec<Command>) {
-    let help = match label {
-        "Gradation" => {
-            "The largest ratio of the diameters of two neighbouring triangles. A click goes there."
+struct PlaceRow<'a> {
+    label: &'a str,
+    value: &'a str,
+    help: &'a str,
+    place: DVec2,
+}
+
+impl PlaceRow<'_> {
+    fn show(self, ui: &mut Ui, commands: &mut Vec<Command>) {
+        if ValueRow::new(self.label, self.value).help(self.help).link().show(ui).clicked() {
+            commands.push(Command::LookAt(self.place));
         }
-        "h̄ honoured" => "Triangles that are longer than h̄ asks for. A click goes to the first of them.",
-        _ => "A click goes to this edge.",
-    };
-    if ValueRow::new(label, value).help(help).link().show(ui).clicked() {
-        commands.push(Command::LookAt(place));
     }
 }

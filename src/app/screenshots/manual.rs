@@ -5,11 +5,10 @@ use std::path::{Path, PathBuf};
 use eframe::egui::{Rect, Vec2, vec2};
 use glam::dvec2;
 
-use super::{OffscreenWindow, boundary, look_at, point_at, write_picture};
+use super::{OffscreenWindow, boundary, look_at, make_folder, point_at, write_picture};
 use crate::app::command::Command;
 use crate::app::theme::metrics::PANEL_WIDTH;
 use crate::app::view::FieldOverlay;
-use crate::io;
 use crate::render::Image;
 
 /// Size of the windows of which a picture shows the most part, in points.
@@ -29,7 +28,7 @@ const GAP_COLOR: [u8; 4] = [0x15, 0x18, 0x1e, 0xff];
 /// # Errors
 /// A sentence, when there is no graphics driver or a file cannot be written.
 pub fn write(folder: &Path) -> Result<Vec<PathBuf>, String> {
-    io::make_folder(folder).map_err(|error| format!("{} cannot be made: {error}.", folder.display()))?;
+    make_folder(folder)?;
     let pictures = [
         ("window", window()?),
         ("how-it-works", how_it_works()?),

@@ -52,7 +52,7 @@ const fn scene(name: &'static str, act: fn(&mut OffscreenWindow)) -> Scene {
 /// # Errors
 /// A sentence, when there is no graphics driver or a file cannot be written.
 pub fn write(folder: &Path) -> Result<Vec<PathBuf>, String> {
-    io::make_folder(folder).map_err(|error| format!("{} cannot be made: {error}.", folder.display()))?;
+    make_folder(folder)?;
     SCENES.iter().map(|scene| scene.write(folder)).collect()
 }
 
@@ -63,6 +63,10 @@ impl Scene {
         let picture = window.picture()?;
         write_picture(folder, self.name, &picture)
     }
+}
+
+fn make_folder(folder: &Path) -> Result<(), String> {
+    io::make_folder(folder).map_err(|error| format!("{} cannot be made: {error}.", folder.display()))
 }
 
 fn write_picture(folder: &Path, name: &str, picture: &Image) -> Result<PathBuf, String> {

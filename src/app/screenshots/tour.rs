@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use eframe::egui::{Event, Modifiers, PointerButton, Vec2, vec2};
 use glam::{DVec2, dvec2};
 
-use super::{OffscreenWindow, look_at, on_screen, point_at, write_picture};
+use super::{OffscreenWindow, look_at, make_folder, on_screen, point_at, write_picture};
 use crate::app::command::{BrushCommand, Command, DomainCommand};
 use crate::app::dialogs::FileRequest;
 use crate::app::files::AEGEAN_SEA;
@@ -34,9 +34,9 @@ const STEPS: [Step; 8] = [
 /// # Errors
 /// A sentence, when there is no graphics driver or a file cannot be written.
 pub fn write(folder: &Path) -> Result<Vec<PathBuf>, String> {
-    io::make_folder(folder).map_err(|error| format!("{} cannot be made: {error}.", folder.display()))?;
+    make_folder(folder)?;
     let scratch = std::env::temp_dir().join("meshbrush-tour");
-    io::make_folder(&scratch).map_err(|error| format!("{} cannot be made: {error}.", scratch.display()))?;
+    make_folder(&scratch)?;
     let coast = scratch.join("coast.geojson");
     let written = io::write_file(&coast, |mut out| std::io::Write::write_all(&mut out, AEGEAN_SEA));
     written.map_err(|error| format!("{} cannot be written: {error}.", coast.display()))?;

@@ -69,7 +69,7 @@ fn cancel_gives_a_long_update_up_and_the_next_edit_takes_it_up_again() {
     for _ in 0..40 {
         window.step();
     }
-    assert!(notice(&window).contains("not updated"), "it is no news that fades: it is still so");
+    assert!(notice(&window).contains("not updated"), "the message stays as long as it is true");
     key(&mut window, Modifiers::COMMAND, Key::Z);
     assert_eq!(notice(&window), "");
     assert_eq!(fingerprint(&window), before);

@@ -208,7 +208,7 @@ fn what_cannot_be_opened_or_saved_is_told_and_changes_nothing() {
         |window: &Window| window.state().session().notices().shown().is_some_and(|notice| notice.failed);
     wait(&mut window, "the failure", failed);
     assert!(shows(&window, EDITED), "it is not saved");
-    // Nobody is asked about edits for a file that cannot be opened.
+    // A file that cannot be opened raises no question about edits.
     send(&mut window, Command::Escape);
     send(&mut window, Command::Open(folder.join("cut.meshbrush")));
     let message = |window: &Window| {

@@ -88,11 +88,11 @@ fn not_a_number(text: &str) -> String {
 
 fn unknown_unit(suffix: &str, unit: &str) -> String {
     let is_length = LENGTHS.iter().any(|(name, ..)| *name == suffix);
-    match (is_length, unit) {
-        (_, "") if is_length => {
+    match unit {
+        "" if is_length => {
             format!("The unit “{suffix}” has no meaning here, because this value has no unit.")
         }
-        (_, "") => format!("“{suffix}” after the number is not understood. Type it without a unit."),
+        "" => format!("“{suffix}” after the number is not understood. Type it without a unit."),
         _ => format!("“{suffix}” cannot be converted to {unit}."),
     }
 }

@@ -4,11 +4,11 @@ use std::collections::{HashMap, HashSet};
 
 use glam::DVec2;
 
-use super::super::segments::{SegmentGrid, nearest_on_segment};
+use super::super::segments::SegmentGrid;
 use super::super::{Domain, DomainShape, Ring, corners};
 use super::stretches::{FrameSide, Stretch, length, stretches};
 use super::{BoundaryKind, BoundaryMarks};
-use crate::geometry::Rect;
+use crate::geometry::{Rect, nearest_on_segment};
 use crate::mesh::{Extract, NodeId};
 
 /// A piece of the boundary of a domain.

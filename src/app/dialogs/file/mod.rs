@@ -73,13 +73,13 @@ impl FileDialog {
         !(self.request.writes() && self.waits.is_some_and(|since| since.is_long()))
     }
 
-    /// Shows why the answer did not do. The text stays.
+    /// Shows why the file could not be read or written. The text stays.
     pub fn fail(&mut self, problem: String) {
         (self.problem, self.waits) = (Some(problem), None);
         self.listing.read_again();
     }
 
-    /// Waits no longer for the outcome of an answer: it was taken back.
+    /// Stops waiting for the outcome: the answer was cancelled.
     pub fn resume(&mut self) {
         self.waits = None;
     }
@@ -161,7 +161,7 @@ impl FileDialog {
         true
     }
 
-    /// The path to try when the answer is given; a folder is entered instead.
+    /// The path to read or write. If it is a folder, the dialog enters it instead.
     fn accept(&mut self) -> Option<PathBuf> {
         let path = self.path();
         if io::is_folder(&path) {

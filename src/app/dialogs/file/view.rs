@@ -40,7 +40,7 @@ pub enum FileAnswer {
     Closed,
     /// This path was given.
     Chosen(PathBuf),
-    /// Reading the file that was given is to be cancelled.
+    /// Cancel the reading of the file that was given.
     CancelWork(WorkId),
 }
 
