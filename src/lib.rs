@@ -23,6 +23,7 @@ mod mesh;
 mod raster;
 mod field;
 mod domain;
+mod layers;
 mod outline;
 mod paint;
 mod build;

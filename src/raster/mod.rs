@@ -2,6 +2,7 @@
 //! the maximum under a triangle.
 
 mod max_mipmap;
+mod ranges;
 
 use std::ops::Range;
 
@@ -10,6 +11,7 @@ use glam::DVec2;
 use crate::geometry::Rect;
 
 pub use max_mipmap::{MaxMipmap, RasterOnLattice};
+pub use ranges::{PixelGrid, ValueRange, ValueRanges, power_of_two};
 
 /// Most pixels along a side of a raster: products of pixel and lattice coordinates then fit 64 bits.
 pub const MAX_SIDE: u32 = 8192;

@@ -1,0 +1,5 @@
+//! The size field: a stack of layers, each at its own resolution, that together ask for h̄.
+
+mod layer;
+
+pub use layer::{Combine, Layer, LayerId, LayerKind, Quantity};

@@ -1,0 +1,87 @@
+//! Where the pixels of a raster lie, and the range of their values over squares of any size.
+
+use glam::DVec2;
+
+use crate::geometry::Rect;
+
+/// Pixels over the plane: pixel [0, 0] has its lower left corner at `origin`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PixelGrid {
+    /// In world units.
+    pub origin: DVec2,
+    /// Width and height of a pixel, in world units.
+    pub pixel: DVec2,
+}
+
+impl PixelGrid {
+    /// The grid of `size` = [columns, rows] pixels that fill `bounds`.
+    pub fn filling(bounds: &Rect, size: [u32; 2]) -> Self {
+        let size = DVec2::new(f64::from(size[0]), f64::from(size[1]));
+        Self { origin: bounds.min, pixel: bounds.size() / size }
+    }
+
+    /// The rectangle of the square in column `x` and row `y` at a scale, see [`ValueRanges`], in world units.
+    pub fn square(&self, scale: i32, x: i32, y: i32) -> Rect {
+        let side = self.pixel * power_of_two(scale);
+        let min = self.origin + DVec2::new(f64::from(x), f64::from(y)) * side;
+        Rect::new(min, min + side)
+    }
+}
+
+/// 2ⁿ, exactly. `exponent` must be that of a normal number.
+pub fn power_of_two(exponent: i32) -> f64 {
+    f64::from_bits(((1023 + i64::from(exponent)) as u64) << 52)
+}
+
+/// The least and the greatest of some values. Where they are equal, there is one value.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ValueRange {
+    /// The least value.
+    pub least: f32,
+    /// The greatest value.
+    pub greatest: f32,
+}
+
+impl ValueRange {
+    /// One value.
+    pub const fn one(value: f32) -> Self {
+        Self { least: value, greatest: value }
+    }
+
+    /// Whether there is one value only.
+    pub fn is_one(&self) -> bool {
+        self.least == self.greatest
+    }
+
+    /// The range of the values of both.
+    pub fn union(self, other: Self) -> Self {
+        Self { least: self.least.min(other.least), greatest: self.greatest.max(other.greatest) }
+    }
+}
+
+/// A raster that knows the range of its values over squares of 1, 2 × 2, 4 × 4 … pixels, and, where it has
+/// finer pixels, over squares of ½ × ½, ¼ × ¼ ….
+///
+/// ```text
+/// scale  1: squares of 2 × 2 pixels      +-------+
+/// scale  0: pixels of the grid           |   +---+
+/// scale -1: quarters of a pixel          |   | + |   square [x, y] at a scale covers the squares
+///                                        +---+---+   [2x, 2y] to [2x + 1, 2y + 1] at the scale below
+/// ```
+///
+/// A square has one value, or its four quarters are finer: descending from any square ends at squares with
+/// one value.
+pub trait ValueRanges {
+    /// Where the pixels lie.
+    fn grid(&self) -> &PixelGrid;
+
+    /// The scale at which at most 2 × 2 squares cover all pixels that have a value of their own.
+    fn coarsest(&self) -> i32;
+
+    /// The range of the values in a square. Beyond the pixels, the value that the raster has where it asks
+    /// for nothing.
+    fn range(&self, scale: i32, x: i32, y: i32) -> ValueRange;
+
+    /// The range of all values of the raster.
+    fn whole_range(&self) -> ValueRange;
+}
