@@ -1,8 +1,9 @@
-//! Rasters: row-major grids of values over a rectangle, the lowest row first; and the max-mipmap, which finds
-//! the maximum under a triangle.
+//! Rasters: row-major grids of values over a rectangle, the lowest row first; sparse rasters of any depth;
+//! and the max-mipmap, which finds the maximum under a triangle.
 
 mod max_mipmap;
 mod ranges;
+mod tiled;
 
 use std::ops::Range;
 
@@ -12,6 +13,7 @@ use crate::geometry::Rect;
 
 pub use max_mipmap::{MaxMipmap, RasterOnLattice};
 pub use ranges::{PixelGrid, ValueRange, ValueRanges, power_of_two};
+pub use tiled::{TILE, Tile, TilePlace, TiledRaster};
 
 /// Most pixels along a side of a raster: products of pixel and lattice coordinates then fit 64 bits.
 pub const MAX_SIDE: u32 = 8192;

@@ -26,6 +26,11 @@ impl PixelGrid {
         let min = self.origin + DVec2::new(f64::from(x), f64::from(y)) * side;
         Rect::new(min, min + side)
     }
+
+    /// A point in world units in units of pixels: its floor is [column, row].
+    pub fn pixel_from_world(&self, point: DVec2) -> DVec2 {
+        (point - self.origin) / self.pixel
+    }
 }
 
 /// 2ⁿ, exactly. `exponent` must be that of a normal number.

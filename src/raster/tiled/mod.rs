@@ -1,0 +1,289 @@
+//! A sparse raster of any depth: tiles of 32 × 32 pixels where something is painted, and finer tiles over
+//! them where something finer is painted.
+
+mod summary;
+mod tile;
+
+use std::collections::HashMap;
+use std::hash::{BuildHasherDefault, Hasher};
+use std::sync::Arc;
+
+use glam::DVec2;
+
+use super::{PixelGrid, ValueRange, ValueRanges, power_of_two};
+use summary::{Extent, Summary};
+use tile::index;
+
+pub use tile::{TILE, Tile, TilePlace};
+
+/// A raster without bounds and without a smallest pixel. Clones share all tiles.
+///
+/// ```text
+/// depth 0   +-------+-------+     A tile of depth d + 1 covers a quadrant of its parent, which exists too,
+///           |       |       |     and counts there instead of the parent. Where no tile is, the value is
+///           |   +---+       |     that of a blank raster.
+///           |   |d 1|       |
+///           +---+---+-------+
+/// ```
+///
+/// Tiles can be asked for the range of their values over squares of any size: beside the tiles, there is a
+/// pyramid of ranges, which follows each change of a tile.
+#[derive(Clone, Debug)]
+pub struct TiledRaster {
+    grid: PixelGrid,
+    blank: f32,
+    /// The tiles of each depth. The last depth has tiles.
+    depths: Vec<Arc<Squares<Node>>>,
+    /// The ranges of scale 1, 2 … up to the coarsest, see [`ValueRanges`].
+    scales: Vec<Arc<Squares<Arc<Summary>>>>,
+    /// The tiles of depth 0 lie within.
+    extent: Option<Extent>,
+}
+
+/// A tile, and the ranges of its pixels if it has children.
+#[derive(Clone, Debug)]
+struct Node {
+    tile: Arc<Tile>,
+    summary: Option<Arc<Summary>>,
+}
+
+impl Node {
+    #[inline]
+    fn range(&self, index: usize) -> ValueRange {
+        match &self.summary {
+            Some(summary) => summary[index],
+            None => ValueRange::one(self.tile[index]),
+        }
+    }
+}
+
+impl TiledRaster {
+    /// A raster with the value `blank` everywhere. `grid` places the pixels of depth 0.
+    pub fn new(grid: PixelGrid, blank: f32) -> Self {
+        Self { grid, blank, depths: Vec::new(), scales: Vec::new(), extent: None }
+    }
+
+    /// A raster with the given tiles, parents before their children.
+    ///
+    /// # Errors
+    /// The place of the first tile that is beyond the limits or has no parent.
+    pub fn from_tiles(
+        grid: PixelGrid,
+        blank: f32,
+        tiles: impl IntoIterator<Item = (TilePlace, Arc<Tile>)>,
+    ) -> Result<Self, TilePlace> {
+        let mut raster = Self::new(grid, blank);
+        for (place, tile) in tiles {
+            if !place.is_valid() || place.parent().is_some_and(|parent| raster.tile(parent).is_none()) {
+                return Err(place);
+            }
+            raster.exchange(place, Some(tile));
+        }
+        Ok(raster)
+    }
+
+    /// The value where nothing is painted.
+    pub fn blank(&self) -> f32 {
+        self.blank
+    }
+
+    /// Whether the whole raster has the value of a blank one.
+    pub fn is_blank(&self) -> bool {
+        self.whole_range().is_one()
+    }
+
+    /// The value at a point in world units. On a line between pixels the right or upper pixel counts.
+    pub fn sample(&self, point: DVec2) -> f32 {
+        let pixel = self.grid.pixel_from_world(point);
+        let mut value = self.blank;
+        for depth in 0..self.depths.len() {
+            let [x, y] = (pixel * power_of_two(depth as i32)).floor().to_array().map(|n| n as i32);
+            let Some(node) = self.node(depth, x, y) else { break };
+            value = node.tile[index(x, y)];
+            if node.summary.is_none() {
+                break;
+            }
+        }
+        value
+    }
+
+    /// The tile at a place.
+    pub fn tile(&self, place: TilePlace) -> Option<&Arc<Tile>> {
+        let tiles = self.depths.get(usize::from(place.depth))?;
+        tiles.get(&Key::new(place.x, place.y)).map(|node| &node.tile)
+    }
+
+    /// All tiles, in the order of their places.
+    pub fn tiles(&self) -> impl Iterator<Item = (TilePlace, &Arc<Tile>)> {
+        self.depths.iter().enumerate().flat_map(|(depth, tiles)| {
+            let mut sorted: Vec<_> = tiles.iter().map(|(key, node)| (key.square(), &node.tile)).collect();
+            sorted.sort_unstable_by_key(|(square, _)| *square);
+            sorted.into_iter().map(move |([x, y], tile)| (TilePlace { depth: depth as u8, x, y }, tile))
+        })
+    }
+
+    /// What a new tile at a place takes from its parent, or a blank tile where there is no parent.
+    pub fn inherited(&self, place: TilePlace) -> Tile {
+        let parent = place.parent().and_then(|parent| self.tile(parent));
+        parent.map_or(Tile::filled(self.blank), |parent| parent.enlarged(&place))
+    }
+
+    /// Whether the raster would have the same value everywhere without the tile at a place, if its parent
+    /// took over its values: half its resolution is enough, or it is blank.
+    pub fn is_redundant(&self, place: TilePlace) -> bool {
+        let node = self.node(usize::from(place.depth), place.x * TILE, place.y * TILE);
+        node.is_some_and(|node| {
+            let is_blank = || node.tile.values().iter().all(|&value| value == self.blank);
+            node.summary.is_none() && if place.depth == 0 { is_blank() } else { node.tile.is_enlarged() }
+        })
+    }
+
+    /// Removes a redundant tile, whose parent takes over its values.
+    ///
+    /// # Panics
+    /// When the tile has children.
+    pub fn merge(&mut self, place: TilePlace) {
+        let Some(tile) = self.exchange(place, None) else { return };
+        if let Some(parent) = place.parent() {
+            self.change(parent, |parent| parent.put_reduced(&place, &tile));
+        }
+    }
+
+    /// Number of tiles.
+    pub fn tile_count(&self) -> usize {
+        self.depths.iter().map(|tiles| tiles.len()).sum()
+    }
+
+    /// Memory of tiles and ranges, in bytes. Tiles that clones share are counted for each clone.
+    pub fn bytes(&self) -> usize {
+        let of_node =
+            |node: &Node| size_of::<Tile>() + node.summary.as_ref().map_or(0, |s| size_of_val(&**s));
+        let tiles = self.depths.iter().flat_map(|tiles| tiles.values()).map(of_node).sum::<usize>();
+        tiles + self.scales.iter().map(|ranges| ranges.len() * size_of::<Summary>()).sum::<usize>()
+    }
+
+    /// The deepest tile that has the pixel in column `x` and row `y` of a depth, at most of that depth, and
+    /// the place of the pixel there.
+    fn deepest_at(&self, depth: usize, x: i32, y: i32) -> Option<(&Node, usize)> {
+        let shifted = |to: usize| {
+            let up = (depth - to).min(31);
+            (x >> up, y >> up)
+        };
+        let at = |depth| {
+            let (x, y) = shifted(depth);
+            self.node(depth, x, y).map(|node| (node, index(x, y)))
+        };
+        let mut found = at(0)?;
+        // A tile has all its ancestors: bisect between a depth with a tile and one without.
+        let (mut with, mut without) = (0, (depth + 1).min(self.depths.len()));
+        while without - with > 1 && found.0.summary.is_some() {
+            let middle = (with + without) / 2;
+            match at(middle) {
+                Some(deeper) => (with, found) = (middle, deeper),
+                None => without = middle,
+            }
+        }
+        Some(found)
+    }
+
+    /// The tile with the pixel in column `x` and row `y` of a depth.
+    #[inline]
+    fn node(&self, depth: usize, x: i32, y: i32) -> Option<&Node> {
+        self.depths.get(depth)?.get(&Key::new(x >> TILE.ilog2(), y >> TILE.ilog2()))
+    }
+}
+
+impl ValueRanges for TiledRaster {
+    fn grid(&self) -> &PixelGrid {
+        &self.grid
+    }
+
+    fn coarsest(&self) -> i32 {
+        self.scales.len() as i32
+    }
+
+    #[inline]
+    fn range(&self, scale: i32, x: i32, y: i32) -> ValueRange {
+        if scale > self.coarsest() {
+            return self.range_beyond(scale, x, y);
+        }
+        if scale > 0 {
+            let ranges = &self.scales[scale as usize - 1];
+            let found = ranges.get(&Key::new(x >> TILE.ilog2(), y >> TILE.ilog2()));
+            return found.map_or(ValueRange::one(self.blank), |summary| summary[index(x, y)]);
+        }
+        let depth = scale.unsigned_abs() as usize;
+        match self.node(depth, x, y) {
+            Some(node) => node.range(index(x, y)),
+            None => {
+                let found = self.deepest_at(depth, x, y);
+                ValueRange::one(found.map_or(self.blank, |(node, index)| node.tile[index]))
+            }
+        }
+    }
+
+    fn whole_range(&self) -> ValueRange {
+        let coarsest = self.coarsest();
+        let squares = self.extent.iter().flat_map(|extent| extent.squares(coarsest));
+        let ranges = squares.map(|[x, y]| self.range(coarsest, x, y));
+        ranges.fold(ValueRange::one(self.blank), ValueRange::union)
+    }
+}
+
+/// Rasters are equal if they have equal tiles at the same places.
+impl PartialEq for TiledRaster {
+    fn eq(&self, other: &Self) -> bool {
+        let same = |a: &Arc<Tile>, b: &Arc<Tile>| Arc::ptr_eq(a, b) || a == b;
+        let equal_tiles = |a: &Arc<Squares<Node>>, b: &Arc<Squares<Node>>| {
+            let found = |(key, node): (&Key, &Node)| b.get(key).is_some_and(|b| same(&node.tile, &b.tile));
+            Arc::ptr_eq(a, b) || a.len() == b.len() && a.iter().all(found)
+        };
+        let depths = self.depths.len() == other.depths.len();
+        let pairs = self.depths.iter().zip(&other.depths);
+        self.grid == other.grid && self.blank == other.blank && depths && { pairs }
+            .all(|(a, b)| equal_tiles(a, b))
+    }
+}
+
+/// What is kept for blocks of 32 × 32 squares of one scale.
+type Squares<T> = HashMap<Key, T, BuildHasherDefault<KeyHasher>>;
+
+/// Column and row of a block of squares.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+struct Key(u64);
+
+impl Key {
+    #[inline]
+    fn new(x: i32, y: i32) -> Self {
+        Self(u64::from(x as u32) << 32 | u64::from(y as u32))
+    }
+
+    /// [x, y].
+    fn square(self) -> [i32; 2] {
+        [(self.0 >> 32) as i32, self.0 as u32 as i32]
+    }
+}
+
+/// One multiplication: the table is asked for each square that the mesher looks at.
+#[derive(Clone, Copy, Default)]
+struct KeyHasher(u64);
+
+impl Hasher for KeyHasher {
+    fn finish(&self) -> u64 {
+        self.0
+    }
+
+    fn write(&mut self, bytes: &[u8]) {
+        bytes.iter().for_each(|&byte| self.write_u64(self.0 << 8 | u64::from(byte)));
+    }
+
+    #[inline]
+    fn write_u64(&mut self, key: u64) {
+        // Fibonacci hashing. The upper half depends on all bits of the key, and the table uses both ends.
+        let product = key.wrapping_mul(0x9E37_79B9_7F4A_7C15);
+        self.0 = product ^ (product >> 32);
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,284 @@
+//! Changing tiles, and the pyramid of ranges that follows.
+
+use std::ops::Index;
+use std::sync::Arc;
+
+use super::tile::{TILE_PIXELS, index};
+use super::{Key, Node, TILE, Tile, TilePlace, TiledRaster};
+use crate::raster::{ValueRange, ValueRanges};
+
+/// The ranges of 32 × 32 squares of one scale, row by row from the lowest.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Summary([ValueRange; TILE_PIXELS]);
+
+impl Index<usize> for Summary {
+    type Output = ValueRange;
+
+    #[inline]
+    fn index(&self, index: usize) -> &ValueRange {
+        &self.0[index]
+    }
+}
+
+impl Summary {
+    fn of(tile: &Tile) -> Self {
+        Self(std::array::from_fn(|index| ValueRange::one(tile[index])))
+    }
+
+    fn blank(value: f32) -> Self {
+        Self([ValueRange::one(value); TILE_PIXELS])
+    }
+}
+
+/// Least and greatest column and row of some tiles of depth 0.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Extent {
+    min: [i32; 2],
+    max: [i32; 2],
+}
+
+impl Extent {
+    fn with(extent: Option<Self>, tile: [i32; 2]) -> Self {
+        let Self { min, max } = extent.unwrap_or(Self { min: tile, max: tile });
+        let pick = |a: [i32; 2], pick: fn(i32, i32) -> i32| [pick(a[0], tile[0]), pick(a[1], tile[1])];
+        Self { min: pick(min, i32::min), max: pick(max, i32::max) }
+    }
+
+    /// First and last square of a scale that has pixels of the tiles, [x, y] each.
+    fn corners(&self, scale: i32) -> [[i32; 2]; 2] {
+        let first = self.min.map(|n| (n * TILE) >> scale);
+        [first, self.max.map(|n| (n * TILE + TILE - 1) >> scale)]
+    }
+
+    /// The squares of a scale that have pixels of the tiles.
+    pub(super) fn squares(&self, scale: i32) -> impl Iterator<Item = [i32; 2]> + use<> {
+        let [[left, low], [right, high]] = self.corners(scale);
+        (low..=high).flat_map(move |y| (left..=right).map(move |x| [x, y]))
+    }
+
+    /// The scale at which at most 2 × 2 squares have all pixels of the tiles.
+    fn coarsest(&self) -> i32 {
+        let fits = |&scale: &i32| {
+            let [first, last] = self.corners(scale);
+            last[0] - first[0] <= 1 && last[1] - first[1] <= 1
+        };
+        (0..31).find(fits).expect("pixels are within ± 2³⁰")
+    }
+}
+
+/// Squares of one scale within 32 × 32 of them, from [x, y].
+#[derive(Clone, Copy)]
+struct Part {
+    x: i32,
+    y: i32,
+    side: i32,
+}
+
+impl Part {
+    const WHOLE: Self = Self { x: 0, y: 0, side: TILE };
+
+    /// The squares of the next coarser scale that cover these, of the block [x, y].
+    fn coarser(self, [x, y]: [i32; 2]) -> Self {
+        let half = TILE / 2;
+        let side = (self.side / 2).max(1);
+        Self { x: (x & 1) * half + self.x / 2, y: (y & 1) * half + self.y / 2, side }
+    }
+
+    fn squares(self) -> impl Iterator<Item = (i32, i32)> {
+        let columns = self.x..self.x + self.side;
+        (self.y..self.y + self.side).flat_map(move |y| columns.clone().map(move |x| (x, y)))
+    }
+}
+
+impl TiledRaster {
+    /// Puts a tile at a place, or removes the one there, and returns what was there.
+    ///
+    /// # Panics
+    /// When the place is beyond the limits of [`TilePlace::is_valid`], a new tile has no parent, or a tile to
+    /// remove has children.
+    pub fn exchange(&mut self, place: TilePlace, tile: Option<Arc<Tile>>) -> Option<Arc<Tile>> {
+        assert!(place.is_valid(), "{place:?} is checked where it is read");
+        let old = match tile {
+            Some(tile) => self.put(place, tile),
+            None => self.remove(place),
+        };
+        if place.depth == 0 {
+            self.fit_scales([place.x, place.y]);
+        }
+        self.summarize_above(place);
+        old
+    }
+
+    /// Changes the pixels of the tile at a place; does nothing where there is none.
+    pub fn change(&mut self, place: TilePlace, change: impl FnOnce(&mut Tile)) {
+        let Some(tiles) = self.depths.get_mut(usize::from(place.depth)) else { return };
+        if !tiles.contains_key(&Key::new(place.x, place.y)) {
+            return;
+        }
+        if let Some(node) = Arc::make_mut(tiles).get_mut(&Key::new(place.x, place.y)) {
+            change(Arc::make_mut(&mut node.tile));
+        }
+        self.summarize(place);
+        self.summarize_above(place);
+    }
+
+    fn put(&mut self, place: TilePlace, tile: Arc<Tile>) -> Option<Arc<Tile>> {
+        assert!(place.parent().is_none_or(|parent| self.tile(parent).is_some()), "{place:?} has no parent");
+        let depth = usize::from(place.depth);
+        if self.depths.len() == depth {
+            self.depths.push(Arc::default());
+        }
+        let tiles = Arc::make_mut(&mut self.depths[depth]);
+        let key = Key::new(place.x, place.y);
+        if let Some(node) = tiles.get_mut(&key) {
+            let old = std::mem::replace(&mut node.tile, tile);
+            self.summarize(place);
+            return Some(old);
+        }
+        tiles.insert(key, Node { tile, summary: None });
+        None
+    }
+
+    fn remove(&mut self, place: TilePlace) -> Option<Arc<Tile>> {
+        let depth = usize::from(place.depth);
+        let removed = Arc::make_mut(self.depths.get_mut(depth)?).remove(&Key::new(place.x, place.y))?;
+        assert!(removed.summary.is_none(), "the children of {place:?} are removed first");
+        while self.depths.last().is_some_and(|tiles| tiles.is_empty()) {
+            self.depths.pop();
+        }
+        Some(removed.tile)
+    }
+
+    /// Has as many scales as the tiles of depth 0 need, after the tile [x, y] of depth 0 changed.
+    ///
+    /// Scales that are no longer needed stay until the last tile is removed: to find the extent again would
+    /// take a pass over all tiles.
+    fn fit_scales(&mut self, tile: [i32; 2]) {
+        if self.depths.is_empty() {
+            self.extent = None;
+            self.scales.clear();
+        } else if self.tile(TilePlace { depth: 0, x: tile[0], y: tile[1] }).is_some() {
+            let extent = Extent::with(self.extent, tile);
+            self.extent = Some(extent);
+            while self.coarsest() < extent.coarsest() {
+                self.add_scale();
+            }
+        }
+    }
+
+    fn add_scale(&mut self) {
+        let scale = self.coarsest();
+        let keys: Vec<Key> = match scale {
+            0 => self.depths[0].keys().copied().collect(),
+            _ => self.scales[scale as usize - 1].keys().copied().collect(),
+        };
+        self.scales.push(Arc::default());
+        for block in keys.into_iter().map(Key::square) {
+            self.summarize_part(scale, block, Part::WHOLE);
+        }
+    }
+
+    /// Computes the ranges of a tile's own pixels anew, if it has children.
+    fn summarize(&mut self, place: TilePlace) {
+        let children = place.children().into_iter().filter(|child| self.tile(*child).is_some());
+        let children: Vec<TilePlace> = children.collect();
+        if let Some(node) = self.node_mut(usize::from(place.depth), [place.x, place.y]) {
+            node.summary = None;
+        }
+        for child in children {
+            self.summarize_part(-i32::from(child.depth), [child.x, child.y], Part::WHOLE);
+        }
+    }
+
+    /// Updates the ranges of all coarser scales after a tile changed.
+    fn summarize_above(&mut self, place: TilePlace) {
+        let (mut scale, mut block, mut part) = (-i32::from(place.depth), [place.x, place.y], Part::WHOLE);
+        while scale < self.coarsest() && self.summarize_part(scale, block, part) {
+            part = part.coarser(block);
+            block = block.map(|n| n >> 1);
+            scale += 1;
+        }
+    }
+
+    /// Updates the ranges of the squares of the next coarser scale that cover a part of a block. Returns
+    /// whether they changed.
+    fn summarize_part(&mut self, scale: i32, block: [i32; 2], part: Part) -> bool {
+        let coarser = part.coarser(block);
+        let ranges = self.coarser_ranges(scale, block, coarser);
+        let above = block.map(|n| n >> 1);
+        let is_covered = (0..4).any(|n| {
+            let [x, y] = [2 * above[0] + (n & 1), 2 * above[1] + (n >> 1)];
+            self.has_block(scale, Key::new(x, y))
+        });
+        let blank = self.blank;
+        let summary = if scale < 0 {
+            let node = self.node_mut(-(scale + 1) as usize, above).expect("a tile has its ancestors");
+            if !is_covered {
+                return node.summary.take().is_some();
+            }
+            node.summary.get_or_insert_with(|| Arc::new(Summary::of(&node.tile)))
+        } else {
+            let blocks = Arc::make_mut(&mut self.scales[scale as usize]);
+            let key = Key::new(above[0], above[1]);
+            if !is_covered {
+                return blocks.remove(&key).is_some();
+            }
+            blocks.entry(key).or_insert_with(|| Arc::new(Summary::blank(blank)))
+        };
+        let differs = coarser.squares().zip(&ranges).any(|((x, y), range)| summary[index(x, y)] != *range);
+        if differs {
+            let summary = &mut Arc::make_mut(summary).0;
+            coarser.squares().zip(ranges).for_each(|((x, y), range)| summary[index(x, y)] = range);
+        }
+        differs
+    }
+
+    /// The ranges of a part of a block above `block`, which is a block of the given scale, from this block;
+    /// where there is none, those without it.
+    fn coarser_ranges(&self, scale: i32, block: [i32; 2], coarser: Part) -> Vec<ValueRange> {
+        let key = Key::new(block[0], block[1]);
+        let above = Key::new(block[0] >> 1, block[1] >> 1);
+        let at = |depth: i32, key| self.depths.get(depth as usize).and_then(|tiles| tiles.get(&key));
+        let node = if scale <= 0 { at(-scale, key) } else { None };
+        let summary = if scale > 0 { self.scales[scale as usize - 1].get(&key) } else { None };
+        let parent = if scale < 0 { at(-scale - 1, above) } else { None };
+        let finer = |x, y| match (node, summary) {
+            (Some(node), _) => Some(node.range(index(x, y))),
+            (_, summary) => summary.map(|summary| summary[index(x, y)]),
+        };
+        let blank = ValueRange::one(self.blank);
+        let range = |(x, y)| {
+            let quarters = [(0, 0), (1, 0), (0, 1), (1, 1)];
+            let quarters = quarters.into_iter().filter_map(|(i, j)| finer(2 * x + i, 2 * y + j));
+            let without = || parent.map_or(blank, |node| ValueRange::one(node.tile[index(x, y)]));
+            quarters.reduce(ValueRange::union).unwrap_or_else(without)
+        };
+        coarser.squares().map(range).collect()
+    }
+
+    /// The range of the values in a square above the coarsest scale.
+    pub(super) fn range_beyond(&self, scale: i32, x: i32, y: i32) -> ValueRange {
+        let coarsest = self.coarsest();
+        let up = (scale - coarsest).min(31);
+        let squares = self.extent.iter().flat_map(|extent| extent.squares(coarsest));
+        let within: Vec<_> = squares.filter(|square| square.map(|n| n >> up) == [x, y]).collect();
+        let ranges = within.iter().map(|square| self.range(coarsest, square[0], square[1]));
+        let range = ranges.reduce(ValueRange::union);
+        // At most 2 × 2 squares have pixels: they fill a square of the next scale, or none.
+        let is_filled = up == 1 && within.len() == 4;
+        let blank = (!is_filled).then_some(ValueRange::one(self.blank));
+        range.into_iter().chain(blank).reduce(ValueRange::union).expect("a filled square has a range")
+    }
+
+    fn has_block(&self, scale: i32, key: Key) -> bool {
+        if scale > 0 {
+            self.scales[scale as usize - 1].contains_key(&key)
+        } else {
+            self.depths.get(-scale as usize).is_some_and(|tiles| tiles.contains_key(&key))
+        }
+    }
+
+    fn node_mut(&mut self, depth: usize, [x, y]: [i32; 2]) -> Option<&mut Node> {
+        Arc::make_mut(self.depths.get_mut(depth)?).get_mut(&Key::new(x, y))
+    }
+}
