@@ -49,8 +49,8 @@ pub use domain::{
 };
 pub use field::formula::ParseError;
 pub use field::{
-    Formula, PaintRef, RefinementRule, RiskToDiameter, Source, TargetField, TargetFieldSpec, Transfer,
-    TransferError, VertexRule,
+    Bounds, Formula, PaintRef, RefinementRule, RiskToDiameter, Source, TargetField, TargetFieldSpec,
+    Transfer, TransferError, VertexRule,
 };
 pub use geometry::{GridError, Lattice, LatticePoint, LatticeRect, Rect};
 pub use mesh::{

@@ -1,5 +1,6 @@
 //! h̄, the target diameter: formulas, rasters and paint, and the rules that compare a triangle with it.
 
+mod bounds;
 mod contours;
 pub mod formula;
 mod samples;
@@ -8,6 +9,7 @@ mod target_field;
 mod transfer;
 mod vertex_rule;
 
+pub use bounds::Bounds;
 pub use contours::{Contour, contours};
 pub use formula::Formula;
 pub use source::{Source, checked_target, smallest_target};

@@ -2,7 +2,9 @@
 
 use std::f64::consts;
 
+use super::function_bounds as bounds;
 use super::program::{Op, max, min};
+use crate::field::Bounds;
 
 /// How a function's values become instructions.
 #[derive(Clone, Copy, Debug)]
@@ -41,16 +43,21 @@ impl Function {
     }
 }
 
-const fn one(call: &'static str, f: fn(f64) -> f64, meaning: &'static str) -> Function {
-    function(call, Form::Fixed(1, Op::One(f)), meaning)
+/// A function of one value, and its bounds; below, of two and three.
+type OfOne = (fn(f64) -> f64, fn(Bounds) -> Bounds);
+type OfTwo = (fn(f64, f64) -> f64, fn(Bounds, Bounds) -> Bounds);
+type OfThree = (fn(f64, f64, f64) -> f64, fn(Bounds, Bounds, Bounds) -> Bounds);
+
+const fn one(call: &'static str, op: OfOne, meaning: &'static str) -> Function {
+    function(call, Form::Fixed(1, Op::One(op.0, op.1)), meaning)
 }
 
-const fn two(call: &'static str, f: fn(f64, f64) -> f64, meaning: &'static str) -> Function {
-    function(call, Form::Fixed(2, Op::Two(f)), meaning)
+const fn two(call: &'static str, op: OfTwo, meaning: &'static str) -> Function {
+    function(call, Form::Fixed(2, Op::Two(op.0, op.1)), meaning)
 }
 
-const fn three(call: &'static str, f: fn(f64, f64, f64) -> f64, meaning: &'static str) -> Function {
-    function(call, Form::Fixed(3, Op::Three(f)), meaning)
+const fn three(call: &'static str, op: OfThree, meaning: &'static str) -> Function {
+    function(call, Form::Fixed(3, Op::Three(op.0, op.1)), meaning)
 }
 
 const fn function(call: &'static str, form: Form, meaning: &'static str) -> Function {
@@ -62,38 +69,38 @@ const fn function(call: &'static str, form: Form, meaning: &'static str) -> Func
 pub(super) const FUNCTIONS: &[Function] = &[
     function("if(c, a, b)", Form::If, "a where c is true, else b"),
     function("abs(v)", Form::Fixed(1, Op::Abs), "size without sign"),
-    one("sign(v)", sign, "-1, 0 or 1"),
+    one("sign(v)", (sign, bounds::sign), "-1, 0 or 1"),
     function("min(a, b, ...)", Form::Join(Op::Min), "the smallest of two values or more"),
     function("max(a, b, ...)", Form::Join(Op::Max), "the largest of two values or more"),
-    three("clamp(v, lo, hi)", clamp, "v, kept between lo and hi"),
-    three("mix(a, b, t)", mix, "a at t = 0, b at t = 1, straight between and beyond"),
-    two("step(edge, v)", step, "0 where v is below the edge, else 1"),
-    three("smoothstep(lo, hi, v)", smoothstep, "0 up to lo, 1 from hi, an S-curve between"),
-    two("gauss(d, s)", gauss, "bell curve exp(-(d/s)^2/2): 1 at d = 0, 0.61 at d = s"),
-    two("hypot(a, b)", libm::hypot, "sqrt(a^2 + b^2): the distance, from differences in x and y"),
+    three("clamp(v, lo, hi)", (clamp, bounds::clamp), "v, kept between lo and hi"),
+    three("mix(a, b, t)", (mix, bounds::mix), "a at t = 0, b at t = 1, straight between and beyond"),
+    two("step(edge, v)", (step, bounds::step), "0 where v is below the edge, else 1"),
+    three("smoothstep(lo, hi, v)", (smoothstep, bounds::smoothstep), "0 up to lo, 1 from hi, an S-curve between"),
+    two("gauss(d, s)", (gauss, bounds::gauss), "bell curve exp(-(d/s)^2/2): 1 at d = 0, 0.61 at d = s"),
+    two("hypot(a, b)", (libm::hypot, bounds::hypot), "sqrt(a^2 + b^2): the distance, from differences in x and y"),
     function("sqrt(v)", Form::Fixed(1, Op::Sqrt), "square root"),
-    one("cbrt(v)", libm::cbrt, "cube root"),
-    two("pow(a, b)", power, "a to the power b, as a^b"),
-    one("exp(v)", libm::exp, "e to the power v"),
-    one("ln(v)", libm::log, "logarithm to base e"),
-    one("log10(v)", libm::log10, "logarithm to base 10"),
-    one("log2(v)", libm::log2, "logarithm to base 2"),
-    one("sin(v)", libm::sin, "sine of an angle in radians"),
-    one("cos(v)", libm::cos, "cosine of an angle in radians"),
-    one("tan(v)", libm::tan, "tangent of an angle in radians"),
-    one("asin(v)", libm::asin, "angle whose sine is v"),
-    one("acos(v)", libm::acos, "angle whose cosine is v"),
-    one("atan(v)", libm::atan, "angle whose tangent is v"),
-    two("atan2(y, x)", libm::atan2, "angle of the direction (x, y), from -pi to pi"),
-    one("sinh(v)", libm::sinh, "hyperbolic sine"),
-    one("cosh(v)", libm::cosh, "hyperbolic cosine"),
-    one("tanh(v)", libm::tanh, "hyperbolic tangent"),
-    one("floor(v)", f64::floor, "whole number at or below v"),
-    one("ceil(v)", f64::ceil, "whole number at or above v"),
-    one("round(v)", f64::round, "nearest whole number, halves away from 0"),
-    one("trunc(v)", f64::trunc, "whole part, towards 0"),
-    one("fract(v)", fract, "v - floor(v): from 0 up to 1, repeating"),
-    two("mod(a, b)", modulo, "a % b: what is left of a after whole steps of b, with the sign of b"),
+    one("cbrt(v)", (libm::cbrt, bounds::cbrt), "cube root"),
+    two("pow(a, b)", (power, bounds::power), "a to the power b, as a^b"),
+    one("exp(v)", (libm::exp, bounds::exp), "e to the power v"),
+    one("ln(v)", (libm::log, bounds::ln), "logarithm to base e"),
+    one("log10(v)", (libm::log10, bounds::log10), "logarithm to base 10"),
+    one("log2(v)", (libm::log2, bounds::log2), "logarithm to base 2"),
+    one("sin(v)", (libm::sin, bounds::sin), "sine of an angle in radians"),
+    one("cos(v)", (libm::cos, bounds::cos), "cosine of an angle in radians"),
+    one("tan(v)", (libm::tan, bounds::tan), "tangent of an angle in radians"),
+    one("asin(v)", (libm::asin, bounds::asin), "angle whose sine is v"),
+    one("acos(v)", (libm::acos, bounds::acos), "angle whose cosine is v"),
+    one("atan(v)", (libm::atan, bounds::atan), "angle whose tangent is v"),
+    two("atan2(y, x)", (libm::atan2, bounds::atan2), "angle of the direction (x, y), from -pi to pi"),
+    one("sinh(v)", (libm::sinh, bounds::sinh), "hyperbolic sine"),
+    one("cosh(v)", (libm::cosh, bounds::cosh), "hyperbolic cosine"),
+    one("tanh(v)", (libm::tanh, bounds::tanh), "hyperbolic tangent"),
+    one("floor(v)", (f64::floor, bounds::floor), "whole number at or below v"),
+    one("ceil(v)", (f64::ceil, bounds::ceil), "whole number at or above v"),
+    one("round(v)", (f64::round, bounds::round), "nearest whole number, halves away from 0"),
+    one("trunc(v)", (f64::trunc, bounds::trunc), "whole part, towards 0"),
+    one("fract(v)", (fract, bounds::fract), "v - floor(v): from 0 up to 1, repeating"),
+    two("mod(a, b)", (modulo, bounds::modulo), "a % b: what is left of a after whole steps of b, with the sign of b"),
 ];
 
 /// A name of a value.
@@ -241,7 +248,7 @@ pub(super) fn modulo(a: f64, b: f64) -> f64 {
 }
 
 /// −1, 0 or 1; 0 keeps its sign and NaN stays, unlike `f64::signum`, which has no 0.
-fn sign(v: f64) -> f64 {
+pub(super) fn sign(v: f64) -> f64 {
     if v > 0.0 {
         1.0
     } else if v < 0.0 {
@@ -251,7 +258,7 @@ fn sign(v: f64) -> f64 {
     }
 }
 
-fn fract(v: f64) -> f64 {
+pub(super) fn fract(v: f64) -> f64 {
     v - v.floor()
 }
 

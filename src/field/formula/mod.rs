@@ -26,8 +26,12 @@
 //! fused or approximated. Roots and rounding are exact by IEEE 754; every other function comes from
 //! `libm`, so a formula has the same bits on every machine.
 
+#[cfg(test)]
+mod bounds_tests;
 mod error;
+mod function_bounds;
 mod functions;
+mod interval;
 mod lexer;
 mod parser;
 mod program;
@@ -42,6 +46,9 @@ pub use error::ParseError;
 pub use functions::functions;
 pub use parser::{MAX_LENGTH, MAX_NESTING};
 use program::Program;
+
+use crate::field::Bounds;
+use crate::geometry::Rect;
 
 /// A formula in x and y, compiled once and evaluated many times.
 ///
@@ -87,6 +94,25 @@ impl Formula {
     /// `max` and `clamp` of NaN are NaN; a comparison with NaN is 0, except `!=`, which is 1.
     pub fn eval(&self, x: f64, y: f64) -> f64 {
         self.program.run(x, y)
+    }
+
+    /// Bounds of [`Self::eval`] over a closed rectangle in world units, by interval arithmetic.
+    ///
+    /// They hold for every point of the rectangle with coordinates in f64. A coordinate that occurs several
+    /// times makes them wider than the values are; over smaller rectangles they are closer. At a single point
+    /// other than on an axis they are the value.
+    ///
+    /// ```
+    /// use glam::dvec2;
+    /// use meshbrush::{Formula, Rect};
+    ///
+    /// let bounds = Formula::parse("x^2 + y")?.bounds(&Rect::new(dvec2(-1.0, 2.0), dvec2(3.0, 5.0)));
+    /// assert_eq!((bounds.least, bounds.greatest), (2.0, 14.0));
+    /// assert!(bounds.valid); // no value is NaN
+    /// # Ok::<(), meshbrush::ParseError>(())
+    /// ```
+    pub fn bounds(&self, rect: &Rect) -> Bounds {
+        interval::bounds(&self.program, rect)
     }
 
     /// The text as it was typed.

@@ -6,6 +6,7 @@
 use std::ops::Range;
 
 use super::error::{ParseError, quote};
+use super::function_bounds as bounds;
 use super::functions::{Form, Function, Noun, find_function, find_noun, modulo, power, suggestion};
 use super::lexer::{Lexer, Token};
 use super::program::{Compare, Op, Program, run};
@@ -125,13 +126,13 @@ impl<'a> Parser<'a> {
             // Right-associative: the right side may contain further powers.
             Token::Power => {
                 let right = self.expression(binding)?;
-                return Ok(self.join(left, right, Op::Two(power)));
+                return Ok(self.join(left, right, Op::Two(power, bounds::power)));
             }
             Token::Plus => Op::Add,
             Token::Minus => Op::Subtract,
             Token::Times => Op::Multiply,
             Token::Over => Op::Divide,
-            _ => Op::Two(modulo), // `infix_binding` lets nothing else through
+            _ => Op::Two(modulo, bounds::modulo), // `infix_binding` lets nothing else through
         };
         let right = self.expression(binding + 1)?;
         Ok(self.join(left, right, op))
@@ -257,11 +258,11 @@ impl<'a> Parser<'a> {
             Noun::Number(value) => self.load(Op::Number(value)),
             Noun::Radius => {
                 let (x, y) = (self.load(Op::X), self.load(Op::Y));
-                self.join(x, y, Op::Two(libm::hypot))
+                self.join(x, y, Op::Two(libm::hypot, bounds::hypot))
             }
             Noun::Angle => {
                 let (y, x) = (self.load(Op::Y), self.load(Op::X));
-                self.join(y, x, Op::Two(libm::atan2))
+                self.join(y, x, Op::Two(libm::atan2, bounds::atan2))
             }
         })
     }

@@ -1,5 +1,7 @@
 //! A compiled formula: instructions in postfix order for a stack machine with an accumulator.
 
+use crate::field::Bounds;
+
 /// One instruction.
 ///
 /// The accumulator holds the newest value, the stack the older ones. A *load* first pushes the accumulator;
@@ -47,12 +49,12 @@ pub(super) enum Op {
     NextLink(Compare),
     /// Drops the accumulator and takes the value below: the end of a chain.
     Drop,
-    /// Any other function of one value.
-    One(fn(f64) -> f64),
-    /// Any other function of two values.
-    Two(fn(f64, f64) -> f64),
-    /// Any other function of three values.
-    Three(fn(f64, f64, f64) -> f64),
+    /// Any other function of one value, and its bounds.
+    One(fn(f64) -> f64, fn(Bounds) -> Bounds),
+    /// Any other function of two values, and its bounds.
+    Two(fn(f64, f64) -> f64, fn(Bounds, Bounds) -> Bounds),
+    /// Any other function of three values, and its bounds.
+    Three(fn(f64, f64, f64) -> f64, fn(Bounds, Bounds, Bounds) -> Bounds),
     /// Takes a condition and skips if it is 0.
     SkipIfZero(u32),
     /// Skips always.
@@ -100,7 +102,7 @@ impl Compare {
 }
 
 /// Slots of the stack for nearly every formula; clearing a small stack costs nothing.
-const SMALL_STACK: usize = 16;
+pub(super) const SMALL_STACK: usize = 16;
 /// Slots for any formula that the parser accepts: at most two for each level of nesting, and one.
 pub(super) const LARGE_STACK: usize = 512;
 const _: () = assert!(2 * super::MAX_NESTING < LARGE_STACK);
@@ -121,6 +123,15 @@ impl Program {
 
     pub(super) fn run(&self, x: f64, y: f64) -> f64 {
         run(&self.code, self.slots, x, y)
+    }
+
+    pub(super) fn code(&self) -> &[Op] {
+        &self.code
+    }
+
+    /// The number of stack slots that the program needs.
+    pub(super) fn slots(&self) -> usize {
+        self.slots
     }
 
     /// Memory of the instructions, in bytes.
@@ -209,9 +220,9 @@ fn run_on<const SLOTS: usize>(code: &[Op], x: f64, y: f64) -> f64 {
             }
             Op::Drop => acc = pop!(),
             // Functions.
-            Op::One(function) => acc = function(acc),
-            Op::Two(function) => acc = function(pop!(), acc),
-            Op::Three(function) => {
+            Op::One(function, _) => acc = function(acc),
+            Op::Two(function, _) => acc = function(pop!(), acc),
+            Op::Three(function, _) => {
                 let second = pop!();
                 let first = pop!();
                 acc = function(first, second, acc);
