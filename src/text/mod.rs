@@ -1,11 +1,14 @@
-//! Numbers in sentences for a person: counts, lengths and their unit, sizes in bytes.
+//! Numbers in sentences for a person: counts, lengths and their unit, sizes in bytes, and a line with carets under a part
+//! of it.
 
 mod bytes;
 mod grouped;
 mod number;
+mod pointer;
 mod unit;
 
 pub use bytes::Bytes;
 pub use grouped::{Grouped, group_digits};
 pub use number::Number;
+pub use pointer::{draw_pointer, printable};
 pub use unit::LengthUnit;
