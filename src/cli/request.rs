@@ -11,7 +11,7 @@ use crate::field::{Formula, RefinementRule, Transfer};
 use crate::geometry::Rect;
 use crate::mesh::{Cleaning, KeptParts, Limits, MOST_TRIANGLES, MemoryLimit};
 use crate::raster::MAX_SIDE;
-use crate::text::Grouped;
+use crate::text::{Bytes, Grouped};
 
 /// A mesh that is asked for.
 #[derive(Debug)]
@@ -315,25 +315,9 @@ fn limits(typed: &InputArguments) -> Result<Limits, Failure> {
     Ok(Limits { max_triangles, max_level: typed.max_level, max_memory: bytes.map(MemoryLimit::for_one_mesh) })
 }
 
-/// Bytes of a size as typed: a number with a unit, in powers of 1000, or of 1024 for units with an i.
+/// A memory limit as typed, in bytes.
 fn memory(typed: &str) -> Result<usize, Failure> {
     let wrong = |rule: &str| Failure::Usage(format!("--max-memory {typed}: {rule}, such as 500MB or 2GB."));
-    let text = typed.trim();
-    let split = text.find(|c: char| c.is_ascii_alphabetic()).unwrap_or(text.len());
-    let (number, unit) = text.split_at(split);
-    let unit = match unit.to_ascii_lowercase().as_str() {
-        "kb" => 1e3,
-        "mb" => 1e6,
-        "gb" => 1e9,
-        "tb" => 1e12,
-        "kib" => 1024.0,
-        "mib" => f64::from(1 << 20),
-        "gib" => f64::from(1 << 30),
-        "tib" => 1024.0 * f64::from(1 << 30),
-        _ => return Err(wrong("give a size with its unit")),
-    };
-    let number: f64 = number.trim().parse().map_err(|_| wrong("give a size with its unit"))?;
-    let bytes = number * unit;
-    // Refuses NaN too. A size beyond `usize` is no limit.
-    if bytes >= LEAST_MEMORY as f64 { Ok(bytes as usize) } else { Err(wrong("choose 1MB at least")) }
+    let bytes = Bytes::parse(typed).ok_or_else(|| wrong("give a size with its unit"))?;
+    if bytes >= LEAST_MEMORY { Ok(bytes) } else { Err(wrong("choose 1MB at least")) }
 }

@@ -28,6 +28,13 @@ pub enum Place {
     Whole,
     /// A line, counted from one.
     Line(usize),
+    /// A line and a column, counted from one; columns in characters.
+    Column {
+        /// The line.
+        line: usize,
+        /// The character in the line.
+        column: usize,
+    },
     /// A part of an archive, and the line in it if it is text.
     Part(&'static str, Option<usize>),
 }
@@ -37,6 +44,7 @@ impl fmt::Display for Place {
         match self {
             Self::Whole => Ok(()),
             Self::Line(line) => write!(f, ", line {line}"),
+            Self::Column { line, column } => write!(f, ", line {line}, column {column}"),
             Self::Part(part, None) => write!(f, ", {part} in it"),
             Self::Part(part, Some(line)) => write!(f, ", line {line} of {part} in it"),
         }

@@ -4,6 +4,36 @@ use std::fmt;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Bytes(pub usize);
 
+impl Bytes {
+    /// The bytes of a size as typed: a number with a unit, in powers of 1000, or of 1024 for units with an i.
+    ///
+    /// `None` for what is no such size. Negative sizes become 0, and those beyond `usize` its largest value.
+    ///
+    /// ```
+    /// # use meshbrush::internals::text::Bytes;
+    /// assert_eq!(Bytes::parse("2.5 GB"), Some(2_500_000_000));
+    /// assert_eq!(Bytes::parse("1KiB"), Some(1024));
+    /// assert_eq!(Bytes::parse("2"), None);
+    /// ```
+    pub fn parse(typed: &str) -> Option<usize> {
+        let text = typed.trim();
+        let (number, unit) = text.split_at(text.find(|c: char| c.is_ascii_alphabetic())?);
+        let unit = match unit.to_ascii_lowercase().as_str() {
+            "kb" => 1e3,
+            "mb" => 1e6,
+            "gb" => 1e9,
+            "tb" => 1e12,
+            "kib" => 1024.0,
+            "mib" => f64::from(1 << 20),
+            "gib" => f64::from(1 << 30),
+            "tib" => 1024.0 * f64::from(1 << 30),
+            _ => return None,
+        };
+        let bytes = number.trim().parse::<f64>().ok()? * unit;
+        Some(bytes as usize)
+    }
+}
+
 impl fmt::Display for Bytes {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (unit, name) = if self.0 >= 1_000_000_000 { (1e9, "GB") } else { (1e6, "MB") };

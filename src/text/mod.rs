@@ -1,5 +1,5 @@
-//! Numbers in sentences for a person: counts, lengths and their unit, sizes in bytes, and a line with carets under a part
-//! of it.
+//! What messages for a person are made of: counts, lengths and their unit, sizes in bytes, a line with carets
+//! under a part of it.
 
 mod bytes;
 mod grouped;

@@ -1,0 +1,28 @@
+//! The vocabulary of layers in text: in recipes (TOML) and in the settings of a project (JSON).
+//!
+//! [`SavedLayer`] is a layer as the text has it, [`LayerSpec`] the same with every value checked and every
+//! formula compiled. Neither reads the files that a layer names.
+//!
+//! | `kind` | keys besides `name`, `visible`, `locked`, `combine`, `mask`, `mask_file` |
+//! |---|---|
+//! | `"paint"` | `quantity`, `file` (a project that holds the paint), `layer` (its layer there) |
+//! | `"formula"` | `quantity`, `formula` |
+//! | `"raster"` | `file`, `bounds`, and `as` or `curve` |
+//! | `"threats"` | `file` or `threats` |
+//! | `"distance"` | `to`, `file` or `shapes`; `at_zero`, `slope`, `range` |
+//! | `"band"` | `file`, `bounds`, `between`, `diameter` |
+
+mod checks;
+mod fault;
+mod saved;
+mod spec;
+#[cfg(test)]
+mod tests;
+
+pub use checks::{positive_length, rect_of};
+pub use fault::{KeyFault, Mark, Step};
+pub use saved::{SavedLayer, SavedShape, SavedThreat};
+pub use spec::{
+    DistanceTo, FindFile, KindSpec, LayerSpec, MaskSpec, RasterFile, RasterReading, ShapeSpec, ThreatsSpec,
+    compiled,
+};

@@ -1,0 +1,291 @@
+//! A recipe whose values are checked.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use glam::DVec2;
+
+use super::super::ReadError;
+use super::super::layers::{
+    FindFile, KeyFault, KindSpec, LayerSpec, SavedLayer, Step, compiled, positive_length, rect_of,
+};
+use super::saved::{
+    SavedDomain, SavedLimits, SavedMesh, SavedOutput, SavedParts, SavedRecipe, SavedRule, SavedTreatment,
+    SavedUnit,
+};
+use super::text::{RecipeText, quoted};
+use crate::document::LEAST_MEMORY;
+use crate::domain::BoundaryMarks;
+use crate::field::{Formula, RefinementRule, Transfer};
+use crate::geometry::Rect;
+use crate::mesh::{KeptParts, MOST_TRIANGLES};
+use crate::text::{Bytes, Grouped, LengthUnit, Number};
+
+/// What a recipe says. No file that it names was read yet.
+#[derive(Clone, Debug)]
+pub struct Recipe {
+    text: RecipeText,
+    /// The rectangle, where one is given.
+    pub bounds: Option<Rect>,
+    /// The domain is where this is not 0.
+    pub inside: Option<Formula>,
+    /// The domain is what the polygons of this file cover.
+    pub region: Option<PathBuf>,
+    /// The unit of coordinates and lengths, where one is given.
+    pub unit: Option<LengthUnit>,
+    /// How the mesh meets the outline of a region, where that is given.
+    pub boundary: Option<SavedTreatment>,
+    /// Largest diameter of a triangle on the outline, in world units.
+    pub boundary_diameter: Option<f64>,
+    /// The parts of the mesh that stay, where that is given.
+    pub parts: Option<KeptParts>,
+    /// Whether pinches stay in any case.
+    pub keeps_pinches: bool,
+    /// Names of the boundary, in place of those of the region's file.
+    pub marks: Option<Arc<BoundaryMarks>>,
+    /// Longest side of a coarse cell, in world units.
+    pub spacing: Option<f64>,
+    /// Which points of a triangle count.
+    pub rule: Option<RefinementRule>,
+    /// Most triangles.
+    pub max_triangles: Option<usize>,
+    /// Deepest level.
+    pub max_level: Option<u32>,
+    /// Most memory, in bytes.
+    pub max_memory: Option<usize>,
+    /// Smallest target diameter, in world units.
+    pub h_min: Option<f64>,
+    /// Largest target diameter, in world units.
+    pub h_max: Option<f64>,
+    /// Exponent of the curve from risk to diameter, dimensionless.
+    pub shape: f64,
+    /// Bound of the change of h̄ by unit of length, dimensionless.
+    pub gradation: Option<f64>,
+    /// The size field, from the bottom layer to the top one.
+    pub layers: Vec<LayerSpec>,
+    /// Files to write.
+    pub outputs: Vec<OutputSpec>,
+}
+
+/// A file to write. The look of pictures and the quantities are checked by those who know them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OutputSpec {
+    /// The file.
+    pub path: PathBuf,
+    /// Everything else, as the text has it.
+    pub saved: SavedOutput,
+}
+
+impl Recipe {
+    /// Checks the values of a recipe.
+    ///
+    /// # Errors
+    /// With line and column, for the first one that cannot be used.
+    pub(super) fn checked(text: RecipeText, saved: &SavedRecipe, find: &FindFile) -> Result<Self, ReadError> {
+        let unplaced = Self::unplaced(&text, saved, find);
+        unplaced.map_err(|fault| text.error(&fault)).map(|recipe| Self { text, ..recipe })
+    }
+
+    /// The file as it was named.
+    pub fn file(&self) -> &std::path::Path {
+        self.text.file()
+    }
+
+    /// The error for a value of an output that cannot be used.
+    pub fn output_error(&self, output: usize, fault: KeyFault) -> ReadError {
+        self.text.error(&fault.within(Step::Index(output)).within(Step::Key("output")))
+    }
+
+    fn unplaced(text: &RecipeText, saved: &SavedRecipe, find: &FindFile) -> Result<Self, KeyFault> {
+        let SavedRecipe { domain, mesh, limits, layer, output: outputs } = saved;
+        let in_table = |table: &'static str| move |fault: KeyFault| fault.within(Step::Key(table));
+        let region = domain.region_file(find).map_err(in_table("domain"))?;
+        check_domain(domain).map_err(in_table("domain"))?;
+        check_mesh(mesh).map_err(in_table("mesh"))?;
+        check_limits(limits).map_err(in_table("limits"))?;
+        let bytes = mesh.max_memory.as_deref().map(memory).transpose().map_err(in_table("mesh"))?;
+        let inside = domain.inside.as_deref().map(|text| compiled("inside", text)).transpose();
+        let spec = |(index, layer): (usize, &SavedLayer)| {
+            let checked = layer.checked(find).and_then(with_paint);
+            checked.map_err(|fault| fault.within(Step::Index(index)).within(Step::Key("layer")))
+        };
+        let folder = text.file().parent();
+        let beside = |name: &String| folder.map_or_else(|| name.into(), |folder| folder.join(name));
+        let output = |saved: &SavedOutput| OutputSpec { path: beside(&saved.file), saved: saved.clone() };
+        Ok(Self {
+            text: text.clone(),
+            bounds: domain.checked_bounds().map_err(in_table("domain"))?,
+            inside: inside.map_err(in_table("domain"))?,
+            region,
+            unit: domain.unit.map(Into::into),
+            boundary: domain.boundary,
+            boundary_diameter: domain.boundary_diameter,
+            parts: domain.parts.map(Into::into),
+            keeps_pinches: domain.keep_pinches,
+            marks: domain.marks(),
+            spacing: mesh.spacing,
+            rule: mesh.rule.map(Into::into),
+            max_triangles: mesh.max_triangles,
+            max_level: mesh.max_level,
+            max_memory: bytes,
+            h_min: limits.h_min,
+            h_max: limits.h_max,
+            shape: limits.shape.unwrap_or(1.0),
+            gradation: limits.gradation,
+            layers: layer.iter().enumerate().map(spec).collect::<Result<_, _>>()?,
+            outputs: outputs.iter().map(output).collect(),
+        })
+    }
+}
+
+/// Refuses paint that is nowhere: a recipe is text, and holds no pixels.
+fn with_paint(layer: LayerSpec) -> Result<LayerSpec, KeyFault> {
+    match layer.kind {
+        KindSpec::Paint { from: None, .. } => Err(KeyFault::entry(
+            "kind",
+            "paint has no form as text; name the project that holds it, as in file = \"harbour.meshbrush\".",
+        )),
+        _ => Ok(layer),
+    }
+}
+
+fn check_domain(domain: &SavedDomain) -> Result<(), KeyFault> {
+    if domain.region.is_some() {
+        for (key, given) in [("bounds", domain.bounds.is_some()), ("inside", domain.inside.is_some())] {
+            if given {
+                let sentence = format!("the domain comes from `region`; `{key}` cannot be given beside it.");
+                return Err(KeyFault::key(key, sentence));
+            }
+        }
+    }
+    if let Some(diameter) = domain.boundary_diameter {
+        length("boundary_diameter", diameter)?;
+        if domain.region.is_none() {
+            let sentence =
+                "this is for the outline of a region; name its file with `region`, or leave it out.";
+            return Err(KeyFault::key("boundary_diameter", sentence));
+        }
+        if domain.boundary == Some(SavedTreatment::Report) {
+            let sentence = "with boundary = \"report\" nothing is refined along the outline; leave it out.";
+            return Err(KeyFault::key("boundary_diameter", sentence));
+        }
+    }
+    if let Some(SavedParts::Share(share)) = domain.parts
+        && !(0.0..=1.0).contains(&share)
+    {
+        let sentence = format!("{} is not a share of the area, which lies from 0 to 1.", Number(share));
+        return Err(KeyFault::value("parts", sentence));
+    }
+    let is_finite = |[x, y]: &[f64; 2]| x.is_finite() && y.is_finite();
+    let sentence = "both coordinates of a point must be finite.";
+    if let Some(index) = domain.splits.iter().position(|at| !is_finite(at)) {
+        return Err(KeyFault::value("splits", sentence).at(Step::Index(index)));
+    }
+    if let Some(index) = domain.names.iter().position(|name| !is_finite(&name.at)) {
+        return Err(KeyFault::value("names", sentence).at(Step::Index(index)).at(Step::Key("at")));
+    }
+    Ok(())
+}
+
+fn check_mesh(mesh: &SavedMesh) -> Result<(), KeyFault> {
+    mesh.spacing.map_or(Ok(()), |spacing| length("spacing", spacing))?;
+    if let Some(count) = mesh.max_triangles
+        && !(2..=MOST_TRIANGLES).contains(&count)
+    {
+        let sentence = format!("choose from 2 to {} triangles.", Grouped(MOST_TRIANGLES));
+        return Err(KeyFault::value("max_triangles", sentence));
+    }
+    Ok(())
+}
+
+fn check_limits(limits: &SavedLimits) -> Result<(), KeyFault> {
+    limits.h_min.map_or(Ok(()), |h_min| length("h_min", h_min))?;
+    limits.h_max.map_or(Ok(()), |h_max| length("h_max", h_max))?;
+    // Where one end is not given, the other takes its place: only the rest is checked then.
+    let h_min = limits.h_min.or(limits.h_max).unwrap_or(1.0);
+    let h_max = limits.h_max.unwrap_or(h_min);
+    let transfer = Transfer { h_min, h_max, shape: limits.shape.unwrap_or(1.0) };
+    let wrong_key = if h_min > h_max { "h_max" } else { "shape" };
+    transfer.checked().map_err(|error| KeyFault::value(wrong_key, error.to_string()))?;
+    let Some(gradation) = limits.gradation else { return Ok(()) };
+    checked_gradation(gradation).map(|_| ()).map_err(|sentence| KeyFault::value("gradation", sentence))
+}
+
+/// A bound of the change of h̄ by unit of length.
+///
+/// # Errors
+/// A sentence, when it is not positive or not finite.
+pub fn checked_gradation(gradation: f64) -> Result<f64, String> {
+    if gradation > 0.0 && gradation.is_finite() {
+        return Ok(gradation);
+    }
+    Err(format!(
+        "a gradation of {} cannot be kept: it must be positive and finite, and 0.1 to 0.5 are usual.",
+        Number(gradation)
+    ))
+}
+
+fn length(key: &'static str, value: f64) -> Result<(), KeyFault> {
+    positive_length(value).map(|_| ()).map_err(|sentence| KeyFault::value(key, sentence))
+}
+
+fn memory(typed: &str) -> Result<usize, KeyFault> {
+    let wrong = |rule: &str| {
+        KeyFault::value("max_memory", format!("{} is no such size: {rule}, as in \"2GB\".", quoted(typed)))
+    };
+    let bytes = Bytes::parse(typed).ok_or_else(|| wrong("write a number with a unit"))?;
+    if bytes < LEAST_MEMORY { Err(wrong("choose 1MB at least")) } else { Ok(bytes) }
+}
+
+impl SavedDomain {
+    fn region_file(&self, find: &FindFile) -> Result<Option<PathBuf>, KeyFault> {
+        let found = self.region.as_deref().map(find).transpose();
+        found.map_err(|sentence| KeyFault::entry("region", sentence))
+    }
+
+    fn checked_bounds(&self) -> Result<Option<Rect>, KeyFault> {
+        self.bounds.map(rect_of).transpose().map_err(|sentence| KeyFault::value("bounds", sentence))
+    }
+
+    fn marks(&self) -> Option<Arc<BoundaryMarks>> {
+        if self.splits.is_empty() && self.names.is_empty() {
+            return None;
+        }
+        let names = self.names.iter().filter_map(|saved| {
+            let name = BoundaryMarks::valid_name(&saved.name);
+            (!name.is_empty()).then(|| (DVec2::from(saved.at), name))
+        });
+        let splits = self.splits.iter().copied().map(DVec2::from).collect();
+        Some(Arc::new(BoundaryMarks { splits, names: names.collect() }))
+    }
+}
+
+impl From<SavedUnit> for LengthUnit {
+    fn from(saved: SavedUnit) -> Self {
+        match saved {
+            SavedUnit::None => Self::None,
+            SavedUnit::Metre => Self::Metre,
+            SavedUnit::Kilometre => Self::Kilometre,
+            SavedUnit::Degree => Self::Degree,
+        }
+    }
+}
+
+impl From<SavedRule> for RefinementRule {
+    fn from(saved: SavedRule) -> Self {
+        match saved {
+            SavedRule::Vertex => Self::Vertex,
+            SavedRule::Area => Self::Area,
+        }
+    }
+}
+
+impl From<SavedParts> for KeptParts {
+    fn from(saved: SavedParts) -> Self {
+        match saved {
+            SavedParts::All => Self::All,
+            SavedParts::Largest => Self::Largest,
+            SavedParts::Share(share) => Self::Share(share),
+        }
+    }
+}
