@@ -72,6 +72,20 @@ impl Brush {
         Self { radius: self.radius.max(least_radius(paint)), ..*self }
     }
 
+    /// New value of a pixel from the old one, in a raster whose blank pixels have the value `blank`: 0 in a
+    /// raster of risks, infinite in one of diameters. `coverage` is that of the stroke, 0 to 1; `h_max` the
+    /// largest target diameter, in world units. A brush for the other kind of raster changes nothing.
+    pub(super) fn painted_value(&self, coverage: f32, old: f32, blank: f32, h_max: f64) -> f32 {
+        let amount = f64::from(coverage) * self.strength;
+        match (self.medium, blank.is_infinite()) {
+            (Medium::Risk(aim), false) => moved_risk(old, aim, amount),
+            (Medium::Diameter(target, change), true) => changed_diameter(old, target, change, amount, h_max),
+            (Medium::Eraser, false) => moved_risk(old, 0.0, amount),
+            (Medium::Eraser, true) => raised_diameter(old, h_max, amount, h_max),
+            _ => old,
+        }
+    }
+
     /// New [risk, diameter] of a pixel from the old values. `coverage` is that of the stroke, 0 to 1; `h_max`
     /// the largest target diameter, in world units.
     pub(super) fn painted_pixel(&self, coverage: f32, [risk, diameter]: [f32; 2], h_max: f64) -> [f32; 2] {

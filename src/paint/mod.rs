@@ -4,6 +4,7 @@
 mod brush;
 mod preview;
 mod stroke;
+pub mod tiled;
 mod tiles;
 
 use crate::field::PaintRef;

@@ -98,10 +98,14 @@ impl TiledRaster {
     /// remove has children.
     pub fn exchange(&mut self, place: TilePlace, tile: Option<Arc<Tile>>) -> Option<Arc<Tile>> {
         assert!(place.is_valid(), "{place:?} is checked where it is read");
+        let is_new = tile.is_some();
         let old = match tile {
             Some(tile) => self.put(place, tile),
             None => self.remove(place),
         };
+        if old.is_none() && !is_new {
+            return None;
+        }
         if place.depth == 0 {
             self.fit_scales([place.x, place.y]);
         }

@@ -59,6 +59,13 @@ impl TilePlace {
         grid.square(TILE.ilog2() as i32 - i32::from(self.depth), self.x, self.y)
     }
 
+    /// The rectangle of some pixels, in world units: [first, end], column and row within the tile each.
+    pub fn area_of_pixels(&self, [first, end]: [[i32; 2]; 2], grid: &PixelGrid) -> Rect {
+        let corner =
+            |[x, y]: [i32; 2]| grid.square(-i32::from(self.depth), self.x * TILE + x, self.y * TILE + y).min;
+        Rect::new(corner(first), corner(end))
+    }
+
     /// Column and row, within the parent, of the first pixel that this tile covers.
     pub(super) fn first_in_parent(&self) -> [i32; 2] {
         [self.x & 1, self.y & 1].map(|n| n * TILE / 2)
@@ -96,7 +103,7 @@ impl Tile {
     }
 
     /// The part of this tile that lies under one of its children, as a tile of twice the resolution.
-    pub(super) fn enlarged(&self, child: &TilePlace) -> Self {
+    pub fn enlarged(&self, child: &TilePlace) -> Self {
         let [left, lowest] = child.first_in_parent();
         let mut enlarged = Self::filled(0.0);
         for y in 0..TILE {
@@ -111,6 +118,17 @@ impl Tile {
         blocks.all(|(x, y)| {
             let value = self.get(x, y);
             [(x + 1, y), (x, y + 1), (x + 1, y + 1)].iter().all(|&(x, y)| self.get(x, y) == value)
+        })
+    }
+
+    /// The smallest rectangle of pixels with all in which two tiles differ, see
+    /// [`TilePlace::area_of_pixels`]; `None` if they are equal.
+    pub fn difference(&self, other: &Self) -> Option<[[i32; 2]; 2]> {
+        let differing = (0..TILE_PIXELS).filter(|&index| self.0[index] != other.0[index]);
+        let pixels = differing.map(|index| [index as i32 % TILE, index as i32 / TILE]);
+        pixels.fold(None, |area, [x, y]| {
+            let [first, end] = area.unwrap_or([[x, y], [x + 1, y + 1]]);
+            Some([[first[0].min(x), first[1].min(y)], [end[0].max(x + 1), end[1].max(y + 1)]])
         })
     }
 

@@ -1,0 +1,55 @@
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use crate::geometry::Rect;
+use crate::raster::{Tile, TilePlace, TiledRaster, ValueRanges};
+
+/// What was before a stroke at each place that it changed: enough to undo the stroke and to redo it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Patch {
+    /// `None` where there was no tile.
+    tiles: BTreeMap<TilePlace, Option<Arc<Tile>>>,
+}
+
+impl Patch {
+    /// Keeps what is at a place now, unless something is kept for it already.
+    pub(super) fn keep(&mut self, raster: &TiledRaster, place: TilePlace) {
+        self.tiles.entry(place).or_insert_with(|| raster.tile(place).cloned());
+    }
+
+    /// Exchanges the kept tiles with those of the raster: the first call undoes the stroke, the second redoes
+    /// it.
+    ///
+    /// Returns the rectangles in which values may have changed, in world units, at most one for each tile: a
+    /// long stroke touches far less than its bounding rectangle.
+    pub fn exchange(&mut self, raster: &mut TiledRaster) -> Vec<Rect> {
+        let (new, gone): (Vec<_>, Vec<_>) = self.tiles.iter_mut().partition(|(_, tile)| tile.is_some());
+        let mut changed = Vec::new();
+        // Parents appear before their children, and disappear after them.
+        for (&place, tile) in new.into_iter().chain(gone.into_iter().rev()) {
+            let [kept, present] = [tile.take(), raster.tile(place).cloned()];
+            // Where there is no tile, the parent counts; where the parent changes, it has its own rectangle.
+            let values =
+                |tile: &Option<Arc<Tile>>| tile.clone().unwrap_or_else(|| Arc::new(raster.inherited(place)));
+            let difference = values(&kept).difference(&values(&present));
+            changed.extend(difference.map(|pixels| place.area_of_pixels(pixels, raster.grid())));
+            *tile = raster.exchange(place, kept);
+        }
+        changed
+    }
+
+    /// The places at which the stroke changed tiles, in order.
+    pub fn places(&self) -> impl Iterator<Item = TilePlace> {
+        self.tiles.keys().copied()
+    }
+
+    /// Whether the stroke touched nothing.
+    pub fn is_empty(&self) -> bool {
+        self.tiles.is_empty()
+    }
+
+    /// Memory of the tiles, in bytes.
+    pub fn bytes(&self) -> usize {
+        self.tiles.values().flatten().count() * size_of::<Tile>()
+    }
+}

@@ -1,0 +1,46 @@
+use super::Stroke;
+use crate::geometry::Rect;
+use crate::paint::StrokePlan;
+use crate::raster::TiledRaster;
+
+/// A planned stroke, painted in slices on a clone of the raster.
+#[derive(Clone, Debug)]
+pub struct Preview {
+    stroke: Stroke,
+    raster: TiledRaster,
+    areas: Vec<Rect>,
+}
+
+impl Preview {
+    /// A preview of which nothing is painted yet. `h_max` is the largest target diameter, in world units;
+    /// paint reaches no further than `bounds`.
+    pub fn new(plan: &StrokePlan, h_max: f64, bounds: Rect, raster: &TiledRaster) -> Self {
+        let mut stroke = Stroke::new(plan.brush, h_max, bounds).mirrored(plan.mirror);
+        [plan.from, plan.to].into_iter().for_each(|end| stroke.extend(raster, end));
+        Self { stroke, raster: raster.clone(), areas: Vec::new() }
+    }
+
+    /// Paints about `pixels` more. Returns whether all is painted.
+    pub fn advance(&mut self, pixels: usize) -> bool {
+        self.areas.extend(self.stroke.advance(&mut self.raster, pixels));
+        self.stroke.is_drawn()
+    }
+
+    /// The raster after the stroke, and the rectangles in which it differs, in world units.
+    pub fn finish(mut self) -> (TiledRaster, Vec<Rect>) {
+        while !self.advance(usize::MAX) {}
+        self.stroke.finish(&mut self.raster);
+        (self.raster, self.areas)
+    }
+}
+
+/// What a planned stroke gives: the raster after it, and the rectangles in which it differs, in world units.
+/// Arguments as for [`Preview::new`].
+pub fn preview(
+    plan: &StrokePlan,
+    h_max: f64,
+    bounds: Rect,
+    raster: &TiledRaster,
+) -> (TiledRaster, Vec<Rect>) {
+    Preview::new(plan, h_max, bounds, raster).finish()
+}

@@ -1,0 +1,209 @@
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
+use std::sync::Arc;
+
+use glam::DVec2;
+
+use super::Patch;
+use super::resolution::Segment;
+use crate::geometry::Rect;
+use crate::paint::{Brush, Mirror, PathPoint};
+use crate::raster::{TILE, Tile, TilePlace, TiledRaster, ValueRanges, power_of_two};
+
+/// One gesture with a brush, from press to release.
+///
+/// The pointer gives a polyline. Each of its segments covers a capsule, and the stroke covers their union:
+///
+/// ```text
+///      .-----------.         coverage of a pixel: 1 in the core, smoothly down to 0 at the rim;
+///    /  .---------.  \       where capsules overlap, the largest coverage counts
+///   |  | o-------o |  |
+///    \  '---------'  /       o---o  segment of the pointer's path
+///      '-----------'         inner line: core (hardness × radius); outer line: rim (radius)
+/// ```
+///
+/// A segment is painted on tiles of the smallest depth at which the brush has a radius of 32 pixels, and on
+/// all deeper tiles that it reaches. A pixel's new value follows from its value before the stroke and its
+/// largest coverage. So passing over a place twice within a stroke does no more than passing over it once,
+/// and a stroke gives the same pixels however it is sliced.
+#[derive(Clone, Debug)]
+pub struct Stroke {
+    brush: Brush,
+    /// The largest target diameter, in world units: a painted diameter grows to it at the rim.
+    h_max: f64,
+    /// Paint reaches no further, in world units.
+    bounds: Rect,
+    mirror: Mirror,
+    /// The last point of the path.
+    last: Option<PathPoint>,
+    /// Segments that are not drawn yet, in order.
+    pending: VecDeque<Segment>,
+    /// What was before at each place that the stroke changed.
+    before: Patch,
+    covered: BTreeMap<TilePlace, Covered>,
+}
+
+/// A tile that the stroke covers.
+#[derive(Clone, Debug)]
+struct Covered {
+    /// Its pixels before the stroke.
+    before: Arc<Tile>,
+    /// The largest coverage of each pixel so far, 0 to 1.
+    coverage: Tile,
+}
+
+impl Stroke {
+    /// A stroke that has touched nothing yet. `h_max` is the largest target diameter, in world units; paint
+    /// reaches no further than `bounds`.
+    pub fn new(brush: Brush, h_max: f64, bounds: Rect) -> Self {
+        Self {
+            brush,
+            h_max,
+            bounds,
+            mirror: Mirror::default(),
+            last: None,
+            pending: VecDeque::new(),
+            before: Patch::default(),
+            covered: BTreeMap::new(),
+        }
+    }
+
+    /// The stroke, repeated in the lines of `mirror`.
+    pub fn mirrored(self, mirror: Mirror) -> Self {
+        Self { mirror, ..self }
+    }
+
+    /// The brush in use.
+    pub fn brush(&self) -> &Brush {
+        &self.brush
+    }
+
+    /// Extends the path to a point; [`Self::advance`] draws the new segment. A point that is not finite is
+    /// ignored.
+    pub fn extend(&mut self, raster: &TiledRaster, point: impl Into<PathPoint>) {
+        let point = point.into();
+        if point.is_finite() {
+            let from = self.last.replace(point).unwrap_or(point);
+            let segments = self.mirror.segments([from, point]);
+            let (brush, bounds, grid) = (self.brush, &self.bounds, raster.grid());
+            self.pending.extend(segments.filter_map(|ends| Segment::new(brush, ends, bounds, grid)));
+        }
+    }
+
+    /// Draws about `pixels` of the next segment, whole tiles of it. Returns the rectangle in which pixels may
+    /// have changed, in world units; `None` if nothing was left to draw.
+    pub fn advance(&mut self, raster: &mut TiledRaster, pixels: usize) -> Option<Rect> {
+        let mut changed: Option<Rect> = None;
+        let mut tiles_left = pixels.div_ceil((TILE * TILE) as usize).max(1);
+        while let Some(mut segment) = self.pending.pop_front() {
+            while let Some(place) = segment.places.pop_if(|_| tiles_left > 0) {
+                if let Some(area) = self.draw(raster, &mut segment, place) {
+                    changed = Some(changed.map_or(area, |changed| changed.union(&area)));
+                    tiles_left -= 1;
+                }
+            }
+            if !segment.places.is_empty() {
+                self.pending.push_front(segment);
+            }
+            // Segments that cover no pixel are passed over.
+            if changed.is_some() {
+                break;
+            }
+        }
+        changed
+    }
+
+    /// Draws a segment on a tile, and lists the tile's children to be drawn next. Returns the rectangle that
+    /// may have changed, in world units; `None` if the segment covers no pixel of the tile.
+    fn draw(&mut self, raster: &mut TiledRaster, segment: &mut Segment, place: TilePlace) -> Option<Rect> {
+        // Children count instead of the tile, so they are drawn on as well.
+        for child in place.children().into_iter().filter(|child| raster.tile(*child).is_some()) {
+            if segment.reaches(child, raster.grid()) {
+                segment.places.push(child);
+            }
+        }
+        let coverage = coverage_of_tile(segment, place, raster)?;
+        self.deepen(raster, place);
+        self.stamp(raster, place, &coverage);
+        Some(segment.area_on(place, raster.grid()))
+    }
+
+    /// Whether the path is drawn to its last point.
+    pub fn is_drawn(&self) -> bool {
+        self.pending.is_empty()
+    }
+
+    /// Ends the stroke: removes tiles that are no longer needed, and returns what was before. No value
+    /// changes.
+    pub fn finish(mut self, raster: &mut TiledRaster) -> Patch {
+        let mut places: BTreeSet<TilePlace> = self.before.places().collect();
+        while let Some(place) = places.pop_last() {
+            if raster.is_redundant(place) {
+                self.before.keep(raster, place);
+                if let Some(parent) = place.parent() {
+                    self.before.keep(raster, parent);
+                    places.insert(parent);
+                }
+                raster.merge(place);
+            }
+        }
+        self.before
+    }
+
+    /// Puts a tile at a place, and at all places above it, where there is none yet.
+    fn deepen(&mut self, raster: &mut TiledRaster, place: TilePlace) {
+        let above = std::iter::successors(Some(place), TilePlace::parent);
+        let missing: Vec<_> = above.take_while(|place| raster.tile(*place).is_none()).collect();
+        for place in missing.into_iter().rev() {
+            self.before.keep(raster, place);
+            let covered = place.parent().and_then(|parent| self.covered.get(&parent));
+            // What the stroke did to the parent is done to the new tile as well.
+            let covered = covered.map(|parent| Covered {
+                before: Arc::new(parent.before.enlarged(&place)),
+                coverage: parent.coverage.enlarged(&place),
+            });
+            self.covered.extend(covered.map(|covered| (place, covered)));
+            raster.exchange(place, Some(Arc::new(raster.inherited(place))));
+        }
+    }
+
+    /// Applies the brush to the pixels of a tile, with the coverage of one segment.
+    fn stamp(&mut self, raster: &mut TiledRaster, place: TilePlace, coverage: &Tile) {
+        self.before.keep(raster, place);
+        let Some(tile) = raster.tile(place) else { return };
+        let touched = self
+            .covered
+            .entry(place)
+            .or_insert_with(|| Covered { before: tile.clone(), coverage: Tile::filled(0.0) });
+        let (brush, blank, h_max) = (self.brush, raster.blank(), self.h_max);
+        raster.change(place, |tile| {
+            for (index, &coverage) in coverage.values().iter().enumerate() {
+                if coverage > touched.coverage[index] {
+                    // From the pixel before the stroke, not from its present value: the order of the segments
+                    // does not matter.
+                    touched.coverage[index] = coverage;
+                    tile[index] = brush.painted_value(coverage, touched.before[index], blank, h_max);
+                }
+            }
+        });
+    }
+}
+
+/// The coverage of each pixel of a tile by a segment; `None` if it is 0 everywhere.
+fn coverage_of_tile(segment: &Segment, place: TilePlace, raster: &TiledRaster) -> Option<Tile> {
+    let grid = raster.grid();
+    let pixel = grid.pixel * power_of_two(-i32::from(place.depth));
+    let first = DVec2::new(f64::from(place.x), f64::from(place.y)) * f64::from(TILE) + 0.5;
+    let mut tile = Tile::filled(0.0);
+    let [[left, lowest], [right, top]] = segment.pixels(place, grid);
+    let mut is_covered = false;
+    for (y, x) in (lowest..top).flat_map(|y| (left..right).map(move |x| (y, x))) {
+        let center = grid.origin + (first + DVec2::new(f64::from(x), f64::from(y))) * pixel;
+        let coverage = segment.coverage(center) as f32;
+        is_covered |= coverage > 0.0;
+        tile.set(x, y, coverage);
+    }
+    is_covered.then_some(tile)
+}
+
+#[cfg(test)]
+mod tests;
