@@ -23,6 +23,7 @@ mod archive;
 mod pixels;
 mod saved_background;
 mod settings;
+pub mod tiled;
 
 use std::fs::File;
 use std::io::{self, Cursor, Read, Write};

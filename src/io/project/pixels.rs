@@ -114,12 +114,12 @@ fn read_raster(
     Ok(Raster::from_values(bounds, size, values))
 }
 
-fn is_risk(value: f32) -> bool {
+pub(super) fn is_risk(value: f32) -> bool {
     (0.0..=1.0).contains(&value)
 }
 
 /// Writes numbers as four planes of bytes, the most significant bytes first.
-fn write_floats(out: &mut dyn Write, values: &[f32]) -> io::Result<()> {
+pub(super) fn write_floats(out: &mut dyn Write, values: &[f32]) -> io::Result<()> {
     for plane in 0..4 {
         let bytes: Vec<u8> = values.iter().map(|value| value.to_be_bytes()[plane]).collect();
         out.write_all(&bytes)?;
@@ -127,7 +127,7 @@ fn write_floats(out: &mut dyn Write, values: &[f32]) -> io::Result<()> {
     Ok(())
 }
 
-fn read_floats(
+pub(super) fn read_floats(
     input: &mut Unpacking,
     count: usize,
     is_valid: fn(f32) -> bool,
