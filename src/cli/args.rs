@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
+use crate::field::RefinementRule;
 use crate::render::export::ExportFormat;
 
 /// Paint where detail matters; the mesh follows the brush.
@@ -47,22 +48,53 @@ Examples:
   meshbrush mesh --domain -10,-10,10,10 --spacing 1 --target 'if(abs(x)+abs(y)<8, 0.25, 20)' -o mesh.vtu
   meshbrush mesh --domain 0,0,4,3 --risk-raster risk.png --h-min 0.01 --h-max 0.5 -o mesh.msh -o mesh.png
   meshbrush mesh --project coast.meshbrush -o mesh.vtu
+  meshbrush mesh coast.toml -o mesh.vtu
   meshbrush mesh --inside 'r < 1' --domain -1,-1,1,1 --target '0.02 + 0.1*r' --json";
 
 const LOCATE_EXAMPLES: &str = "\
 Example:
   meshbrush locate --spacing 0.1 --target '0.01 + 0.2*hypot(x - 0.5, y - 0.5)' --points points.csv -o found.csv";
 
+/// The options in whose place a project or a recipe stands.
+const DECIDED_BY_A_FILE: [&str; 22] = [
+    "domain",
+    "inside",
+    "region",
+    "boundary",
+    "boundary_diameter",
+    "spacing",
+    "target",
+    "risk",
+    "target_raster",
+    "risk_raster",
+    "threats",
+    "distance",
+    "distance_at_zero",
+    "distance_slope",
+    "distance_range",
+    "gradation",
+    "h_min",
+    "h_max",
+    "transfer_shape",
+    "rule",
+    "resolution",
+    "recipe",
+];
+
 /// What to mesh.
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Domain and target diameter")]
 pub struct InputArguments {
+    /// A recipe: a text that says what to mesh, in place of all other options on domain and target
+    ///
+    /// docs/recipe.md lists its keys. The files of its outputs are written beside those of -o.
+    #[arg(value_name = "RECIPE.toml", conflicts_with_all = &DECIDED_BY_A_FILE[..21])]
+    pub recipe: Option<PathBuf>,
+
     /// A project saved in the window (.meshbrush), in place of all other options on domain and target
     ///
     /// The mesh is the one that the window shows, with the same fingerprint.
-    #[arg(long, value_name = "FILE", conflicts_with_all = [
-        "domain", "inside", "region", "boundary", "boundary_diameter", "spacing", "target", "risk", "target_raster",
-        "risk_raster", "h_min", "h_max", "transfer_shape", "rule", "resolution"])]
+    #[arg(long, value_name = "FILE", conflicts_with_all = DECIDED_BY_A_FILE)]
     pub project: Option<PathBuf>,
 
     /// Lower left and upper right corner of the domain [default: 0,0,1,1, or where the .asc rasters lie]
@@ -135,6 +167,37 @@ pub struct InputArguments {
     #[arg(long, value_name = "FILE")]
     pub risk_raster: Vec<PathBuf>,
 
+    /// Threats, whose risks combine as independent probabilities: a table x,y,range,peak,law; may be
+    /// repeated
+    ///
+    /// The peak is the risk at the place of a threat, the range where it ends, and the law radar, gaussian or
+    /// disc.
+    #[arg(long, value_name = "FILE.csv")]
+    pub threats: Vec<PathBuf>,
+
+    /// Points, lines or polygons from which the target diameter grows with the distance; may be repeated
+    #[arg(long, value_name = "FILE.geojson")]
+    pub distance: Vec<PathBuf>,
+
+    /// Target diameter at distance 0; without this, --h-min is
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, requires = "distance")]
+    pub distance_at_zero: Option<f64>,
+
+    /// How much the target diameter grows with the distance: 0.2 is 2 in 10 [default: 0.2]
+    #[arg(long, value_name = "SLOPE", allow_hyphen_values = true, requires = "distance")]
+    pub distance_slope: Option<f64>,
+
+    /// The distance beyond which --distance asks for nothing [default: unlimited]
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, requires = "distance")]
+    pub distance_range: Option<f64>,
+
+    /// Bound on the gradation: over a distance d, the target diameter changes by G times d at most
+    ///
+    /// It becomes the largest field that keeps the bound and nowhere exceeds what is asked for. Usual are 0.1
+    /// to 0.5.
+    #[arg(long, value_name = "G", allow_hyphen_values = true)]
+    pub gradation: Option<f64>,
+
     /// Smallest target diameter, where the risk is 1; larger where less is asked for
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
     pub h_min: Option<f64>,
@@ -194,6 +257,15 @@ pub enum RuleArgument {
     Area,
 }
 
+impl From<RuleArgument> for RefinementRule {
+    fn from(argument: RuleArgument) -> Self {
+        match argument {
+            RuleArgument::Vertex => Self::Vertex,
+            RuleArgument::Area => Self::Area,
+        }
+    }
+}
+
 /// The help of `--output`, with the ending of every format.
 fn output_help() -> String {
     let endings: String = ExportFormat::endings().map(|ending| format!(" .{ending}")).collect();
@@ -248,8 +320,10 @@ pub struct MeshArguments {
     pub picture: PictureArguments,
 }
 
-const PICTURE_SIZE: &str = "1600";
-const PICTURE_COLORMAP: &str = "viridis";
+/// The usual width of a picture, in pixels.
+pub const PICTURE_SIZE: &str = "1600";
+/// The usual colours of the levels.
+pub const PICTURE_COLORMAP: &str = "viridis";
 
 impl PictureArguments {
     /// Whether an option was given that is not the default.

@@ -1,18 +1,16 @@
 //! `meshbrush mesh`: build, check, write, summarise.
 
 use std::io::Write;
-use std::path::PathBuf;
 
 use super::args::MeshArguments;
 use super::build::{FinishedMesh, build};
 use super::details::MeshDetails;
 use super::failure::Failure;
-use super::output::{Output, RequestedLook};
-use super::quantities::{NamedQuantity, parse_quantities};
+use super::output::Output;
 use super::request::MeshRequest;
+use super::requested_files::{RequestedFiles, write_files};
 use super::summary::Summary;
 use super::terminal::Terminal;
-use crate::io::{Interruption, MeshData};
 use crate::mesh::{Extract, TriangleId};
 use crate::text::Grouped;
 
@@ -30,22 +28,23 @@ pub fn run(
     terminal: &mut Terminal,
 ) -> Result<(), Failure> {
     let request = MeshRequest::new(&typed.input)?;
-    let look = RequestedLook::new(&typed.picture)?;
-    let quantities = parse_quantities(&typed.quantity)?;
-    let format = typed.format.as_deref();
-    let output = |path: &PathBuf| Output::new(path, format, typed.binary);
-    let outputs = typed.output.iter().map(output).collect::<Result<Vec<_>, _>>()?;
-    check_stdout(typed, &outputs)?;
-    note_without_effect(typed, &request, &outputs, terminal);
+    let by_options = RequestedFiles::of_options(typed)?;
+    let outputs = &by_options.outputs;
+    check_stdout(typed, outputs)?;
+    note_without_effect(typed, &request, outputs, terminal);
+    let mut files = request.recipe.as_ref().map(RequestedFiles::of_recipe).transpose()?.unwrap_or_default();
+    files.push(by_options);
     let inputs = request.input_files();
-    outputs.iter().try_for_each(|output| output.check_places(&inputs))?;
+    let mut outputs = files.iter().flat_map(|files| &files.outputs);
+    outputs.try_for_each(|output| output.check_places(&inputs))?;
     let finished = build(&request, terminal)?;
     let extract = finished.extract();
     let violations = match typed.checks {
         true => Some(report_violations(&finished, &extract, request.limits.max_level, terminal)?),
         false => None,
     };
-    let wants_details = typed.json || !outputs.is_empty();
+    let writes = files.iter().any(|files| !files.outputs.is_empty());
+    let wants_details = typed.json || writes;
     let details = wants_details.then(|| MeshDetails::of(&finished, &extract, line, &request));
     let summary = Summary::of(&finished, &extract, details.as_ref(), violations);
     if !typed.json {
@@ -53,7 +52,7 @@ pub fn run(
     }
     note_capped(&finished, terminal);
     if let Some(details) = &details {
-        write_files(&outputs, &finished, &extract, details, look, &quantities, terminal)?;
+        write_files(&files, &finished, &extract, details, terminal)?;
     }
     if typed.json {
         let json = serde_json::to_string(&summary).map_err(|e| Failure::Print(e.into()))?;
@@ -104,38 +103,6 @@ fn report_violations(
         terminal.say("check: every invariant of the mesh holds");
     }
     Ok(count)
-}
-
-fn write_files(
-    outputs: &[Output],
-    finished: &FinishedMesh,
-    extract: &Extract,
-    details: &MeshDetails,
-    look: RequestedLook,
-    asked: &[NamedQuantity],
-    terminal: &mut Terminal,
-) -> Result<(), Failure> {
-    let mesh = finished.mesh();
-    let look = look.for_mesh(mesh);
-    let (mut target_diameter, mut quantities) = (Vec::new(), Vec::new());
-    if outputs.iter().any(Output::wants_node_data) {
-        target_diameter = finished.target_at_nodes(extract);
-        quantities = asked.iter().map(|quantity| quantity.at_nodes(extract)).collect::<Result<_, _>>()?;
-    }
-    let MeshDetails { boundary, parts, provenance } = details;
-    let (target_diameter, quantities) = (&target_diameter, &quantities);
-    let data = MeshData { target_diameter, quantities, boundary, parts, provenance };
-    let interruption = Interruption::listen().map_err(|error| Failure::Work(format!("{error}.")))?;
-    for output in outputs {
-        let meter = interruption.meter();
-        let write = || output.write(mesh, extract, &data, &look, &meter);
-        let written = terminal.while_metered(&format!("writing {}", output.name()), &meter, write);
-        interruption.end_program();
-        for path in written? {
-            terminal.say(&format!("wrote {}", path.display()));
-        }
-    }
-    Ok(())
 }
 
 /// Names the options that change nothing.

@@ -2,10 +2,13 @@
 
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
+use std::str::FromStr;
 
-use super::args::PictureArguments;
+use super::args::{PICTURE_COLORMAP, PICTURE_SIZE, PictureArguments};
 use super::failure::Failure;
 use crate::colormap::{Colormap, Ground, LevelColors};
+use crate::io::layers::KeyFault;
+use crate::io::recipe::SavedOutput;
 use crate::io::{MeshData, Meter, obstacle};
 use crate::mesh::{Extract, Mesh};
 use crate::render::export::{ExportFormat, LARGEST_PICTURE, Look};
@@ -158,29 +161,47 @@ impl RequestedLook {
     /// # Errors
     /// When the size or the name of the colour map is invalid.
     pub fn new(typed: &PictureArguments) -> Result<Self, Failure> {
-        let colormap: Colormap =
-            typed.colormap.parse().map_err(|e| Failure::Usage(format!("--colormap: {e}")))?;
-        let ground = if typed.light { Ground::Light } else { Ground::Dark };
-        let (width, height) = parse_size(&typed.size)?;
-        Ok(Self { width, height, edges: !typed.no_edges, colormap, ground })
+        let size = parse_size(&typed.size);
+        let size = size.map_err(|rule| Failure::Usage(format!("--size {}: {rule}", typed.size)))?;
+        let colormap = typed.colormap.parse();
+        let colormap = colormap.map_err(|error| Failure::Usage(format!("--colormap: {error}")))?;
+        Ok(Self::of(size, !typed.no_edges, colormap, typed.light))
+    }
+
+    /// The look that an output of a recipe describes.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn of_saved(saved: &SavedOutput) -> Result<Self, KeyFault> {
+        let size = parse_size(saved.size.as_deref().unwrap_or(PICTURE_SIZE));
+        let size = size.map_err(|rule| KeyFault::value("size", rule))?;
+        let colormap = saved.colormap.as_deref().unwrap_or(PICTURE_COLORMAP).parse();
+        let colormap = colormap
+            .map_err(|error: <Colormap as FromStr>::Err| KeyFault::value("colormap", error.to_string()))?;
+        Ok(Self::of(size, saved.edges.unwrap_or(true), colormap, saved.light.unwrap_or(false)))
+    }
+
+    fn of((width, height): (u32, Option<u32>), edges: bool, colormap: Colormap, is_light: bool) -> Self {
+        let ground = if is_light { Ground::Light } else { Ground::Dark };
+        Self { width, height, edges, colormap, ground }
     }
 
     /// The look, with the colours spread over the levels of a mesh.
-    pub fn for_mesh(self, mesh: &Mesh) -> Look {
-        let Self { width, height, edges, colormap, ground } = self;
+    pub fn for_mesh(&self, mesh: &Mesh) -> Look {
+        let Self { width, height, edges, colormap, ground } = *self;
         let deepest = mesh.level_counts().len() as u8 - 1;
         Look { width, height, edges, ground, level_colors: LevelColors::new(colormap, ground, deepest) }
     }
 }
 
-fn parse_size(text: &str) -> Result<(u32, Option<u32>), Failure> {
+fn parse_size(text: &str) -> Result<(u32, Option<u32>), String> {
     let side = |text: &str| text.trim().parse().ok().filter(|side| (1..=LARGEST_PICTURE).contains(side));
     let parsed = match text.split_once(['x', 'X', '×']) {
         Some((width, height)) => side(width).zip(side(height)).map(|(w, h)| (w, Some(h))),
         None => side(text).map(|width| (width, None)),
     };
     parsed.ok_or_else(|| {
-        let problem = format!("--size {text}: write a width, or width x height, as in 1600 or 1600x900");
-        Failure::Usage(format!("{problem}; each from 1 to {} pixels.", Grouped(LARGEST_PICTURE as usize)))
+        let rule = "write a width, or width x height, as in 1600 or 1600x900";
+        format!("{rule}; each from 1 to {} pixels.", Grouped(LARGEST_PICTURE as usize))
     })
 }

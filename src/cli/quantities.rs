@@ -3,8 +3,8 @@
 use glam::DVec2;
 
 use super::failure::Failure;
-use super::request::parse_formula;
 use crate::field::Formula;
+use crate::field::formula::ParseError;
 use crate::io::NodeValues;
 use crate::mesh::Extract;
 
@@ -23,19 +23,29 @@ pub struct NamedQuantity {
 /// The values that are asked for, in their order.
 ///
 /// # Errors
-/// When a formula or a name is wrong, or a name comes twice.
-pub fn parse_quantities(typed: &[String]) -> Result<Vec<NamedQuantity>, Failure> {
+/// When a formula or a name is wrong, or a name comes twice; with the number of the quantity, from 0.
+pub fn parse_quantities(typed: &[String]) -> Result<Vec<NamedQuantity>, (usize, QuantityError)> {
     let mut quantities: Vec<NamedQuantity> = Vec::new();
-    for text in typed {
+    for (index, text) in typed.iter().enumerate() {
         let (name, expression) = split(text);
         if TAKEN.contains(&name) || quantities.iter().any(|other| other.name == name) {
-            let problem = format!("--quantity {text}: the name {name} is taken");
-            return Err(Failure::Usage(format!("{problem}. Give another one, as in depth=EXPR.")));
+            return Err((index, QuantityError::Name(name.to_owned())));
         }
-        let formula = parse_formula("--quantity", expression)?;
+        let formula = Formula::parse(expression).map_err(|mistake| (index, mistake.into()))?;
         quantities.push(NamedQuantity { name: name.to_owned(), formula });
     }
     Ok(quantities)
+}
+
+/// Why a quantity cannot be written.
+#[derive(Debug, thiserror::Error)]
+pub enum QuantityError {
+    /// Files use the name for something else.
+    #[error("the name {0} is taken. Give another one, as in depth=EXPR.")]
+    Name(String),
+    /// The formula has a mistake.
+    #[error(transparent)]
+    Formula(#[from] ParseError),
 }
 
 /// Name and formula. A comparison (`==`) is part of the formula.
@@ -67,9 +77,9 @@ impl NamedQuantity {
             if value.is_finite() {
                 return Ok(value);
             }
-            let option = if name == USUAL_NAME { String::new() } else { format!(" {name}") };
+            let called = if name == USUAL_NAME { "quantity".into() } else { format!("quantity {name}") };
             Err(Failure::Work(format!(
-                "--quantity{option} is {value} at x = {}, y = {}: files need a finite number at every node.",
+                "The {called} is {value} at x = {}, y = {}: files need a finite number at every node.",
                 p.x, p.y
             )))
         };

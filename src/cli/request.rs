@@ -1,23 +1,31 @@
-//! What the arguments ask for: every value checked on its own, every formula compiled, no file read yet.
+//! What the arguments ask for: every value checked on its own, every formula compiled; of the files
+//! only a recipe is read.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use glam::DVec2;
 
-use super::args::{BoundaryArgument, InputArguments, RuleArgument};
+use super::args::{BoundaryArgument, InputArguments};
 use super::failure::Failure;
+use super::layer_options::layers;
 use crate::document::LEAST_MEMORY;
+use crate::domain::BoundaryMarks;
 use crate::field::{Formula, RefinementRule, Transfer};
 use crate::geometry::Rect;
+use crate::io::layers::{KindSpec, LayerSpec};
+use crate::io::recipe::{Recipe, checked_gradation};
 use crate::mesh::{Cleaning, KeptParts, Limits, MOST_TRIANGLES, MemoryLimit};
 use crate::raster::MAX_SIDE;
-use crate::text::{Bytes, Grouped};
+use crate::text::{Bytes, Grouped, LengthUnit};
 
 /// A mesh that is asked for.
 #[derive(Debug)]
 pub struct MeshRequest {
     /// A saved document, which decides everything but the limits.
     pub project: Option<PathBuf>,
+    /// The recipe that the other values come from.
+    pub recipe: Option<Recipe>,
     /// The triangle budget, where one is given; else it is the project's.
     pub asked_budget: Option<usize>,
     /// `None` for the rectangle that the rasters cover, or the unit square.
@@ -36,8 +44,10 @@ pub struct MeshRequest {
     pub keeps_pinches: bool,
     /// Longest side of a coarse cell, in world units.
     pub spacing: Option<f64>,
-    /// All sources of target diameters.
-    pub sources: Vec<SourceSpec>,
+    /// The size field, from the bottom layer to the top one.
+    pub layers: Vec<LayerSpec>,
+    /// Bound of the change of h̄ by unit of length, dimensionless.
+    pub gradation: Option<f64>,
     /// Lower bound of the target diameter, in world units.
     pub h_min: Option<f64>,
     /// Upper bound of the target diameter, in world units.
@@ -50,50 +60,14 @@ pub struct MeshRequest {
     pub resolution: Option<u32>,
     /// What the mesh may cost.
     pub limits: Limits,
-}
-
-/// A source of target diameters, before its file is read.
-#[derive(Debug)]
-pub enum SourceSpec {
-    /// A formula for the diameter.
-    Target(Formula),
-    /// A formula for the risk.
-    Risk(Formula),
-    /// Pixels.
-    Raster(RasterSpec),
-}
-
-/// A raster file, before it is read.
-#[derive(Debug)]
-pub struct RasterSpec {
-    /// The file.
-    pub path: PathBuf,
-    /// Its format.
-    pub format: RasterFormat,
-    /// What its values mean.
-    pub meaning: Meaning,
-}
-
-/// The kinds of raster files.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum RasterFormat {
-    /// An image over the domain's bounding box.
-    Png,
-    /// A grid that says which rectangle it covers.
-    Asc,
-}
-
-/// What the values of a raster mean.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Meaning {
-    /// Target diameters.
-    Target,
-    /// Risk.
-    Risk,
+    /// The unit, in place of that of the region's file.
+    pub unit: Option<LengthUnit>,
+    /// Names of the boundary, in place of those of the region's file.
+    pub marks: Option<Arc<BoundaryMarks>>,
 }
 
 /// Most triangles unless `--max-triangles` says otherwise.
-const USUAL_BUDGET: usize = 50_000_000;
+pub const USUAL_BUDGET: usize = 50_000_000;
 
 impl MeshRequest {
     /// Checks the arguments one by one and against each other.
@@ -101,10 +75,13 @@ impl MeshRequest {
     /// # Errors
     /// With a sentence that names the option, the value and the rule.
     pub fn new(typed: &InputArguments) -> Result<Self, Failure> {
-        let sources = sources(typed)?;
-        let by_pixels = sources.iter().any(|source| matches!(source, SourceSpec::Raster(_)));
+        if let Some(path) = &typed.recipe {
+            return Self::of_recipe(path, typed);
+        }
+        let layers = layers(typed)?;
         let request = Self {
             project: typed.project.clone(),
+            recipe: None,
             asked_budget: typed.max_triangles,
             domain: typed.domain.as_deref().map(parse_domain).transpose()?,
             inside: typed.inside.as_deref().map(|text| parse_formula("--inside", text)).transpose()?,
@@ -114,18 +91,16 @@ impl MeshRequest {
             parts: typed.parts.as_deref().map(parts).transpose()?,
             keeps_pinches: typed.keep_pinches,
             spacing: typed.spacing.map(|value| length("--spacing", value)).transpose()?,
-            sources,
+            rule: rule(typed.rule.map(Into::into), &layers),
+            layers,
+            gradation: typed.gradation.map(gradation).transpose()?,
             h_min: typed.h_min.map(|value| length("--h-min", value)).transpose()?,
             h_max: typed.h_max.map(|value| length("--h-max", value)).transpose()?,
             transfer_shape: typed.transfer_shape,
-            rule: match typed.rule {
-                Some(RuleArgument::Vertex) => RefinementRule::Vertex,
-                Some(RuleArgument::Area) => RefinementRule::Area,
-                None if by_pixels => RefinementRule::Area,
-                None => RefinementRule::Vertex,
-            },
             resolution: typed.resolution.map(resolution).transpose()?,
-            limits: limits(typed)?,
+            limits: limits(typed, USUAL_BUDGET)?,
+            unit: None,
+            marks: None,
         };
         request.check_bounds()?;
         Ok(request)
@@ -133,7 +108,7 @@ impl MeshRequest {
 
     /// Whether some source needs both ends of the scale from --h-min to --h-max.
     pub fn uses_scale(&self) -> bool {
-        self.sources.iter().any(SourceSpec::uses_scale)
+        self.layers.iter().any(LayerSpec::uses_scale)
     }
 
     /// Which triangles stay: the usual ones, unless an option says otherwise.
@@ -146,13 +121,8 @@ impl MeshRequest {
 
     /// Options that were given and change nothing, a sentence each.
     pub fn options_without_effect(&self, typed: &InputArguments) -> Vec<String> {
-        let risk = |source: &SourceSpec| match source {
-            SourceSpec::Risk(_) => true,
-            SourceSpec::Raster(raster) => raster.meaning == Meaning::Risk,
-            SourceSpec::Target(_) => false,
-        };
         let unused = [
-            (typed.transfer_shape != 1.0 && !self.sources.iter().any(risk))
+            (typed.transfer_shape != 1.0 && !self.layers.iter().any(LayerSpec::is_risk))
                 .then_some("--transfer-shape changes nothing without --risk or --risk-raster."),
             (typed.resolution.is_some() && self.rule == RefinementRule::Vertex).then_some(
                 "--resolution changes nothing by the vertex rule, which sees no pixels; see --rule.",
@@ -165,12 +135,9 @@ impl MeshRequest {
 
     /// The files to read.
     pub fn input_files(&self) -> Vec<PathBuf> {
-        let path = |source: &SourceSpec| match source {
-            SourceSpec::Raster(raster) => Some(raster.path.clone()),
-            SourceSpec::Target(_) | SourceSpec::Risk(_) => None,
-        };
-        let rasters = self.sources.iter().filter_map(path);
-        rasters.chain(self.region.clone()).chain(self.project.clone()).collect()
+        let data = self.layers.iter().flat_map(LayerSpec::files).map(Path::to_owned);
+        let recipe = self.recipe.as_ref().map(|recipe| recipe.file().to_owned());
+        data.chain(self.region.clone()).chain(self.project.clone()).chain(recipe).collect()
     }
 
     fn check_bounds(&self) -> Result<(), Failure> {
@@ -184,16 +151,6 @@ impl MeshRequest {
         let h_max = self.h_max.unwrap_or(h_min);
         Transfer { h_min, h_max, shape: self.transfer_shape }.checked()?;
         Ok(())
-    }
-}
-
-impl SourceSpec {
-    fn uses_scale(&self) -> bool {
-        match self {
-            Self::Target(_) => false,
-            Self::Risk(_) => true,
-            Self::Raster(raster) => raster.meaning == Meaning::Risk || raster.format == RasterFormat::Png,
-        }
     }
 }
 
@@ -212,7 +169,11 @@ fn boundary_diameter(typed: &InputArguments) -> Result<Option<f64>, Failure> {
     Err(Failure::Usage(format!("--boundary-diameter {diameter}: {problem}.")))
 }
 
-fn parts(text: &str) -> Result<KeptParts, Failure> {
+/// The parts of the mesh that stay.
+///
+/// # Errors
+/// When the text says none.
+pub fn parts(text: &str) -> Result<KeptParts, Failure> {
     match text {
         "all" => Ok(KeptParts::All),
         "largest" => Ok(KeptParts::Largest),
@@ -225,38 +186,17 @@ fn parts(text: &str) -> Result<KeptParts, Failure> {
     }
 }
 
-fn sources(typed: &InputArguments) -> Result<Vec<SourceSpec>, Failure> {
-    let mut sources = Vec::new();
-    for text in &typed.target {
-        sources.push(SourceSpec::Target(parse_formula("--target", text)?));
-    }
-    for text in &typed.risk {
-        sources.push(SourceSpec::Risk(parse_formula("--risk", text)?));
-    }
-    for path in &typed.target_raster {
-        sources.push(SourceSpec::Raster(raster("--target-raster", path, Meaning::Target)?));
-    }
-    for path in &typed.risk_raster {
-        sources.push(SourceSpec::Raster(raster("--risk-raster", path, Meaning::Risk)?));
-    }
-    Ok(sources)
+/// The rule that is asked for; where none is, the one that suits the layers: the area rule misses no pixel.
+pub fn rule(asked: Option<RefinementRule>, layers: &[LayerSpec]) -> RefinementRule {
+    let is_formula = |layer: &LayerSpec| matches!(layer.kind, KindSpec::Formula { .. });
+    asked.unwrap_or(match layers.iter().all(is_formula) {
+        true => RefinementRule::Vertex,
+        false => RefinementRule::Area,
+    })
 }
 
-fn raster(option: &str, path: &Path, meaning: Meaning) -> Result<RasterSpec, Failure> {
-    let format = match ending(path).as_str() {
-        "png" => RasterFormat::Png,
-        "asc" => RasterFormat::Asc,
-        _ => {
-            let file = path.display();
-            return Err(Failure::Usage(format!("{option} {file}: a raster is a .png or an .asc file.")));
-        }
-    };
-    Ok(RasterSpec { path: path.to_owned(), format, meaning })
-}
-
-/// The extension of a file name in lower case, without the dot; empty if there is none.
-pub fn ending(path: &Path) -> String {
-    path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase()).unwrap_or_default()
+fn gradation(bound: f64) -> Result<f64, Failure> {
+    checked_gradation(bound).map_err(|problem| Failure::Usage(format!("--gradation: {problem}")))
 }
 
 /// Compiles a formula.
@@ -285,7 +225,11 @@ fn parse_domain(text: &str) -> Result<Rect, Failure> {
     Ok(domain)
 }
 
-fn length(option: &str, value: f64) -> Result<f64, Failure> {
+/// A length, as given by an option.
+///
+/// # Errors
+/// When it is not positive or not finite.
+pub fn length(option: &str, value: f64) -> Result<f64, Failure> {
     if value > 0.0 && value.is_finite() {
         Ok(value)
     } else {
@@ -304,8 +248,12 @@ fn resolution(pixels: u32) -> Result<u32, Failure> {
     }
 }
 
-fn limits(typed: &InputArguments) -> Result<Limits, Failure> {
-    let max_triangles = typed.max_triangles.unwrap_or(USUAL_BUDGET);
+/// What the mesh may cost; `usual` is the triangle budget where no option gives one.
+///
+/// # Errors
+/// When an option is out of range.
+pub fn limits(typed: &InputArguments, usual: usize) -> Result<Limits, Failure> {
+    let max_triangles = typed.max_triangles.unwrap_or(usual);
     if !(2..=MOST_TRIANGLES).contains(&max_triangles) {
         let problem =
             format!("--max-triangles {max_triangles}: choose from 2 to {}", Grouped(MOST_TRIANGLES));

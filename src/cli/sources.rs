@@ -7,12 +7,14 @@ use std::sync::Arc;
 use super::args::BoundaryArgument;
 use super::failure::Failure;
 use super::output::is_standard_stream;
-use super::request::{Meaning, MeshRequest, RasterFormat, RasterSpec, SourceSpec};
+use super::request::MeshRequest;
 use crate::build::{FieldSampling, MeshSpec};
 use crate::domain::{BoundaryMarks, BoundaryTreatment, Domain, DomainShape};
 use crate::field::{Source, TargetFieldSpec, Transfer, f32_not_below};
 use crate::geometry::{Lattice, Rect};
+use crate::io::layers::{KindSpec, LayerSpec, RasterFile, RasterFormat, RasterReading};
 use crate::io::{self, Meter};
+use crate::layers::{Combine, Quantity};
 use crate::mesh::{Cleaning, CoarseError, bisection_edge_length};
 use crate::raster::{MAX_SIDE, Raster};
 use crate::text::LengthUnit;
@@ -40,8 +42,11 @@ pub struct ReadSources {
 /// # Errors
 /// When a file cannot be read or used, or there is no coarse grid.
 pub fn read_sources(request: &MeshRequest) -> Result<ReadSources, Failure> {
+    check_supported(request)?;
     let placed = read_placed(request)?;
     let (domain, marks, unit) = domain(request, &placed)?;
+    let marks = request.marks.as_deref().cloned().unwrap_or(marks);
+    let unit = request.unit.unwrap_or(unit);
     let bounds = domain.bounds;
     let rasters = read_images(request, placed, bounds)?;
     let spacing = request.spacing.unwrap_or(bounds.size().max_element() / USUAL_CELLS);
@@ -59,34 +64,59 @@ pub fn read_sources(request: &MeshRequest) -> Result<ReadSources, Failure> {
     Ok(ReadSources { spec, marks, unit, notes })
 }
 
-/// The rasters that say which rectangle they cover, in the order of the sources; `None` for other sources.
-fn read_placed(request: &MeshRequest) -> Result<Vec<Option<Raster>>, Failure> {
-    let read = |spec: &SourceSpec| match spec {
-        SourceSpec::Raster(RasterSpec { path, format: RasterFormat::Asc, .. }) => {
-            Ok(Some(io::asc::read(path)?))
+/// Refuses what the field cannot express.
+fn check_supported(request: &MeshRequest) -> Result<(), Failure> {
+    let refused =
+        |what: &str| Err(Failure::Work(format!("{what} cannot be meshed by this version of Meshbrush.")));
+    if request.gradation.is_some() {
+        return refused("A field with a bound on its gradation");
+    }
+    for layer in visible(request) {
+        let of_kind =
+            matches!(layer.kind, KindSpec::Paint { .. } | KindSpec::Threats(_) | KindSpec::Distance { .. });
+        if of_kind || layer.mask.is_some() || layer.combine != Combine::Finest {
+            return refused(&format!("The layer \"{}\"", layer.name));
         }
-        _ => Ok(None),
-    };
-    request.sources.iter().map(read).collect()
+    }
+    Ok(())
 }
 
-/// As [`read_placed`], with the images too, which cover the bounds of the domain.
+/// The layers that ask for something.
+fn visible(request: &MeshRequest) -> impl Iterator<Item = &LayerSpec> {
+    request.layers.iter().filter(|layer| layer.visible)
+}
+
+/// The pixels of a layer, if it has some.
+fn raster_file(layer: &LayerSpec) -> Option<&RasterFile> {
+    match &layer.kind {
+        KindSpec::Raster { raster, .. } | KindSpec::Band { raster, .. } => Some(raster),
+        _ => None,
+    }
+}
+
+/// The rasters that say which rectangle they cover, in the order of the visible layers; `None` for others.
+fn read_placed(request: &MeshRequest) -> Result<Vec<Option<Raster>>, Failure> {
+    let read = |layer: &LayerSpec| match raster_file(layer) {
+        Some(RasterFile { path, format: RasterFormat::Asc, .. }) => Ok(Some(io::asc::read(path)?)),
+        _ => Ok(None),
+    };
+    visible(request).map(read).collect()
+}
+
+/// As [`read_placed`], with the images too, which cover the bounds of the domain unless they have their own.
 fn read_images(
     request: &MeshRequest,
     placed: Vec<Option<Raster>>,
     domain: Rect,
 ) -> Result<Vec<Option<Raster>>, Failure> {
-    let read = |(spec, placed): (&SourceSpec, Option<Raster>)| match spec {
-        SourceSpec::Raster(RasterSpec { path, format: RasterFormat::Png, meaning }) => {
-            let behind = match meaning {
-                Meaning::Risk => io::png::Behind::Black,
-                Meaning::Target => io::png::Behind::White,
-            };
-            Ok(Some(io::png::read(path, domain, behind)?))
+    let read = |(layer, placed): (&LayerSpec, Option<Raster>)| match raster_file(layer) {
+        Some(RasterFile { path, format: RasterFormat::Png, bounds }) => {
+            let behind = if layer.is_risk() { io::png::Behind::Black } else { io::png::Behind::White };
+            Ok(Some(io::png::read(path, bounds.unwrap_or(domain), behind)?))
         }
         _ => Ok(placed),
     };
-    request.sources.iter().zip(placed).map(read).collect()
+    visible(request).zip(placed).map(read).collect()
 }
 
 /// The domain that is asked for, with the names and the unit that its file has; if none is, the rectangle
@@ -146,7 +176,7 @@ fn field_spec(
     let coarse_diameter = bisection_edge_length(lattice.spacing(), 0);
     let transfer = transfer(request, coarse_diameter);
     let size = field_size(request, &rasters, lattice.bounds());
-    let sources = request.sources.iter().zip(rasters).map(|(spec, raster)| source(spec, raster, &transfer));
+    let sources = visible(request).zip(rasters).map(|(layer, raster)| source(layer, raster, &transfer));
     let sources = sources.collect::<Result<_, _>>()?;
     Ok(TargetFieldSpec { sources, transfer, unasked: request.h_max.unwrap_or(coarse_diameter), size })
 }
@@ -159,25 +189,51 @@ fn transfer(request: &MeshRequest, coarse_diameter: f64) -> Transfer {
     Transfer { h_min, h_max: request.h_max.unwrap_or(widest), shape: request.transfer_shape }
 }
 
-fn source(spec: &SourceSpec, raster: Option<Raster>, transfer: &Transfer) -> Result<Source, Failure> {
-    Ok(match (spec, raster) {
-        (SourceSpec::Target(formula), _) => Source::TargetFormula(formula.clone()),
-        (SourceSpec::Risk(formula), _) => Source::RiskFormula(formula.clone()),
-        (SourceSpec::Raster(spec), Some(raster)) => match spec.meaning {
-            Meaning::Target => Source::TargetRaster(Arc::new(diameters(spec, raster, transfer))),
-            Meaning::Risk => Source::RiskRaster(Arc::new(risks(spec, raster)?)),
-        },
-        (SourceSpec::Raster(_), None) => {
-            unreachable!("every raster was read, by its placement or as an image")
+fn source(layer: &LayerSpec, raster: Option<Raster>, transfer: &Transfer) -> Result<Source, Failure> {
+    Ok(match (&layer.kind, raster) {
+        (KindSpec::Formula { quantity: Quantity::Diameter, formula }, _) => {
+            Source::TargetFormula(formula.clone())
         }
+        (KindSpec::Formula { quantity: Quantity::Risk, formula }, _) => Source::RiskFormula(formula.clone()),
+        (KindSpec::Raster { raster: file, reading: RasterReading::Risk }, Some(raster)) => {
+            Source::RiskRaster(Arc::new(risks(&file.path, raster)?))
+        }
+        (KindSpec::Raster { raster: file, reading: RasterReading::Diameter }, Some(raster)) => {
+            Source::TargetRaster(Arc::new(diameters(file.format, raster, transfer)))
+        }
+        (KindSpec::Raster { reading: RasterReading::Curve(knots), .. }, Some(raster)) => {
+            let asked = |value: f32| f32_not_below(on_curve(knots, f64::from(value)));
+            Source::TargetRaster(Arc::new(mapped(raster, asked)))
+        }
+        (KindSpec::Band { between: [least, greatest], diameter, .. }, Some(raster)) => {
+            let band = *least..=*greatest;
+            let asked = |value: f32| if band.contains(&f64::from(value)) { *diameter } else { f64::INFINITY };
+            Source::TargetRaster(Arc::new(mapped(raster, |value| f32_not_below(asked(value)))))
+        }
+        _ => unreachable!("`check_supported` lets other layers through to nobody, and every raster was read"),
     })
+}
+
+/// The diameter for a value of a raster, linear between the knots; NaN asks for nothing.
+fn on_curve(knots: &[[f64; 2]], value: f64) -> f64 {
+    if value.is_nan() {
+        return f64::INFINITY;
+    }
+    match knots.partition_point(|knot| knot[0] <= value) {
+        0 => knots[0][1],
+        last if last == knots.len() => knots[last - 1][1],
+        next => {
+            let ([from, h0], [to, h1]) = (knots[next - 1], knots[next]);
+            h0 + (h1 - h0) * ((value - from) / (to - from))
+        }
+    }
 }
 
 /// Lengths in world units. An image's grey is mapped linearly from `h_min` (black) to `h_max` (white); pixels
 /// without a value ask for nothing.
-fn diameters(spec: &RasterSpec, raster: Raster, transfer: &Transfer) -> Raster {
+fn diameters(format: RasterFormat, raster: Raster, transfer: &Transfer) -> Raster {
     let Transfer { h_min, h_max, .. } = *transfer;
-    let length = |value: f32| match spec.format {
+    let length = |value: f32| match format {
         _ if value.is_nan() => f32::INFINITY,
         RasterFormat::Png => f32_not_below(h_min + f64::from(value) * (h_max - h_min)),
         RasterFormat::Asc => value,
@@ -186,11 +242,11 @@ fn diameters(spec: &RasterSpec, raster: Raster, transfer: &Transfer) -> Raster {
 }
 
 /// Risks from 0 to 1; pixels without a value have none.
-fn risks(spec: &RasterSpec, raster: Raster) -> Result<Raster, Failure> {
+fn risks(path: &Path, raster: Raster) -> Result<Raster, Failure> {
     let raster = mapped(raster, |value| if value.is_nan() { 0.0 } else { value });
     if let Some((x, y)) = raster.all().pixels().find(|&(x, y)| !(0.0..=1.0).contains(&raster.get(x, y))) {
         let (value, at) = (raster.get(x, y), raster.pixel_center(x, y));
-        let problem = format!("{}: the risk is {value} at x = {}, y = {}", spec.path.display(), at.x, at.y);
+        let problem = format!("{}: the risk is {value} at x = {}, y = {}", path.display(), at.x, at.y);
         return Err(Failure::Work(format!("{problem}; it must lie from 0 to 1. Scale the values first.")));
     }
     Ok(raster)
@@ -223,9 +279,9 @@ fn field_size(request: &MeshRequest, rasters: &[Option<Raster>], domain: Rect) -
 
 /// Notes for the user: rasters that do not meet the domain.
 fn notes(request: &MeshRequest, rasters: &[Option<Raster>], domain: Rect) -> Vec<String> {
-    let beyond = |(spec, raster): (&SourceSpec, &Option<Raster>)| match (spec, raster) {
-        (SourceSpec::Raster(spec), Some(raster)) if raster.bounds().intersection(&domain).is_none() => {
-            let (path, Rect { min, max }) = (spec.path.display(), raster.bounds());
+    let beyond = |(layer, raster): (&LayerSpec, &Option<Raster>)| match (raster_file(layer), raster) {
+        (Some(file), Some(raster)) if raster.bounds().intersection(&domain).is_none() => {
+            let (path, Rect { min, max }) = (file.path.display(), raster.bounds());
             Some(format!(
                 "{path} covers {}, {} to {}, {} and does not meet the domain.",
                 min.x, min.y, max.x, max.y
@@ -233,5 +289,5 @@ fn notes(request: &MeshRequest, rasters: &[Option<Raster>], domain: Rect) -> Vec
         }
         _ => None,
     };
-    request.sources.iter().zip(rasters).filter_map(beyond).collect()
+    visible(request).zip(rasters).filter_map(beyond).collect()
 }

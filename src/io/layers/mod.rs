@@ -12,6 +12,7 @@
 //! | `"distance"` | `to`, `file` or `shapes`; `at_zero`, `slope`, `range` |
 //! | `"band"` | `file`, `bounds`, `between`, `diameter` |
 
+mod check_layer;
 mod checks;
 mod fault;
 mod saved;
@@ -19,10 +20,11 @@ mod spec;
 #[cfg(test)]
 mod tests;
 
+pub use check_layer::compiled;
 pub use checks::{positive_length, rect_of};
 pub use fault::{KeyFault, Mark, Step};
-pub use saved::{SavedLayer, SavedShape, SavedThreat};
+pub use saved::{SavedKind, SavedLayer, SavedShape, SavedThreat};
 pub use spec::{
-    DistanceTo, FindFile, KindSpec, LayerSpec, MaskSpec, RasterFile, RasterReading, ShapeSpec, ThreatsSpec,
-    compiled,
+    DistanceTo, FindFile, KindSpec, LayerSpec, MaskSpec, RasterFile, RasterFormat, RasterReading, ShapeSpec,
+    ThreatsSpec,
 };

@@ -28,7 +28,7 @@ fn every_kind_is_read_from_its_keys() {
         (r#"{ "kind": "paint", "quantity": "diameter" }"#, "Paint { quantity: Diameter, from: None }"),
         (
             r#"{ "kind": "raster", "file": "depth.asc", "curve": [[0, 0.1], [50, 2]] }"#,
-            "Raster { raster: RasterFile { path: \"depth.asc\", bounds: None }, reading: Curve([[0.0, 0.1], [50.0, 2.0]]) }",
+            "Raster { raster: RasterFile { path: \"depth.asc\", format: Asc, bounds: None }, reading: Curve([[0.0, 0.1], [50.0, 2.0]]) }",
         ),
         (
             r#"{ "kind": "threats", "threats": [{ "x": 1, "y": 2, "range": 3 }] }"#,
@@ -44,7 +44,7 @@ fn every_kind_is_read_from_its_keys() {
         ),
         (
             r#"{ "kind": "band", "file": "depth.asc", "between": [-20, 0], "diameter": 0.5 }"#,
-            "Band { raster: RasterFile { path: \"depth.asc\", bounds: None }, between: [-20.0, 0.0], diameter: 0.5 }",
+            "Band { raster: RasterFile { path: \"depth.asc\", format: Asc, bounds: None }, between: [-20.0, 0.0], diameter: 0.5 }",
         ),
     ] {
         assert_eq!(format!("{:?}", checked(json).unwrap().kind), expected, "{json}");

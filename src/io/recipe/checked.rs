@@ -107,6 +107,7 @@ impl Recipe {
         let inside = domain.inside.as_deref().map(|text| compiled("inside", text)).transpose();
         let spec = |(index, layer): (usize, &SavedLayer)| {
             let checked = layer.checked(find).and_then(with_paint);
+            let checked = checked.and_then(|layer| with_scale(layer, limits));
             checked.map_err(|fault| fault.within(Step::Index(index)).within(Step::Key("layer")))
         };
         let folder = text.file().parent();
@@ -147,6 +148,16 @@ fn with_paint(layer: LayerSpec) -> Result<LayerSpec, KeyFault> {
         )),
         _ => Ok(layer),
     }
+}
+
+/// Refuses a layer that needs the scale from `h_min` to `h_max` where that has no lower end.
+fn with_scale(layer: LayerSpec, limits: &SavedLimits) -> Result<LayerSpec, KeyFault> {
+    if limits.h_min.is_some() || !layer.uses_scale() {
+        return Ok(layer);
+    }
+    let sentence = "risk and images need `h_min` in the table [limits]: the target diameter where the risk is 1 \
+                    or the image black.";
+    Err(KeyFault::entry("kind", sentence))
 }
 
 fn check_domain(domain: &SavedDomain) -> Result<(), KeyFault> {

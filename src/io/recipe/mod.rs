@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 
 use super::error::PlacedFlaw;
 use super::{Flaw, ReadError};
-pub use checked::{OutputSpec, Recipe};
+pub use checked::{OutputSpec, Recipe, checked_gradation};
 pub use saved::{
     SavedDomain, SavedLimits, SavedMesh, SavedName, SavedOutput, SavedParts, SavedRecipe, SavedRule,
     SavedTreatment, SavedUnit,

@@ -1,0 +1,257 @@
+//! Recipes, run by the program itself.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use meshbrush::internals::io::recipe::parse;
+use serde_json::Value;
+
+/// A folder of its own for each test, removed at the end.
+struct Folder(PathBuf);
+
+impl Folder {
+    fn new(name: &str) -> Self {
+        let path =
+            Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("recipe-{name}-{}", std::process::id()));
+        fs::create_dir_all(path.join("sub")).unwrap();
+        Self(path)
+    }
+
+    fn file(&self, name: &str, content: impl AsRef<[u8]>) {
+        fs::write(self.0.join(name), content).unwrap();
+    }
+
+    fn has(&self, name: &str) -> bool {
+        self.0.join(name).exists()
+    }
+
+    /// Exit status, standard output and standard error of the program with arguments parted by spaces.
+    fn run(&self, arguments: &str) -> (i32, String, String) {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_meshbrush"));
+        let words = arguments.split('\'').enumerate().flat_map(|(n, part)| match n % 2 {
+            0 => part.split_whitespace().collect(),
+            _ => vec![part],
+        });
+        let ran = command.current_dir(&self.0).args(words).output().unwrap();
+        let text = |bytes| String::from_utf8(bytes).unwrap();
+        (ran.status.code().unwrap(), text(ran.stdout), text(ran.stderr))
+    }
+
+    fn json(&self, arguments: &str) -> Value {
+        let (status, out, err) = self.run(&format!("mesh --json {arguments}"));
+        assert_eq!(status, 0, "{arguments}: {err}");
+        serde_json::from_str(&out).unwrap()
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        let _ = fs::remove_dir_all(&self.0);
+    }
+}
+
+/// A grid of 4 × 4 values over [0, 4]², the lower left one 0, the others 1, and one pixel without a value.
+const GRID: &str = "ncols 4\nnrows 4\nxllcorner 0\nyllcorner 0\ncellsize 1\nNODATA_value -9\n\
+                    1 1 1 -9\n1 1 1 1\n1 1 1 1\n0 1 1 1\n";
+
+#[test]
+fn a_recipe_gives_the_mesh_of_the_options() {
+    let folder = Folder::new("alike");
+    folder.file("sub/grid.asc", GRID);
+    let square = "{\"type\":\"Polygon\",\"coordinates\":[[[0,0],[4,0],[4,3],[0,4],[0,0]]]}";
+    folder.file("sub/square.geojson", square);
+    for (recipe, options) in [
+        ("", ""),
+        (
+            "[domain]\nbounds = [-10, -10, 10, 10]\n[mesh]\nspacing = 1\n[[layer]]\nkind = \"formula\"\n\
+             quantity = \"diameter\"\nformula = \"if(abs(x)+abs(y)<8, 0.25, 20)\"",
+            "--domain -10,-10,10,10 --spacing 1 --target 'if(abs(x)+abs(y)<8, 0.25, 20)'",
+        ),
+        (
+            "[domain]\nbounds = [0, 0, 4, 4]\ninside = \"x < 2\"\n[mesh]\nrule = \"area\"\nmax_level = 5\n[limits]\n\
+             h_min = 0.05\nh_max = 1\nshape = 2\n[[layer]]\nkind = \"formula\"\nquantity = \"risk\"\nformula = \"x/4\"",
+            "--domain 0,0,4,4 --inside 'x < 2' --rule area --max-level 5 --h-min 0.05 --h-max 1 --transfer-shape 2 \
+             --risk x/4",
+        ),
+        (
+            "[limits]\nh_min = 0.05\nh_max = 1\n[[layer]]\nkind = \"raster\"\nfile = \"grid.asc\"\nas = \"risk\"",
+            "--h-min 0.05 --h-max 1 --risk-raster sub/grid.asc",
+        ),
+        (
+            "[domain]\nregion = \"square.geojson\"\nboundary = \"fitted\"\nboundary_diameter = 0.1\nparts = \"all\"\n\
+             keep_pinches = true\n[mesh]\nspacing = 1",
+            "--region sub/square.geojson --boundary fitted --boundary-diameter 0.1 --parts all --keep-pinches --spacing 1",
+        ),
+    ] {
+        folder.file("sub/recipe.toml", recipe);
+        let (by_recipe, by_options) = (folder.json("sub/recipe.toml"), folder.json(options));
+        for key in ["hash", "triangles", "spacing", "rule", "resolution", "parts"] {
+            assert_eq!(by_recipe[key], by_options[key], "{key} of {recipe}");
+        }
+    }
+}
+
+const REFERENCE: &str = include_str!("../docs/recipe.md");
+
+#[test]
+fn the_reference_has_an_example_that_is_valid_and_every_key() {
+    let example = REFERENCE.split("```toml\n").nth(1).unwrap().split("```").next().unwrap();
+    let find = |name: &str| Ok(name.into());
+    let recipe = parse(Path::new("strait.toml"), example.into(), &find).unwrap();
+    assert_eq!((recipe.layers.len(), recipe.outputs.len()), (4, 2));
+    // The message about a key that does not exist lists those that do.
+    for table in ["[{}]", "[domain]", "[mesh]", "[limits]", "[[layer]]", "[[output]]"] {
+        let text = table.replace("[{}]", "") + "\nqqqqqqqqqqqqqqqqqqqq = 1";
+        let error = parse(Path::new("a.toml"), text, &find).unwrap_err().to_string();
+        let (_, keys) = error.split_once("the keys here are ").expect(table);
+        for key in keys.split(".\n").next().unwrap().split(", ") {
+            let is_mentioned =
+                [format!("`{key}`"), format!("[{key}]")].iter().any(|key| REFERENCE.contains(key));
+            assert!(is_mentioned, "{key} of {table}");
+        }
+    }
+}
+
+/// What a curve and a band ask for is also asked for by a formula with the same steps.
+#[test]
+fn curves_and_bands_ask_for_diameters() {
+    let folder = Folder::new("curve");
+    folder.file("grid.asc", GRID);
+    let formula = "[domain]\nbounds = [0, 0, 4, 4]\n[mesh]\nrule = \"area\"\nspacing = 1\n[[layer]]\nkind = \
+                   \"formula\"\nquantity = \"diameter\"\n";
+    folder.file("want.toml", format!("{formula}formula = \"if(x < 1 and y < 1, 0.1, 2)\""));
+    let want = folder.json("want.toml");
+    assert!(want["triangles"].as_u64() > Some(300));
+    for layer in [
+        "kind = \"raster\"\ncurve = [[0, 0.1], [0.5, 2]]",
+        "kind = \"band\"\nbetween = [-1, 0.5]\ndiameter = 0.1",
+    ] {
+        let text = format!("[mesh]\nspacing = 1\n[[layer]]\nfile = \"grid.asc\"\n{layer}\n");
+        folder.file("got.toml", text);
+        let got = folder.json("got.toml");
+        // A formula is sampled by its own pixels, whose rim is not the grid's: the counts are near.
+        let (got, want) = (got["triangles"].as_f64().unwrap(), want["triangles"].as_f64().unwrap());
+        assert!((got / want - 1.0).abs() < 0.1, "{layer}: {got} beside {want}");
+    }
+}
+
+#[test]
+fn the_files_of_a_recipe_lie_beside_it() {
+    let folder = Folder::new("outputs");
+    let recipe = "[[output]]\nfile = \"m.csv\"\nquantities = [\"twice = 2*x\"]\n[[output]]\nfile = \"m.png\"\n\
+                  size = \"80x60\"\nedges = false\ncolormap = \"magma\"\n";
+    folder.file("sub/recipe.toml", recipe);
+    let (status, _, err) = folder.run("mesh sub/recipe.toml -o own.csv --quantity x --max-triangles 10000");
+    assert_eq!(status, 0, "{err}");
+    assert!(["sub/m.csv", "sub/m.png", "own.csv"].iter().all(|name| folder.has(name)), "{err}");
+    let header = |name| fs::read_to_string(folder.0.join(name)).unwrap().lines().next().unwrap().to_owned();
+    assert!(header("sub/m.csv").ends_with("twice1,twice2,twice3"));
+    assert!(header("own.csv").ends_with("quantity1,quantity2,quantity3"));
+    folder.file("p.csv", "x,y\n0.5,0.5\n");
+    let (status, out, err) = folder.run("locate sub/recipe.toml --points p.csv");
+    assert!(status == 0 && out.contains("0.5,0.5,"), "{err}");
+}
+
+#[test]
+fn mistakes_are_reported_with_line_and_column() {
+    let folder = Folder::new("mistakes");
+    folder.file("a.png", "no picture");
+    for (recipe, arguments, expected_status, expected) in [
+        ("[[output]]\nfile = \"m.xyz\"", "", 1, "r.toml, line 2, column 8: "),
+        ("[[output]]\nfile = \"-\"", "", 1, "r.toml, line 2, column 8: "),
+        ("[[output]]\nfile = \"m.png\"\nsize = \"big\"", "", 1, "r.toml, line 3, column 8: write a width"),
+        ("[[output]]\nfile = \"m.png\"\ncolormap = \"pink\"", "", 1, "r.toml, line 3, column 12: "),
+        (
+            "[[output]]\nfile = \"m.csv\"\nquantities = [\"x\", \"y = 2\", \"y=3\"]",
+            "",
+            1,
+            "r.toml, line 3, column 29: the name y is taken",
+        ),
+        (
+            "[[output]]\nfile = \"m.csv\"\nquantities = [\"a = sqr(x)\"]",
+            "",
+            1,
+            "r.toml, line 3, column 15: There",
+        ),
+        (
+            "[mesh]\nspacng = 1",
+            "",
+            1,
+            "r.toml, line 2, column 1: there is no key `spacng` here; did you mean",
+        ),
+        (
+            "[[layer]]\nkind = \"band\"\nfile = \"gone.asc\"",
+            "",
+            1,
+            "r.toml, line 3, column 1: the file gone.asc cannot be found",
+        ),
+        (
+            "[limits]\nh_min = 1\n[[layer]]\nkind = \"raster\"\nfile = \"a.png\"\nas = \"risk\"",
+            "",
+            1,
+            "a.png: this is not a PNG",
+        ),
+        (
+            "[[output]]\nfile = \"r.toml.svg\"\n[[output]]\nfile = \"none/a.svg\"",
+            "",
+            1,
+            "none/a.svg cannot be written",
+        ),
+        ("", "--target 1", 2, "cannot be used with"),
+        ("", "--gradation 1", 2, "cannot be used with"),
+        // 10¹² triangles, and more than any lattice has.
+        (
+            "[[layer]]\nkind = \"formula\"\nquantity = \"diameter\"\nformula = \"1e-6\"",
+            "--max-triangles 100000",
+            1,
+            "100,000",
+        ),
+        ("[mesh]\nspacing = 1e-6", "", 1, "spacing"),
+    ] {
+        folder.file("r.toml", recipe);
+        let (status, _, err) = folder.run(&format!("mesh r.toml {arguments}"));
+        assert_eq!(status, expected_status, "{recipe}: {err}");
+        assert!(err.contains(expected), "{recipe} gave {err}");
+        assert!(!err.contains("panicked"), "{err}");
+    }
+    folder.file("latin.toml", b"# na\xefve\n");
+    for (arguments, status, expected) in [
+        ("gone.toml", 1, "gone.toml: cannot be read"),
+        ("latin.toml", 1, "latin.toml, line 1: this is not UTF-8 text"),
+        (
+            "coast.geojson",
+            2,
+            "its name ends with .toml. Name a project with --project, and a domain with --region.",
+        ),
+    ] {
+        let (got, _, err) = folder.run(&format!("mesh {arguments}"));
+        assert_eq!(got, status, "{err}");
+        assert!(err.contains(expected), "{err}");
+    }
+}
+
+#[test]
+fn options_on_layers_are_checked() {
+    let folder = Folder::new("options");
+    for (options, expected) in [
+        ("--gradation 0", "--gradation: a gradation of 0 cannot be kept: it must be positive and finite"),
+        ("--gradation -1", "--gradation: a gradation of -1"),
+        ("--gradation NaN", "--gradation: a gradation of NaN"),
+        (
+            "--distance a.geojson",
+            "--distance a.geojson: at distance 0 there is no target diameter. Give it with",
+        ),
+        ("--distance a.geojson --distance-at-zero 0", "--distance-at-zero 0: a length must be positive"),
+        ("--distance a.geojson --h-min 1 --distance-slope -1", "--distance-slope -1: the growth"),
+        ("--distance a.geojson --h-min 1 --distance-slope NaN", "--distance-slope NaN: the growth"),
+        ("--distance a.geojson --h-min 1 --distance-range 0", "--distance-range 0: a length must be"),
+        ("--distance-slope 1", "--distance <FILE.geojson>"),
+        ("--threats a.csv", "Risk and images need --h-min"),
+        ("--project a.meshbrush --threats a.csv", "cannot be used with"),
+    ] {
+        let (status, _, err) = folder.run(&format!("mesh {options}"));
+        assert_eq!(status, 2, "{options}: {err}");
+        assert!(err.contains(expected), "{options} gave {err}");
+    }
+}
