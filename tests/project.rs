@@ -391,7 +391,7 @@ fn errors_in_settings_name_their_place() {
     let cases: &[(&str, &str, &[&str])] = &[
         ("\"version\": 1", "\"version\": 1, \"seasons\": 4", &["line 3", "seasons"]),
         ("\"spacing\"", "\"spacing\": 1e999, \"spacings\"", &["settings.json"]),
-        ("\"columns\": 2", "\"columns\": 100000", &["100,000 × 2", "8,192"]),
+        ("\"columns\": 2", "\"columns\": 100000", &["100,000 × 2", "65,536"]),
         ("\"columns\": 2", "\"columns\": 8192", &["base.risk", "checksum"]),
         ("\"columns\": 2", "\"columns\": 1", &["base.risk", "8 is the limit"]),
         ("\"resolution\": 16", "\"resolution\": 4000000000", &["4,000,000,000", "2,048"]),

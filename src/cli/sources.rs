@@ -263,7 +263,8 @@ fn field_size(request: &MeshRequest, rasters: &[Option<Raster>], domain: Rect) -
     let own: Vec<[u32; 2]> =
         rasters.iter().flatten().filter(|r| r.bounds() == domain).map(Raster::size).collect();
     let alike = own.len() == rasters.len() && own.windows(2).all(|pair| pair[0] == pair[1]);
-    if let (None, true, Some(&size)) = (request.resolution, alike, own.first()) {
+    let fits = |size: &[u32; 2]| size.iter().all(|&side| side <= MAX_SIDE);
+    if let (None, true, Some(&size)) = (request.resolution, alike, own.first().filter(|size| fits(size))) {
         return size;
     }
     let extent = domain.size();

@@ -12,17 +12,29 @@ use std::path::Path;
 use glam::DVec2;
 
 use super::error::PlacedFlaw;
-use super::{Flaw, ReadError};
+use super::rows::reverse_rows;
+use super::{Flaw, Meter, ReadError};
 use crate::geometry::Rect;
-use crate::raster::{MAX_SIDE, Raster};
+use crate::raster::{LONGEST_SIDE, Raster, is_raster_size};
 
 /// Reads a grid. Pixels without a value (`NODATA_value`, and `nan` as GDAL writes it) are NaN.
 ///
 /// # Errors
-/// When the file cannot be read, breaks a rule of the format (with the line), or has more than [`MAX_SIDE`]
-/// pixels along a side.
+/// When the file cannot be read, breaks a rule of the format (with the line), or has too many pixels for a
+/// raster.
 pub fn read(path: &Path) -> Result<Raster, ReadError> {
-    let read = File::open(path).map_err(PlacedFlaw::from).and_then(|file| parse(BufReader::new(file)));
+    read_metered(path, &Meter::default())
+}
+
+/// Reads a grid as [`read`] does, and counts the bytes of the file.
+///
+/// # Errors
+/// As [`read`], and when the work was cancelled.
+pub fn read_metered(path: &Path, meter: &Meter) -> Result<Raster, ReadError> {
+    let read = File::open(path).map_err(PlacedFlaw::from).and_then(|file| {
+        meter.expect(file.metadata()?.len());
+        parse(BufReader::with_capacity(1 << 16, meter.count(file)))
+    });
     read.map_err(|flaw| flaw.in_file(path))
 }
 
@@ -35,30 +47,30 @@ pub fn from_bytes(bytes: &[u8], name: &Path) -> Result<Raster, ReadError> {
 }
 
 fn parse(source: impl BufRead) -> Result<Raster, PlacedFlaw> {
-    let mut words = Words { source, line: 1 };
-    let (header, first_value) = Header::parse(&mut words)?;
+    let mut words = Words { source, line: 1, word: String::new() };
+    let header = Header::parse(&mut words)?;
     let [columns, rows] = header.size()?;
     let bounds = header.bounds([columns, rows])?;
     let no_data = header.number("nodata_value");
     let has_value = |value: f64| !value.is_nan() && Some(value) != no_data;
     let count = columns as usize * rows as usize;
     // Grows with the values in the file: a header alone takes no memory.
-    let mut values = Vec::new();
-    let mut next = Some(first_value);
-    while let Some(word) = next {
+    let mut values: Vec<f32> = Vec::new();
+    let mut has_word = true;
+    while has_word {
         if values.len() == count {
             let problem = format!("there are more values than {columns} columns × {rows} rows");
             return Err(Flaw::Syntax(problem + "; check ncols and nrows.").at(words.line));
         }
-        let value = number(&word, words.line)?;
+        let value = number(words.text(), words.line)?;
         values.push(if has_value(value) { single(value, words.line)? } else { f32::NAN });
-        next = words.next()?;
+        has_word = words.advance()?;
     }
     if values.len() < count {
         return Err(Flaw::CutOff.at(words.line));
     }
-    let bottom_row_first = values.chunks_exact(columns as usize).rev().flatten().copied().collect();
-    Ok(Raster::from_values(bounds, [columns, rows], bottom_row_first))
+    reverse_rows(&mut values, columns);
+    Ok(Raster::from_values(bounds, [columns, rows], values))
 }
 
 /// The names of the header in lower case, with their numbers.
@@ -78,15 +90,15 @@ const NAMES: [&str; 10] = [
 ];
 
 impl Header {
-    /// Reads names and numbers up to the first number in the place of a name, which is the first value;
-    /// returns it, too.
-    fn parse(words: &mut Words<impl BufRead>) -> Result<(Self, String), PlacedFlaw> {
+    /// Reads names and numbers up to the first number in the place of a name. That is the first value; it
+    /// stays the current word.
+    fn parse(words: &mut Words<impl BufRead>) -> Result<Self, PlacedFlaw> {
         let mut known = HashMap::new();
         loop {
-            let name = words.required()?;
+            let name = words.required()?.to_owned();
             let is_nan = name.eq_ignore_ascii_case("nan");
             if is_nan || name.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c)) {
-                return Ok((Self(known), name));
+                return Ok(Self(known));
             }
             let lower = name.to_ascii_lowercase();
             if !NAMES.contains(&lower.as_str()) {
@@ -95,7 +107,7 @@ impl Header {
                 return Err(Flaw::Syntax(problem + " ncols, nrows, xllcorner, yllcorner and cellsize.")
                     .at(words.line));
             }
-            let value = words.required()?;
+            let value = words.required()?.to_owned();
             // Each name is allowed once, so the loop is bounded by the list of names.
             let number = number(&value, words.line)?;
             if number.is_nan() && lower != "nodata_value" {
@@ -120,7 +132,8 @@ impl Header {
         if let Some(&side) = size.iter().find(|side| side.fract() != 0.0 || **side < 0.0) {
             return Err(Flaw::Syntax(format!("ncols and nrows are whole numbers, and {side} is not.")));
         }
-        if size.iter().any(|&side| !(1.0..=f64::from(MAX_SIDE)).contains(&side)) {
+        let longest = f64::from(LONGEST_SIDE);
+        if size.iter().any(|&side| side > longest) || !is_raster_size(size.map(|side| side as u32)) {
             return Err(Flaw::Size { columns: size[0] as u64, rows: size[1] as u64 });
         }
         Ok(size.map(|side| side as u32))
@@ -174,6 +187,8 @@ struct Words<R> {
     source: R,
     /// The line of the last word, counted from one.
     line: usize,
+    /// The current word.
+    word: String,
 }
 
 /// Longer than any number that a program writes, in bytes. Without a limit a file without white space would
@@ -181,35 +196,62 @@ struct Words<R> {
 const LONGEST_WORD: usize = 400;
 
 impl<R: BufRead> Words<R> {
-    fn required(&mut self) -> Result<String, PlacedFlaw> {
-        self.next()?.ok_or_else(|| Flaw::CutOff.at(self.line))
+    /// The current word.
+    fn text(&self) -> &str {
+        &self.word
     }
 
-    /// The next word, `None` at the end of the file.
-    fn next(&mut self) -> Result<Option<String>, PlacedFlaw> {
-        let mut word = Vec::new();
-        // Each iteration consumes a byte or stops, and the end of the file stops it, too.
-        while let Some(&byte) = self.source.fill_buf()?.first() {
-            if byte.is_ascii_whitespace() {
-                if !word.is_empty() {
-                    break; // a line break after the word is counted with the next word
-                }
-                self.line += usize::from(byte == b'\n');
-            } else {
-                word.push(byte);
-            }
-            self.source.consume(1);
-            if word.len() > LONGEST_WORD {
+    /// Goes to the next word and returns it.
+    fn required(&mut self) -> Result<&str, PlacedFlaw> {
+        if self.advance()? { Ok(&self.word) } else { Err(Flaw::CutOff.at(self.line)) }
+    }
+
+    /// Goes to the next word. Returns whether there is one.
+    fn advance(&mut self) -> Result<bool, PlacedFlaw> {
+        self.skip_white_space()?;
+        let mut word = std::mem::take(&mut self.word).into_bytes();
+        word.clear();
+        // Each iteration takes a whole buffer or stops, and the end of the file stops it, too.
+        loop {
+            let bytes = self.source.fill_buf()?;
+            let end = bytes.iter().position(u8::is_ascii_whitespace);
+            let part = end.unwrap_or(bytes.len());
+            word.extend_from_slice(&bytes[..part.min(LONGEST_WORD + 1)]);
+            let is_last = bytes.is_empty() || end.is_some() || word.len() > LONGEST_WORD;
+            self.source.consume(part);
+            if is_last {
                 break;
             }
         }
-        let text = String::from_utf8_lossy(&word);
-        if word.len() > LONGEST_WORD || word.contains(&0) {
-            let start: String = text.chars().take(20).collect();
-            let problem = format!("`{}…` is not a word of an ESRI ASCII grid.", start.escape_debug());
-            return Err(Flaw::Syntax(problem).at(self.line));
+        match String::from_utf8(word) {
+            Ok(word) if word.len() <= LONGEST_WORD && !word.contains('\0') => {
+                self.word = word;
+                Ok(!self.word.is_empty())
+            }
+            Ok(other) => Err(self.not_a_word(&other)),
+            Err(other) => Err(self.not_a_word(&String::from_utf8_lossy(other.as_bytes()))),
         }
-        Ok((!word.is_empty()).then(|| text.into_owned()))
+    }
+
+    /// Goes to the next byte of a word, and counts lines.
+    fn skip_white_space(&mut self) -> Result<(), PlacedFlaw> {
+        loop {
+            let bytes = self.source.fill_buf()?;
+            let end = bytes.iter().position(|byte| !byte.is_ascii_whitespace());
+            let white = end.unwrap_or(bytes.len());
+            self.line += bytes[..white].iter().filter(|&&byte| byte == b'\n').count();
+            let is_last = bytes.is_empty() || end.is_some();
+            self.source.consume(white);
+            if is_last {
+                return Ok(());
+            }
+        }
+    }
+
+    fn not_a_word(&self, text: &str) -> PlacedFlaw {
+        let start: String = text.chars().take(20).collect();
+        let problem = format!("`{}…` is not a word of an ESRI ASCII grid.", start.escape_debug());
+        Flaw::Syntax(problem).at(self.line)
     }
 }
 
@@ -230,6 +272,30 @@ mod tests {
         assert_eq!(raster.size(), [3, 2]);
         assert_eq!((raster.get(0, 0), raster.get(2, 0), raster.get(0, 1)), (4.0, 6.0, 1.0));
         assert!(raster.get(1, 0).is_nan());
+    }
+
+    #[test]
+    fn words_may_lie_across_buffers() {
+        let text = "ncols 3\r\nnrows 2\nxllcorner 10.25\nyllcorner -4\n\ncellsize 2\n1.125 2 3e-2\n\t44 5 6";
+        let whole = parse(text.as_bytes()).unwrap();
+        for capacity in 1..20 {
+            assert_eq!(parse(BufReader::with_capacity(capacity, text.as_bytes())).unwrap(), whole);
+            let cut =
+                parse(BufReader::with_capacity(capacity, &text.as_bytes()[..text.len() - 2])).unwrap_err();
+            assert_eq!(cut.place, super::super::Place::Line(8), "{capacity}");
+        }
+    }
+
+    #[test]
+    fn a_row_may_be_longer_than_a_field_is_wide() {
+        let columns = 10_000;
+        let header = format!("ncols {columns} nrows 2 xllcorner 0 yllcorner 0 cellsize 1\n");
+        let raster = parsed(&(header + &"7 ".repeat(columns) + &"8 ".repeat(columns))).unwrap();
+        assert_eq!((raster.size(), raster.get(9_999, 0), raster.get(0, 1)), ([10_000, 2], 8.0, 7.0));
+        for size in ["ncols 65537 nrows 1", "ncols 20000 nrows 20000", "ncols 0 nrows 1"] {
+            let refused = parsed(&format!("{size} xllcorner 0 yllcorner 0 cellsize 1\n1")).unwrap_err();
+            assert!(refused.contains("pixels cannot be read") && refused.contains("65,536"), "{refused}");
+        }
     }
 
     #[test]

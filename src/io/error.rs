@@ -5,7 +5,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use super::Cancelled;
-use crate::raster::MAX_SIDE;
+use crate::raster::{LONGEST_SIDE, MOST_PIXELS};
 use crate::text::Grouped;
 
 /// Why a file could not be used: which file, where in it, and what is wrong there.
@@ -68,9 +68,10 @@ pub enum Flaw {
     Png(String),
     /// A raster with too many pixels, or none.
     #[error(
-        "{} × {} pixels cannot be read: a raster has 1 to {} pixels along each side. Scale it \
+        "{} × {} pixels cannot be read: a raster has 1 to {} pixels along each side, and at most {} in all. Scale it \
          first.",
-        Grouped(*columns as usize), Grouped(*rows as usize), Grouped(MAX_SIDE as usize)
+        Grouped(*columns as usize), Grouped(*rows as usize), Grouped(LONGEST_SIDE as usize),
+        Grouped(MOST_PIXELS as usize)
     )]
     Size {
         /// Columns, as announced.

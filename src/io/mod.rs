@@ -32,6 +32,7 @@ pub mod points;
 pub mod project;
 mod provenance;
 pub mod recipe;
+mod rows;
 pub mod sms;
 pub mod stl;
 pub mod svg;

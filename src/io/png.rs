@@ -6,14 +6,15 @@ use std::path::Path;
 
 use png::{
     BitDepth, ColorType, Compression, Decoder, DecodingError, Encoder, EncodingError, Filter, OutputInfo,
-    Transformations,
+    Reader, Transformations,
 };
 
 use super::error::PlacedFlaw;
+use super::rows::reverse_rows;
 use super::{Flaw, Meter, Provenance, ReadError};
 use crate::document::Picture;
 use crate::geometry::Rect;
-use crate::raster::{MAX_SIDE, Raster};
+use crate::raster::{Raster, is_raster_size};
 use crate::text::Grouped;
 
 /// The colour behind transparent pixels.
@@ -32,8 +33,8 @@ pub enum Behind {
 /// image is the last row of the raster.
 ///
 /// # Errors
-/// When the file cannot be read, is not a PNG image, is cut off, or has more than [`MAX_SIDE`] pixels along a
-/// side. The size is checked before memory is allocated.
+/// When the file cannot be read, is not a PNG image, is cut off, or has too many pixels for a raster. The
+/// size is checked before memory is allocated.
 pub fn read(path: &Path, bounds: Rect, behind: Behind) -> Result<Raster, ReadError> {
     read_metered(path, bounds, behind, &Meter::default())
 }
@@ -60,24 +61,50 @@ pub fn decode(source: impl BufRead + Seek, bounds: Rect, behind: Behind) -> Resu
     decoder.set_transformations(Transformations::EXPAND);
     let header = decoder.read_header_info()?;
     let size = [header.width, header.height];
-    if size.iter().any(|side| !(1..=MAX_SIDE).contains(side)) {
+    if !is_raster_size(size) {
         return Err(Flaw::Size { columns: size[0].into(), rows: size[1].into() });
     }
-    let (bytes, frame) = first_frame(decoder, size)?;
-    let samples = frame.color_type.samples();
-    let bytes_per_sample = if frame.bit_depth == BitDepth::Sixteen { 2 } else { 1 };
-    let pixel_bytes = samples * bytes_per_sample;
-    let mut values = Vec::with_capacity(size[0] as usize * size[1] as usize);
-    for row in bytes.chunks_exact(frame.line_size).rev() {
-        values.extend(row.chunks_exact(pixel_bytes).take(size[0] as usize).map(|pixel| {
-            let sample = |i: usize| match bytes_per_sample {
-                1 => f64::from(pixel[i]) / 255.0,
-                _ => f64::from(u16::from_be_bytes([pixel[2 * i], pixel[2 * i + 1]])) / 65535.0,
-            };
-            value(frame.color_type, sample, behind) as f32
-        }));
-    }
+    let mut values = top_row_first(decoder, size, behind)?;
+    reverse_rows(&mut values, size[0]);
     Ok(Raster::from_values(bounds, size, values))
+}
+
+/// The values of an image of [columns, rows], the top row first. Memory grows with the rows in the file.
+fn top_row_first<R: BufRead + Seek>(
+    decoder: Decoder<R>,
+    size: [u32; 2],
+    behind: Behind,
+) -> Result<Vec<f32>, Flaw> {
+    let mut values = Vec::new();
+    let mut take = |row: &[u8], (color, depth)| {
+        let pixels = row.chunks_exact(pixel_bytes(color, depth)).take(size[0] as usize);
+        values.extend(pixels.map(|pixel| value_of_pixel(pixel, color, depth, behind)));
+    };
+    let mut reader = checked_reader(decoder)?;
+    let format = reader.output_color_type();
+    if reader.info().interlaced {
+        // Every pass has pixels of many rows.
+        let (bytes, frame) = whole_frame(reader, size)?;
+        bytes.chunks_exact(frame.line_size).for_each(|row| take(row, format));
+        return Ok(values);
+    }
+    check_frame(&reader, size)?;
+    while let Some(row) = reader.next_row()? {
+        take(row.data(), format);
+    }
+    Ok(values)
+}
+
+fn pixel_bytes(color: ColorType, depth: BitDepth) -> usize {
+    color.samples() * if depth == BitDepth::Sixteen { 2 } else { 1 }
+}
+
+fn value_of_pixel(pixel: &[u8], color: ColorType, depth: BitDepth, behind: Behind) -> f32 {
+    let sample = |i: usize| match depth {
+        BitDepth::Sixteen => f64::from(u16::from_be_bytes([pixel[2 * i], pixel[2 * i + 1]])) / 65535.0,
+        _ => f64::from(pixel[i]) / 255.0,
+    };
+    value(color, sample, behind) as f32
 }
 
 /// Reads an image in colour, and counts the bytes of the file.
@@ -93,21 +120,34 @@ pub fn read_picture(path: &Path, meter: &Meter) -> Result<Picture, ReadError> {
     decoded.map_err(|flaw| flaw.in_file(path))
 }
 
-/// The samples of an image of [columns, rows], and their format.
-fn first_frame<R: BufRead + Seek>(
-    decoder: Decoder<R>,
-    size: [u32; 2],
-) -> Result<(Vec<u8>, OutputInfo), Flaw> {
-    let mut reader = decoder.read_info()?;
+/// A reader of the samples, after a check that the decoder needs.
+fn checked_reader<R: BufRead + Seek>(decoder: Decoder<R>) -> Result<Reader<R>, Flaw> {
+    let reader = decoder.read_info()?;
     // The decoder relies on three bytes for each colour.
     if reader.info().palette.as_ref().is_some_and(|palette| palette.len() % 3 != 0) {
         return Err(Flaw::Png("its palette is not a list of colours".into()));
     }
+    Ok(reader)
+}
+
+/// Checks that the first frame of an animation fills the image of [columns, rows].
+fn check_frame<R: BufRead + Seek>(reader: &Reader<R>, size: [u32; 2]) -> Result<(), Flaw> {
+    match reader.info().frame_control() {
+        Some(frame) if [frame.width, frame.height] != size => {
+            Err(Flaw::Png("its first frame does not fill the image".into()))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// The samples of an image of [columns, rows], and their format.
+fn whole_frame<R: BufRead + Seek>(
+    mut reader: Reader<R>,
+    size: [u32; 2],
+) -> Result<(Vec<u8>, OutputInfo), Flaw> {
+    check_frame(&reader, size)?;
     let mut bytes = vec![0; reader.output_buffer_size().ok_or(DecodingError::LimitsExceeded)?];
     let frame = reader.next_frame(&mut bytes)?;
-    if [frame.width, frame.height] != size {
-        return Err(Flaw::Png("its first frame does not fill the image".into()));
-    }
     Ok((bytes, frame))
 }
 
@@ -129,7 +169,7 @@ pub fn decode_picture(source: impl BufRead + Seek) -> Result<Picture, Flaw> {
             Grouped(size[1] as usize)
         )));
     }
-    let (mut bytes, frame) = first_frame(decoder, size)?;
+    let (mut bytes, frame) = whole_frame(checked_reader(decoder)?, size)?;
     bytes.truncate(frame.buffer_size());
     let rgba = match frame.color_type {
         ColorType::Rgba => bytes,

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::{PixelRect, Raster};
+use super::{MAX_SIDE, PixelRect, Raster};
 use crate::geometry::{Lattice, LatticePoint, LatticeRect};
 
 /// Maxima of a raster over squares of 1, 2 × 2, 4 × 4 … pixels.
@@ -168,7 +168,11 @@ pub struct RasterOnLattice {
 
 impl RasterOnLattice {
     /// For a raster of `size` = [columns, rows] over the bounds of `lattice`.
+    ///
+    /// # Panics
+    /// When a side is above [`MAX_SIDE`].
     pub fn new(lattice: &Lattice, size: [u32; 2]) -> Self {
+        assert!(size.iter().all(|&side| side <= MAX_SIDE), "products must fit 64 bits");
         let extent = lattice.extent();
         let [columns, rows] = size.map(i64::from);
         // 2^30 lattice steps times 2^13 columns times 2^13 rows: below 2^57, and sums of two below 2^58.

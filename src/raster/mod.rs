@@ -2,6 +2,7 @@
 //! and the max-mipmap, which finds the maximum under a triangle.
 
 mod max_mipmap;
+mod pyramid;
 mod ranges;
 mod tiled;
 
@@ -12,11 +13,25 @@ use glam::DVec2;
 use crate::geometry::Rect;
 
 pub use max_mipmap::{MaxMipmap, RasterOnLattice};
+pub use pyramid::{RasterPyramid, SquareValues};
 pub use ranges::{PixelGrid, ValueRange, ValueRanges, power_of_two};
 pub use tiled::{TILE, Tile, TilePlace, TiledRaster};
 
-/// Most pixels along a side of a raster: products of pixel and lattice coordinates then fit 64 bits.
+/// Most pixels along a side of a raster that is laid over a mesh: products of pixel and lattice coordinates
+/// then fit 64 bits.
 pub const MAX_SIDE: u32 = 8192;
+
+/// Most pixels along a side of any raster, such as one that is read from a file.
+pub const LONGEST_SIDE: u32 = 65_536;
+
+/// Most pixels of a raster.
+pub const MOST_PIXELS: u64 = 200_000_000;
+
+/// Whether a raster may have `size` = [columns, rows].
+pub fn is_raster_size(size: [u32; 2]) -> bool {
+    let pixels = u64::from(size[0]) * u64::from(size[1]);
+    size.iter().all(|side| (1..=LONGEST_SIDE).contains(side)) && pixels <= MOST_PIXELS
+}
 
 /// A half-open rectangle of pixels. Column 0 is the leftmost, row 0 the lowest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -90,7 +105,7 @@ impl<T: Copy> Raster<T> {
     /// A raster with the same value everywhere; `size` is [columns, rows].
     ///
     /// # Panics
-    /// When a side is zero or above [`MAX_SIDE`].
+    /// When [`is_raster_size`] is false.
     pub fn filled(bounds: Rect, size: [u32; 2], value: T) -> Self {
         Self::from_values(bounds, size, vec![value; size[0] as usize * size[1] as usize])
     }
@@ -98,12 +113,9 @@ impl<T: Copy> Raster<T> {
     /// A raster with the given values, row by row from the lowest; `size` is [columns, rows].
     ///
     /// # Panics
-    /// When a side is zero or above [`MAX_SIDE`], or the number of values is not columns times rows.
+    /// When [`is_raster_size`] is false, or the number of values is not columns times rows.
     pub fn from_values(bounds: Rect, size: [u32; 2], values: Vec<T>) -> Self {
-        assert!(
-            size.iter().all(|side| (1..=MAX_SIDE).contains(side)),
-            "sides are checked where a raster is read"
-        );
+        assert!(is_raster_size(size), "sizes are checked where a raster is read");
         assert_eq!(values.len(), size[0] as usize * size[1] as usize);
         Self { bounds, size, values }
     }

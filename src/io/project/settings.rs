@@ -14,7 +14,7 @@ use crate::domain::{BoundaryMarks, BoundaryTreatment, Domain, DomainShape, Polyg
 use crate::field::{Formula, RefinementRule, Transfer};
 use crate::geometry::Rect;
 use crate::mesh::{Cleaning, KeptParts, MOST_TRIANGLES};
-use crate::raster::{MAX_SIDE, Raster};
+use crate::raster::{Raster, is_raster_size};
 use crate::text::{Grouped, LengthUnit, Number};
 
 /// The fields that every version of the format has.
@@ -247,7 +247,7 @@ impl SavedRaster {
     /// The place and the size of the raster.
     fn checked(&self) -> Result<(Rect, [u32; 2]), PlacedFlaw> {
         let size = [self.columns, self.rows];
-        if size.iter().any(|side| !(1..=MAX_SIDE).contains(side)) {
+        if !is_raster_size(size) {
             return Err(Flaw::Size { columns: self.columns.into(), rows: self.rows.into() }.into());
         }
         Ok((rect("base", self.bounds)?, size))

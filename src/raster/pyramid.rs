@@ -1,0 +1,379 @@
+//! A raster with the range of its values over squares of any size.
+
+use glam::DVec2;
+
+use super::{PixelGrid, Raster, ValueRange, ValueRanges};
+use crate::geometry::Rect;
+
+/// A raster with the ranges of its values over squares of 4 × 4, 8 × 8 … pixels. Pixels without a value are
+/// NaN.
+///
+/// Beside the pixels, with four bytes each, the ranges take a sixth of that. Ranges over 2 × 2 pixels are
+/// found from the pixels.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RasterPyramid {
+    raster: Raster,
+    grid: PixelGrid,
+    /// The squares of scale 2, 3 …, up to a single one.
+    scales: Vec<Squares>,
+}
+
+/// The values in a part of a raster.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SquareValues {
+    /// The range of the values, if there are any.
+    pub range: Option<ValueRange>,
+    /// Whether some place has no value: a pixel without one, or a place beyond the raster.
+    pub has_gaps: bool,
+}
+
+/// The squares of one scale, row by row from the lowest.
+#[derive(Clone, Debug, PartialEq)]
+struct Squares {
+    /// [columns, rows].
+    size: [u32; 2],
+    /// [`NO_VALUES`] where no pixel has a value.
+    ranges: Vec<ValueRange>,
+    /// For each square a bit, whether a pixel has no value; without bits if all have one.
+    gaps: Vec<u64>,
+}
+
+const NO_VALUES: ValueRange = ValueRange { least: f32::INFINITY, greatest: f32::NEG_INFINITY };
+
+/// The scale of the smallest squares whose ranges are stored.
+const FINEST: i32 = 2;
+
+impl RasterPyramid {
+    /// Finds the ranges of all squares.
+    pub fn new(raster: Raster) -> Self {
+        let mut scales = vec![Squares::of_pixels(&raster)];
+        while let Some(finer) = scales.last().filter(|squares| squares.size != [1, 1]) {
+            scales.push(Squares::of_squares(finer));
+        }
+        let grid = PixelGrid::filling(&raster.bounds(), raster.size());
+        Self { raster, grid, scales }
+    }
+
+    /// The pixels.
+    pub fn raster(&self) -> &Raster {
+        &self.raster
+    }
+
+    /// Memory of pixels and ranges, in bytes.
+    pub fn bytes(&self) -> usize {
+        let of_scale = |squares: &Squares| size_of_val(&*squares.ranges) + size_of_val(&*squares.gaps);
+        self.raster.bytes() + self.scales.iter().map(of_scale).sum::<usize>()
+    }
+
+    /// The value at a point in world units, `None` beyond the raster and at pixels without a value. On a line
+    /// between pixels the right or upper pixel counts.
+    pub fn sample(&self, point: DVec2) -> Option<f32> {
+        self.raster.sample(point).filter(|value| !value.is_nan())
+    }
+
+    /// The values in the square in column `x` and row `y` at a scale, see [`ValueRanges`].
+    pub fn square(&self, scale: i32, x: i32, y: i32) -> SquareValues {
+        let coarsest = FINEST + self.scales.len() as i32 - 1;
+        if scale < 0 {
+            let down = (-scale).min(31);
+            return self.square(0, x >> down, y >> down);
+        }
+        if scale > coarsest {
+            // The square [0, 0] holds the whole raster, and more.
+            let whole = if [x, y] == [0, 0] { self.whole() } else { SquareValues::NONE };
+            return SquareValues { has_gaps: true, ..whole };
+        }
+        let (Ok(x), Ok(y)) = (u32::try_from(x), u32::try_from(y)) else { return SquareValues::NONE };
+        match scale {
+            0 => self.pixel(x, y),
+            1 => {
+                let [x, y] = [x, y].map(|place| place.saturating_mul(2));
+                let [right, upper] = [x, y].map(|place| place.saturating_add(1));
+                let lower = self.pixel(x, y).union(self.pixel(right, y));
+                lower.union(self.pixel(x, upper).union(self.pixel(right, upper)))
+            }
+            _ => {
+                let values = self.scales[(scale - FINEST) as usize].get(x, y);
+                let reaches_beyond = [x, y]
+                    .iter()
+                    .zip(self.raster.size())
+                    .any(|(&place, side)| (u64::from(place) + 1) << scale > u64::from(side));
+                SquareValues { has_gaps: values.has_gaps || reaches_beyond, ..values }
+            }
+        }
+    }
+
+    /// The values in all pixels.
+    pub fn whole(&self) -> SquareValues {
+        self.scales.last().map_or(SquareValues::NONE, |top| top.get(0, 0))
+    }
+
+    /// The values in a closed rectangle in world units. At most nine squares decide, so values from around
+    /// the rectangle may be in the range.
+    pub fn values_in(&self, area: &Rect) -> SquareValues {
+        let Some(common) = area.intersection(&self.raster.bounds()) else { return SquareValues::NONE };
+        // Pixels that only touch the rectangle count, on either side of a line between pixels.
+        let corners = [common.min, common.max].map(|corner| self.raster.pixel_from_world(corner).floor());
+        let last = self.raster.size().map(|side| side - 1);
+        let place = |axis: usize, v: f64| (v.max(0.0) as u32).min(last[axis]);
+        let first = [0, 1].map(|axis| place(axis, corners[0][axis] - 1.0));
+        let end = [0, 1].map(|axis| place(axis, corners[1][axis] + 1.0));
+        let span = (end[0] - first[0]).max(end[1] - first[1]) + 1;
+        let scale = span.ilog2();
+        let mut all: Option<SquareValues> = None;
+        for y in first[1] >> scale..=end[1] >> scale {
+            for x in first[0] >> scale..=end[0] >> scale {
+                let square = self.square(scale as i32, x as i32, y as i32);
+                all = Some(all.map_or(square, |all| all.union(square)));
+            }
+        }
+        let all = all.unwrap_or(SquareValues::NONE);
+        SquareValues { has_gaps: all.has_gaps || common != *area, ..all }
+    }
+
+    fn pixel(&self, x: u32, y: u32) -> SquareValues {
+        let [columns, rows] = self.raster.size();
+        if x >= columns || y >= rows {
+            return SquareValues::NONE;
+        }
+        let value = self.raster.get(x, y);
+        if value.is_nan() {
+            return SquareValues::NONE;
+        }
+        SquareValues { range: Some(ValueRange::one(value)), has_gaps: false }
+    }
+}
+
+/// The ranges of a raster that asks for nothing, ∞, where it has no value: as target diameters do.
+impl ValueRanges for RasterPyramid {
+    fn grid(&self) -> &PixelGrid {
+        &self.grid
+    }
+
+    fn coarsest(&self) -> i32 {
+        let longer = self.raster.size().into_iter().max().unwrap_or(1);
+        // Two squares of 2^scale pixels cover the longer side.
+        (u32::BITS - longer.div_ceil(2).saturating_sub(1).leading_zeros()) as i32
+    }
+
+    fn range(&self, scale: i32, x: i32, y: i32) -> ValueRange {
+        self.square(scale, x, y).or_infinite()
+    }
+
+    fn whole_range(&self) -> ValueRange {
+        self.whole().or_infinite()
+    }
+}
+
+impl SquareValues {
+    /// No value anywhere.
+    pub const NONE: Self = Self { range: None, has_gaps: true };
+
+    /// The values of both.
+    pub fn union(self, other: Self) -> Self {
+        let range = match (self.range, other.range) {
+            (Some(a), Some(b)) => Some(a.union(b)),
+            (a, b) => a.or(b),
+        };
+        Self { range, has_gaps: self.has_gaps || other.has_gaps }
+    }
+
+    /// The range of the values, with ∞ in the gaps.
+    fn or_infinite(self) -> ValueRange {
+        let nothing = ValueRange::one(f32::INFINITY);
+        match self.range {
+            Some(range) if self.has_gaps => range.union(nothing),
+            Some(range) => range,
+            None => nothing,
+        }
+    }
+}
+
+impl Squares {
+    /// The squares of 4 × 4 pixels.
+    fn of_pixels(raster: &Raster) -> Self {
+        let side = 1 << FINEST;
+        let size = raster.size().map(|pixels| pixels.div_ceil(side as u32));
+        let mut ranges = vec![NO_VALUES; size[0] as usize * size[1] as usize];
+        // Bits take a pass of their own over the few squares that need one: most rasters have no gaps.
+        let mut has_gap = false;
+        let rows = raster.values().chunks_exact(raster.size()[0] as usize);
+        for (y, row) in rows.enumerate() {
+            let start = y / side * size[0] as usize;
+            let squares = &mut ranges[start..start + size[0] as usize];
+            let (whole, rest) = row.as_chunks::<4>();
+            for (square, pixels) in squares.iter_mut().zip(whole) {
+                has_gap |= square.take(pixels);
+            }
+            if let Some(last) = squares.last_mut().filter(|_| !rest.is_empty()) {
+                has_gap |= last.take(rest);
+            }
+        }
+        let gaps = if has_gap { gaps_of_pixels(raster, size) } else { Vec::new() };
+        Self { size, ranges, gaps }
+    }
+
+    /// The squares of twice the side.
+    fn of_squares(finer: &Self) -> Self {
+        let size = finer.size.map(|squares| squares.div_ceil(2));
+        let mut ranges = vec![NO_VALUES; size[0] as usize * size[1] as usize];
+        let mut gaps = if finer.gaps.is_empty() { Vec::new() } else { bits(size) };
+        for (place, range) in finer.ranges.iter().enumerate() {
+            let [x, y] = [place % finer.size[0] as usize / 2, place / finer.size[0] as usize / 2];
+            let above = y * size[0] as usize + x;
+            ranges[above] = ranges[above].union(*range);
+            if finer.is_gap(place) {
+                gaps[above / 64] |= 1 << (above % 64);
+            }
+        }
+        Self { size, ranges, gaps }
+    }
+
+    fn is_gap(&self, place: usize) -> bool {
+        self.gaps.get(place / 64).is_some_and(|word| word >> (place % 64) & 1 == 1)
+    }
+
+    fn get(&self, x: u32, y: u32) -> SquareValues {
+        if x >= self.size[0] || y >= self.size[1] {
+            return SquareValues::NONE;
+        }
+        let place = y as usize * self.size[0] as usize + x as usize;
+        let range = Some(self.ranges[place]).filter(|range| range.least <= range.greatest);
+        SquareValues { range, has_gaps: self.is_gap(place) }
+    }
+}
+
+impl ValueRange {
+    /// Takes values into the range, and returns whether one of them is NaN.
+    fn take(&mut self, values: &[f32]) -> bool {
+        let mut is_gap = false;
+        for &value in values {
+            is_gap |= value.is_nan();
+            // These pass over NaN.
+            self.least = self.least.min(value);
+            self.greatest = self.greatest.max(value);
+        }
+        is_gap
+    }
+}
+
+/// A bit for each of [columns, rows] squares.
+fn bits(size: [u32; 2]) -> Vec<u64> {
+    vec![0; (size[0] as usize * size[1] as usize).div_ceil(64)]
+}
+
+/// Which squares of 4 × 4 pixels have a pixel without a value.
+fn gaps_of_pixels(raster: &Raster, size: [u32; 2]) -> Vec<u64> {
+    let mut gaps = bits(size);
+    for (y, row) in raster.values().chunks_exact(raster.size()[0] as usize).enumerate() {
+        let start = (y >> FINEST) * size[0] as usize;
+        for (x, _) in row.iter().enumerate().filter(|(_, value)| value.is_nan()) {
+            let place = start + (x >> FINEST);
+            gaps[place / 64] |= 1 << (place % 64);
+        }
+    }
+    gaps
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::dvec2;
+
+    use super::*;
+
+    /// A raster of random size and values; some have gaps.
+    fn raster(random: &mut fastrand::Rng) -> Raster {
+        let size = [0, 0].map(|_| random.u32(1..40));
+        let gaps = [0.0, 0.02, 0.9, 1.0][random.usize(..4)];
+        let value = |_| if random.f64() < gaps { f32::NAN } else { 10.0 * random.f32() };
+        let values = (0..size[0] * size[1]).map(value).collect();
+        Raster::from_values(Rect::new(dvec2(-1.0, 2.0), dvec2(2.0, 3.0)), size, values)
+    }
+
+    /// The values of the pixels for which `counts` holds, by looking at each.
+    fn referee(raster: &Raster, counts: impl Fn(i64, i64) -> bool) -> (Vec<f32>, bool) {
+        let (mut values, mut gaps) = (Vec::new(), false);
+        for (x, y) in raster.all().pixels().filter(|&(x, y)| counts(x.into(), y.into())) {
+            let value = raster.get(x, y);
+            if value.is_nan() { gaps = true } else { values.push(value) }
+        }
+        values.sort_unstable_by(f32::total_cmp);
+        (values, gaps)
+    }
+
+    #[test]
+    fn squares_of_every_scale_have_the_range_of_their_pixels() {
+        let mut random = fastrand::Rng::with_seed(31);
+        let (mut filled, mut with_gaps) = (0, 0);
+        for _ in 0..150 {
+            let raster = raster(&mut random);
+            let pyramid = RasterPyramid::new(raster.clone());
+            let [columns, rows] = raster.size().map(i64::from);
+            for scale in 0..9 {
+                let side = 1i64 << scale;
+                for (x, y) in
+                    (-1..columns / side + 2).flat_map(|x| (-1..rows / side + 2).map(move |y| (x, y)))
+                {
+                    let inside = |px: i64, py: i64| px.div_euclid(side) == x && py.div_euclid(side) == y;
+                    let (values, mut gaps) = referee(&raster, inside);
+                    gaps |= x < 0 || y < 0 || (x + 1) * side > columns || (y + 1) * side > rows;
+                    let range = values.first().map(|&least| (least, values[values.len() - 1]));
+                    let square = pyramid.square(scale, x as i32, y as i32);
+                    let found = square.range.map(|range| (range.least, range.greatest));
+                    assert_eq!(
+                        (found, square.has_gaps),
+                        (range, gaps),
+                        "{scale} {x} {y} of {columns} × {rows}"
+                    );
+                    filled += usize::from(range.is_some());
+                    with_gaps += usize::from(range.is_some() && gaps);
+                    let infinite = pyramid.range(scale, x as i32, y as i32);
+                    assert_eq!(infinite.greatest == f32::INFINITY, gaps);
+                    assert_eq!(infinite.least, range.map_or(f32::INFINITY, |range| range.0));
+                }
+            }
+            let coarsest = pyramid.coarsest();
+            assert!(
+                columns.max(rows) <= 2 << coarsest && (coarsest == 0 || columns.max(rows) > 1 << coarsest)
+            );
+        }
+        assert!(filled > 20_000 && with_gaps > 3_000, "{filled} {with_gaps}");
+    }
+
+    #[test]
+    fn below_a_pixel_squares_have_its_value() {
+        let pyramid = RasterPyramid::new(Raster::from_values(Rect::UNIT, [2, 1], vec![3.0, f32::NAN]));
+        assert_eq!(pyramid.range(-2, 3, 2), ValueRange::one(3.0));
+        assert_eq!(pyramid.square(-2, 4, 2), SquareValues::NONE);
+        assert_eq!(pyramid.square(-40, -1, 0), SquareValues::NONE);
+        assert_eq!(pyramid.sample(dvec2(0.2, 0.5)), Some(3.0));
+        assert_eq!(pyramid.sample(dvec2(0.7, 0.5)), None);
+        assert_eq!(pyramid.sample(dvec2(-0.1, 0.5)), None);
+    }
+
+    #[test]
+    fn the_values_in_a_rectangle_hold_every_sample() {
+        let mut random = fastrand::Rng::with_seed(32);
+        let mut samples = 0;
+        for _ in 0..3_000 {
+            let raster = raster(&mut random);
+            let pyramid = RasterPyramid::new(raster.clone());
+            let a = dvec2(4.0 * random.f64() - 1.5, 2.0 * random.f64() + 1.5);
+            let size = [2.0, 0.1][random.usize(..2)] * dvec2(random.f64(), random.f64());
+            let area = Rect::new(a, a + size);
+            let values = pyramid.values_in(&area);
+            for _ in 0..20 {
+                let p = area.min + size * dvec2(random.f64(), random.f64());
+                match pyramid.sample(p) {
+                    Some(value) => {
+                        let range = values.range.unwrap();
+                        assert!(range.least <= value && value <= range.greatest, "{area:?}");
+                        samples += 1;
+                    }
+                    None => assert!(values.has_gaps, "{area:?}"),
+                }
+            }
+        }
+        assert!(samples > 10_000, "{samples}");
+    }
+}
