@@ -1,12 +1,14 @@
-//! The only geometric predicates of the program, rectangles, and the map between the world and
-//! the integer lattice on which every node of a mesh lies.
+//! The only geometric predicates of the program, rectangles and an index of them, and the map between the
+//! world and the integer lattice on which every node of a mesh lies.
 
+mod box_tree;
 mod lattice;
 mod lattice_rect;
 mod predicates;
 mod rect;
 mod segment;
 
+pub use box_tree::{BoxGroup, BoxTree};
 pub use lattice::{GridError, LATTICE_BITS, Lattice, LatticePoint};
 pub use lattice_rect::LatticeRect;
 pub use predicates::{Side, exact_sum_sign, side_of_edge, side_of_line};
