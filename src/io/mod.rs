@@ -36,6 +36,8 @@ mod rows;
 pub mod sms;
 pub mod stl;
 pub mod svg;
+mod table;
+pub mod threats;
 pub mod vtu;
 pub mod world_file;
 

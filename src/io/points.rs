@@ -1,20 +1,15 @@
 //! `points.csv`: a table with columns `x` and `y`, or `lon` and `lat`, and perhaps others.
 
 use std::fs::File;
-use std::io::{BufRead, BufReader, Read};
+use std::io::{BufRead, BufReader};
 use std::path::Path;
 
-use csv_core::{ReadRecordResult, ReaderBuilder, Terminator};
 use glam::DVec2;
 
-use super::error::{PlacedFlaw, shown};
-use super::{Flaw, ReadError};
+use super::ReadError;
+use super::error::PlacedFlaw;
+use super::table::Rows;
 
-/// Longest line that is read, in bytes. Without a limit a file without line breaks would fill the memory.
-const LONGEST_LINE: u64 = 1 << 20;
-
-/// What separates fields: the first of these under which the header names both coordinates.
-const DELIMITERS: [u8; 3] = *b",;\t";
 /// Names of the columns, in lower case.
 const NAMES: [&[&str]; 2] = [&["x", "lon", "lng", "long", "longitude"], &["y", "lat", "latitude"]];
 
@@ -45,124 +40,14 @@ pub fn read_from(input: impl BufRead, name: &Path) -> Result<Vec<DVec2>, ReadErr
 
 fn parse(source: impl BufRead) -> Result<Vec<DVec2>, PlacedFlaw> {
     let mut rows = Rows::new(source);
-    let [x, y] = rows.read_header()?;
+    let [Some(x), Some(y)] = rows.read_header(NAMES, 2)? else {
+        unreachable!("both columns are required");
+    };
     let mut points = Vec::new();
     while rows.advance()? {
         points.push(DVec2::new(rows.number(x, "x")?, rows.number(y, "y")?));
     }
     Ok(points)
-}
-
-fn parser(delimiter: u8) -> csv_core::Reader {
-    // Of a line break in two bytes the first is white space at the end of the last field.
-    ReaderBuilder::new().delimiter(delimiter).terminator(Terminator::Any(b'\n')).build()
-}
-
-/// The rows of a table, one at a time.
-struct Rows<R> {
-    source: R,
-    delimiter: u8,
-    parser: csv_core::Reader,
-    /// The number of the current line, counted from one.
-    line: usize,
-    /// The fields of the current row, one after the other, and where each ends.
-    text: String,
-    ends: Vec<usize>,
-}
-
-impl<R: BufRead> Rows<R> {
-    fn new(source: R) -> Self {
-        let delimiter = DELIMITERS[0];
-        Self { source, delimiter, parser: parser(delimiter), line: 0, text: String::new(), ends: Vec::new() }
-    }
-
-    /// Reads the header, finds out what separates the fields, and returns the columns of x and y.
-    fn read_header(&mut self) -> Result<[usize; 2], PlacedFlaw> {
-        let Some(line) = self.next_line()? else {
-            let problem = "there is no header; the first line must name the columns x and y.";
-            return Err(Flaw::Syntax(problem.into()).into());
-        };
-        for delimiter in DELIMITERS {
-            (self.delimiter, self.parser) = (delimiter, parser(delimiter));
-            self.parse_line(line.clone())?;
-            let place = |names: &[&str]| {
-                self.fields().position(|field| names.iter().any(|name| field.eq_ignore_ascii_case(name)))
-            };
-            if let [Some(x), Some(y)] = NAMES.map(place) {
-                return Ok([x, y]);
-            }
-        }
-        let header = String::from_utf8_lossy(&line);
-        let problem =
-            format!("the header is `{}`, and it must name the columns x and y.", shown(40, header.trim()));
-        Err(Flaw::Syntax(problem).at(self.line))
-    }
-
-    /// Goes to the next line that is not blank. Returns whether there is one.
-    fn advance(&mut self) -> Result<bool, PlacedFlaw> {
-        match self.next_line()? {
-            Some(line) => self.parse_line(line).map(|()| true),
-            None => Ok(false),
-        }
-    }
-
-    /// The next line that is not blank, with its line break.
-    fn next_line(&mut self) -> Result<Option<Vec<u8>>, PlacedFlaw> {
-        loop {
-            let mut bytes = Vec::new();
-            let read = self.source.by_ref().take(LONGEST_LINE).read_until(b'\n', &mut bytes)?;
-            if read == 0 {
-                return Ok(None);
-            }
-            self.line += 1;
-            if read as u64 == LONGEST_LINE {
-                return Err(Flaw::Syntax("the line is longer than a megabyte.".into()).at(self.line));
-            }
-            if !bytes.trim_ascii().is_empty() {
-                return Ok(Some(bytes));
-            }
-        }
-    }
-
-    /// Splits a line into fields.
-    fn parse_line(&mut self, mut line: Vec<u8>) -> Result<(), PlacedFlaw> {
-        let flaw = |problem: &str| Flaw::Syntax(problem.into()).at(self.line);
-        // The parser waits for the end of the line; the last one of a file may have none.
-        line.push(b'\n');
-        // Fields are shorter than their line, and a line has fewer fields than bytes.
-        let mut text = vec![0; line.len()];
-        self.ends.resize(line.len(), 0);
-        self.parser.reset();
-        // It also removes a byte order mark, which spreadsheets put before the first line.
-        let (result, _, bytes, fields) = self.parser.read_record(&line, &mut text, &mut self.ends);
-        if result != ReadRecordResult::Record {
-            return Err(flaw("a quotation mark is not closed on its line."));
-        }
-        text.truncate(bytes);
-        self.ends.truncate(fields);
-        self.text = String::from_utf8(text).map_err(|_| flaw("the line is not UTF-8 text."))?;
-        Ok(())
-    }
-
-    /// The fields of the current row, without the white space around them.
-    fn fields(&self) -> impl Iterator<Item = &str> {
-        (0..self.ends.len()).filter_map(|column| self.field(column))
-    }
-
-    fn field(&self, column: usize) -> Option<&str> {
-        let start = if column == 0 { 0 } else { *self.ends.get(column - 1)? };
-        self.text.get(start..*self.ends.get(column)?).map(str::trim)
-    }
-
-    /// The number in a column of the current row.
-    fn number(&self, column: usize, name: &str) -> Result<f64, PlacedFlaw> {
-        let flaw = |problem| Flaw::Syntax(problem).at(self.line);
-        let text = self.field(column).filter(|text| !text.is_empty());
-        let text = text.ok_or_else(|| flaw(format!("there is no {name}.")))?;
-        let with_point = |text: &str| (self.delimiter != b',').then(|| text.replace(',', "."));
-        let parsed = text.parse().ok().or_else(|| with_point(text)?.parse().ok());
-        parsed.ok_or_else(|| flaw(format!("{name} is `{}`, which is not a number.", shown(40, text))))
-    }
 }
 
 #[cfg(test)]
