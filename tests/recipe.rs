@@ -4,7 +4,12 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use meshbrush::internals::io::recipe::parse;
+use glam::dvec2;
+use meshbrush::internals::io::recipe::{SavedRecipe, parse, to_text};
+use meshbrush::{
+    Base, BoundaryMarks, Document, Domain, DomainShape, LengthUnit, Project, Rect, Settings, write_geojson,
+    write_project,
+};
 use serde_json::Value;
 
 /// A folder of its own for each test, removed at the end.
@@ -253,5 +258,45 @@ fn options_on_layers_are_checked() {
         let (status, _, err) = folder.run(&format!("mesh {options}"));
         assert_eq!(status, 2, "{options}: {err}");
         assert!(err.contains(expected), "{options} gave {err}");
+    }
+}
+
+/// A document without paint and its recipe give the same mesh with the same names along the boundary.
+#[test]
+fn the_recipe_of_a_document_gives_its_mesh() {
+    let folder = Folder::new("document");
+    let polygons = [vec![
+        vec![dvec2(0.1, 0.0), dvec2(4.0, 0.3), dvec2(4.0, 3.0), dvec2(0.0, 4.0)],
+        vec![dvec2(1.0, 1.0), dvec2(1.0, 2.0), dvec2(2.0, 1.1)],
+    ]];
+    let domain = Domain::of_polygons(&polygons).unwrap();
+    let names = vec![(dvec2(1.0, 1.5), "rock".to_owned())];
+    let marks = BoundaryMarks { splits: vec![dvec2(4.0, 1.0)], names };
+    let formula = Domain { shape: DomainShape::Formula("x*y < 3".parse().unwrap()), ..domain.clone() };
+    let wider = domain.with_bounds(Rect::new(dvec2(-1.0, -0.5), dvec2(4.5, 4.5)));
+    let frame = domain.bounds;
+    for domain in [domain, wider, formula, Domain::rectangle(frame)] {
+        let settings = Settings {
+            boundary_marks: marks.clone().into(),
+            unit: LengthUnit::Kilometre,
+            base: Base::Constant(0.3),
+            ..Settings::for_domain("Rock".into(), domain)
+        };
+        let base = "{ \"kind\": \"formula\", \"quantity\": \"diameter\", \"formula\": \"0.3\" }";
+        let layers = vec![serde_json::from_str(base).unwrap()];
+        let recipe = to_text(&SavedRecipe::of_settings(&settings, "rock.geojson", layers));
+        folder.file("rock.toml", &recipe);
+        if let Some(region) = settings.domain.region() {
+            let mut text = Vec::new();
+            write_geojson(&mut text, region.polygons()).unwrap();
+            folder.file("rock.geojson", text);
+        }
+        let mut project = Vec::new();
+        write_project(&mut project, &Project::of(&Document::new(settings, None).unwrap())).unwrap();
+        folder.file("rock.meshbrush", project);
+        let (by_recipe, by_project) = (folder.json("rock.toml"), folder.json("--project rock.meshbrush"));
+        for key in ["hash", "triangles", "spacing", "unit", "boundary", "parts"] {
+            assert_eq!(by_recipe[key], by_project[key], "{key} of {recipe}");
+        }
     }
 }

@@ -179,7 +179,7 @@ pub struct InputArguments {
     #[arg(long, value_name = "FILE.geojson")]
     pub distance: Vec<PathBuf>,
 
-    /// Target diameter at distance 0; without this, --h-min is
+    /// Target diameter at distance 0; the default is --h-min
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, requires = "distance")]
     pub distance_at_zero: Option<f64>,
 

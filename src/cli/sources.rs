@@ -9,7 +9,7 @@ use super::failure::Failure;
 use super::output::is_standard_stream;
 use super::request::MeshRequest;
 use crate::build::{FieldSampling, MeshSpec};
-use crate::domain::{BoundaryMarks, BoundaryTreatment, Domain, DomainShape};
+use crate::domain::{BoundaryMarks, BoundaryTreatment, Domain, DomainShape, NamedPolygon, RegionError};
 use crate::field::{Source, TargetFieldSpec, Transfer, f32_not_below};
 use crate::geometry::{Lattice, Rect};
 use crate::io::layers::{KindSpec, LayerSpec, RasterFile, RasterFormat, RasterReading};
@@ -131,7 +131,7 @@ fn domain(
         } else {
             io::geojson::read_outline(path, &Meter::default())?
         };
-        return BoundaryMarks::domain_of(&outline.polygons)
+        return domain_of(&outline.polygons, request.domain)
             .map(|(domain, marks)| (domain, marks, outline.unit))
             .map_err(|error| Failure::Work(format!("{}: {error}", path.display())));
     }
@@ -140,6 +140,18 @@ fn domain(
     let shape = request.inside.clone().map_or(DomainShape::Whole, DomainShape::Formula);
     let domain = Domain { bounds: bounds.unwrap_or(Rect::UNIT), shape };
     Ok((domain, BoundaryMarks::default(), LengthUnit::None))
+}
+
+/// The domain that polygons cover, in `bounds` where these are given, and the names that they bring.
+fn domain_of(
+    polygons: &[NamedPolygon],
+    bounds: Option<Rect>,
+) -> Result<(Domain, BoundaryMarks), RegionError> {
+    let Some(bounds) = bounds else { return BoundaryMarks::domain_of(polygons) };
+    let plain = polygons.iter().map(|named| named.polygon.clone()).collect();
+    let domain = Domain::of_stored_polygons(plain, bounds)?;
+    let marks = BoundaryMarks::of_polygons(polygons, &domain);
+    Ok((domain, marks))
 }
 
 fn boundary(request: &MeshRequest, spacing: f64, lattice: &Lattice) -> Result<BoundaryTreatment, Failure> {

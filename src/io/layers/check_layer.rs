@@ -149,8 +149,9 @@ impl SavedLayer {
     fn band(&self, find: &FindFile) -> Result<KindSpec, KeyFault> {
         let raster = self.raster_file(find)?;
         let between @ [least, greatest] = self.needed("between", self.between)?;
-        if least > greatest || least.is_nan() || greatest.is_nan() {
-            return Err(KeyFault::value("between", "write the least value first, then the greatest."));
+        if !(least.is_finite() && greatest.is_finite()) || least > greatest {
+            let sentence = "write two finite numbers, the least value first.";
+            return Err(KeyFault::value("between", sentence));
         }
         Ok(KindSpec::Band { raster, between, diameter: self.length("diameter", self.diameter)? })
     }

@@ -1,6 +1,6 @@
 use serde::{Deserialize, Serialize};
 
-use crate::layers::{Combine, Quantity};
+use crate::layers::{Combine, Layer, LayerKind, Quantity};
 
 /// A layer as a text has it. Which keys it may have depends on its kind.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -220,6 +220,28 @@ impl SavedLayer {
             range: None,
             between: None,
             diameter: None,
+        }
+    }
+
+    /// A layer of a stack, but for data that has no form as text: `file` names where that is.
+    pub fn of(layer: &Layer, file: Option<String>) -> Self {
+        let kind = match &layer.kind {
+            LayerKind::Paint(quantity) => {
+                Self { quantity: Some((*quantity).into()), ..Self::of_kind(SavedKind::Paint) }
+            }
+            LayerKind::Formula { quantity, formula } => Self {
+                quantity: Some((*quantity).into()),
+                formula: Some(formula.source().to_owned()),
+                ..Self::of_kind(SavedKind::Formula)
+            },
+        };
+        Self {
+            name: Some(layer.name.clone()),
+            visible: layer.visible,
+            locked: layer.locked,
+            combine: layer.combine.into(),
+            file,
+            ..kind
         }
     }
 

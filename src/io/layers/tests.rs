@@ -120,7 +120,7 @@ fn values_that_cannot_be_used_are_named_with_their_key() {
         ),
         (
             r#"{ "kind": "band", "file": "a.asc", "between": [1, 0], "diameter": 1 }"#,
-            "between: write the least",
+            "between: write two finite numbers",
         ),
         (r#"{ "kind": "paint", "quantity": "risk", "mask": [] }"#, "mask: a mask needs a polygon"),
         (
@@ -161,4 +161,24 @@ fn the_kinds_and_their_keys_agree() {
             assert_eq!(refused, !kind.keys().contains(key), "{json}");
         }
     }
+}
+
+#[test]
+fn a_layer_of_a_stack_is_saved() {
+    use crate::layers::{Combine, Layer, LayerId, LayerKind, Quantity};
+    let formula = crate::field::Formula::parse("x + 1").unwrap();
+    let kind = LayerKind::Formula { quantity: Quantity::Diameter, formula };
+    let layer = Layer {
+        id: LayerId(3),
+        name: "Open sea".into(),
+        visible: false,
+        locked: true,
+        combine: Combine::Floor,
+        kind,
+    };
+    let json = serde_json::to_string(&SavedLayer::of(&layer, None)).unwrap();
+    let expected = r#"{"kind":"formula","name":"Open sea","visible":false,"locked":true,"combine":"floor","quantity":"diameter","formula":"x + 1"}"#;
+    assert_eq!(json, expected);
+    let spec = checked(&json).unwrap();
+    assert_eq!((spec.name, spec.combine, spec.locked), (layer.name, Combine::Floor, true));
 }

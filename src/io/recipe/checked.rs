@@ -161,13 +161,8 @@ fn with_scale(layer: LayerSpec, limits: &SavedLimits) -> Result<LayerSpec, KeyFa
 }
 
 fn check_domain(domain: &SavedDomain) -> Result<(), KeyFault> {
-    if domain.region.is_some() {
-        for (key, given) in [("bounds", domain.bounds.is_some()), ("inside", domain.inside.is_some())] {
-            if given {
-                let sentence = format!("the domain comes from `region`; `{key}` cannot be given beside it.");
-                return Err(KeyFault::key(key, sentence));
-            }
-        }
+    if domain.region.is_some() && domain.inside.is_some() {
+        return Err(KeyFault::key("inside", "the domain is given by `region` or by `inside`, not by both."));
     }
     if let Some(diameter) = domain.boundary_diameter {
         length("boundary_diameter", diameter)?;

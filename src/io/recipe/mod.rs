@@ -3,11 +3,13 @@
 //! `docs/recipe.md` lists the keys. Files are named relative to the folder of the recipe.
 
 mod checked;
+mod of_settings;
 mod saved;
 mod text;
 #[cfg(test)]
 mod tests;
 mod wording;
+mod write;
 
 use std::fs::File;
 use std::io::Read;
@@ -21,6 +23,7 @@ pub use saved::{
     SavedTreatment, SavedUnit,
 };
 use text::RecipeText;
+pub use write::to_text;
 
 /// The extension of recipes.
 pub const ENDING: &str = "toml";

@@ -1,12 +1,12 @@
 //! The tables of a recipe as the text has them.
 
-use serde::Deserialize;
 use serde::de::{Deserializer, Error, Visitor};
+use serde::{Deserialize, Serialize, Serializer};
 
 use super::super::layers::SavedLayer;
 
 /// A whole recipe.
-#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default, expecting = "a table")]
 pub struct SavedRecipe {
     /// Ω and how the mesh meets its boundary.
@@ -22,10 +22,10 @@ pub struct SavedRecipe {
 }
 
 /// `[domain]`
-#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default, expecting = "a table")]
 pub struct SavedDomain {
-    /// x₀, y₀, x₁, y₁.
+    /// What the coarse grid covers: x₀, y₀, x₁, y₁.
     pub bounds: Option<[f64; 4]>,
     /// The domain is where this formula is not 0.
     pub inside: Option<String>,
@@ -40,6 +40,7 @@ pub struct SavedDomain {
     /// The parts of the mesh that stay.
     pub parts: Option<SavedParts>,
     /// Whether pinches stay.
+    #[serde(skip_serializing_if = "is_no")]
     pub keep_pinches: bool,
     /// Where the boundary is split.
     pub splits: Vec<[f64; 2]>,
@@ -48,7 +49,7 @@ pub struct SavedDomain {
 }
 
 /// `[mesh]`
-#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default, expecting = "a table")]
 pub struct SavedMesh {
     /// Longest side of a coarse cell.
@@ -64,7 +65,7 @@ pub struct SavedMesh {
 }
 
 /// `[limits]`
-#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default, expecting = "a table")]
 pub struct SavedLimits {
     /// Smallest target diameter.
@@ -78,13 +79,13 @@ pub struct SavedLimits {
 }
 
 /// `[[output]]`
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a table")]
 pub struct SavedOutput {
     /// The file, whose ending decides the format.
     pub file: String,
     /// Whether a format that is text otherwise is written in its binary form.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "is_no")]
     pub binary: bool,
     /// Further values at the nodes, as in `"depth = 20 - x"`.
     #[serde(default)]
@@ -104,7 +105,7 @@ pub struct SavedOutput {
 }
 
 /// A name of a piece of the boundary.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a table such as { at = [1, 2], name = \"harbour\" }")]
 pub struct SavedName {
     /// A point of the piece.
@@ -114,7 +115,7 @@ pub struct SavedName {
 }
 
 /// The units.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum SavedUnit {
     /// Plain numbers.
     #[serde(rename = "none")]
@@ -131,7 +132,7 @@ pub enum SavedUnit {
 }
 
 /// The boundary treatments.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum SavedTreatment {
     /// As in the report.
@@ -143,7 +144,7 @@ pub enum SavedTreatment {
 }
 
 /// The refinement rules.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum SavedRule {
     /// The three vertices.
@@ -167,6 +168,20 @@ impl<'de> Deserialize<'de> for SavedParts {
     fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
         from.deserialize_any(PartsVisitor)
     }
+}
+
+impl Serialize for SavedParts {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        match *self {
+            Self::All => to.serialize_str("all"),
+            Self::Largest => to.serialize_str("largest"),
+            Self::Share(share) => to.serialize_f64(share),
+        }
+    }
+}
+
+fn is_no(value: &bool) -> bool {
+    !value
 }
 
 struct PartsVisitor;

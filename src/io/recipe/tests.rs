@@ -219,11 +219,7 @@ fn values_that_cannot_be_used_are_named_with_line_and_column() {
         ("[limits]\ngradation = 0", [2, 13], "a gradation of 0 cannot be kept"),
         ("[limits]\ngradation = nan", [2, 13], "a gradation of NaN cannot be kept"),
         ("[domain]\nbounds = [1, 0, 0, 1]", [2, 10], "these are no rectangle"),
-        (
-            "[domain]\nbounds = [0, 0, 1, 1]\nregion = \"a.geojson\"",
-            [2, 1],
-            "the domain comes from `region`; `bounds`",
-        ),
+        ("[domain]\ninside = \"x\"\nregion = \"a.geojson\"", [2, 1], "the domain is given by `region` or by"),
         (
             "[domain]\nregion = \"gone.geojson\"",
             [2, 1],
@@ -302,4 +298,43 @@ fn every_prefix_and_every_changed_byte_gives_a_recipe_or_a_sentence() {
     }
     check("[".repeat(100_000));
     check(format!("a = {}", "[".repeat(100_000)));
+}
+
+fn saved(text: &str) -> SavedRecipe {
+    RecipeText::new(Path::new("recipe.toml"), text.to_owned())
+        .parse()
+        .unwrap_or_else(|error| panic!("{error}"))
+}
+
+#[test]
+fn a_recipe_is_written_as_it_was_read() {
+    let odd = "[[layer]]\nkind = \"formula\"\nname = \"a \\\"b\\\" \\\\ \\n \\u0001 ä 😀\"\nquantity = \"risk\"\nformula = \"x\"\n";
+    let numbers = "[domain]\nbounds = [-1e-300, 1e300, 0.1, 12345678901234567890.0]\nparts = \"all\"\n\
+                   [mesh]\nspacing = 0.30000000000000004\nmax_triangles = 2147483647";
+    let ring: String = (0..40).map(|n| format!("[{n}.25, {}],", n * n)).collect();
+    let long = format!(
+        "[[layer]]\nkind = \"paint\"\nquantity = \"risk\"\nmask = [[[{ring}]], [[[0,0],[1,0],[1,1]]]]"
+    );
+    for text in ["", FULL, odd, numbers, &long] {
+        let recipe = saved(text);
+        let written = to_text(&recipe);
+        assert_eq!(saved(&written), recipe, "{written}");
+        assert_eq!(to_text(&saved(&written)), written);
+        assert!(written.lines().all(|line| line.chars().count() <= 120), "{written}");
+    }
+}
+
+#[test]
+fn a_written_recipe_is_readable() {
+    let written = to_text(&saved(FULL));
+    let first_layer = "\n# The size field, from the bottom layer to the top one.\n[[layer]]\nname = \"Open sea\"\n\
+                       kind = \"formula\"\nquantity = \"diameter\"\nformula = \"0.5 + 0.1*x\"\n\n[[layer]]\n";
+    assert!(written.contains(first_layer), "{written}");
+    assert!(
+        written.contains("\n\n[limits]\nh_min = 0.01\nh_max = 1\nshape = 1.5\ngradation = 0.3\n"),
+        "{written}"
+    );
+    let threats = "threats = [\n  { x = 24, y = 37, range = 0.5, peak = 0.9, law = \"gaussian\" },\n";
+    assert!(written.contains(threats), "{written}");
+    assert!(written.contains("\nparts = 0.01\n") && written.contains("file = \"sea.png\"\n"), "{written}");
 }

@@ -1,0 +1,157 @@
+//! A recipe as text, in one form: equal recipes give equal texts.
+
+use serde::Serialize;
+use serde_json::{Map, Value};
+
+use super::super::Number;
+use super::saved::SavedRecipe;
+
+/// Columns of a list that stays on one line.
+const WIDEST_LIST: usize = 90;
+
+const HEADER: &str =
+    "# A Meshbrush recipe. Keys: docs/recipe.md. Files are named from the folder of this one.\n";
+const BEFORE_LAYERS: &str = "\n# The size field, from the bottom layer to the top one.\n";
+
+/// The order of keys. Others follow in the order of their letters.
+const ORDER: [&str; 35] = [
+    "region",
+    "bounds",
+    "inside",
+    "unit",
+    "spacing",
+    "rule",
+    "h_min",
+    "h_max",
+    "shape",
+    "gradation",
+    "at",
+    "x",
+    "y",
+    "range",
+    "peak",
+    "law",
+    "name",
+    "kind",
+    "visible",
+    "locked",
+    "combine",
+    "mask",
+    "mask_file",
+    "quantity",
+    "formula",
+    "file",
+    "layer",
+    "as",
+    "curve",
+    "threats",
+    "to",
+    "shapes",
+    "at_zero",
+    "slope",
+    "between",
+];
+
+/// The text of a recipe.
+pub fn to_text(recipe: &SavedRecipe) -> String {
+    let SavedRecipe { domain, mesh, limits, layer, output } = recipe;
+    let mut text = HEADER.to_owned();
+    write_table(&mut text, "[domain]", domain);
+    write_table(&mut text, "[mesh]", mesh);
+    write_table(&mut text, "[limits]", limits);
+    if !layer.is_empty() {
+        text.push_str(BEFORE_LAYERS);
+    }
+    for (index, layer) in layer.iter().enumerate() {
+        // The comment belongs to the first layer.
+        let heading = if index == 0 { "[[layer]]" } else { "\n[[layer]]" };
+        write_entries(&mut text, heading, layer);
+    }
+    output.iter().for_each(|output| write_table(&mut text, "[[output]]", output));
+    text
+}
+
+/// A table after a blank line, unless it has no entry.
+fn write_table(text: &mut String, heading: &str, table: &impl Serialize) {
+    write_entries(text, &format!("\n{heading}"), table);
+}
+
+fn write_entries(text: &mut String, heading: &str, table: &impl Serialize) {
+    let Ok(Value::Object(table)) = serde_json::to_value(table) else { return };
+    let entries = in_order(&table);
+    if entries.is_empty() {
+        return;
+    }
+    text.push_str(&format!("{heading}\n"));
+    for (key, value) in entries {
+        text.push_str(&format!("{key} = "));
+        write_value(text, value, 0);
+        text.push('\n');
+    }
+}
+
+/// The entries that have a value, in the order of keys.
+fn in_order(table: &Map<String, Value>) -> Vec<(&str, &Value)> {
+    let is_nothing = |value: &Value| value.is_null() || value.as_array().is_some_and(Vec::is_empty);
+    let mut entries: Vec<_> = table.iter().map(|(key, value)| (key.as_str(), value)).collect();
+    entries.retain(|(_, value)| !is_nothing(value));
+    entries
+        .sort_by_key(|(key, _)| (ORDER.iter().position(|other| other == key).unwrap_or(ORDER.len()), *key));
+    entries
+}
+
+/// A value after `indent` columns: on one line where that is not too long, else a list with a line for each
+/// entry.
+fn write_value(text: &mut String, value: &Value, indent: usize) {
+    let line = on_one_line(value);
+    match value {
+        Value::Array(list) if line.chars().count() > WIDEST_LIST => {
+            text.push_str("[\n");
+            for entry in list {
+                text.push_str(&" ".repeat(indent + 2));
+                write_value(text, entry, indent + 2);
+                text.push_str(",\n");
+            }
+            text.push_str(&" ".repeat(indent));
+            text.push(']');
+        }
+        _ => text.push_str(&line),
+    }
+}
+
+fn on_one_line(value: &Value) -> String {
+    match value {
+        Value::Null => String::new(),
+        Value::Bool(value) => value.to_string(),
+        Value::Number(number) => match number.as_u64() {
+            Some(whole) => whole.to_string(),
+            None => Number(number.as_f64().unwrap_or(f64::NAN)).to_string(),
+        },
+        Value::String(string) => quoted(string),
+        Value::Array(list) => {
+            let entries: Vec<String> = list.iter().map(on_one_line).collect();
+            format!("[{}]", entries.join(", "))
+        }
+        Value::Object(table) => {
+            let entries =
+                in_order(table).into_iter().map(|(key, value)| format!("{key} = {}", on_one_line(value)));
+            format!("{{ {} }}", entries.collect::<Vec<_>>().join(", "))
+        }
+    }
+}
+
+/// A basic string of TOML.
+fn quoted(string: &str) -> String {
+    let mut text = String::from("\"");
+    for c in string.chars() {
+        match c {
+            '"' => text.push_str("\\\""),
+            '\\' => text.push_str("\\\\"),
+            '\n' => text.push_str("\\n"),
+            '\t' => text.push_str("\\t"),
+            c if c.is_control() => text.push_str(&format!("\\u{:04X}", u32::from(c))),
+            c => text.push(c),
+        }
+    }
+    text + "\""
+}
