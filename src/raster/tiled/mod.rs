@@ -1,16 +1,16 @@
 //! A sparse raster of any depth: tiles of 32 × 32 pixels where something is painted, and finer tiles over
 //! them where something finer is painted.
 
+mod blocks;
 mod summary;
 mod tile;
 
-use std::collections::HashMap;
-use std::hash::{BuildHasherDefault, Hasher};
 use std::sync::Arc;
 
 use glam::DVec2;
 
 use super::{PixelGrid, ValueRange, ValueRanges, power_of_two};
+use blocks::Blocks;
 use summary::{Extent, Summary};
 use tile::index;
 
@@ -33,9 +33,9 @@ pub struct TiledRaster {
     grid: PixelGrid,
     blank: f32,
     /// The tiles of each depth. The last depth has tiles.
-    depths: Vec<Arc<Squares<Node>>>,
+    depths: Vec<Arc<Blocks<Node>>>,
     /// The ranges of scale 1, 2 … up to the coarsest, see [`ValueRanges`].
-    scales: Vec<Arc<Squares<Arc<Summary>>>>,
+    scales: Vec<Arc<Blocks<Arc<Summary>>>>,
     /// The tiles of depth 0 lie within.
     extent: Option<Extent>,
 }
@@ -109,15 +109,14 @@ impl TiledRaster {
 
     /// The tile at a place.
     pub fn tile(&self, place: TilePlace) -> Option<&Arc<Tile>> {
-        let tiles = self.depths.get(usize::from(place.depth))?;
-        tiles.get(&Key::new(place.x, place.y)).map(|node| &node.tile)
+        self.depths.get(usize::from(place.depth))?.get(place.x, place.y).map(|node| &node.tile)
     }
 
     /// All tiles, in the order of their places.
     pub fn tiles(&self) -> impl Iterator<Item = (TilePlace, &Arc<Tile>)> {
         self.depths.iter().enumerate().flat_map(|(depth, tiles)| {
-            let mut sorted: Vec<_> = tiles.iter().map(|(key, node)| (key.square(), &node.tile)).collect();
-            sorted.sort_unstable_by_key(|(square, _)| *square);
+            let mut sorted: Vec<_> = tiles.iter().map(|(block, node)| (block, &node.tile)).collect();
+            sorted.sort_unstable_by_key(|(block, _)| *block);
             sorted.into_iter().map(move |([x, y], tile)| (TilePlace { depth: depth as u8, x, y }, tile))
         })
     }
@@ -158,38 +157,48 @@ impl TiledRaster {
     pub fn bytes(&self) -> usize {
         let of_node =
             |node: &Node| size_of::<Tile>() + node.summary.as_ref().map_or(0, |s| size_of_val(&**s));
-        let tiles = self.depths.iter().flat_map(|tiles| tiles.values()).map(of_node).sum::<usize>();
+        let tiles =
+            self.depths.iter().flat_map(|tiles| tiles.iter()).map(|(_, node)| of_node(node)).sum::<usize>();
         tiles + self.scales.iter().map(|ranges| ranges.len() * size_of::<Summary>()).sum::<usize>()
     }
 
     /// The deepest tile that has the pixel in column `x` and row `y` of a depth, at most of that depth, and
     /// the place of the pixel there.
+    #[inline]
     fn deepest_at(&self, depth: usize, x: i32, y: i32) -> Option<(&Node, usize)> {
-        let shifted = |to: usize| {
-            let up = (depth - to).min(31);
-            (x >> up, y >> up)
-        };
-        let at = |depth| {
-            let (x, y) = shifted(depth);
-            self.node(depth, x, y).map(|node| (node, index(x, y)))
-        };
-        let mut found = at(0)?;
-        // A tile has all its ancestors: bisect between a depth with a tile and one without.
-        let (mut with, mut without) = (0, (depth + 1).min(self.depths.len()));
-        while without - with > 1 && found.0.summary.is_some() {
-            let middle = (with + without) / 2;
-            match at(middle) {
-                Some(deeper) => (with, found) = (middle, deeper),
-                None => without = middle,
-            }
+        // Depth 0 first: most tiles have no children.
+        let (node, index) = self.ancestor(depth, 0, x, y)?;
+        if depth == 0 || node.summary.is_none() {
+            return Some((node, index));
         }
-        Some(found)
+        let at = |to| self.ancestor(depth, to, x, y);
+        at(depth).or_else(|| {
+            // A tile has all its ancestors: bisect between a depth with a tile and one without.
+            let (mut found, mut with, mut without) = ((node, index), 0, depth.min(self.depths.len()));
+            while without - with > 1 && found.0.summary.is_some() {
+                let middle = (with + without) / 2;
+                match at(middle) {
+                    Some(deeper) => (with, found) = (middle, deeper),
+                    None => without = middle,
+                }
+            }
+            // No child covers the pixel, so its own value counts.
+            Some(found)
+        })
+    }
+
+    /// The tile of depth `to` over the pixel in column `x` and row `y` of a greater depth, and the place of
+    /// the pixel there.
+    #[inline]
+    fn ancestor(&self, depth: usize, to: usize, x: i32, y: i32) -> Option<(&Node, usize)> {
+        let up = (depth - to).min(31);
+        self.node(to, x >> up, y >> up).map(|node| (node, index(x >> up, y >> up)))
     }
 
     /// The tile with the pixel in column `x` and row `y` of a depth.
     #[inline]
     fn node(&self, depth: usize, x: i32, y: i32) -> Option<&Node> {
-        self.depths.get(depth)?.get(&Key::new(x >> TILE.ilog2(), y >> TILE.ilog2()))
+        self.depths.get(depth)?.get(x >> TILE.ilog2(), y >> TILE.ilog2())
     }
 }
 
@@ -209,17 +218,11 @@ impl ValueRanges for TiledRaster {
         }
         if scale > 0 {
             let ranges = &self.scales[scale as usize - 1];
-            let found = ranges.get(&Key::new(x >> TILE.ilog2(), y >> TILE.ilog2()));
+            let found = ranges.get(x >> TILE.ilog2(), y >> TILE.ilog2());
             return found.map_or(ValueRange::one(self.blank), |summary| summary[index(x, y)]);
         }
-        let depth = scale.unsigned_abs() as usize;
-        match self.node(depth, x, y) {
-            Some(node) => node.range(index(x, y)),
-            None => {
-                let found = self.deepest_at(depth, x, y);
-                ValueRange::one(found.map_or(self.blank, |(node, index)| node.tile[index]))
-            }
-        }
+        let found = self.deepest_at(scale.unsigned_abs() as usize, x, y);
+        found.map_or(ValueRange::one(self.blank), |(node, index)| node.range(index))
     }
 
     fn whole_range(&self) -> ValueRange {
@@ -234,54 +237,13 @@ impl ValueRanges for TiledRaster {
 impl PartialEq for TiledRaster {
     fn eq(&self, other: &Self) -> bool {
         let same = |a: &Arc<Tile>, b: &Arc<Tile>| Arc::ptr_eq(a, b) || a == b;
-        let equal_tiles = |a: &Arc<Squares<Node>>, b: &Arc<Squares<Node>>| {
-            let found = |(key, node): (&Key, &Node)| b.get(key).is_some_and(|b| same(&node.tile, &b.tile));
-            Arc::ptr_eq(a, b) || a.len() == b.len() && a.iter().all(found)
+        let equal_tiles = |a: &Arc<Blocks<Node>>, b: &Arc<Blocks<Node>>| {
+            Arc::ptr_eq(a, b) || a.equal_by(b, |a, b| same(&a.tile, &b.tile))
         };
         let depths = self.depths.len() == other.depths.len();
         let pairs = self.depths.iter().zip(&other.depths);
         self.grid == other.grid && self.blank == other.blank && depths && { pairs }
             .all(|(a, b)| equal_tiles(a, b))
-    }
-}
-
-/// What is kept for blocks of 32 × 32 squares of one scale.
-type Squares<T> = HashMap<Key, T, BuildHasherDefault<KeyHasher>>;
-
-/// Column and row of a block of squares.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-struct Key(u64);
-
-impl Key {
-    #[inline]
-    fn new(x: i32, y: i32) -> Self {
-        Self(u64::from(x as u32) << 32 | u64::from(y as u32))
-    }
-
-    /// [x, y].
-    fn square(self) -> [i32; 2] {
-        [(self.0 >> 32) as i32, self.0 as u32 as i32]
-    }
-}
-
-/// One multiplication: the table is asked for each square that the mesher looks at.
-#[derive(Clone, Copy, Default)]
-struct KeyHasher(u64);
-
-impl Hasher for KeyHasher {
-    fn finish(&self) -> u64 {
-        self.0
-    }
-
-    fn write(&mut self, bytes: &[u8]) {
-        bytes.iter().for_each(|&byte| self.write_u64(self.0 << 8 | u64::from(byte)));
-    }
-
-    #[inline]
-    fn write_u64(&mut self, key: u64) {
-        // Fibonacci hashing. The upper half depends on all bits of the key, and the table uses both ends.
-        let product = key.wrapping_mul(0x9E37_79B9_7F4A_7C15);
-        self.0 = product ^ (product >> 32);
     }
 }
 

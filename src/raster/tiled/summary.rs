@@ -4,7 +4,7 @@ use std::ops::Index;
 use std::sync::Arc;
 
 use super::tile::{TILE_PIXELS, index};
-use super::{Key, Node, TILE, Tile, TilePlace, TiledRaster};
+use super::{Node, TILE, Tile, TilePlace, TiledRaster};
 use crate::raster::{ValueRange, ValueRanges};
 
 /// The ranges of 32 × 32 squares of one scale, row by row from the lowest.
@@ -115,11 +115,10 @@ impl TiledRaster {
 
     /// Changes the pixels of the tile at a place; does nothing where there is none.
     pub fn change(&mut self, place: TilePlace, change: impl FnOnce(&mut Tile)) {
-        let Some(tiles) = self.depths.get_mut(usize::from(place.depth)) else { return };
-        if !tiles.contains_key(&Key::new(place.x, place.y)) {
+        if self.tile(place).is_none() {
             return;
         }
-        if let Some(node) = Arc::make_mut(tiles).get_mut(&Key::new(place.x, place.y)) {
+        if let Some(node) = self.node_mut(usize::from(place.depth), [place.x, place.y]) {
             change(Arc::make_mut(&mut node.tile));
         }
         self.summarize(place);
@@ -132,20 +131,19 @@ impl TiledRaster {
         if self.depths.len() == depth {
             self.depths.push(Arc::default());
         }
-        let tiles = Arc::make_mut(&mut self.depths[depth]);
-        let key = Key::new(place.x, place.y);
-        if let Some(node) = tiles.get_mut(&key) {
+        if let Some(node) = self.node_mut(depth, [place.x, place.y]) {
             let old = std::mem::replace(&mut node.tile, tile);
             self.summarize(place);
             return Some(old);
         }
-        tiles.insert(key, Node { tile, summary: None });
+        let tiles = Arc::make_mut(&mut self.depths[depth]);
+        tiles.get_or_insert(place.x, place.y, || Node { tile, summary: None });
         None
     }
 
     fn remove(&mut self, place: TilePlace) -> Option<Arc<Tile>> {
         let depth = usize::from(place.depth);
-        let removed = Arc::make_mut(self.depths.get_mut(depth)?).remove(&Key::new(place.x, place.y))?;
+        let removed = Arc::make_mut(self.depths.get_mut(depth)?).remove(place.x, place.y)?;
         assert!(removed.summary.is_none(), "the children of {place:?} are removed first");
         while self.depths.last().is_some_and(|tiles| tiles.is_empty()) {
             self.depths.pop();
@@ -172,12 +170,12 @@ impl TiledRaster {
 
     fn add_scale(&mut self) {
         let scale = self.coarsest();
-        let keys: Vec<Key> = match scale {
-            0 => self.depths[0].keys().copied().collect(),
-            _ => self.scales[scale as usize - 1].keys().copied().collect(),
+        let blocks: Vec<[i32; 2]> = match scale {
+            0 => self.depths[0].iter().map(|(block, _)| block).collect(),
+            _ => self.scales[scale as usize - 1].iter().map(|(block, _)| block).collect(),
         };
         self.scales.push(Arc::default());
-        for block in keys.into_iter().map(Key::square) {
+        for block in blocks {
             self.summarize_part(scale, block, Part::WHOLE);
         }
     }
@@ -210,10 +208,8 @@ impl TiledRaster {
         let coarser = part.coarser(block);
         let ranges = self.coarser_ranges(scale, block, coarser);
         let above = block.map(|n| n >> 1);
-        let is_covered = (0..4).any(|n| {
-            let [x, y] = [2 * above[0] + (n & 1), 2 * above[1] + (n >> 1)];
-            self.has_block(scale, Key::new(x, y))
-        });
+        let is_covered =
+            (0..4).any(|n| self.has_block(scale, [2 * above[0] + (n & 1), 2 * above[1] + (n >> 1)]));
         let blank = self.blank;
         let summary = if scale < 0 {
             let node = self.node_mut(-(scale + 1) as usize, above).expect("a tile has its ancestors");
@@ -223,11 +219,10 @@ impl TiledRaster {
             node.summary.get_or_insert_with(|| Arc::new(Summary::of(&node.tile)))
         } else {
             let blocks = Arc::make_mut(&mut self.scales[scale as usize]);
-            let key = Key::new(above[0], above[1]);
             if !is_covered {
-                return blocks.remove(&key).is_some();
+                return blocks.remove(above[0], above[1]).is_some();
             }
-            blocks.entry(key).or_insert_with(|| Arc::new(Summary::blank(blank)))
+            blocks.get_or_insert(above[0], above[1], || Arc::new(Summary::blank(blank)))
         };
         let differs = coarser.squares().zip(&ranges).any(|((x, y), range)| summary[index(x, y)] != *range);
         if differs {
@@ -240,12 +235,11 @@ impl TiledRaster {
     /// The ranges of a part of a block above `block`, which is a block of the given scale, from this block;
     /// where there is none, those without it.
     fn coarser_ranges(&self, scale: i32, block: [i32; 2], coarser: Part) -> Vec<ValueRange> {
-        let key = Key::new(block[0], block[1]);
-        let above = Key::new(block[0] >> 1, block[1] >> 1);
-        let at = |depth: i32, key| self.depths.get(depth as usize).and_then(|tiles| tiles.get(&key));
-        let node = if scale <= 0 { at(-scale, key) } else { None };
-        let summary = if scale > 0 { self.scales[scale as usize - 1].get(&key) } else { None };
-        let parent = if scale < 0 { at(-scale - 1, above) } else { None };
+        let [x, y] = block;
+        let at = |depth: i32, x, y| self.depths.get(depth as usize).and_then(|tiles| tiles.get(x, y));
+        let node = if scale <= 0 { at(-scale, x, y) } else { None };
+        let summary = if scale > 0 { self.scales[scale as usize - 1].get(x, y) } else { None };
+        let parent = if scale < 0 { at(-scale - 1, x >> 1, y >> 1) } else { None };
         let finer = |x, y| match (node, summary) {
             (Some(node), _) => Some(node.range(index(x, y))),
             (_, summary) => summary.map(|summary| summary[index(x, y)]),
@@ -274,15 +268,15 @@ impl TiledRaster {
         range.into_iter().chain(blank).reduce(ValueRange::union).expect("a filled square has a range")
     }
 
-    fn has_block(&self, scale: i32, key: Key) -> bool {
+    fn has_block(&self, scale: i32, [x, y]: [i32; 2]) -> bool {
         if scale > 0 {
-            self.scales[scale as usize - 1].contains_key(&key)
+            self.scales[scale as usize - 1].contains(x, y)
         } else {
-            self.depths.get(-scale as usize).is_some_and(|tiles| tiles.contains_key(&key))
+            self.depths.get(-scale as usize).is_some_and(|tiles| tiles.contains(x, y))
         }
     }
 
     fn node_mut(&mut self, depth: usize, [x, y]: [i32; 2]) -> Option<&mut Node> {
-        Arc::make_mut(self.depths.get_mut(depth)?).get_mut(&Key::new(x, y))
+        Arc::make_mut(self.depths.get_mut(depth)?).get_mut(x, y)
     }
 }
