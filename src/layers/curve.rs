@@ -1,0 +1,180 @@
+//! Target diameters as a function of a raster's own values.
+
+use crate::field::Bounds;
+
+/// A piecewise linear function from a value to a target diameter, constant beyond its ends.
+///
+/// ```text
+/// diameter          .--------     last knot
+///                  /
+///             .---´
+///    --------´                    first knot
+///                       value
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct ValueCurve {
+    /// (value, target diameter in world units), in increasing order of value; never empty.
+    knots: Vec<[f64; 2]>,
+}
+
+/// Why knots make no curve.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum CurveError {
+    /// There is no knot.
+    #[error("A curve of values needs at least one knot, a value and its target diameter.")]
+    Empty,
+    /// A value is not finite.
+    #[error("Knot {knot} has the value {value}; it must be a finite number.")]
+    Value {
+        /// The number of the knot, counted from one.
+        knot: usize,
+        /// As given.
+        value: f64,
+    },
+    /// A target diameter is not positive.
+    #[error("Knot {knot} has the target diameter {diameter}; it must be a finite number above 0.")]
+    Diameter {
+        /// The number of the knot, counted from one.
+        knot: usize,
+        /// As given.
+        diameter: f64,
+    },
+    /// The values do not increase.
+    #[error(
+        "Knot {knot} has the value {value}, which is not above the value {before} of the knot before it."
+    )]
+    Order {
+        /// The number of the knot, counted from one.
+        knot: usize,
+        /// As given.
+        value: f64,
+        /// The value of the knot before.
+        before: f64,
+    },
+}
+
+impl ValueCurve {
+    /// The curve through knots [value, target diameter], in increasing order of value.
+    ///
+    /// # Errors
+    /// When there is no knot, a number is not valid, or the values do not increase.
+    pub fn new(knots: Vec<[f64; 2]>) -> Result<Self, CurveError> {
+        if knots.is_empty() {
+            return Err(CurveError::Empty);
+        }
+        for (number, &[value, diameter]) in knots.iter().enumerate() {
+            let knot = number + 1;
+            if !value.is_finite() {
+                return Err(CurveError::Value { knot, value });
+            }
+            if !(diameter > 0.0 && diameter.is_finite()) {
+                return Err(CurveError::Diameter { knot, diameter });
+            }
+            match number.checked_sub(1).map(|before| knots[before][0]) {
+                Some(before) if value <= before => return Err(CurveError::Order { knot, value, before }),
+                _ => {}
+            }
+        }
+        Ok(Self { knots })
+    }
+
+    /// The knots as [value, target diameter], in increasing order of value.
+    pub fn knots(&self) -> &[[f64; 2]] {
+        &self.knots
+    }
+
+    /// The target diameter for a value, in world units; NaN for NaN.
+    pub fn diameter(&self, value: f64) -> f64 {
+        if value.is_nan() {
+            return value;
+        }
+        let next = self.knots.partition_point(|&[knot, _]| knot <= value);
+        let (Some(before), Some(&after)) = (next.checked_sub(1), self.knots.get(next)) else {
+            return self.knots[next.min(self.knots.len() - 1)][1];
+        };
+        let [[v0, d0], [v1, d1]] = [self.knots[before], after];
+        // Halves, as the difference of two large values may overflow.
+        let share = (0.5 * value - 0.5 * v0) / (0.5 * v1 - 0.5 * v0);
+        (d0 * (1.0 - share) + d1 * share).clamp(d0.min(d1), d0.max(d1))
+    }
+
+    /// Bounds of the target diameter for the values from `least` to `greatest`.
+    pub fn bounds(&self, least: f64, greatest: f64) -> Bounds {
+        if least.is_nan() || greatest.is_nan() {
+            return Bounds::ANYTHING;
+        }
+        let ends = Bounds::one(self.diameter(least)).union(Bounds::one(self.diameter(greatest)));
+        let first = self.knots.partition_point(|&[value, _]| value < least);
+        let between = self.knots[first..].iter().take_while(|&&[value, _]| value <= greatest);
+        let all = between.map(|&[_, diameter]| Bounds::one(diameter)).fold(ends, Bounds::union);
+        // Between two knots the sum of two products is off by a few ulps, and need not be monotone.
+        all.widened(8)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn diameters_are_linear_between_knots_and_constant_beyond() {
+        let curve = ValueCurve::new(vec![[-10.0, 0.5], [0.0, 0.1], [100.0, 2.1]]).unwrap();
+        for (value, diameter) in [
+            (-1e9, 0.5),
+            (-10.0, 0.5),
+            (-5.0, 0.3),
+            (0.0, 0.1),
+            (25.0, 0.6),
+            (100.0, 2.1),
+            (f64::INFINITY, 2.1),
+        ] {
+            assert!((curve.diameter(value) - diameter).abs() < 1e-15, "{value}: {}", curve.diameter(value));
+        }
+        assert!(curve.diameter(f64::NAN).is_nan());
+        let one = ValueCurve::new(vec![[3.0, 0.7]]).unwrap();
+        assert_eq!([one.diameter(-1.0), one.diameter(3.0), one.diameter(8.0)], [0.7; 3]);
+    }
+
+    #[test]
+    fn bounds_hold_every_diameter_and_are_reached() {
+        let mut random = fastrand::Rng::with_seed(71);
+        for _ in 0..2_000 {
+            let mut value = -1.0;
+            let mut knot = |_| {
+                value += 1e-6 + random.f64();
+                [value, 1e-3 + random.f64()]
+            };
+            let knots: Vec<[f64; 2]> = (0..7).map(&mut knot).collect();
+            let curve = ValueCurve::new(knots).unwrap();
+            let a = 8.0 * random.f64() - 2.0;
+            let b = a + [0.0, 1e-9, 0.3, 3.0][random.usize(..4)] * random.f64();
+            let bounds = curve.bounds(a, b);
+            let (mut least, mut greatest) = (f64::INFINITY, 0.0f64);
+            for n in 0..=100 {
+                let diameter = curve.diameter((a + (b - a) * f64::from(n) / 100.0).clamp(a, b));
+                assert!(bounds.contains(diameter), "{a} to {b}: {diameter}, {bounds:?}");
+                (least, greatest) = (least.min(diameter), greatest.max(diameter));
+            }
+            for &[value, diameter] in curve.knots().iter().filter(|knot| (a..=b).contains(&knot[0])) {
+                assert!(bounds.contains(diameter), "{value}");
+                (least, greatest) = (least.min(diameter), greatest.max(diameter));
+            }
+            assert!(least - bounds.least < 1e-12 && bounds.greatest - greatest < 1e-12, "{bounds:?}");
+        }
+    }
+
+    #[test]
+    fn invalid_knots_are_refused_with_a_sentence() {
+        for (knots, word) in [
+            (vec![], "at least one knot"),
+            (vec![[0.0, 1.0], [f64::NAN, 1.0]], "Knot 2 has the value NaN"),
+            (vec![[0.0, 0.0]], "Knot 1 has the target diameter 0"),
+            (vec![[0.0, f64::INFINITY]], "target diameter inf"),
+            (vec![[0.0, 1.0], [0.0, 2.0]], "not above the value 0"),
+        ] {
+            let error = ValueCurve::new(knots).unwrap_err().to_string();
+            assert!(error.contains(word), "{error}");
+        }
+    }
+}

@@ -1,0 +1,246 @@
+//! The distance to points, lines and polygons.
+
+use std::sync::Arc;
+
+use glam::DVec2;
+
+use super::Mask;
+use crate::domain::{Polygon, Region, RegionError};
+use crate::field::Bounds;
+use crate::geometry::{BoxTree, Rect, nearest_on_segment};
+
+/// Points, lines and polygons, in world units.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ShapeList {
+    /// Single points.
+    pub points: Vec<DVec2>,
+    /// Polylines, each with two points or more.
+    pub lines: Vec<Vec<DVec2>>,
+    /// Polygons: an outer ring, then the rings of its holes.
+    pub polygons: Vec<Polygon>,
+}
+
+impl ShapeList {
+    /// Whether there is nothing to be near to.
+    pub fn is_empty(&self) -> bool {
+        self.segments().next().is_none()
+    }
+
+    /// Points as segments of length 0, then the edges of lines and rings.
+    fn segments(&self) -> impl Iterator<Item = [DVec2; 2]> {
+        let points = self.points.iter().map(|&p| [p, p]);
+        let lines = self.lines.iter().flat_map(|line| line.windows(2).map(|ends| [ends[0], ends[1]]));
+        let rings = self.polygons.iter().flatten();
+        let edges = rings.flat_map(|ring| (0..ring.len()).map(|n| [ring[n], ring[(n + 1) % ring.len()]]));
+        points.chain(lines).chain(edges)
+    }
+}
+
+/// Shapes with an index, to measure the distance to them. Clones share their data.
+#[derive(Clone, Debug)]
+pub struct Shapes(Arc<Indexed>);
+
+#[derive(Debug)]
+struct Indexed {
+    list: ShapeList,
+    segments: Vec<[DVec2; 2]>,
+    tree: BoxTree,
+    /// What the polygons cover, if the distance within them is 0.
+    filled: Option<Mask>,
+}
+
+/// Why there is no distance to shapes.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ShapesError {
+    /// No point, line or ring.
+    #[error("There is no point, line or polygon to measure the distance to.")]
+    Empty,
+    /// A coordinate is not finite.
+    #[error("A shape has a point at {x}, {y}; both must be finite numbers.")]
+    Place {
+        /// As given.
+        x: f64,
+        /// As given.
+        y: f64,
+    },
+    /// The polygons cannot be filled.
+    #[error(transparent)]
+    Polygons(#[from] RegionError),
+}
+
+impl PartialEq for Shapes {
+    fn eq(&self, other: &Self) -> bool {
+        let same = |a: &Indexed, b: &Indexed| a.filled.is_some() == b.filled.is_some() && a.list == b.list;
+        Arc::ptr_eq(&self.0, &other.0) || same(&self.0, &other.0)
+    }
+}
+
+impl Shapes {
+    /// Indexes shapes. With `filled`, the distance within a polygon is 0; otherwise it is that to its
+    /// outline.
+    ///
+    /// # Errors
+    /// When there is no shape, a coordinate is not finite, or polygons that are to be filled are too complex.
+    pub fn new(list: ShapeList, filled: bool) -> Result<Self, ShapesError> {
+        let segments: Vec<[DVec2; 2]> = list.segments().collect();
+        if let Some(p) = segments.iter().flatten().find(|p| !p.is_finite()) {
+            return Err(ShapesError::Place { x: p.x, y: p.y });
+        }
+        if segments.is_empty() {
+            return Err(ShapesError::Empty);
+        }
+        let boxes: Vec<Rect> = segments.iter().map(|&[a, b]| Rect::spanning(a, b)).collect();
+        let tree = BoxTree::new(&boxes);
+        let filled = match Mask::new(&list.polygons) {
+            _ if !filled => None,
+            // Polygons without an area are lines.
+            Err(RegionError::NoArea) => None,
+            mask => Some(mask?),
+        };
+        Ok(Self(Arc::new(Indexed { list, segments, tree, filled })))
+    }
+
+    /// The outline of a region: the distance is that to its boundary, on both sides.
+    ///
+    /// # Errors
+    /// When the region is empty.
+    pub fn outline(region: &Region) -> Result<Self, ShapesError> {
+        Self::new(ShapeList { polygons: region.polygons().to_vec(), ..ShapeList::default() }, false)
+    }
+
+    /// The shapes as they were given.
+    pub fn list(&self) -> &ShapeList {
+        &self.0.list
+    }
+
+    /// The distance from a point to the nearest shape, in world units.
+    pub fn distance(&self, p: DVec2) -> f64 {
+        if self.0.filled.as_ref().is_some_and(|mask| mask.contains(p)) {
+            return 0.0;
+        }
+        let squared =
+            |number: u32| p.distance_squared(nearest_on_segment(p, self.0.segments[number as usize]));
+        self.0.tree.nearest(p, squared).map_or(f64::INFINITY, |(_, squared)| squared.sqrt())
+    }
+
+    /// Bounds of the distance over a closed rectangle in world units.
+    ///
+    /// The distance changes at most as much as the point moves: from the centre by half a diagonal.
+    pub fn bounds(&self, rect: &Rect) -> Bounds {
+        let center = rect.center();
+        let distance = self.distance(center);
+        let coordinate = |rect: &Rect| rect.min.abs().max(rect.max.abs()).max_element();
+        let largest = self.0.tree.bounds().map_or(0.0, |bounds| coordinate(&bounds)).max(coordinate(rect));
+        // Rounding shifts the centre and the nearest point by a few ulps of the largest coordinate.
+        let reach = 0.5 * rect.size().length() * (1.0 + 1e-12) + 1e-14 * largest;
+        let bounds = Bounds::new(distance, distance).expanded(reach);
+        Bounds { least: bounds.least.max(0.0), ..bounds }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::dvec2;
+
+    use super::*;
+
+    fn near(random: &mut fastrand::Rng) -> DVec2 {
+        dvec2(random.f64(), random.f64())
+    }
+
+    fn shapes(random: &mut fastrand::Rng) -> ShapeList {
+        let points = (0..random.usize(..6)).map(|_| near(random)).collect();
+        let lines = (0..random.usize(..4)).map(|_| (0..9).map(|_| near(random)).collect()).collect();
+        let polygon = |random: &mut fastrand::Rng| {
+            let (at, side) = (near(random), 0.05 + 0.2 * random.f64());
+            vec![vec![at, at + dvec2(side, 0.0), at + dvec2(0.3 * side, side)]]
+        };
+        let polygons = (0..random.usize(1..4)).map(|_| polygon(random)).collect();
+        ShapeList { points, lines, polygons }
+    }
+
+    /// The distance to a segment from places along it, closer and closer to the nearest.
+    fn referee_segment(p: DVec2, a: DVec2, b: DVec2) -> f64 {
+        let (mut low, mut high) = (0.0, 1.0);
+        for _ in 0..80 {
+            let (left, right) = (low + (high - low) / 3.0, high - (high - low) / 3.0);
+            if p.distance(a + left * (b - a)) < p.distance(a + right * (b - a)) {
+                high = right
+            } else {
+                low = left
+            }
+        }
+        p.distance(a + 0.5 * (low + high) * (b - a))
+    }
+
+    fn is_in_triangle(p: DVec2, ring: &[DVec2]) -> bool {
+        (0..3).all(|n| (ring[(n + 1) % 3] - ring[n]).perp_dot(p - ring[n]) > 0.0)
+    }
+
+    fn referee(list: &ShapeList, filled: bool, p: DVec2) -> f64 {
+        if filled && list.polygons.iter().any(|rings| is_in_triangle(p, &rings[0])) {
+            return 0.0;
+        }
+        let points = list.points.iter().map(|&at| p.distance(at));
+        let lines = list
+            .lines
+            .iter()
+            .flat_map(|line| line.windows(2).map(|ends| referee_segment(p, ends[0], ends[1])));
+        let rings = list.polygons.iter().flatten();
+        let edges = rings.flat_map(|ring| (0..3).map(|n| referee_segment(p, ring[n], ring[(n + 1) % 3])));
+        points.chain(lines).chain(edges).fold(f64::INFINITY, f64::min)
+    }
+
+    #[test]
+    fn the_distance_is_that_to_the_nearest_shape() {
+        let mut random = fastrand::Rng::with_seed(91);
+        let mut within = 0;
+        for round in 0..60 {
+            let (list, filled) = (shapes(&mut random), round % 2 == 0);
+            let shapes = Shapes::new(list.clone(), filled).unwrap();
+            for _ in 0..200 {
+                let p = 2.0 * near(&mut random) - 0.5;
+                let (found, expected) = (shapes.distance(p), referee(&list, filled, p));
+                assert!((found - expected).abs() < 1e-8, "{found} {expected} at {p}");
+                within += usize::from(found == 0.0);
+            }
+        }
+        assert!(within > 20, "{within}");
+    }
+
+    #[test]
+    fn bounds_hold_the_distance_at_every_point() {
+        let mut random = fastrand::Rng::with_seed(92);
+        for round in 0..200 {
+            let far = [0.0, 1e6][round % 2];
+            let mut list = shapes(&mut random);
+            list.points.iter_mut().for_each(|p| *p += far);
+            list.lines.iter_mut().flatten().for_each(|p| *p += far);
+            list.polygons.iter_mut().flatten().flatten().for_each(|p| *p += far);
+            let shapes = Shapes::new(list, random.bool()).unwrap();
+            for _ in 0..30 {
+                let min = 2.0 * near(&mut random) - 0.5 + far;
+                let side = [0.0, 1e-3, 0.1, 2.0][random.usize(..4)];
+                let rect = Rect::new(min, min + side * near(&mut random));
+                let bounds = shapes.bounds(&rect);
+                for _ in 0..20 {
+                    let p = (rect.min + near(&mut random) * rect.size()).clamp(rect.min, rect.max);
+                    assert!(bounds.contains(shapes.distance(p)), "{p} in {rect:?}");
+                }
+                assert!(bounds.greatest - bounds.least <= rect.size().length() * 1.001 + 1e-6);
+            }
+        }
+    }
+
+    #[test]
+    fn shapes_without_a_place_are_refused() {
+        assert_eq!(Shapes::new(ShapeList::default(), true), Err(ShapesError::Empty));
+        let line = ShapeList { lines: vec![vec![DVec2::ZERO, dvec2(f64::NAN, 1.0)]], ..ShapeList::default() };
+        let error = Shapes::new(line, false).unwrap_err();
+        assert!(error.to_string().contains("NaN, 1"), "{error}");
+        let flat = vec![vec![DVec2::ZERO, DVec2::ONE, dvec2(0.5, 0.5)]];
+        let flat = Shapes::new(ShapeList { polygons: vec![flat], ..ShapeList::default() }, true).unwrap();
+        assert!((flat.distance(dvec2(1.0, 0.0)) - 0.5f64.sqrt()).abs() < 1e-12);
+    }
+}
