@@ -1,11 +1,12 @@
 //! Recipes, run by the program itself.
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use glam::dvec2;
-use meshbrush::internals::io::recipe::{SavedRecipe, parse, to_text};
+use meshbrush::internals::io::recipe::{SavedRecipe, parse, read, to_text};
 use meshbrush::{
     Base, BoundaryMarks, Document, Domain, DomainShape, LengthUnit, Project, Rect, Settings, write_geojson,
     write_project,
@@ -116,6 +117,14 @@ fn the_reference_has_an_example_that_is_valid_and_every_key() {
             assert!(is_mentioned, "{key} of {table}");
         }
     }
+}
+
+#[test]
+fn the_example_is_valid_and_uses_five_kinds() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/jacksboro.toml");
+    let recipe = read(&path).unwrap();
+    let kinds: BTreeSet<&str> = recipe.layers.iter().map(|layer| layer.kind.saved_kind().word()).collect();
+    assert_eq!(kinds.len(), 5, "{kinds:?}");
 }
 
 /// What a curve and a band ask for is also asked for by a formula with the same steps.

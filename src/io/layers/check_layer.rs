@@ -8,6 +8,7 @@ use super::{
     SavedLayer, SavedShape, SavedThreat, ShapeSpec, Step, ThreatsSpec,
 };
 use crate::field::Formula;
+use crate::layers::{Threat, ThreatError};
 
 impl SavedLayer {
     /// Checks every value.
@@ -103,7 +104,7 @@ impl SavedLayer {
     fn threats(&self, find: &FindFile) -> Result<KindSpec, KeyFault> {
         let spec = match (&self.file, &self.threats) {
             (Some(_), None) => ThreatsSpec::File(self.found(find)?),
-            (None, Some(list)) => ThreatsSpec::List(each("threats", list, checked_threat)?),
+            (None, Some(list)) => ThreatsSpec::List(checked_threats(list)?),
             (Some(_), Some(_)) => {
                 return Err(KeyFault::key(
                     "threats",
@@ -226,12 +227,21 @@ fn curve(knots: &[[f64; 2]]) -> Result<Vec<[f64; 2]>, KeyFault> {
     Ok(knots.to_vec())
 }
 
-fn checked_threat(threat: &SavedThreat) -> Result<SavedThreat, String> {
-    let SavedThreat { x, y, range, peak, .. } = *threat;
-    point([x, y])?;
-    positive_length(range).map_err(|sentence| format!("the range {sentence}"))?;
-    number_where(peak, (0.0..=1.0).contains(&peak), "the peak is a risk from 0 to 1")?;
-    Ok(*threat)
+fn checked_threats(list: &[SavedThreat]) -> Result<Vec<Threat>, KeyFault> {
+    let checked = |(index, saved): (usize, &SavedThreat)| {
+        let threat = Threat::from(*saved);
+        let fault = |error: ThreatError| {
+            let key = match error {
+                ThreatError::Place { x, .. } if !x.is_finite() => "x",
+                ThreatError::Place { .. } => "y",
+                ThreatError::Range(_) => "range",
+                ThreatError::Peak(_) => "peak",
+            };
+            KeyFault::value("threats", error.to_string()).at(Step::Index(index)).at(Step::Key(key))
+        };
+        threat.check().map(|()| threat).map_err(fault)
+    };
+    list.iter().enumerate().map(checked).collect()
 }
 
 impl SavedShape {

@@ -1,6 +1,7 @@
+use glam::DVec2;
 use serde::{Deserialize, Serialize};
 
-use crate::layers::{Combine, Layer, LayerKind, Quantity};
+use crate::layers::{Combine, Layer, LayerKind, Quantity, Threat, ThreatLaw};
 
 /// A layer as a text has it. Which keys it may have depends on its kind.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -147,12 +148,12 @@ pub struct SavedThreat {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum SavedLaw {
-    /// With the fourth power, as the echo of a radar.
+    /// See [`ThreatLaw::Radar`].
     #[default]
     Radar,
-    /// As a bell curve.
+    /// See [`ThreatLaw::Gaussian`].
     Gaussian,
-    /// A disc with a soft rim.
+    /// See [`ThreatLaw::Disc`].
     Disc,
 }
 
@@ -309,6 +310,30 @@ impl From<Quantity> for SavedQuantity {
             Quantity::Risk => Self::Risk,
             Quantity::Diameter => Self::Diameter,
         }
+    }
+}
+
+impl From<SavedThreat> for Threat {
+    fn from(saved: SavedThreat) -> Self {
+        let SavedThreat { x, y, range, peak, law } = saved;
+        let law = match law {
+            SavedLaw::Radar => ThreatLaw::Radar,
+            SavedLaw::Gaussian => ThreatLaw::Gaussian,
+            SavedLaw::Disc => ThreatLaw::Disc,
+        };
+        Self { at: DVec2::new(x, y), range, peak, law }
+    }
+}
+
+impl From<Threat> for SavedThreat {
+    fn from(threat: Threat) -> Self {
+        let Threat { at, range, peak, law } = threat;
+        let law = match law {
+            ThreatLaw::Radar => SavedLaw::Radar,
+            ThreatLaw::Gaussian => SavedLaw::Gaussian,
+            ThreatLaw::Disc => SavedLaw::Disc,
+        };
+        Self { x: at.x, y: at.y, range, peak, law }
     }
 }
 

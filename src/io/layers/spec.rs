@@ -2,12 +2,11 @@ use std::path::{Path, PathBuf};
 
 use glam::DVec2;
 
-use super::SavedThreat;
 use super::saved::SavedKind;
 use crate::domain::Polygon;
 use crate::field::Formula;
 use crate::geometry::Rect;
-use crate::layers::{Combine, Quantity};
+use crate::layers::{Combine, Quantity, Threat};
 
 /// Finds a file by the name that a text gives it. Errors are sentences.
 pub type FindFile<'a> = dyn Fn(&str) -> Result<PathBuf, String> + 'a;
@@ -140,7 +139,7 @@ pub enum ThreatsSpec {
     /// A table.
     File(PathBuf),
     /// These.
-    List(Vec<SavedThreat>),
+    List(Vec<Threat>),
 }
 
 /// What a distance is to.

@@ -32,7 +32,7 @@ fn every_kind_is_read_from_its_keys() {
         ),
         (
             r#"{ "kind": "threats", "threats": [{ "x": 1, "y": 2, "range": 3 }] }"#,
-            "Threats(List([SavedThreat { x: 1.0, y: 2.0, range: 3.0, peak: 1.0, law: Radar }]))",
+            "Threats(List([Threat { at: DVec2(1.0, 2.0), range: 3.0, peak: 1.0, law: Radar }]))",
         ),
         (
             r#"{ "kind": "distance", "to": "outline", "at_zero": 0.1, "slope": 0.2 }"#,
@@ -94,11 +94,11 @@ fn values_that_cannot_be_used_are_named_with_their_key() {
         ),
         (
             r#"{ "kind": "threats", "threats": [{ "x": 0, "y": 0, "range": 0 }] }"#,
-            "threats 1: the range 0 cannot be used",
+            "threats 1, range: A threat has the range 0",
         ),
         (
             r#"{ "kind": "threats", "threats": [{ "x": 0, "y": 0, "range": 1, "peak": 2 }] }"#,
-            "threats 1: 2 cannot be used: the peak",
+            "threats 1, peak: A threat has the peak 2",
         ),
         (r#"{ "kind": "threats" }"#, "kind: a layer of the kind \"threats\" needs `file`"),
         (

@@ -253,8 +253,8 @@ fn values_that_cannot_be_used_are_named_with_line_and_column() {
         ),
         (
             "[[layer]]\nkind = \"threats\"\n[[layer.threats]]\nx = 0\ny = 0\nrange = -1",
-            [3, 1],
-            "the range -1",
+            [6, 9],
+            "A threat has the range -1",
         ),
         ("[[layer]]\nkind = \"threats\"\nthreats = []", [2, 1], "risk and images need `h_min`"),
         ("[[layer]]\nkind = \"band\"\nfile = \"a.tif\"", [3, 8], "a raster is a .png or an .asc file."),
