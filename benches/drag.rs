@@ -9,8 +9,9 @@
 
 use std::time::{Duration, Instant};
 
-use meshbrush::internals::document::{Base, Document, Follower, MeshChange, Setting, Settings};
+use meshbrush::internals::document::{Document, Follower, MeshChange, Setting, Settings};
 use meshbrush::internals::field::Formula;
+use meshbrush::internals::layers::{Layer, LayerKind};
 
 /// The window's own values: `FRAME_BUDGET` in `app/frame.rs` and `SLICE` in `app/session.rs`.
 const FRAME_BUDGET: Duration = Duration::from_millis(7);
@@ -23,7 +24,7 @@ fn document(h_min: f64) -> Document {
     let mut settings = Settings::default();
     settings.transfer.h_min = h_min;
     let formula = "if(y < 0.45 + 0.1 * sin(7 * x), 0.0001, 0.2)";
-    settings.base = Base::Formula(Formula::parse(formula).expect("a valid formula"));
+    settings.layers = Layer::usual(LayerKind::target(Formula::parse(formula).expect("a valid formula")));
     Document::new(settings, None).expect("valid settings")
 }
 

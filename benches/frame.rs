@@ -21,9 +21,10 @@ use std::ops::Range;
 use std::time::{Duration, Instant};
 
 use glam::{DVec2, dvec2};
-use meshbrush::internals::document::{Base, Document, Follower, MeshChange, Settings, Stage};
+use meshbrush::internals::document::{Document, Follower, MeshChange, Settings, Stage};
 use meshbrush::internals::domain::{BoundaryTreatment, Domain};
 use meshbrush::internals::field::Formula;
+use meshbrush::internals::layers::{Layer, LayerKind};
 use meshbrush::internals::mesh::{PatchPieces, TriangleId};
 use meshbrush::internals::outline::DerivedMesh;
 use meshbrush::internals::paint::{Brush, Medium};
@@ -61,7 +62,7 @@ fn settings(wave: f64) -> Settings {
     let mut settings = Settings::default();
     settings.transfer.h_min = 0.0011;
     let formula = format!("if(y < {wave} + 0.1 * sin(7 * x), 0.0011, 0.2)");
-    settings.base = Base::Formula(Formula::parse(&formula).expect("a valid formula"));
+    settings.layers = Layer::usual(LayerKind::target(Formula::parse(&formula).expect("a valid formula")));
     settings
 }
 

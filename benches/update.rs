@@ -1,7 +1,7 @@
 //! Updates in place: the same dab on meshes of ten thousand to ten million triangles, beside a mesh made from
 //! scratch.
 //!
-//! The field is a raster under the area rule, as in the window; the cost of updating the field is not
+//! The field is a paint layer under the area rule, as in the window; the cost of changing its pixels is not
 //! counted. *same place*: one dab is painted and erased repeatedly. *moving*: a dab is painted at the next of
 //! eight places and the oldest of three is erased, so that entries are removed from the middle of the arrays
 //! and others fill the gaps. *dab counted*, *erasing counted*: a forecast of what painting or erasing the dab
@@ -14,17 +14,23 @@ use std::time::{Duration, Instant};
 
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, BenchmarkId, Criterion, SamplingMode, Throughput};
+use meshbrush::internals::field::Transfer;
 use meshbrush::internals::geometry::{Lattice, LatticePoint, LatticeRect, Rect};
-use meshbrush::internals::mesh::{
-    Element, Forecast, InvalidTarget, Limits, Mesh, Progress, Refiner, Updater,
+use meshbrush::internals::layers::{
+    Layer, LayerId, LayerKind, PaintLayers, Quantity, SizeField, SizeFieldSpec,
 };
-use meshbrush::internals::raster::{MaxMipmap, PixelRect, RasterOnLattice};
+use meshbrush::internals::mesh::{
+    Element, Forecast, InvalidTarget, Limits, Mesh, Progress, Refiner, Updater, bisection_edge_length,
+};
+use meshbrush::internals::raster::{PixelGrid, PixelRect, TILE, TilePlace, TiledRaster};
 
 /// Pixels along a side of the field.
 const SIDE: u32 = 2048;
 /// Radius of a dab in pixels, and the level that it asks for: about ten thousand triangles.
 const RADIUS: u32 = 78;
 const LEVEL: u8 = 12;
+/// The layer that is painted on.
+const LAYER: LayerId = LayerId(0);
 /// Centres of the dabs, in the left half.
 const PLACES: [[u32; 2]; 8] =
     [[200, 200], [600, 300], [250, 700], [800, 750], [300, 1200], [750, 1100], [200, 1700], [700, 1800]];
@@ -33,8 +39,8 @@ const PLACES: [[u32; 2]; 8] =
 struct Scene {
     coarse: Mesh,
     mesh: Mesh,
-    levels: MaxMipmap<u8>,
-    on_lattice: RasterOnLattice,
+    paint: PaintLayers,
+    field: SizeField,
 }
 
 impl Scene {
@@ -43,25 +49,27 @@ impl Scene {
         let lattice = Lattice::covering(Rect::UNIT, 1.0 / 16.0, 1_000_000).expect("a square has a grid");
         let coarse =
             Mesh::coarse_grid(&lattice, |_| true, &Limits::default()).expect("within the default limits");
-        let mut levels = MaxMipmap::filled([SIDE; 2], 0);
-        levels.update(PixelRect { min: [SIDE / 2 + 1, 0], max: [SIDE, rows] }, |_, _| level);
+        let mut paint = PaintLayers::default();
+        let grid = PixelGrid::filling(&Rect::UNIT, [SIDE; 2]);
+        paint.insert(LAYER, TiledRaster::new(grid, f32::INFINITY));
+        let transfer = Transfer { h_min: 1e-9, h_max: 1.0, shape: 1.0 };
+        let layers = Layer::stack([LayerKind::Paint(Quantity::Diameter)]);
+        let spec = SizeFieldSpec { layers, transfer, unasked: 1.0, outline: None, gradation: None };
+        let field = SizeField::new(spec, &lattice);
+        let mut scene = Self { mesh: coarse.clone(), coarse, paint, field };
+        scene.set(PixelRect { min: [SIDE / 2 + 1, 0], max: [SIDE, rows] }, |_, _| Some(level));
         // The same finest pixel in every mesh: the rule returns early where nothing is finer than a triangle.
-        levels.update(PixelRect { min: [SIDE - 1; 2], max: [SIDE; 2] }, |_, _| 16);
-        let on_lattice = RasterOnLattice::new(coarse.lattice(), [SIDE; 2]);
-        let mut scene = Self { mesh: coarse.clone(), coarse, levels, on_lattice };
-        scene
-            .mesh
-            .refine(&Limits::default(), rule(&scene.levels, scene.on_lattice))
-            .expect("within the limits");
+        scene.set(PixelRect { min: [SIDE - 1; 2], max: [SIDE; 2] }, |_, _| Some(16));
+        scene.mesh.refine(&Limits::default(), rule(&scene.field, &scene.paint)).expect("within the limits");
         scene
     }
 
     /// Paints or erases the dab at `place` and returns the part of the lattice that may change.
     fn stamp(&mut self, place: [u32; 2], level: u8) -> LatticeRect {
         let area = PixelRect { min: place.map(|c| c - RADIUS), max: place.map(|c| c + RADIUS + 1) };
-        self.levels.update(area, |x, y| {
+        self.set(area, |x, y| {
             let [dx, dy] = [x.abs_diff(place[0]), y.abs_diff(place[1])];
-            if dx * dx + dy * dy <= RADIUS * RADIUS { level } else { 0 }
+            (dx * dx + dy * dy <= RADIUS * RADIUS && level > 0).then_some(level)
         });
         // A pixel is a whole number of lattice steps.
         let pixel = self.coarse.lattice().extent().x / SIDE;
@@ -69,10 +77,35 @@ impl Scene {
         LatticeRect { min: point(area.min), max: point(area.max) }
     }
 
+    /// Lets each pixel of an area ask for a level, or for nothing.
+    fn set(&mut self, area: PixelRect, level: impl Fn(u32, u32) -> Option<u8>) {
+        let spacing = self.coarse.lattice().spacing();
+        let diameter = |level: u8| bisection_edge_length(spacing, u32::from(level)) as f32;
+        let raster = self.paint.get_mut(LAYER).expect("inserted at the beginning");
+        let side = TILE as u32;
+        let tiles = PixelRect { min: area.min.map(|v| v / side), max: area.max.map(|v| v.div_ceil(side)) };
+        for (column, row) in tiles.pixels() {
+            let place = TilePlace { depth: 0, x: column as i32, y: row as i32 };
+            if raster.tile(place).is_none() {
+                let blank = raster.inherited(place);
+                raster.exchange(place, Some(blank.into()));
+            }
+            raster.change(place, |tile| {
+                let [x0, y0] = [column * side, row * side];
+                for (x, y) in (PixelRect { min: [x0, y0], max: [x0 + side, y0 + side] }).pixels() {
+                    if area.contains(x, y) {
+                        let value = level(x, y).map_or(f32::INFINITY, diameter);
+                        tile.set((x - x0) as i32, (y - y0) as i32, value);
+                    }
+                }
+            });
+        }
+    }
+
     fn update(&mut self, updater: &mut Updater, area: LatticeRect) -> Duration {
         let start = Instant::now();
         updater.add(area);
-        let progress = updater.advance(&mut self.mesh, rule(&self.levels, self.on_lattice), usize::MAX);
+        let progress = updater.advance(&mut self.mesh, rule(&self.field, &self.paint), usize::MAX);
         let time = start.elapsed();
         assert_eq!(progress, Ok(Progress::Done));
         black_box(updater.take_changes());
@@ -81,8 +114,8 @@ impl Scene {
 }
 
 /// The area rule.
-fn rule(levels: &MaxMipmap<u8>, on: RasterOnLattice) -> impl Fn(&Element) -> Result<bool, InvalidTarget> {
-    move |element| Ok(on.any_above(levels, element.corners, element.triangle.level() as u8))
+fn rule(field: &SizeField, paint: &PaintLayers) -> impl Fn(&Element) -> Result<bool, InvalidTarget> {
+    move |element| Ok(field.exceeds(paint, element))
 }
 
 /// Level of the right half, and the rows that it fills.
@@ -113,7 +146,7 @@ fn counted(group: &mut BenchmarkGroup<WallTime>, scene: &mut Scene) {
     let once = |scene: &Scene, area| {
         let start = Instant::now();
         let mut forecast = Forecast::new(&scene.mesh, area, &Limits::default());
-        let exceeds = |corners, level| scene.on_lattice.any_above(&scene.levels, corners, level as u8);
+        let exceeds = |corners, level| scene.field.asks_for_more(&scene.paint, corners, level);
         assert_eq!(forecast.advance(&scene.mesh, exceeds, |_, _| true, usize::MAX), Ok(Progress::Done));
         (start.elapsed(), forecast.added() + forecast.removed())
     };
@@ -162,7 +195,7 @@ fn from_scratch(group: &mut BenchmarkGroup<WallTime>, scene: &Scene) {
                 let start = Instant::now();
                 mesh.clone_from(&scene.coarse);
                 refiner.restart(&mesh);
-                let made = refiner.advance(&mut mesh, rule(&scene.levels, scene.on_lattice), usize::MAX);
+                let made = refiner.advance(&mut mesh, rule(&scene.field, &scene.paint), usize::MAX);
                 assert_eq!(made, Ok(Progress::Done));
                 start.elapsed()
             };

@@ -39,32 +39,30 @@ mod app;
 pub use glam;
 
 // Build a mesh.
-pub use build::{
-    BuildError, BuildStage, BuiltMesh, FieldSampling, MeshBuilder, MeshSpec, RefinementCriterion,
-};
+pub use build::{BuildError, BuildStage, BuiltMesh, MeshBuilder, MeshSpec, RefinementCriterion};
 pub use domain::{
     BoundaryKind, BoundaryMarks, BoundaryPiece, BoundaryPieces, BoundaryTreatment, CutShape, Domain,
     DomainOnLattice, DomainShape, MOST_CORNERS, MeshBoundary, NamedPolygon, PieceFigures, PieceRun, Polygon,
     Region, RegionError, Ring,
 };
 pub use field::formula::ParseError;
-pub use field::{
-    Bounds, Formula, PaintRef, RefinementRule, RiskToDiameter, Source, TargetField, TargetFieldSpec,
-    Transfer, TransferError, VertexRule,
-};
+pub use field::{Bounds, Formula, RefinementRule, RiskToDiameter, Transfer, TransferError, VertexRule};
 pub use geometry::{GridError, Lattice, LatticePoint, LatticeRect, Rect};
 pub use mesh::{
     Changes, CoarseError, Element, Fingerprint, Forecast, InvalidTarget, Limits, MOST_TRIANGLES, MemoryLimit,
     Mesh, Progress, RefineError, Refiner, Updater, Violation, bisection_edge_length,
 };
-pub use raster::{MAX_SIDE, PixelRect, Raster};
+pub use raster::{PixelRect, Raster, RasterPyramid, TiledRaster};
 
 // Paint.
 pub use document::{
-    Background, Base, Document, Example, Follower, MeshChange, Picture, Setting, Settings, SettingsError,
-    Stage,
+    Background, Document, Example, Follower, MeshChange, Picture, Setting, Settings, SettingsError, Stage,
 };
-pub use paint::{Brush, Medium, PaintRasters};
+pub use layers::{
+    Combine, Decision, InvalidLayer, Layer, LayerId, LayerKind, PaintLayers, Quantity, RasterReading,
+    RasterSource, SizeField, SizeFieldSpec,
+};
+pub use paint::{Brush, Medium};
 pub use text::LengthUnit;
 
 // Query a mesh.

@@ -2,9 +2,11 @@
 
 use std::sync::Arc;
 
-use glam::dvec2;
-use meshbrush::internals::document::{Base, Document, Follower, MeshChange, Setting, Settings, Stage};
+use glam::{DVec2, dvec2};
+use meshbrush::internals::document::{Document, Follower, MeshChange, Setting, Settings, Stage};
 use meshbrush::internals::field::Formula;
+use meshbrush::internals::geometry::Rect;
+use meshbrush::internals::layers::{Combine, Layer, LayerKind};
 use meshbrush::internals::mesh::Mesh;
 use meshbrush::internals::paint::{Brush, Medium};
 
@@ -24,9 +26,8 @@ fn assert_as_from_scratch(follower: &Follower, document: &Document) {
 /// More than a hundred thousand triangles below a wave, few above it.
 fn large() -> (Document, Follower) {
     let formula = Formula::parse("if(y < 0.4 + 0.1 * sin(7 * x), 0.004, 0.2)").unwrap();
-    let base = Base::Formula(formula);
-    let mut document =
-        Document::new(Settings { base, resolution: 400, ..Settings::default() }, None).unwrap();
+    let layers = Layer::usual(LayerKind::target(formula));
+    let mut document = Document::new(Settings { layers, ..Settings::default() }, None).unwrap();
     let follower = Follower::new(&mut document).unwrap();
     assert!(follower.mesh().raw_triangle_count() > 100_000, "{}", follower.mesh().raw_triangle_count());
     (document, follower)
@@ -86,64 +87,88 @@ fn the_copy_is_dropped_when_the_mesh_is_no_longer_held() {
     assert_as_from_scratch(&follower, &document);
 }
 
-/// Drags a setting through `moves` values, with a few slices of work after each. Returns how often another
-/// mesh was shown.
+/// Drags a setting through `moves` values, with a few slices of work after each. Returns after how many moves
+/// another mesh was shown, and after how many the shown one changed where it is.
 fn drag(
     document: &mut Document,
     follower: &mut Follower,
     moves: usize,
     slices: usize,
     setting: impl Fn(f64) -> Setting,
-) -> usize {
-    let mut shown = 0;
+) -> [usize; 2] {
+    let [mut replaced, mut changed] = [0; 2];
     follower.take_change();
     for step in 1..=moves {
         document.set(setting(step as f64 / moves as f64)).unwrap();
         for _ in 0..slices {
             follower.advance(document, SLICE).unwrap();
         }
-        shown += usize::from(follower.take_change() == Some(MeshChange::Replaced));
+        match follower.take_change() {
+            Some(MeshChange::Replaced) => replaced += 1,
+            Some(MeshChange::Within(_)) => changed += 1,
+            None => {}
+        }
     }
     document.end_gesture();
-    shown
+    [replaced, changed]
 }
 
 #[test]
 fn the_mesh_moves_while_a_setting_is_dragged_and_ends_as_from_scratch() {
     let (mut document, mut follower) = large();
     // One mesh takes more slices than there are between two moves.
-    let settings: [fn(f64) -> Setting; 3] = [
-        |t| Setting::TransferShape(1.0 + t),
-        |t| Setting::SmallestDiameter(0.0024 + 0.002 * t),
-        |t| Setting::Spacing(1.0 / 24.0 + 0.01 * t),
-    ];
+    let spacing = |t| Setting::Spacing(1.0 / 24.0 + 0.01 * t);
+    let [replaced, _] = drag(&mut document, &mut follower, 200, 20, spacing);
+    assert!((5..200).contains(&replaced), "{replaced} meshes in 200 moves");
+    settle(&mut follower, &mut document);
+    assert_as_from_scratch(&follower, &document);
+    // Other layers and limits are followed where h̄ differs.
+    let disc = |t| {
+        let text = format!("if(hypot(x - 0.3 - 0.4 * {t}, y - 0.8) < 0.1, 0.006, 0.2)");
+        Setting::Layers(Layer::usual(LayerKind::target(Formula::parse(&text).unwrap())))
+    };
+    let smallest = |t| Setting::SmallestDiameter(0.0045 + 0.002 * t);
+    let settings: [&dyn Fn(f64) -> Setting; 2] = [&smallest, &disc];
     for setting in settings {
-        let shown = drag(&mut document, &mut follower, 200, 20, setting);
-        assert!((5..200).contains(&shown), "{shown} meshes in 200 moves");
+        let [replaced, changed] = drag(&mut document, &mut follower, 200, 20, setting);
+        assert!(replaced == 0 && changed > 100, "{replaced} meshes, {changed} changes in 200 moves");
         settle(&mut follower, &mut document);
         assert_as_from_scratch(&follower, &document);
     }
 }
 
 #[test]
-fn a_change_of_spacing_or_transfer_evaluates_no_formula() {
+fn layers_transfer_and_gradation_change_the_mesh_where_it_is() {
     let (mut document, mut follower) = large();
-    assert_eq!(follower.field().evaluations(), 400 * 400);
-    for setting in [
-        Setting::Spacing(0.05),
-        Setting::TransferShape(2.0),
-        Setting::SmallestDiameter(0.003),
-        Setting::LargestDiameter(0.1),
-    ] {
-        document.set(setting.clone()).unwrap();
+    paint(&mut document);
+    settle(&mut follower, &mut document);
+    follower.take_change();
+    let with = |document: &Document, edit: fn(&mut Vec<Layer>)| {
+        let mut layers = document.settings().layers.clone();
+        edit(&mut layers);
+        Setting::Layers(layers)
+    };
+    let target = |text| LayerKind::target(Formula::parse(text).unwrap());
+    let edits: [&dyn Fn(&Document) -> Setting; 9] = [
+        &|document| with(document, |layers| layers[2].visible = false),
+        &|document| with(document, |layers| layers[2].visible = true),
+        &|document| with(document, |layers| layers[2].combine = Combine::Replace),
+        &|document| with(document, |layers| layers.swap(0, 2)),
+        &|document| with(document, |layers| _ = layers.remove(1)),
+        &|_| Setting::Layers(Layer::usual(target("if(x < 0.5, 0.01, inf)"))),
+        &|_| Setting::Gradation(Some(0.7)),
+        &|_| Setting::TransferShape(2.0),
+        &|_| Setting::SmallestDiameter(0.004),
+    ];
+    for (number, edit) in edits.iter().enumerate() {
+        document.set(edit(&document)).unwrap();
+        document.end_gesture();
         settle(&mut follower, &mut document);
-        assert_eq!(follower.field().evaluations(), 0, "{setting:?}");
+        let change = follower.take_change();
+        assert!(!matches!(change, Some(MeshChange::Replaced)), "edit {number}");
+        assert_eq!(follower.settings(), document.settings());
         assert_as_from_scratch(&follower, &document);
     }
-    let other = Base::Formula(Formula::parse("0.05").unwrap());
-    document.set(Setting::Base(other)).unwrap();
-    settle(&mut follower, &mut document);
-    assert_eq!(follower.field().evaluations(), 400 * 400);
 }
 
 #[test]
@@ -155,7 +180,7 @@ fn another_document_is_not_kept_waiting_by_a_rebuild() {
         follower.advance(&mut document, SLICE).unwrap();
     }
     follower.take_change();
-    document.set(Setting::Resolution(300)).unwrap();
+    document.set(Setting::Bounds(Rect::new(DVec2::ZERO, dvec2(1.0, 0.8)))).unwrap();
     settle(&mut follower, &mut document);
     assert_eq!(follower.settings(), document.settings());
     assert_as_from_scratch(&follower, &document);

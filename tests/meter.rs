@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use meshbrush::internals::document::{Base, Example};
+use meshbrush::internals::document::Example;
 use meshbrush::internals::domain::MeshBoundary;
 use meshbrush::internals::geometry::{Lattice, Rect};
 use meshbrush::internals::io::png::{Behind, read_metered as read_png};
@@ -13,8 +13,9 @@ use meshbrush::internals::io::project::{self, Project};
 use meshbrush::internals::io::{
     MeshData, MeshFormat, Meter, Provenance, geojson, stl, vtu, write_file_metered,
 };
+use meshbrush::internals::layers::{Layer, LayerKind, RasterReading, RasterSource};
 use meshbrush::internals::mesh::{Limits, Mesh};
-use meshbrush::internals::raster::Raster;
+use meshbrush::internals::raster::{Raster, RasterPyramid};
 
 const CANCELLED: &str = "it was cancelled";
 
@@ -67,8 +68,9 @@ fn large_project() -> Project {
     let sea = geojson::read_named_from(&sea[..], Path::new("sea")).unwrap();
     let mut project = Project::of(&Example::Aegean.document(|| unreachable!(), || sea.clone()));
     let values = (0..500 * 400).map(|n| (n % 997) as f32 / 997.0).collect();
-    let raster = Arc::new(Raster::from_values(Rect::UNIT, [500, 400], values));
-    project.settings.base = Base::RiskImage { name: "noise.png".into(), raster };
+    let raster = Arc::new(RasterPyramid::new(Raster::from_values(Rect::UNIT, [500, 400], values)));
+    let source = RasterSource { name: "noise.png".into(), raster };
+    project.settings.layers = Layer::usual(LayerKind::Raster { source, reading: RasterReading::Risk });
     project
 }
 

@@ -7,15 +7,18 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use glam::dvec2;
-use meshbrush::internals::document::{Base, Document, Example, Follower, Settings, Stage};
+use meshbrush::internals::document::{Document, Example, Follower, Settings, Stage};
 use meshbrush::internals::domain::{
     BoundaryMarks, BoundaryPiece, BoundaryPieces, BoundaryTreatment, Domain, DomainShape,
 };
 use meshbrush::internals::field::{Formula, RefinementRule, Transfer};
 use meshbrush::internals::geometry::Rect;
 use meshbrush::internals::io::project::{self, Project};
+use meshbrush::internals::layers::{
+    Combine, Layer, LayerId, LayerKind, Quantity, RasterReading, RasterSource,
+};
 use meshbrush::internals::paint::{Brush, DiameterChange, Medium};
-use meshbrush::internals::raster::Raster;
+use meshbrush::internals::raster::{Raster, RasterPyramid};
 use meshbrush::internals::text::LengthUnit;
 
 const NAME: &str = "test.meshbrush";
@@ -70,6 +73,33 @@ fn marks(domain: &Domain) -> BoundaryMarks {
     }
 }
 
+/// Layers of every kind, hidden and locked, combined in every way, with several to paint on.
+fn stack(bottom: LayerKind) -> Vec<Layer> {
+    let gap = Raster::from_values(Rect::UNIT, [3, 1], vec![0.1, f32::NAN, 0.3]);
+    let holes = Raster::from_values(Rect::UNIT, [1, 3], vec![f32::INFINITY, f32::NAN, 0.02]);
+    let holes = RasterSource { name: "holes.asc".into(), raster: Arc::new(RasterPyramid::new(holes)) };
+    let mut layers = Layer::stack([
+        bottom,
+        LayerKind::Paint(Quantity::Diameter),
+        raster_layer("gap.asc", gap),
+        LayerKind::Raster { source: holes, reading: RasterReading::Diameter },
+        LayerKind::risk(formula("x * y")),
+        LayerKind::Paint(Quantity::Risk),
+        LayerKind::Paint(Quantity::Risk),
+    ]);
+    layers[2].combine = Combine::Floor;
+    layers[3].combine = Combine::Replace;
+    layers[4].visible = false;
+    (layers[5].locked, layers[5].name) = (true, "Küste \"\\ \u{1f30a}".into());
+    layers[0].id = LayerId(4_000_000_000);
+    layers
+}
+
+fn raster_layer(name: &str, raster: Raster) -> LayerKind {
+    let source = RasterSource { name: name.into(), raster: Arc::new(RasterPyramid::new(raster)) };
+    LayerKind::Raster { source, reading: RasterReading::Risk }
+}
+
 /// Documents with everything that can be saved.
 fn documents() -> Vec<Document> {
     let mut random = fastrand::Rng::with_seed(7);
@@ -89,8 +119,7 @@ fn documents() -> Vec<Document> {
             boundary_marks: Arc::new(marks(&domain)),
             spacing: extent / (3.0 + random.f64()),
             transfer: Transfer { h_min: extent / 700.3, h_max: extent / 3.7, shape: 0.1 + random.f64() },
-            base: Base::Constant(extent * random.f64().max(1e-3)),
-            resolution: 100 + random.u32(0..200),
+            layers: Layer::usual(LayerKind::constant(extent * random.f64().max(1e-3))),
             max_triangles: 123_457,
             domain,
             ..plain.clone()
@@ -106,14 +135,16 @@ fn documents() -> Vec<Document> {
             shape: DomainShape::Formula(formula("r < 0.9")),
         },
         boundary: BoundaryTreatment::Report,
-        base: Base::RiskImage { name: "slope.png".into(), raster: Arc::new(raster) },
+        layers: Layer::usual(raster_layer("slope.png", raster)),
+        gradation: Some(1.0 / 3.0),
         rule: RefinementRule::Area,
-        resolution: 1024,
         ..plain.clone()
     };
     all.push(Document::new(picture, None).unwrap());
-    let base = Base::Formula(formula("0.02 + 0.1*hypot(x - 0.5, y - 0.5)"));
-    all.push(Document::new(Settings { base, rule: RefinementRule::Vertex, ..plain }, None).unwrap());
+    let target = || LayerKind::target(formula("0.02 + 0.1*hypot(x - 0.5, y - 0.5)"));
+    all.push(Document::new(Settings { layers: stack(target()), ..plain.clone() }, None).unwrap());
+    let layers = Layer::usual(target());
+    all.push(Document::new(Settings { layers, rule: RefinementRule::Vertex, ..plain }, None).unwrap());
     for document in all.iter_mut().skip(3) {
         scribble(document, &mut random);
     }
@@ -168,7 +199,7 @@ fn an_opened_project_has_the_mesh_of_the_saved_one() {
 #[ignore = "takes a minute in a debug build, and is there for its figures"]
 fn a_painted_mesh_of_two_million_triangles_is_saved_and_opened() {
     let transfer = Transfer { h_min: 4e-4, h_max: 0.05, shape: 1.0 };
-    let settings = Settings { resolution: 2048, transfer, spacing: 0.05, ..Settings::default() };
+    let settings = Settings { transfer, spacing: 0.05, ..Settings::default() };
     let mut document = Document::new(settings, None).unwrap();
     let mut random = fastrand::Rng::with_seed(1);
     let mut follower = Follower::new(&mut document).unwrap();
@@ -191,10 +222,10 @@ fn a_painted_mesh_of_two_million_triangles_is_saved_and_opened() {
     let opened = began.elapsed();
     let again = Follower::new(&mut back).unwrap();
     eprintln!(
-        "{} triangles, {} tiles; copied in {copied:.1?}, saved in {written:.1?}: {} bytes; opened in {opened:.1?}, meshed after \
+        "{} triangles, {} bytes of paint; copied in {copied:.1?}, saved in {written:.1?}: {} bytes; opened in {opened:.1?}, meshed after \
          {:.1?}; fingerprints {} and {}",
         follower.mesh().triangle_count(),
-        project.tiles.len(),
+        project.paint.bytes(),
         fs::metadata(&file).unwrap().len(),
         began.elapsed(),
         follower.mesh().fingerprint(),
@@ -253,7 +284,7 @@ fn settings_are_readable_text_and_unzip_unpacks_them() {
     let python = Command::new("python3").args(["-c", script]).arg(&file).output();
     let Ok(python) = python else { return }; // no Python on this machine
     let said = String::from_utf8_lossy(&python.stdout);
-    let expected = "['settings.json', 'domain.geojson', 'paint.tiles'] 123457 MultiPolygon";
+    let expected = "['settings.json', 'domain.geojson', 'paint.1', 'paint.2'] 123457 MultiPolygon";
     assert_eq!(said.trim(), expected, "{}", String::from_utf8_lossy(&python.stderr));
 }
 
@@ -263,8 +294,7 @@ fn small() -> Project {
     let raster = Raster::from_values(Rect::UNIT, [2, 2], vec![0.0, 0.25, 0.5, 1.0]);
     let settings = Settings {
         domain: Domain::of_polygons(&[square]).unwrap(),
-        base: Base::RiskImage { name: "a.png".into(), raster: Arc::new(raster) },
-        resolution: 16,
+        layers: Layer::usual(raster_layer("a.png", raster)),
         ..Settings::default()
     };
     let mut document = Document::new(settings, None).unwrap();
@@ -380,22 +410,22 @@ fn archives_packed_by_other_tools_are_opened() {
 #[test]
 fn a_newer_version_is_named() {
     let newer = rewritten(|text| {
-        let newer = text.replace("\"version\": 1", "\"version\": 7, \"seasons\": [1, 2]");
+        let newer = text.replace("\"version\": 2", "\"version\": 7, \"seasons\": [1, 2]");
         newer.replace(concat!("Meshbrush ", env!("CARGO_PKG_VERSION")), "Meshbrush 9.9")
     });
-    refused(&newer, &[NAME, "settings.json", "Meshbrush 9.9", "version 7", "up to version 1"]);
+    refused(&newer, &[NAME, "settings.json", "Meshbrush 9.9", "version 7", "up to version 2"]);
 }
 
 #[test]
 fn errors_in_settings_name_their_place() {
     let cases: &[(&str, &str, &[&str])] = &[
-        ("\"version\": 1", "\"version\": 1, \"seasons\": 4", &["line 3", "seasons"]),
+        ("\"version\": 2", "\"version\": 2, \"seasons\": 4", &["line 3", "seasons"]),
         ("\"spacing\"", "\"spacing\": 1e999, \"spacings\"", &["settings.json"]),
         ("\"columns\": 2", "\"columns\": 100000", &["100,000 × 2", "65,536"]),
-        ("\"columns\": 2", "\"columns\": 8192", &["base.risk", "checksum"]),
-        ("\"columns\": 2", "\"columns\": 1", &["base.risk", "8 is the limit"]),
-        ("\"resolution\": 16", "\"resolution\": 4000000000", &["4,000,000,000", "2,048"]),
-        ("\"resolution\": 16", "\"resolution\": 2048", &["paint.tiles"]),
+        ("\"columns\": 2", "\"columns\": 8192", &["raster", "checksum"]),
+        ("\"columns\": 2", "\"columns\": 1", &["raster", "8 is the limit"]),
+        ("\"id\": 1,", "\"id\": 2,", &["two layers", "2"]),
+        ("\"id\": 1,", "\"id\": -1,", &["-1"]),
         ("\"max_triangles\": ", "\"max_triangles\": 999", &["max_triangles"]),
         ("\"shape\": 1.0", "\"shape\": -1.0", &["shape -1"]),
         ("Meshbrush project", "Somebody's project", &["Somebody"]),
@@ -431,7 +461,7 @@ fn errors_stay_short_for_long_values() {
     let long = "m".repeat(100_000);
     for [from, to] in [
         ["Meshbrush project", &long],
-        ["\"version\": 1", &format!("\"version\": 7, \"{long}\": 1")],
+        ["\"version\": 2", &format!("\"version\": 7, \"{long}\": 1")],
         ["\"written_by\": \"Mesh", &format!("\"written_by\": \"{long}")],
         ["\"spacing\"", &format!("\"{long}\"")],
         ["\"area\"", &format!("\"{long}\"")],
@@ -439,7 +469,7 @@ fn errors_stay_short_for_long_values() {
         let bytes = rewritten(|text| {
             assert!(text.contains(from), "{from}: {text}");
             text.replacen(from, to, 1).replacen(
-                "\"version\": 1",
+                "\"version\": 2",
                 "\"version\": 7",
                 usize::from(from.contains("written")),
             )
@@ -477,10 +507,10 @@ fn errors_stay_short_for_long_values() {
 fn declared_sizes_take_no_memory() {
     let bytes = bytes_of(&small());
     let directory = bytes.windows(4).rposition(|four| four == b"PK\x01\x02").unwrap();
-    // The paint announces 3 GB.
+    // The paint announces 3 GB, which it does not have.
     let mut bomb = bytes.clone();
     bomb[directory + 24..directory + 28].copy_from_slice(&3_000_000_000u32.to_le_bytes());
-    refused(&bomb, &["paint.tiles", "3000000000"]);
+    refused(&bomb, &["paint", "damaged"]);
     // The settings are 64 MB of blanks, packed in 64 kB.
     let mut blanks = flate2::write::DeflateEncoder::new(Vec::new(), flate2::Compression::best());
     std::io::Write::write_all(&mut blanks, &vec![b' '; 64 << 20]).unwrap();
@@ -509,14 +539,113 @@ fn paint_with_impossible_values_is_refused() {
     let mut parts = unpacked(&bytes_of(&small()));
     let (_, paint) = parts.last_mut().unwrap();
     let valid = paint.clone();
-    for (place, value) in [(0, 1), (2, 9), (4, 200), (5, 0x7f), (5, 0xbf)] {
+    // After the grid of 32 bytes: depth, whether there are pixels, column, row, pixels.
+    for (place, value) in [(32, 200), (33, 2), (37, 0x7f), (41, 0x80), (42, 0x7f), (42, 0xbf)] {
         let (_, paint) = parts.last_mut().unwrap();
         paint.copy_from_slice(&valid);
         paint[place] = value;
-        refused(&packed(parts.clone()), &["paint.tiles", "Meshbrush did not write this file"]);
+        refused(&packed(parts.clone()), &["paint", "Meshbrush did not write this file"]);
     }
-    parts.last_mut().unwrap().1.push(0);
-    refused(&packed(parts.clone()), &["paint.tiles"]);
+    // The corner and the sides of the pixels of depth 0.
+    for number in 0..4 {
+        for impossible in [f64::NAN, f64::INFINITY, if number < 2 { f64::NAN } else { 0.0 }] {
+            let (_, paint) = parts.last_mut().unwrap();
+            paint.copy_from_slice(&valid);
+            paint[8 * number..][..8].copy_from_slice(&impossible.to_le_bytes());
+            refused(&packed(parts.clone()), &["paint", "damaged"]);
+        }
+    }
+    let (_, paint) = parts.last_mut().unwrap();
+    paint.copy_from_slice(&valid);
+    paint.push(0);
+    refused(&packed(parts.clone()), &["paint"]);
+}
+
+/// What version 1 wrote: a base field, and two rasters of paint in common tiles of 64 × 64 pixels.
+fn version_1() -> Vec<u8> {
+    let settings = r#"{
+  "format": "Meshbrush project", "version": 1, "written_by": "Meshbrush 0.1.0", "name": "Old",
+  "domain": { "bounds": [0.0, 0.0, 2.0, 1.0], "shape": "whole" },
+  "boundary": { "on_outline_with_diameter": 0.01 },
+  "spacing": 0.25, "transfer": { "h_min": 0.02, "h_max": 0.5, "shape": 1.0 },
+  "base": { "risk_image": { "name": "old.png", "bounds": [0.0, 0.0, 2.0, 1.0], "columns": 2, "rows": 1 } },
+  "rule": "area", "resolution": 150, "max_triangles": 1000000, "max_memory": 1000000000
+}"#;
+    let planes = |values: &[f32]| -> Vec<u8> {
+        (0..4).flat_map(|plane| values.iter().map(move |value| value.to_be_bytes()[plane])).collect()
+    };
+    let mut tiles = Vec::new();
+    // Full tiles in columns 0 and 1; the last of three columns is 22 pixels wide, the second row 11 high.
+    for (column, row, pixels) in [(0u16, 0u16, 64 * 64), (1, 1, 64 * 11), (2, 0, 22 * 64)] {
+        tiles.extend([column.to_le_bytes(), row.to_le_bytes()].concat());
+        tiles.push(if column == 1 { 2 } else { 3 });
+        let risks: Vec<f32> = (0..pixels).map(|n| old_risk(column.into(), n)).collect();
+        let diameters: Vec<f32> = (0..pixels).map(|n| old_diameter(row.into(), n)).collect();
+        if column != 1 {
+            tiles.extend(planes(&risks));
+        }
+        tiles.extend(planes(&diameters));
+    }
+    let parts =
+        [("settings.json", settings.into()), ("base.risk", planes(&[0.25, 0.75])), ("paint.tiles", tiles)];
+    packed(parts.map(|(name, content)| (name.to_owned(), content)))
+}
+
+fn old_risk(column: u32, n: u32) -> f32 {
+    if column == 1 { 0.0 } else { ((n * 7 + column) % 5) as f32 / 4.0 }
+}
+
+fn old_diameter(row: u32, n: u32) -> f32 {
+    if (n + row).is_multiple_of(3) { f32::INFINITY } else { 0.05 + ((n * 11 + row) % 7) as f32 }
+}
+
+#[test]
+fn projects_of_version_1_open_with_the_same_paint() {
+    let project = opened(&version_1()).unwrap();
+    let layers = &project.settings.layers;
+    let raster = Raster::from_values(project.settings.domain.bounds, [2, 1], vec![0.25, 0.75]);
+    assert_eq!(*layers, Layer::usual(raster_layer("old.png", raster)));
+    let sampled = |id: u32, at| project.paint.get(LayerId(id)).unwrap().sample(at);
+    for (x, y) in (0..75).flat_map(|y| (0..150).map(move |x| (x, y))) {
+        let (column, row) = (x / 64, y / 64);
+        let columns = if column == 2 { 22 } else { 64 };
+        let n = y % 64 * columns + x % 64;
+        let is_painted = [(0, 0), (1, 1), (2, 0)].contains(&(column, row));
+        let expected =
+            if is_painted { (old_diameter(row, n), old_risk(column, n)) } else { (f32::INFINITY, 0.0) };
+        let at = (dvec2(x.into(), y.into()) + 0.5) / 75.0;
+        assert_eq!((sampled(1, at), sampled(2, at)), expected, "pixel {x}, {y}");
+    }
+    // It is saved in the present version, and meshed.
+    let again = opened(&bytes_of(&project)).unwrap();
+    assert!(again == project);
+    let mesh =
+        |project: Project| Follower::new(&mut project.into_document().unwrap()).unwrap().mesh().fingerprint();
+    assert_eq!(mesh(again), mesh(project));
+}
+
+#[test]
+fn projects_of_version_1_with_an_impossible_resolution_are_refused() {
+    let bytes = version_1();
+    for resolution in ["0", "15", "2049", "4000000000"] {
+        let mut parts = unpacked_plain(&bytes);
+        let text = String::from_utf8(parts[0].1.clone()).unwrap();
+        parts[0].1 = text.replace("150", resolution).into_bytes();
+        refused(&packed(parts), &["settings.json", "resolution", "2,048"]);
+    }
+}
+
+/// The parts of an archive of stored parts.
+fn unpacked_plain(mut bytes: &[u8]) -> Vec<(String, Vec<u8>)> {
+    let mut parts = Vec::new();
+    while bytes.starts_with(b"PK\x03\x04") {
+        let word = |at: usize| u32::from_le_bytes(bytes[at..at + 4].try_into().unwrap()) as usize;
+        let (size, name) = (word(18), word(26) & 0xffff);
+        let content = bytes[30 + name..][..size].to_vec();
+        parts.push((String::from_utf8(bytes[30..30 + name].to_vec()).unwrap(), content));
+        bytes = &bytes[30 + name + size..];
+    }
+    parts
 }
 
 fn folder(name: &str) -> PathBuf {

@@ -8,8 +8,8 @@ use std::process::Command;
 use glam::dvec2;
 use meshbrush::internals::io::recipe::{SavedRecipe, parse, read, to_text};
 use meshbrush::{
-    Base, BoundaryMarks, Document, Domain, DomainShape, LengthUnit, Project, Rect, Settings, write_geojson,
-    write_project,
+    BoundaryMarks, Document, Domain, DomainShape, Layer, LayerKind, LengthUnit, Project, Rect, Settings,
+    write_geojson, write_project,
 };
 use serde_json::Value;
 
@@ -92,7 +92,7 @@ fn a_recipe_gives_the_mesh_of_the_options() {
     ] {
         folder.file("sub/recipe.toml", recipe);
         let (by_recipe, by_options) = (folder.json("sub/recipe.toml"), folder.json(options));
-        for key in ["hash", "triangles", "spacing", "rule", "resolution", "parts"] {
+        for key in ["hash", "triangles", "spacing", "rule", "parts"] {
             assert_eq!(by_recipe[key], by_options[key], "{key} of {recipe}");
         }
     }
@@ -288,7 +288,7 @@ fn the_recipe_of_a_document_gives_its_mesh() {
         let settings = Settings {
             boundary_marks: marks.clone().into(),
             unit: LengthUnit::Kilometre,
-            base: Base::Constant(0.3),
+            layers: Layer::usual(LayerKind::constant(0.3)),
             ..Settings::for_domain("Rock".into(), domain)
         };
         let base = "{ \"kind\": \"formula\", \"quantity\": \"diameter\", \"formula\": \"0.3\" }";

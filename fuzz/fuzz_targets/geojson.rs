@@ -4,11 +4,12 @@
 
 use std::path::Path;
 
-use meshbrush::internals::build::{FieldSampling, MeshBuilder, MeshSpec};
+use meshbrush::internals::build::{MeshBuilder, MeshSpec};
 use meshbrush::internals::domain::{BoundaryTreatment, Domain};
-use meshbrush::internals::field::{RefinementRule, TargetFieldSpec, Transfer};
+use meshbrush::internals::field::{RefinementRule, Transfer};
 use meshbrush::internals::geometry::Lattice;
 use meshbrush::internals::io::geojson;
+use meshbrush::internals::layers::SizeFieldSpec;
 use meshbrush::internals::mesh::{Cleaning, Limits, Progress};
 
 /// Few, so that many files are tried in a second.
@@ -31,14 +32,14 @@ fn check_mesh(domain: &Domain, boundary: BoundaryTreatment, spacing: f64) {
         domain: domain.clone(),
         boundary,
         lattice,
-        field: TargetFieldSpec {
-            sources: Vec::new(),
+        field: SizeFieldSpec {
+            layers: Vec::new(),
             transfer: Transfer { h_min: spacing / 1000.0, h_max: 2.0 * spacing, shape: 1.0 },
             unasked: 2.0 * spacing,
-            size: [2; 2],
+            outline: None,
+            gradation: None,
         },
         rule: RefinementRule::Vertex,
-        sampling: FieldSampling::AsNeeded,
         cleaning: Cleaning::NONE,
         limits: Limits { max_triangles: MOST_TRIANGLES, ..Limits::default() },
     });

@@ -17,6 +17,7 @@ use crate::colormap::Colormap;
 use crate::document::{Document, Example, Setting};
 use crate::domain::{CutShape, Domain};
 use crate::geometry::Rect;
+use crate::layers::{Combine, LayerId, LayerKind};
 use crate::mesh::TriangleId;
 
 /// One thing to do. Lengths and points are in world units.
@@ -32,10 +33,12 @@ pub enum Command {
     Open(PathBuf),
     /// Reads a project, and opens it in place of the document.
     OpenProject(PathBuf),
-    /// Reads a greyscale picture, or a grid of its own placement, as the base field's risk.
+    /// Reads a greyscale picture, or a grid of its own placement, as a layer of risk.
     OpenImage(PathBuf),
-    /// Reads a grid as the base field's target diameters.
+    /// Reads a grid as a layer of target diameters.
     OpenDiameters(PathBuf),
+    /// Edits the layers.
+    Layer(LayerCommand),
     /// Reads a picture to be shown behind the mesh.
     OpenBackground(PathBuf),
     /// Reads polygons, and opens a new document with them as its domain.
@@ -266,4 +269,35 @@ pub enum DomainCommand {
     Adds(bool),
     /// Gives the domain other bounds.
     Bounds(Rect),
+}
+
+/// One thing to do with layers.
+#[derive(Clone, Debug, PartialEq)]
+pub enum LayerCommand {
+    /// Selects a layer: its parameters are shown, and brush and eraser act on it.
+    Select(LayerId),
+    /// Adds a layer above the selected one.
+    Add(Box<LayerKind>),
+    /// Adds a copy above a layer.
+    Duplicate(LayerId),
+    /// Removes a layer.
+    Delete(LayerId),
+    /// Moves a layer to a place, counted from the bottom without that layer.
+    Move(LayerId, usize),
+    /// Gives a layer a name.
+    Rename(LayerId, String),
+    /// Shows or hides a layer.
+    Show(LayerId, bool),
+    /// Locks or unlocks a layer.
+    Lock(LayerId, bool),
+    /// Chooses how a layer is combined with those below it.
+    Combine(LayerId, Combine),
+    /// Changes what a layer asks for. Further changes join this gesture until [`Command::EndGesture`].
+    SetKind(LayerId, Box<LayerKind>),
+    /// Removes the paint of a layer.
+    Clear(LayerId),
+    /// Begins to type a new name of a layer in the panel.
+    AskName(LayerId),
+    /// Limits the gradation of h̄ to the usual slope, or removes the limit.
+    LimitGradation(bool),
 }

@@ -9,6 +9,7 @@ use super::latest::Latest;
 use crate::document::Follower;
 use crate::field::{Contour, contours};
 use crate::geometry::Rect;
+use crate::layers::PaintLayers;
 
 /// Levels that have contour lines.
 const LEVELS: u32 = 63;
@@ -45,18 +46,28 @@ impl ContourFinder {
     }
 
     /// Takes the lines that are ready, and computes those of a field at `revision`.
-    pub fn advance(&mut self, follower: &Follower, revision: u64, ctx: &Context) {
+    pub fn advance(&mut self, follower: &Follower, paint: &PaintLayers, revision: u64, ctx: &Context) {
         self.0.take(Duration::ZERO);
-        let state = FieldState { revision, bounds: follower.field().target().bounds() };
+        let state = FieldState { revision, bounds: follower.field().lattice().bounds() };
         // Lines of another domain are of no use.
         self.0.keep_if(|found| found.bounds == state.bounds);
-        if self.0.is_running() || self.0.has(&state) || !follower.field().is_sampled() {
+        if self.0.is_running() || self.0.has(&state) {
             return;
         }
-        let (target, mesh) = (follower.field().target().clone(), follower.mesh());
+        let (field, paint, mesh) = (follower.shared_field(), paint.clone(), follower.mesh());
         let diameters: Vec<f64> = (0..LEVELS).map(|level| mesh.diameter(level)).collect();
-        self.0.start(state, move || contours(&target, &diameters).into_iter().map(placed).collect(), ctx);
+        let find = move || {
+            let target = field.sampled(&paint, state.bounds, pixels_over(&state.bounds));
+            contours(&target, &diameters).into_iter().map(placed).collect()
+        };
+        self.0.start(state, find, ctx);
     }
+}
+
+/// Columns and rows of the pixels on which h̄ is sampled: square pixels, 1024 along the longer side.
+pub fn pixels_over(bounds: &Rect) -> [u32; 2] {
+    let size = bounds.size();
+    [size.x, size.y].map(|side| (1024.0 * side / size.max_element()).round().max(2.0) as u32)
 }
 
 fn placed(contour: Contour) -> PlacedContour {

@@ -7,18 +7,19 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::background::{Aim, Background, Outcome, cancelled, name_of};
-use super::command::{Command, Opened, OutlineChange};
+use super::command::{Command, LayerCommand, Opened, OutlineChange};
 use super::session::Session;
 use super::view::View;
 use super::widgets::format;
-use crate::document::{self, Base, Document, Example, Setting, Settings, extent};
+use crate::document::{self, Document, Example, Setting, Settings, extent};
 use crate::domain::{BoundaryMarks, MeshBoundary, NamedPolygon};
 use crate::geometry::Rect;
 use crate::io::png::{Behind, decode};
 use crate::io::{self, Cancelled, MeshData, MeshSource, Meter, Provenance};
+use crate::layers::{LayerKind, RasterReading, RasterSource};
 use crate::mesh::Extract;
 use crate::outline::DerivedMesh;
-use crate::raster::Raster;
+use crate::raster::{Raster, RasterPyramid};
 use crate::render::export::ExportFormat;
 
 /// Width and height in kilometres of the terrain that comes with the program: 403 × 344 pixels of 3″ at 36.6°
@@ -55,14 +56,14 @@ pub fn example(example: Example) -> Document {
     example.document(terrain_slope, aegean_sea)
 }
 
-/// Reads a picture and makes it the base field's risk.
+/// Reads a picture and adds it as a layer of risk.
 pub fn load_image(session: &Session, background: &mut Background, path: &Path) {
     let bounds = session.document().settings().domain.bounds;
     let file = path.to_owned();
     background.start(Aim::Read, path, move |meter| match risk_of(&file, bounds, meter) {
         Ok(raster) => {
-            let base = Base::RiskImage { name: name_of(&file), raster: Arc::new(raster) };
-            let commands = vec![Command::Set(Setting::Base(base)), Command::EndGesture];
+            let kind = raster_layer(&file, raster, RasterReading::Risk);
+            let commands = vec![Command::Layer(LayerCommand::Add(Box::new(kind))), Command::EndGesture];
             Outcome::Read { path: file, commands }
         }
         Err(problem) => Outcome::NotRead(problem),
@@ -91,17 +92,22 @@ pub fn load_background(session: &Session, background: &mut Background, path: &Pa
     });
 }
 
-/// Reads a grid and makes it the base field's target diameters.
+/// Reads a grid and adds it as a layer of target diameters.
 pub fn load_diameters(session: &Session, background: &mut Background, path: &Path) {
     let bounds = session.document().settings().domain.bounds;
     let file = path.to_owned();
     background.start(Aim::Read, path, move |_| match diameters_of(&file, bounds) {
         Ok(raster) => {
-            let base = Base::DiameterGrid { name: name_of(&file), raster: Arc::new(raster) };
-            Outcome::PartRead(vec![Command::Set(Setting::Base(base)), Command::EndGesture])
+            let kind = raster_layer(&file, raster, RasterReading::Diameter);
+            Outcome::PartRead(vec![Command::Layer(LayerCommand::Add(Box::new(kind))), Command::EndGesture])
         }
         Err(problem) => Outcome::NotRead(problem),
     });
+}
+
+fn raster_layer(file: &Path, raster: Raster, reading: RasterReading) -> LayerKind {
+    let source = RasterSource { name: name_of(file), raster: Arc::new(RasterPyramid::new(raster)) };
+    LayerKind::Raster { source, reading }
 }
 
 /// Target diameters by pixel; infinite where the grid has no value.
@@ -214,7 +220,7 @@ pub fn export(
         let write = || -> std::io::Result<(Vec<PathBuf>, usize)> {
             let extract = DerivedMesh::new(&mesh, &domain, &settings.derived_cleaning()).extract(&mesh);
             let target_diameter = if format.wants_node_data() {
-                at_nodes(&extract, meter, |node| field.target_by_rule(rule, Some(paint.as_paint()), node))?
+                at_nodes(&extract, meter, |node| field.target_by_rule(rule, &paint, node))?
             } else {
                 Vec::new()
             };

@@ -21,6 +21,7 @@ use super::catalog::catalog;
 use super::command::Command;
 use super::cuts::PATIENCE;
 use super::dialogs::FileFacts;
+use super::layer_pictures::LayerPictures;
 use super::project::ProjectFile;
 use super::readout::Readout;
 use super::session::Session;
@@ -36,7 +37,7 @@ const FRAME_BUDGET: Duration = Duration::from_millis(7);
 const SLOW_FRAME_BUDGET: Duration = Duration::from_millis(40);
 const SLOW_FRAME_SHARE: f32 = 1.0 / 3.0;
 /// As much time as the work takes, for pictures that must be the same every time.
-const NO_LIMIT: Duration = Duration::from_secs(3600);
+pub const NO_LIMIT: Duration = Duration::from_secs(3600);
 
 /// Everything that a frame shows, to read.
 pub struct FrameState<'a> {
@@ -48,6 +49,8 @@ pub struct FrameState<'a> {
     pub tools: &'a Tools,
     /// What is shown, and how.
     pub view: &'a View,
+    /// What each layer asks for, as small pictures.
+    pub layer_pictures: &'a LayerPictures,
     /// Where the pointer is on the canvas, in world units.
     pub pointer: Option<DVec2>,
     /// The queried point and the triangle around it.
@@ -166,6 +169,10 @@ impl App {
     /// The second half of a frame: everything that is drawn.
     pub(super) fn draw(&mut self, ui: &mut Ui) {
         let readout = self.session.readout(self.view.quantity);
+        if self.view.panels {
+            let patience = if self.reproducible { NO_LIMIT } else { Duration::ZERO };
+            self.layer_pictures.advance(&self.session, &self.view, patience, ui.ctx());
+        }
         let mut commands = Vec::new();
         panels::show(ui, &self.state(readout.as_ref()), &mut commands);
         self.view.reveals_inspector = false;
@@ -219,6 +226,7 @@ impl App {
             project: &self.project,
             tools: &self.tools,
             view: &self.view,
+            layer_pictures: &self.layer_pictures,
             pointer: self.canvas.pointer(),
             readout,
             reproducible: self.reproducible,

@@ -4,6 +4,7 @@ use super::readout::{Quantity, Readout, TriangleReadout};
 use super::session::Session;
 use super::view::View;
 use super::widgets::format;
+use crate::layers::{Layer, LayerId};
 use crate::mesh::{Location, NodeId, Orientation};
 use crate::text::LengthUnit;
 
@@ -36,6 +37,15 @@ impl Row {
     fn in_unit(self, unit: LengthUnit) -> Self {
         Self { unit, ..self }
     }
+}
+
+/// What one layer asks for at the queried point.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LayerAnswer {
+    /// The name of the layer and its target diameter.
+    pub row: Row,
+    /// Whether the layer decides h̄ there.
+    pub decides: bool,
 }
 
 /// A queried point and the triangle around it.
@@ -117,6 +127,35 @@ impl<'a> Inspection<'a> {
         rows.map(|row| row.in_unit(unit)).into()
     }
 
+    /// Which layer decides h̄ at the point, and where gradation carries its diameter from.
+    pub fn decision_rows(&self) -> Vec<Row> {
+        let decision = &self.readout.decision;
+        let layers = &self.session.follower().settings().layers;
+        let mut rows = vec![Row::text("Decided by", deciding_layer(layers, decision.layer))];
+        if decision.from != self.readout.point {
+            rows.push(self.point_row("Through gradation from", decision.from.to_array()));
+        }
+        rows
+    }
+
+    /// What each visible layer asks for at the point, from the top.
+    pub fn layer_answers(&self) -> Vec<LayerAnswer> {
+        let decision = &self.readout.decision;
+        let layers = &self.session.follower().settings().layers;
+        let is_direct = decision.from == self.readout.point;
+        let answer = |&(id, asked): &(LayerId, Option<f64>)| {
+            let label = deciding_layer(layers, Some(id));
+            let row = match asked {
+                Some(h) => {
+                    Row::new(label, format::length(h, self.unit()), format::exact(h)).in_unit(self.unit())
+                }
+                None => Row::text(label, "nothing"),
+            };
+            LayerAnswer { row, decides: is_direct && decision.layer == Some(id) }
+        };
+        decision.asked.iter().rev().map(answer).collect()
+    }
+
     /// The corners, with their numbers in files.
     pub fn corner_rows(&self) -> Vec<Row> {
         let corners = self.triangle.vertices.iter().zip(["v₁", "v₂", "v₃"]);
@@ -142,6 +181,11 @@ impl<'a> Inspection<'a> {
             let label = if row.label.starts_with("True") { "True".into() } else { row.label };
             rows.push(Row { label, ..row });
         }
+        rows.extend(self.decision_rows());
+        rows.extend(self.layer_answers().into_iter().map(|LayerAnswer { row, .. }| {
+            let label = format!("Layer {}", row.label);
+            Row { label, ..row }
+        }));
         rows.extend(self.corner_rows());
         let lines = rows.iter().map(|row| format!("{}: {}\n", row.label, row.unit.after(&row.exact)));
         lines.collect()
@@ -152,6 +196,12 @@ impl<'a> Inspection<'a> {
         let shown = point.map(|value| format::coordinate(value, step, self.unit())).join(" ");
         Row::new(label, shown, exact_list(&point)).in_unit(self.unit())
     }
+}
+
+/// The name of the layer that decides, in words where none does.
+pub fn deciding_layer(layers: &[Layer], decides: Option<LayerId>) -> &str {
+    let Some(id) = decides else { return "no layer" };
+    layers.iter().find(|layer| layer.id == id).map_or("a deleted layer", |layer| &layer.name)
 }
 
 fn exact_list(values: &[f64]) -> String {

@@ -16,14 +16,14 @@ use super::widgets::{Answer, ConfirmDialog};
 use crate::document::{Edits, Settings};
 use crate::io::journal::{self, Abandoned};
 use crate::io::project::Project;
-use crate::paint::Tiles;
+use crate::layers::PaintLayers;
 
 /// What the thread writes.
 enum Entry {
     /// Everything, and the file that it belongs to.
     Whole(Box<Project>, Option<PathBuf>),
-    /// Tiles as they are after a gesture.
-    Tiles(Tiles),
+    /// The paint before and after a gesture.
+    Paint(Box<[PaintLayers; 2]>),
     /// Settings as they are after one.
     Settings(Box<Settings>),
     /// Nothing is unsaved.
@@ -44,6 +44,8 @@ pub struct JournalKeeper {
     wants_whole: Arc<AtomicBool>,
     /// The work of an earlier run that the user is asked about.
     offered: Option<Abandoned>,
+    /// The paint that the journal has so far.
+    recorded: PaintLayers,
     broken: bool,
 }
 
@@ -76,7 +78,16 @@ impl JournalKeeper {
             report(keep(&folder, &entries, &wants, disk));
             let _ = waiting.join(); // a panic there changes nothing here
         });
-        Self { sender, thread: Some(thread), found, problems, wants_whole, offered: None, broken: false }
+        Self {
+            sender,
+            thread: Some(thread),
+            found,
+            problems,
+            wants_whole,
+            offered: None,
+            recorded: PaintLayers::default(),
+            broken: false,
+        }
     }
 
     /// Whether the user is being asked about the work of an earlier run.
@@ -149,10 +160,10 @@ fn keep(
                 let new = journal::Journal::begin(folder, &project, home.as_deref(), now())?;
                 outdated = journal.replace(new).map(Outdated::Own);
             }
-            (Entry::Tiles(tiles), Some(journal)) => journal.add_tiles(&tiles, now())?,
+            (Entry::Paint(both), Some(journal)) => journal.add_paint(&both[0], &both[1], now())?,
             (Entry::Settings(settings), Some(journal)) => journal.add_settings(*settings, now())?,
             (Entry::Clean(home), Some(journal)) => journal.mark_clean(home.as_deref(), now())?,
-            (Entry::Tiles(_) | Entry::Settings(_) | Entry::Clean(_), None) => {}
+            (Entry::Paint(_) | Entry::Settings(_) | Entry::Clean(_), None) => {}
             (Entry::Forget(left), _) => outdated = Some(Outdated::Left(left)),
             (Entry::End { remove: false }, _) => return Ok(()),
             (Entry::End { remove: true }, _) => return journal.map_or(Ok(()), journal::Journal::remove),
@@ -226,13 +237,15 @@ pub fn record(keeper: &mut JournalKeeper, session: &mut Session, project: &Proje
     if edits.is_empty() {
         return;
     }
-    let Edits { settings, all_paint, tiles } = edits;
+    let Edits { settings, all_paint, layers } = edits;
     if all_paint || keeper.wants_whole.load(Ordering::Relaxed) {
         let home = project.path().map(Path::to_owned);
+        keeper.recorded = document.paint().clone();
         keeper.enter(Entry::Whole(Box::new(Project::of(document)), home));
     } else {
-        if !tiles.is_empty() {
-            keeper.enter(Entry::Tiles(document.paint().tiles(tiles)));
+        if !layers.is_empty() {
+            let before = std::mem::replace(&mut keeper.recorded, document.paint().clone());
+            keeper.enter(Entry::Paint(Box::new([before, document.paint().clone()])));
         }
         if settings {
             keeper.enter(Entry::Settings(Box::new(document.settings().clone())));

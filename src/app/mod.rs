@@ -23,6 +23,7 @@ mod inspection;
 mod journal;
 mod keys;
 mod latest;
+mod layer_pictures;
 mod notices;
 mod panels;
 mod project;
@@ -50,6 +51,7 @@ use command::Command;
 use dialogs::Dialogs;
 use help::HelpTopic;
 use journal::JournalKeeper;
+use layer_pictures::LayerPictures;
 use project::ProjectFile;
 pub use screenshots::{write as write_screenshots, write_manual as write_manual_pictures, write_tour};
 use session::Session;
@@ -77,6 +79,7 @@ pub struct App {
     tools: Tools,
     view: View,
     canvas: Canvas,
+    layer_pictures: LayerPictures,
     dialogs: Dialogs,
     /// What the help window shows, while it is open.
     help: Option<HelpTopic>,
@@ -133,6 +136,7 @@ impl App {
             tools,
             view,
             canvas: Canvas::new(gpu),
+            layer_pictures: LayerPictures::default(),
             dialogs: Dialogs::default(),
             help: None,
             background: Background::new(ctx),

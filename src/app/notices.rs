@@ -1,5 +1,6 @@
 //! Messages on the canvas: news, failures, and the standing one while the mesh stops short of the document.
 
+use super::command::Command;
 use super::widgets::format;
 use crate::build::BuildError;
 use crate::mesh::RefineError;
@@ -7,7 +8,7 @@ use crate::text::Bytes;
 
 /// A message on the canvas. News disappears after some seconds; a failure stays until it is dismissed or its
 /// cause is gone.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Notice {
     /// Distinguishes it from all other messages of the session.
     pub number: u64,
@@ -17,6 +18,17 @@ pub struct Notice {
     failed_edit_of: Option<u64>,
     /// A sentence.
     pub text: String,
+    /// What a button in it does.
+    pub offer: Option<Offer>,
+}
+
+/// A button in a message that does what would help.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Offer {
+    /// The text on the button.
+    pub label: &'static str,
+    /// What it does.
+    pub command: Command,
 }
 
 /// The messages of a session.
@@ -50,6 +62,12 @@ impl Notices {
         self.latest = Some(self.numbered(true, None, failure.to_string()));
     }
 
+    /// Shows a failure, and offers what would help.
+    pub fn report_with_offer(&mut self, failure: impl std::fmt::Display, offer: Offer) {
+        let notice = self.numbered(true, None, failure.to_string());
+        self.latest = Some(Notice { offer: Some(offer), ..notice });
+    }
+
     /// Shows that an edit of a version of the document failed. The next edit dismisses it.
     pub fn report_edit(&mut self, version: u64, failure: impl std::fmt::Display) {
         self.latest = Some(self.numbered(true, Some(version), failure.to_string()));
@@ -62,7 +80,7 @@ impl Notices {
 
     fn numbered(&mut self, failed: bool, failed_edit_of: Option<u64>, text: String) -> Notice {
         self.count += 1;
-        Notice { number: self.count, failed, failed_edit_of, text }
+        Notice { number: self.count, failed, failed_edit_of, text, offer: None }
     }
 
     /// Dismisses the message, except one that says that the mesh stopped short of the document.

@@ -4,6 +4,7 @@ use glam::DVec2;
 
 use super::session::Session;
 use crate::document::{Document, Follower};
+use crate::layers::Decision;
 use crate::mesh::{Location, MeshView, Neighbour, NodeId, Orientation, TriangleId, barycentric, interpolate};
 
 /// A quantity known at every point, and interpolated from the nodes.
@@ -24,6 +25,8 @@ pub struct Readout {
     pub location: Location,
     /// The triangle around it, if any.
     pub triangle: Option<TriangleReadout>,
+    /// What the layers ask for there.
+    pub decision: Decision,
 }
 
 /// A triangle, and a quantity interpolated in it.
@@ -57,7 +60,8 @@ impl Readout {
         let location = session.locate(point);
         let value = |p: DVec2| value_at(p, session.document(), session.follower(), quantity);
         let triangle = location.triangle().map(|id| read_triangle(session.view(), id, point, value));
-        Self { point, location, triangle }
+        let decision = session.follower().field().decision_at(session.document().paint(), point);
+        Self { point, location, triangle, decision }
     }
 }
 
@@ -90,7 +94,7 @@ pub fn value_at(point: DVec2, document: &Document, follower: &Follower, quantity
     match quantity {
         Quantity::TargetDiameter => {
             let rule = follower.settings().rule;
-            follower.field().target_by_rule(rule, Some(document.paint().as_paint()), point)
+            follower.field().target_by_rule(rule, document.paint(), point)
         }
         Quantity::Risk => document.risk_at(point).unwrap_or(f64::NAN),
     }

@@ -76,7 +76,7 @@ impl Statistician {
             (follower.shared_mesh(), follower.domain().clone(), follower.field().clone());
         let (rule, paint) = (follower.settings().rule, document.paint().clone());
         let measure = move || {
-            let mut criterion = RefinementCriterion::new(&domain, &field, rule, Some(paint.as_paint()));
+            let mut criterion = RefinementCriterion::new(&domain, &field, rule, Some(&paint));
             let extract = extract.unwrap_or_else(|| Arc::new(mesh.extract().into_owned()));
             Measured {
                 statistics: extract.statistics(),

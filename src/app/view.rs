@@ -22,6 +22,8 @@ pub enum FieldOverlay {
     Risk,
     /// The level that h̄ asks for, in the level's colour.
     Target,
+    /// The layer that decides h̄, in the layer's colour.
+    Layer,
 }
 
 /// An aid to orientation on the canvas, which can be switched off.

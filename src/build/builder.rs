@@ -2,21 +2,22 @@ use std::sync::Arc;
 
 use super::{MeshSpec, RefinementCriterion};
 use crate::domain::{DomainOnLattice, DomainOnLatticeBuilder};
-use crate::field::{PaintRef, RefinementRule, TargetField, VertexRule};
+use crate::field::{RefinementRule, VertexRule};
 use crate::geometry::GridError;
+use crate::layers::{InvalidLayer, LayerCheck, PaintLayers, SizeField};
 use crate::mesh::{CoarseError, Element, InvalidTarget, Mesh, Progress, RefineError, Refiner, TriangleId};
 
 /// Makes the mesh of a [`MeshSpec`] in slices.
 ///
 /// ```text
-///  index the outline ──▶ coarse grid ──▶ sample h̄ ──▶ refine ──▶ classify ──▶ done
-///  (polygons only)                       (by pixel)              (fitted only)
+///  index the outline ──▶ coarse grid ──▶ check the layers ──▶ refine ──▶ classify ──▶ done
+///  (polygons only)                       (area rule)                   (fitted only)
 /// ```
 #[derive(Clone, Debug)]
 pub struct MeshBuilder {
     spec: MeshSpec,
-    /// The field, sampled or not, where it was given.
-    given_field: Option<Arc<TargetField>>,
+    /// The field, where it was given.
+    given_field: Option<Arc<SizeField>>,
     /// A mesh whose memory is used again.
     spare: Option<Mesh>,
     /// `None` once an error has ended the work.
@@ -32,11 +33,12 @@ enum Step {
     Index(DomainOnLatticeBuilder),
     /// The coarse grid comes next.
     Grid(DomainOnLattice),
-    /// h̄ is sampled by pixel.
-    Sample {
+    /// The formulas of the layers are checked.
+    Check {
         domain: DomainOnLattice,
         mesh: Mesh,
-        field: Arc<TargetField>,
+        field: Arc<SizeField>,
+        check: LayerCheck,
     },
     Refine(Box<Refinement>),
     /// Triangles outside a fitted domain are marked; those before `first` are done.
@@ -61,7 +63,7 @@ pub struct BuiltMesh {
     /// The domain on the lattice of the mesh.
     pub domain: DomainOnLattice,
     /// h̄.
-    pub field: Arc<TargetField>,
+    pub field: Arc<SizeField>,
     /// Which points of a triangle count.
     pub rule: RefinementRule,
     /// The mesh. Triangles outside a fitted domain are marked.
@@ -73,9 +75,8 @@ pub struct BuiltMesh {
 pub struct Parts {
     /// The domain of the spec on the lattice of the spec, with any treatment of the boundary.
     pub domain: Option<DomainOnLattice>,
-    /// The field of the spec on the lattice of the spec: complete, with the present paint, or not sampled
-    /// yet.
-    pub field: Option<Arc<TargetField>>,
+    /// The field of the spec on the lattice of the spec, whose layers are valid.
+    pub field: Option<Arc<SizeField>>,
     /// A mesh that is no longer needed. Its memory is used again, which saves about a third of the time.
     pub spare: Option<Mesh>,
 }
@@ -86,13 +87,8 @@ pub struct Parts {
 pub enum BuildStage {
     /// The outline of the domain is indexed on the lattice.
     Indexing,
-    /// h̄ is sampled by pixel.
-    Sampling {
-        /// Pixels so far.
-        pixels: usize,
-        /// All pixels.
-        of: usize,
-    },
+    /// The formulas of the layers are checked.
+    Checking,
     /// The mesh is refined; so far it has this many triangles.
     Refining {
         /// Triangles so far.
@@ -112,6 +108,9 @@ pub enum BuildError {
     /// The coarse grid is impossible, or empty.
     #[error(transparent)]
     Coarse(#[from] CoarseError),
+    /// A layer has a value that no mesh can meet.
+    #[error(transparent)]
+    InvalidLayer(#[from] InvalidLayer),
     /// h̄ is no length somewhere.
     #[error(transparent)]
     InvalidTarget(#[from] InvalidTarget),
@@ -152,10 +151,7 @@ impl MeshBuilder {
         let triangles = self.triangles();
         match &self.step {
             None | Some(Step::Index(_)) => BuildStage::Indexing,
-            Some(Step::Sample { field, .. }) => {
-                let [columns, rows] = field.spec().size.map(|side| side as usize);
-                BuildStage::Sampling { pixels: field.sampled_pixels(), of: columns * rows }
-            }
+            Some(Step::Check { .. }) => BuildStage::Checking,
             Some(Step::Grid(_) | Step::Refine(_)) => BuildStage::Refining { triangles },
             Some(Step::Classify { .. } | Step::Done(_)) => BuildStage::Classifying { triangles },
         }
@@ -165,7 +161,7 @@ impl MeshBuilder {
     pub fn triangles(&self) -> usize {
         let mesh = match &self.step {
             None | Some(Step::Index(_) | Step::Grid(_)) => return 0,
-            Some(Step::Sample { mesh, .. }) => mesh,
+            Some(Step::Check { mesh, .. }) => mesh,
             Some(Step::Refine(refinement)) => &refinement.built.mesh,
             Some(Step::Classify { built, .. } | Step::Done(built)) => &built.mesh,
         };
@@ -179,14 +175,15 @@ impl MeshBuilder {
 
     /// One slice of work: about `budget` edges, pixels or triangles. The coarse grid is made in one go.
     ///
-    /// `paint` belongs to the field; it must have the bounds of the domain and the size of the field.
+    /// `paint` has the pixels of the paint layers; without it they are blank. It may change between two
+    /// calls: the mesh must then be updated where it changed.
     ///
     /// # Errors
     /// When the spec has no mesh.
     ///
     /// # Panics
     /// When it is called again after an error.
-    pub fn advance(&mut self, paint: Option<PaintRef>, budget: usize) -> Result<Progress, BuildError> {
+    pub fn advance(&mut self, paint: Option<&PaintLayers>, budget: usize) -> Result<Progress, BuildError> {
         let step = self.step.take().expect("work that failed cannot go on");
         let next = match step {
             Step::Index(mut index) => match index.advance(budget) {
@@ -194,13 +191,10 @@ impl MeshBuilder {
                 Progress::Done => Step::Grid(index.finish()),
             },
             Step::Grid(domain) => self.begin_field(domain)?,
-            Step::Sample { domain, mesh, mut field } => {
-                // Not shared before it is sampled, so nothing is copied.
-                match Arc::make_mut(&mut field).advance(paint, budget)? {
-                    Progress::More => Step::Sample { domain, mesh, field },
-                    Progress::Done => self.begin_refinement(domain, field, mesh),
-                }
-            }
+            Step::Check { domain, mesh, field, mut check } => match check.advance(&field, budget)? {
+                Progress::More => Step::Check { domain, mesh, field, check },
+                Progress::Done => self.begin_refinement(domain, field, mesh),
+            },
             Step::Refine(mut refinement) => match refinement.advance(paint, budget)? {
                 Progress::More => Step::Refine(refinement),
                 Progress::Done => {
@@ -237,17 +231,19 @@ impl MeshBuilder {
             }
             None => coarse,
         };
-        let field = match self.given_field.take() {
-            Some(field) => field,
-            None => Arc::new(TargetField::new(self.spec.field.clone(), lattice)),
-        };
-        if self.spec.samples_field() && !field.is_sampled() {
-            return Ok(Step::Sample { domain, mesh, field });
+        if let Some(field) = self.given_field.take() {
+            return Ok(self.begin_refinement(domain, field, mesh));
         }
-        Ok(self.begin_refinement(domain, field, mesh))
+        let field = Arc::new(SizeField::new(self.spec.field.clone(), lattice));
+        if self.spec.rule == RefinementRule::Vertex {
+            // The rule checks h̄ at each node itself.
+            return Ok(self.begin_refinement(domain, field, mesh));
+        }
+        let check = LayerCheck::new(&field);
+        Ok(Step::Check { domain, mesh, field, check })
     }
 
-    fn begin_refinement(&self, domain: DomainOnLattice, field: Arc<TargetField>, mesh: Mesh) -> Step {
+    fn begin_refinement(&self, domain: DomainOnLattice, field: Arc<SizeField>, mesh: Mesh) -> Step {
         let refiner = Refiner::new(&mesh, self.spec.limits);
         let rule = self.spec.rule;
         let built = BuiltMesh { domain, field, rule, mesh };
@@ -271,7 +267,7 @@ impl MeshBuilder {
 }
 
 impl Refinement {
-    fn advance(&mut self, paint: Option<PaintRef>, budget: usize) -> Result<Progress, RefineError> {
+    fn advance(&mut self, paint: Option<&PaintLayers>, budget: usize) -> Result<Progress, RefineError> {
         let BuiltMesh { domain, field, rule, mesh, .. } = &mut self.built;
         let known = std::mem::take(&mut self.vertex_rule);
         let mut criterion = RefinementCriterion::new(domain, field, *rule, paint).resumed(known);
@@ -283,7 +279,7 @@ impl Refinement {
 
 impl BuiltMesh {
     /// The criterion that the mesh satisfies, for the paint that it was made with.
-    pub fn criterion<'a>(&'a self, paint: Option<PaintRef<'a>>) -> RefinementCriterion<'a> {
+    pub fn criterion<'a>(&'a self, paint: Option<&'a PaintLayers>) -> RefinementCriterion<'a> {
         RefinementCriterion::new(&self.domain, &self.field, self.rule, paint)
     }
 
@@ -291,7 +287,7 @@ impl BuiltMesh {
     ///
     /// # Errors
     /// When a target is impossible.
-    pub fn unsatisfied(&self, paint: Option<PaintRef>) -> Result<Vec<TriangleId>, InvalidTarget> {
+    pub fn unsatisfied(&self, paint: Option<&PaintLayers>) -> Result<Vec<TriangleId>, InvalidTarget> {
         let mut criterion = self.criterion(paint);
         self.mesh.unsatisfied(|element: &Element| criterion.exceeds(element))
     }

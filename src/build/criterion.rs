@@ -1,8 +1,8 @@
 use crate::domain::DomainOnLattice;
-use crate::field::{PaintRef, RefinementRule, TargetField, VertexRule};
+use crate::field::{RefinementRule, VertexRule};
 use crate::geometry::LatticePoint;
+use crate::layers::{PaintLayers, SizeField};
 use crate::mesh::{Element, InvalidTarget};
-use crate::raster::MaxMipmap;
 
 /// The local refinement condition (Eq. 13 of \[Report\]) of a whole mesh: h̄ by a refinement rule, joined
 /// with what the boundary of the domain asks for.
@@ -11,27 +11,27 @@ use crate::raster::MaxMipmap;
 #[derive(Clone)]
 pub struct RefinementCriterion<'a> {
     domain: &'a DomainOnLattice,
-    field: &'a TargetField,
+    field: &'a SizeField,
     rule: RefinementRule,
-    paint: Option<PaintRef<'a>>,
+    paint: &'a PaintLayers,
     vertex_rule: VertexRule,
 }
 
 impl<'a> RefinementCriterion<'a> {
-    /// The criterion of a field over a domain. `paint` is for the vertex rule, which samples it at nodes; the
-    /// area rule finds it in the field.
+    /// The criterion of a field over a domain. Without `paint`, the paint layers are blank.
     pub fn new(
         domain: &'a DomainOnLattice,
-        field: &'a TargetField,
+        field: &'a SizeField,
         rule: RefinementRule,
-        paint: Option<PaintRef<'a>>,
+        paint: Option<&'a PaintLayers>,
     ) -> Self {
+        let paint = paint.unwrap_or(PaintLayers::blank());
         Self { domain, field, rule, paint, vertex_rule: VertexRule::default() }
     }
 
-    /// As [`Self::new`] by the area rule, which needs no paint.
-    pub fn by_area(domain: &'a DomainOnLattice, field: &'a TargetField) -> Self {
-        Self::new(domain, field, RefinementRule::Area, None)
+    /// As [`Self::new`] by the area rule.
+    pub fn by_area(domain: &'a DomainOnLattice, field: &'a SizeField, paint: &'a PaintLayers) -> Self {
+        Self::new(domain, field, RefinementRule::Area, Some(paint))
     }
 
     /// The same criterion with the nodes that an earlier slice of the same work has evaluated
@@ -53,18 +53,17 @@ impl<'a> RefinementCriterion<'a> {
     pub fn exceeds(&mut self, element: &Element) -> Result<bool, InvalidTarget> {
         let Self { domain, field, rule, paint, vertex_rule } = self;
         domain.exceeds(element, |element| match rule {
-            RefinementRule::Area => Ok(field.exceeds(element)),
+            RefinementRule::Area => Ok(field.exceeds(paint, element)),
             RefinementRule::Vertex => {
-                vertex_rule.exceeds(element, |point| field.target_at_node(*paint, point))
+                vertex_rule.exceeds(element, |point| field.target_at_node(paint, point))
             }
         })
     }
 
-    /// Whether a triangle, by its corners and level, would exceed its target by the area rule if the pixels
-    /// asked for `levels`.
+    /// Whether a triangle, by its corners and level, exceeds its target by the area rule.
     #[inline]
-    pub fn would_exceed(&self, levels: &MaxMipmap<u8>, corners: [LatticePoint; 3], level: u32) -> bool {
-        let by_field = || Ok::<_, InvalidTarget>(self.field.would_exceed(levels, corners, level));
+    pub fn exceeds_at(&self, corners: [LatticePoint; 3], level: u32) -> bool {
+        let by_field = || Ok::<_, InvalidTarget>(self.field.asks_for_more(self.paint, corners, level));
         self.domain.exceeds_at(corners, level, by_field).unwrap_or(false)
     }
 }

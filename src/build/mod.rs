@@ -5,9 +5,9 @@
 //! for both, and for updates and checks afterwards, which triangles are too large.
 //!
 //! ```
-//! use meshbrush::{FieldSampling, MeshBuilder, MeshSpec};
+//! use meshbrush::{MeshBuilder, MeshSpec};
 //! use meshbrush::{BoundaryTreatment, Domain};
-//! use meshbrush::{Formula, RefinementRule, Source, TargetFieldSpec, Transfer};
+//! use meshbrush::{Formula, Layer, LayerKind, RefinementRule, SizeFieldSpec, Transfer};
 //! use meshbrush::{Lattice, Rect};
 //! use meshbrush::{Cleaning, Limits, Progress};
 //!
@@ -17,14 +17,14 @@
 //!     lattice: Lattice::covering(domain.bounds, 0.05, 100_000)?,
 //!     domain,
 //!     boundary: BoundaryTreatment::usual(0.05),
-//!     field: TargetFieldSpec {
-//!         sources: vec![Source::TargetFormula(formula)],
+//!     field: SizeFieldSpec {
+//!         layers: Layer::stack([LayerKind::target(formula)]),
 //!         transfer: Transfer { h_min: 0.01, h_max: 1.0, shape: 1.0 },
 //!         unasked: 1.0,
-//!         size: [256, 256],
+//!         outline: None,
+//!         gradation: None,
 //!     },
 //!     rule: RefinementRule::Vertex,
-//!     sampling: FieldSampling::AsNeeded,
 //!     cleaning: Cleaning::NONE,
 //!     limits: Limits::default(),
 //! };
@@ -42,4 +42,4 @@ mod spec;
 
 pub use builder::{BuildError, BuildStage, BuiltMesh, MeshBuilder, Parts};
 pub use criterion::RefinementCriterion;
-pub use spec::{FieldSampling, MeshSpec};
+pub use spec::MeshSpec;

@@ -214,12 +214,8 @@ pub struct InputArguments {
     #[arg(long)]
     pub rule: Option<RuleArgument>,
 
-    /// Pixels along the domain's longer side that the area rule sees
-    ///
-    /// Each takes the formula's value, or the nearest pixel's, at its middle. Without this, rasters that
-    /// cover exactly the domain are taken as they are; otherwise it is 1024, or as many as the finest raster
-    /// has there.
-    #[arg(long, value_name = "N")]
+    /// Without effect since layers are asked at their own resolution
+    #[arg(long, value_name = "N", hide = true)]
     pub resolution: Option<u32>,
 
     /// Most triangles allowed [default: those of the project, else 50000000]

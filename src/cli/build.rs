@@ -11,14 +11,14 @@ use super::sources::{ReadSources, read_sources};
 use super::terminal::Terminal;
 use crate::build::{BuildStage, BuiltMesh, MeshBuilder, MeshSpec};
 use crate::domain::{BoundaryMarks, Domain, MeshBoundary, Region};
-use crate::field::{PaintRef, RefinementRule};
+use crate::field::RefinementRule;
 use crate::io;
+use crate::layers::PaintLayers;
 use crate::mesh::{CoarseError, Extract, InvalidTarget, Limits, Mesh, Progress, TriangleId};
 use crate::outline::DerivedMesh;
-use crate::paint::PaintRasters;
 use crate::text::{Grouped, LengthUnit};
 
-/// Triangles visited, or pixels sampled, between two updates of the progress line.
+/// Triangles visited between two updates of the progress line.
 const SLICE: usize = 1 << 18;
 
 /// A mesh that was asked for, and how it was made.
@@ -27,7 +27,7 @@ pub struct FinishedMesh {
     /// What differs from the mesh in files.
     pub derived: DerivedMesh,
     /// The paint of a project.
-    paint: Option<PaintRasters>,
+    paint: PaintLayers,
     domain: Domain,
     marks: Arc<BoundaryMarks>,
     /// The unit of coordinates and lengths.
@@ -64,18 +64,10 @@ impl FinishedMesh {
         self.built.rule
     }
 
-    /// Columns and rows of the pixels, if the rule goes by pixels.
-    pub fn resolution(&self) -> Option<[u32; 2]> {
-        match self.built.rule {
-            RefinementRule::Vertex => None,
-            RefinementRule::Area => Some(self.built.field.spec().size),
-        }
-    }
-
     /// h̄ at a point of the domain, both in world units, as the rule sees it. Where it is impossible, the
     /// impossible value.
     pub fn target_at(&self, point: DVec2) -> f64 {
-        self.built.field.target_by_rule(self.built.rule, self.paint(), point)
+        self.built.field.target_by_rule(self.built.rule, &self.paint, point)
     }
 
     /// h̄ at every node, in world units.
@@ -88,11 +80,7 @@ impl FinishedMesh {
     /// # Errors
     /// When a target is impossible.
     pub fn unsatisfied(&self) -> Result<Vec<TriangleId>, InvalidTarget> {
-        self.built.unsatisfied(self.paint())
-    }
-
-    fn paint(&self) -> Option<PaintRef<'_>> {
-        self.paint.as_ref().map(PaintRasters::as_paint)
+        self.built.unsatisfied(Some(&self.paint))
     }
 }
 
@@ -104,7 +92,7 @@ pub fn build(request: &MeshRequest, terminal: &mut Terminal) -> Result<FinishedM
     let ToMesh { spec, marks, unit, paint } = read(request, terminal)?;
     let (cleaning, domain) = (spec.cleaning, spec.domain.clone());
     let mut builder = MeshBuilder::new(spec);
-    let refinement = run(&mut builder, paint.as_ref().map(PaintRasters::as_paint), terminal);
+    let refinement = run(&mut builder, &paint, terminal);
     terminal.clear();
     let (refinement, capped) = (refinement?, builder.capped());
     let built = builder.finish();
@@ -120,14 +108,14 @@ struct ToMesh {
     spec: MeshSpec,
     marks: Arc<BoundaryMarks>,
     unit: LengthUnit,
-    paint: Option<PaintRasters>,
+    paint: PaintLayers,
 }
 
 fn read(request: &MeshRequest, terminal: &mut Terminal) -> Result<ToMesh, Failure> {
     let Some(path) = &request.project else {
         let ReadSources { spec, marks, unit, notes } = read_sources(request)?;
         notes.iter().for_each(|note| terminal.note(note));
-        return Ok(ToMesh { spec, marks: Arc::new(marks), unit, paint: None });
+        return Ok(ToMesh { spec, marks: Arc::new(marks), unit, paint: PaintLayers::default() });
     };
     let document = io::project::read(path)?;
     let settings = document.settings();
@@ -136,21 +124,17 @@ fn read(request: &MeshRequest, terminal: &mut Terminal) -> Result<ToMesh, Failur
     // Without an option, the mesh is the one that the window shows.
     let spec = settings.mesh_spec().map_err(CoarseError::from)?;
     let spec = MeshSpec { limits, cleaning: request.cleaning(spec.cleaning), ..spec };
-    let (marks, paint) = (settings.boundary_marks.clone(), Some(document.paint().clone()));
+    let (marks, paint) = (settings.boundary_marks.clone(), document.paint().clone());
     Ok(ToMesh { spec, marks, unit: settings.unit, paint })
 }
 
 /// Builds in slices. Returns the time spent on refinement.
-fn run(
-    builder: &mut MeshBuilder,
-    paint: Option<PaintRef>,
-    terminal: &mut Terminal,
-) -> Result<Duration, Failure> {
+fn run(builder: &mut MeshBuilder, paint: &PaintLayers, terminal: &mut Terminal) -> Result<Duration, Failure> {
     let start = Instant::now();
     let mut refinement = Duration::ZERO;
     loop {
         let (stage, slice_start) = (builder.stage(), Instant::now());
-        let progress = builder.advance(paint, SLICE)?;
+        let progress = builder.advance(Some(paint), SLICE)?;
         if matches!(stage, BuildStage::Refining { .. }) {
             refinement += slice_start.elapsed();
         }
@@ -164,7 +148,7 @@ fn run(
 fn describe(stage: BuildStage) -> String {
     match stage {
         BuildStage::Indexing => "indexing the outline".into(),
-        BuildStage::Sampling { pixels, of } => format!("{} of {} pixels", Grouped(pixels), Grouped(of)),
+        BuildStage::Checking => "checking the layers".into(),
         BuildStage::Refining { triangles } | BuildStage::Classifying { triangles } => {
             format!("{} triangles", Grouped(triangles))
         }

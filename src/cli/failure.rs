@@ -67,6 +67,7 @@ fn advice(error: &BuildError) -> &'static str {
         }
         BuildError::Refine(RefineError::InvalidTarget(_))
         | BuildError::Coarse(_)
+        | BuildError::InvalidLayer(_)
         | BuildError::InvalidTarget(_) => "",
     }
 }

@@ -39,7 +39,6 @@ impl MeshRequest {
             h_min: recipe.h_min,
             h_max: recipe.h_max,
             transfer_shape: recipe.shape,
-            resolution: None,
             limits: limits_of(&recipe, typed)?,
             unit: recipe.unit,
             marks: recipe.marks.clone(),

@@ -16,7 +16,6 @@ use crate::geometry::Rect;
 use crate::io::layers::{KindSpec, LayerSpec};
 use crate::io::recipe::{Recipe, checked_gradation};
 use crate::mesh::{Cleaning, KeptParts, Limits, MOST_TRIANGLES, MemoryLimit};
-use crate::raster::MAX_SIDE;
 use crate::text::{Bytes, Grouped, LengthUnit};
 
 /// A mesh that is asked for.
@@ -56,8 +55,6 @@ pub struct MeshRequest {
     pub transfer_shape: f64,
     /// Which points of a triangle count.
     pub rule: RefinementRule,
-    /// Pixels along the longer side, for the area rule.
-    pub resolution: Option<u32>,
     /// What the mesh may cost.
     pub limits: Limits,
     /// The unit, in place of that of the region's file.
@@ -97,7 +94,6 @@ impl MeshRequest {
             h_min: typed.h_min.map(|value| length("--h-min", value)).transpose()?,
             h_max: typed.h_max.map(|value| length("--h-max", value)).transpose()?,
             transfer_shape: typed.transfer_shape,
-            resolution: typed.resolution.map(resolution).transpose()?,
             limits: limits(typed, USUAL_BUDGET)?,
             unit: None,
             marks: None,
@@ -124,9 +120,10 @@ impl MeshRequest {
         let unused = [
             (typed.transfer_shape != 1.0 && !self.layers.iter().any(LayerSpec::is_risk))
                 .then_some("--transfer-shape changes nothing without --risk or --risk-raster."),
-            (typed.resolution.is_some() && self.rule == RefinementRule::Vertex).then_some(
-                "--resolution changes nothing by the vertex rule, which sees no pixels; see --rule.",
-            ),
+            typed
+                .resolution
+                .is_some()
+                .then_some("--resolution changes nothing: every layer is asked at its own resolution."),
             (typed.boundary.is_some() && self.region.is_none())
                 .then_some("--boundary changes nothing without --region."),
         ];
@@ -234,17 +231,6 @@ pub fn length(option: &str, value: f64) -> Result<f64, Failure> {
         Ok(value)
     } else {
         Err(Failure::Usage(format!("{option} {value}: a length must be positive and finite.")))
-    }
-}
-
-fn resolution(pixels: u32) -> Result<u32, Failure> {
-    if (1..=MAX_SIDE).contains(&pixels) {
-        Ok(pixels)
-    } else {
-        Err(Failure::Usage(format!(
-            "--resolution {pixels}: choose from 1 to {} pixels.",
-            Grouped(MAX_SIDE as usize)
-        )))
     }
 }
 

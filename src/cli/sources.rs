@@ -8,19 +8,17 @@ use super::args::BoundaryArgument;
 use super::failure::Failure;
 use super::output::is_standard_stream;
 use super::request::MeshRequest;
-use crate::build::{FieldSampling, MeshSpec};
+use crate::build::MeshSpec;
 use crate::domain::{BoundaryMarks, BoundaryTreatment, Domain, DomainShape, NamedPolygon, RegionError};
-use crate::field::{Source, TargetFieldSpec, Transfer, f32_not_below};
+use crate::field::{Transfer, f32_not_below};
 use crate::geometry::{Lattice, Rect};
-use crate::io::layers::{KindSpec, LayerSpec, RasterFile, RasterFormat, RasterReading};
+use crate::io::layers::{KindSpec, LayerSpec, RasterFile, RasterFormat, RasterReading as ReadAs};
 use crate::io::{self, Meter};
-use crate::layers::{Combine, Quantity};
-use crate::mesh::{Cleaning, CoarseError, bisection_edge_length};
-use crate::raster::{MAX_SIDE, Raster};
+use crate::layers::{Combine, Layer, LayerId, LayerKind, RasterReading, RasterSource, SizeFieldSpec};
+use crate::mesh::{Cleaning, CoarseError, InvalidTarget, bisection_edge_length};
+use crate::raster::{Raster, RasterPyramid};
 use crate::text::LengthUnit;
 
-/// Pixels along the longer side of the domain unless `--resolution` or a raster says otherwise.
-const USUAL_RESOLUTION: u32 = 1024;
 /// Coarse cells along the longer side of the domain unless `--spacing` says otherwise (N_e of the report's
 /// example).
 const USUAL_CELLS: f64 = 20.0;
@@ -56,11 +54,9 @@ pub fn read_sources(request: &MeshRequest) -> Result<ReadSources, Failure> {
     let notes = notes(request, &rasters, bounds);
     let field = field_spec(request, rasters, &lattice)?;
     let (rule, limits) = (request.rule, request.limits);
-    // With the vertex rule nothing is shown that needs pixels.
-    let sampling = FieldSampling::AsNeeded;
     let is_fitted = boundary != BoundaryTreatment::Report && domain.region().is_some();
     let cleaning = request.cleaning(if is_fitted { Cleaning::FOR_SOLVERS } else { Cleaning::NONE });
-    let spec = MeshSpec { domain, boundary, lattice, field, rule, sampling, cleaning, limits };
+    let spec = MeshSpec { domain, boundary, lattice, field, rule, cleaning, limits };
     Ok(ReadSources { spec, marks, unit, notes })
 }
 
@@ -184,13 +180,16 @@ fn field_spec(
     request: &MeshRequest,
     rasters: Vec<Option<Raster>>,
     lattice: &Lattice,
-) -> Result<TargetFieldSpec, Failure> {
+) -> Result<SizeFieldSpec, Failure> {
     let coarse_diameter = bisection_edge_length(lattice.spacing(), 0);
     let transfer = transfer(request, coarse_diameter);
-    let size = field_size(request, &rasters, lattice.bounds());
-    let sources = visible(request).zip(rasters).map(|(layer, raster)| source(layer, raster, &transfer));
-    let sources = sources.collect::<Result<_, _>>()?;
-    Ok(TargetFieldSpec { sources, transfer, unasked: request.h_max.unwrap_or(coarse_diameter), size })
+    let layers = visible(request).zip(rasters).zip(0..).map(|((spec, raster), id)| {
+        let kind = kind(spec, raster, &transfer)?;
+        Ok(Layer { combine: spec.combine, ..Layer::new(LayerId(id), spec.name.clone(), kind) })
+    });
+    let layers = layers.collect::<Result<_, Failure>>()?;
+    let unasked = request.h_max.unwrap_or(coarse_diameter);
+    Ok(SizeFieldSpec { layers, transfer, unasked, outline: None, gradation: None })
 }
 
 /// The curve from risk to diameter; its ends bound h̄. Where no bounds are given, they do not restrict
@@ -201,26 +200,30 @@ fn transfer(request: &MeshRequest, coarse_diameter: f64) -> Transfer {
     Transfer { h_min, h_max: request.h_max.unwrap_or(widest), shape: request.transfer_shape }
 }
 
-fn source(layer: &LayerSpec, raster: Option<Raster>, transfer: &Transfer) -> Result<Source, Failure> {
+/// What a layer asks for.
+fn kind(layer: &LayerSpec, raster: Option<Raster>, transfer: &Transfer) -> Result<LayerKind, Failure> {
+    let of_raster = |file: &RasterFile, raster, reading| {
+        let raster = Arc::new(RasterPyramid::new(raster));
+        LayerKind::Raster { source: RasterSource { name: file.path.display().to_string(), raster }, reading }
+    };
     Ok(match (&layer.kind, raster) {
-        (KindSpec::Formula { quantity: Quantity::Diameter, formula }, _) => {
-            Source::TargetFormula(formula.clone())
+        (KindSpec::Formula { quantity, formula }, _) => {
+            LayerKind::Formula { quantity: *quantity, formula: formula.clone() }
         }
-        (KindSpec::Formula { quantity: Quantity::Risk, formula }, _) => Source::RiskFormula(formula.clone()),
-        (KindSpec::Raster { raster: file, reading: RasterReading::Risk }, Some(raster)) => {
-            Source::RiskRaster(Arc::new(risks(&file.path, raster)?))
+        (KindSpec::Raster { raster: file, reading: ReadAs::Risk }, Some(raster)) => {
+            of_raster(file, risks(&file.path, raster)?, RasterReading::Risk)
         }
-        (KindSpec::Raster { raster: file, reading: RasterReading::Diameter }, Some(raster)) => {
-            Source::TargetRaster(Arc::new(diameters(file.format, raster, transfer)))
+        (KindSpec::Raster { raster: file, reading: ReadAs::Diameter }, Some(raster)) => {
+            of_raster(file, diameters(file.format, raster, transfer)?, RasterReading::Diameter)
         }
-        (KindSpec::Raster { reading: RasterReading::Curve(knots), .. }, Some(raster)) => {
+        (KindSpec::Raster { raster: file, reading: ReadAs::Curve(knots) }, Some(raster)) => {
             let asked = |value: f32| f32_not_below(on_curve(knots, f64::from(value)));
-            Source::TargetRaster(Arc::new(mapped(raster, asked)))
+            of_raster(file, mapped(raster, asked), RasterReading::Diameter)
         }
-        (KindSpec::Band { between: [least, greatest], diameter, .. }, Some(raster)) => {
+        (KindSpec::Band { raster: file, between: [least, greatest], diameter }, Some(raster)) => {
             let band = *least..=*greatest;
             let asked = |value: f32| if band.contains(&f64::from(value)) { *diameter } else { f64::INFINITY };
-            Source::TargetRaster(Arc::new(mapped(raster, |value| f32_not_below(asked(value)))))
+            of_raster(file, mapped(raster, |value| f32_not_below(asked(value))), RasterReading::Diameter)
         }
         _ => unreachable!("`check_supported` lets other layers through to nobody, and every raster was read"),
     })
@@ -243,20 +246,25 @@ fn on_curve(knots: &[[f64; 2]], value: f64) -> f64 {
 
 /// Lengths in world units. An image's grey is mapped linearly from `h_min` (black) to `h_max` (white); pixels
 /// without a value ask for nothing.
-fn diameters(format: RasterFormat, raster: Raster, transfer: &Transfer) -> Raster {
+fn diameters(format: RasterFormat, raster: Raster, transfer: &Transfer) -> Result<Raster, Failure> {
     let Transfer { h_min, h_max, .. } = *transfer;
     let length = |value: f32| match format {
         _ if value.is_nan() => f32::INFINITY,
         RasterFormat::Png => f32_not_below(h_min + f64::from(value) * (h_max - h_min)),
         RasterFormat::Asc => value,
     };
-    mapped(raster, length)
+    let raster = mapped(raster, length);
+    if let Some((x, y)) = raster.all().pixels().find(|&(x, y)| raster.get(x, y) <= 0.0) {
+        let (value, at) = (f64::from(raster.get(x, y)), raster.pixel_center(x, y));
+        return Err(InvalidTarget { at, value }.into());
+    }
+    Ok(raster)
 }
 
-/// Risks from 0 to 1; pixels without a value have none.
+/// Risks from 0 to 1; pixels without a value ask for nothing.
 fn risks(path: &Path, raster: Raster) -> Result<Raster, Failure> {
-    let raster = mapped(raster, |value| if value.is_nan() { 0.0 } else { value });
-    if let Some((x, y)) = raster.all().pixels().find(|&(x, y)| !(0.0..=1.0).contains(&raster.get(x, y))) {
+    let is_risk = |value: f32| value.is_nan() || (0.0..=1.0).contains(&value);
+    if let Some((x, y)) = raster.all().pixels().find(|&(x, y)| !is_risk(raster.get(x, y))) {
         let (value, at) = (raster.get(x, y), raster.pixel_center(x, y));
         let problem = format!("{}: the risk is {value} at x = {}, y = {}", path.display(), at.x, at.y);
         return Err(Failure::Work(format!("{problem}; it must lie from 0 to 1. Scale the values first.")));
@@ -267,27 +275,6 @@ fn risks(path: &Path, raster: Raster) -> Result<Raster, Failure> {
 fn mapped(raster: Raster, value: impl Fn(f32) -> f32) -> Raster {
     let values = raster.values().iter().map(|&v| value(v)).collect();
     Raster::from_values(raster.bounds(), raster.size(), values)
-}
-
-/// Columns and rows of the field: fine enough that every raster pixel contains the centre of one of its
-/// pixels.
-fn field_size(request: &MeshRequest, rasters: &[Option<Raster>], domain: Rect) -> [u32; 2] {
-    let own: Vec<[u32; 2]> =
-        rasters.iter().flatten().filter(|r| r.bounds() == domain).map(Raster::size).collect();
-    let alike = own.len() == rasters.len() && own.windows(2).all(|pair| pair[0] == pair[1]);
-    let fits = |size: &[u32; 2]| size.iter().all(|&side| side <= MAX_SIDE);
-    if let (None, true, Some(&size)) = (request.resolution, alike, own.first().filter(|size| fits(size))) {
-        return size;
-    }
-    let extent = domain.size();
-    let finest = rasters.iter().flatten().map(|r| r.pixel_size().min_element()).fold(f64::INFINITY, f64::min);
-    let needed = (extent.max_element() / finest).ceil().min(f64::from(MAX_SIDE)) as u32;
-    let longer = request.resolution.unwrap_or(USUAL_RESOLUTION.max(needed));
-    // Rounded up, so that no side of a pixel is longer than asked for, but not for a rounding error of the
-    // division.
-    let side =
-        |length: f64| (f64::from(longer) * length / extent.max_element() - 1e-9).ceil().max(1.0) as u32;
-    [side(extent.x), side(extent.y)]
 }
 
 /// Notes for the user: rasters that do not meet the domain.

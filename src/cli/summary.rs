@@ -47,9 +47,6 @@ pub struct Summary {
     pub spacing: f64,
     /// "vertex" or "area".
     pub rule: &'static str,
-    /// Columns and rows that the area rule saw.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub resolution: Option<[u32; 2]>,
     /// Triangles left coarser than their target by `--max-level`.
     pub capped: usize,
     /// Broken invariants, if they were checked.
@@ -275,7 +272,6 @@ impl Summary {
             seconds: finished.refinement.as_secs_f64(),
             spacing: mesh.lattice().spacing(),
             rule: if finished.rule() == RefinementRule::Vertex { "vertex" } else { "area" },
-            resolution: finished.resolution(),
             capped: finished.capped,
             violations,
             diameters: (0..levels.len()).map(|level| mesh.diameter(level as u32)).collect(),
@@ -285,17 +281,14 @@ impl Summary {
 
     /// A few lines and a table of levels.
     pub fn for_people(&self) -> String {
-        let seen = match self.resolution {
-            Some([columns, rows]) => format!("area rule on {columns} × {rows} pixels"),
-            None => "vertex rule".to_owned(),
-        };
         let mut text = format!(
-            "{} triangles, {} nodes, levels 0 to {}, refined in {}\ncoarse spacing {}, {seen}\n\n",
+            "{} triangles, {} nodes, levels 0 to {}, refined in {}\ncoarse spacing {}, {} rule\n\n",
             Grouped(self.triangles),
             Grouped(self.nodes),
             self.max_level,
             duration(self.seconds),
             self.spacing,
+            self.rule,
         );
         if let Some(outline) = &self.outline {
             text.insert_str(text.len() - 1, &outline.for_people(self.area));

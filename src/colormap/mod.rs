@@ -2,10 +2,13 @@
 //!
 //! Colours are sRGB bytes: `[red, green, blue]`, or with an alpha of 255 after them.
 
+mod categories;
 mod tables;
 
 use std::str::FromStr;
 use std::sync::LazyLock;
+
+pub use categories::category_color;
 
 /// Number of levels a mesh can have; the lattice ends before.
 pub const LEVELS: usize = 64;

@@ -1,17 +1,16 @@
 use std::collections::BTreeSet;
 
-use crate::paint::{TilePlace, tiles_touching};
-use crate::raster::PixelRect;
+use crate::layers::LayerId;
 
 /// What was edited in a document, to keep a copy of it up to date.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Edits {
     /// Whether settings changed.
     pub settings: bool,
-    /// Whether the paint rasters were replaced, so that every tile may differ.
+    /// Whether the document was replaced, so that the paint of every layer may differ.
     pub all_paint: bool,
-    /// The tiles in which pixels changed; none are listed once `all_paint` is set.
-    pub tiles: BTreeSet<TilePlace>,
+    /// The layers on which pixels changed.
+    pub layers: BTreeSet<LayerId>,
 }
 
 impl Edits {
@@ -21,12 +20,6 @@ impl Edits {
     }
 
     pub(super) fn everything() -> Self {
-        Self { settings: true, all_paint: true, tiles: BTreeSet::new() }
-    }
-
-    pub(super) fn add(&mut self, area: PixelRect) {
-        if !self.all_paint {
-            self.tiles.extend(tiles_touching(area));
-        }
+        Self { settings: true, all_paint: true, layers: BTreeSet::new() }
     }
 }

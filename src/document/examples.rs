@@ -2,13 +2,14 @@ use std::sync::Arc;
 
 use glam::{DVec2, dvec2};
 
-use super::{Base, Document, Settings};
+use super::{Document, Settings};
 use crate::domain::{BoundaryMarks, BoundaryTreatment, Domain, NamedPolygon};
 use crate::field::{Formula, RefinementRule, Transfer};
 use crate::geometry::Rect;
+use crate::layers::{Layer, LayerKind, RasterReading, RasterSource};
 use crate::mesh::Cleaning;
 use crate::paint::{Brush, Medium};
-use crate::raster::Raster;
+use crate::raster::{Raster, RasterPyramid};
 use crate::text::LengthUnit;
 
 /// A document that comes with the program.
@@ -86,28 +87,32 @@ fn diamond() -> Settings {
         cleaning: Cleaning::FOR_SOLVERS,
         boundary_marks: Arc::default(),
         transfer: Transfer { h_min: 0.02, h_max: 20.0, shape: 1.0 },
-        base: Base::Formula(formula),
+        layers: Layer::usual(LayerKind::target(formula)),
+        gradation: None,
         rule: RefinementRule::Vertex,
-        resolution: 1024,
         max_triangles: Settings::MAX_TRIANGLES,
         max_memory: Settings::MAX_MEMORY,
     }
 }
 
 fn terrain(slope: Raster) -> Settings {
+    let bounds = slope.bounds();
+    let source =
+        RasterSource { name: "jacksboro_slope.png".into(), raster: Arc::new(RasterPyramid::new(slope)) };
+    let slope_as_risk = LayerKind::Raster { source, reading: RasterReading::Risk };
     Settings {
         name: Example::Terrain.name().into(),
         unit: LengthUnit::Kilometre,
         background: None,
-        domain: Domain::rectangle(slope.bounds()),
-        spacing: slope.bounds().size().max_element() / 24.0,
-        boundary: BoundaryTreatment::usual(slope.bounds().size().max_element() / 24.0),
+        domain: Domain::rectangle(bounds),
+        spacing: bounds.size().max_element() / 24.0,
+        boundary: BoundaryTreatment::usual(bounds.size().max_element() / 24.0),
         cleaning: Cleaning::FOR_SOLVERS,
         boundary_marks: Arc::default(),
         transfer: Transfer { h_min: 0.05, h_max: 2.0, shape: 1.6 },
-        base: Base::RiskImage { name: "jacksboro_slope.png".into(), raster: Arc::new(slope) },
+        layers: Layer::usual(slope_as_risk),
+        gradation: None,
         rule: RefinementRule::Area,
-        resolution: 1024,
         max_triangles: Settings::MAX_TRIANGLES,
         max_memory: Settings::MAX_MEMORY,
     }

@@ -20,13 +20,14 @@
 
 use std::sync::Arc;
 
+use super::layers_update::LayersUpdate;
 use super::outline_update::OutlineUpdate;
 use super::rebuild::Rebuild;
 use super::shown::Shown;
 use super::{Document, Repainted, Settings, Stage};
 use crate::build::{BuildError, Parts};
 use crate::domain::DomainOnLattice;
-use crate::field::TargetField;
+use crate::layers::SizeField;
 use crate::mesh::{Changes, Mesh, MeshCopy, Progress};
 
 /// Keeps field and mesh in step with a document, in slices.
@@ -52,13 +53,15 @@ pub struct Follower {
 enum FollowState {
     /// Nothing: field and mesh are up to date with what was last seen of the document.
     InStep,
-    /// Paint is read into the shown field, and the shown mesh is updated where that changed.
+    /// The shown mesh is updated where h̄ changed.
     Updating {
         /// The mesh that will be updated, while an export holds the shown one.
         copy: Option<Box<MeshCopy>>,
     },
     /// Another outline is compared with that of the shown mesh and indexed.
     FollowingOutline(Box<OutlineUpdate>),
+    /// Other layers are checked.
+    FollowingLayers(Box<LayersUpdate>),
     /// Another mesh is built beside the shown one.
     Rebuilding(Box<Rebuild>),
     /// Nothing, as long as the document has this revision.
@@ -114,8 +117,13 @@ impl Follower {
     }
 
     /// h̄ of the shown mesh; that of the document, once in step.
-    pub fn field(&self) -> &TargetField {
+    pub fn field(&self) -> &SizeField {
         &self.shown.field
+    }
+
+    /// The field as it is, for work that takes longer than a frame.
+    pub fn shared_field(&self) -> Arc<SizeField> {
+        self.shown.field.clone()
     }
 
     /// The settings that mesh and field were made from.
@@ -138,13 +146,11 @@ impl Follower {
         match &self.state {
             FollowState::InStep => Stage::InStep,
             FollowState::Updating { copy: Some(copy) } => Stage::Copying { triangles: copy.triangles() },
-            FollowState::Updating { copy: None } if self.shown.has_unread_paint() => {
-                Stage::Sampling { share: None }
-            }
             FollowState::Updating { copy: None } => {
                 Stage::Refining { triangles: self.mesh().raw_triangle_count() }
             }
             FollowState::FollowingOutline(_) => Stage::Indexing,
+            FollowState::FollowingLayers(_) => Stage::Checking,
             FollowState::Rebuilding(rebuild) => rebuild.stage(),
             FollowState::GaveUp { cancelled: true, .. } => Stage::GaveUp(None),
             FollowState::GaveUp { cancelled: false, .. } => Stage::GaveUp(self.stopped.clone()),
@@ -208,7 +214,7 @@ impl Follower {
                 if let FollowState::Rebuilding(rebuild) = &mut self.state {
                     rebuild.repaint(&areas);
                 }
-                self.shown.repaint(areas);
+                self.shown.repaint(&areas);
             }
             Repainted::Everything => {
                 self.state = FollowState::InStep;
@@ -223,6 +229,7 @@ impl Follower {
         self.state = match self.chosen_state(wanted)? {
             FollowState::Updating { copy } => self.update(copy, document, budget)?,
             FollowState::FollowingOutline(update) => self.follow_outline(update, wanted, budget)?,
+            FollowState::FollowingLayers(update) => self.follow_layers(update, document, budget)?,
             FollowState::Rebuilding(rebuild) => self.rebuild(rebuild, document, budget)?,
             idle @ (FollowState::InStep | FollowState::GaveUp { .. }) => idle,
         };
@@ -240,6 +247,8 @@ impl Follower {
             }
             // An update of the outline that has begun is finished; what came since is the next one.
             FollowState::FollowingOutline(_) => shown.can_follow_outline(wanted),
+            // So is a check: the mesh keeps moving while a layer is dragged.
+            FollowState::FollowingLayers(_) => shown.can_follow_layers(wanted),
             FollowState::Rebuilding(rebuild) => {
                 let triangles = shown.mesh.raw_triangle_count();
                 rebuild.is_for(wanted)
@@ -265,30 +274,26 @@ impl Follower {
             let updates = self.shown.has_updates();
             return Ok(if updates { FollowState::Updating { copy: None } } else { FollowState::InStep });
         }
-        if self.shown.reads_paint_first(wanted) {
-            return Ok(FollowState::Updating { copy: None });
-        }
         if let Some(update) = self.shown.follow_outline(wanted) {
             return Ok(FollowState::FollowingOutline(Box::new(update)));
+        }
+        if let Some(update) = self.shown.follow_layers(wanted) {
+            return Ok(FollowState::FollowingLayers(Box::new(update)));
         }
         Ok(FollowState::Rebuilding(Box::new(self.shown.rebuild(wanted, spare)?)))
     }
 
-    /// One slice of updates of the shown field and mesh.
+    /// One slice of updates of the shown mesh.
     fn update(
         &mut self,
         mut copy: Option<Box<MeshCopy>>,
         document: &Document,
         budget: usize,
     ) -> Result<FollowState, BuildError> {
-        if self.shown.has_unread_paint() {
-            self.shown.read_paint(document.paint().as_paint(), budget);
-        } else {
-            let result = self.shown.update_mesh(&mut copy, budget);
-            // What changed before an error is shown too.
-            self.note_changes();
-            result?;
-        }
+        let result = self.shown.update_mesh(&mut copy, document.paint(), budget);
+        // What changed before an error is shown too.
+        self.note_changes();
+        result?;
         if self.shown.has_updates() {
             return Ok(FollowState::Updating { copy });
         }
@@ -307,6 +312,23 @@ impl Follower {
         }
         self.shown.take_outline(*update);
         self.next_state(wanted)
+    }
+
+    /// One slice of work on other layers; at its end the mesh begins to follow.
+    fn follow_layers(
+        &mut self,
+        mut update: Box<LayersUpdate>,
+        document: &Document,
+        budget: usize,
+    ) -> Result<FollowState, BuildError> {
+        match update.advance(budget) {
+            Ok(Progress::More) => return Ok(FollowState::FollowingLayers(update)),
+            Ok(Progress::Done) => self.shown.take_layers(*update, document.paint()),
+            Err(error) if update.settings == *document.settings() => return Err(error),
+            // It may be possible with the present settings.
+            Err(_) => {}
+        }
+        self.next_state(document.settings())
     }
 
     /// One slice of work on another mesh; at its end that is shown.

@@ -3,28 +3,26 @@
 use std::collections::{HashMap, VecDeque};
 use std::sync::Arc;
 
-use super::{Base, Settings};
-use crate::paint::{PaintRasters, Patch};
+use super::Settings;
+use crate::layers::{LayerId, LayerKind};
+use crate::paint::Patch;
 
 /// The data of one gesture that the document does not have now: before undo the old data, after it the new
 /// data. Undo and redo exchange it with the document's own.
 #[derive(Clone, Debug)]
 pub(super) enum EntryData {
-    /// The pixels of a stroke.
-    Paint(Patch),
-    /// Settings, where the paint rasters kept their bounds and size.
+    /// Pixels of some layers.
+    Paint(Vec<(LayerId, Patch)>),
+    /// Settings.
     Settings(Box<Settings>),
-    /// Settings and paint, where the bounds or the size of the rasters changed.
-    Everything(Box<(Settings, PaintRasters)>),
 }
 
 impl EntryData {
     /// Bytes of this entry alone, without the data that its settings share with others.
     fn own_bytes(&self) -> usize {
         match self {
-            Self::Paint(patch) => patch.bytes(),
+            Self::Paint(patches) => patches.iter().map(|(_, patch)| patch.bytes()).sum(),
             Self::Settings(settings) => own_bytes(settings),
-            Self::Everything(both) => own_bytes(&both.0) + both.1.bytes(),
         }
     }
 
@@ -32,43 +30,34 @@ impl EntryData {
         match self {
             Self::Paint(_) => None,
             Self::Settings(settings) => Some(settings),
-            Self::Everything(both) => Some(&both.0),
         }
     }
 }
 
 fn own_bytes(settings: &Settings) -> usize {
-    let picture_name = match &settings.base {
-        Base::RiskImage { name, .. } | Base::DiameterGrid { name, .. } => name.capacity(),
-        Base::Constant(_) | Base::Formula(_) => 0,
-    };
-    size_of::<Settings>() + settings.name.capacity() + picture_name
+    let layers: usize = settings.layers.iter().map(|layer| size_of_val(layer) + layer.name.capacity()).sum();
+    size_of::<Settings>() + settings.name.capacity() + layers
 }
 
 /// Data behind an `Arc`, which other settings may share: its address and its size in bytes.
 type SharedData = (usize, usize);
 
-fn shared_data(settings: &Settings) -> impl Iterator<Item = SharedData> {
+fn shared_data(settings: &Settings) -> impl Iterator<Item = SharedData> + '_ {
     let outline = settings.domain.region().map(|region| (Arc::as_ptr(region).addr(), region.bytes()));
     let marks = (Arc::as_ptr(&settings.boundary_marks).addr(), settings.boundary_marks.bytes());
-    let (base_formula, picture) = match &settings.base {
-        Base::Constant(_) => (None, None),
-        Base::Formula(formula) => (Some(formula), None),
-        Base::RiskImage { raster, .. } | Base::DiameterGrid { raster, .. } => {
-            (None, Some((Arc::as_ptr(raster).addr(), raster.bytes())))
+    let layers = settings.layers.iter().filter_map(|layer| match &layer.kind {
+        LayerKind::Paint(_) | LayerKind::Threats(_) | LayerKind::Distance { .. } => None,
+        LayerKind::Formula { formula, .. } => Some((formula.address(), formula.bytes())),
+        LayerKind::Raster { source, .. } | LayerKind::Band { source, .. } => {
+            Some((Arc::as_ptr(&source.raster).addr(), source.raster.bytes()))
         }
-    };
+    });
     let background = settings
         .background
         .as_ref()
         .map(|background| (Arc::as_ptr(&background.picture).addr(), background.picture.rgba.len()));
-    let formulas = [settings.domain.formula(), base_formula].into_iter().flatten();
-    formulas
-        .map(|formula| (formula.address(), formula.bytes()))
-        .chain(outline)
-        .chain([marks])
-        .chain(picture)
-        .chain(background)
+    let domain = settings.domain.formula().map(|formula| (formula.address(), formula.bytes()));
+    layers.chain(domain).chain(outline).chain([marks]).chain(background)
 }
 
 /// One gesture, done or undone.
@@ -228,7 +217,8 @@ mod tests {
     use crate::domain::{Domain, DomainShape, Region, corners};
     use crate::field::Formula;
     use crate::geometry::Rect;
-    use crate::raster::Raster;
+    use crate::layers::{Layer, LayerKind, RasterReading, RasterSource};
+    use crate::raster::{Raster, RasterPyramid};
 
     /// An outline of 4 corners.
     fn outline(side: f64) -> Setting {
@@ -238,12 +228,13 @@ mod tests {
     }
 
     fn picture(side: u32) -> Setting {
-        let raster = Arc::new(Raster::filled(Rect::UNIT, [side, side], 0.5));
-        Setting::Base(Base::RiskImage { name: String::new(), raster })
+        let raster = Raster::filled(Rect::UNIT, [side, side], 0.5);
+        let source = RasterSource { name: String::new(), raster: Arc::new(RasterPyramid::new(raster)) };
+        Setting::Layers(Layer::stack([LayerKind::Raster { source, reading: RasterReading::Risk }]))
     }
 
     fn formula(text: &str) -> Setting {
-        Setting::Base(Base::Formula(Formula::parse(text).unwrap()))
+        Setting::Layers(Layer::stack([LayerKind::target(Formula::parse(text).unwrap())]))
     }
 
     /// What the entries keep alive beyond their own settings, counted from scratch.
@@ -277,9 +268,10 @@ mod tests {
         assert!((64..300).contains(&one), "four corners of 16 bytes each: {one}");
         assert_eq!(set(Setting::Spacing(0.1)), one);
         assert_eq!(set(Setting::Spacing(0.2)), one, "three entries share the second outline");
-        assert_eq!(set(picture(100)), one);
+        let base = set(picture(100));
+        assert!((one + 1..one + 200).contains(&base), "the formula of the base: {base}");
         let two = set(picture(10));
-        assert_eq!(two, one + 4 * 100 * 100);
+        assert!((40_000..48_000).contains(&(two - base)), "the pixels and their ranges: {}", two - base);
         set(formula("x + 1"));
         assert!((1..1000).contains(&(set(formula("x + 2")) - two - 400)), "the second picture and a formula");
         while document.undo() {

@@ -6,6 +6,8 @@ mod edits;
 mod examples;
 mod follower;
 mod history;
+mod layers;
+mod layers_update;
 mod outline;
 mod outline_update;
 mod pricer;
@@ -22,15 +24,17 @@ pub use edits::Edits;
 pub use examples::Example;
 pub use follower::{Follower, MeshChange};
 pub use history::History;
+pub use layers::NoPaintLayer;
 pub use outline::{OutlineError, extent};
 pub use pricer::{NoChange, Price, Pricer};
 pub use setting::{Setting, SettingKind};
-pub use settings::{Base, LEAST_MEMORY, MAX_COARSE_TRIANGLES, RESOLUTIONS, Settings, SettingsError};
+pub use settings::{LEAST_MEMORY, MAX_COARSE_TRIANGLES, Settings, SettingsError};
 pub use stage::Stage;
 
+use crate::geometry::Rect;
+use crate::layers::{LayerId, PaintLayers};
 use crate::mesh::Progress;
-use crate::paint::{Brush, Mirror, PaintRasters, PathPoint, Stroke};
-use crate::raster::PixelRect;
+use crate::paint::{Brush, Medium, Mirror, Patch, PathPoint, Stroke};
 use history::{Entry, EntryData};
 
 /// The ground state: settings and paint, the only data that is edited, undone and saved.
@@ -41,9 +45,12 @@ use history::{Entry, EntryData};
 #[derive(Clone, Debug)]
 pub struct Document {
     settings: Settings,
-    paint: PaintRasters,
+    /// The pixels of all paint layers; those of a deleted layer stay for undo.
+    paint: PaintLayers,
+    /// The layer that brush and eraser paint on.
+    active: Option<LayerId>,
     history: History,
-    stroke: Option<Stroke>,
+    stroke: Option<LayerStroke>,
     /// Whether the current stroke ends once it is drawn to its last point.
     finishing: bool,
     /// The setting of the gesture that has not ended. Further changes of that setting join it.
@@ -56,32 +63,34 @@ pub struct Document {
     last_version: u64,
 }
 
-/// The pixels of the paint that changed since [`Document::take_repainted`] was last called.
+/// A stroke, and the layer that it paints on.
+#[derive(Clone, Debug)]
+struct LayerStroke {
+    layer: LayerId,
+    stroke: Stroke,
+}
+
+/// Where the paint changed since [`Document::take_repainted`] was last called.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Repainted {
-    /// Pixels in these rectangles, which may overlap; the list may be empty.
-    Within(Vec<PixelRect>),
-    /// The rasters were replaced: every pixel may differ, and so may their size and bounds.
+    /// Within these rectangles in world units, which may overlap; the list may be empty.
+    Within(Vec<Rect>),
+    /// The document was replaced: everything may differ.
     Everything,
 }
 
 impl Document {
-    /// A document with the given settings and paint and an empty history. Without paint it is blank; paint on
-    /// another grid is resampled to that of the settings.
+    /// A document with the given settings and paint and an empty history. Without paint it is blank.
     ///
     /// # Errors
     /// When the settings are out of range.
-    pub fn new(settings: Settings, paint: Option<PaintRasters>) -> Result<Self, SettingsError> {
+    pub fn new(settings: Settings, paint: Option<PaintLayers>) -> Result<Self, SettingsError> {
         let settings = settings.checked()?;
-        let (bounds, size) = (settings.domain.bounds, settings.raster_size());
-        let paint = match paint {
-            Some(paint) if paint.risk.size() == size && paint.risk.bounds() == bounds => paint,
-            Some(paint) => paint.resampled(bounds, size),
-            None => PaintRasters::blank(bounds, size),
-        };
+        let active = settings.layers.iter().rev().find(|layer| layer.paints().is_some());
         Ok(Self {
+            active: active.map(|layer| layer.id),
             settings,
-            paint,
+            paint: paint.unwrap_or_default(),
             history: History::default(),
             stroke: None,
             finishing: false,
@@ -99,20 +108,9 @@ impl Document {
         &self.settings
     }
 
-    /// What is painted: risk and target diameter by pixel, over the domain's bounds.
-    pub fn paint(&self) -> &PaintRasters {
+    /// The pixels of the paint layers.
+    pub fn paint(&self) -> &PaintLayers {
         &self.paint
-    }
-
-    /// The risk at a point in world units, 0 to 1: that of the paint or that of the base picture, whichever
-    /// is higher. `None` outside the domain's bounds.
-    pub fn risk_at(&self, point: DVec2) -> Option<f64> {
-        let painted = self.paint.risk.sample(point).map(f64::from)?;
-        let base = match &self.settings.base {
-            Base::RiskImage { raster, .. } => raster.sample(point).map_or(0.0, f64::from),
-            Base::Constant(_) | Base::Formula(_) | Base::DiameterGrid { .. } => 0.0,
-        };
-        Some(painted.max(base))
     }
 
     /// What can be undone and redone.
@@ -133,11 +131,12 @@ impl Document {
 
     /// The current stroke, from [`Self::begin_stroke`] until it ends.
     pub fn stroke(&self) -> Option<&Stroke> {
-        self.stroke.as_ref()
+        self.stroke.as_ref().map(|current| &current.stroke)
     }
 
-    /// Begins a stroke, which touches nothing until [`Self::extend_stroke`]. The current stroke or gesture
-    /// ends first.
+    /// Begins a stroke on the layer that [`Self::layer_for`] chooses. It touches nothing until
+    /// [`Self::extend_stroke`]. The current stroke or gesture ends first. Nothing begins where no layer can
+    /// be painted on.
     pub fn begin_stroke(&mut self, brush: Brush) {
         self.begin_mirrored_stroke(brush, Mirror::default());
     }
@@ -146,7 +145,12 @@ impl Document {
     pub fn begin_mirrored_stroke(&mut self, brush: Brush, mirror: Mirror) {
         self.end_stroke();
         self.end_gesture();
-        self.stroke = Some(Stroke::new(brush, self.settings.transfer.h_max).mirrored(mirror));
+        let Ok(layer) = self.layer_for(&brush.medium) else { return };
+        self.active = Some(layer);
+        let settings = &self.settings;
+        self.paint.get_or_insert(layer, || settings.blank_raster(layer));
+        let stroke = Stroke::new(brush, settings.transfer.h_max, settings.domain.bounds).mirrored(mirror);
+        self.stroke = Some(LayerStroke { layer, stroke });
         self.finishing = false;
     }
 
@@ -158,19 +162,22 @@ impl Document {
 
     /// Extends the current stroke to a point; [`Self::advance_stroke`] draws the new segment.
     pub fn extend_stroke(&mut self, point: impl Into<PathPoint>) {
-        if let Some(stroke) = &mut self.stroke {
-            stroke.extend(&self.paint, point);
+        if let Some(LayerStroke { layer, stroke }) = &mut self.stroke
+            && let Some(raster) = self.paint.get(*layer)
+        {
+            stroke.extend(raster, point);
         }
     }
 
     /// Draws at most one segment of the current stroke, and about `pixels` of it. A stroke that was finished
     /// ends with its last segment.
     pub fn advance_stroke(&mut self, pixels: usize) -> Progress {
-        let Some(stroke) = &mut self.stroke else { return Progress::Done };
-        let area = stroke.advance(&mut self.paint, pixels);
+        let Some(LayerStroke { layer, stroke }) = &mut self.stroke else { return Progress::Done };
+        let layer = *layer;
+        let area = self.paint.get_mut(layer).and_then(|raster| stroke.advance(raster, pixels));
         let progress = if stroke.is_drawn() { Progress::Done } else { Progress::More };
         if let Some(area) = area {
-            self.note_repainted([area]);
+            self.note_repainted(layer, [area]);
         }
         if self.finishing && progress == Progress::Done {
             self.end_stroke();
@@ -180,7 +187,7 @@ impl Document {
 
     /// Whether the current stroke is drawn to its last point; true without a stroke.
     pub fn is_stroke_drawn(&self) -> bool {
-        self.stroke.as_ref().is_none_or(Stroke::is_drawn)
+        self.stroke().is_none_or(Stroke::is_drawn)
     }
 
     /// Lets the current stroke end as soon as [`Self::advance_stroke`] has drawn it to its last point.
@@ -195,24 +202,24 @@ impl Document {
     pub fn end_stroke(&mut self) {
         self.finishing = false;
         while self.advance_stroke(usize::MAX) == Progress::More {}
-        if let Some(stroke) = self.stroke.take() {
-            let title = match stroke.brush().medium {
-                crate::paint::Medium::Eraser => "erase",
-                _ => "paint",
-            };
-            let patch = stroke.finish();
-            if !patch.is_empty() {
-                self.enter(title, EntryData::Paint(patch));
-            }
+        let Some(LayerStroke { layer, stroke }) = self.stroke.take() else { return };
+        let title = match stroke.brush().medium {
+            Medium::Eraser => "erase",
+            _ => "paint",
+        };
+        let Some(raster) = self.paint.get_mut(layer) else { return };
+        let patch = stroke.finish(raster);
+        if !patch.is_empty() {
+            self.enter(title, EntryData::Paint(vec![(layer, patch)]));
         }
     }
 
     /// Removes the current stroke, as if it had never begun.
     pub fn cancel_stroke(&mut self) {
-        if let Some(stroke) = self.stroke.take() {
-            let areas = stroke.finish().exchange(&mut self.paint);
-            self.note_repainted(areas);
-        }
+        let Some(LayerStroke { layer, stroke }) = self.stroke.take() else { return };
+        let Some(raster) = self.paint.get_mut(layer) else { return };
+        let areas = stroke.finish(raster).exchange(raster);
+        self.note_repainted(layer, areas);
     }
 
     /// Opens another document in place of this one. Nothing of this one is kept: the history is empty, and
@@ -236,13 +243,29 @@ impl Document {
         };
     }
 
-    /// Removes all paint, as one gesture.
+    /// Removes the paint of all layers that are not locked, as one gesture.
     pub fn clear_paint(&mut self) {
+        let layers = self.settings.layers.iter().filter(|layer| layer.paints().is_some() && !layer.locked);
+        let layers: Vec<LayerId> = layers.map(|layer| layer.id).collect();
+        self.clear_layers(&layers, "clear paint");
+    }
+
+    /// Removes the paint of some layers, as one gesture with this name.
+    fn clear_layers(&mut self, layers: &[LayerId], title: &'static str) {
         self.end_stroke();
         self.end_gesture();
-        if !self.paint.is_blank() {
-            let blank = PaintRasters::blank(self.settings.domain.bounds, self.settings.raster_size());
-            self.replace("clear paint", self.settings.clone(), blank);
+        let mut patches = Vec::new();
+        for &layer in layers {
+            let Some(raster) = self.paint.get_mut(layer) else { continue };
+            let mut patch = Patch::clearing(raster);
+            if !patch.is_empty() {
+                let areas = patch.exchange(raster);
+                self.note_repainted(layer, areas);
+                patches.push((layer, patch));
+            }
+        }
+        if !patches.is_empty() {
+            self.enter(title, EntryData::Paint(patches));
         }
     }
 
@@ -259,25 +282,13 @@ impl Document {
         }
         let settings = settings.checked()?;
         self.end_stroke();
-        let (bounds, size) = (settings.domain.bounds, settings.raster_size());
         let joins = self.open_gesture == Some(kind);
-        if bounds != self.settings.domain.bounds || size != self.paint.risk.size() {
-            let paint = self.paint_before_gesture(joins).resampled(bounds, size);
-            if joins && matches!(self.last_data(), Some(EntryData::Everything(_))) {
-                self.settings = settings;
-                self.paint = paint;
-                self.note_replaced();
-            } else {
-                self.replace(title, settings, paint);
-            }
-        } else {
-            let old = std::mem::replace(&mut self.settings, settings);
-            self.edits.settings = true;
-            if !joins {
-                self.enter(title, EntryData::Settings(Box::new(old)));
-            }
-            self.revision += 1;
+        let old = std::mem::replace(&mut self.settings, settings);
+        self.edits.settings = true;
+        if !joins {
+            self.enter(title, EntryData::Settings(Box::new(old)));
         }
+        self.revision += 1;
         self.open_gesture = Some(kind);
         if joins {
             self.next_version();
@@ -345,29 +356,19 @@ impl Document {
     fn exchange(&mut self, entry: &mut Entry) {
         std::mem::swap(&mut entry.version, &mut self.version);
         match &mut entry.data {
-            EntryData::Paint(patch) => {
-                let areas = patch.exchange(&mut self.paint);
-                self.note_repainted(areas);
+            EntryData::Paint(patches) => {
+                for (layer, patch) in patches {
+                    let Some(raster) = self.paint.get_mut(*layer) else { continue };
+                    let areas = patch.exchange(raster);
+                    self.note_repainted(*layer, areas);
+                }
             }
             EntryData::Settings(settings) => {
                 std::mem::swap(&mut **settings, &mut self.settings);
                 self.edits.settings = true;
                 self.revision += 1;
             }
-            EntryData::Everything(both) => {
-                std::mem::swap(&mut both.0, &mut self.settings);
-                std::mem::swap(&mut both.1, &mut self.paint);
-                self.note_replaced();
-            }
         }
-    }
-
-    /// Replaces settings and paint as one gesture.
-    fn replace(&mut self, title: &'static str, settings: Settings, paint: PaintRasters) {
-        let settings = std::mem::replace(&mut self.settings, settings);
-        let paint = std::mem::replace(&mut self.paint, paint);
-        self.enter(title, EntryData::Everything(Box::new((settings, paint))));
-        self.note_replaced();
     }
 
     /// Adds an entry to the history, after its change was made.
@@ -388,26 +389,13 @@ impl Document {
 
     /// The paint to resample from. Within a gesture it is the paint before the gesture: resampling it in
     /// every step would blur it.
-    fn paint_before_gesture(&self, joins: bool) -> &PaintRasters {
-        match self.last_data() {
-            Some(EntryData::Everything(before)) if joins => &before.1,
-            _ => &self.paint,
-        }
-    }
-
-    fn note_repainted(&mut self, areas: impl IntoIterator<Item = PixelRect>) {
-        for area in areas.into_iter().filter(|area| !area.is_empty()) {
-            self.edits.add(area);
+    fn note_repainted(&mut self, layer: LayerId, areas: impl IntoIterator<Item = Rect>) {
+        for area in areas {
+            self.edits.layers.insert(layer);
             if let Repainted::Within(earlier) = &mut self.repainted {
                 earlier.push(area);
             }
         }
-        self.revision += 1;
-    }
-
-    fn note_replaced(&mut self) {
-        self.repainted = Repainted::Everything;
-        self.edits = Edits::everything();
         self.revision += 1;
     }
 }

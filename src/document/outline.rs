@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{RESOLUTIONS, Setting, Settings};
+use super::{Setting, Settings};
 use crate::domain::{BoundaryMarks, Domain, NamedPolygon, Polygon, RegionError};
 use crate::geometry::{GridError, Rect};
 use crate::text::Number;
@@ -51,8 +51,7 @@ impl Settings {
     /// The setting that makes polygons the domain, or adds them to the polygons that it is given by. Paint
     /// and all other settings stay.
     ///
-    /// The bounds grow as far as the polygons need, and the field gets more pixels in proportion, so that the
-    /// paint stays as sharp as it was.
+    /// The bounds grow as far as the polygons need.
     ///
     /// # Errors
     /// When the polygons are not a domain, lie outside the bounds, or need too large a coarse grid.
@@ -69,13 +68,10 @@ impl Settings {
         let bounds = before.bounds.union(&outline);
         let earlier = before.region().map_or(&[][..], |region| region.polygons());
         let domain = Domain::of_stored_polygons([earlier, &plain].concat(), bounds)?;
-        let growth = bounds.size().max_element() / before.bounds.size().max_element();
-        let resolution = (f64::from(self.resolution) * growth).ceil() as u32;
-        let resolution = resolution.clamp(self.resolution, *RESOLUTIONS.end());
         let mut marks = (*self.boundary_marks).clone();
         marks.names.extend(BoundaryMarks::of_polygons(polygons, &domain).names);
         let grown = Self { domain: domain.clone(), ..self.clone() };
         grown.lattice().map_err(OutlineError::TooLarge)?;
-        Ok(Setting::Outline { domain, boundary_marks: Arc::new(marks), resolution })
+        Ok(Setting::Outline { domain, boundary_marks: Arc::new(marks) })
     }
 }

@@ -1,77 +1,43 @@
 use super::{Document, Follower};
 use crate::build::RefinementCriterion;
-use crate::field::{RefinementRule, TargetField};
+use crate::field::RefinementRule;
+use crate::geometry::LatticeRect;
+use crate::layers::{LayerId, PaintLayers};
 use crate::mesh::{Forecast, Progress};
 use crate::paint::{Preview, StrokePlan};
-use crate::raster::{MaxMipmap, PixelRect};
 
 /// Computes in slices how a planned stroke would change the number of triangles, without changing document or
 /// mesh.
 ///
-/// By the area rule the answer is exact. Under the vertex rule there is none: every edit rebuilds the mesh.
-#[derive(Clone, Debug)]
+/// The stroke is painted on a copy of the paint, which shares all tiles that it does not touch. By the area
+/// rule the answer is exact. Under the vertex rule there is none: every edit rebuilds the mesh.
+#[derive(Clone, Debug, Default)]
 pub struct Pricer {
     question: Option<Question>,
     work: Work,
-    /// The levels that pixels would ask for: those of the field, except where the stroke's are written.
-    levels: MaxMipmap<u8>,
-    /// The revision of the document from which the levels were copied.
-    levels_of: Option<u64>,
-    /// Where levels of this stroke, or of earlier ones, may be written.
-    written: Vec<PixelRect>,
 }
 
 /// A planned stroke, and what its price depends on: the price is valid as long as none of this changes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Question {
     plan: StrokePlan,
+    layer: LayerId,
     document: u64,
     mesh: u64,
 }
 
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 enum Work {
+    #[default]
     Idle,
-    /// The stroke's levels are written where they differ; those of the stroke before are restored.
-    Writing {
-        preview: Preview,
-        left: Vec<PixelRect>,
-        effect: Effect,
+    /// The stroke is painted.
+    Painting(Box<Preview>),
+    /// The triangles are counted, `paint` being what would be painted.
+    Counting {
+        forecast: Box<Forecast>,
+        paint: PaintLayers,
     },
-    Counting(Box<Forecast>),
     Known(Price),
-}
-
-/// What a stroke does to the pixels under it.
-#[derive(Clone, Copy, Debug)]
-struct Effect {
-    /// Bounds of all pixels that would ask for another level.
-    levels_changed: PixelRect,
-    /// Whether it reaches any pixel.
-    reaches: bool,
-    /// Whether it changes the paint of any pixel.
-    paints: bool,
-    /// Whether the base field alone asks for the level of each pixel whose paint changes.
-    base_decides: bool,
-    /// Whether no pixel whose paint changes asks for more than the coarse grid.
-    coarse: bool,
-}
-
-impl Effect {
-    const NONE: Self =
-        Self { levels_changed: NO_PIXELS, reaches: false, paints: false, base_decides: true, coarse: true };
-
-    /// Why a stroke with this effect changes no triangle.
-    fn no_change(&self) -> NoChange {
-        match self {
-            Self { reaches: false, .. } => NoChange::OutsideField,
-            Self { paints: false, .. } => NoChange::PaintedAlready,
-            Self { levels_changed, .. } if !levels_changed.is_empty() => NoChange::TrianglesFit,
-            Self { coarse: true, .. } => NoChange::CoarserThanGrid,
-            Self { base_decides: true, .. } => NoChange::BaseDecides,
-            _ => NoChange::OtherPaintDecides,
-        }
-    }
 }
 
 /// What a stroke would do to the number of triangles.
@@ -94,40 +60,29 @@ pub enum Price {
 /// Why a stroke changes no triangle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NoChange {
-    /// It reaches no pixel of the field.
+    /// It does not reach the domain's rectangle.
     OutsideField,
     /// The pixels are already painted so; for the eraser: nothing is painted there.
     PaintedAlready,
     /// Its target diameter is not below that of the coarse grid.
     CoarserThanGrid,
-    /// The base field asks for a smaller diameter.
-    BaseDecides,
-    /// The other kind of paint asks for a smaller diameter.
-    OtherPaintDecides,
+    /// Another layer decides h̄ where the stroke ends.
+    LayerDecides(LayerId),
     /// h̄ changes, but the triangles there suit it: they are as fine already, or their neighbours need them.
     TrianglesFit,
 }
 
 impl Price {
-    /// Counting stops at this number of triangles added or removed.
-    pub const MOST: usize = 500_000;
-
-    /// The change in the number of triangles, or the part of it that was counted.
-    pub fn change(&self) -> i64 {
-        match *self {
+    /// By how many triangles the mesh grows, as far as that is known.
+    pub fn change(self) -> i64 {
+        match self {
             Self::Change(change) | Self::MoreThan(change) => change,
             Self::Nothing(_) | Self::Many | Self::TooFine => 0,
         }
     }
-}
 
-const NO_PIXELS: PixelRect = PixelRect { min: [0, 0], max: [0, 0] };
-
-impl Default for Pricer {
-    fn default() -> Self {
-        let levels = MaxMipmap::filled([1, 1], 0);
-        Self { question: None, work: Work::Idle, levels, levels_of: None, written: Vec::new() }
-    }
+    /// Counting stops at this number of triangles added or removed.
+    pub const MOST: usize = 500_000;
 }
 
 impl Pricer {
@@ -138,30 +93,15 @@ impl Pricer {
         let answerable = document.stroke().is_none()
             && document.settings().rule == RefinementRule::Area
             && follower.is_in_step(document);
-        let question = plan.filter(|plan| answerable && plan.is_finite()).map(|plan| Question {
-            plan,
-            document: document.revision(),
-            mesh: follower.revision(),
+        let question = plan.filter(|plan| answerable && plan.is_finite()).and_then(|plan| {
+            let layer = document.layer_for(&plan.brush.medium).ok()?;
+            Some(Question { plan, layer, document: document.revision(), mesh: follower.revision() })
         });
         if question == self.question {
             return;
         }
         self.question = question;
-        self.work = question.map_or(Work::Idle, |question| self.begin(question, document, follower));
-    }
-
-    fn begin(&mut self, question: Question, document: &Document, follower: &Follower) -> Work {
-        // Strokes that were not restored pile up while the pointer moves: from some number on, a fresh copy
-        // is cheaper.
-        if self.levels_of != Some(question.document) || self.written.len() > 16 {
-            self.levels = follower.field().levels().clone();
-            self.levels_of = Some(question.document);
-            self.written.clear();
-        }
-        let h_max = document.settings().transfer.h_max;
-        let preview = Preview::new(&question.plan, h_max, document.paint());
-        self.written.extend(preview.areas());
-        Work::Writing { preview, left: self.written.clone(), effect: Effect::NONE }
+        self.work = question.map_or(Work::Idle, |question| begin(question, document));
     }
 
     /// The price of the stroke, once known.
@@ -173,100 +113,116 @@ impl Pricer {
     pub fn progress(&self) -> Progress {
         match self.work {
             Work::Idle | Work::Known(_) => Progress::Done,
-            Work::Writing { .. } | Work::Counting(_) => Progress::More,
+            Work::Painting(_) | Work::Counting { .. } => Progress::More,
         }
     }
 
     /// One slice of work: about `budget` pixels or triangles. Document and follower must not have changed
     /// since [`Self::ask`].
     pub fn advance(&mut self, document: &Document, follower: &Follower, budget: usize) -> Progress {
-        let next = match &mut self.work {
-            Work::Idle | Work::Known(_) => return Progress::Done,
-            Work::Writing { preview, left, effect } => {
-                let Some(area) = left.pop() else {
-                    self.written = preview.areas().collect();
-                    self.work = count(effect, follower);
-                    return self.progress();
-                };
-                let (now, later) = area.split_after(budget);
-                left.extend(later);
-                write(&mut self.levels, preview, now, effect, document, follower);
-                None
-            }
-            Work::Counting(forecast) => price_so_far(forecast, &self.levels, follower, budget),
+        let Some(question) = self.question else { return Progress::Done };
+        self.work = match std::mem::take(&mut self.work) {
+            Work::Painting(painting) => paint_more(painting, question, document, follower, budget),
+            Work::Counting { forecast, paint } => count_more(forecast, paint, question, follower, budget),
+            settled @ (Work::Idle | Work::Known(_)) => settled,
         };
-        if let Some(price) = next {
-            self.work = Work::Known(price);
-        }
         self.progress()
     }
 }
 
-/// Writes the levels that the pixels of `area` would ask for: with the stroke where it reaches, those of the
-/// field elsewhere.
-fn write(
-    levels: &mut MaxMipmap<u8>,
-    preview: &Preview,
-    area: PixelRect,
-    effect: &mut Effect,
+fn begin(Question { plan, layer, .. }: Question, document: &Document) -> Work {
+    let settings = document.settings();
+    let (h_max, bounds) = (settings.transfer.h_max, settings.domain.bounds);
+    let blank;
+    let raster = match document.paint().get(layer) {
+        Some(raster) => raster,
+        None => {
+            blank = settings.blank_raster(layer);
+            &blank
+        }
+    };
+    Work::Painting(Box::new(Preview::new(&plan, h_max, bounds, raster)))
+}
+
+fn paint_more(
+    mut preview: Box<Preview>,
+    question: Question,
     document: &Document,
     follower: &Follower,
-) {
-    let (field, paint) = (follower.field(), document.paint());
-    levels.update(area, |x, y| {
-        let before = field.levels().get(x, y);
-        let Some(painted) = preview.pixel(paint, x, y) else { return before };
-        effect.reaches = true;
-        if painted == [paint.risk.get(x, y), paint.diameter.get(x, y)] {
-            return before;
+    budget: usize,
+) -> Work {
+    if !preview.advance(budget) {
+        return Work::Painting(preview);
+    }
+    let (raster, areas) = preview.finish();
+    if areas.is_empty() {
+        return Work::Known(Price::Nothing(NoChange::OutsideField));
+    }
+    let is_same = match document.paint().get(question.layer) {
+        Some(before) => *before == raster,
+        None => raster.is_blank(),
+    };
+    if is_same {
+        return Work::Known(Price::Nothing(NoChange::PaintedAlready));
+    }
+    let mut paint = document.paint().clone();
+    paint.insert(question.layer, raster);
+    let field = follower.field();
+    let affected = areas.iter().filter_map(|area| field.area_affected_by(area));
+    match affected.reduce(|a, b| union(&a, &b)) {
+        None => Work::Known(Price::Nothing(NoChange::OutsideField)),
+        Some(area) => {
+            let limits = follower.settings().limits();
+            let forecast = Box::new(Forecast::new(follower.mesh(), area, &limits));
+            Work::Counting { forecast, paint }
         }
-        let after = field.level_with(x, y, painted);
-        effect.note(field, [x, y], [before, after]);
-        after
-    });
-}
-
-impl Effect {
-    /// Notes a pixel whose paint changes, with its levels before and after.
-    fn note(&mut self, field: &TargetField, [x, y]: [u32; 2], [before, after]: [u8; 2]) {
-        self.paints = true;
-        if after != before {
-            let pixel = PixelRect { min: [x, y], max: [x + 1, y + 1] };
-            self.levels_changed = self.levels_changed.union(&pixel);
-            return;
-        }
-        self.coarse &= after == 0;
-        self.base_decides &= after == field.level_with(x, y, [0.0, f32::INFINITY]);
     }
 }
 
-fn count(effect: &Effect, follower: &Follower) -> Work {
-    if effect.levels_changed.is_empty() {
-        return Work::Known(Price::Nothing(effect.no_change()));
+fn union(a: &LatticeRect, b: &LatticeRect) -> LatticeRect {
+    use crate::geometry::LatticePoint;
+    LatticeRect {
+        min: LatticePoint::new(a.min.x.min(b.min.x), a.min.y.min(b.min.y)),
+        max: LatticePoint::new(a.max.x.max(b.max.x), a.max.y.max(b.max.y)),
     }
-    let area = follower.field().lattice_rect(effect.levels_changed);
-    Work::Counting(Box::new(Forecast::new(follower.mesh(), area, &follower.settings().limits())))
 }
 
-fn price_so_far(
-    forecast: &mut Forecast,
-    levels: &MaxMipmap<u8>,
+fn count_more(
+    mut forecast: Box<Forecast>,
+    paint: PaintLayers,
+    question: Question,
     follower: &Follower,
     budget: usize,
-) -> Option<Price> {
+) -> Work {
     let domain = follower.domain();
-    let criterion = RefinementCriterion::by_area(domain, follower.field());
-    let exceeds = |corners, level| criterion.would_exceed(levels, corners, level);
+    let criterion = RefinementCriterion::by_area(domain, follower.field(), &paint);
+    let exceeds = |corners, level| criterion.exceeds_at(corners, level);
     let is_in_domain = |corners, _| !domain.excludes_at(corners);
     let progress = forecast.advance(follower.mesh(), exceeds, is_in_domain, budget);
     let [added, removed] = [forecast.added(), forecast.removed()];
-    match progress {
-        Err(_) => Some(Price::TooFine),
-        Ok(Progress::Done) if added == 0 && removed == 0 => Some(Price::Nothing(NoChange::TrianglesFit)),
-        Ok(Progress::Done) => Some(Price::Change(forecast.change())),
-        Ok(Progress::More) if added.max(removed) <= Price::MOST => None,
-        Ok(Progress::More) if removed == 0 => Some(Price::MoreThan(Price::MOST as i64)),
-        Ok(Progress::More) if added == 0 => Some(Price::MoreThan(-(Price::MOST as i64))),
-        Ok(Progress::More) => Some(Price::Many),
+    Work::Known(match progress {
+        Err(_) => Price::TooFine,
+        Ok(Progress::Done) if added == 0 && removed == 0 => {
+            Price::Nothing(why_nothing(question, &paint, follower))
+        }
+        Ok(Progress::Done) => Price::Change(forecast.change()),
+        Ok(Progress::More) if added.max(removed) <= Price::MOST => {
+            return Work::Counting { forecast, paint };
+        }
+        Ok(Progress::More) if removed == 0 => Price::MoreThan(Price::MOST as i64),
+        Ok(Progress::More) if added == 0 => Price::MoreThan(-(Price::MOST as i64)),
+        Ok(Progress::More) => Price::Many,
+    })
+}
+
+/// Why a stroke that changes pixels changes no triangle, judged where it ends.
+fn why_nothing(question: Question, paint: &PaintLayers, follower: &Follower) -> NoChange {
+    let decision = follower.field().decision_at(paint, question.plan.to);
+    if decision.target >= follower.mesh().diameter(0) {
+        return NoChange::CoarserThanGrid;
+    }
+    match decision.layer {
+        Some(layer) if layer != question.layer => NoChange::LayerDecides(layer),
+        _ => NoChange::TrianglesFit,
     }
 }

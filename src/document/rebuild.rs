@@ -1,10 +1,10 @@
 //! Another mesh, built beside the shown one.
 
 use super::shown::Shown;
-use super::{Base, Document, Settings, Stage};
+use super::{Document, Settings, Stage};
 use crate::build::{BuildError, BuildStage, MeshBuilder, MeshSpec, Parts};
+use crate::geometry::Rect;
 use crate::mesh::Progress;
-use crate::raster::PixelRect;
 
 /// Builds the mesh of a document, in slices.
 #[derive(Clone, Debug)]
@@ -12,8 +12,8 @@ pub(super) struct Rebuild {
     /// The settings of the document when it began.
     settings: Settings,
     builder: MeshBuilder,
-    /// What was painted since it began: field and mesh are updated there once they are shown.
-    repainted: Vec<PixelRect>,
+    /// Where the paint changed since it began, in world units: the mesh is updated there once it is shown.
+    repainted: Vec<Rect>,
 }
 
 /// A rebuild for outdated settings is finished up to this many triangles, besides twice those of the shown
@@ -29,7 +29,7 @@ impl Rebuild {
     }
 
     /// Notes what was painted meanwhile.
-    pub(super) fn repaint(&mut self, areas: &[PixelRect]) {
+    pub(super) fn repaint(&mut self, areas: &[Rect]) {
         self.repainted.extend(areas);
     }
 
@@ -48,24 +48,23 @@ impl Rebuild {
     /// Not so where the result would be of no interest, as for another domain or document, or would take too
     /// long.
     pub(super) fn is_worth_finishing(&self, wanted: &Settings, shown_triangles: usize) -> bool {
-        let Settings { name, domain, rule, resolution, base, .. } = &self.settings;
+        let Settings { name, domain, rule, layers, .. } = &self.settings;
         let similar = *name == wanted.name
             && *domain == wanted.domain
             && *rule == wanted.rule
-            && *resolution == wanted.resolution
-            && is_same_kind(base, &wanted.base);
+            && layers.len() == wanted.layers.len();
         similar && self.builder.triangles() <= 2 * shown_triangles + MOST_OUTDATED
     }
 
     /// One slice of work: about `budget` edges, pixels or triangles.
     pub(super) fn advance(&mut self, document: &Document, budget: usize) -> Result<Progress, BuildError> {
-        self.builder.advance(Some(document.paint().as_paint()), budget)
+        self.builder.advance(Some(document.paint()), budget)
     }
 
     pub(super) fn stage(&self) -> Stage {
         match self.builder.stage() {
             BuildStage::Indexing => Stage::Indexing,
-            BuildStage::Sampling { pixels, of } => Stage::Sampling { share: Some(pixels as f32 / of as f32) },
+            BuildStage::Checking => Stage::Checking,
             BuildStage::Refining { triangles } | BuildStage::Classifying { triangles } => {
                 Stage::Refining { triangles }
             }
@@ -75,13 +74,5 @@ impl Rebuild {
     /// Once done: the mesh, to be shown.
     pub(super) fn finish(self) -> Shown {
         Shown::new(self.settings, self.builder.finish(), self.repainted)
-    }
-}
-
-/// Whether one base can have become the other by the drag of a slider, or while a formula is typed.
-fn is_same_kind(a: &Base, b: &Base) -> bool {
-    match (a, b) {
-        (Base::Constant(_), Base::Constant(_)) | (Base::Formula(_), Base::Formula(_)) => true,
-        _ => a == b,
     }
 }

@@ -1,10 +1,11 @@
 use std::mem::Discriminant;
 use std::sync::Arc;
 
-use super::{Background, Base, Settings};
+use super::{Background, Settings};
 use crate::domain::{BoundaryMarks, BoundaryTreatment, Domain};
 use crate::field::RefinementRule;
 use crate::geometry::Rect;
+use crate::layers::Layer;
 use crate::mesh::Cleaning;
 use crate::text::LengthUnit;
 
@@ -20,12 +21,12 @@ pub enum Setting {
     LargestDiameter(f64),
     /// Exponent of the transfer curve.
     TransferShape(f64),
-    /// The field under the paint.
-    Base(Base),
+    /// The layers, from the bottom to the top.
+    Layers(Vec<Layer>),
+    /// Largest change of h̄ per unit of length, or none.
+    Gradation(Option<f64>),
     /// Which points of a triangle count.
     RefinementRule(RefinementRule),
-    /// Pixels of the field along the longer side.
-    Resolution(u32),
     /// Most triangles.
     MaxTriangles(usize),
     /// Most memory for meshes, in bytes.
@@ -40,8 +41,6 @@ pub enum Setting {
         domain: Domain,
         /// The names of its boundary.
         boundary_marks: Arc<BoundaryMarks>,
-        /// Pixels of the field along the longer side.
-        resolution: u32,
     },
     /// How the mesh meets the boundary of the domain.
     Boundary(BoundaryTreatment),
@@ -72,9 +71,9 @@ impl Setting {
             Self::SmallestDiameter(_) => "smallest diameter",
             Self::LargestDiameter(_) => "largest diameter",
             Self::TransferShape(_) => "transfer curve",
-            Self::Base(_) => "base field",
+            Self::Layers(_) => "layers",
+            Self::Gradation(_) => "gradation",
             Self::RefinementRule(_) => "refinement rule",
-            Self::Resolution(_) => "field resolution",
             Self::MaxTriangles(_) => "triangle budget",
             Self::MaxMemory(_) => "memory budget",
             Self::Bounds(_) => "domain",
@@ -101,16 +100,15 @@ impl Setting {
                 transfer.h_min = transfer.h_min.min(h_max);
             }
             Self::TransferShape(shape) => transfer.shape = shape,
-            Self::Base(base) => settings.base = base,
+            Self::Layers(layers) => settings.layers = layers,
+            Self::Gradation(gradation) => settings.gradation = gradation,
             Self::RefinementRule(rule) => settings.rule = rule,
-            Self::Resolution(resolution) => settings.resolution = resolution,
             Self::MaxTriangles(max_triangles) => settings.max_triangles = max_triangles,
             Self::MaxMemory(max_memory) => settings.max_memory = max_memory,
             Self::Bounds(bounds) => settings.domain = settings.domain.with_bounds(bounds),
             Self::Domain(domain) => settings.domain = domain,
-            Self::Outline { domain, boundary_marks, resolution } => {
-                (settings.domain, settings.resolution) = (domain, resolution);
-                settings.boundary_marks = boundary_marks;
+            Self::Outline { domain, boundary_marks } => {
+                (settings.domain, settings.boundary_marks) = (domain, boundary_marks);
             }
             Self::Boundary(boundary) => settings.boundary = boundary,
             Self::Cleaning(cleaning) => settings.cleaning = cleaning,

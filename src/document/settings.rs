@@ -1,15 +1,14 @@
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use super::Background;
-use crate::build::{FieldSampling, MeshSpec};
+use crate::build::MeshSpec;
 use crate::domain::{BoundaryMarks, BoundaryTreatment, Domain};
-use crate::field::{
-    Formula, RefinementRule, Source, TargetFieldSpec, Transfer, TransferError, checked_target,
-};
+use crate::field::{RefinementRule, Transfer, TransferError, checked_target};
 use crate::geometry::{GridError, Lattice, Rect};
+use crate::layers::{Layer, LayerKind, Quantity, Shapes, SizeFieldSpec};
 use crate::mesh::{Cleaning, KeptParts, Limits, MemoryLimit};
-use crate::raster::{MAX_SIDE, Raster};
-use crate::text::{Bytes, Grouped, LengthUnit, Number};
+use crate::text::{Bytes, LengthUnit, Number};
 
 /// Everything about a document that is not paint.
 #[derive(Clone, Debug, PartialEq)]
@@ -32,55 +31,16 @@ pub struct Settings {
     pub spacing: f64,
     /// From risk to diameter; its ends bound h̄ everywhere.
     pub transfer: Transfer,
-    /// The field under the paint.
-    pub base: Base,
+    /// What asks for h̄, from the bottom to the top; their identifiers differ.
+    pub layers: Vec<Layer>,
+    /// Largest change of h̄ per unit of length, or `None` for any.
+    pub gradation: Option<f64>,
     /// Which points of a triangle count.
     pub rule: RefinementRule,
-    /// Pixels of the field along the longer side of the domain.
-    pub resolution: u32,
     /// Most triangles.
     pub max_triangles: usize,
     /// Most memory for the mesh and the next one made beside it, in bytes.
     pub max_memory: usize,
-}
-
-/// The base field under the paint.
-#[derive(Clone, Debug)]
-#[non_exhaustive]
-pub enum Base {
-    /// The same target diameter everywhere, in world units.
-    Constant(f64),
-    /// A formula in x and y for the target diameter, in world units.
-    Formula(Formula),
-    /// A greyscale picture as risk: black 0, white 1.
-    RiskImage {
-        /// Name of the file, for a person.
-        name: String,
-        /// Risks over the domain's rectangle, or with a placement of its own.
-        raster: Arc<Raster>,
-    },
-    /// A grid of target diameters, in world units.
-    DiameterGrid {
-        /// Name of the file, for a person.
-        name: String,
-        /// Diameters at their own place; infinite where the grid has no value.
-        raster: Arc<Raster>,
-    },
-}
-
-impl PartialEq for Base {
-    /// Pictures that share their memory are not compared pixel by pixel.
-    fn eq(&self, other: &Self) -> bool {
-        match (self, other) {
-            (Self::Constant(a), Self::Constant(b)) => a == b,
-            (Self::Formula(a), Self::Formula(b)) => a == b,
-            (Self::RiskImage { name: a, raster: x }, Self::RiskImage { name: b, raster: y })
-            | (Self::DiameterGrid { name: a, raster: x }, Self::DiameterGrid { name: b, raster: y }) => {
-                a == b && (Arc::ptr_eq(x, y) || x == y)
-            }
-            _ => false,
-        }
-    }
 }
 
 /// Why settings cannot be met.
@@ -108,7 +68,13 @@ pub enum SettingsError {
     /// The domain is empty.
     #[error("Nothing would be left of the domain: keep some of it.")]
     EmptyDomain,
-    /// The constant is not a length.
+    /// The gradation is not a slope.
+    #[error("A gradation of {} cannot be met: it must be positive. Without a limit, h̄ may change abruptly.", Number(*.0))]
+    Gradation(f64),
+    /// Two layers have the same identifier.
+    #[error("There are two layers with the identifier {0}: each layer needs its own.")]
+    SameLayer(u32),
+    /// A constant layer is not a length.
     #[error("A target diameter of {} cannot be met: it must be positive and finite.", Number(*.0))]
     Constant(f64),
     /// The memory budget is too small for any mesh.
@@ -117,23 +83,7 @@ pub enum SettingsError {
         /// As given.
         bytes: usize,
     },
-    /// The raster would be empty or too large.
-    #[error(
-        "A field of {} pixels cannot be made: choose between {} and {} along the longer side.",
-        Grouped(*resolution as usize), Grouped(*least as usize), Grouped(*most as usize)
-    )]
-    Resolution {
-        /// As given.
-        resolution: u32,
-        /// Fewest allowed.
-        least: u32,
-        /// Most allowed.
-        most: u32,
-    },
 }
-
-/// Fewest and most pixels along the longer side of a document's field.
-pub const RESOLUTIONS: std::ops::RangeInclusive<u32> = 16..=MAX_SIDE / 4;
 
 /// Most coarse triangles of a document: the coarse grid is made in one go, and must not delay a frame.
 pub const MAX_COARSE_TRIANGLES: usize = 130_000;
@@ -167,18 +117,32 @@ impl Settings {
         {
             return Err(SettingsError::PartShare(share));
         }
-        if let Base::Constant(value) = self.base {
-            checked_target(value, self.domain.bounds.center())
-                .map_err(|e| SettingsError::Constant(e.value))?;
+        self.check_layers()?;
+        if let Some(slope) = self.gradation
+            && !(slope > 0.0 && slope.is_finite())
+        {
+            return Err(SettingsError::Gradation(slope));
         }
         if self.max_memory < LEAST_MEMORY {
             return Err(SettingsError::Memory { bytes: self.max_memory });
         }
-        if !RESOLUTIONS.contains(&self.resolution) {
-            let (least, most) = RESOLUTIONS.into_inner();
-            return Err(SettingsError::Resolution { resolution: self.resolution, least, most });
-        }
         Ok(self)
+    }
+
+    fn check_layers(&self) -> Result<(), SettingsError> {
+        let mut ids = BTreeSet::new();
+        for layer in &self.layers {
+            if !ids.insert(layer.id) {
+                return Err(SettingsError::SameLayer(layer.id.0));
+            }
+            if let LayerKind::Formula { quantity: Quantity::Diameter, formula } = &layer.kind
+                && let Some(value) = formula.constant()
+            {
+                checked_target(value, self.domain.bounds.center())
+                    .map_err(|e| SettingsError::Constant(e.value))?;
+            }
+        }
+        Ok(())
     }
 
     /// The coarse grid and its lattice.
@@ -189,24 +153,26 @@ impl Settings {
         Lattice::covering(self.domain.bounds, self.spacing, MAX_COARSE_TRIANGLES)
     }
 
-    /// Columns and rows of the field: the resolution along the longer side, with pixels as nearly square as
-    /// possible.
-    pub fn raster_size(&self) -> [u32; 2] {
-        let size = self.domain.bounds.size();
-        let per_unit = f64::from(self.resolution) / size.max_element();
-        [size.x, size.y].map(|side| ((side * per_unit).round() as u32).clamp(1, self.resolution))
+    /// The gradation of meshes for most solvers: neighbouring triangles differ little in size.
+    pub const USUAL_GRADATION: f64 = 0.3;
+
+    /// What the field is made from, but for the paint.
+    pub fn field_spec(&self) -> SizeFieldSpec {
+        let Self { layers, transfer, gradation, .. } = self;
+        SizeFieldSpec {
+            layers: layers.clone(),
+            transfer: *transfer,
+            unasked: transfer.h_max,
+            outline: self.outline_shapes(),
+            gradation: *gradation,
+        }
     }
 
-    /// What the field is made from.
-    pub fn field_spec(&self) -> TargetFieldSpec {
-        let source = match &self.base {
-            Base::Constant(value) => Source::Constant(*value),
-            Base::Formula(formula) => Source::TargetFormula(formula.clone()),
-            Base::RiskImage { raster, .. } => Source::RiskRaster(raster.clone()),
-            Base::DiameterGrid { raster, .. } => Source::TargetRaster(raster.clone()),
-        };
-        let (transfer, size) = (self.transfer, self.raster_size());
-        TargetFieldSpec { sources: vec![source], transfer, unasked: transfer.h_max, size }
+    /// The boundary of the domain, if a layer asks for the distance to it.
+    fn outline_shapes(&self) -> Option<Shapes> {
+        let is_asked = self.layers.iter().any(|layer| layer.visible && layer.is_of_outline());
+        let region = if is_asked { self.domain.as_region()? } else { return None };
+        Shapes::outline(&region).ok()
     }
 
     /// What to mesh, but for the paint.
@@ -220,7 +186,6 @@ impl Settings {
             lattice: self.lattice()?,
             field: self.field_spec(),
             rule: self.rule,
-            sampling: FieldSampling::Always,
             cleaning: self.derived_cleaning(),
             limits: self.limits(),
         })
@@ -270,7 +235,7 @@ impl Settings {
             spacing,
             boundary: BoundaryTreatment::usual(spacing),
             transfer: Transfer { h_min: h_min * extent, h_max: h_max * extent, shape },
-            base: Base::Constant(h_max * extent),
+            layers: Layer::usual(LayerKind::constant(h_max * extent)),
             ..usual
         }
     }
@@ -289,9 +254,9 @@ impl Default for Settings {
             cleaning: Cleaning::FOR_SOLVERS,
             boundary_marks: Arc::default(),
             transfer: Transfer { h_min: 0.0024, h_max: 0.2, shape: 1.0 },
-            base: Base::Constant(0.2),
+            layers: Layer::usual(LayerKind::constant(0.2)),
+            gradation: None,
             rule: RefinementRule::Area,
-            resolution: 1024,
             max_triangles: Self::MAX_TRIANGLES,
             max_memory: Self::MAX_MEMORY,
         }

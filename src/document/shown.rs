@@ -3,13 +3,15 @@
 use std::sync::Arc;
 
 use super::Settings;
+use super::layers_update::LayersUpdate;
 use super::outline_update::OutlineUpdate;
 use super::rebuild::Rebuild;
 use crate::build::{BuildError, BuiltMesh, Parts, RefinementCriterion};
 use crate::domain::DomainOnLattice;
-use crate::field::{PaintRef, RefinementRule, TargetField};
+use crate::field::RefinementRule;
+use crate::geometry::Rect;
+use crate::layers::{PaintLayers, SizeField};
 use crate::mesh::{Changes, Mesh, MeshCopy, Progress, RefineError, Updater};
-use crate::raster::PixelRect;
 
 /// The field and the mesh that are shown, with the updates that they still need.
 #[derive(Clone, Debug)]
@@ -18,67 +20,64 @@ pub(super) struct Shown {
     pub(super) settings: Settings,
     pub(super) domain: DomainOnLattice,
     /// Shared with a rebuild that reuses it, and not changed meanwhile.
-    pub(super) field: Arc<TargetField>,
+    pub(super) field: Arc<SizeField>,
     pub(super) mesh: Arc<Mesh>,
     /// Updates of the mesh; idle under the vertex rule.
     updater: Updater,
-    /// What was painted and is not in the field yet.
-    unread: Vec<PixelRect>,
     upkeep: Upkeep,
 }
 
-/// What brings the shown mesh up to date; a later variant includes the earlier ones.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+/// What brings the shown mesh up to date.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Upkeep {
     /// Updates in place.
     InPlace,
-    /// A rebuild: updates were cancelled, or paint was read under the vertex rule.
+    /// A rebuild: updates were cancelled, something was painted under the vertex rule, or the document was
+    /// replaced.
     NewMesh,
-    /// A rebuild with another field: all of the paint was replaced.
-    NewField,
 }
 
 impl Shown {
-    /// A mesh that was just built. `unread` was painted meanwhile.
-    pub(super) fn new(settings: Settings, built: BuiltMesh, unread: Vec<PixelRect>) -> Self {
+    /// A mesh that was just built. `repainted` was painted meanwhile, in world units.
+    pub(super) fn new(settings: Settings, built: BuiltMesh, repainted: Vec<Rect>) -> Self {
         let BuiltMesh { domain, field, mesh, .. } = built;
         let updater = Updater::new(settings.limits());
         let upkeep = Upkeep::InPlace;
-        Self { settings, domain, field, mesh: Arc::new(mesh), updater, unread, upkeep }
+        let mut shown = Self { settings, domain, field, mesh: Arc::new(mesh), updater, upkeep };
+        shown.repaint(&repainted);
+        shown
     }
 
-    /// Notes what was painted.
-    pub(super) fn repaint(&mut self, areas: Vec<PixelRect>) {
-        self.unread.extend(areas);
+    /// Notes where the paint changed, in world units.
+    pub(super) fn repaint(&mut self, areas: &[Rect]) {
+        if areas.is_empty() {
+            return;
+        }
+        match self.settings.rule {
+            RefinementRule::Area => {
+                let changed = areas.iter().filter_map(|area| self.field.area_affected_by(area));
+                changed.for_each(|area| self.updater.add(area));
+            }
+            RefinementRule::Vertex => self.upkeep = Upkeep::NewMesh,
+        }
     }
 
-    /// Notes that all of the paint was replaced.
+    /// Notes that the document was replaced.
     pub(super) fn replace_paint(&mut self) {
-        self.unread.clear();
-        self.upkeep = Upkeep::NewField;
+        self.upkeep = Upkeep::NewMesh;
     }
 
     /// Gives up the updates that are left.
     pub(super) fn cancel(&mut self) {
         if !self.updater.is_done() {
             self.updater.cancel();
-            self.upkeep = self.upkeep.max(Upkeep::NewMesh);
+            self.upkeep = Upkeep::NewMesh;
         }
     }
 
-    /// Whether field or mesh wait for updates in place.
+    /// Whether the mesh waits for updates in place.
     pub(super) fn has_updates(&self) -> bool {
-        match self.upkeep {
-            Upkeep::InPlace => !self.unread.is_empty() || !self.updater.is_done(),
-            // The field is brought up to date first: then the rebuild can use it.
-            Upkeep::NewMesh => !self.unread.is_empty(),
-            Upkeep::NewField => false,
-        }
-    }
-
-    /// Whether paint waits to be read into the field.
-    pub(super) fn has_unread_paint(&self) -> bool {
-        !self.unread.is_empty()
+        self.upkeep == Upkeep::InPlace && !self.updater.is_done()
     }
 
     /// Whether the shown mesh, once it is updated, is that of `wanted`: the settings that it was made from,
@@ -101,9 +100,28 @@ impl Shown {
         }
     }
 
-    /// Whether only paint must be read before a rebuild for the same settings can begin.
-    pub(super) fn reads_paint_first(&self, wanted: &Settings) -> bool {
-        self.upkeep == Upkeep::NewMesh && self.has_unread_paint() && self.settings == *wanted
+    /// The work that follows other layers in place, where that is possible.
+    pub(super) fn follow_layers(&self, wanted: &Settings) -> Option<LayersUpdate> {
+        self.can_follow_layers(wanted).then(|| LayersUpdate::new(wanted, self.mesh.lattice()))
+    }
+
+    /// Not so where the mesh is beyond the wanted budgets already: only a rebuild finds out whether they can
+    /// be kept.
+    pub(super) fn can_follow_layers(&self, wanted: &Settings) -> bool {
+        self.upkeep == Upkeep::InPlace
+            && self.mesh.raw_triangle_count() <= wanted.limits().most_triangles()
+            && LayersUpdate::is_possible(&self.settings, wanted)
+    }
+
+    /// Takes over other layers: the mesh is updated where h̄ can differ.
+    pub(super) fn take_layers(&mut self, update: LayersUpdate, paint: &PaintLayers) {
+        let (settings, field) = update.finish();
+        for area in field.areas_that_differ(&self.field, paint) {
+            self.updater.add(area);
+        }
+        self.updater.set_limits(settings.limits());
+        self.domain = self.domain.with_boundary(settings.boundary);
+        (self.settings, self.field) = (settings, field);
     }
 
     /// The work that follows an edit of the outline in place, where that is possible.
@@ -134,35 +152,17 @@ impl Shown {
         let spec = wanted.mesh_spec()?;
         let same_lattice = spec.lattice == *self.mesh.lattice();
         let same_domain = same_lattice && wanted.domain == self.settings.domain;
-        let is_current = self.upkeep != Upkeep::NewField && self.unread.is_empty();
-        let field = if same_lattice && is_current && *self.field.spec() == spec.field {
-            self.field.clone()
-        } else {
-            Arc::new(TargetField::reusing(spec.field.clone(), &spec.lattice, &self.field))
-        };
+        let is_current = same_lattice && *self.field.spec() == spec.field && spec.rule == self.settings.rule;
+        let field = is_current.then(|| self.field.clone());
         let domain = same_domain.then(|| self.domain.clone());
-        Ok(Rebuild::new(wanted, spec, Parts { domain, field: Some(field), spare }))
-    }
-
-    /// Reads about `budget` pixels of what was painted into the field.
-    pub(super) fn read_paint(&mut self, paint: PaintRef, budget: usize) {
-        let Some(area) = self.unread.pop() else { return };
-        let (now, later) = area.split_after(budget);
-        self.unread.extend(later);
-        // Only a rebuild shares the field, and there is none now: nothing is copied.
-        let changed = Arc::make_mut(&mut self.field).update(paint, now);
-        match self.settings.rule {
-            RefinementRule::Area => {
-                changed.iter().for_each(|&area| self.updater.add(self.field.lattice_rect(area)))
-            }
-            RefinementRule::Vertex => self.upkeep = self.upkeep.max(Upkeep::NewMesh),
-        }
+        Ok(Rebuild::new(wanted, spec, Parts { domain, field, spare }))
     }
 
     /// One slice of updates of the mesh; of copying it first, as long as it is shared.
     pub(super) fn update_mesh(
         &mut self,
         copy: &mut Option<Box<MeshCopy>>,
+        paint: &PaintLayers,
         budget: usize,
     ) -> Result<(), RefineError> {
         if self.updater.is_done() || self.unshare_mesh(copy, budget) == Progress::More {
@@ -170,7 +170,7 @@ impl Shown {
         }
         let Self { domain, field, mesh, updater, .. } = self;
         let mesh = Arc::get_mut(mesh).expect("it is not shared, see above");
-        let mut criterion = RefinementCriterion::by_area(domain, field);
+        let mut criterion = RefinementCriterion::by_area(domain, field, paint);
         updater.advance(mesh, |element| criterion.exceeds(element), budget).map(|_| ())
     }
 

@@ -8,11 +8,8 @@ pub enum Stage {
     InStep,
     /// The outline of the domain is indexed on the lattice.
     Indexing,
-    /// h̄ is sampled by pixel.
-    Sampling {
-        /// The share of the pixels sampled so far, 0 to 1; `None` where only some are sampled again.
-        share: Option<f32>,
-    },
+    /// The formulas of the layers are checked.
+    Checking,
     /// The mesh is copied, because an export holds it; so far this many triangles.
     Copying {
         /// Triangles so far.

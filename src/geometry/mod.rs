@@ -4,6 +4,7 @@
 mod box_tree;
 mod lattice;
 mod lattice_rect;
+mod octagon;
 mod predicates;
 mod rect;
 mod segment;
@@ -11,6 +12,7 @@ mod segment;
 pub use box_tree::{BoxGroup, BoxTree};
 pub use lattice::{GridError, LATTICE_BITS, Lattice, LatticePoint};
 pub use lattice_rect::LatticeRect;
+pub use octagon::Octagon;
 pub use predicates::{Side, exact_sum_sign, side_of_edge, side_of_line};
 pub use rect::Rect;
 pub use segment::{nearest_on_segment, nearest_share};

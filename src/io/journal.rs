@@ -7,7 +7,7 @@
 //! ```
 //!
 //! Numbers are little-endian. The first record is a whole project with the path of its file. Then come the
-//! tiles and settings after each gesture that changed them, and a mark whenever nothing is unsaved. Reading
+//! paint and settings after each gesture that changed them, and a mark whenever nothing is unsaved. Reading
 //! stops at the first incomplete record: the program ended while writing it.
 //!
 //! The program that writes a journal holds a lock on it, which the operating system releases when the program
@@ -19,9 +19,9 @@ use std::path::{Path, PathBuf};
 
 use super::project::{self, Project};
 use crate::document::Settings;
-use crate::paint::Tiles;
+use crate::layers::PaintLayers;
 
-const MAGIC: &[u8; 8] = b"MBJOUR01";
+const MAGIC: &[u8; 8] = b"MBJOUR02";
 const HEAD: usize = 17;
 const ENDING: &str = "journal";
 /// Largest journal read: twice the size of the largest project.
@@ -30,7 +30,7 @@ const MOST_BYTES: u64 = 1 << 30;
 const MOST_GROWTH: u64 = 64 << 20;
 
 const WHOLE: u8 = 1;
-const TILES: u8 = 2;
+const PAINT: u8 = 2;
 const CLEAN: u8 = 3;
 const SETTINGS: u8 = 4;
 
@@ -72,23 +72,24 @@ impl Journal {
         Ok(journal)
     }
 
-    /// Adds the tiles that a gesture changed, as they are after it.
+    /// Adds the pixels that a gesture changed: the tiles in which the paint after it differs from that
+    /// before it.
     ///
     /// # Errors
     /// Errors of the file system.
-    pub fn add_tiles(&mut self, tiles: &Tiles, time: u64) -> io::Result<()> {
+    pub fn add_paint(&mut self, before: &PaintLayers, after: &PaintLayers, time: u64) -> io::Result<()> {
         let mut content = Vec::new();
-        project::write_tiles(&mut content, tiles)?;
-        self.append(TILES, time, &content)
+        project::write_paint_changes(&mut content, before, after)?;
+        self.append(PAINT, time, &content)
     }
 
-    /// Adds the settings after a gesture that did not change the size of the paint.
+    /// Adds the settings after a gesture.
     ///
     /// # Errors
     /// Errors of the file system.
     pub fn add_settings(&mut self, settings: Settings, time: u64) -> io::Result<()> {
         let mut content = Vec::new();
-        project::write(&mut content, &Project { settings, tiles: Tiles::new() })?;
+        project::write(&mut content, &Project { settings, paint: PaintLayers::default() })?;
         self.append(SETTINGS, time, &content)
     }
 
@@ -239,20 +240,18 @@ impl Kept {
         let (kind, time, content) = next_record(&mut rest)?;
         let (home, content) = split_home(content).filter(|_| kind == WHOLE)?;
         let project = project::from_bytes(content, Path::new("journal")).ok()?;
-        let size = project.settings.raster_size();
         let mut kept = Self { project, home, time, clean: false };
         while let Some((kind, time, content)) = next_record(&mut rest) {
             match kind {
-                TILES => {
-                    let Ok(tiles) = project::read_tiles(content, size) else { break };
-                    kept.project.tiles.extend(tiles);
+                PAINT => {
+                    let Project { settings, paint } = &mut kept.project;
+                    if project::read_paint_changes(content, settings, paint).is_err() {
+                        break;
+                    }
                     kept.clean = false;
                 }
                 SETTINGS => {
                     let Ok(new) = project::from_bytes(content, Path::new("journal")) else { break };
-                    if new.settings.raster_size() != size {
-                        break;
-                    }
                     kept.project.settings = new.settings;
                     kept.clean = false;
                 }
@@ -310,17 +309,23 @@ mod tests {
         document
     }
 
-    /// Paints or erases, and returns the tiles that it touched.
-    fn gesture(document: &mut Document, n: u32) -> Tiles {
+    /// Paints or erases, and returns the paint before and after.
+    fn gesture(document: &mut Document, n: u32) -> [PaintLayers; 2] {
+        let before = document.paint().clone();
         let medium = if n % 3 == 2 { Medium::Eraser } else { Medium::Diameter(0.01, DiameterChange::Finer) };
         document.begin_stroke(Brush { medium, radius: 0.05, hardness: 0.5, strength: 0.7 });
         let at = f64::from(n) * 0.618 % 1.0;
         document.draw_to(dvec2(at, 0.3));
         document.draw_to(dvec2(0.5, at));
         document.end_stroke();
-        let Edits { settings, all_paint, tiles } = document.take_edits();
-        assert!(!settings && !all_paint && !tiles.is_empty(), "strokes change paint alone");
-        document.paint().tiles(tiles)
+        let Edits { settings, all_paint, layers } = document.take_edits();
+        assert!(!settings && !all_paint && layers.len() == 1, "strokes change paint alone");
+        [before, document.paint().clone()]
+    }
+
+    fn add_gesture(journal: &mut Journal, document: &mut Document, n: u32, time: u64) {
+        let [before, after] = gesture(document, n);
+        journal.add_paint(&before, &after, time).unwrap();
     }
 
     #[test]
@@ -331,7 +336,7 @@ mod tests {
         let mut versions =
             vec![(fs::metadata(&journal.path).unwrap().len() as usize, document.paint().clone())];
         for n in 0..12 {
-            journal.add_tiles(&gesture(&mut document, n), 101 + u64::from(n)).unwrap();
+            add_gesture(&mut journal, &mut document, n, 101 + u64::from(n));
             versions.push((fs::metadata(&journal.path).unwrap().len() as usize, document.paint().clone()));
         }
         let bytes = fs::read(&journal.path).unwrap();
@@ -360,17 +365,15 @@ mod tests {
         let folder = folder("settings");
         let mut document = example();
         let mut journal = Journal::begin(&folder, &Project::of(&document), None, 1).unwrap();
-        journal.add_tiles(&gesture(&mut document, 0), 2).unwrap();
+        add_gesture(&mut journal, &mut document, 0, 2);
         document.set(Setting::SmallestDiameter(0.0123)).unwrap();
-        let Edits { settings, all_paint, tiles } = document.take_edits();
-        assert!(settings && !all_paint && tiles.is_empty());
+        let Edits { settings, all_paint, layers } = document.take_edits();
+        assert!(settings && !all_paint && layers.is_empty());
         journal.add_settings(document.settings().clone(), 3).unwrap();
         drop(journal);
         let kept = abandoned(&folder).pop().unwrap().project.into_document().unwrap();
         assert_eq!(kept.settings(), document.settings());
         assert!(kept.paint() == document.paint());
-        document.set(Setting::Resolution(32)).unwrap();
-        assert!(document.take_edits().all_paint, "every pixel is another one");
         fs::remove_dir_all(folder).unwrap();
     }
 
@@ -382,7 +385,7 @@ mod tests {
         let mut journal = Journal::begin(&folder, &Project::of(&document), None, 1).unwrap();
         assert!(abandoned(&folder).is_empty(), "it is held");
         journal.mark_clean(Some(home), 2).unwrap();
-        journal.add_tiles(&gesture(&mut document, 0), 3).unwrap();
+        add_gesture(&mut journal, &mut document, 0, 3);
         drop(journal);
         let found = abandoned(&folder);
         assert_eq!((found.len(), found[0].time, found[0].home.as_deref()), (1, 3, Some(home)));

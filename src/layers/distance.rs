@@ -114,6 +114,11 @@ impl Shapes {
         &self.0.list
     }
 
+    /// The smallest rectangle that holds all shapes.
+    pub fn extent(&self) -> Rect {
+        self.0.tree.bounds().unwrap_or(Rect::new(DVec2::ZERO, DVec2::ZERO))
+    }
+
     /// The distance from a point to the nearest shape, in world units.
     pub fn distance(&self, p: DVec2) -> f64 {
         if self.0.filled.as_ref().is_some_and(|mask| mask.contains(p)) {

@@ -1,4 +1,10 @@
+use std::sync::Arc;
+
+use glam::DVec2;
+
+use super::{Mask, PaintLayers, Shapes, Threats, ValueCurve};
 use crate::field::Formula;
+use crate::raster::{Raster, RasterPyramid};
 
 /// Identifies a layer within a document, as long as the document exists.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -17,6 +23,8 @@ pub struct Layer {
     pub locked: bool,
     /// How it is combined with the layers below.
     pub combine: Combine,
+    /// Where it counts; everywhere without a mask.
+    pub mask: Option<Mask>,
     /// What it asks for.
     pub kind: LayerKind,
 }
@@ -30,6 +38,11 @@ pub enum Combine {
     Floor,
     /// The layer alone counts, wherever it asks for anything.
     Replace,
+}
+
+impl Combine {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Finest, Self::Floor, Self::Replace];
 }
 
 /// What the values of a layer mean.
@@ -53,4 +66,165 @@ pub enum LayerKind {
         /// The formula.
         formula: Formula,
     },
+    /// A raster.
+    Raster {
+        /// The raster.
+        source: RasterSource,
+        /// What its values mean.
+        reading: RasterReading,
+    },
+    /// Threats, combined as independent probabilities.
+    Threats(Threats),
+    /// h̄ grows with the distance.
+    Distance {
+        /// What the distance is to.
+        to: DistanceTo,
+        /// The target diameter at distance 0, in world units.
+        at_zero: f64,
+        /// How much the target diameter grows with the distance, by unit of length.
+        slope: f64,
+        /// The distance beyond which nothing is asked for, in world units; infinite without a limit.
+        range: f64,
+    },
+    /// One diameter where a raster's value lies between two numbers.
+    Band {
+        /// The raster.
+        source: RasterSource,
+        /// The least and the greatest of these values.
+        between: [f64; 2],
+        /// The target diameter there, in world units.
+        diameter: f64,
+    },
+}
+
+/// What a distance is to.
+#[derive(Clone, Debug, PartialEq)]
+pub enum DistanceTo {
+    /// The boundary of the domain, on both sides.
+    Outline,
+    /// Points, lines and polygons.
+    Shapes {
+        /// The name of their file, for a person; empty where there is none.
+        name: String,
+        /// The shapes.
+        shapes: Shapes,
+    },
+}
+
+/// A raster, and where it comes from. Clones share the pixels.
+#[derive(Clone, Debug)]
+pub struct RasterSource {
+    /// The name of the file, for a person.
+    pub name: String,
+    /// The values, at their place.
+    pub raster: Arc<RasterPyramid>,
+}
+
+impl PartialEq for RasterSource {
+    /// Rasters that share their memory are not compared pixel by pixel. Pixels without a value are equal.
+    fn eq(&self, other: &Self) -> bool {
+        self.name == other.name
+            && (Arc::ptr_eq(&self.raster, &other.raster)
+                || have_equal_pixels(self.raster.raster(), other.raster.raster()))
+    }
+}
+
+fn have_equal_pixels(a: &Raster, b: &Raster) -> bool {
+    let is_equal = |(a, b): (&f32, &f32)| a == b || (a.is_nan() && b.is_nan());
+    a.bounds() == b.bounds() && a.size() == b.size() && a.values().iter().zip(b.values()).all(is_equal)
+}
+
+/// What the values of a raster mean.
+#[derive(Clone, Debug, PartialEq)]
+pub enum RasterReading {
+    /// Risk, 0 to 1.
+    Risk,
+    /// Target diameter in world units.
+    Diameter,
+    /// The curve gives the target diameter for a value.
+    Curve(Arc<ValueCurve>),
+}
+
+impl Layer {
+    /// What a new document has: a diameter everywhere, in world units, and paint of both kinds over it.
+    pub fn usual(base: LayerKind) -> Vec<Self> {
+        let mut layers =
+            Self::stack([base, LayerKind::Paint(Quantity::Diameter), LayerKind::Paint(Quantity::Risk)]);
+        layers[0].name = "Base".into();
+        layers
+    }
+
+    /// A visible layer in which the finest counts.
+    pub fn new(id: LayerId, name: impl Into<String>, kind: LayerKind) -> Self {
+        let combine = Combine::Finest;
+        Self { id, name: name.into(), visible: true, locked: false, combine, mask: None, kind }
+    }
+
+    /// A stack of layers, from the bottom to the top, named after their kinds and numbered from 0.
+    pub fn stack(kinds: impl IntoIterator<Item = LayerKind>) -> Vec<Self> {
+        let layer = |(id, kind): (u32, LayerKind)| Self::new(LayerId(id), kind.label(), kind);
+        (0..).zip(kinds).map(layer).collect()
+    }
+
+    /// The risk that the layer has at a point in world units, if it is one of risk with a value there.
+    pub fn risk_at(&self, paint: &PaintLayers, point: DVec2) -> Option<f64> {
+        if self.mask.as_ref().is_some_and(|mask| !mask.contains(point)) {
+            return None;
+        }
+        match &self.kind {
+            LayerKind::Paint(Quantity::Risk) => {
+                Some(paint.get(self.id).map_or(0.0, |raster| f64::from(raster.sample(point))))
+            }
+            LayerKind::Formula { quantity: Quantity::Risk, formula } => Some(formula.eval(point.x, point.y)),
+            LayerKind::Raster { source, reading: RasterReading::Risk } => {
+                source.raster.sample(point).map(f64::from)
+            }
+            LayerKind::Threats(threats) => Some(threats.risk_at(point)),
+            _ => None,
+        }
+    }
+
+    /// What is painted on the layer, if it is a paint layer.
+    pub fn paints(&self) -> Option<Quantity> {
+        if let LayerKind::Paint(quantity) = self.kind { Some(quantity) } else { None }
+    }
+}
+
+impl LayerKind {
+    /// A formula for the target diameter.
+    pub fn target(formula: Formula) -> Self {
+        Self::Formula { quantity: Quantity::Diameter, formula }
+    }
+
+    /// The same target diameter everywhere, in world units.
+    pub fn constant(diameter: f64) -> Self {
+        Self::target(Formula::constant_of(diameter))
+    }
+
+    /// A formula for the risk.
+    pub fn risk(formula: Formula) -> Self {
+        Self::Formula { quantity: Quantity::Risk, formula }
+    }
+
+    /// What a new layer of this kind is called: after its file, if it has one.
+    pub fn name(&self) -> String {
+        match self {
+            Self::Raster { source, .. } | Self::Band { source, .. } => source.name.clone(),
+            Self::Distance { to: DistanceTo::Shapes { name, .. }, .. } if !name.is_empty() => name.clone(),
+            _ => self.label().to_owned(),
+        }
+    }
+
+    /// What a person calls layers of this kind.
+    pub fn label(&self) -> &'static str {
+        match self {
+            Self::Paint(Quantity::Risk) => "Painted risk",
+            Self::Paint(Quantity::Diameter) => "Painted diameter",
+            Self::Formula { .. } => "Formula",
+            Self::Raster { .. } => "Raster",
+            Self::Threats(_) => "Threats",
+            Self::Distance { .. } => "Distance",
+            Self::Band { .. } => "Band",
+        }
+    }
 }

@@ -1,13 +1,24 @@
 //! The size field: a stack of layers, each at its own resolution, that together ask for h̄.
 
+mod areas;
+mod check;
 mod curve;
 mod distance;
+mod engine;
 mod layer;
 mod mask;
+mod paint_layers;
+mod sampled;
+mod size_field;
+mod targets;
 mod threats;
 
+pub use check::{InvalidLayer, LayerCheck};
 pub use curve::{CurveError, ValueCurve};
 pub use distance::{ShapeList, Shapes, ShapesError};
-pub use layer::{Combine, Layer, LayerId, LayerKind, Quantity};
+pub use layer::{Combine, DistanceTo, Layer, LayerId, LayerKind, Quantity, RasterReading, RasterSource};
 pub use mask::{Coverage, Mask};
+pub use paint_layers::PaintLayers;
+pub use size_field::{SizeField, SizeFieldSpec};
+pub use targets::Decision;
 pub use threats::{Threat, ThreatError, ThreatLaw, Threats};

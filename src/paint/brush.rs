@@ -1,6 +1,5 @@
 use glam::{DVec2, dvec2};
 
-use super::PaintRasters;
 use crate::field::f32_not_below;
 use crate::geometry::nearest_share;
 
@@ -66,12 +65,6 @@ impl Brush {
         between(from.strength, to.strength) * Self { radius, ..*self }.coverage(distance)
     }
 
-    /// The brush for these rasters: one smaller than a pixel is widened until it always reaches the centre of
-    /// a pixel, which is half a diagonal away at most.
-    pub(super) fn on(&self, paint: &PaintRasters) -> Self {
-        Self { radius: self.radius.max(least_radius(paint)), ..*self }
-    }
-
     /// New value of a pixel from the old one, in a raster whose blank pixels have the value `blank`: 0 in a
     /// raster of risks, infinite in one of diameters. `coverage` is that of the stroke, 0 to 1; `h_max` the
     /// largest target diameter, in world units. A brush for the other kind of raster changes nothing.
@@ -85,26 +78,6 @@ impl Brush {
             _ => old,
         }
     }
-
-    /// New [risk, diameter] of a pixel from the old values. `coverage` is that of the stroke, 0 to 1; `h_max`
-    /// the largest target diameter, in world units.
-    pub(super) fn painted_pixel(&self, coverage: f32, [risk, diameter]: [f32; 2], h_max: f64) -> [f32; 2] {
-        let amount = f64::from(coverage) * self.strength;
-        match self.medium {
-            Medium::Risk(aim) => [moved_risk(risk, aim, amount), diameter],
-            Medium::Diameter(target, change) => {
-                [risk, changed_diameter(diameter, target, change, amount, h_max)]
-            }
-            Medium::Eraser => {
-                [moved_risk(risk, 0.0, amount), raised_diameter(diameter, h_max, amount, h_max)]
-            }
-        }
-    }
-}
-
-/// The radius below which a brush can miss all centres of pixels, in world units.
-pub(super) fn least_radius(paint: &PaintRasters) -> f64 {
-    0.71 * paint.risk.pixel_size().max_element()
 }
 
 /// A risk moved towards `aim`. A remainder below a hundredth on the way to 0 becomes 0: it would keep the

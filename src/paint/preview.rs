@@ -1,9 +1,8 @@
 use glam::DVec2;
 
-use super::stroke::widest;
-use super::{Brush, Mirror, PaintRasters, PathPoint};
+use super::{Brush, Mirror, Stroke};
 use crate::geometry::Rect;
-use crate::raster::PixelRect;
+use crate::raster::TiledRaster;
 
 /// A stroke that could be painted: a click, or a straight line.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,40 +29,33 @@ impl StrokePlan {
     }
 }
 
-/// What a planned stroke would paint, computed without changing the rasters.
-#[derive(Clone, Debug, PartialEq)]
+/// A planned stroke, painted in slices on a clone of the raster.
+#[derive(Clone, Debug)]
 pub struct Preview {
-    brush: Brush,
-    /// The largest target diameter, in world units.
-    h_max: f64,
-    /// The segment and its images, each with the pixels that it may change.
-    segments: Vec<([PathPoint; 2], PixelRect)>,
+    stroke: Stroke,
+    raster: TiledRaster,
+    areas: Vec<Rect>,
 }
 
 impl Preview {
-    /// The preview of a plan, whose ends must be finite. `h_max` is the largest target diameter, in world
-    /// units.
-    pub fn new(plan: &StrokePlan, h_max: f64, paint: &PaintRasters) -> Self {
-        let segments = plan.mirror.segments([plan.from.into(), plan.to.into()]).map(|ends| {
-            let reach = Rect::spanning(ends[0].at, ends[1].at).expanded(widest(&ends, &plan.brush, paint));
-            (ends, paint.risk.pixels_touching(&reach))
-        });
-        Self { brush: plan.brush.on(paint), h_max, segments: segments.collect() }
+    /// A preview of which nothing is painted yet. `h_max` is the largest target diameter, in world units;
+    /// paint reaches no further than `bounds`.
+    pub fn new(plan: &StrokePlan, h_max: f64, bounds: Rect, raster: &TiledRaster) -> Self {
+        let mut stroke = Stroke::new(plan.brush, h_max, bounds).mirrored(plan.mirror);
+        [plan.from, plan.to].into_iter().for_each(|end| stroke.extend(raster, end));
+        Self { stroke, raster: raster.clone(), areas: Vec::new() }
     }
 
-    /// The pixels that may change, in one to four rectangles.
-    pub fn areas(&self) -> impl Iterator<Item = PixelRect> + '_ {
-        self.segments.iter().map(|(_, area)| *area).filter(|area| !area.is_empty())
+    /// Paints about `pixels` more. Returns whether all is painted.
+    pub fn advance(&mut self, pixels: usize) -> bool {
+        self.areas.extend(self.stroke.advance(&mut self.raster, pixels));
+        self.stroke.is_drawn()
     }
 
-    /// [risk, target diameter] of the pixel in column `x` and row `y` after the stroke; `None` where the
-    /// stroke does not reach it.
-    pub fn pixel(&self, paint: &PaintRasters, x: u32, y: u32) -> Option<[f32; 2]> {
-        let center = paint.risk.pixel_center(x, y);
-        let reaching = self.segments.iter().filter(|(_, area)| area.contains(x, y));
-        let coverage = reaching.map(|(ends, _)| self.brush.coverage_of_segment(center, *ends) as f32);
-        let coverage = coverage.fold(0.0, f32::max);
-        let old = [paint.risk.get(x, y), paint.diameter.get(x, y)];
-        (coverage > 0.0).then(|| self.brush.painted_pixel(coverage, old, self.h_max))
+    /// The raster after the stroke, and the rectangles in which it differs, in world units.
+    pub fn finish(mut self) -> (TiledRaster, Vec<Rect>) {
+        while !self.advance(usize::MAX) {}
+        self.stroke.finish(&mut self.raster);
+        (self.raster, self.areas)
     }
 }

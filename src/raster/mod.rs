@@ -1,7 +1,6 @@
 //! Rasters: row-major grids of values over a rectangle, the lowest row first; sparse rasters of any depth;
-//! and the max-mipmap, which finds the maximum under a triangle.
+//! and the ranges of their values over squares of any size.
 
-mod max_mipmap;
 mod pyramid;
 mod ranges;
 mod tiled;
@@ -12,7 +11,6 @@ use glam::DVec2;
 
 use crate::geometry::Rect;
 
-pub use max_mipmap::{MaxMipmap, RasterOnLattice};
 pub use pyramid::{RasterPyramid, SquareValues};
 pub use ranges::{PixelGrid, ValueRange, ValueRanges, power_of_two};
 pub use tiled::{TILE, Tile, TilePlace, TiledRaster};

@@ -157,11 +157,11 @@ impl ValueRanges for RasterPyramid {
     }
 
     fn range(&self, scale: i32, x: i32, y: i32) -> ValueRange {
-        self.square(scale, x, y).or_infinite()
+        self.square(scale, x, y).with_gaps(f32::INFINITY)
     }
 
     fn whole_range(&self) -> ValueRange {
-        self.whole().or_infinite()
+        self.whole().with_gaps(f32::INFINITY)
     }
 }
 
@@ -178,9 +178,10 @@ impl SquareValues {
         Self { range, has_gaps: self.has_gaps || other.has_gaps }
     }
 
-    /// The range of the values, with ∞ in the gaps.
-    fn or_infinite(self) -> ValueRange {
-        let nothing = ValueRange::one(f32::INFINITY);
+    /// The range of the values, with `gap` where there is none.
+    #[inline]
+    pub fn with_gaps(self, gap: f32) -> ValueRange {
+        let nothing = ValueRange::one(gap);
         match self.range {
             Some(range) if self.has_gaps => range.union(nothing),
             Some(range) => range,

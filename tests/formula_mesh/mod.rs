@@ -1,9 +1,10 @@
 //! Meshes as the program makes them, for a formula of the target diameter under the vertex rule.
 
-use meshbrush::internals::build::{BuiltMesh, FieldSampling, MeshBuilder, MeshSpec};
+use meshbrush::internals::build::{BuiltMesh, MeshBuilder, MeshSpec};
 use meshbrush::internals::domain::{BoundaryTreatment, Domain};
-use meshbrush::internals::field::{Formula, RefinementRule, Source, TargetFieldSpec, Transfer};
+use meshbrush::internals::field::{Formula, RefinementRule, Transfer};
 use meshbrush::internals::geometry::Lattice;
+use meshbrush::internals::layers::{Layer, LayerKind, SizeFieldSpec};
 use meshbrush::internals::mesh::{Cleaning, Limits, Progress};
 
 /// The mesh of a domain; `target` is a formula.
@@ -13,14 +14,14 @@ pub fn formula_mesh(domain: &Domain, spacing: f64, boundary: BoundaryTreatment, 
         lattice: Lattice::covering(domain.bounds, spacing, limits.max_triangles).unwrap(),
         domain: domain.clone(),
         boundary,
-        field: TargetFieldSpec {
-            sources: vec![Source::TargetFormula(Formula::parse(target).unwrap())],
+        field: SizeFieldSpec {
+            layers: Layer::stack([LayerKind::target(Formula::parse(target).unwrap())]),
             transfer: Transfer { h_min: f64::MIN_POSITIVE, h_max: f64::MAX, shape: 1.0 },
             unasked: f64::MAX,
-            size: [2; 2],
+            outline: None,
+            gradation: None,
         },
         rule: RefinementRule::Vertex,
-        sampling: FieldSampling::AsNeeded,
         cleaning: Cleaning::NONE,
         limits,
     });

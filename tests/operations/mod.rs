@@ -5,17 +5,20 @@
 
 use std::ops::Range;
 use std::path::Path;
+use std::sync::Arc;
 
 use glam::{DVec2, dvec2};
 use meshbrush::internals::build::BuildError;
-use meshbrush::internals::document::{Base, Document, Follower, MeshChange, Setting, Settings, Stage};
+use meshbrush::internals::document::{Document, Follower, MeshChange, Setting, Settings, Stage};
 use meshbrush::internals::domain::{BoundaryTreatment, CutShape, Domain, DomainShape, corners};
 use meshbrush::internals::field::{Formula, RefinementRule, Transfer};
 use meshbrush::internals::geometry::{LatticePoint, Rect};
 use meshbrush::internals::io::project::{self, Project};
+use meshbrush::internals::layers::{Combine, Layer, LayerKind, Quantity, RasterReading, RasterSource};
 use meshbrush::internals::mesh::{Cleaning, KeptParts, NodeId, Progress, Triangle};
 use meshbrush::internals::outline::DerivedMesh;
 use meshbrush::internals::paint::{Brush, DiameterChange, Medium};
+use meshbrush::internals::raster::{Raster, RasterPyramid};
 
 /// Where operations come from: random numbers, or the bytes of a fuzzer.
 pub trait Choices {
@@ -57,8 +60,6 @@ impl Choices for Bytes<'_> {
 pub struct Scale {
     /// The smallest diameter asked for, and a tenth of the largest.
     pub diameter: f64,
-    /// Fewest pixels along the field's longer side, and three fifths of the most.
-    pub pixels: u32,
     /// The tightest budget.
     pub triangles: usize,
 }
@@ -80,6 +81,8 @@ pub enum Operation {
     /// Adds a shape to the domain, or takes it away.
     Cut(CutShape, bool),
     Set(Setting),
+    /// Changes the stack of layers.
+    Layers(LayerEdit),
     EndGesture,
     /// The current work is cancelled.
     CancelUpdate,
@@ -89,7 +92,7 @@ pub enum Operation {
 
 impl Operation {
     pub fn choose(choices: &mut impl Choices, scale: Scale) -> Self {
-        match choices.below(37) {
+        match choices.below(46) {
             0..14 => Self::stroke(choices),
             14 => Self::Begin(brush(choices), point(choices)),
             15 => Self::Draw(point(choices)),
@@ -102,8 +105,9 @@ impl Operation {
                 1 => Self::CancelUpdate,
                 _ => Self::EndGesture,
             },
-            36 => Self::Reopen,
             24..28 => Self::Cut(cut_shape(choices), choices.below(3) == 0),
+            36 => Self::Reopen,
+            37.. => Self::Layers(LayerEdit::choose(choices, scale)),
             _ => Self::Set(setting(choices, scale)),
         }
     }
@@ -143,6 +147,7 @@ impl Operation {
                     assert_eq!(document.settings(), &before);
                 }
             }
+            Self::Layers(edit) => edit.apply(document),
             Self::EndGesture => document.end_gesture(),
             Self::CancelUpdate => {}
             Self::Reopen => *document = reopened(document),
@@ -205,11 +210,10 @@ fn setting(choices: &mut impl Choices, scale: Scale) -> Setting {
         } else {
             RefinementRule::Area
         }),
-        8 => Setting::Resolution(scale.pixels + (f64::from(scale.pixels) * 0.6 * choices.share()) as u32),
+        8 => Setting::Gradation([None, Some(0.5 + choices.share())][choices.below(2)]),
         9 => Setting::Cleaning(cleaning(choices.share())),
         10 => Setting::MaxTriangles(scale.triangles * [1, 4, 20, 100][choices.below(4)]),
-        11 => Setting::Base(base(choices, diameter)),
-        12 => Setting::Bounds(bounds(choices)),
+        11 | 12 => Setting::Bounds(bounds(choices)),
         13 => Setting::Domain(inside(choices)),
         14 if choices.below(4) == 0 => Setting::Boundary(BoundaryTreatment::Report),
         14 if diameter < 4.0 * scale.diameter => {
@@ -229,12 +233,114 @@ fn cleaning(share: f64) -> Cleaning {
     Cleaning { parts, keeps_pinches: (100.0 * share) % 2.0 < 1.0 }
 }
 
-fn base(choices: &mut impl Choices, diameter: f64) -> Base {
-    let texts = ["0.1 + 0.2 * x", "if(abs(x - y) < 0.1, 0.1, 0.5)", "x - 0.3", "1 / (x - y)"];
-    match choices.below(1 + texts.len()) {
-        0 => Base::Constant(8.0 * diameter),
-        n => Base::Formula(Formula::parse(texts[n - 1]).unwrap()),
+/// A change of the stack of layers. Layers are counted from the bottom, round and round.
+#[derive(Clone, Debug)]
+pub enum LayerEdit {
+    Add(Box<LayerKind>, Combine),
+    Delete(usize),
+    /// Moves one to the place of another.
+    Move(usize, usize),
+    Show(usize, bool),
+    Combine(usize, Combine),
+    /// Gives a layer of numbers others, as the drag of a control does.
+    Replace(usize, Box<LayerKind>),
+    /// The brush paints on it from now on, if it can.
+    Activate(usize),
+}
+
+impl LayerEdit {
+    fn choose(choices: &mut impl Choices, scale: Scale) -> Self {
+        let place = choices.below(8);
+        match choices.below(10) {
+            0..3 => Self::Add(Box::new(layer_kind(choices, scale)), combine(choices)),
+            3 => Self::Delete(place),
+            4 => Self::Move(place, choices.below(8)),
+            5 | 6 => Self::Show(place, choices.below(3) > 0),
+            7 => Self::Combine(place, combine(choices)),
+            8 => Self::Replace(place, Box::new(layer_kind(choices, scale))),
+            _ => Self::Activate(place),
+        }
     }
+
+    fn apply(self, document: &mut Document) {
+        let mut layers = document.settings().layers.clone();
+        let count = layers.len().max(1);
+        match self {
+            // More layers say no more, and take longer.
+            Self::Add(..) if count > 6 => return,
+            Self::Add(kind, combine) => {
+                let id = document.unused_layer_id();
+                layers.push(Layer { combine, ..Layer::new(id, kind.label(), *kind) });
+            }
+            Self::Move(from, to) if !layers.is_empty() => {
+                let layer = layers.remove(from % count);
+                layers.insert(to % count, layer);
+            }
+            Self::Delete(place) if !layers.is_empty() => _ = layers.remove(place % count),
+            Self::Activate(place) => {
+                return layers
+                    .get(place % count)
+                    .into_iter()
+                    .for_each(|layer| document.activate_layer(layer.id));
+            }
+            Self::Move(..) | Self::Delete(_) => return,
+            Self::Show(place, _) | Self::Combine(place, _) | Self::Replace(place, _) => {
+                let Some(layer) = layers.get_mut(place % count) else { return };
+                self.change(layer);
+            }
+        }
+        Operation::Set(Setting::Layers(layers)).apply(document);
+    }
+
+    /// Changes one layer. Paint stays paint: it has pixels.
+    fn change(self, layer: &mut Layer) {
+        match self {
+            Self::Show(_, visible) => layer.visible = visible,
+            Self::Combine(_, combine) => layer.combine = combine,
+            Self::Replace(_, kind) if layer.paints().is_none() && !matches!(*kind, LayerKind::Paint(_)) => {
+                layer.kind = *kind
+            }
+            _ => {}
+        }
+    }
+}
+
+fn combine(choices: &mut impl Choices) -> Combine {
+    [Combine::Finest, Combine::Finest, Combine::Floor, Combine::Replace][choices.below(4)]
+}
+
+fn layer_kind(choices: &mut impl Choices, scale: Scale) -> LayerKind {
+    let diameter = scale.diameter * (1.0 + 9.0 * choices.share());
+    let targets = [
+        "0.1 + 0.2 * x",
+        "if(abs(x - y) < 0.1, 0.1, inf)",
+        "if(hypot(x - 0.5, y - 0.4) < 0.3, 0.15, inf)",
+        "x - 0.3",
+        "1 / (x - y)",
+    ];
+    let formula = |text: &str| Formula::parse(text).unwrap();
+    match choices.below(10) {
+        0 => LayerKind::constant(8.0 * diameter),
+        1..4 => LayerKind::target(formula(targets[choices.below(targets.len())])),
+        4 => LayerKind::risk(formula("exp(-30 * hypot(x - 0.6, y - 0.3))")),
+        5 | 6 => LayerKind::Paint([Quantity::Risk, Quantity::Diameter][choices.below(2)]),
+        _ => raster(choices, diameter),
+    }
+}
+
+/// A raster over a part of the domain, or beyond it, with a pixel that has no value.
+fn raster(choices: &mut impl Choices, diameter: f64) -> LayerKind {
+    let corner = dvec2(choices.share(), choices.share()) - 0.4;
+    let bounds = Rect::new(corner, corner + 0.2 + choices.share());
+    let size = [1 + choices.below(9) as u32, 1 + choices.below(9) as u32];
+    let is_risk = choices.below(2) == 0;
+    let value = |share: f64| if is_risk { share } else { diameter * (0.5 + 4.0 * share) };
+    let count = (size[0] * size[1]) as usize;
+    let mut values: Vec<f32> = (0..count).map(|_| value(choices.share()) as f32).collect();
+    values[choices.below(count)] = f32::NAN;
+    let raster = Arc::new(RasterPyramid::new(Raster::from_values(bounds, size, values)));
+    let reading = if is_risk { RasterReading::Risk } else { RasterReading::Diameter };
+    LayerKind::Raster { source: RasterSource { name: "random".into(), raster }, reading }
 }
 
 fn bounds(choices: &mut impl Choices) -> Rect {
@@ -256,11 +362,12 @@ fn inside(choices: &mut impl Choices) -> Domain {
 /// What no document can meet.
 fn impossible(choices: &mut impl Choices) -> Setting {
     let bad = [0.0, -1.0, f64::NAN, f64::INFINITY, 1e-300][choices.below(5)];
-    match choices.below(5) {
+    match choices.below(6) {
         0 => Setting::Spacing(bad),
         1 => Setting::SmallestDiameter(bad),
         2 => Setting::TransferShape(bad),
-        3 => Setting::Base(Base::Constant(bad)),
+        3 => Setting::Gradation(Some(if bad == 1e-300 { -bad } else { bad })),
+        4 => Setting::Layers(Layer::usual(LayerKind::constant(if bad == 1e-300 { 0.0 } else { bad }))),
         _ => Setting::Bounds(Rect::new(DVec2::ZERO, dvec2(bad, 1.0))),
     }
 }
@@ -342,7 +449,7 @@ impl Driver {
         }
         let stage = self.follower.advance(&mut self.document, visits).unwrap_or_else(|error| {
             self.refused(&error);
-            Stage::Sampling { share: None }
+            Stage::Checking
         });
         stage.is_settled()
     }
@@ -421,7 +528,7 @@ fn patch<T: Copy>(copy: &mut Vec<T>, now: &[T], ranges: &[Range<usize>]) {
 }
 
 /// A thousand triangles, so that a fuzzer gets through thousands of edits a second.
-const SMALL: Scale = Scale { diameter: 0.04, pixels: 24, triangles: 200 };
+const SMALL: Scale = Scale { diameter: 0.04, triangles: 200 };
 /// Most operations of one run: a longer one says no more, and less of it can be searched.
 const MOST_OPERATIONS: usize = 48;
 
@@ -433,7 +540,6 @@ pub fn run_bytes(bytes: &[u8]) {
     let mut driver = Driver::new(Settings {
         domain,
         max_triangles: 20 * SMALL.triangles,
-        resolution: SMALL.pixels,
         spacing: 0.2,
         boundary: BoundaryTreatment::OnOutline { diameter: 2.0 * SMALL.diameter },
         transfer,

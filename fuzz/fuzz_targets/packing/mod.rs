@@ -7,12 +7,13 @@ use std::sync::{Arc, LazyLock};
 
 use flate2::read::DeflateDecoder;
 use glam::dvec2;
-use meshbrush::internals::document::{Base, Document, Settings};
+use meshbrush::internals::document::{Document, Settings};
 use meshbrush::internals::domain::Domain;
 use meshbrush::internals::geometry::Rect;
 use meshbrush::internals::io::project::{self, Project};
+use meshbrush::internals::layers::{Layer, LayerKind, RasterReading, RasterSource};
 use meshbrush::internals::paint::{Brush, DiameterChange, Medium};
-use meshbrush::internals::raster::Raster;
+use meshbrush::internals::raster::{Raster, RasterPyramid};
 
 /// Name and content of each part.
 pub type Parts = Vec<(String, Vec<u8>)>;
@@ -43,10 +44,10 @@ const NUMBERS: [&str; 16] = [
 fn sample() -> Project {
     let triangle = vec![vec![dvec2(0.0, 0.0), dvec2(1.0, 0.1), dvec2(0.3, 1.0)]];
     let raster = Raster::from_values(Rect::UNIT, [2, 2], vec![0.0, 0.25, 0.5, 1.0]);
+    let source = RasterSource { name: "a.png".into(), raster: Arc::new(RasterPyramid::new(raster)) };
     let settings = Settings {
         domain: Domain::of_polygons(&[triangle]).unwrap(),
-        base: Base::RiskImage { name: "a.png".into(), raster: Arc::new(raster) },
-        resolution: 66,
+        layers: Layer::usual(LayerKind::Raster { source, reading: RasterReading::Risk }),
         ..Settings::default()
     };
     let mut document = Document::new(settings, None).unwrap();

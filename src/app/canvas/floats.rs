@@ -94,14 +94,22 @@ fn draw_notice(ui: &mut Ui, inner: Rect, session: &Session, commands: &mut Vec<C
     let mut child = ui.new_child(UiBuilder::new().max_rect(place));
     let banner = if notice.failed { Banner::error(&notice.text) } else { Banner::info(&notice.text) };
     let stands = session.notices().shown_stands();
-    let banner = if stands { banner.standing().action("Undo") } else { banner };
+    let offer = notice.offer.as_ref();
+    let banner = match offer {
+        Some(offer) => banner.action(offer.label),
+        None if stands => banner.standing().action("Undo"),
+        None => banner,
+    };
     let answer = banner.show(&mut child);
     if !notice.failed && !stands && has_faded(&child, notice.number) {
         commands.push(Command::DismissNotice);
     }
     match answer {
         BannerAnswer::Open => {}
-        BannerAnswer::Acted => commands.push(Command::Undo),
+        BannerAnswer::Acted => match offer {
+            Some(offer) => commands.extend([Command::DismissNotice, offer.command.clone()]),
+            None => commands.push(Command::Undo),
+        },
         BannerAnswer::Dismissed => commands.push(Command::DismissNotice),
     }
     Some(child.min_rect())
@@ -134,10 +142,7 @@ pub fn work_on_mesh(session: &Session) -> Option<(&'static str, String)> {
             Some(("Copying the mesh", format!("{} triangles", format::count(triangles as u64))))
         }
         Stage::Indexing => Some(("Indexing the outline", String::new())),
-        Stage::Sampling { share } => {
-            let percent = share.map(|share| format!("{:.0} %", 100.0 * share));
-            Some(("Sampling the field", percent.unwrap_or_default()))
-        }
+        Stage::Checking => Some(("Checking the layers", String::new())),
         Stage::InStep | Stage::GaveUp(_) => None,
     }
 }

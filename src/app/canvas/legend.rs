@@ -4,9 +4,10 @@ use eframe::egui::{Align2, Color32, Mesh, Rect, Role, Sense, Shape, Ui, Vec2, Wi
 
 use super::overlay::risk_color;
 use crate::app::frame::FrameState;
+use crate::app::layer_pictures::layer_color32;
 use crate::app::theme::{font, tokens};
 use crate::app::view::{FieldOverlay, deepest_level};
-use crate::app::widgets::{format, paint_floating};
+use crate::app::widgets::{elided_text, format, paint_floating};
 
 /// Width of the box and of a swatch, in points.
 const WIDTH: f32 = 124.0;
@@ -14,6 +15,7 @@ const SWATCH: f32 = 18.0;
 /// Heights of the title and of a row with text, in points.
 const TITLE: f32 = 20.0;
 const ROW: f32 = 14.0;
+const LAYER_ROW: f32 = 18.0;
 const MARGIN: Vec2 = vec2(10.0, 7.0);
 
 /// Shows the legend of the overlay or of the contour lines in the upper right corner of `inner`. It takes no
@@ -23,6 +25,7 @@ pub fn show(ui: &Ui, inner: Rect, state: &FrameState<'_>) {
     match state.view.overlay {
         FieldOverlay::Risk => risk_legend(ui, inner),
         FieldOverlay::Target => target_legend(ui, inner, state),
+        FieldOverlay::Layer => layer_legend(ui, inner, state),
         FieldOverlay::None if state.view.aids.contours => target_legend(ui, inner, state),
         FieldOverlay::None => {}
     }
@@ -65,6 +68,25 @@ fn risk_legend(ui: &Ui, inner: Rect) {
         (bar.right(), Align2::RIGHT_TOP, "1"),
     ] {
         ui.painter().text(pos2(x, bar.bottom() + 3.0), align, text, font::axis(), t.label);
+    }
+}
+
+/// The visible layers in their colours, from the top.
+fn layer_legend(ui: &Ui, inner: Rect, state: &FrameState<'_>) {
+    let layers = &state.session.follower().settings().layers;
+    let visible: Vec<_> = layers.iter().rev().filter(|layer| layer.visible).collect();
+    let rows = ((inner.height() * 0.7 - TITLE) / LAYER_ROW).max(1.0) as usize;
+    let shown = visible.len().min(rows);
+    let names: Vec<&str> = visible.iter().map(|layer| layer.name.as_str()).collect();
+    let spoken = format!("Legend: layers {}", names.join(", "));
+    let place = boxed(ui, inner, LAYER_ROW * shown as f32, "Deciding layer", &spoken);
+    let t = tokens(ui);
+    for (row, layer) in visible.iter().take(shown).enumerate() {
+        let top = place.top() + LAYER_ROW * row as f32;
+        let swatch = Rect::from_min_size(pos2(place.left(), top + 3.0), vec2(SWATCH, LAYER_ROW - 6.0));
+        ui.painter().rect_filled(swatch, 2.0, layer_color32(layer.id));
+        let room = Rect::from_min_max(pos2(swatch.right() + 6.0, top), pos2(place.right(), top + LAYER_ROW));
+        elided_text(ui, room, &layer.name, t.value);
     }
 }
 

@@ -77,8 +77,9 @@ impl Canvas {
         }
     }
 
-    /// Draws in software from now on.
+    /// Draws in software from now on, and waits for everything that is computed on other threads.
     pub fn draw_in_software(&mut self) {
+        self.overlay_colors.wait();
         if let Some(gpu) = &mut self.gpu {
             gpu.draw_in_software();
         }
@@ -305,7 +306,7 @@ impl Canvas {
         let settings = session.follower().settings();
         let (document, follower) = (session.document(), session.follower());
         let colors = view.level_colors(settings);
-        let overlay = self.overlay_colors.overlay(view.overlay, document, follower, colors);
+        let overlay = self.overlay_colors.overlay(view.overlay, document, follower, colors, ui.ctx());
         let style = view.style(settings, ui.pixels_per_point());
         match gpu.sync(session, change, overlay.as_ref(), &camera, &style) {
             Ok(Progress::Done) => {}
@@ -323,7 +324,7 @@ impl Canvas {
             return self.contours.clear();
         }
         let revision = session.document().revision() + session.follower().revision();
-        self.contours.advance(session.follower(), revision, ctx);
+        self.contours.advance(session.follower(), session.document().paint(), revision, ctx);
     }
 
     /// Draws the contour lines that are in view.

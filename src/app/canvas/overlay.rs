@@ -1,66 +1,148 @@
-//! The field as colours, drawn over the mesh.
+//! The field as colours, drawn over the mesh. They are computed on another thread: sampling many layers takes
+//! longer than a frame.
 
+use std::time::Duration;
+
+use eframe::egui::Context;
+
+use super::super::contours::pixels_over;
+use super::super::frame::NO_LIMIT;
+use super::super::latest::Latest;
+use super::super::layer_pictures::layer_color32;
 use super::super::view::FieldOverlay;
 use crate::colormap::LevelColors;
 use crate::document::{Document, Follower};
+use crate::geometry::Rect;
+use crate::layers::{Layer, LayerId, PaintLayers, SizeField};
 use crate::scene::Overlay;
 
 /// How strongly h̄ covers the mesh, 0 to 1.
 const TARGET_OPACITY: f32 = 0.75;
+/// How strongly the colours of layers do: the mesh stays readable.
+const LAYER_OPACITY: f32 = 0.55;
+
+/// How long a frame waits for colours: those of a simple field appear at once.
+const PATIENCE: Duration = Duration::from_millis(8);
+
+/// What colours are made from.
+#[derive(Clone, Debug, PartialEq)]
+struct OverlayState {
+    kind: FieldOverlay,
+    document: u64,
+    mesh: u64,
+    bounds: Rect,
+    colors: LevelColors,
+}
+
+/// Colours by pixel, row by row from the lowest.
+struct Pixels {
+    rgba: Vec<[u8; 4]>,
+    /// [columns, rows].
+    size: [u32; 2],
+}
 
 /// The colours of an overlay, computed again only when what they show has changed.
-#[derive(Debug, Default)]
+#[derive(Default)]
 pub struct OverlayColors {
-    rgba: Vec<[u8; 4]>,
-    size: [u32; 2],
-    /// What the colours were made from.
-    made_from: Option<(FieldOverlay, u64, u64, LevelColors)>,
+    latest: Latest<OverlayState, Pixels>,
+    /// Grows with each new colours.
     revision: u64,
+    /// Whether a frame waits for its colours as long as they take.
+    waits: bool,
 }
 
 impl OverlayColors {
-    /// The overlay to draw, if any.
+    /// Waits for the colours from now on: pictures must be the same every time.
+    pub fn wait(&mut self) {
+        self.waits = true;
+    }
+
+    /// The overlay to draw, if any: the last one that was computed.
     pub fn overlay<'a>(
         &'a mut self,
         kind: FieldOverlay,
         document: &Document,
         follower: &Follower,
         colors: LevelColors,
+        ctx: &Context,
     ) -> Option<Overlay<'a>> {
         if kind == FieldOverlay::None {
-            self.made_from = None;
+            self.latest = Latest::default();
             return None;
         }
-        let wanted = Some((kind, document.revision(), follower.revision(), colors.clone()));
-        if self.made_from != wanted {
-            self.made_from = wanted;
-            self.revision += 1;
-            match kind {
-                FieldOverlay::Risk => self.fill_with_risk(document),
-                _ => self.fill_with_target(follower, &colors),
-            }
-        }
-        let opacity = if kind == FieldOverlay::Risk { 1.0 } else { TARGET_OPACITY };
-        let [columns, rows] = self.size;
         let bounds = document.settings().domain.bounds;
-        Some(Overlay { bounds, columns, rows, rgba: &self.rgba, opacity, revision: self.revision })
+        let (document_state, mesh) = (document.revision(), follower.revision());
+        let state = OverlayState { kind, document: document_state, mesh, bounds, colors };
+        self.take(Duration::ZERO);
+        // Those of another domain or another kind are of no use.
+        self.latest.keep_if(|found| found.kind == kind && found.bounds == bounds);
+        if !self.latest.has(&state) {
+            let compute = colors_of(state.clone(), document, follower);
+            self.latest.start(state, compute, ctx);
+            self.take(if self.waits { NO_LIMIT } else { PATIENCE });
+        }
+        let (_, Pixels { rgba, size: [columns, rows] }) = self.latest.last()?;
+        let opacity = match kind {
+            FieldOverlay::Target => TARGET_OPACITY,
+            FieldOverlay::Layer => LAYER_OPACITY,
+            FieldOverlay::Risk | FieldOverlay::None => 1.0,
+        };
+        Some(Overlay { bounds, columns: *columns, rows: *rows, rgba, opacity, revision: self.revision })
     }
 
-    fn fill_with_risk(&mut self, document: &Document) {
-        let risk = &document.paint().risk;
-        self.size = risk.size();
-        let table: [[u8; 4]; 256] = std::array::from_fn(|i| risk_color(i as u8));
-        self.rgba.clear();
-        self.rgba.extend(risk.values().iter().map(|&risk| table[(risk * 255.0) as usize]));
+    fn take(&mut self, patience: Duration) {
+        let was_running = self.latest.is_running();
+        if was_running && !self.latest.take(patience) {
+            self.revision += 1;
+        }
     }
+}
 
-    fn fill_with_target(&mut self, follower: &Follower, colors: &LevelColors) {
-        let levels = follower.field().levels();
-        self.size = levels.size();
-        self.rgba.clear();
-        let all = follower.field().target().all();
-        self.rgba.extend(all.pixels().map(|(x, y)| colors.of(levels.get(x, y).min(63))));
+fn colors_of(
+    state: OverlayState,
+    document: &Document,
+    follower: &Follower,
+) -> impl FnOnce() -> Pixels + Send + 'static {
+    let (paint, layers) = (document.paint().clone(), document.settings().layers.clone());
+    let field = follower.shared_field();
+    move || {
+        let size = pixels_over(&state.bounds);
+        let rgba = match state.kind {
+            FieldOverlay::Risk => risk_colors(&layers, &paint, state.bounds, size),
+            FieldOverlay::Layer => layer_colors(&field, &paint, state.bounds, size),
+            _ => target_colors(&field, &paint, &state, size),
+        };
+        Pixels { rgba, size }
     }
+}
+
+fn risk_colors(layers: &[Layer], paint: &PaintLayers, bounds: Rect, size: [u32; 2]) -> Vec<[u8; 4]> {
+    let table: [[u8; 4]; 256] = std::array::from_fn(|i| risk_color(i as u8));
+    let grid = crate::raster::Raster::filled(bounds, size, 0u8);
+    let centers = grid.pixel_centers();
+    let risk = |point| {
+        let visible = layers.iter().filter(|layer| layer.visible);
+        visible.filter_map(|layer| layer.risk_at(paint, point)).fold(0.0, f64::max)
+    };
+    grid.all().pixels().map(|(x, y)| table[(risk(centers(x, y)) * 255.0) as u8 as usize]).collect()
+}
+
+/// The colours of the layers that decide h̄; transparent where none asks for anything.
+fn layer_colors(field: &SizeField, paint: &PaintLayers, bounds: Rect, size: [u32; 2]) -> Vec<[u8; 4]> {
+    let decisions = field.sampled_decisions(paint, bounds, size);
+    let color = |layer: Option<LayerId>| layer.map_or([0; 4], |id| layer_color32(id).to_array());
+    decisions.into_iter().map(color).collect()
+}
+
+fn target_colors(
+    field: &SizeField,
+    paint: &PaintLayers,
+    state: &OverlayState,
+    size: [u32; 2],
+) -> Vec<[u8; 4]> {
+    let level = |target: f32| field.level_of_diameter(f64::from(target)).unwrap_or(63).min(63) as u8;
+    let target = field.sampled(paint, state.bounds, size);
+    target.values().iter().map(|&target| state.colors.of(level(target))).collect()
 }
 
 /// From nothing to a warm red; alpha carries the risk.

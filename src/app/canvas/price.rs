@@ -54,7 +54,14 @@ fn price_tag(state: &FrameState<'_>, t: &Tokens) -> Option<(String, Color32)> {
             let is_outside = state.pointer.is_some_and(|point| session.locate(point).triangle().is_none());
             let reason = if is_outside { NoChange::OutsideField } else { reason };
             let brush = state.tools.brush()?;
-            Some((format!("no change: {}", why_nothing(reason, brush.medium)), t.label))
+            let why = match reason {
+                NoChange::LayerDecides(id) => {
+                    let layer = session.document().settings().layer(id);
+                    format!("“{}” decides here", layer.map_or("another layer", |layer| &layer.name))
+                }
+                reason => why_nothing(reason, brush.medium).into(),
+            };
+            Some((format!("no change: {why}"), t.label))
         }
         (Some(price), _) => Some(tag(price, count, session.document().settings(), t)),
         // Whether there is such a frame depends on the machine's speed.
@@ -79,9 +86,7 @@ fn why_nothing(reason: NoChange, medium: Medium) -> &'static str {
         }
         (NoChange::PaintedAlready, _) => "this value is painted already",
         (NoChange::CoarserThanGrid, _) => "h̄ is coarser than the grid here",
-        (NoChange::BaseDecides, _) => "the base field decides here",
-        (NoChange::OtherPaintDecides, Medium::Diameter(..)) => "the painted risk decides here",
-        (NoChange::OtherPaintDecides, _) => "the painted diameter decides here",
+        (NoChange::LayerDecides(_), _) => "another layer decides here",
         (NoChange::TrianglesFit, _) if lowers => "finer triangles nearby need these",
         (NoChange::TrianglesFit, _) => "already finer here",
     }

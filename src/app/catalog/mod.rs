@@ -4,6 +4,7 @@ mod edit;
 mod file;
 mod gestures;
 mod help;
+mod layer;
 mod tool;
 mod view;
 
@@ -19,6 +20,7 @@ pub fn catalog(state: &FrameState<'_>) -> Vec<CatalogItem> {
         file::file(state),
         edit::edit(state),
         tool::tool(state),
+        layer::layer(state),
         view::view(state),
         help::examples(),
         help::help(),
@@ -35,6 +37,8 @@ pub enum Menu {
     Edit,
     /// Tools and the brush.
     Tool,
+    /// The layers of the size field.
+    Layer,
     /// What is shown.
     View,
     /// Documents that come with the program.
@@ -45,10 +49,11 @@ pub enum Menu {
 
 impl Menu {
     /// All menus, from left to right, with their names.
-    pub const ALL: [(Self, &'static str); 6] = [
+    pub const ALL: [(Self, &'static str); 7] = [
         (Self::File, "File"),
         (Self::Edit, "Edit"),
         (Self::Tool, "Tool"),
+        (Self::Layer, "Layer"),
         (Self::View, "View"),
         (Self::Examples, "Examples"),
         (Self::Help, "Help"),

@@ -34,6 +34,7 @@ pub fn view(state: &FrameState<'_>) -> Vec<CatalogItem> {
         overlay("No overlay", FieldOverlay::None).group(),
         overlay("Overlay risk", FieldOverlay::Risk).key(Key::O),
         overlay("Overlay target", FieldOverlay::Target).keys(Modifiers::SHIFT, Key::O),
+        overlay("Overlay deciding layer", FieldOverlay::Layer),
     ];
     for (i, map) in Colormap::ALL.into_iter().enumerate() {
         let title = format!("{} colours", map.name());

@@ -2,6 +2,7 @@
 
 mod domain;
 mod files;
+mod layers;
 mod painting;
 
 use eframe::egui::Context;
@@ -26,6 +27,7 @@ impl App {
         };
         match self.execute_on_files(command, ctx) {
             None => {}
+            Some(Command::Layer(command)) => self.execute_on_layers(command, ctx),
             Some(Command::Domain(command)) => self.execute_on_domain(command),
             Some(Command::Boundary(command)) => self.execute_on_boundary(command),
             Some(command) => self.execute_on_document(command, ctx),

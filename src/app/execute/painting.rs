@@ -14,6 +14,7 @@ impl App {
             BrushCommand::Kind(kind) => {
                 tools.kind = kind;
                 tools.select_brush();
+                self.select_layer_painted_with(kind);
             }
             BrushCommand::Mode(mode) => {
                 tools.mode = mode;
@@ -53,6 +54,9 @@ impl App {
         // Record the last stroke before the next begins: both may come in one frame.
         self.session.document_mut().end_stroke();
         self.record_edits();
+        if let Err(problem) = self.session.document().layer_for(&brush.medium) {
+            return self.offer_paint_layer(&problem);
+        }
         let document = self.session.document_mut();
         document.begin_mirrored_stroke(brush, mirror);
         document.extend_stroke(self.tools.path_point(point));
@@ -85,7 +89,6 @@ impl App {
         }
     }
 
-    /// Risk becomes the brush's strength, a diameter the brush's diameter.
     /// Makes a picked risk or diameter the brush's own: painted in the mode *Set*, it is reproduced.
     fn pick_value(&mut self, point: DVec2) {
         let value = |quantity| value_at(point, self.session.document(), self.session.follower(), quantity);

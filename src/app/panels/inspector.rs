@@ -5,7 +5,7 @@ use eframe::egui::Ui;
 use super::Panel;
 use crate::app::command::Command;
 use crate::app::frame::FrameState;
-use crate::app::inspection::{Inspection, NEIGHBOURS, Row};
+use crate::app::inspection::{Inspection, LayerAnswer, NEIGHBOURS, Row};
 use crate::app::readout::{Quantity, Readout, TriangleReadout};
 use crate::app::theme::tokens;
 use crate::app::widgets::{Chip, Icon, Section, ValueRow, chips, empty_state, segmented};
@@ -55,9 +55,26 @@ fn triangle_rows(
     }
     copied_rows(ui, &inspection.quantity_rows(), commands);
     ui.add_space(4.0);
+    layer_rows(ui, inspection, commands);
+    ui.add_space(4.0);
     copied_rows(ui, &inspection.corner_rows(), commands);
     hovered
 }
+
+/// What each visible layer asks for at the point, and which one decides.
+fn layer_rows(ui: &mut Ui, inspection: &Inspection<'_>, commands: &mut Vec<Command>) {
+    copied_rows(ui, &inspection.decision_rows(), commands);
+    for (number, LayerAnswer { row, decides }) in inspection.layer_answers().iter().enumerate() {
+        ui.push_id(number, |ui| {
+            let value = ValueRow::new(&row.label, &row.shown).stands_out(*decides).copies(&row.exact);
+            if value.help(LAYER_HELP).show(ui).clicked() {
+                commands.push(Command::Copy(row.exact.clone()));
+            }
+        });
+    }
+}
+
+const LAYER_HELP: &str = "What this layer alone asks for at the point, before the layers are combined.";
 
 /// Rows that a click copies, in full.
 fn copied_rows(ui: &mut Ui, rows: &[Row], commands: &mut Vec<Command>) {

@@ -8,10 +8,10 @@ mod bars;
 mod boundary;
 mod brush;
 mod domain;
-mod field;
 mod fit;
 mod formula;
 mod inspector;
+mod layers;
 mod levels;
 mod mesh;
 mod statistics;
@@ -26,6 +26,7 @@ pub use boundary::BOUNDARY;
 pub use brush::BRUSH;
 pub use domain::DOMAIN;
 pub use inspector::INSPECTOR;
+pub use layers::{LAYER_KINDS, ask_name as ask_layer_name, combine_name};
 
 use super::command::Command;
 use super::frame::FrameState;
@@ -47,10 +48,10 @@ pub struct Panel {
 /// All sections of the side panel, from the top. Those of the selected tool move to the top.
 pub static PANELS: [&Panel; 12] = [
     &BRUSH,
+    &layers::LAYERS,
     &transfer::TRANSFER,
     &levels::LEVELS,
     &INSPECTOR,
-    &field::FIELD,
     &mesh::MESH,
     &statistics::STATISTICS,
     &DOMAIN,

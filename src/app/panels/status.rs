@@ -5,6 +5,7 @@ use std::time::Duration;
 use eframe::egui::{Align, Layout, Ui};
 
 use crate::app::frame::FrameState;
+use crate::app::inspection::deciding_layer;
 use crate::app::readout::{Quantity, value_at};
 use crate::app::widgets::{StatusCell, format};
 use crate::document::Stage;
@@ -12,6 +13,8 @@ use crate::field::RefinementRule;
 
 /// Space between cells.
 const GAP: f32 = 16.0;
+/// Most letters of the name of a layer.
+const MOST_OF_NAME: usize = 16;
 /// Shown where there is nothing to show.
 const NONE: &str = "–";
 
@@ -34,15 +37,18 @@ pub fn status_bar(ui: &mut Ui, state: &FrameState<'_>) {
 /// The cells at the left, from the left, and those at the right, from the right. In a narrow window the least
 /// important are left out.
 fn fitting_cells(ui: &Ui, state: &FrameState<'_>) -> [Vec<StatusCell>; 2] {
-    let [x, y, target] = pointer_cells(state);
+    let [x, y, target, layer] = pointer_cells(state);
     let [triangles, nodes, deepest] = mesh_cells(state);
     let [rule, update] = work_cells(state);
-    let mut left = vec![x, y, target, triangles, nodes, deepest];
+    let mut left = vec![x, y, target, layer, triangles, nodes, deepest];
     let mut right = vec![rule, update];
     let room = ui.available_width();
     let width = |cells: &[StatusCell]| cells.iter().map(|cell| cell.width(ui) + GAP).sum::<f32>();
-    while width(&left) + width(&right) - GAP > room && left.len() > 4 {
-        left.remove(4);
+    // Nodes, the deepest level, the deciding layer.
+    for least_important in [5, 5, 3] {
+        if width(&left) + width(&right) - GAP > room {
+            left.remove(least_important);
+        }
     }
     if width(&left) + width(&right) - GAP > room {
         right.truncate(1);
@@ -50,22 +56,42 @@ fn fitting_cells(ui: &Ui, state: &FrameState<'_>) -> [Vec<StatusCell>; 2] {
     [left, right]
 }
 
-/// Position of the pointer, and h̄ there.
-fn pointer_cells(state: &FrameState<'_>) -> [StatusCell; 3] {
+/// Position of the pointer, h̄ there, and the layer that decides it.
+fn pointer_cells(state: &FrameState<'_>) -> [StatusCell; 4] {
     let unit = state.unit();
     let chars = 8 + unit.after("").chars().count();
-    let cells = |[x, y, target]: [String; 3]| {
-        [("x", x), ("y", y), ("h̄", target)].map(|(name, value)| StatusCell::new(name, value, chars))
+    let cells = |[x, y, target, layer]: [String; 4]| {
+        let cell = |name, value| StatusCell::new(name, value, chars);
+        let layer = StatusCell::new("by", shortened(layer), MOST_OF_NAME);
+        [cell("x", x), cell("y", y), cell("h̄", target), layer]
     };
-    let Some(point) = state.pointer else { return cells([NONE; 3].map(String::from)) };
+    let Some(point) = state.pointer else { return cells([NONE; 4].map(String::from)) };
     let step = state.view.world_per_px();
-    let target =
-        value_at(point, state.session.document(), state.session.follower(), Quantity::TargetDiameter);
+    let (document, follower) = (state.session.document(), state.session.follower());
+    let decision = follower.field().decision_at(document.paint(), point);
+    let target = match follower.settings().rule {
+        RefinementRule::Area => decision.target,
+        RefinementRule::Vertex => value_at(point, document, follower, Quantity::TargetDiameter),
+    };
     // The mesh decides: it may lack a part of the bounds.
     let inside = state.session.locate(point).triangle().is_some();
-    let target = if inside { format::length(target, unit) } else { "outside".into() };
+    let [target, layer] = match inside {
+        true => [
+            format::length(target, unit),
+            deciding_layer(&follower.settings().layers, decision.layer).to_owned(),
+        ],
+        false => ["outside".into(), NONE.into()],
+    };
     let [x, y] = [point.x, point.y].map(|value| format::coordinate(value, step, unit));
-    cells([x, y, target])
+    cells([x, y, target, layer])
+}
+
+/// A name with no more letters than its cell has room for.
+fn shortened(name: String) -> String {
+    if name.chars().count() <= MOST_OF_NAME {
+        return name;
+    }
+    name.chars().take(MOST_OF_NAME - 1).chain(['…']).collect()
 }
 
 fn mesh_cells(state: &FrameState<'_>) -> [StatusCell; 3] {
@@ -100,7 +126,7 @@ fn update_text(state: &FrameState<'_>) -> String {
         _ if state.reproducible => NONE.into(),
         Stage::InStep => time(session.last_update()),
         // How far it is, the canvas says.
-        Stage::Indexing | Stage::Sampling { .. } | Stage::Copying { .. } | Stage::Refining { .. } => {
+        Stage::Indexing | Stage::Checking | Stage::Copying { .. } | Stage::Refining { .. } => {
             format!("{}…", time(session.update_so_far()))
         }
         Stage::GaveUp(None) => "cancelled".into(),

@@ -37,6 +37,7 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
             (FieldOverlay::None, "No overlay"),
             (FieldOverlay::Risk, "Risk"),
             (FieldOverlay::Target, "Target"),
+            (FieldOverlay::Layer, "Layer"),
         ];
         if segmented(ui, "Field overlay", &mut overlay, &overlays).changed() {
             commands.push(Command::SetOverlay(overlay));

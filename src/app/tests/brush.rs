@@ -6,15 +6,15 @@ use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use glam::{DVec2, dvec2};
 
 use super::{
-    FREE, Window, click, entries, hover, key, move_to, on_screen, open_section, press, price_tag, release,
-    send, stroke, triangles, window,
+    FREE, PAINTED_DIAMETER, PAINTED_RISK, Window, click, entries, hover, key, move_to, on_screen,
+    open_section, painted, press, price_tag, release, send, stroke, triangles, window, with_base,
 };
 use crate::app::command::{BrushCommand, Command};
 use crate::app::tools::{BRUSH, BrushMode, PaintKind, PenEffect};
-use crate::document::{Base, Setting};
+use crate::layers::LayerKind;
 
 fn risk_at(window: &Window, point: DVec2) -> f32 {
-    window.state().session().document().paint().risk.sample(point).unwrap()
+    painted(window, PAINTED_RISK, point)
 }
 
 fn brush(window: &mut Window, command: BrushCommand) {
@@ -58,7 +58,7 @@ fn a_diameter_is_made_smaller_or_larger_as_the_mode_permits() {
         brush(window, BrushCommand::Mode(mode));
         brush(window, BrushCommand::Diameter(diameter));
         stroke(window, FREE, FREE);
-        f64::from(window.state().session().document().paint().diameter.sample(FREE).unwrap())
+        f64::from(super::painted(window, PAINTED_DIAMETER, FREE))
     };
     for (mode, diameter, after) in [
         (BrushMode::BuildUp, 0.01, 0.01),
@@ -113,10 +113,11 @@ fn the_tag_says_why_a_dab_changes_nothing() {
     brush(&mut window, BrushCommand::Diameter(0.15));
     assert_eq!(hover(&mut window, FREE).unwrap(), "no change: h̄ is coarser than the grid here");
     brush(&mut window, BrushCommand::Diameter(0.02));
-    assert_eq!(hover(&mut window, in_band).unwrap(), "no change: the painted risk decides here");
-    send(&mut window, Command::Set(Setting::Base(Base::Constant(0.01))));
+    assert_eq!(hover(&mut window, in_band).unwrap(), "no change: “Painted risk” decides here");
+    let base = with_base(&window, LayerKind::constant(0.01));
+    send(&mut window, Command::Set(base));
     send(&mut window, Command::EndGesture);
-    assert_eq!(hover(&mut window, FREE).unwrap(), "no change: the base field decides here");
+    assert_eq!(hover(&mut window, FREE).unwrap(), "no change: “Base” decides here");
 }
 
 #[test]

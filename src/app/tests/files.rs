@@ -8,10 +8,11 @@ use egui_kittest::kittest::Queryable as _;
 use glam::dvec2;
 
 use super::{
-    Window, fingerprint, key, notice, scratch, send, settings, stroke, wait_for_notice, wait_until, window,
+    Window, fingerprint, has_raster, key, notice, scratch, send, stroke, wait_for_notice, wait_until, window,
 };
 use crate::app::command::Command;
-use crate::document::{Base, Example};
+use crate::document::Example;
+use crate::layers::RasterReading;
 
 #[test]
 fn an_export_writes_the_file_and_tells() {
@@ -108,5 +109,5 @@ fn a_bad_picture_is_told_and_a_good_one_becomes_risk() {
         std::thread::sleep(Duration::from_millis(5));
         window.run();
     }
-    assert!(matches!(settings(&window).base, Base::RiskImage { .. }));
+    assert!(has_raster(&window, &RasterReading::Risk));
 }

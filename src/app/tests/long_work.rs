@@ -9,8 +9,8 @@ use egui_kittest::kittest::Queryable as _;
 use glam::dvec2;
 
 use super::{
-    FREE, Window, button_event, fingerprint, key, level_at, notice, on_screen, release_at, stroke, triangles,
-    value_of, window, window_of, window_with,
+    FREE, PAINTED_RISK, Window, button_event, fingerprint, key, level_at, notice, on_screen, painted,
+    release_at, stroke, triangles, value_of, window, window_of, window_with,
 };
 use crate::app::command::Command;
 use crate::document::{Document, Example, Follower, Setting, Stage};
@@ -88,7 +88,7 @@ fn one_slice_of_work_is_small_however_much_there_is_to_do() {
     loop {
         match follower.advance(&mut document, VISITS).unwrap() {
             Stage::InStep => break,
-            Stage::Indexing | Stage::Sampling { .. } => {}
+            Stage::Indexing | Stage::Checking => {}
             stage @ (Stage::Copying { .. } | Stage::GaveUp(_)) => panic!("{stage:?}"),
             Stage::Refining { triangles } => {
                 most = most.max(triangles.saturating_sub(last.max(1200)));
@@ -116,7 +116,7 @@ fn a_long_stroke_never_waits_for_the_mesh() {
     window.step();
     let document: &Document = window.state().session().document();
     assert!(document.stroke().is_some());
-    assert!(document.paint().risk.sample(FREE - dvec2(0.05, 0.0)).unwrap() > 0.1, "paint does not wait");
+    assert!(painted(&window, PAINTED_RISK, FREE - dvec2(0.05, 0.0)) > 0.1, "paint does not wait");
     release_at(&mut window, from, PointerButton::Primary);
     assert!(level_at(&window, FREE) > 10);
 }

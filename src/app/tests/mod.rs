@@ -16,6 +16,7 @@ mod gallery;
 mod help;
 mod inspection;
 mod keys;
+mod layers;
 mod long_work;
 mod menus;
 mod messages;
@@ -47,12 +48,13 @@ use glam::{DVec2, dvec2};
 
 use crate::app::App;
 use crate::app::canvas::CANVAS_NAME;
-use crate::app::command::{Command, Opened};
+use crate::app::command::{Command, LayerCommand, Opened};
 use crate::app::session::Session;
 use crate::app::tools::Tools;
 use crate::app::view::View;
 use crate::app::widgets::format;
 use crate::document::{Document, Setting, Settings};
+use crate::layers::{LayerId, LayerKind, RasterReading};
 use crate::mesh::{Fingerprint, TriangleId};
 
 type Window = Harness<'static, App>;
@@ -69,6 +71,34 @@ const RESTING_PLACE: Pos2 = pos2(600.0, 10.0);
 const FREE: DVec2 = dvec2(0.9, 0.5);
 
 const CTRL_SHIFT: Modifiers = Modifiers { shift: true, ..Modifiers::COMMAND };
+
+/// The layers of paint in a new document.
+const PAINTED_DIAMETER: LayerId = LayerId(1);
+const PAINTED_RISK: LayerId = LayerId(2);
+
+/// What is painted on a layer at a point.
+fn painted(window: &Window, layer: LayerId, point: DVec2) -> f32 {
+    let paint = window.state().session().document().paint();
+    paint.get(layer).expect("a layer that was painted on").sample(point)
+}
+
+/// Selects the layer at the bottom.
+fn select_base(window: &mut Window) {
+    send(window, Command::Layer(LayerCommand::Select(LayerId(0))));
+}
+
+/// The layers of the document, with another one at the bottom.
+fn with_base(window: &Window, kind: LayerKind) -> Setting {
+    let mut layers = settings(window).layers.clone();
+    layers[0].kind = kind;
+    Setting::Layers(layers)
+}
+
+/// Whether a layer reads a raster.
+fn has_raster(window: &Window, wanted: &RasterReading) -> bool {
+    let mut layers = settings(window).layers.iter();
+    layers.any(|layer| matches!(&layer.kind, LayerKind::Raster { reading, .. } if reading == wanted))
+}
 
 fn window() -> Window {
     window_of(vec2(1440.0, 900.0))

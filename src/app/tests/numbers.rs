@@ -9,7 +9,8 @@ use super::{
     TALL, Window, button_event, entries, fingerprint, key, notice, open_section, press_at, release_at, set,
     settings, type_into, value_of, wheel, window_with,
 };
-use crate::document::{Base, Setting, Settings};
+use crate::document::{Setting, Settings};
+use crate::layers::LayerKind;
 
 /// A tall window whose frames are as short as those on a screen, so that there is time within a double click.
 fn quick_window() -> Window {
@@ -63,10 +64,11 @@ fn a_number_beside_a_slider_is_dragged_as_one_gesture() {
 #[test]
 fn a_number_in_a_field_is_dragged_and_taken_where_the_drag_ends() {
     let mut window = quick_window();
-    open_section(&mut window, "Base field");
-    drag_number(&mut window, "Resolution", -60.0, Modifiers::NONE);
+    super::select_base(&mut window);
+    drag_number(&mut window, "Diameter", -60.0, Modifiers::NONE);
     // The first points of a movement decide that it is a drag.
-    assert_eq!(settings(&window).resolution, 550);
+    let diameter = settings(&window).layers[0].kind.clone();
+    assert_eq!(diameter, LayerKind::constant(0.1), "{diameter:?}");
     assert_eq!(entries(&window), 1);
 }
 
@@ -143,9 +145,7 @@ fn what_is_no_number_keeps_the_focus_and_the_text() {
 }
 
 fn type_formula(window: &mut Window, text: &str) {
-    open_section(window, "Base field");
-    window.get_by_role_and_label(Role::RadioButton, "Formula").click();
-    window.run();
+    super::select_base(window);
     window.get_by_role_and_label(Role::TextInput, FORMULA).focus();
     window.run();
     key(window, Modifiers::COMMAND, Key::A);
@@ -167,7 +167,9 @@ fn a_formula_is_applied_once_typing_pauses() {
     assert!(is_marked(&window));
     window.run_steps(60);
     window.run();
-    assert!(matches!(settings(&window).base, Base::Formula(_)), "without Enter");
+    let is_constant =
+        |kind: &LayerKind| matches!(kind, LayerKind::Formula { formula, .. } if formula.constant().is_some());
+    assert!(!is_constant(&settings(&window).layers[0].kind), "without Enter");
     assert_ne!(fingerprint(&window), before);
     assert!(!is_marked(&window));
     assert!(window.get_by_role_and_label(Role::TextInput, FORMULA).is_focused());

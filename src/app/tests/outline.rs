@@ -9,12 +9,12 @@ use egui_kittest::kittest::Queryable as _;
 use glam::{DVec2, dvec2};
 
 use super::{
-    TALL, Window, area, document, entries, fingerprint, folder, level_at, open_section, paint, send,
-    settings, wait_for_notice, wait_until, window, window_of, window_with,
+    TALL, Window, area, document, entries, fingerprint, folder, has_raster, level_at, paint, send, settings,
+    wait_for_notice, wait_until, window, window_of, window_with,
 };
 use crate::app::command::Command;
-use crate::document::Base;
 use crate::geometry::Rect;
+use crate::layers::RasterReading;
 
 /// Writes a file with a square that has a square hole.
 fn square(name: &str, min: DVec2, side: f64) -> PathBuf {
@@ -78,11 +78,10 @@ fn the_frame_grows_to_hold_an_outline_that_reaches_beyond_it() {
     assert!(message.contains("The frame grew"), "{message}");
     wait_for_outline(&mut window);
     assert_eq!(settings(&window).domain.bounds, Rect::new(DVec2::splat(-0.5), DVec2::splat(1.1)));
-    assert_eq!(settings(&window).resolution, 1639, "as many pixels a length as before");
     let level_after = level_at(&window, dvec2(0.5, 0.55));
     assert!(level_after.abs_diff(level) <= 2, "the paint stays where it was: {level_after} and {level}");
     send(&mut window, Command::Undo);
-    assert_eq!((settings(&window).domain.bounds, settings(&window).resolution), (Rect::UNIT, 1024));
+    assert_eq!(settings(&window).domain.bounds, Rect::UNIT);
 }
 
 #[test]
@@ -104,7 +103,7 @@ fn an_outline_elsewhere_or_far_too_large_is_refused_with_a_sentence() {
 fn the_base_field_shows_what_the_document_has() {
     let mut window = window_of(TALL);
     send(&mut window, Command::New);
-    open_section(&mut window, "Base field");
+    super::select_base(&mut window);
     let chosen = |window: &Window, name: &str| {
         use egui_kittest::kittest::NodeT as _;
         let node = window.get_by_role_and_label(Role::RadioButton, name);
@@ -138,18 +137,17 @@ fn a_grid_opens_as_target_diameters_and_is_saved_with_the_document() {
     send(&mut window, Command::OpenDiameters(write_grid(&file("zero.asc"), 0.25, 0.0)));
     assert!(wait_for_notice(&mut window).contains("it must be positive"));
     send(&mut window, Command::OpenDiameters(write_grid(&file("lengths.asc"), 0.25, 0.02)));
-    wait_until(&mut window, |window| matches!(settings(window).base, Base::DiameterGrid { .. }));
+    wait_until(&mut window, |window| has_raster(window, &RasterReading::Diameter));
     wait_until(&mut window, |window| level_at(window, dvec2(0.3, 0.4)) == 4);
     assert_eq!(level_at(&window, dvec2(0.9, 0.9)), 0);
-    super::open_section(&mut window, "Base field");
-    assert_eq!(super::value_of(&window, Role::Definition, "Diameters from"), "lengths.asc");
+    assert_eq!(super::value_of(&window, Role::Definition, "File"), "lengths.asc");
     let before = fingerprint(&window);
     let project = file("grid.meshbrush");
     send(&mut window, Command::SaveTo(project.clone()));
     wait_until(&mut window, |_| project.exists());
     send(&mut window, Command::New);
     send(&mut window, Command::OpenProject(project.clone()));
-    wait_until(&mut window, |window| matches!(settings(window).base, Base::DiameterGrid { .. }));
+    wait_until(&mut window, |window| has_raster(window, &RasterReading::Diameter));
     wait_until(&mut window, |window| fingerprint(window) == before);
 }
 
@@ -165,7 +163,7 @@ fn a_grid_opens_as_risk_at_its_own_place() {
     send(&mut window, Command::Open(grid("far.asc", 9.0, 0.5)));
     assert!(wait_for_notice(&mut window).contains("outside this document"));
     send(&mut window, Command::Open(grid("risk.asc", 0.25, 1.0)));
-    wait_until(&mut window, |window| matches!(settings(window).base, Base::RiskImage { .. }));
+    wait_until(&mut window, |window| has_raster(window, &RasterReading::Risk));
     wait_until(&mut window, |window| level_at(window, dvec2(0.3, 0.4)) > 5);
     assert_eq!(level_at(&window, dvec2(0.9, 0.9)), 0);
     super::open_menu(&mut window, "File");

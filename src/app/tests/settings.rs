@@ -10,9 +10,10 @@ use super::{
     settings, triangles, type_into, value_of, window, window_of,
 };
 use crate::app::command::Command;
-use crate::document::{Base, Example, Setting};
+use crate::document::{Example, Setting};
 use crate::domain::{Domain, DomainShape};
 use crate::field::{Formula, RefinementRule};
+use crate::layers::{Layer, LayerKind};
 
 #[test]
 fn the_diamond_opens_by_menu_and_undo_stops_at_its_start() {
@@ -50,7 +51,7 @@ fn every_example_opens_and_new_is_empty() {
 fn spacing_diameters_and_base_change_the_mesh_at_once() {
     let mut window = window_of(TALL);
     open_section(&mut window, "Mesh");
-    open_section(&mut window, "Base field");
+    super::select_base(&mut window);
     open_section(&mut window, "Domain");
     let mut last = fingerprint(&window);
     let mut changed = |window: &Window, what: &str| {
@@ -64,24 +65,20 @@ fn spacing_diameters_and_base_change_the_mesh_at_once() {
     changed(&window, "h_min");
     set(&mut window, Setting::LargestDiameter(0.1));
     changed(&window, "h_max");
-    window.get_by_role_and_label(Role::RadioButton, "Formula").click();
-    window.run();
-    type_into(&mut window, "Target diameter h̄(x, y)", "0.02 + 0.1*x");
-    assert!(matches!(settings(&window).base, Base::Formula(_)));
-    changed(&window, "formula");
-    window.get_by_role_and_label(Role::RadioButton, "Constant").click();
-    window.run();
     type_into(&mut window, "Diameter", "0.05");
-    assert_eq!(settings(&window).base, Base::Constant(0.05));
+    assert_eq!(settings(&window).layers[0].kind, LayerKind::constant(0.05));
     changed(&window, "constant");
+    type_into(&mut window, "Target diameter h̄(x, y)", "0.02 + 0.1*x");
+    assert!(
+        matches!(&settings(&window).layers[0].kind, LayerKind::Formula { formula, .. } if formula.constant().is_none())
+    );
+    changed(&window, "formula");
     type_into(&mut window, "Domain where", "hypot(x - 0.5, y - 0.5) < 0.5");
     assert!(settings(&window).domain.formula().is_some());
     changed(&window, "domain");
     type_into(&mut window, "Right", "2");
     assert_eq!(settings(&window).domain.bounds.max.x, 2.0);
     changed(&window, "bounds");
-    type_into(&mut window, "Resolution", "256");
-    assert_eq!(settings(&window).resolution, 256);
     let mesh = window.state().session().mesh();
     assert_eq!(mesh.violations(), []);
 }
@@ -112,9 +109,7 @@ fn a_drag_of_a_slider_is_one_entry() {
 fn a_formula_that_cannot_be_read_says_why_and_changes_nothing() {
     let mut window = window_of(TALL);
     let before = (fingerprint(&window), settings(&window).clone());
-    open_section(&mut window, "Base field");
-    window.get_by_role_and_label(Role::RadioButton, "Formula").click();
-    window.run();
+    super::select_base(&mut window);
     type_into(&mut window, "Target diameter h̄(x, y)", "0.1 + sqr(x)");
     assert!(window.query_by_label_contains("sqr").is_some(), "the sentence names what is wrong");
     assert_eq!((fingerprint(&window), settings(&window).clone()), before);
@@ -128,9 +123,7 @@ fn a_formula_that_is_no_length_somewhere_says_where_and_changes_nothing() {
             let mut window = window_of(TALL);
             set(&mut window, Setting::RefinementRule(rule));
             let before = (fingerprint(&window), settings(&window).clone(), entries(&window));
-            open_section(&mut window, "Base field");
-            window.get_by_role_and_label(Role::RadioButton, "Formula").click();
-            window.run();
+            super::select_base(&mut window);
             type_into(&mut window, "Target diameter h̄(x, y)", formula);
             let message = notice(&window);
             assert!(message.contains(x) || message.contains("x = 0."), "{formula}: {message}");
@@ -148,8 +141,9 @@ fn impossible_settings_are_refused_with_a_sentence() {
         Setting::Spacing(0.0),
         Setting::Spacing(1e-9),
         Setting::SmallestDiameter(f64::NAN),
-        Setting::Base(Base::Constant(-1.0)),
-        Setting::Resolution(1),
+        Setting::Layers(Layer::usual(LayerKind::constant(-1.0))),
+        Setting::Gradation(Some(0.0)),
+        Setting::Gradation(Some(f64::NAN)),
         Setting::Bounds(crate::geometry::Rect::new(DVec2::ONE, DVec2::ZERO)),
         Setting::Domain(Domain {
             bounds: crate::geometry::Rect::UNIT,
@@ -183,15 +177,14 @@ fn the_rule_switches_and_says_what_it_misses() {
 #[test]
 fn a_formula_typed_for_another_document_is_gone() {
     let mut window = window_of(TALL);
-    open_section(&mut window, "Base field");
+    super::select_base(&mut window);
     let field = "Target diameter h̄(x, y)";
     window.get_by_role_and_label(Role::RadioButton, "Formula").click();
     window.run();
     window.get_by_role_and_label(Role::TextInput, field).type_text("0.1*");
     window.run();
     send(&mut window, Command::New);
-    assert!(window.query_by_role_and_label(Role::TextInput, field).is_none());
-    window.get_by_role_and_label(Role::RadioButton, "Formula").click();
-    window.run();
-    assert_eq!(value_of(&window, Role::TextInput, field), "");
+    assert!(window.query_by_role_and_label(Role::TextInput, field).is_none(), "a paint layer is selected");
+    super::select_base(&mut window);
+    assert_eq!(value_of(&window, Role::TextInput, field), "0.2");
 }

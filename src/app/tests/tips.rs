@@ -41,7 +41,7 @@ fn unexplained(window: &Window) -> Vec<String> {
 fn every_control_of_the_panels_has_a_sentence() {
     let mut window = window_of(vec2(TALL.x, 3000.0));
     send(&mut window, Command::Query(FREE));
-    for section in ["Stroke", "Base field", "Mesh", "Statistics", "Domain", "View"] {
+    for section in ["Stroke", "Mesh", "Statistics", "Domain", "View"] {
         open_section(&mut window, section);
     }
     wait_until(&mut window, |window| window.query_by_label("Fingerprint").is_some());

@@ -42,7 +42,7 @@ fn every_length_carries_the_unit() {
     let mut window = in_metres();
     send(&mut window, Command::Query(FREE));
     open_section(&mut window, "Mesh");
-    open_section(&mut window, "Base field");
+    super::select_base(&mut window);
     move_to(&mut window, FREE);
     for name in ["Radius value", "h_max value", "h_min value", "Spacing δ value", "Diameter"] {
         let value = window.get_by_role_and_label(Role::TextInput, name);

@@ -7,7 +7,7 @@ const EDGE: f32 = 2.0;
 
 /// The sentences of controls that have no unit or number in it, by the name of the control. The name of a
 /// choice is that of its group and its own.
-static SENTENCES: [(&str, &str); 97] = [
+static SENTENCES: [(&str, &str); 112] = [
     (
         "What the brush paints/Risk",
         "The brush paints risk, from 0 to 1, which the transfer curve turns into a diameter.",
@@ -36,15 +36,49 @@ static SENTENCES: [(&str, &str); 97] = [
     ("h_max", "Target diameter at risk 0, in the unit of the document."),
     ("h_min", "Target diameter at risk 1, in the unit of the document."),
     ("Curve shape", "Bends the curve between h_max and h_min: its exponent, without a unit."),
-    ("Base field/Constant", "The same target diameter everywhere before you paint."),
-    ("Base field/Formula", "A target diameter before you paint that depends on x and y."),
-    ("Base field/Picture", "A greyscale picture as risk before you paint: black 0, white 1."),
-    ("Open diameters…", "Reads a grid of target diameters (.asc), in the unit of the document."),
+    ("Layer", "Selects the layer. Drag it to another place; a double click or F2 renames it."),
+    ("Layer/visible", "Shows or hides the layer; a hidden layer asks for nothing. Shift+H switches."),
+    ("Layer/locked", "Locks or unlocks the layer; a locked layer cannot be painted on or changed."),
+    ("New name of the layer", "Enter gives the layer this name, Escape keeps the old one."),
+    ("Add layer", "Adds a layer above the selected one."),
+    ("Duplicate layer", "Adds a copy of the selected layer above it, with its paint."),
+    ("Delete layer", "Removes the selected layer."),
+    ("Move layer up", "Moves the selected layer above the next one."),
+    ("Move layer down", "Moves the selected layer below the next one."),
+    (
+        "Limit gradation",
+        "Limits how fast h̄ may change with the distance, so that fine triangles pass gradually into coarse ones.",
+    ),
+    (
+        "How the layer combines/Finest",
+        "The smaller diameter counts: this layer can only make the mesh finer.",
+    ),
+    (
+        "How the layer combines/Floor",
+        "The larger diameter counts: nothing below this layer gets finer than it says.",
+    ),
+    (
+        "How the layer combines/Replace",
+        "This layer alone counts, wherever it asks for anything; the layers below do not.",
+    ),
+    ("Clear this layer", "Removes all paint of this layer."),
+    ("What the formula gives/Diameter", "The formula gives the target diameter itself."),
+    (
+        "What the formula gives/Risk",
+        "The formula gives the risk, from 0 to 1, which the transfer curve turns into a diameter.",
+    ),
+    ("What the values mean/Diameter", "The raster holds target diameters, in the unit of the document."),
+    ("What the values mean/Risk", "The raster holds risk, from 0 to 1."),
+    ("Field overlay/Layer", "Colours the domain by the layer that decides h̄."),
+    ("Decided by", "The layer whose target diameter counts at the point, after all layers are combined."),
+    (
+        "Through gradation from",
+        "The place whose small diameter limits h̄ here, as h̄ may change no faster than the gradation.",
+    ),
     (
         "Drag corners on the canvas",
         "Shows handles at two corners of the picture, which place and scale it over the domain.",
     ),
-    ("Open picture…", "Reads a greyscale PNG file as the risk before you paint."),
     ("Refinement rule/Area rule", "A triangle obeys h̄ everywhere inside it."),
     (
         "Refinement rule/Vertex rule",
@@ -124,7 +158,6 @@ static SENTENCES: [(&str, &str); 97] = [
     ("Kind", "What the piece bounds: outside, a hole, or an edge of the domain."),
     ("Length", "Length of the piece, in the unit of the document."),
     ("Marker in files", "The number that files give the edges of this piece."),
-    ("Risk from", "The file that the risk was read from."),
     ("Pixels", "Columns and rows of the picture."),
     ("Corners", "Corners of all polygons of the domain."),
     ("Picture", "The file of the picture behind the mesh."),

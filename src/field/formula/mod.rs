@@ -45,7 +45,7 @@ use std::sync::Arc;
 pub use error::ParseError;
 pub use functions::functions;
 pub use parser::{MAX_LENGTH, MAX_NESTING};
-use program::Program;
+use program::{Op, Program};
 
 use crate::field::Bounds;
 use crate::geometry::Rect;
@@ -113,6 +113,12 @@ impl Formula {
     /// ```
     pub fn bounds(&self, rect: &Rect) -> Bounds {
         interval::bounds(&self.program, rect)
+    }
+
+    /// The formula of a number: its shortest text.
+    pub fn constant_of(value: f64) -> Self {
+        let source = format!("{value}");
+        Self { program: Arc::new(Program::new(vec![Op::Number(value)], 1)), source: source.into() }
     }
 
     /// The text as it was typed.

@@ -23,7 +23,7 @@ mod tests;
 pub use check_layer::compiled;
 pub use checks::{positive_length, rect_of};
 pub use fault::{KeyFault, Mark, Step};
-pub use saved::{SavedKind, SavedLayer, SavedShape, SavedThreat};
+pub use saved::{SavedCombine, SavedKind, SavedLayer, SavedQuantity, SavedShape, SavedThreat};
 pub use spec::{
     DistanceTo, FindFile, KindSpec, LayerSpec, MaskSpec, RasterFile, RasterFormat, RasterReading, ShapeSpec,
     ThreatsSpec,

@@ -1,7 +1,10 @@
 use glam::DVec2;
 use serde::{Deserialize, Serialize};
 
-use crate::layers::{Combine, Layer, LayerKind, Quantity, Threat, ThreatLaw};
+use crate::domain::Polygon;
+use crate::layers::{
+    Combine, DistanceTo, Layer, LayerKind, Quantity, RasterReading, ShapeList, Threat, ThreatLaw,
+};
 
 /// A layer as a text has it. Which keys it may have depends on its kind.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -235,13 +238,45 @@ impl SavedLayer {
                 formula: Some(formula.source().to_owned()),
                 ..Self::of_kind(SavedKind::Formula)
             },
+            LayerKind::Raster { reading, .. } => Self {
+                read_as: match reading {
+                    RasterReading::Risk => Some(SavedQuantity::Risk),
+                    RasterReading::Diameter => Some(SavedQuantity::Diameter),
+                    RasterReading::Curve(_) => None,
+                },
+                curve: match reading {
+                    RasterReading::Curve(curve) => Some(curve.knots().to_vec()),
+                    _ => None,
+                },
+                ..Self::of_kind(SavedKind::Raster)
+            },
+            LayerKind::Threats(threats) => {
+                let threats = threats.list().iter().map(SavedThreat::of).collect();
+                Self { threats: Some(threats), ..Self::of_kind(SavedKind::Threats) }
+            }
+            LayerKind::Distance { to, at_zero, slope, range } => Self {
+                to: matches!(to, DistanceTo::Outline).then_some(SavedDistanceTo::Outline),
+                shapes: match to {
+                    DistanceTo::Outline => None,
+                    DistanceTo::Shapes { shapes, .. } => Some(SavedShape::of_list(shapes.list())),
+                },
+                at_zero: Some(*at_zero),
+                slope: Some(*slope),
+                range: range.is_finite().then_some(*range),
+                ..Self::of_kind(SavedKind::Distance)
+            },
+            LayerKind::Band { between, diameter, .. } => {
+                Self { between: Some(*between), diameter: Some(*diameter), ..Self::of_kind(SavedKind::Band) }
+            }
         };
+        let mask = layer.mask.as_ref().map(|mask| mask.polygons().iter().map(saved_polygon).collect());
         Self {
             name: Some(layer.name.clone()),
             visible: layer.visible,
             locked: layer.locked,
             combine: layer.combine.into(),
             file,
+            mask,
             ..kind
         }
     }
@@ -267,6 +302,30 @@ impl SavedLayer {
         ];
         given.into_iter().filter_map(|(key, is_given)| is_given.then_some(key))
     }
+}
+
+impl SavedThreat {
+    fn of(threat: &Threat) -> Self {
+        let law = match threat.law {
+            ThreatLaw::Radar => SavedLaw::Radar,
+            ThreatLaw::Gaussian => SavedLaw::Gaussian,
+            ThreatLaw::Disc => SavedLaw::Disc,
+        };
+        Self { x: threat.at.x, y: threat.at.y, range: threat.range, peak: threat.peak, law }
+    }
+}
+
+impl SavedShape {
+    fn of_list(list: &ShapeList) -> Vec<Self> {
+        let points = list.points.iter().map(|point| Self::Point(point.to_array()));
+        let line = |line: &Vec<DVec2>| Self::Line(line.iter().map(DVec2::to_array).collect());
+        let polygons = list.polygons.iter().map(|polygon| Self::Polygon(saved_polygon(polygon)));
+        points.chain(list.lines.iter().map(line)).chain(polygons).collect()
+    }
+}
+
+fn saved_polygon(polygon: &Polygon) -> SavedPolygon {
+    polygon.iter().map(|ring| ring.iter().map(DVec2::to_array).collect()).collect()
 }
 
 impl SavedCombine {

@@ -169,6 +169,7 @@ fn a_layer_of_a_stack_is_saved() {
     let formula = crate::field::Formula::parse("x + 1").unwrap();
     let kind = LayerKind::Formula { quantity: Quantity::Diameter, formula };
     let layer = Layer {
+        mask: None,
         id: LayerId(3),
         name: "Open sea".into(),
         visible: false,

@@ -5,11 +5,12 @@
 //! - `settings.json`: `format`, `version`, the program that wrote it, and all settings; numbers read back
 //!   exactly.
 //! - `domain.geojson`, if the domain has polygons: their corners in world units.
-//! - `base.risk`, if the base field is a picture, or `base.diameter`, if it is a grid of target diameters:
-//!   32-bit floats, row by row from the lowest.
+//! - `raster.ID` for each layer that reads a raster: 32-bit floats, row by row from the lowest.
 //! - `background.png`, if there is a picture behind the mesh.
-//! - `paint.tiles`: the painted tiles of 64 × 64 pixels. Each has its column and row (16 bits each,
-//!   little-endian), a byte with bit 0 for risk and bit 1 for diameter, and the pixels of each of these.
+//! - `paint.ID` for each paint layer with paint: its tiles of 32 × 32 pixels.
+//!
+//! Version 1 had one base field (`base.risk` or `base.diameter`) and two rasters of paint (`paint.tiles`) in
+//! place of the layers.
 //!
 //! Pixels are stored as four planes of bytes, the most significant bytes of all numbers first, which packs to
 //! half the size. Tiles are ordered by column, then row; blank tiles are omitted. The CRC-32 of the archive
@@ -20,38 +21,49 @@
 //! field. A program reads all versions up to its own.
 
 mod archive;
+mod old_tiles;
+mod old_version;
+mod painted;
 mod pixels;
 mod saved_background;
 mod settings;
-pub mod tiled;
+mod stored_layers;
+mod tiled;
 
+use std::borrow::Cow;
 use std::fs::File;
 use std::io::{self, Cursor, Read, Write};
 use std::path::Path;
+use std::sync::Arc;
 
 use super::error::{Flaw, PlacedFlaw, ReadError};
 use super::{Meter, geojson, png};
-use crate::document::{Background, Base, Document, Picture, Settings};
+use crate::document::{Background, Document, Picture, Settings};
 use crate::domain::Polygon;
 use crate::geometry::Rect;
-use crate::paint::{PaintRasters, Tiles};
-use crate::raster::Raster;
-use archive::{Archive, ArchiveWriter, Part, Unpacking};
+use crate::layers::{LayerId, LayerKind, PaintLayers, Quantity, RasterReading};
+use crate::raster::{Raster, RasterPyramid, TiledRaster};
+use archive::{Archive, ArchiveWriter, Part};
+use old_version::OLD_PAINT;
 use settings::{Parts, Saved};
 
 /// The extension of project files.
 pub const ENDING: &str = "meshbrush";
 
 /// The version that is written, and the newest that is read.
-const VERSION: u64 = 1;
+const VERSION: u64 = 2;
 const FORMAT: &str = "Meshbrush project";
 
 const SETTINGS: &str = "settings.json";
 const DOMAIN: &str = "domain.geojson";
+/// What errors call the parts with the pixels of rasters.
+const RASTER: &str = "raster";
 const BASE_RISK: &str = "base.risk";
 const BASE_DIAMETER: &str = "base.diameter";
 const BACKGROUND: &str = "background.png";
-const PAINT: &str = "paint.tiles";
+/// What errors call the parts with paint.
+const PAINT: &str = "paint";
+const OLD_TILES: &str = "paint.tiles";
 
 /// Largest file read: twice the size of the largest picture.
 const MOST_BYTES: u64 = 512 << 20;
@@ -64,20 +76,19 @@ const MOST_POLYGONS: u64 = 128 << 20;
 
 /// The saved part of a document.
 ///
-/// It has copies of the painted tiles only, so making one is quick enough for a frame, and another thread can
-/// write it.
+/// It shares the painted tiles, so making one takes no time, and another thread can write it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Project {
     /// Everything except paint.
     pub settings: Settings,
-    /// The paint by tiles. Other tiles are blank.
-    pub tiles: Tiles,
+    /// The painted pixels.
+    pub paint: PaintLayers,
 }
 
 impl Project {
     /// The current state of a document, the current stroke included.
     pub fn of(document: &Document) -> Self {
-        Self { settings: document.settings().clone(), tiles: document.paint().painted_tiles() }
+        Self { settings: document.settings().clone(), paint: document.paint().clone() }
     }
 
     /// The document, with an empty history.
@@ -85,10 +96,7 @@ impl Project {
     /// # Errors
     /// A sentence for a person, when the settings are out of range.
     pub fn into_document(self) -> Result<Document, String> {
-        let settings = self.settings.checked().map_err(|error| error.to_string())?;
-        let mut layers = PaintRasters::blank(settings.domain.bounds, settings.raster_size());
-        layers.put_tiles(&self.tiles);
-        Document::new(settings, Some(layers)).map_err(|error| error.to_string())
+        Document::new(self.settings, Some(self.paint)).map_err(|error| error.to_string())
     }
 }
 
@@ -162,34 +170,46 @@ pub fn write_metered(out: &mut dyn Write, project: &Project, meter: &Meter) -> i
 }
 
 /// A part of the archive: its name, and a function that writes its bytes.
-type ToWrite<'a> = (&'static str, Box<dyn Fn(&mut dyn Write) -> io::Result<()> + 'a>);
+type ToWrite<'a> = (Cow<'static, str>, Box<dyn Fn(&mut dyn Write) -> io::Result<()> + 'a>);
 
 fn parts(project: &Project) -> Vec<ToWrite<'_>> {
-    let Project { settings, tiles } = project;
+    let Project { settings, paint } = project;
     let mut parts: Vec<ToWrite> = vec![(
-        SETTINGS,
+        SETTINGS.into(),
         Box::new(|out| {
             serde_json::to_writer_pretty(&mut *out, &Saved::of(settings))?;
             writeln!(out)
         }),
     )];
     if let Some(region) = settings.domain.region() {
-        parts.push((DOMAIN, Box::new(|out| geojson::write(out, region.polygons()))));
+        parts.push((DOMAIN.into(), Box::new(|out| geojson::write(out, region.polygons()))));
     }
-    match &settings.base {
-        Base::RiskImage { raster, .. } => {
-            parts.push((BASE_RISK, Box::new(|out| pixels::write_raster(out, raster))));
+    for layer in &settings.layers {
+        if let LayerKind::Raster { source, .. } = &layer.kind {
+            let raster = source.raster.raster();
+            parts.push((raster_part(layer.id).into(), Box::new(|out| pixels::write_raster(out, raster))));
         }
-        Base::DiameterGrid { raster, .. } => {
-            parts.push((BASE_DIAMETER, Box::new(|out| pixels::write_raster(out, raster))));
-        }
-        Base::Constant(_) | Base::Formula(_) => {}
     }
     if let Some(Background { picture, .. }) = &settings.background {
-        parts.push((BACKGROUND, Box::new(|mut out| png::write(&mut out, picture.size, &picture.rgba))));
+        parts
+            .push((BACKGROUND.into(), Box::new(|mut out| png::write(&mut out, picture.size, &picture.rgba))));
     }
-    parts.push((PAINT, Box::new(|out| pixels::write_tiles(out, tiles))));
+    for (id, raster) in
+        paint.iter().filter(|(id, raster)| settings.layer(*id).is_some() && !raster.is_blank())
+    {
+        parts.push((paint_part(id).into(), Box::new(|out| painted::write(out, raster))));
+    }
     parts
+}
+
+/// The part with the pixels of a raster.
+fn raster_part(id: LayerId) -> String {
+    format!("raster.{}", id.0)
+}
+
+/// The part with the pixels of a paint layer.
+fn paint_part(id: LayerId) -> String {
+    format!("paint.{}", id.0)
 }
 
 fn write_parts(out: &mut dyn Write, parts: &[ToWrite], meter: &Meter) -> io::Result<()> {
@@ -205,43 +225,95 @@ fn parse(bytes: &[u8], meter: &Meter) -> Result<Project, PlacedFlaw> {
     let text = part(&archive, SETTINGS)?.bytes(MOST_SETTINGS, meter);
     let text = text.map_err(|flaw| in_part(flaw, SETTINGS))?;
     let saved = Saved::parse(&text).map_err(|flaw| flaw.within(SETTINGS))?;
+    let old_paint_size = saved.old_paint_size().map_err(|flaw| flaw.within(SETTINGS))?;
     let settings =
         saved.into_settings(&mut Packed { archive: &archive, meter }).map_err(|flaw| match flaw.place {
             super::Place::Part(..) => flaw,
             _ => flaw.within(SETTINGS),
         })?;
-    part(&archive, PAINT)?;
-    let tiles =
-        unpacked_tiles(&archive, settings.raster_size(), meter).map_err(|flaw| in_part(flaw, PAINT))?;
-    Ok(Project { settings, tiles })
+    let paint = match old_paint_size {
+        Some(size) => old_paint(&archive, size, settings.domain.bounds, meter)
+            .map_err(|flaw| in_part(flaw, OLD_TILES))?,
+        None => paint(&archive, &settings, meter)?,
+    };
+    Ok(Project { settings, paint })
 }
 
-/// Writes an archive of tiles alone, blank ones included.
-///
-/// # Errors
-/// Errors of `out`.
-pub(super) fn write_tiles(out: &mut dyn Write, tiles: &Tiles) -> io::Result<()> {
-    let tiles: ToWrite = (PAINT, Box::new(|out| pixels::write_tiles(out, tiles)));
-    write_parts(out, &[tiles], &Meter::default())
+/// The pixels of the paint layers.
+fn paint(archive: &Archive, settings: &Settings, meter: &Meter) -> Result<PaintLayers, PlacedFlaw> {
+    let mut paint = PaintLayers::default();
+    for layer in &settings.layers {
+        let name = paint_part(layer.id);
+        let (Some(quantity), Some(part)) = (layer.paints(), archive.part(&name)) else { continue };
+        let raster = part.unpack(tiled::MOST_BYTES, meter).and_then(|mut unpacking| {
+            let raster = painted::read(&mut unpacking, quantity)?;
+            unpacking.finish()?;
+            Ok(raster)
+        });
+        paint.insert(layer.id, raster.map_err(|flaw| in_part(flaw, PAINT))?);
+    }
+    Ok(paint)
 }
 
-/// Reads an archive of tiles of rasters with `size` = [columns, rows].
-///
-/// # Errors
-/// When it is damaged, or a tile lies outside the rasters.
-pub(super) fn read_tiles(bytes: &[u8], size: [u32; 2]) -> Result<Tiles, Flaw> {
-    unpacked_tiles(&Archive::open(bytes)?, size, &Meter::default())
-}
-
-fn unpacked_tiles(archive: &Archive, size: [u32; 2], meter: &Meter) -> Result<Tiles, Flaw> {
-    let part = archive.part(PAINT).ok_or(Flaw::Damaged)?;
+/// The pixels of the paint in version 1.
+fn old_paint(archive: &Archive, size: [u32; 2], bounds: Rect, meter: &Meter) -> Result<PaintLayers, Flaw> {
+    let part = archive.part(OLD_TILES).ok_or(Flaw::Damaged)?;
     let mut unpacking = part.unpack(pixels::most_tile_bytes(size), meter)?;
     let tiles = pixels::read_tiles(&mut unpacking, size)?;
     unpacking.finish()?;
-    Ok(tiles)
+    let mut paint = PaintLayers::default();
+    for (id, quantity) in OLD_PAINT.into_iter().zip([Quantity::Diameter, Quantity::Risk]) {
+        let raster = tiled::from_old_tiles(&bounds, size, &tiles, quantity);
+        if !raster.is_blank() {
+            paint.insert(id, raster);
+        }
+    }
+    Ok(paint)
 }
 
-fn part<'b, 'a>(archive: &'b Archive<'a>, name: &'static str) -> Result<&'b Part<'a>, PlacedFlaw> {
+/// Writes an archive of the tiles in which the paint of layers differs from an earlier state.
+///
+/// # Errors
+/// Errors of `out`.
+pub(super) fn write_paint_changes(
+    out: &mut dyn Write,
+    before: &PaintLayers,
+    after: &PaintLayers,
+) -> io::Result<()> {
+    let mut parts: Vec<ToWrite> = Vec::new();
+    for (id, raster) in after.iter() {
+        let changes = painted::changes(before.get(id), raster);
+        if !changes.is_empty() {
+            let write = move |out: &mut dyn Write| painted::write_changes(out, raster, &changes);
+            parts.push((paint_part(id).into(), Box::new(write)));
+        }
+    }
+    write_parts(out, &parts, &Meter::default())
+}
+
+/// Reads such an archive into the paint of layers.
+///
+/// # Errors
+/// When it is damaged. Some of the changes may then be made.
+pub(super) fn read_paint_changes(
+    bytes: &[u8],
+    settings: &Settings,
+    paint: &mut PaintLayers,
+) -> Result<(), Flaw> {
+    let archive = Archive::open(bytes)?;
+    for layer in &settings.layers {
+        let part = archive.part(&paint_part(layer.id));
+        let (Some(quantity), Some(part)) = (layer.paints(), part) else { continue };
+        let mut unpacking = part.unpack(tiled::MOST_BYTES, &Meter::default())?;
+        let (grid, changes) = painted::read_changes(&mut unpacking, quantity)?;
+        unpacking.finish()?;
+        let raster = paint.get_or_insert(layer.id, || TiledRaster::new(grid, tiled::blank(quantity)));
+        painted::apply(raster, changes);
+    }
+    Ok(())
+}
+
+fn part<'b, 'a>(archive: &'b Archive<'a>, name: &str) -> Result<&'b Part<'a>, PlacedFlaw> {
     let missing = || Flaw::Syntax(format!("this is not a Meshbrush project: it has no {name}.")).into();
     archive.part(name).ok_or_else(missing)
 }
@@ -257,20 +329,26 @@ struct Packed<'b, 'a> {
 }
 
 impl Packed<'_, '_> {
-    /// The pixels of a raster of [columns, rows], which are a part of their own.
-    fn raster(
+    /// The pixels of a raster of [columns, rows], which are a part of their own. Errors call it `what`.
+    fn pixels(
         &self,
-        name: &'static str,
-        [columns, rows]: [u32; 2],
-        read: impl FnOnce(&mut Unpacking) -> Result<Raster, Flaw>,
+        name: &str,
+        what: &'static str,
+        bounds: Rect,
+        size: [u32; 2],
+        reading: &RasterReading,
     ) -> Result<Raster, PlacedFlaw> {
-        let bytes = 4 * u64::from(columns) * u64::from(rows);
+        let bytes = 4 * u64::from(size[0]) * u64::from(size[1]);
         let raster = part(self.archive, name)?.unpack(bytes, self.meter).and_then(|mut unpacking| {
-            let raster = read(&mut unpacking)?;
+            let raster = match reading {
+                RasterReading::Risk => pixels::read_risks(&mut unpacking, bounds, size)?,
+                RasterReading::Diameter => pixels::read_diameters(&mut unpacking, bounds, size)?,
+                RasterReading::Curve(_) => pixels::read_values(&mut unpacking, bounds, size)?,
+            };
             unpacking.finish()?;
             Ok(raster)
         });
-        raster.map_err(|flaw| in_part(flaw, name))
+        raster.map_err(|flaw| in_part(flaw, what))
     }
 }
 
@@ -289,11 +367,19 @@ impl Parts for Packed<'_, '_> {
         picture.map_err(|flaw| in_part(flaw, BACKGROUND))
     }
 
-    fn risks(&mut self, bounds: Rect, size: [u32; 2]) -> Result<Raster, PlacedFlaw> {
-        self.raster(BASE_RISK, size, |unpacking| pixels::read_risks(unpacking, bounds, size))
+    fn raster(
+        &mut self,
+        layer: LayerId,
+        bounds: Rect,
+        size: [u32; 2],
+        reading: &RasterReading,
+    ) -> Result<Arc<RasterPyramid>, PlacedFlaw> {
+        let raster = self.pixels(&raster_part(layer), RASTER, bounds, size, reading)?;
+        Ok(Arc::new(RasterPyramid::new(raster)))
     }
 
-    fn diameters(&mut self, bounds: Rect, size: [u32; 2]) -> Result<Raster, PlacedFlaw> {
-        self.raster(BASE_DIAMETER, size, |unpacking| pixels::read_diameters(unpacking, bounds, size))
+    fn base(&mut self, bounds: Rect, size: [u32; 2], reading: &RasterReading) -> Result<Raster, PlacedFlaw> {
+        let name = if *reading == RasterReading::Risk { BASE_RISK } else { BASE_DIAMETER };
+        self.pixels(name, name, bounds, size, reading)
     }
 }

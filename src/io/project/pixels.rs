@@ -5,8 +5,8 @@ use std::io::{self, Read, Write};
 
 use super::super::Flaw;
 use super::archive::Unpacking;
+use super::old_tiles::{TILE, TilePixels, TilePlace, Tiles, tile_area};
 use crate::geometry::Rect;
-use crate::paint::{TILE, TilePixels, TilePlace, Tiles, tile_area};
 use crate::raster::Raster;
 
 /// The rasters on which a tile has paint, as bits of one byte.
@@ -17,28 +17,6 @@ const DIAMETER: u8 = 2;
 pub fn most_tile_bytes(size: [u32; 2]) -> u64 {
     let [columns, rows] = size.map(|side| u64::from(side.div_ceil(TILE)));
     columns * rows * (5 + 8 * u64::from(TILE * TILE))
-}
-
-/// Writes tiles: column, row, a byte for the rasters with paint, and the pixels of these rasters.
-///
-/// # Errors
-/// Errors of `out`.
-pub fn write_tiles(out: &mut dyn Write, tiles: &Tiles) -> io::Result<()> {
-    for (&place, TilePixels { risk, diameter }) in tiles {
-        let painted = RISK * u8::from(risk.iter().any(|&r| r != 0.0))
-            + DIAMETER * u8::from(diameter.iter().any(|d| d.is_finite()));
-        for n in place {
-            out.write_all(&(n as u16).to_le_bytes())?;
-        }
-        out.write_all(&[painted])?;
-        if painted & RISK != 0 {
-            write_floats(out, risk)?;
-        }
-        if painted & DIAMETER != 0 {
-            write_floats(out, diameter)?;
-        }
-    }
-    Ok(())
 }
 
 /// Reads all tiles of rasters with `size` = [columns, rows].
@@ -84,20 +62,28 @@ pub fn write_raster(out: &mut dyn Write, raster: &Raster) -> io::Result<()> {
     raster.values().chunks_exact(raster.size()[0] as usize).try_for_each(|row| write_floats(out, row))
 }
 
-/// Reads a raster of risks.
+/// Reads a raster of risks; places without a value are NaN.
 ///
 /// # Errors
 /// When the bytes end too early, or a value is not between 0 and 1.
 pub fn read_risks(input: &mut Unpacking, bounds: Rect, size: [u32; 2]) -> Result<Raster, Flaw> {
-    read_raster(input, bounds, size, is_risk, "risk")
+    read_raster(input, bounds, size, |value| value.is_nan() || is_risk(value), "risk")
 }
 
-/// Reads a raster of target diameters; where it asks for nothing they are infinite.
+/// Reads a raster of target diameters; where it asks for nothing they are infinite or NaN.
 ///
 /// # Errors
 /// When the bytes end too early, or a value is not positive.
 pub fn read_diameters(input: &mut Unpacking, bounds: Rect, size: [u32; 2]) -> Result<Raster, Flaw> {
-    read_raster(input, bounds, size, |value| value > 0.0, "target diameter")
+    read_raster(input, bounds, size, |value| value.is_nan() || value > 0.0, "target diameter")
+}
+
+/// Reads a raster of any values; NaN where it has none.
+///
+/// # Errors
+/// When the bytes end too early.
+pub fn read_values(input: &mut Unpacking, bounds: Rect, size: [u32; 2]) -> Result<Raster, Flaw> {
+    read_raster(input, bounds, size, |_| true, "value")
 }
 
 fn read_raster(

@@ -7,14 +7,17 @@ use serde::{Deserialize, Serialize};
 
 use super::super::Flaw;
 use super::super::error::{PlacedFlaw, shown};
+use super::old_version::SavedBase;
 use super::saved_background::SavedBackground;
+use super::stored_layers::StoredLayer;
 use super::{FORMAT, VERSION};
-use crate::document::{Base, Picture, Settings};
+use crate::document::{Picture, Settings};
 use crate::domain::{BoundaryMarks, BoundaryTreatment, Domain, DomainShape, Polygon};
 use crate::field::{Formula, RefinementRule, Transfer};
 use crate::geometry::Rect;
+use crate::layers::{LayerId, RasterReading};
 use crate::mesh::{Cleaning, KeptParts, MOST_TRIANGLES};
-use crate::raster::{Raster, is_raster_size};
+use crate::raster::{Raster, RasterPyramid, is_raster_size};
 use crate::text::{Grouped, LengthUnit, Number};
 
 /// The fields that every version of the format has.
@@ -39,7 +42,7 @@ pub(super) struct Saved {
     unit: SavedUnit,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     background: Option<SavedBackground>,
-    domain: SavedDomain,
+    pub(super) domain: SavedDomain,
     boundary: SavedBoundary,
     /// Missing in files of older versions.
     #[serde(default)]
@@ -48,9 +51,17 @@ pub(super) struct Saved {
     boundary_marks: SavedMarks,
     spacing: f64,
     transfer: SavedTransfer,
-    base: SavedBase,
+    /// In version 1: the field under the paint, and the pixels of the paint along the longer side.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    base: Option<SavedBase>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) resolution: Option<u32>,
+    /// Since version 2, from the bottom to the top.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    layers: Option<Vec<StoredLayer>>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    gradation: Option<f64>,
     rule: SavedRule,
-    resolution: u32,
     max_triangles: usize,
     /// In bytes.
     max_memory: usize,
@@ -99,9 +110,9 @@ impl From<SavedUnit> for LengthUnit {
 
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct SavedDomain {
+pub(super) struct SavedDomain {
     /// x and y of the lower left corner, then of the upper right one.
-    bounds: [f64; 4],
+    pub(super) bounds: [f64; 4],
     shape: SavedShape,
 }
 
@@ -217,35 +228,24 @@ struct SavedTransfer {
     shape: f64,
 }
 
-#[derive(Serialize, Deserialize)]
-#[serde(rename_all = "snake_case", deny_unknown_fields)]
-enum SavedBase {
-    Constant(f64),
-    Formula(String),
-    /// A picture, whose pixels are in the part `base.risk`.
-    RiskImage(SavedRaster),
-    /// A grid, whose pixels are in the part `base.diameter`.
-    DiameterGrid(SavedRaster),
-}
-
 /// A raster without its pixels.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct SavedRaster {
-    name: String,
+pub(super) struct SavedRaster {
+    pub(super) name: String,
     bounds: [f64; 4],
     columns: u32,
     rows: u32,
 }
 
 impl SavedRaster {
-    fn of(name: &str, raster: &Raster) -> Self {
+    pub(super) fn of(name: &str, raster: &Raster) -> Self {
         let [columns, rows] = raster.size();
         Self { name: name.to_owned(), bounds: corners(raster.bounds()), columns, rows }
     }
 
     /// The place and the size of the raster.
-    fn checked(&self) -> Result<(Rect, [u32; 2]), PlacedFlaw> {
+    pub(super) fn checked(&self) -> Result<(Rect, [u32; 2]), PlacedFlaw> {
         let size = [self.columns, self.rows];
         if !is_raster_size(size) {
             return Err(Flaw::Size { columns: self.columns.into(), rows: self.rows.into() }.into());
@@ -267,10 +267,16 @@ pub(super) trait Parts {
     fn polygons(&mut self) -> Result<Vec<Polygon>, PlacedFlaw>;
     /// The picture behind the mesh.
     fn background(&mut self) -> Result<Picture, PlacedFlaw>;
-    /// The risks of the base field.
-    fn risks(&mut self, bounds: Rect, size: [u32; 2]) -> Result<Raster, PlacedFlaw>;
-    /// The target diameters of the base field.
-    fn diameters(&mut self, bounds: Rect, size: [u32; 2]) -> Result<Raster, PlacedFlaw>;
+    /// The pixels of a raster of [columns, rows], which a layer reads.
+    fn raster(
+        &mut self,
+        layer: LayerId,
+        bounds: Rect,
+        size: [u32; 2],
+        reading: &RasterReading,
+    ) -> Result<Arc<RasterPyramid>, PlacedFlaw>;
+    /// The pixels of the base field in version 1, likewise.
+    fn base(&mut self, bounds: Rect, size: [u32; 2], reading: &RasterReading) -> Result<Raster, PlacedFlaw>;
 }
 
 impl Saved {
@@ -300,17 +306,14 @@ impl Saved {
             boundary_marks: SavedMarks::of(&settings.boundary_marks),
             spacing: settings.spacing,
             transfer: SavedTransfer { h_min, h_max, shape },
-            base: match &settings.base {
-                Base::Constant(diameter) => SavedBase::Constant(*diameter),
-                Base::Formula(formula) => SavedBase::Formula(formula.source().into()),
-                Base::RiskImage { name, raster } => SavedBase::RiskImage(SavedRaster::of(name, raster)),
-                Base::DiameterGrid { name, raster } => SavedBase::DiameterGrid(SavedRaster::of(name, raster)),
-            },
+            base: None,
+            resolution: None,
+            layers: Some(settings.layers.iter().map(StoredLayer::of).collect()),
+            gradation: settings.gradation,
             rule: match settings.rule {
                 RefinementRule::Vertex => SavedRule::Vertex,
                 RefinementRule::Area => SavedRule::Area,
             },
-            resolution: settings.resolution,
             max_triangles: settings.max_triangles,
             max_memory: settings.max_memory,
         }
@@ -364,18 +367,11 @@ impl Saved {
                 Domain::of_stored_polygons(parts.polygons()?, bounds).map_err(sentence)?.shape
             }
         };
-        let base = match self.base {
-            SavedBase::Constant(diameter) => Base::Constant(diameter),
-            SavedBase::Formula(text) => Base::Formula(formula("base", &text)?),
-            SavedBase::RiskImage(saved) => {
-                let (bounds, size) = saved.checked()?;
-                Base::RiskImage { raster: Arc::new(parts.risks(bounds, size)?), name: saved.name }
-            }
-            SavedBase::DiameterGrid(saved) => {
-                let (bounds, size) = saved.checked()?;
-                Base::DiameterGrid { raster: Arc::new(parts.diameters(bounds, size)?), name: saved.name }
-            }
-        };
+        let layers = match (self.layers, self.base) {
+            (Some(layers), _) => layers.into_iter().map(|layer| layer.into_layer(parts)).collect(),
+            (None, Some(base)) => base.into_layers(parts),
+            (None, None) => Err(sentence("the settings are not valid: there are no layers.")),
+        }?;
         let background = self.background.map(|saved| saved.with(parts.background()?)).transpose()?;
         let settings = Settings {
             name: self.name,
@@ -395,12 +391,12 @@ impl Saved {
                 h_max: self.transfer.h_max,
                 shape: self.transfer.shape,
             },
-            base,
+            layers,
+            gradation: self.gradation,
             rule: match self.rule {
                 SavedRule::Vertex => RefinementRule::Vertex,
                 SavedRule::Area => RefinementRule::Area,
             },
-            resolution: self.resolution,
             max_triangles: self.max_triangles,
             max_memory: self.max_memory,
         };
@@ -424,7 +420,7 @@ pub(super) fn rect(of: &str, [x0, y0, x1, y1]: [f64; 4]) -> Result<Rect, PlacedF
     .into())
 }
 
-fn formula(of: &str, text: &str) -> Result<Formula, PlacedFlaw> {
+pub(super) fn formula(of: &str, text: &str) -> Result<Formula, PlacedFlaw> {
     Formula::parse(text)
         .map_err(|mistake| Flaw::Syntax(format!("the formula of \"{of}\" is not valid. {mistake}")).into())
 }

@@ -10,10 +10,10 @@ use std::sync::Arc;
 
 use super::super::Flaw;
 use super::archive::Unpacking;
+use super::old_tiles::{Tiles, tile_area};
 use super::pixels::{is_risk, read_floats, write_floats};
 use crate::geometry::Rect;
 use crate::layers::Quantity;
-use crate::paint::{Tiles, tile_area};
 use crate::raster::{PixelGrid, TILE, Tile, TilePlace, TiledRaster};
 
 /// Most bytes of a raster: what fits the archive.
@@ -137,9 +137,10 @@ mod tests {
     use glam::dvec2;
 
     use super::super::archive::{Archive, ArchiveWriter};
+    use super::super::old_tiles::TilePixels;
     use super::*;
     use crate::io::Meter;
-    use crate::paint::{Brush, DiameterChange, Medium, TilePixels, tiled};
+    use crate::paint::{Brush, DiameterChange, Medium, Stroke};
     use crate::raster::{PixelRect, ValueRanges};
 
     const NAME: &str = "paint.tiles";
@@ -174,7 +175,7 @@ mod tests {
         let mut raster = TiledRaster::new(grid, blank(quantity));
         for (radius, at) in [(0.7, dvec2(-1.0, 4.0)), (0.1, dvec2(-1.5, 4.0)), (0.01, dvec2(0.0, 5.0))] {
             let brush = Brush { medium, radius, hardness: 0.3, strength: 0.7 };
-            let mut stroke = tiled::Stroke::new(brush, 1.0, bounds());
+            let mut stroke = Stroke::new(brush, 1.0, bounds());
             stroke.extend(&raster, at);
             while stroke.advance(&mut raster, usize::MAX).is_some() {}
             stroke.finish(&mut raster);

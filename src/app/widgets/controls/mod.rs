@@ -2,6 +2,7 @@
 
 mod dropdown;
 mod grab;
+mod layer_row;
 mod number;
 mod number_cell;
 mod number_input;
@@ -15,6 +16,7 @@ mod transfer;
 mod transfer_plot;
 
 pub use dropdown::dropdown_row;
+pub use layer_row::{LayerRow, LayerRowAnswer};
 pub use number::NumberRow;
 pub use section::Section;
 pub use segmented::segmented;

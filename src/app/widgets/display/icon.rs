@@ -45,8 +45,28 @@ impl Icon {
     pub const FOLDER: Self = Self(material::ICON_FOLDER.codepoint);
     /// A file.
     pub const FILE: Self = Self(material::ICON_DRAFT.codepoint);
-    /// The folder above.
+    /// The folder above, or move up.
     pub const UP: Self = Self(material::ICON_ARROW_UPWARD.codepoint);
+    /// Add.
+    pub const ADD: Self = Self(material::ICON_ADD.codepoint);
+    /// Make a copy.
+    pub const COPY: Self = Self(material::ICON_CONTENT_COPY.codepoint);
+    /// Delete.
+    pub const DELETE: Self = Self(material::ICON_DELETE.codepoint);
+    /// Move down.
+    pub const DOWN: Self = Self(material::ICON_ARROW_DOWNWARD.codepoint);
+    /// Shown.
+    pub const VISIBLE: Self = Self(material::ICON_VISIBILITY.codepoint);
+    /// Hidden.
+    pub const HIDDEN: Self = Self(material::ICON_VISIBILITY_OFF.codepoint);
+    /// Cannot be edited.
+    pub const LOCKED: Self = Self(material::ICON_LOCK.codepoint);
+    /// Can be edited.
+    pub const UNLOCKED: Self = Self(material::ICON_LOCK_OPEN_RIGHT.codepoint);
+    /// A layer of a formula.
+    pub const FORMULA: Self = Self(material::ICON_FUNCTION.codepoint);
+    /// A layer of a raster.
+    pub const RASTER: Self = Self(material::ICON_GRID_ON.codepoint);
     /// The home folder.
     pub const HOME: Self = Self(material::ICON_HOME.codepoint);
 

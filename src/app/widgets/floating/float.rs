@@ -8,6 +8,11 @@ use eframe::egui::{
 use super::paint;
 use crate::app::theme::{font, metrics, tokens};
 
+/// A text at the left of `rect`, ended by `…` where it is too long.
+pub fn elided_text(ui: &Ui, rect: Rect, text: &str, color: Color32) {
+    paint::at_left(ui, rect, paint::elided(ui, text, font::caption(), color, rect.width()));
+}
+
 /// A short text on its own ground over the canvas: `+2,418 triangles`. Takes no clicks.
 ///
 /// `align` says which point of the tag is at `anchor`; it is moved to stay within `bounds`.

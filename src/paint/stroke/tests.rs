@@ -2,8 +2,7 @@ use glam::{DVec2, dvec2};
 
 use super::*;
 use crate::field::f32_not_below;
-use crate::paint::tiled::{Preview, preview};
-use crate::paint::{DiameterChange, Medium, StrokePlan};
+use crate::paint::{DiameterChange, Medium, Preview, StrokePlan};
 use crate::raster::PixelGrid;
 
 const FINER: Medium = Medium::Diameter(0.01, DiameterChange::Finer);
@@ -11,6 +10,10 @@ const COARSER: Medium = Medium::Diameter(0.03, DiameterChange::Coarser);
 const ANY: Medium = Medium::Diameter(0.02, DiameterChange::Any);
 const RISK: Brush = Brush { medium: Medium::Risk(1.0), radius: 0.1, hardness: 0.5, strength: 0.8 };
 const H_MAX: f64 = 0.5;
+
+fn preview(plan: &StrokePlan, h_max: f64, bounds: Rect, raster: &TiledRaster) -> (TiledRaster, Vec<Rect>) {
+    Preview::new(plan, h_max, bounds, raster).finish()
+}
 
 fn risks() -> TiledRaster {
     TiledRaster::new(PixelGrid::filling(&Rect::UNIT, [200, 150]), 0.0)

@@ -12,6 +12,11 @@ pub struct Patch {
 }
 
 impl Patch {
+    /// The patch that removes all tiles of a raster.
+    pub fn clearing(raster: &TiledRaster) -> Self {
+        Self { tiles: raster.tiles().map(|(place, _)| (place, None)).collect() }
+    }
+
     /// Keeps what is at a place now, unless something is kept for it already.
     pub(super) fn keep(&mut self, raster: &TiledRaster, place: TilePlace) {
         self.tiles.entry(place).or_insert_with(|| raster.tile(place).cloned());

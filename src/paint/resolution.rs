@@ -2,9 +2,9 @@
 
 use glam::DVec2;
 
+use super::brush::nearest_on_path;
+use super::{Brush, PathPoint};
 use crate::geometry::Rect;
-use crate::paint::brush::nearest_on_path;
-use crate::paint::{Brush, PathPoint};
 use crate::raster::{PixelGrid, TILE, TilePlace, power_of_two};
 
 /// The radius of a brush has at least this many pixels.

@@ -1,0 +1,162 @@
+//! Small pictures of what each layer asks for. They are computed on other threads.
+
+use std::collections::BTreeMap;
+use std::time::Duration;
+
+use eframe::egui::{Color32, ColorImage, Context, TextureHandle, TextureOptions};
+
+use super::latest::Latest;
+use super::session::Session;
+use super::view::View;
+use crate::colormap::{LevelColors, category_color};
+use crate::document::Document;
+use crate::field::Transfer;
+use crate::geometry::Rect;
+use crate::layers::{Combine, Layer, LayerId, LayerKind, SizeField, SizeFieldSpec};
+
+/// Pixels along the longer side of a picture.
+const LONGER_SIDE: f64 = 52.0;
+
+/// The colour of a layer, in the overlay and beside its name. It belongs to the layer as long as the document
+/// is open.
+pub fn layer_color32(id: LayerId) -> Color32 {
+    let [r, g, b] = category_color(id.0);
+    Color32::from_rgb(r, g, b)
+}
+
+/// Everything that a picture depends on.
+#[derive(Clone, Debug, PartialEq)]
+struct PictureKey {
+    kind: LayerKind,
+    /// The state of the document for painted layers, otherwise 0.
+    painted: u64,
+    document: u64,
+    bounds: Rect,
+    transfer: Transfer,
+    colors: LevelColors,
+}
+
+#[derive(Default)]
+struct LayerPicture {
+    latest: Latest<PictureKey, ColorImage>,
+    texture: Option<TextureHandle>,
+}
+
+/// The pictures of all layers, each computed again only when the layer asks for something else.
+#[derive(Default)]
+pub struct LayerPictures {
+    pictures: BTreeMap<LayerId, LayerPicture>,
+    /// The state of document and colours for which all pictures are up to date.
+    current: Option<(u64, u64, LevelColors)>,
+}
+
+impl LayerPictures {
+    /// The last picture of a layer.
+    pub fn texture(&self, id: LayerId) -> Option<&TextureHandle> {
+        self.pictures.get(&id)?.texture.as_ref()
+    }
+
+    /// Takes pictures that are ready, waiting for each up to `patience`, and computes those that are out of
+    /// date. A stroke is shown once it has ended.
+    pub fn advance(&mut self, session: &Session, view: &View, patience: Duration, ctx: &Context) {
+        let document = session.document();
+        let colors = view.level_colors(document.settings());
+        let state = (session.opened_documents(), document.revision(), colors);
+        if self.current.as_ref() == Some(&state) || document.stroke().is_some() {
+            return;
+        }
+        let layers = &document.settings().layers;
+        self.pictures.retain(|id, _| layers.iter().any(|layer| layer.id == *id));
+        let mut all_current = true;
+        for layer in layers {
+            let key = key(layer, session.opened_documents(), document, &state.2);
+            all_current &=
+                self.pictures.entry(layer.id).or_default().advance(key, layer, document, patience, ctx);
+        }
+        self.current = all_current.then_some(state);
+    }
+}
+
+fn key(layer: &Layer, opened: u64, document: &Document, colors: &LevelColors) -> PictureKey {
+    let settings = document.settings();
+    PictureKey {
+        kind: layer.kind.clone(),
+        painted: if layer.paints().is_some() { document.revision() } else { 0 },
+        document: opened,
+        bounds: settings.domain.bounds,
+        transfer: settings.transfer,
+        colors: colors.clone(),
+    }
+}
+
+impl LayerPicture {
+    /// Returns whether the picture is up to date.
+    fn advance(
+        &mut self,
+        key: PictureKey,
+        layer: &Layer,
+        document: &Document,
+        patience: Duration,
+        ctx: &Context,
+    ) -> bool {
+        self.take(layer.id, Duration::ZERO, ctx);
+        if !self.latest.has(&key)
+            && let Some(draw) = picture_of(layer, document, key.colors.clone())
+        {
+            self.latest.start(key.clone(), draw, ctx);
+        }
+        self.take(layer.id, patience, ctx);
+        self.latest.last().is_some_and(|(of, _)| *of == key)
+    }
+
+    fn take(&mut self, id: LayerId, patience: Duration, ctx: &Context) {
+        if !self.latest.is_running() || self.latest.take(patience) {
+            return;
+        }
+        let Some((_, image)) = self.latest.last() else { return };
+        match &mut self.texture {
+            Some(texture) => texture.set(image.clone(), TextureOptions::LINEAR),
+            None => {
+                let name = format!("layer {}", id.0);
+                self.texture = Some(ctx.load_texture(name, image.clone(), TextureOptions::LINEAR));
+            }
+        }
+    }
+}
+
+/// Work that draws what a layer alone asks for, in the colours of the levels; transparent where it asks for
+/// nothing. `None` while the settings have no mesh.
+fn picture_of(
+    layer: &Layer,
+    document: &Document,
+    colors: LevelColors,
+) -> Option<impl FnOnce() -> ColorImage + Send + 'static> {
+    let settings = document.settings();
+    let lattice = settings.lattice().ok()?;
+    let alone = Layer { visible: true, combine: Combine::Finest, ..layer.clone() };
+    let spec = SizeFieldSpec {
+        layers: vec![alone],
+        unasked: f64::INFINITY,
+        gradation: None,
+        ..settings.field_spec()
+    };
+    let (bounds, paint) = (settings.domain.bounds, document.paint().clone());
+    Some(move || {
+        let size = bounds.size() / bounds.size().max_element() * LONGER_SIDE;
+        let [columns, rows] = [size.x, size.y].map(|side| (side.round() as u32).max(1));
+        let field = SizeField::new(spec, &lattice);
+        let target = field.sampled(&paint, bounds, [columns, rows]);
+        let color = |target: f32| match target.is_finite() {
+            true => {
+                let level = field.level_of_diameter(f64::from(target)).unwrap_or(63).min(63);
+                let [r, g, b, _] = colors.of(level as u8);
+                Color32::from_rgb(r, g, b)
+            }
+            false => Color32::TRANSPARENT,
+        };
+        // Pictures begin at the top.
+        let from_top = target.values().chunks(columns as usize).rev().flatten();
+        let pixels = from_top.map(|&target| color(target)).collect();
+        ColorImage::new([columns as usize, rows as usize], pixels)
+    })
+}

@@ -1,0 +1,68 @@
+//! Layers of a formula.
+
+use eframe::egui::Ui;
+
+use super::{Addition, KindPanel, add, quantity_name, set_kind_once};
+use crate::app::command::Command;
+use crate::app::frame::FrameState;
+use crate::app::panels::formula::FormulaRow;
+use crate::app::widgets::{Icon, NumberRow, segmented};
+use crate::field::Formula;
+use crate::layers::{Layer, LayerKind, Quantity};
+
+/// A formula in x and y.
+pub const FORMULA: KindPanel = KindPanel {
+    is_of: |kind| matches!(kind, LayerKind::Formula { .. }),
+    icon: Icon::FORMULA,
+    additions: &[
+        Addition {
+            title: "formula for the target diameter",
+            command: |state| add(LayerKind::constant(state.session.document().settings().transfer.h_max)),
+        },
+        Addition {
+            title: "formula for the risk",
+            command: |_| add(LayerKind::risk(Formula::constant_of(0.0))),
+        },
+    ],
+    parameters,
+};
+
+fn parameters(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut Vec<Command>) {
+    let LayerKind::Formula { quantity, formula } = &layer.kind else { return };
+    let mut chosen = *quantity;
+    let choices = [Quantity::Diameter, Quantity::Risk].map(|quantity| (quantity, quantity_name(quantity)));
+    if segmented(ui, "What the formula gives", &mut chosen, &choices).changed() {
+        let kind = LayerKind::Formula { quantity: chosen, formula: formula.clone() };
+        set_kind_once(layer, kind, commands);
+    }
+    ui.add_space(4.0);
+    if let (Quantity::Diameter, Some(diameter)) = (quantity, formula.constant()) {
+        constant_row(ui, state, layer, diameter, commands);
+    }
+    let row = match quantity {
+        Quantity::Diameter => FormulaRow {
+            label: "Target diameter h̄(x, y)",
+            hint: "if(abs(x) + abs(y) < 0.4, 0.01, 0.2)",
+            help: "Target diameter at x and y, as a formula; h_min and h_max bound it.",
+        },
+        Quantity::Risk => FormulaRow {
+            label: "Risk at (x, y)",
+            hint: "if(abs(x) + abs(y) < 0.4, 1, 0)",
+            help: "Risk at x and y, 0 to 1, as a formula.",
+        },
+    };
+    if let Some(Some(formula)) = row.show(ui, state, Some(formula)) {
+        set_kind_once(layer, LayerKind::Formula { quantity: *quantity, formula }, commands);
+    }
+}
+
+/// A formula that is the same everywhere, as a number.
+fn constant_row(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, value: f64, commands: &mut Vec<Command>) {
+    let h_max = state.session.document().settings().transfer.h_max;
+    let mut value = value;
+    let help = "Target diameter everywhere; h_min and h_max bound it.";
+    let row = NumberRow::new("Diameter", &mut value).range(f64::MIN_POSITIVE..=f64::MAX).default(h_max);
+    if row.unit(state.unit().symbol()).help(help).show(ui).changed() {
+        set_kind_once(layer, LayerKind::constant(value), commands);
+    }
+}

@@ -1,0 +1,40 @@
+//! Layers to paint on.
+
+use eframe::egui::Ui;
+
+use super::{Addition, KindPanel, add, quantity_name};
+use crate::app::command::{Command, LayerCommand};
+use crate::app::frame::FrameState;
+use crate::app::widgets::{ActionButton, Icon, ValueRow};
+use crate::layers::{Layer, LayerKind, Quantity};
+use crate::text::Bytes;
+
+/// Painted risk and painted diameters.
+pub const PAINT: KindPanel = KindPanel {
+    is_of: |kind| matches!(kind, LayerKind::Paint(_)),
+    icon: Icon::BRUSH,
+    additions: &[
+        Addition { title: "paint, as risk", command: |_| add(LayerKind::Paint(Quantity::Risk)) },
+        Addition {
+            title: "paint, as target diameter",
+            command: |_| add(LayerKind::Paint(Quantity::Diameter)),
+        },
+    ],
+    parameters,
+};
+
+fn parameters(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut Vec<Command>) {
+    let LayerKind::Paint(quantity) = layer.kind else { return };
+    let help = "What the pixels mean: a risk from 0 to 1, or a target diameter in the unit of the document.";
+    ValueRow::new("Painted as", quantity_name(quantity)).help(help).show(ui);
+    let painted = state.session.document().paint().get(layer.id);
+    let bytes = painted.map_or(0, |raster| raster.bytes());
+    let help = "Memory of the painted pixels. They are as fine as the strokes that painted them.";
+    ValueRow::new("Painted pixels", &Bytes(bytes).to_string()).help(help).show(ui);
+    ui.add_space(4.0);
+    let is_blank = painted.is_none_or(|raster| raster.is_blank());
+    let button = ActionButton::new("Clear this layer");
+    if ui.add_enabled_ui(!is_blank, |ui| ui.add(button)).inner.clicked() {
+        commands.push(Command::Layer(LayerCommand::Clear(layer.id)));
+    }
+}

@@ -1,0 +1,48 @@
+//! The parameters of the selected layer.
+
+use eframe::egui::Ui;
+
+use super::kinds::kind_of;
+use crate::app::command::{Command, LayerCommand};
+use crate::app::frame::FrameState;
+use crate::app::panels::remark;
+use crate::app::widgets::{Section, segmented, tips};
+use crate::layers::{Combine, Layer};
+
+/// The name of the group of choices.
+const COMBINE: &str = "How the layer combines";
+
+/// The name of a way to combine.
+pub fn combine_name(combine: Combine) -> &'static str {
+    match combine {
+        Combine::Finest => "Finest",
+        Combine::Floor => "Floor",
+        Combine::Replace => "Replace",
+    }
+}
+
+/// Shows the section.
+pub fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
+    let Some(layer) = state.session.document().active_layer() else { return };
+    let section = Section::new("Selected layer").note(&layer.name);
+    section.show(ui, |ui| {
+        if layer.locked {
+            remark(ui, "The layer is locked: unlock it to change it.");
+        }
+        ui.push_id(layer.id.0, |ui| {
+            ui.add_enabled_ui(!layer.locked, |ui| {
+                combine_rows(ui, layer, commands);
+                (kind_of(&layer.kind).parameters)(ui, state, layer, commands);
+            });
+        });
+    });
+}
+
+fn combine_rows(ui: &mut Ui, layer: &Layer, commands: &mut Vec<Command>) {
+    let mut combine = layer.combine;
+    let choices = Combine::ALL.map(|combine| (combine, combine_name(combine)));
+    if segmented(ui, COMBINE, &mut combine, &choices).changed() {
+        commands.push(Command::Layer(LayerCommand::Combine(layer.id, combine)));
+    }
+    remark(ui, tips::sentence(&format!("{COMBINE}/{}", combine_name(layer.combine))));
+}

@@ -1,0 +1,134 @@
+//! The layers of a document: which one a brush paints on, and blank pixels for it.
+
+use glam::DVec2;
+
+use super::{Document, Settings};
+use crate::layers::{Layer, LayerId, Quantity};
+use crate::paint::Medium;
+use crate::raster::{PixelGrid, TiledRaster};
+
+/// Pixels of depth 0 along the longer side of the domain. Strokes choose their depth by their radius.
+const COARSEST_PIXELS: f64 = 1024.0;
+
+/// Why nothing can be painted with a brush.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum NoPaintLayer {
+    /// There is no paint layer for the brush.
+    #[error("No layer for painted {}: add a paint layer to paint on.", quantity(*.0))]
+    Missing(Option<Quantity>),
+    /// The layer is locked.
+    #[error("The layer “{name}” is locked: unlock it to paint on it, or select another layer.")]
+    Locked {
+        /// The layer.
+        id: LayerId,
+        /// Its name.
+        name: String,
+    },
+    /// The layer is hidden.
+    #[error("The layer “{name}” is hidden: show it to paint on it, or select another layer.")]
+    Hidden {
+        /// The layer.
+        id: LayerId,
+        /// Its name.
+        name: String,
+    },
+}
+
+fn quantity(quantity: Option<Quantity>) -> &'static str {
+    match quantity {
+        Some(Quantity::Risk) => "risk",
+        Some(Quantity::Diameter) => "diameters",
+        None => "risk or diameters",
+    }
+}
+
+impl Settings {
+    /// A layer by its identifier.
+    pub fn layer(&self, id: LayerId) -> Option<&Layer> {
+        self.layers.iter().find(|layer| layer.id == id)
+    }
+
+    /// A raster for a paint layer, with nothing painted. Its pixels are square, and lie at the lower left
+    /// corner of the domain.
+    pub fn blank_raster(&self, id: LayerId) -> TiledRaster {
+        let bounds = self.domain.bounds;
+        let pixel = DVec2::splat(bounds.size().max_element() / COARSEST_PIXELS);
+        let blank = match self.layer(id).and_then(Layer::paints) {
+            Some(Quantity::Risk) => 0.0,
+            _ => f32::INFINITY,
+        };
+        TiledRaster::new(PixelGrid { origin: bounds.min, pixel }, blank)
+    }
+}
+
+impl Document {
+    /// The risk at a point in world units, 0 to 1: the highest of all visible layers of risk; `None` where
+    /// none has a value, and beyond the domain's rectangle.
+    pub fn risk_at(&self, point: DVec2) -> Option<f64> {
+        if !self.settings.domain.bounds.contains(point) {
+            return None;
+        }
+        let visible = self.settings.layers.iter().filter(|layer| layer.visible);
+        visible.filter_map(|layer| layer.risk_at(&self.paint, point)).reduce(f64::max)
+    }
+
+    /// Removes the paint of a layer, as one gesture.
+    pub fn clear_layer(&mut self, id: LayerId) {
+        self.clear_layers(&[id], "clear layer");
+    }
+
+    /// The layer that brush and eraser were last used on, or that was selected since.
+    pub fn active_layer(&self) -> Option<&Layer> {
+        self.active.and_then(|id| self.settings.layer(id))
+    }
+
+    /// An identifier for a new layer: no layer has it, and no pixels of a deleted layer are kept under it.
+    pub fn unused_layer_id(&self) -> LayerId {
+        let is_used = |id: LayerId| self.settings.layer(id).is_some() || self.paint.get(id).is_some();
+        (0..=u32::MAX).map(LayerId).find(|id| !is_used(*id)).expect("there are fewer layers than numbers")
+    }
+
+    /// Selects the layer that brush and eraser are used on. This is no edit.
+    pub fn activate_layer(&mut self, id: LayerId) {
+        self.active = Some(id);
+    }
+
+    /// Gives a new layer the pixels of another one. The layer itself is added by a setting.
+    pub fn copy_paint(&mut self, from: LayerId, to: LayerId) {
+        if let Some(raster) = self.paint.get(from).cloned() {
+            self.paint.insert(to, raster);
+            self.edits.layers.insert(to);
+        }
+    }
+
+    /// The layer that a brush with this medium paints on: the active one if it takes the medium, otherwise
+    /// the highest that does.
+    ///
+    /// # Errors
+    /// When there is none, or it is locked or hidden.
+    pub fn layer_for(&self, medium: &Medium) -> Result<LayerId, NoPaintLayer> {
+        let wanted = match medium {
+            Medium::Risk(_) => Some(Quantity::Risk),
+            Medium::Diameter(..) => Some(Quantity::Diameter),
+            Medium::Eraser => None,
+        };
+        let takes = |layer: &&Layer| match (layer.paints(), wanted) {
+            (Some(quantity), Some(wanted)) => quantity == wanted,
+            (quantity, None) => quantity.is_some(),
+            (None, Some(_)) => false,
+        };
+        let highest = || self.settings.layers.iter().rev().find(takes);
+        let layer = self.active_layer().filter(takes).or_else(highest);
+        match layer {
+            None => Err(NoPaintLayer::Missing(wanted)),
+            Some(Layer { id, locked: true, name, .. }) => {
+                Err(NoPaintLayer::Locked { id: *id, name: name.clone() })
+            }
+            Some(Layer { id, visible: false, name, .. }) => {
+                Err(NoPaintLayer::Hidden { id: *id, name: name.clone() })
+            }
+            Some(layer) => Ok(layer.id),
+        }
+    }
+}

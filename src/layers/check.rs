@@ -1,0 +1,98 @@
+//! Finds places where a formula gives a number that no layer can have.
+
+use glam::DVec2;
+
+use super::SizeField;
+use super::engine::analytic::{Analytic, center, cut_between_squares};
+use super::engine::cells::Cells;
+use crate::geometry::Lattice;
+use crate::mesh::Progress;
+use crate::text::Number;
+
+/// A layer with a value that no mesh can meet.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error(
+    "The layer “{layer}” gives {} at x = {}, y = {}: {rule}.", Number(*value), Number(at.x), Number(at.y)
+)]
+pub struct InvalidLayer {
+    /// The name of the layer.
+    pub layer: String,
+    /// A place, in world units.
+    pub at: DVec2,
+    /// The value there.
+    pub value: f64,
+    /// What is allowed.
+    pub rule: &'static str,
+}
+
+/// Checks the formulas of a field, in slices.
+///
+/// Interval arithmetic proves most formulas valid with a few evaluations. Where it does not, the formula is
+/// evaluated at the centres of about 1024 × 1024 squares, so that a single bad point can be missed; there the
+/// layer asks for nothing.
+#[derive(Clone, Debug)]
+pub struct LayerCheck {
+    /// What is left: the number of a layer among the visible ones, and cells.
+    left: Vec<(usize, Cells)>,
+}
+
+/// Binary logarithm of the number of squares along the longer side, at most.
+const FINEST_LOG: u32 = 10;
+
+impl LayerCheck {
+    /// Work that checks all visible layers of a field.
+    pub fn new(field: &SizeField) -> Self {
+        let all = Cells::all(field.lattice().extent());
+        let analytic = |n: &usize| field.compiled()[*n].analytic().is_some();
+        Self { left: (0..field.compiled().len()).rev().filter(analytic).map(|n| (n, all)).collect() }
+    }
+
+    /// Whether nothing is left.
+    pub fn is_done(&self) -> bool {
+        self.left.is_empty()
+    }
+
+    /// About `budget` evaluations.
+    ///
+    /// # Errors
+    /// The first invalid value.
+    pub fn advance(&mut self, field: &SizeField, budget: usize) -> Result<Progress, InvalidLayer> {
+        for _ in 0..budget {
+            let Some((number, cells)) = self.left.pop() else { return Ok(Progress::Done) };
+            let layer = &field.compiled()[number];
+            let Some(analytic) = layer.analytic() else { continue };
+            match checked(analytic, &cells, field.lattice()) {
+                Checked::Valid => {}
+                Checked::Divided(parts) => self.left.extend(parts.map(|part| (number, part))),
+                Checked::Invalid { at, value } => {
+                    let named = field.spec().layers.iter().find(|named| named.id == layer.id);
+                    let layer = named.map_or_else(String::new, |named| named.name.clone());
+                    return Err(InvalidLayer { layer, at, value, rule: analytic.rule() });
+                }
+            }
+        }
+        Ok(if self.is_done() { Progress::Done } else { Progress::More })
+    }
+}
+
+enum Checked {
+    Valid,
+    Divided([Cells; 2]),
+    Invalid { at: DVec2, value: f64 },
+}
+
+fn checked(analytic: &Analytic, cells: &Cells, lattice: &Lattice) -> Checked {
+    let extent = lattice.extent();
+    let bits = extent.x.max(extent.y).next_power_of_two().ilog2().saturating_sub(FINEST_LOG);
+    if analytic.is_valid_within(&cells.rounded_out(bits).world_rect(lattice)) {
+        return Checked::Valid;
+    }
+    match cut_between_squares(cells, bits) {
+        Some(cut) => Checked::Divided(cells.divided(cut)),
+        None => {
+            let at = center(cells, lattice, bits);
+            let value = analytic.raw(at);
+            if analytic.is_valid(value) { Checked::Valid } else { Checked::Invalid { at, value } }
+        }
+    }
+}

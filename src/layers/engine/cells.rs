@@ -1,0 +1,249 @@
+//! Rectangles of lattice cells, and the pixels of a raster on the lattice.
+
+use glam::DVec2;
+
+use crate::geometry::{Lattice, LatticePoint, LatticeRect, Octagon, Rect};
+use crate::raster::{PixelGrid, ValueRange, ValueRanges, power_of_two};
+
+/// A half-open rectangle of the unit cells of a lattice: cell [x, y] lies between lattice points [x, y] and
+/// [x + 1, y + 1].
+///
+/// The value of every layer is constant on each cell. So a rectangle that is divided again and again ends
+/// at cells on which every question is decided.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Cells {
+    /// First column and row.
+    pub min: [i64; 2],
+    /// One past the last column and row.
+    pub max: [i64; 2],
+}
+
+/// Where a rectangle of cells is divided in two.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Cut {
+    /// 0: between columns, 1: between rows.
+    pub axis: usize,
+    /// The first column or row of the second part.
+    pub at: i64,
+}
+
+impl Cells {
+    /// The cells that touch a closed triangle, and others in the rectangle around it.
+    #[inline]
+    pub fn around(triangle: &Octagon, extent: LatticePoint) -> Self {
+        let [min, max] = triangle.bounds();
+        let extent = [i64::from(extent.x), i64::from(extent.y)];
+        Self {
+            min: min.map(|v| (v - 1).max(0)),
+            max: [(max[0] + 1).min(extent[0]), (max[1] + 1).min(extent[1])],
+        }
+    }
+
+    /// All cells of a lattice.
+    pub fn all(extent: LatticePoint) -> Self {
+        Self { min: [0, 0], max: [i64::from(extent.x), i64::from(extent.y)] }
+    }
+
+    /// The closed rectangle that the cells cover.
+    #[inline]
+    pub fn octagon(&self) -> Octagon {
+        Octagon::rect(self.min, self.max)
+    }
+
+    /// The two parts on both sides of a cut.
+    #[inline]
+    pub fn divided(self, cut: Cut) -> [Self; 2] {
+        let (mut low, mut high) = (self, self);
+        low.max[cut.axis] = cut.at;
+        high.min[cut.axis] = cut.at;
+        [low, high]
+    }
+
+    /// Whether a cut has cells on both sides.
+    #[inline]
+    pub fn admits(&self, cut: Cut) -> bool {
+        self.min[cut.axis] < cut.at && cut.at < self.max[cut.axis]
+    }
+
+    /// A cut through the longer side at a multiple of the largest power of two that has one there: parts of
+    /// several rectangles then coincide. `None` for a single cell.
+    #[inline]
+    pub fn middle(&self) -> Option<Cut> {
+        let side = |axis: usize| self.max[axis] - self.min[axis];
+        let axis = usize::from(side(1) > side(0));
+        if side(axis) <= 1 {
+            return None;
+        }
+        // The highest bit in which the first and the last cell differ.
+        let (first, last) = (self.min[axis], self.max[axis] - 1);
+        let bit = (first ^ last).ilog2();
+        Some(Cut { axis, at: last >> bit << bit })
+    }
+
+    /// The smallest rectangle of squares of `1 << bits` cells that holds these cells.
+    #[inline]
+    pub fn rounded_out(&self, bits: u32) -> Self {
+        let side = 1 << bits;
+        Self {
+            min: self.min.map(|v| v >> bits << bits),
+            max: self.max.map(|v| (v + side - 1) >> bits << bits),
+        }
+    }
+
+    /// The common cells.
+    pub fn intersection(&self, other: &Self) -> Option<Self> {
+        let common = Self {
+            min: [self.min[0].max(other.min[0]), self.min[1].max(other.min[1])],
+            max: [self.max[0].min(other.max[0]), self.max[1].min(other.max[1])],
+        };
+        (common.min[0] < common.max[0] && common.min[1] < common.max[1]).then_some(common)
+    }
+
+    /// The rectangle in world units; parts beyond the lattice are cut off.
+    #[inline]
+    pub fn world_rect(&self, lattice: &Lattice) -> Rect {
+        let extent = lattice.extent();
+        let corner = |[x, y]: [i64; 2]| {
+            let point = LatticePoint::new(
+                x.clamp(0, i64::from(extent.x)) as u32,
+                y.clamp(0, i64::from(extent.y)) as u32,
+            );
+            lattice.world_from_lattice(point)
+        };
+        Rect::new(corner(self.min), corner(self.max))
+    }
+}
+
+impl From<Cells> for LatticeRect {
+    /// The closed rectangle. The cells must lie on the lattice.
+    fn from(cells: Cells) -> Self {
+        let [min, max] = [cells.min, cells.max].map(|[x, y]| LatticePoint::new(x as u32, y as u32));
+        Self { min, max }
+    }
+}
+
+/// The pixels of a raster as rectangles of lattice cells.
+///
+/// Lines between pixels are rounded down to the lattice. So each cell belongs to one pixel at every scale,
+/// and squares of several pixels consist of the cells of these pixels.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GridOnLattice {
+    /// The lower left corner of pixel [0, 0] in lattice coordinates.
+    origin: DVec2,
+    /// Lattice steps per pixel.
+    steps: DVec2,
+    /// Binary logarithm of the shorter side of a pixel in lattice steps, rounded down.
+    log_steps: i32,
+}
+
+/// A line between pixels that is a lattice line, but for rounding errors, is taken for that line.
+const ROUNDING: f64 = 1.0 / 65536.0;
+
+impl GridOnLattice {
+    pub fn new(grid: &PixelGrid, lattice: &Lattice) -> Self {
+        let steps = grid.pixel / lattice.step();
+        let origin = (grid.origin - lattice.bounds().min) / lattice.step();
+        Self { origin, steps, log_steps: exponent(steps.min_element()) }
+    }
+
+    /// The lattice coordinate of line `n` between squares at a scale, along an axis.
+    #[inline]
+    fn line(&self, scale: i32, axis: usize, n: i64) -> i64 {
+        let side = self.steps[axis] * power_of_two(scale);
+        floor(self.origin[axis] + n as f64 * side + ROUNDING)
+    }
+
+    /// The square [x, y] at a scale, see [`ValueRanges`].
+    #[inline]
+    pub fn square(&self, scale: i32, x: i64, y: i64) -> Cells {
+        Cells {
+            min: [self.line(scale, 0, x), self.line(scale, 1, y)],
+            max: [self.line(scale, 0, x + 1), self.line(scale, 1, y + 1)],
+        }
+    }
+
+    /// The first and the last column (axis 0) or row (axis 1) of the squares at a scale that have cells from
+    /// `first` to `last`.
+    #[inline]
+    fn columns(&self, scale: i32, axis: usize, [first, last]: [i64; 2]) -> [i64; 2] {
+        [self.column(scale, axis, first), self.column(scale, axis, last)]
+    }
+
+    /// The column (axis 0) or row (axis 1) of the square at a scale that has the cells in a lattice column
+    /// or row.
+    #[inline]
+    pub fn column(&self, scale: i32, axis: usize, cell: i64) -> i64 {
+        let side = self.steps[axis] * power_of_two(scale);
+        let mut n = floor((cell as f64 - self.origin[axis]) / side);
+        // The quotient is rounded, and so are the lines.
+        while self.line(scale, axis, n + 1) <= cell {
+            n += 1;
+        }
+        while self.line(scale, axis, n) > cell {
+            n -= 1;
+        }
+        n
+    }
+
+    /// The scale at which a rectangle of cells spans about one square, no coarser than `coarsest`.
+    #[inline]
+    pub fn scale_of(&self, cells: &Cells, coarsest: i32) -> i32 {
+        let longer = (cells.max[0] - cells.min[0]).max(cells.max[1] - cells.min[1]).max(1);
+        (longer.ilog2() as i32 + 1 - self.log_steps).min(coarsest)
+    }
+
+    /// The squares at a scale that have cells of a rectangle: [first column, first row], [last column, last
+    /// row].
+    #[inline]
+    pub fn squares(&self, scale: i32, cells: &Cells) -> [[i64; 2]; 2] {
+        let [x0, x1] = self.columns(scale, 0, [cells.min[0], cells.max[0] - 1]);
+        let [y0, y1] = self.columns(scale, 1, [cells.min[1], cells.max[1] - 1]);
+        [[x0, y0], [x1, y1]]
+    }
+
+    /// The range of the values of a raster in a rectangle of cells, and where to divide the rectangle to know
+    /// more: at a line between squares. There is no such line when the range is exact.
+    pub fn range(&self, raster: &impl ValueRanges, cells: &Cells) -> (ValueRange, Option<Cut>) {
+        let mut scale = self.scale_of(cells, raster.coarsest());
+        loop {
+            let [low, high] = self.squares(scale, cells);
+            let range = joined_range(raster, scale, low, high);
+            if range.is_one() {
+                return (range, None);
+            }
+            let cut = (0..2).filter(|&axis| low[axis] < high[axis]).find_map(|axis| {
+                let cut = Cut { axis, at: self.line(scale, axis, high[axis]) };
+                cells.admits(cut).then_some(cut)
+            });
+            if cut.is_some() {
+                return (range, cut);
+            }
+            // The cells lie within one square: its quarters tell more.
+            scale -= 1;
+        }
+    }
+}
+
+/// The range over squares from `low` to `high`, both included.
+#[inline]
+fn joined_range(raster: &impl ValueRanges, scale: i32, low: [i64; 2], high: [i64; 2]) -> ValueRange {
+    let mut range = raster.range(scale, low[0] as i32, low[1] as i32);
+    for y in low[1]..=high[1] {
+        for x in low[0]..=high[0] {
+            range = range.union(raster.range(scale, x as i32, y as i32));
+        }
+    }
+    range
+}
+
+#[inline]
+fn floor(v: f64) -> i64 {
+    let truncated = v as i64;
+    truncated - i64::from((truncated as f64) > v)
+}
+
+/// The exponent of a positive number: 2ᵉ ≤ x < 2ᵉ⁺¹.
+#[inline]
+fn exponent(x: f64) -> i32 {
+    (x.to_bits() >> 52) as i32 - 1023
+}

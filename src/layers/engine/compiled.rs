@@ -1,0 +1,298 @@
+//! One layer on a lattice.
+
+use std::sync::Arc;
+
+use glam::DVec2;
+
+use crate::field::{Formula, Transfer};
+use crate::geometry::{Lattice, Octagon};
+use crate::layers::{
+    Combine, Coverage, DistanceTo, Layer, LayerId, LayerKind, Mask, PaintLayers, Quantity, RasterReading,
+    RasterSource, Shapes,
+};
+use crate::raster::{PixelGrid, RasterPyramid, ValueRange, ValueRanges};
+
+use super::analytic::{Analytic, Function, center, cut_between_squares, square_bits};
+use super::asked::Share;
+use super::cells::{Cells, Cut, GridOnLattice};
+use super::reading::{Answer, Diameters, Reading, lengths};
+use super::search::{RasterSearch, any_cell};
+
+/// A visible layer, prepared for questions on one lattice.
+#[derive(Clone, Debug)]
+pub struct CompiledLayer {
+    pub id: LayerId,
+    pub combine: Combine,
+    mask: Option<Mask>,
+    reading: Reading,
+    values: Values,
+    /// See [`square_bits`].
+    bits: u32,
+}
+
+/// Where the values of a layer come from.
+#[derive(Clone, Debug)]
+enum Values {
+    /// There are none.
+    Nothing,
+    /// The same value everywhere.
+    Constant(Analytic),
+    /// Painted pixels, which are passed with each question.
+    Paint,
+    /// The pixels of a raster.
+    Raster { raster: Arc<RasterPyramid>, gap: f32, grid: GridOnLattice },
+    /// A function of the point.
+    Analytic(Analytic),
+}
+
+impl CompiledLayer {
+    /// Without an `outline`, nothing is near to it.
+    pub fn new(layer: &Layer, transfer: &Transfer, lattice: &Lattice, outline: Option<&Shapes>) -> Self {
+        let spacing = lattice.spacing();
+        let reading = |quantity, nothing| match quantity {
+            Quantity::Risk => Reading::risk(transfer, spacing, nothing),
+            Quantity::Diameter => Reading::diameter(spacing),
+        };
+        const NO_RISK: f32 = f32::NEG_INFINITY;
+        let (reading, values) = match &layer.kind {
+            LayerKind::Paint(quantity) => (reading(*quantity, 0.0), Values::Paint),
+            LayerKind::Formula { quantity, formula } => {
+                (reading(*quantity, NO_RISK), Values::of_formula(*quantity, formula))
+            }
+            LayerKind::Raster { source, reading: of } => {
+                let (reading, gap) = match of {
+                    RasterReading::Risk => (reading(Quantity::Risk, NO_RISK), NO_RISK),
+                    RasterReading::Diameter => (reading(Quantity::Diameter, NO_RISK), f32::INFINITY),
+                    RasterReading::Curve(curve) => {
+                        (Reading::Curve { curve: curve.clone(), lengths: lengths(spacing) }, f32::INFINITY)
+                    }
+                };
+                (reading, Values::of_raster(source, gap, lattice))
+            }
+            LayerKind::Threats(threats) => {
+                let function = Function::Threats(threats.clone());
+                (
+                    reading(Quantity::Risk, 0.0),
+                    Values::Analytic(Analytic { function, quantity: Quantity::Risk }),
+                )
+            }
+            LayerKind::Distance { to, at_zero, slope, range } => {
+                let shapes = match to {
+                    DistanceTo::Outline => outline,
+                    DistanceTo::Shapes { shapes, .. } => Some(shapes),
+                };
+                let values = shapes.map_or(Values::Nothing, |shapes| {
+                    let (shapes, at_zero, slope, range) = (shapes.clone(), *at_zero, *slope, *range);
+                    let function = Function::Distance { shapes, at_zero, slope, range };
+                    Values::Analytic(Analytic { function, quantity: Quantity::Diameter })
+                });
+                (reading(Quantity::Diameter, NO_RISK), values)
+            }
+            LayerKind::Band { source, between, diameter } => {
+                let lengths = lengths(spacing);
+                let reading = Reading::Band { between: *between, diameter: *diameter, lengths };
+                (reading, Values::of_raster(source, f32::INFINITY, lattice))
+            }
+        };
+        let (id, combine, mask, bits) = (layer.id, layer.combine, layer.mask.clone(), square_bits(lattice));
+        Self { id, combine, mask, reading, values, bits }
+    }
+
+    /// Whether the layer can be asked alone: where it asks, h̄ is no greater.
+    pub fn is_plain(&self) -> bool {
+        self.combine == Combine::Finest
+    }
+
+    /// The function of the point that the layer is given by, if it is.
+    pub fn analytic(&self) -> Option<&Analytic> {
+        match &self.values {
+            Values::Constant(analytic) | Values::Analytic(analytic) => Some(analytic),
+            Values::Nothing | Values::Paint | Values::Raster { .. } => None,
+        }
+    }
+
+    /// Whether a cell that touches the triangle asks for more than the level. `around` are the cells around
+    /// the triangle.
+    #[inline]
+    pub fn any_below(
+        &self,
+        paint: &PaintLayers,
+        triangle: &Octagon,
+        around: Cells,
+        level: usize,
+        lattice: &Lattice,
+    ) -> bool {
+        if self.mask.is_some() {
+            return self.any_below_in_mask(paint, triangle, around, level, lattice);
+        }
+        match &self.values {
+            Values::Constant(constant) => {
+                let value = ValueRange::one(constant.at(lattice.bounds().min));
+                self.reading.answer(value, level).asks == Share::All
+            }
+            Values::Nothing => false,
+            Values::Paint => paint.get(self.id).is_some_and(|raster| {
+                let grid = GridOnLattice::new(raster.grid(), lattice);
+                let search = RasterSearch { raster, grid: &grid, reading: &self.reading, level };
+                search.any(triangle, &around)
+            }),
+            Values::Raster { raster, gap, grid } => {
+                let raster = &WithGaps { raster, gap: *gap };
+                RasterSearch { raster, grid, reading: &self.reading, level }.any(triangle, &around)
+            }
+            Values::Analytic(_) => self.any_below_in_mask(paint, triangle, around, level, lattice),
+        }
+    }
+
+    /// [`Self::any_below`] by rectangles of cells.
+    fn any_below_in_mask(
+        &self,
+        paint: &PaintLayers,
+        triangle: &Octagon,
+        around: Cells,
+        level: usize,
+        lattice: &Lattice,
+    ) -> bool {
+        let mut ask = |cells: &Cells| {
+            let (answer, cut) = self.answer(paint, cells, level, lattice);
+            (answer.asks, cut)
+        };
+        any_cell(triangle, around, &mut ask)
+    }
+
+    /// How many of some cells the mask covers, and where to divide them to know more.
+    fn coverage(&self, cells: &Cells, lattice: &Lattice) -> (Share, Option<Cut>) {
+        let Some(mask) = &self.mask else { return (Share::All, None) };
+        let Some(cut) = cut_between_squares(cells, self.bits) else {
+            return (Share::of(mask.contains(center(cells, lattice, self.bits))), None);
+        };
+        match mask.classify(&cells.rounded_out(self.bits).world_rect(lattice)) {
+            Coverage::Inside => (Share::All, None),
+            Coverage::Outside => (Share::None, None),
+            Coverage::Mixed => (Share::Some, Some(cut)),
+        }
+    }
+
+    /// What the layer asks for in some cells, and where to divide them to know more.
+    pub fn answer(
+        &self,
+        paint: &PaintLayers,
+        cells: &Cells,
+        level: usize,
+        lattice: &Lattice,
+    ) -> (Answer, Option<Cut>) {
+        let (coverage, mask_cut) = self.coverage(cells, lattice);
+        if coverage == Share::None {
+            return (Answer::NOTHING, None);
+        }
+        let (range, cut) = self.range(paint, cells, lattice);
+        let Some(range) = range else { return (Answer::NOTHING, None) };
+        let mut answer = self.reading.answer(range, level);
+        if coverage == Share::Some {
+            answer = Answer { asks: answer.asks.masked(), present: answer.present.masked() };
+        }
+        (answer, mask_cut.or(cut).filter(|_| answer.is_undecided()))
+    }
+
+    /// The diameters that the layer asks for in some cells, and where to divide them to know more.
+    pub fn diameters(
+        &self,
+        paint: &PaintLayers,
+        cells: &Cells,
+        lattice: &Lattice,
+    ) -> (Diameters, Option<Cut>) {
+        let (coverage, mask_cut) = self.coverage(cells, lattice);
+        if coverage == Share::None {
+            return (Diameters::NOTHING, None);
+        }
+        let (range, cut) = self.range(paint, cells, lattice);
+        let mut diameters = range.map_or(Diameters::NOTHING, |range| self.reading.diameters(range));
+        if coverage == Share::Some {
+            diameters.present = diameters.present.masked();
+            diameters.greatest = f64::INFINITY;
+        }
+        (diameters, mask_cut.or(cut))
+    }
+
+    /// The range of the values in some cells, `None` where the layer has none, and where to divide the cells
+    /// to know more.
+    fn range(
+        &self,
+        paint: &PaintLayers,
+        cells: &Cells,
+        lattice: &Lattice,
+    ) -> (Option<ValueRange>, Option<Cut>) {
+        let (range, cut) = match &self.values {
+            Values::Constant(constant) => (ValueRange::one(constant.at(lattice.bounds().min)), None),
+            Values::Nothing => return (None, None),
+            Values::Paint => {
+                let Some(raster) = paint.get(self.id) else { return (None, None) };
+                GridOnLattice::new(raster.grid(), lattice).range(raster, cells)
+            }
+            Values::Raster { raster, gap, grid } => grid.range(&WithGaps { raster, gap: *gap }, cells),
+            Values::Analytic(analytic) => analytic.range(cells, lattice, self.bits),
+        };
+        (Some(range), cut)
+    }
+
+    /// The diameter that the layer asks for at a point in world units: infinite where it asks for nothing,
+    /// and NaN, zero or less where the value is not valid.
+    pub fn diameter_at(&self, paint: &PaintLayers, point: DVec2) -> f64 {
+        if self.mask.as_ref().is_some_and(|mask| !mask.contains(point)) {
+            return f64::INFINITY;
+        }
+        match &self.values {
+            Values::Constant(analytic) | Values::Analytic(analytic) => {
+                self.reading.diameter_of(analytic.raw(point))
+            }
+            Values::Nothing => f64::INFINITY,
+            Values::Paint => paint.get(self.id).map_or(f64::INFINITY, |raster| {
+                self.reading.diameters(ValueRange::one(raster.sample(point))).least
+            }),
+            Values::Raster { raster, gap, .. } => {
+                let value = raster.sample(point).unwrap_or(*gap);
+                self.reading.diameters(ValueRange::one(value)).least
+            }
+        }
+    }
+}
+
+impl Values {
+    fn of_raster(source: &RasterSource, gap: f32, lattice: &Lattice) -> Self {
+        let grid = GridOnLattice::new(source.raster.grid(), lattice);
+        Self::Raster { raster: source.raster.clone(), gap, grid }
+    }
+
+    fn of_formula(quantity: Quantity, formula: &Formula) -> Self {
+        let analytic = Analytic { function: Function::Formula(formula.clone()), quantity };
+        match formula.constant() {
+            Some(_) => Self::Constant(analytic),
+            None => Self::Analytic(analytic),
+        }
+    }
+}
+
+/// A raster in which places without a value have a given one.
+struct WithGaps<'a> {
+    raster: &'a RasterPyramid,
+    gap: f32,
+}
+
+impl ValueRanges for WithGaps<'_> {
+    fn grid(&self) -> &PixelGrid {
+        self.raster.grid()
+    }
+
+    fn coarsest(&self) -> i32 {
+        self.raster.coarsest()
+    }
+
+    #[inline]
+    fn range(&self, scale: i32, x: i32, y: i32) -> ValueRange {
+        self.raster.square(scale, x, y).with_gaps(self.gap)
+    }
+
+    fn whole_range(&self) -> ValueRange {
+        self.raster.whole().with_gaps(self.gap)
+    }
+}

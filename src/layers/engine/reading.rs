@@ -1,0 +1,215 @@
+//! From the values of a layer to target diameters.
+
+use std::sync::Arc;
+
+use crate::field::{Bounds, RiskToDiameter, Transfer, TransferTable};
+use crate::layers::ValueCurve;
+use crate::mesh::bisection_edge_length;
+use crate::raster::ValueRange;
+
+use super::asked::Share;
+
+/// Number of levels that a reading answers for. A lattice has fewer.
+pub const LEVELS: usize = 64;
+
+/// What the values of a layer ask for, prepared for comparisons.
+///
+/// A value asks for more than level l when its target diameter is below ℓ_b of level l, Eq. (1). Risk and
+/// diameter depend on the value monotonically, so that this is one comparison with a limit for that level.
+#[derive(Clone, Debug)]
+pub enum Reading {
+    /// Risk: at least the limit of the level. Risk 0 asks for nothing.
+    Risk {
+        /// The smallest risk that asks for more than each level; infinite where none does.
+        least: Box<[f32; LEVELS]>,
+        transfer: Transfer,
+        table: TransferTable,
+        /// Risks up to this one ask for nothing: 0 in paint; elsewhere 0 asks for the largest diameter.
+        nothing: f32,
+    },
+    /// Target diameter: at most the limit of the level.
+    Diameter {
+        /// The largest diameter that asks for more than each level; zero where none does.
+        most: Box<[f32; LEVELS]>,
+    },
+    /// A curve of the values; infinity asks for nothing.
+    Curve { curve: Arc<ValueCurve>, lengths: Box<[f64; LEVELS]> },
+    /// One diameter for all values from the first to the second number.
+    Band { between: [f64; 2], diameter: f64, lengths: Box<[f64; LEVELS]> },
+}
+
+/// What the values of a range ask for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Answer {
+    /// Where the values ask for more than a level.
+    pub asks: Share,
+    /// Where the values ask for any diameter.
+    pub present: Share,
+}
+
+impl Answer {
+    /// Nothing is asked for.
+    pub const NOTHING: Self = Self { asks: Share::None, present: Share::None };
+
+    /// Whether the range needs to be divided to know more.
+    #[inline]
+    pub fn is_undecided(self) -> bool {
+        self.asks == Share::Some || self.present == Share::Some
+    }
+}
+
+/// The least and the greatest target diameter in a rectangle, in world units; infinite where nothing is asked
+/// for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Diameters {
+    /// No point asks for less.
+    pub least: f64,
+    /// No point asks for more.
+    pub greatest: f64,
+    /// Where any diameter is asked for.
+    pub present: Share,
+}
+
+impl Diameters {
+    /// Nothing is asked for.
+    pub const NOTHING: Self = Self { least: f64::INFINITY, greatest: f64::INFINITY, present: Share::None };
+}
+
+/// ℓ_b of each level, Eq. (1), in world units.
+pub fn lengths(spacing: f64) -> Box<[f64; LEVELS]> {
+    Box::new(std::array::from_fn(|level| bisection_edge_length(spacing, level as u32)))
+}
+
+impl Reading {
+    /// Risks in a mesh with the given coarse spacing.
+    pub fn risk(transfer: &Transfer, spacing: f64, nothing: f32) -> Self {
+        let table = TransferTable::new(transfer);
+        let asks = |risk: f32, length: f64| table.diameter(f64::from(risk)) < length;
+        let limit = |&length: &f64| least_risk(|risk| asks(risk, length));
+        let least: Vec<f32> = lengths(spacing).iter().map(limit).collect();
+        Self::Risk { least: to_array(least), transfer: *transfer, table, nothing }
+    }
+
+    /// Target diameters in a mesh with the given coarse spacing.
+    pub fn diameter(spacing: f64) -> Self {
+        let most = lengths(spacing).iter().map(|&length| largest_below(length)).collect();
+        Self::Diameter { most: to_array(most) }
+    }
+
+    /// What the values of a range ask for at a level.
+    #[inline]
+    pub fn answer(&self, range: ValueRange, level: usize) -> Answer {
+        let ValueRange { least, greatest } = range;
+        match self {
+            Self::Risk { least: limits, nothing, .. } => {
+                let limit = limits[level];
+                let asks = share(greatest >= limit, least >= limit);
+                Answer { asks, present: share(greatest > *nothing, least > *nothing) }
+            }
+            Self::Diameter { most } => {
+                let limit = most[level];
+                let asks = share(least <= limit, greatest <= limit);
+                Answer { asks, present: share(least < f32::INFINITY, greatest < f32::INFINITY) }
+            }
+            Self::Curve { lengths, .. } | Self::Band { lengths, .. } => {
+                let diameters = self.diameters(range);
+                let length = lengths[level];
+                let asks = share(diameters.least < length, diameters.greatest < length);
+                Answer { asks, present: diameters.present }
+            }
+        }
+    }
+
+    /// Whether a greater or a lower value always asks for more: then a range with [`Share::Some`] has a value
+    /// that asks.
+    #[inline]
+    pub fn is_monotone(&self) -> bool {
+        matches!(self, Self::Risk { .. } | Self::Diameter { .. })
+    }
+
+    /// The diameter that a number asks for, not rounded; infinite where it asks for nothing, and NaN, zero or
+    /// less where it is not valid.
+    pub fn diameter_of(&self, value: f64) -> f64 {
+        match self {
+            Self::Risk { transfer, .. } => transfer.diameter(value),
+            Self::Diameter { .. } => value,
+            Self::Curve { .. } | Self::Band { .. } => self.diameters(ValueRange::one(value as f32)).least,
+        }
+    }
+
+    /// The diameters that the values of a range ask for.
+    pub fn diameters(&self, range: ValueRange) -> Diameters {
+        let ValueRange { least, greatest } = range;
+        match self {
+            Self::Risk { table, nothing, .. } => {
+                let of = |risk: f32| match risk > *nothing {
+                    true => table.diameter(f64::from(risk)),
+                    false => f64::INFINITY,
+                };
+                let present = share(greatest > *nothing, least > *nothing);
+                Diameters { least: of(greatest), greatest: of(least), present }
+            }
+            Self::Diameter { .. } => Diameters {
+                least: f64::from(least),
+                greatest: f64::from(greatest),
+                present: share(least < f32::INFINITY, greatest < f32::INFINITY),
+            },
+            Self::Curve { curve, .. } => {
+                let present = share(least < f32::INFINITY, greatest < f32::INFINITY);
+                let [low, high] = [least, greatest].map(|value| f64::from(value.min(f32::MAX)));
+                let asked = match low == high {
+                    true => Bounds::one(curve.diameter(low)),
+                    false => curve.bounds(low, high),
+                };
+                let least = if present == Share::None { f64::INFINITY } else { asked.least };
+                let greatest = if present == Share::All { asked.greatest } else { f64::INFINITY };
+                Diameters { least, greatest, present }
+            }
+            Self::Band { between: [from, to], diameter, .. } => {
+                let [least, greatest] = [least, greatest].map(f64::from);
+                let present = share(greatest >= *from && least <= *to, least >= *from && greatest <= *to);
+                let [least, greatest] = match present {
+                    Share::All => [*diameter; 2],
+                    Share::Some => [*diameter, f64::INFINITY],
+                    Share::None => [f64::INFINITY; 2],
+                };
+                Diameters { least, greatest, present }
+            }
+        }
+    }
+}
+
+#[inline]
+fn share(any: bool, all: bool) -> Share {
+    if all {
+        Share::All
+    } else if any {
+        Share::Some
+    } else {
+        Share::None
+    }
+}
+
+fn to_array(values: Vec<f32>) -> Box<[f32; LEVELS]> {
+    values.into_boxed_slice().try_into().expect("one value for each level")
+}
+
+/// The largest number below `length`.
+fn largest_below(length: f64) -> f32 {
+    let nearest = length as f32;
+    if f64::from(nearest) < length { nearest } else { nearest.next_down() }
+}
+
+/// The smallest risk from 0 to 1 that `asks`, which no smaller and every greater risk does; infinite if none
+/// does. By bisection of the bits: those of positive numbers have the order of the numbers.
+fn least_risk(asks: impl Fn(f32) -> bool) -> f32 {
+    if !asks(1.0) {
+        return f32::INFINITY;
+    }
+    let (mut low, mut high) = (0u32, 1f32.to_bits());
+    while low < high {
+        let middle = low + (high - low) / 2;
+        if asks(f32::from_bits(middle)) { high = middle } else { low = middle + 1 }
+    }
+    f32::from_bits(low)
+}

@@ -1,0 +1,76 @@
+//! Whether some cell that touches a triangle asks for more than its level.
+
+use crate::geometry::Octagon;
+use crate::raster::ValueRanges;
+
+use super::asked::Share;
+use super::cells::{Cells, Cut, GridOnLattice};
+use super::reading::Reading;
+
+/// Whether a cell of `cells` that touches the closed triangle asks, by dividing the rectangle where `ask`
+/// says so.
+///
+/// `ask` answers for all cells of a rectangle: where they ask for more, and where to divide the rectangle to
+/// know more. It must give a cut wherever the answer is [`Share::Some`].
+pub fn any_cell(
+    triangle: &Octagon,
+    cells: Cells,
+    ask: &mut impl FnMut(&Cells) -> (Share, Option<Cut>),
+) -> bool {
+    if !triangle.meets(&cells.octagon()) {
+        return false;
+    }
+    match ask(&cells) {
+        (Share::None, _) => false,
+        (Share::All, _) => true,
+        (Share::Some, cut) => {
+            let cut = cut.expect("an undecided rectangle has a cut");
+            cells.divided(cut).into_iter().any(|part| any_cell(triangle, part, ask))
+        }
+    }
+}
+
+/// A search in one raster, square by square of its own.
+pub struct RasterSearch<'a, R> {
+    pub raster: &'a R,
+    pub grid: &'a GridOnLattice,
+    pub reading: &'a Reading,
+    pub level: usize,
+}
+
+impl<R: ValueRanges> RasterSearch<'_, R> {
+    /// Whether a pixel that touches the closed triangle asks for more than the level. `cells` are those
+    /// around the triangle.
+    ///
+    /// It starts at the scale where the triangle spans at most two squares along both axes, skips squares
+    /// whose values do not ask or that do not touch the triangle, and ends at a square that asks.
+    #[inline]
+    pub fn any(&self, triangle: &Octagon, cells: &Cells) -> bool {
+        if self.reading.answer(self.raster.whole_range(), self.level).asks == Share::None {
+            return false;
+        }
+        let scale = self.grid.scale_of(cells, self.raster.coarsest());
+        let [low, high] = self.grid.squares(scale, cells);
+        (low[1]..=high[1]).any(|y| (low[0]..=high[0]).any(|x| self.square(triangle, scale, x, y)))
+    }
+
+    fn square(&self, triangle: &Octagon, scale: i32, x: i64, y: i64) -> bool {
+        let asks = self.reading.answer(self.raster.range(scale, x as i32, y as i32), self.level).asks;
+        if asks == Share::None {
+            return false;
+        }
+        let cells = self.grid.square(scale, x, y);
+        let octagon = cells.octagon();
+        // A square between two lattice lines has no cell.
+        let is_empty = cells.min[0] >= cells.max[0] || cells.min[1] >= cells.max[1];
+        if is_empty || !triangle.meets(&octagon) {
+            return false;
+        }
+        if asks == Share::All || (self.reading.is_monotone() && triangle.contains(&octagon)) {
+            return true;
+        }
+        [0, 1]
+            .into_iter()
+            .any(|j| [0, 1].into_iter().any(|i| self.square(triangle, scale - 1, 2 * x + i, 2 * y + j)))
+    }
+}

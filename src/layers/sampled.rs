@@ -1,0 +1,102 @@
+//! h̄ on a grid of pixels, to be shown.
+
+use glam::DVec2;
+
+use super::{LayerId, PaintLayers, SizeField};
+use crate::geometry::Rect;
+use crate::raster::Raster;
+
+impl SizeField {
+    /// h̄ at the centres of the pixels of a grid over `bounds`, in world units; `size` is [columns, rows].
+    ///
+    /// Gradation is computed on the grid, by sweeps over the eikonal equation |∇h̄| = g: exact enough to be
+    /// shown, and much faster than a search for each pixel.
+    pub fn sampled(&self, paint: &PaintLayers, bounds: Rect, size: [u32; 2]) -> Raster {
+        self.sampled_with_layers(paint, bounds, size).0
+    }
+
+    /// The layers that decide h̄ at the centres of such pixels, row by row from the lowest; `None` where no
+    /// layer asks for anything. Gradation is computed as for [`Self::sampled`]: it carries the layer along
+    /// with its diameter.
+    pub fn sampled_decisions(
+        &self,
+        paint: &PaintLayers,
+        bounds: Rect,
+        size: [u32; 2],
+    ) -> Vec<Option<LayerId>> {
+        self.sampled_with_layers(paint, bounds, size).1
+    }
+
+    fn sampled_with_layers(
+        &self,
+        paint: &PaintLayers,
+        bounds: Rect,
+        size: [u32; 2],
+    ) -> (Raster, Vec<Option<LayerId>>) {
+        let mut raster = Raster::filled(bounds, size, 0.0);
+        let mut layers = Vec::with_capacity(raster.values().len());
+        let centers = raster.pixel_centers();
+        for (x, y) in raster.all().pixels() {
+            let (target, layer) = self.ungraded_at(paint, centers(x, y));
+            raster.set(x, y, target as f32);
+            layers.push(layer);
+        }
+        if let Some(slope) = self.spec().gradation {
+            limit_slope(&mut raster, &mut layers, slope);
+        }
+        (raster, layers)
+    }
+}
+
+/// Lowers values until they change by no more than `slope` per unit of length. The layers of a pixel become
+/// those of the neighbour that lowers it.
+fn limit_slope(raster: &mut Raster, layers: &mut [Option<LayerId>], slope: f64) {
+    let [columns, rows] = raster.size();
+    let step = raster.pixel_size() * slope;
+    let forward = |n: u32| (0..n).collect::<Vec<_>>();
+    let backward = |n: u32| (0..n).rev().collect::<Vec<_>>();
+    // Twice in each direction: the second round carries values around corners.
+    for _ in 0..2 {
+        for ys in [forward(rows), backward(rows)] {
+            for xs in [forward(columns), backward(columns)] {
+                for &y in &ys {
+                    for &x in &xs {
+                        let (limit, [from_x, from_y]) = from_neighbours(raster, x, y, step);
+                        if limit < f64::from(raster.get(x, y)) {
+                            raster.set(x, y, limit as f32);
+                            let [from, to] =
+                                [[from_x, from_y], [x, y]].map(|[x, y]| (y * columns + x) as usize);
+                            layers[to] = layers[from];
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// The value of the eikonal equation from the smaller neighbours along both axes, and the neighbour that
+/// lowers it most; `step` is the largest change per pixel.
+fn from_neighbours(raster: &Raster, x: u32, y: u32, step: DVec2) -> (f64, [u32; 2]) {
+    let [columns, rows] = raster.size();
+    let value = |inside: bool, x: u32, y: u32| match inside {
+        true => (f64::from(raster.get(x, y)), [x, y]),
+        false => (f64::INFINITY, [x, y]),
+    };
+    let smaller = |a: (f64, [u32; 2]), b: (f64, [u32; 2])| if b.0 < a.0 { b } else { a };
+    let (along_x, at_x) = smaller(value(x > 0, x.wrapping_sub(1), y), value(x + 1 < columns, x + 1, y));
+    let (along_y, at_y) = smaller(value(y > 0, x, y.wrapping_sub(1)), value(y + 1 < rows, x, y + 1));
+    let (one_sided, from) = smaller((along_x + step.x, at_x), (along_y + step.y, at_y));
+    // ((v − a) / sx)² + ((v − b) / sy)² = 1
+    let (a, b) = (along_x, along_y);
+    if !(a.is_finite() && b.is_finite()) {
+        return (one_sided, from);
+    }
+    let (p, q) = (1.0 / (step.x * step.x), 1.0 / (step.y * step.y));
+    let discriminant = (p + q) - p * q * (a - b) * (a - b);
+    if discriminant < 0.0 {
+        return (one_sided, from);
+    }
+    let both = (p * a + q * b + discriminant.sqrt()) / (p + q);
+    (if both >= a.max(b) { both.min(one_sided) } else { one_sided }, from)
+}

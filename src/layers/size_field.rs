@@ -1,0 +1,143 @@
+use super::engine::asked::Share;
+use super::engine::cells::{Cells, Cut};
+use super::engine::reading::{Answer, lengths};
+use super::engine::search::any_cell;
+use super::engine::{CompiledLayer, LEVELS, gradation};
+use super::{Combine, Layer, PaintLayers, Shapes};
+use crate::field::Transfer;
+use crate::geometry::{Lattice, LatticePoint, Octagon};
+use crate::mesh::Element;
+
+/// What a size field is made from, except for the painted pixels.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SizeFieldSpec {
+    /// From the bottom to the top.
+    pub layers: Vec<Layer>,
+    /// From risk to diameter; its ends bound h̄ everywhere.
+    pub transfer: Transfer,
+    /// h̄ where no layer asks for a diameter, in world units.
+    pub unasked: f64,
+    /// The boundary of the domain, where a layer asks for the distance to it.
+    pub outline: Option<Shapes>,
+    /// Largest change of h̄ per unit of length: |h̄(x) − h̄(y)| ≤ g |x − y|. `None` for any change.
+    pub gradation: Option<f64>,
+}
+
+/// h̄ over a lattice, as a stack of layers asks for it.
+///
+/// The rule of refinement asks whether a point of a closed triangle has h̄ < ℓ. *Finest wins* makes that an
+/// *or* over the layers; a floor makes it an *and*. So the stack is asked as one, for rectangles of lattice
+/// cells: each layer answers for all cells of a rectangle at once, the answers are combined, and only a
+/// rectangle that is still undecided is divided. There is no common raster: each layer is asked at its own
+/// resolution.
+///
+/// Painted pixels are passed with each question. They may change between two questions; then the mesh must
+/// be updated where they changed.
+#[derive(Clone, Debug)]
+pub struct SizeField {
+    spec: SizeFieldSpec,
+    lattice: Lattice,
+    /// ℓ_b of each level in world units, Eq. (1).
+    lengths: Box<[f64; LEVELS]>,
+    /// Visible layers, from the bottom to the top.
+    layers: Vec<CompiledLayer>,
+    /// Whether h̄ is the minimum over the layers, so that each can be asked alone.
+    is_minimum: bool,
+}
+
+impl SizeField {
+    /// The field of a spec on a lattice.
+    pub fn new(spec: SizeFieldSpec, lattice: &Lattice) -> Self {
+        let visible = spec.layers.iter().filter(|layer| layer.visible);
+        let layers: Vec<_> = visible
+            .map(|layer| CompiledLayer::new(layer, &spec.transfer, lattice, spec.outline.as_ref()))
+            .collect();
+        let is_minimum = layers.iter().all(CompiledLayer::is_plain);
+        Self { lattice: *lattice, lengths: lengths(lattice.spacing()), layers, is_minimum, spec }
+    }
+
+    /// What the field is made from.
+    pub fn spec(&self) -> &SizeFieldSpec {
+        &self.spec
+    }
+
+    /// The lattice that it answers for.
+    pub fn lattice(&self) -> &Lattice {
+        &self.lattice
+    }
+
+    /// The visible layers, from the bottom to the top.
+    pub(super) fn compiled(&self) -> &[CompiledLayer] {
+        &self.layers
+    }
+
+    /// Whether an element's diameter exceeds its target by the area rule: whether h̄ is below it at some
+    /// point of the closed triangle (Eqs. 12 and 13 of \[Report\], over all points).
+    #[inline]
+    pub fn exceeds(&self, paint: &PaintLayers, element: &Element) -> bool {
+        self.asks_for_more(paint, element.corners, element.triangle.level())
+    }
+
+    /// [`Self::exceeds`] of a triangle by its corners and its level.
+    #[inline]
+    pub fn asks_for_more(&self, paint: &PaintLayers, corners: [LatticePoint; 3], level: u32) -> bool {
+        let level = level as usize;
+        let Some(&length) = self.lengths.get(level) else { return false };
+        let Transfer { h_min, h_max, .. } = self.spec.transfer;
+        // No point asks for less than h_min or for more than h_max.
+        if length <= h_min {
+            return false;
+        }
+        if length > h_max {
+            return true;
+        }
+        let triangle = Octagon::triangle(corners);
+        let around = Cells::around(&triangle, self.lattice.extent());
+        match self.spec.gradation {
+            None => self.any_below(paint, &triangle, around, level),
+            Some(slope) => {
+                self.any_below(paint, &triangle, around, level)
+                    || gradation::any_below(self, paint, corners, slope, length)
+            }
+        }
+    }
+
+    /// Whether a cell that touches the triangle asks for more than the level, before gradation.
+    fn any_below(&self, paint: &PaintLayers, triangle: &Octagon, around: Cells, level: usize) -> bool {
+        if self.is_minimum {
+            // The top layers are painted: they decide most triangles.
+            return self
+                .layers
+                .iter()
+                .rev()
+                .any(|layer| layer.any_below(paint, triangle, around, level, &self.lattice));
+        }
+        let mut ask = |cells: &Cells| self.asks(self.layers.len(), paint, cells, level);
+        any_cell(triangle, around, &mut ask)
+    }
+
+    /// Where the lowest `count` layers together ask for more than a level, and where to divide the cells to
+    /// know more.
+    fn asks(&self, count: usize, paint: &PaintLayers, cells: &Cells, level: usize) -> (Share, Option<Cut>) {
+        let Some(below) = count.checked_sub(1) else { return (Share::None, None) };
+        let layer = &self.layers[below];
+        let (Answer { asks, present }, cut) = layer.answer(paint, cells, level, &self.lattice);
+        let permits = present.not().or(asks);
+        match layer.combine {
+            Combine::Finest if asks == Share::All => return (Share::All, None),
+            Combine::Floor if permits == Share::None => return (Share::None, None),
+            Combine::Replace if present == Share::All => return (asks, cut),
+            _ => {}
+        }
+        let (rest, rest_cut) = self.asks(below, paint, cells, level);
+        let share = match layer.combine {
+            Combine::Finest => rest.or(asks),
+            Combine::Floor => rest.and(permits),
+            Combine::Replace if present == Share::None => rest,
+            Combine::Replace if permits == Share::All && rest == Share::All => Share::All,
+            Combine::Replace if asks == Share::None && rest == Share::None => Share::None,
+            Combine::Replace => Share::Some,
+        };
+        (share, cut.or(rest_cut))
+    }
+}

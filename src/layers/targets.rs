@@ -1,0 +1,142 @@
+//! h̄ at points and over rectangles, and which layer decides it.
+
+use glam::DVec2;
+
+use super::engine::asked::Share;
+use super::engine::cells::{Cells, Cut};
+use super::engine::gradation;
+use super::engine::reading::Diameters;
+use super::{Combine, LayerId, PaintLayers, SizeField};
+use crate::field::{RefinementRule, Transfer};
+use crate::mesh::level_for_diameter;
+
+/// What decides h̄ at a point.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Decision {
+    /// h̄ in world units.
+    pub target: f64,
+    /// The layer that decides; `None` where no layer asks for anything.
+    pub layer: Option<LayerId>,
+    /// The place, in world units, whose diameter limits h̄ here through gradation; the point itself where the
+    /// layers decide directly.
+    pub from: DVec2,
+    /// What each visible layer asks for at the point, in world units, from the bottom to the top; `None`
+    /// where it asks for nothing.
+    pub asked: Vec<(LayerId, Option<f64>)>,
+}
+
+/// Whether a mesh can meet a diameter, or infinity stands for none.
+fn is_valid(diameter: f64) -> bool {
+    diameter > 0.0
+}
+
+fn is_asked(diameter: f64) -> bool {
+    is_valid(diameter) && diameter < f64::INFINITY
+}
+
+impl SizeField {
+    /// h̄ at a point in world units.
+    pub fn target_at(&self, paint: &PaintLayers, point: DVec2) -> f64 {
+        let before = self.ungraded_at(paint, point).0;
+        match self.spec().gradation {
+            None => before,
+            Some(slope) => gradation::least(self, paint, point, slope, before).0,
+        }
+    }
+
+    /// h̄ at a node, in world units, for the vertex rule.
+    ///
+    /// A value that no mesh can meet (NaN, zero or less) is returned as it is, for the rule to refuse.
+    pub fn target_at_node(&self, paint: &PaintLayers, point: DVec2) -> f64 {
+        let asked = self.compiled().iter().map(|layer| layer.diameter_at(paint, point));
+        let mut invalid = asked.filter(|diameter| !is_valid(*diameter));
+        match invalid.next() {
+            Some(invalid) => invalid,
+            None => self.target_at(paint, point),
+        }
+    }
+
+    /// h̄ at a point in world units, as `rule` sees it: what files and the inspector show.
+    pub fn target_by_rule(&self, rule: RefinementRule, paint: &PaintLayers, point: DVec2) -> f64 {
+        match rule {
+            RefinementRule::Area => self.target_at(paint, point),
+            RefinementRule::Vertex => self.target_at_node(paint, point),
+        }
+    }
+
+    /// The level that a triangle of the given diameter in world units has.
+    pub fn level_of_diameter(&self, diameter: f64) -> Option<u32> {
+        level_for_diameter(self.lattice().spacing(), diameter)
+    }
+
+    /// What decides h̄ at a point in world units.
+    pub fn decision_at(&self, paint: &PaintLayers, point: DVec2) -> Decision {
+        let asked = self.compiled().iter().map(|layer| {
+            let diameter = layer.diameter_at(paint, point);
+            (layer.id, is_asked(diameter).then_some(diameter))
+        });
+        let asked = asked.collect();
+        let (before, layer) = self.ungraded_at(paint, point);
+        let graded = self.spec().gradation.map(|slope| gradation::least(self, paint, point, slope, before));
+        match graded {
+            Some((target, from)) if target < before => {
+                let layer = self.ungraded_at(paint, from).1.or(layer);
+                Decision { target, layer, from, asked }
+            }
+            _ => Decision { target: before, layer, from: point, asked },
+        }
+    }
+
+    /// h̄ before gradation, and the layer that decides it.
+    pub(super) fn ungraded_at(&self, paint: &PaintLayers, point: DVec2) -> (f64, Option<LayerId>) {
+        let (mut target, mut decides) = (f64::INFINITY, None);
+        for layer in self.compiled() {
+            let diameter = layer.diameter_at(paint, point);
+            if !is_asked(diameter) {
+                continue;
+            }
+            let counts = match layer.combine {
+                Combine::Finest => diameter < target,
+                Combine::Floor => diameter > target,
+                Combine::Replace => true,
+            };
+            if counts {
+                (target, decides) = (diameter, Some(layer.id));
+            }
+        }
+        (self.limited(target), decides)
+    }
+
+    /// A diameter that the layers ask for, within the limits; infinity means that none does.
+    fn limited(&self, asked: f64) -> f64 {
+        let Transfer { h_min, h_max, .. } = self.spec().transfer;
+        if asked == f64::INFINITY { self.spec().unasked } else { asked.clamp(h_min, h_max) }
+    }
+
+    /// The least and the greatest h̄ of some cells before gradation, and where to divide them to know more.
+    pub(super) fn diameters(&self, paint: &PaintLayers, cells: &Cells) -> ([f64; 2], Option<Cut>) {
+        let (mut least, mut greatest, mut cut) = (f64::INFINITY, f64::INFINITY, None);
+        for layer in self.compiled() {
+            let (diameters, layer_cut) = layer.diameters(paint, cells, self.lattice());
+            let Diameters { least: low, greatest: high, present } = diameters;
+            match (layer.combine, present) {
+                (_, Share::None) => {}
+                (Combine::Finest, _) => (least, greatest) = (least.min(low), greatest.min(high)),
+                (Combine::Floor, Share::All) => (least, greatest) = (least.max(low), greatest.max(high)),
+                (Combine::Floor, Share::Some) => greatest = greatest.max(high),
+                (Combine::Replace, Share::All) => (least, greatest, cut) = (low, high, None),
+                (Combine::Replace, Share::Some) => {
+                    (least, greatest) = (least.min(low), greatest.max(high));
+                }
+            }
+            cut = layer_cut.or(cut);
+        }
+        let (mut low, mut high) = (self.limited(least), self.limited(greatest));
+        if greatest == f64::INFINITY && least < f64::INFINITY {
+            // Somewhere perhaps nothing is asked for, and there h̄ may be less or more than what is asked.
+            let unasked = self.spec().unasked;
+            (low, high) = (low.min(unasked), self.spec().transfer.h_max.max(unasked));
+        }
+        ([low, high], cut.filter(|_| low < high))
+    }
+}
