@@ -53,7 +53,7 @@ fn selected_layer(state: &FrameState<'_>) -> Vec<CatalogItem> {
             .keys(Modifiers::SHIFT, Key::H)
             .checked(visible),
         item("Layer is locked", LayerCommand::Lock(id, !locked)).checked(locked),
-        item("Clear this layer", LayerCommand::Clear(id)),
+        item("Clear the selected layer", LayerCommand::Clear(id)),
     ];
     for item in &mut items {
         item.enabled = layer.is_some();

@@ -263,7 +263,7 @@ fn a_locked_layer_keeps_its_parameters_its_paint_and_its_place_in_the_stack() {
     send(&mut window, Command::ClearPaint);
     assert_eq!((settings(&window), triangles(&window)), (&before, painted));
     click_on(&mut window, Role::CheckBox, "Painted risk locked");
-    click_button(&mut window, "Clear this layer");
+    choose(&mut window, "Layer", "Clear the selected layer");
     assert!(triangles(&window) < painted / 2);
     key(&mut window, Modifiers::COMMAND, Key::Z);
     assert_eq!(triangles(&window), painted);

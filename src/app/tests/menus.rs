@@ -56,7 +56,7 @@ fn every_command_is_in_a_menu_and_every_menu_entry_in_the_palette() {
     assert!(palette.len() > 40, "{palette:?}");
     let at_rest = labels(&window, Role::Button);
     let mut menus = BTreeSet::new();
-    for menu in ["File", "Edit", "Tool", "View", "Examples", "Help"] {
+    for menu in ["File", "Edit", "Tool", "Layer", "View", "Examples", "Help"] {
         open_menu(&mut window, menu);
         let entries: Vec<_> = labels(&window, Role::Button).difference(&at_rest).cloned().collect();
         assert!(!entries.is_empty(), "{menu} is empty");

@@ -5,8 +5,11 @@ use eframe::egui::{Key, Modifiers, vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 use super::{FREE, TALL, Window, canvas, choose, key, open_section, send, wait_until, window_of};
-use crate::app::command::Command;
+use crate::app::command::{Command, LayerCommand};
 use crate::app::tools::TOOLS;
+use crate::document::Setting;
+use crate::field::Formula;
+use crate::layers::{DistanceTo, LayerKind};
 
 const CONTROLS: [Role; 7] = [
     Role::Button,
@@ -47,7 +50,12 @@ fn every_control_of_the_panels_has_a_sentence() {
     wait_until(&mut window, |window| window.query_by_label("Fingerprint").is_some());
     assert!(window.query_by_label("Interpolated").is_some(), "of the queried triangle");
     assert_eq!(unexplained(&window), [""; 0]);
-    window.get_by_role_and_label(Role::RadioButton, "Formula").click();
+    let distance = LayerKind::Distance { to: DistanceTo::Outline, at_zero: 0.1, slope: 0.3, range: 0.2 };
+    for kind in [LayerKind::constant(0.2), LayerKind::risk(Formula::constant_of(0.1)), distance] {
+        send(&mut window, Command::Layer(LayerCommand::Add(Box::new(kind))));
+        assert_eq!(unexplained(&window), [""; 0]);
+    }
+    send(&mut window, Command::Set(Setting::Gradation(Some(5.0))));
     for tool in TOOLS {
         send(&mut window, Command::Use(tool));
         assert_eq!(unexplained(&window), [""; 0], "{}", tool.name);

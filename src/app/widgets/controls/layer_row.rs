@@ -213,7 +213,11 @@ impl LayerRow<'_> {
         if !response.lost_focus() {
             return None;
         }
-        let given_up = ui.input(|input| input.key_pressed(Key::Escape));
-        Some(if given_up { LayerRowAnswer::NotNamed } else { LayerRowAnswer::Named })
+        // Not by Escape, which may be gone from the input by now.
+        let is_entered = ui.input(|input| {
+            let by_key = input.key_pressed(Key::Enter) || input.key_pressed(Key::Tab);
+            by_key || input.pointer.any_pressed() || input.pointer.any_click()
+        });
+        Some(if is_entered { LayerRowAnswer::Named } else { LayerRowAnswer::NotNamed })
     }
 }

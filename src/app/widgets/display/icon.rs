@@ -67,6 +67,12 @@ impl Icon {
     pub const FORMULA: Self = Self(material::ICON_FUNCTION.codepoint);
     /// A layer of a raster.
     pub const RASTER: Self = Self(material::ICON_GRID_ON.codepoint);
+    /// A layer of threats.
+    pub const THREATS: Self = Self(material::ICON_RADAR.codepoint);
+    /// A layer of a distance.
+    pub const DISTANCE: Self = Self(material::ICON_STRAIGHTEN.codepoint);
+    /// A layer of a band of values.
+    pub const BAND: Self = Self(material::ICON_LINE_WEIGHT.codepoint);
     /// The home folder.
     pub const HOME: Self = Self(material::ICON_HOME.codepoint);
 

@@ -1,8 +1,11 @@
 //! The kinds of layers: a table with a file for each.
 
+mod band;
+mod distance;
 mod formula;
 mod paint;
 mod raster;
+mod threats;
 
 use eframe::egui::Ui;
 
@@ -32,7 +35,8 @@ pub struct Addition {
 }
 
 /// All kinds, as menus list them.
-pub static LAYER_KINDS: [KindPanel; 3] = [paint::PAINT, formula::FORMULA, raster::RASTER];
+pub static LAYER_KINDS: [KindPanel; 6] =
+    [paint::PAINT, formula::FORMULA, raster::RASTER, threats::THREATS, distance::DISTANCE, band::BAND];
 
 /// The kind of a layer.
 pub fn kind_of(kind: &LayerKind) -> &'static KindPanel {

@@ -7,7 +7,7 @@ use crate::app::command::Command;
 use crate::app::dialogs::FileRequest;
 use crate::app::frame::FrameState;
 use crate::app::widgets::{Icon, ValueRow, format, segmented};
-use crate::layers::{Layer, LayerKind, RasterReading};
+use crate::layers::{Layer, LayerKind, RasterReading, RasterSource};
 
 /// A picture or a grid.
 pub const RASTER: KindPanel = KindPanel {
@@ -25,17 +25,22 @@ pub const RASTER: KindPanel = KindPanel {
 
 fn parameters(ui: &mut Ui, _state: &FrameState<'_>, layer: &Layer, commands: &mut Vec<Command>) {
     let LayerKind::Raster { source, reading } = &layer.kind else { return };
-    let choices = [("Diameter", RasterReading::Diameter), ("Risk", RasterReading::Risk)];
-    let before = choices.iter().position(|(_, known)| known == reading);
-    let mut chosen = before;
-    let named = [0, 1].map(|place| (Some(place), choices[place].0));
-    if segmented(ui, "What the values mean", &mut chosen, &named).changed()
-        && let Some(place) = chosen
-    {
-        let kind = LayerKind::Raster { source: source.clone(), reading: choices[place].1.clone() };
+    let mut readings = vec![("Diameter", RasterReading::Diameter), ("Risk", RasterReading::Risk)];
+    if matches!(reading, RasterReading::Curve(_)) {
+        readings.push(("Curve", reading.clone()));
+    }
+    let named: Vec<_> = readings.iter().enumerate().map(|(place, (name, _))| (place, *name)).collect();
+    let mut chosen = readings.iter().position(|(_, known)| known == reading).unwrap_or_default();
+    if segmented(ui, "What the values mean", &mut chosen, &named).changed() {
+        let kind = LayerKind::Raster { source: source.clone(), reading: readings[chosen].1.clone() };
         set_kind_once(layer, kind, commands);
     }
     ui.add_space(4.0);
+    source_rows(ui, source);
+}
+
+/// Where a raster is from, and its size.
+pub fn source_rows(ui: &mut Ui, source: &RasterSource) {
     ValueRow::new("File", &source.name).help("The file that the layer was read from.").show(ui);
     let [columns, rows] = source.raster.raster().size().map(|side| format::count(u64::from(side)));
     let pixels = format!("{columns} × {rows}");

@@ -1,0 +1,36 @@
+//! Layers that ask for one diameter where a raster lies between two values.
+
+use eframe::egui::Ui;
+
+use super::raster::source_rows;
+use super::{KindPanel, set_kind_once};
+use crate::app::command::Command;
+use crate::app::frame::FrameState;
+use crate::app::widgets::{Icon, NumberRow};
+use crate::layers::{Layer, LayerKind};
+
+/// A band of the values of a raster.
+pub const BAND: KindPanel = KindPanel {
+    is_of: |kind| matches!(kind, LayerKind::Band { .. }),
+    icon: Icon::BAND,
+    additions: &[],
+    parameters,
+};
+
+fn parameters(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut Vec<Command>) {
+    let LayerKind::Band { source, between, diameter } = &layer.kind else { return };
+    let ([mut least, mut greatest], mut diameter) = (*between, *diameter);
+    let row = NumberRow::new("Values from", &mut least).range(f64::MIN..=greatest);
+    let mut changed = row.help("The least value of the raster in the band.").show(ui).changed();
+    let row = NumberRow::new("Values to", &mut greatest).range(least..=f64::MAX);
+    changed |= row.help("The greatest value of the raster in the band.").show(ui).changed();
+    let row = NumberRow::new("Diameter", &mut diameter).range(f64::MIN_POSITIVE..=f64::MAX);
+    let help =
+        "Target diameter where the value of the raster is in the band; elsewhere the layer asks for nothing.";
+    changed |= row.unit(state.unit().symbol()).help(help).show(ui).changed();
+    source_rows(ui, source);
+    if changed {
+        let source = source.clone();
+        set_kind_once(layer, LayerKind::Band { source, between: [least, greatest], diameter }, commands);
+    }
+}

@@ -1,0 +1,57 @@
+//! Layers in which h̄ grows with a distance.
+
+use eframe::egui::Ui;
+
+use super::{Addition, KindPanel, add, set_kind_once};
+use crate::app::command::Command;
+use crate::app::frame::FrameState;
+use crate::app::widgets::{Icon, NumberRow, ValueRow, toggle_row};
+use crate::document::Settings;
+use crate::layers::{DistanceTo, Layer, LayerKind};
+
+/// The distance to shapes or to the outline of the domain.
+pub const DISTANCE: KindPanel = KindPanel {
+    is_of: |kind| matches!(kind, LayerKind::Distance { .. }),
+    icon: Icon::DISTANCE,
+    additions: &[Addition { title: "distance to the outline", command: add_distance_to_outline }],
+    parameters,
+};
+
+fn add_distance_to_outline(state: &FrameState<'_>) -> Command {
+    add(LayerKind::Distance {
+        to: DistanceTo::Outline,
+        at_zero: state.session.document().settings().transfer.h_min,
+        slope: Settings::USUAL_GRADATION,
+        range: f64::INFINITY,
+    })
+}
+
+fn parameters(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut Vec<Command>) {
+    let LayerKind::Distance { to, at_zero, slope, range } = &layer.kind else { return };
+    let target = match to {
+        DistanceTo::Outline => "outline of the domain",
+        DistanceTo::Shapes { name, .. } if name.is_empty() => "drawn shapes",
+        DistanceTo::Shapes { name, .. } => name,
+    };
+    ValueRow::new("Distance to", target).help("What the distance is measured to.").show(ui);
+    let (mut at_zero, mut slope, mut range) = (*at_zero, *slope, *range);
+    let positive = f64::MIN_POSITIVE..=f64::MAX;
+    let unit = state.unit().symbol();
+    let row = NumberRow::new("At distance 0", &mut at_zero).range(positive.clone()).unit(unit);
+    let mut changed = row.help("Target diameter at distance 0; it grows from there.").show(ui).changed();
+    let row = NumberRow::new("Growth", &mut slope).range(0.0..=f64::MAX);
+    let help = "How much the target diameter grows with the distance, per unit of length.";
+    changed |= row.help(help).show(ui).changed();
+    let mut is_limited = range.is_finite();
+    if toggle_row(ui, "Limit the range", &mut is_limited).changed() {
+        let extent = state.session.document().settings().domain.bounds.size().max_element();
+        range = if is_limited { 0.1 * extent } else { f64::INFINITY };
+        changed = true;
+    } else if is_limited {
+        let row = NumberRow::new("Range", &mut range).range(positive).unit(unit);
+        changed |= row.help("Beyond this distance the layer asks for nothing.").show(ui).changed();
+    }
+    if changed {
+        set_kind_once(layer, LayerKind::Distance { to: to.clone(), at_zero, slope, range }, commands);
+    }
+}
