@@ -4,7 +4,7 @@ use eframe::egui::accesskit::Role;
 use eframe::egui::{Key, Modifiers, vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
-use super::{FREE, TALL, Window, canvas, choose, key, open_section, send, wait_until, window_of};
+use super::{FREE, TALL, Window, canvas, choose, entries, key, open_section, send, wait_until, window_of};
 use crate::app::command::{Command, LayerCommand};
 use crate::app::tools::TOOLS;
 use crate::document::Setting;
@@ -59,6 +59,10 @@ fn every_control_of_the_panels_has_a_sentence() {
     for tool in TOOLS {
         send(&mut window, Command::Use(tool));
         assert_eq!(unexplained(&window), [""; 0], "{}", tool.name);
+    }
+    // An edited document would be asked about before another one opens.
+    for _ in 0..entries(&window) {
+        send(&mut window, Command::Undo);
     }
     choose(&mut window, "Examples", "Aegean Sea");
     open_section(&mut window, "Fit to outline");
