@@ -19,7 +19,7 @@ fn blocks(language: &str) -> impl Iterator<Item = &'static str> {
 fn every_command_works_as_typed() {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("readme-{}", std::process::id()));
     std::fs::create_dir_all(folder.join("assets")).unwrap();
-    for input in ["assets/jacksboro_slope.png", "assets/aegean_sea.geojson"] {
+    for input in ["assets/jacksboro_slope.png", "assets/jacksboro.toml", "assets/aegean_sea.geojson"] {
         std::fs::copy(Path::new(env!("CARGO_MANIFEST_DIR")).join(input), folder.join(input)).unwrap();
     }
     let programs = Path::new(PROGRAM).parent().unwrap();
@@ -39,8 +39,8 @@ fn every_command_works_as_typed() {
         let summary: serde_json::Value = serde_json::from_str(&printed).unwrap();
         assert_eq!(summary["violations"], 0);
     }
-    assert_eq!(commands, 6, "the commands were found");
-    for file in ["diamond.vtu", "terrain.msh", "terrain.png", "sea.2dm", "found.csv"] {
+    assert_eq!(commands, 7, "the commands were found");
+    for file in ["diamond.vtu", "terrain.msh", "terrain.png", "sea.2dm", "found.csv", "jacksboro.png"] {
         assert!(folder.join(file).metadata().unwrap().len() > 100, "{file}");
     }
     std::fs::remove_dir_all(folder).unwrap();

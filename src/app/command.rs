@@ -55,6 +55,10 @@ pub enum Command {
     SaveAs(PathBuf),
     /// Saves it to a file.
     SaveTo(PathBuf),
+    /// Writes the document as a recipe, and asks before other files are replaced.
+    SaveRecipeAs(PathBuf),
+    /// Writes the document as a recipe, with the files that it names beside it.
+    SaveRecipe(PathBuf),
     /// Writes the mesh to a file, and asks before another one is replaced.
     ExportAs(PathBuf),
     /// Writes the mesh; the ending chooses the format.

@@ -15,6 +15,8 @@ use crate::document::{self, Document, Example, Setting, Settings, extent};
 use crate::domain::{BoundaryMarks, MeshBoundary, NamedPolygon};
 use crate::geometry::Rect;
 use crate::io::png::{Behind, decode};
+use crate::io::project::Project;
+use crate::io::recipe::{self, RecipeFiles};
 use crate::io::{self, Cancelled, MeshData, MeshSource, Meter, Provenance};
 use crate::layers::{LayerKind, RasterReading, RasterSource};
 use crate::mesh::Extract;
@@ -244,6 +246,32 @@ pub fn export(
         }
     });
     Ok(())
+}
+
+/// The document as a recipe at a path, which gets its ending if it has none.
+pub fn recipe_of(session: &Session, path: &Path) -> RecipeFiles {
+    let has_ending = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case(recipe::ENDING));
+    let path = if has_ending {
+        path.to_owned()
+    } else {
+        let mut name = path.as_os_str().to_owned();
+        name.push(format!(".{}", recipe::ENDING));
+        name.into()
+    };
+    RecipeFiles::new(&Project::of(session.document()), &path)
+}
+
+/// Writes the document as a recipe, with the files that it names beside it.
+pub fn save_recipe(session: &Session, background: &mut Background, path: &Path) {
+    let (recipe, file) = (recipe_of(session, path), path.to_owned());
+    background.start(Aim::Export, path, move |meter| match recipe.write(meter) {
+        Ok(()) => {
+            let written: Vec<PathBuf> = recipe.paths().map(Path::to_owned).collect();
+            Outcome::Exported(format!("Saved as a recipe: {}.", listed(&written)))
+        }
+        Err(_) if meter.is_cancelled() => Outcome::Exported(cancelled(Aim::Export, &file)),
+        Err(error) => Outcome::NotWritten(format!("{} could not be written: {error}.", file.display())),
+    });
 }
 
 /// A new document on the polygons of a file.

@@ -14,6 +14,7 @@ use super::session::Session;
 use super::widgets::{Answer, ConfirmDialog};
 use crate::io;
 use crate::io::project::{ENDING, Project};
+use crate::io::recipe::RecipeFiles;
 use crate::render::export::ExportFormat;
 
 /// Most files that are remembered.
@@ -256,6 +257,17 @@ impl ProjectFile {
             return Some(Command::Export(path));
         }
         self.replacing = Some((existing, Command::Export(path)));
+        None
+    }
+
+    /// The command that writes a recipe to a path that was typed. Asks before it replaces other files.
+    pub fn save_recipe_as(&mut self, path: PathBuf, recipe: &RecipeFiles) -> Option<Command> {
+        let existing = recipe.paths().filter(|file| io::exists(file));
+        let existing: Vec<PathBuf> = existing.map(Path::to_owned).collect();
+        if existing.is_empty() || existing.iter().any(|file| io::obstacle(file).is_some()) {
+            return Some(Command::SaveRecipe(path));
+        }
+        self.replacing = Some((existing, Command::SaveRecipe(path)));
         None
     }
 

@@ -32,6 +32,10 @@ pub enum Command {
     /// bisection edge), are those of the .node and .ele files that `mesh` writes from the same options.
     #[command(after_help = LOCATE_EXAMPLES)]
     Locate(LocateArguments),
+    /// Write a project as a recipe, with the files that it names beside it
+    ///
+    /// The recipe gives the mesh of the project. Existing files are replaced.
+    Recipe(RecipeArguments),
     /// Print a script that lets a shell complete the program's options
     ///
     /// For bash: meshbrush completions bash > ~/.local/share/bash-completion/completions/meshbrush
@@ -41,6 +45,17 @@ pub enum Command {
     /// They are painted without a display, by the program's own commands.
     #[cfg(feature = "gui")]
     Screenshots(ScreenshotsArguments),
+}
+
+/// Which project, and where the recipe goes.
+#[derive(Debug, Args)]
+pub struct RecipeArguments {
+    /// A project saved in the window (.meshbrush)
+    pub project: PathBuf,
+
+    /// The recipe to write; the files that it names are named after it
+    #[arg(short, long, value_name = "RECIPE.toml")]
+    pub output: PathBuf,
 }
 
 const MESH_EXAMPLES: &str = "\

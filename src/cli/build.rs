@@ -26,7 +26,7 @@ pub struct FinishedMesh {
     built: BuiltMesh,
     /// What differs from the mesh in files.
     pub derived: DerivedMesh,
-    /// The paint of a project.
+    /// What is painted on the layers.
     paint: PaintLayers,
     domain: Domain,
     marks: Arc<BoundaryMarks>,
@@ -113,9 +113,9 @@ struct ToMesh {
 
 fn read(request: &MeshRequest, terminal: &mut Terminal) -> Result<ToMesh, Failure> {
     let Some(path) = &request.project else {
-        let ReadSources { spec, marks, unit, notes } = read_sources(request)?;
+        let ReadSources { spec, paint, marks, unit, notes } = read_sources(request)?;
         notes.iter().for_each(|note| terminal.note(note));
-        return Ok(ToMesh { spec, marks: Arc::new(marks), unit, paint: PaintLayers::default() });
+        return Ok(ToMesh { spec, marks: Arc::new(marks), unit, paint });
     };
     let document = io::project::read(path)?;
     let settings = document.settings();

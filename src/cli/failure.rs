@@ -4,6 +4,7 @@ use std::path::PathBuf;
 use crate::build::BuildError;
 use crate::field::TransferError;
 use crate::io::ReadError;
+use crate::io::layers::LayerError;
 use crate::mesh::{CoarseError, InvalidTarget, RefineError};
 
 /// Why a command did not do its work. Each prints as one sentence; a formula's mistake adds the lines that
@@ -19,6 +20,9 @@ pub enum Failure {
     /// A file given as input is of no use.
     #[error(transparent)]
     Read(#[from] ReadError),
+    /// The data of a layer are of no use.
+    #[error(transparent)]
+    Layer(#[from] LayerError),
     /// There is no mesh.
     #[error("{0}{advice}", advice = advice(.0))]
     Build(#[from] BuildError),

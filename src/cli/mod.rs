@@ -82,6 +82,7 @@ fn run_command(
     match (arguments.command, window) {
         (Some(Command::Mesh(typed)), _) => mesh::run(&typed, line, &mut out, terminal),
         (Some(Command::Locate(typed)), _) => locate::run(&typed, &mut out, terminal),
+        (Some(Command::Recipe(typed)), _) => recipe::write(&typed, terminal),
         (Some(Command::Completions(typed)), _) => {
             let mut script = Vec::new();
             clap_complete::generate(typed.shell, &mut Arguments::command(), "meshbrush", &mut script);
@@ -109,6 +110,6 @@ fn run_command(
 }
 
 fn without_window() -> Failure {
-    let problem = "This meshbrush was built without its window (feature `gui`). Its commands are `mesh` and";
-    Failure::Usage(format!("{problem} `locate`; `meshbrush --help` lists them."))
+    let problem = "This meshbrush was built without its window (feature `gui`). Its commands are `mesh`,";
+    Failure::Usage(format!("{problem} `locate` and `recipe`; `meshbrush --help` lists them."))
 }

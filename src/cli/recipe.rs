@@ -1,12 +1,37 @@
-//! The request that a recipe makes.
+//! The request that a recipe makes, and `meshbrush recipe`: a project as a recipe.
 
 use std::path::Path;
 
-use super::args::{BoundaryArgument, InputArguments};
+use super::args::{BoundaryArgument, InputArguments, RecipeArguments};
 use super::failure::Failure;
 use super::request::{MeshRequest, USUAL_BUDGET, limits, parts, rule};
-use crate::io::recipe::{self, Recipe, SavedTreatment};
+use super::terminal::Terminal;
+use crate::io::Meter;
+use crate::io::project::{self, Project};
+use crate::io::recipe::{self, Recipe, RecipeFiles, SavedTreatment};
 use crate::mesh::{Limits, MemoryLimit};
+
+/// Writes a project as a recipe.
+///
+/// # Errors
+/// When the project cannot be read, or the recipe not written.
+pub fn write(typed: &RecipeArguments, terminal: &mut Terminal) -> Result<(), Failure> {
+    check_ending(&typed.output)?;
+    let document = project::read(&typed.project)?;
+    let files = RecipeFiles::new(&Project::of(&document), &typed.output);
+    let failed =
+        |error: std::io::Error| Failure::Write { file: typed.output.clone(), problem: error.to_string() };
+    files.write(&Meter::default()).map_err(failed)?;
+    files.paths().for_each(|file| terminal.say(&format!("wrote {}", file.display())));
+    Ok(())
+}
+
+fn check_ending(path: &Path) -> Result<(), Failure> {
+    if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case(recipe::ENDING)) {
+        return Ok(());
+    }
+    Err(Failure::Usage(format!("{}: the name of a recipe ends with .toml.", path.display())))
+}
 
 impl MeshRequest {
     /// The request of a recipe. The options on parts and limits precede it.

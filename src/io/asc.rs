@@ -5,15 +5,16 @@
 //! breaks and the order of the header do not matter.
 
 use std::collections::HashMap;
+use std::fmt;
 use std::fs::File;
-use std::io::{BufRead, BufReader};
+use std::io::{self, BufRead, BufReader, Write};
 use std::path::Path;
 
 use glam::DVec2;
 
 use super::error::PlacedFlaw;
 use super::rows::reverse_rows;
-use super::{Flaw, Meter, ReadError};
+use super::{Flaw, Meter, Number, ReadError};
 use crate::geometry::Rect;
 use crate::raster::{LONGEST_SIDE, Raster, is_raster_size};
 
@@ -44,6 +45,84 @@ pub fn read_metered(path: &Path, meter: &Meter) -> Result<Raster, ReadError> {
 /// As [`read`].
 pub fn from_bytes(bytes: &[u8], name: &Path) -> Result<Raster, ReadError> {
     parse(bytes).map_err(|flaw| flaw.in_file(name))
+}
+
+/// Writes a grid that [`read`] reads: the values bit for bit, the place as [`bounds_as_written`] says. Values
+/// are finite, or NaN where there is none.
+///
+/// # Errors
+/// Errors of `out`.
+pub fn write(out: &mut dyn Write, raster: &Raster) -> io::Result<()> {
+    let ([columns, rows], cell) = (raster.size(), cell(raster));
+    let min = raster.bounds().min;
+    writeln!(out, "ncols {columns}\nnrows {rows}")?;
+    writeln!(out, "xllcorner {}\nyllcorner {}", Number(min.x), Number(min.y))?;
+    if cell.x == cell.y {
+        writeln!(out, "cellsize {}", Number(cell.x))?;
+    } else {
+        writeln!(out, "dx {}\ndy {}", Number(cell.x), Number(cell.y))?;
+    }
+    let no_data = no_data(raster);
+    if let Some(no_data) = no_data {
+        writeln!(out, "NODATA_value {no_data}")?;
+    }
+    for y in (0..rows).rev() {
+        let mut line = String::new();
+        for &value in raster.row(y, 0..columns) {
+            let value = if value.is_nan() { no_data.unwrap_or(value) } else { value };
+            line.push_str(if line.is_empty() { "" } else { " " });
+            line.push_str(&Single(value).to_string());
+        }
+        writeln!(out, "{line}")?;
+    }
+    Ok(())
+}
+
+/// The rectangle that the header of a written grid gives. It can differ from that of the raster by rounding.
+pub fn bounds_as_written(raster: &Raster) -> Rect {
+    let (min, [columns, rows]) = (raster.bounds().min, raster.size());
+    Rect::new(min, upper_corner(min, cell(raster), [columns, rows]))
+}
+
+/// The sides of a cell from which a reader finds the upper right corner, exactly where that is possible.
+fn cell(raster: &Raster) -> DVec2 {
+    let (Rect { min, max }, size) = (raster.bounds(), raster.size().map(f64::from));
+    let side = |min: f64, max: f64, count: f64| {
+        let side = (max - min) / count;
+        let near = [side, side.next_up(), side.next_down()];
+        near.into_iter().find(|side| min + side * count == max).unwrap_or(side)
+    };
+    DVec2::new(side(min.x, max.x, size[0]), side(min.y, max.y, size[1]))
+}
+
+fn upper_corner(min: DVec2, cell: DVec2, [columns, rows]: [u32; 2]) -> DVec2 {
+    min + cell * DVec2::new(f64::from(columns), f64::from(rows))
+}
+
+/// A number that no pixel has, if some pixels have no value.
+fn no_data(raster: &Raster) -> Option<f32> {
+    let values = raster.values();
+    values.iter().any(|value| value.is_nan()).then(|| {
+        let mut candidate = -9999.0;
+        while values.contains(&candidate) {
+            candidate *= 10.0;
+        }
+        candidate
+    })
+}
+
+/// The shortest text that reads back as the same number.
+struct Single(f32);
+
+impl fmt::Display for Single {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let size = self.0.abs();
+        if size == 0.0 || (1e-4..1e7).contains(&size) {
+            write!(f, "{}", self.0)
+        } else {
+            write!(f, "{:e}", self.0)
+        }
+    }
 }
 
 fn parse(source: impl BufRead) -> Result<Raster, PlacedFlaw> {
@@ -150,7 +229,7 @@ impl Header {
         };
         let min =
             DVec2::new(corner("xllcorner", "xllcenter", cell.x)?, corner("yllcorner", "yllcenter", cell.y)?);
-        let bounds = Rect::new(min, min + cell * DVec2::new(f64::from(size[0]), f64::from(size[1])));
+        let bounds = Rect::new(min, upper_corner(min, cell, size));
         if bounds.is_proper() {
             Ok(bounds)
         } else {
@@ -337,5 +416,35 @@ mod tests {
             let message = parsed(&text).unwrap_err();
             assert!(message.starts_with(expected), "{text:.60} gave {message}");
         }
+    }
+
+    #[test]
+    fn what_is_written_is_read_bit_for_bit() {
+        let mut random = fastrand::Rng::with_seed(31);
+        for n in 0..50 {
+            let min = DVec2::new(random.f64() - 0.5, 1e3 * random.f64());
+            let side = DVec2::new(0.1 + random.f64(), 10.0 * random.f64() + 0.1);
+            let size = [random.u32(1..9), random.u32(1..9)];
+            let mut value = || match random.u8(..6) {
+                0 if n > 10 => f32::NAN,
+                1 => -9999.0,
+                2 => f32::MIN_POSITIVE * random.f32(),
+                _ => 1e9 * (random.f32() - 0.5),
+            };
+            let values = (0..size[0] * size[1]).map(|_| value()).collect();
+            let raster = Raster::from_values(Rect::new(min, min + side), size, values);
+            let mut text = Vec::new();
+            write(&mut text, &raster).unwrap();
+            let read = from_bytes(&text, Path::new("a.asc")).unwrap();
+            let bits = |raster: &Raster| raster.values().iter().map(|v| v.to_bits()).collect::<Vec<_>>();
+            assert_eq!((read.size(), bits(&read)), (size, bits(&raster)));
+            assert_eq!(read.bounds(), bounds_as_written(&raster));
+            assert!((read.bounds().max - raster.bounds().max).abs().max_element() < 1e-12);
+            let mut again = Vec::new();
+            write(&mut again, &Raster::from_values(raster.bounds(), size, read.values().to_vec())).unwrap();
+            assert_eq!(again, text);
+        }
+        let exact = Raster::filled(Rect::new(DVec2::new(-1.5, 2.0), DVec2::new(2.5, 3.0)), [8, 3], 0.0);
+        assert_eq!(bounds_as_written(&exact), exact.bounds());
     }
 }

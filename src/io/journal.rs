@@ -6,9 +6,9 @@
 //! kind (1 byte) | seconds since 1970 (8) | length of the content (4) | CRC-32 of all the rest (4) | content
 //! ```
 //!
-//! Numbers are little-endian. The first record is a whole project with the path of its file. Then come the
-//! paint and settings after each gesture that changed them, and a mark whenever nothing is unsaved. Reading
-//! stops at the first incomplete record: the program ended while writing it.
+//! Numbers are little-endian. The first record is a whole project with its path. Then come the paint and
+//! settings after each gesture that changed them, and a mark whenever nothing is unsaved. A raster or picture
+//! is written once. Reading stops at the first incomplete record: the program ended while writing it.
 //!
 //! The program that writes a journal holds a lock on it, which the operating system releases when the program
 //! ends in any way. So a journal without a lock was left behind.
@@ -17,15 +17,16 @@ use std::fs::{self, File};
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 
-use super::project::{self, Project};
+use super::Meter;
+use super::project::{self, PartNames, Project};
 use crate::document::Settings;
 use crate::layers::PaintLayers;
 
 const MAGIC: &[u8; 8] = b"MBJOUR02";
 const HEAD: usize = 17;
 const ENDING: &str = "journal";
-/// Largest journal read: twice the size of the largest project.
-const MOST_BYTES: u64 = 1 << 30;
+/// Largest journal read: a little more than the largest project and its growth.
+const MOST_BYTES: u64 = 5 << 30;
 /// Growth after which a new journal would be smaller.
 const MOST_GROWTH: u64 = 64 << 20;
 
@@ -40,6 +41,8 @@ pub struct Journal {
     file: File,
     path: PathBuf,
     grown: u64,
+    /// The rasters and pictures that it has.
+    names: PartNames,
 }
 
 impl Journal {
@@ -56,10 +59,10 @@ impl Journal {
         // Locked before it gets the name by which journals are found.
         file.try_lock().map_err(io::Error::other)?;
         let path = part.with_extension(ENDING);
-        let mut journal = Self { file, path, grown: 0 };
+        let mut journal = Self { file, path, grown: 0, names: PartNames::default() };
         let mut begin = || -> io::Result<()> {
             let mut content = home_bytes(home);
-            project::write(&mut content, project)?;
+            project::write_named(&mut content, project, &mut journal.names)?;
             journal.file.write_all(MAGIC)?;
             journal.append(WHOLE, time, &content)?;
             fs::rename(&part, &journal.path)
@@ -89,7 +92,8 @@ impl Journal {
     /// Errors of the file system.
     pub fn add_settings(&mut self, settings: Settings, time: u64) -> io::Result<()> {
         let mut content = Vec::new();
-        project::write(&mut content, &Project { settings, paint: PaintLayers::default() })?;
+        let project = Project { settings, paint: PaintLayers::default() };
+        project::write_named(&mut content, &project, &mut self.names)?;
         self.append(SETTINGS, time, &content)
     }
 
@@ -239,7 +243,8 @@ impl Kept {
         let mut rest = bytes.strip_prefix(MAGIC)?;
         let (kind, time, content) = next_record(&mut rest)?;
         let (home, content) = split_home(content).filter(|_| kind == WHOLE)?;
-        let project = project::from_bytes(content, Path::new("journal")).ok()?;
+        let (mut names, meter) = (PartNames::default(), Meter::default());
+        let project = project::parse_named(content, &mut names, &meter).ok()?;
         let mut kept = Self { project, home, time, clean: false };
         while let Some((kind, time, content)) = next_record(&mut rest) {
             match kind {
@@ -251,7 +256,7 @@ impl Kept {
                     kept.clean = false;
                 }
                 SETTINGS => {
-                    let Ok(new) = project::from_bytes(content, Path::new("journal")) else { break };
+                    let Ok(new) = project::parse_named(content, &mut names, &meter) else { break };
                     kept.project.settings = new.settings;
                     kept.clean = false;
                 }
@@ -293,9 +298,12 @@ fn split_home(content: &[u8]) -> Option<(Option<PathBuf>, &[u8])> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::document::{Document, Edits, Example, Setting};
+    use crate::document::{Document, Edits, Example, Setting, Settings};
+    use crate::layers::{Layer, LayerKind, RasterReading, RasterSource};
     use crate::paint::{Brush, DiameterChange, Medium};
+    use crate::raster::{Raster, RasterPyramid};
     use glam::dvec2;
+    use std::sync::Arc;
 
     fn folder(name: &str) -> PathBuf {
         let folder = std::env::temp_dir().join(format!("meshbrush-journal-{}-{name}", std::process::id()));
@@ -374,6 +382,44 @@ mod tests {
         let kept = abandoned(&folder).pop().unwrap().project.into_document().unwrap();
         assert_eq!(kept.settings(), document.settings());
         assert!(kept.paint() == document.paint());
+        fs::remove_dir_all(folder).unwrap();
+    }
+
+    #[test]
+    fn rasters_and_pictures_are_written_once() {
+        let folder = folder("once");
+        let mut random = fastrand::Rng::with_seed(3);
+        let mut raster = |name: &str| {
+            let values = (0..100 * 100).map(|_| random.f32()).collect();
+            let raster = Raster::from_values(crate::geometry::Rect::UNIT, [100, 100], values);
+            let source = RasterSource { name: name.into(), raster: Arc::new(RasterPyramid::new(raster)) };
+            LayerKind::Raster { source, reading: RasterReading::Risk }
+        };
+        let rgba = (0..4 * 100 * 100).map(|n: u32| (n * n % 251) as u8 | (n % 4 / 3 * 255) as u8).collect();
+        let mut settings = Settings { layers: Layer::stack([raster("first")]), ..Settings::default() };
+        settings.background = Some(crate::document::Background {
+            name: "map".into(),
+            picture: Arc::new(crate::document::Picture { size: [100, 100], rgba }),
+            bounds: crate::geometry::Rect::UNIT,
+            opacity: 0.5,
+        });
+        let project = Project { settings: settings.clone(), paint: PaintLayers::default() };
+        let mut journal = Journal::begin(&folder, &project, None, 1).unwrap();
+        let length = |journal: &Journal| fs::metadata(&journal.path).unwrap().len();
+        let mut before = length(&journal);
+        for n in 0..5 {
+            let is_new = n == 2;
+            if is_new {
+                settings.layers = Layer::stack([settings.layers[0].kind.clone(), raster("second")]);
+            }
+            settings.layers[0].name = format!("Slope {n}");
+            journal.add_settings(settings.clone(), 2).unwrap();
+            let grown = length(&journal) - std::mem::replace(&mut before, length(&journal));
+            assert_eq!(grown > 20_000, is_new, "{grown} bytes in record {n}");
+            assert!(is_new || grown < 3_000, "{grown} bytes in record {n}");
+        }
+        drop(journal);
+        assert_eq!(abandoned(&folder).pop().unwrap().project.settings, settings);
         fs::remove_dir_all(folder).unwrap();
     }
 

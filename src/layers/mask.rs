@@ -45,7 +45,14 @@ impl Mask {
     /// # Errors
     /// When they cover no area, or are too large or too complex.
     pub fn new(polygons: &[Polygon]) -> Result<Self, RegionError> {
-        let domain = Domain::of_polygons(polygons)?;
+        let corners = polygons.iter().flatten().flatten().map(|&p| Rect::new(p, p));
+        let domain = match corners.reduce(|a, b| a.union(&b)) {
+            // The polygons of another mask stay as they are: a saved mask is read back exactly.
+            Some(bounds) if bounds.is_proper() && bounds.size().is_finite() => {
+                Domain::of_stored_polygons(polygons.to_vec(), bounds)?
+            }
+            _ => Domain::of_polygons(polygons)?,
+        };
         let region = domain.region().ok_or(RegionError::NoArea)?;
         let edges: Vec<[DVec2; 2]> = region.edges().collect();
         let boxes: Vec<Rect> = edges.iter().map(|&[a, b]| Rect::spanning(a, b)).collect();

@@ -16,6 +16,7 @@ pub fn file(state: &FrameState<'_>) -> Vec<CatalogItem> {
         CatalogItem::new(File, "Save", Command::Save).ctrl(Key::S),
         CatalogItem::new(File, "Save as…", Command::Ask(FileRequest::Save))
             .keys(Modifiers::COMMAND | Modifiers::SHIFT, Key::S),
+        CatalogItem::new(File, "Save as recipe…", Command::Ask(FileRequest::SaveRecipe)),
         CatalogItem::new(File, "Open picture as risk…", Command::Ask(FileRequest::OpenImage)).group(),
         CatalogItem::new(File, "Open grid as target diameter…", Command::Ask(FileRequest::OpenDiameters)),
         CatalogItem::new(File, "Open background picture…", Command::Ask(FileRequest::OpenBackground)),

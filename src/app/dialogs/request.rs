@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use crate::app::command::Command;
 use crate::io::project::ENDING;
+use crate::io::recipe;
 use crate::render::export::ExportFormat;
 
 /// Why a path is asked for.
@@ -14,6 +15,8 @@ pub enum FileRequest {
     Open,
     /// To save the document.
     Save,
+    /// To write the document as a recipe.
+    SaveRecipe,
     /// To open a picture or a grid as risk.
     OpenImage,
     /// To open a grid as target diameters.
@@ -34,6 +37,7 @@ impl FileRequest {
         match self {
             Self::Open => "Open",
             Self::Save => "Save project",
+            Self::SaveRecipe => "Save as recipe",
             Self::OpenImage => "Open picture as risk",
             Self::OpenDiameters => "Open grid as target diameter",
             Self::OpenBackground => "Open background picture",
@@ -50,7 +54,7 @@ impl FileRequest {
                 "Open"
             }
             Self::AddOutline => "Add",
-            Self::Save => "Save",
+            Self::Save | Self::SaveRecipe => "Save",
             Self::Export => "Export",
         }
     }
@@ -60,6 +64,7 @@ impl FileRequest {
         match self {
             Self::Open => vec![ENDING, "geojson", "json", "png", "asc"],
             Self::Save => vec![ENDING],
+            Self::SaveRecipe => vec![recipe::ENDING],
             Self::OpenImage => vec!["png", "asc"],
             Self::OpenDiameters => vec!["asc"],
             Self::OpenBackground => vec!["png"],
@@ -73,6 +78,7 @@ impl FileRequest {
         match self {
             Self::Open => "Projects, domains, pictures, grids",
             Self::Save => "Projects",
+            Self::SaveRecipe => "Recipes",
             Self::OpenImage => "Pictures and grids",
             Self::OpenDiameters => "Grids",
             Self::OpenBackground => "Pictures",
@@ -94,13 +100,14 @@ impl FileRequest {
             Self::OpenImage | Self::OpenDiameters => "pictures",
             Self::OpenBackground => "backgrounds",
             Self::OpenDomain | Self::AddOutline => "domains",
+            Self::SaveRecipe => "recipes",
             Self::Export => "exports",
         }
     }
 
     /// Whether a file is written.
     pub fn writes(self) -> bool {
-        matches!(self, Self::Save | Self::Export)
+        matches!(self, Self::Save | Self::SaveRecipe | Self::Export)
     }
 
     /// The name that a file to write is given first; nothing for a file to read.
@@ -109,6 +116,7 @@ impl FileRequest {
             document.chars().map(|c| if c == '/' || c == '\\' || c.is_control() { '-' } else { c }).collect();
         match self {
             Self::Save => format!("{name}.{ENDING}"),
+            Self::SaveRecipe => format!("{name}.{}", recipe::ENDING),
             Self::Export => format!("{name}.{}", format.ending()),
             _ => String::new(),
         }
@@ -119,6 +127,7 @@ impl FileRequest {
         match self {
             Self::Open => Command::Open(path),
             Self::Save => Command::SaveAs(path),
+            Self::SaveRecipe => Command::SaveRecipeAs(path),
             Self::OpenImage => Command::OpenImage(path),
             Self::OpenDiameters => Command::OpenDiameters(path),
             Self::OpenBackground => Command::OpenBackground(path),

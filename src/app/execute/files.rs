@@ -41,6 +41,8 @@ impl App {
             Command::SaveTo(path) => {
                 self.project.save_to(path, &mut self.session, &mut self.background);
             }
+            Command::SaveRecipeAs(path) => self.save_recipe_as(path),
+            Command::SaveRecipe(path) => files::save_recipe(&self.session, &mut self.background, &path),
             Command::ExportAs(path) => self.commands.extend(self.project.export_as(path)),
             Command::Export(path) => {
                 let started = files::export(&self.session, &self.view, &mut self.background, &path);
@@ -68,6 +70,11 @@ impl App {
             other => return Some(other),
         }
         None
+    }
+
+    fn save_recipe_as(&mut self, path: PathBuf) {
+        let recipe = files::recipe_of(&self.session, &path);
+        self.commands.extend(self.project.save_recipe_as(path, &recipe));
     }
 
     fn ask_for_file(&mut self, request: FileRequest, ctx: &Context) {

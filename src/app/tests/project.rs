@@ -14,6 +14,7 @@ use crate::app::command::Command;
 use crate::document::{Example, Settings, Stage};
 use crate::io::journal::Journal;
 use crate::io::project::{self, Project};
+use crate::io::recipe;
 use crate::mesh::Fingerprint;
 
 /// The title of the first example once it is edited.
@@ -172,6 +173,23 @@ fn a_file_that_is_there_is_not_replaced_without_a_question() {
     press(&mut window, "Replace");
     wait(&mut window, "saving", |window| shows(window, "c"));
     assert!(project::read(&file).is_ok());
+}
+
+#[test]
+fn a_document_is_saved_as_a_recipe_and_files_beside_it_are_asked_about() {
+    let folder = folder("recipe");
+    let file = folder.join("c.toml");
+    let beside = folder.join("c-paint.meshbrush");
+    fs::write(&beside, "somebody's").unwrap();
+    let mut window = window();
+    send(&mut window, Command::SaveRecipeAs(folder.join("c")));
+    press(&mut window, "Cancel");
+    assert!(fs::read(&beside).unwrap() == b"somebody's" && !file.exists());
+    send(&mut window, Command::SaveRecipeAs(file.clone()));
+    press(&mut window, "Replace");
+    wait(&mut window, "saving", |_| file.exists());
+    let recipe = recipe::read(&file).unwrap();
+    assert!(recipe.layers.len() == 2 && project::read(&beside).is_ok(), "{:?}", recipe.layers);
 }
 
 #[test]

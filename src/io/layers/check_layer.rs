@@ -10,12 +10,29 @@ use super::{
 use crate::field::Formula;
 use crate::layers::{Threat, ThreatError};
 
+/// Finds the files of a recipe; `None` for a layer of a project, which holds all data itself: there `file` is
+/// only a name for a person.
+type Files<'a> = Option<&'a FindFile<'a>>;
+
 impl SavedLayer {
-    /// Checks every value.
+    /// Checks every value of a layer whose data are in files.
     ///
     /// # Errors
     /// For the first key that does not suit the kind, is missing, or has a value that cannot be used.
     pub fn checked(&self, find: &FindFile) -> Result<LayerSpec, KeyFault> {
+        self.spec(Some(find))
+    }
+
+    /// Checks every value of a layer of a project: paint and pixels are parts of the project, and everything
+    /// else is in place.
+    ///
+    /// # Errors
+    /// As [`Self::checked`].
+    pub fn checked_in_project(&self) -> Result<LayerSpec, KeyFault> {
+        self.spec(None)
+    }
+
+    fn spec(&self, files: Files) -> Result<LayerSpec, KeyFault> {
         let kind = self.kind;
         if let Some(key) = self.given().find(|key| !kind.keys().contains(key)) {
             let (word, keys) = (kind.word(), kind.keys().join(", "));
@@ -29,28 +46,25 @@ impl SavedLayer {
             visible: self.visible,
             locked: self.locked,
             combine: self.combine.into(),
-            mask: self.mask(find)?,
+            mask: self.mask(files)?,
             kind: match kind {
-                SavedKind::Paint => self.paint(find)?,
+                SavedKind::Paint => self.paint(files)?,
                 SavedKind::Formula => self.formula()?,
-                SavedKind::Raster => self.raster(find)?,
-                SavedKind::Threats => self.threats(find)?,
-                SavedKind::Distance => self.distance(find)?,
-                SavedKind::Band => self.band(find)?,
+                SavedKind::Raster => self.raster(files)?,
+                SavedKind::Threats => self.threats(files)?,
+                SavedKind::Distance => self.distance(files)?,
+                SavedKind::Band => self.band(files)?,
             },
         })
     }
 
-    fn mask(&self, find: &FindFile) -> Result<Option<MaskSpec>, KeyFault> {
+    fn mask(&self, files: Files) -> Result<Option<MaskSpec>, KeyFault> {
         match (&self.mask, &self.mask_file) {
             (None, None) => Ok(None),
             (Some(_), Some(_)) => {
                 Err(KeyFault::key("mask_file", "a layer has `mask` or `mask_file`, not both."))
             }
-            (None, Some(file)) => {
-                let path = find(file).map_err(|sentence| KeyFault::entry("mask_file", sentence))?;
-                Ok(Some(MaskSpec::File(path)))
-            }
+            (None, Some(file)) => Ok(Some(MaskSpec::File(found("mask_file", file, files)?))),
             (Some(polygons), None) => {
                 if polygons.is_empty() {
                     return Err(KeyFault::value(
@@ -64,7 +78,7 @@ impl SavedLayer {
         }
     }
 
-    fn paint(&self, find: &FindFile) -> Result<KindSpec, KeyFault> {
+    fn paint(&self, files: Files) -> Result<KindSpec, KeyFault> {
         let quantity = self.needed("quantity", self.quantity)?.into();
         if self.file.is_none() && self.layer.is_some() {
             return Err(KeyFault::key(
@@ -72,7 +86,7 @@ impl SavedLayer {
                 "`layer` names a layer of the project `file`, which is missing.",
             ));
         }
-        let path = self.file.as_ref().map(|_| self.found(find)).transpose()?;
+        let path = self.file.as_ref().map(|_| self.found(files)).transpose()?;
         let own_name = self.name.as_deref().unwrap_or(usual_name(self.kind));
         let layer = self.layer.as_deref().unwrap_or(own_name);
         Ok(KindSpec::Paint { quantity, from: path.map(|path| (path, layer.to_owned())) })
@@ -84,8 +98,8 @@ impl SavedLayer {
         Ok(KindSpec::Formula { quantity, formula: compiled("formula", text)? })
     }
 
-    fn raster(&self, find: &FindFile) -> Result<KindSpec, KeyFault> {
-        let raster = self.raster_file(find)?;
+    fn raster(&self, files: Files) -> Result<KindSpec, KeyFault> {
+        let raster = self.raster_file(files)?;
         let reading = match (self.read_as, &self.curve) {
             (Some(SavedQuantity::Risk), None) => RasterReading::Risk,
             (Some(SavedQuantity::Diameter), None) => RasterReading::Diameter,
@@ -101,9 +115,9 @@ impl SavedLayer {
         Ok(KindSpec::Raster { raster, reading })
     }
 
-    fn threats(&self, find: &FindFile) -> Result<KindSpec, KeyFault> {
+    fn threats(&self, files: Files) -> Result<KindSpec, KeyFault> {
         let spec = match (&self.file, &self.threats) {
-            (Some(_), None) => ThreatsSpec::File(self.found(find)?),
+            (Some(_), None) => ThreatsSpec::File(self.found(files)?),
             (None, Some(list)) => ThreatsSpec::List(checked_threats(list)?),
             (Some(_), Some(_)) => {
                 return Err(KeyFault::key(
@@ -120,11 +134,14 @@ impl SavedLayer {
         Ok(KindSpec::Threats(spec))
     }
 
-    fn distance(&self, find: &FindFile) -> Result<KindSpec, KeyFault> {
+    fn distance(&self, files: Files) -> Result<KindSpec, KeyFault> {
         let to = match (self.to, &self.file, &self.shapes) {
             (Some(SavedDistanceTo::Outline), None, None) => DistanceTo::Outline,
-            (None, Some(_), None) => DistanceTo::File(self.found(find)?),
-            (None, None, Some(shapes)) => DistanceTo::Shapes(each("shapes", shapes, SavedShape::checked)?),
+            (None, Some(_), None) => DistanceTo::File(self.found(files)?),
+            (None, file, Some(shapes)) if file.is_none() || files.is_none() => {
+                let name = file.clone().unwrap_or_default();
+                DistanceTo::Shapes { name, shapes: each("shapes", shapes, SavedShape::checked)? }
+            }
             (None, None, None) => {
                 return Err(self.missing("needs to = \"outline\", `file`, a .geojson, or `shapes`"));
             }
@@ -147,8 +164,8 @@ impl SavedLayer {
         Ok(KindSpec::Distance { to, at_zero, slope, range })
     }
 
-    fn band(&self, find: &FindFile) -> Result<KindSpec, KeyFault> {
-        let raster = self.raster_file(find)?;
+    fn band(&self, files: Files) -> Result<KindSpec, KeyFault> {
+        let raster = self.raster_file(files)?;
         let between @ [least, greatest] = self.needed("between", self.between)?;
         if !(least.is_finite() && greatest.is_finite()) || least > greatest {
             let sentence = "write two finite numbers, the least value first.";
@@ -157,21 +174,20 @@ impl SavedLayer {
         Ok(KindSpec::Band { raster, between, diameter: self.length("diameter", self.diameter)? })
     }
 
-    fn raster_file(&self, find: &FindFile) -> Result<RasterFile, KeyFault> {
-        let path = self.found(find)?;
-        let format = RasterFormat::of(&path).map_err(|sentence| KeyFault::value("file", sentence))?;
-        if format == RasterFormat::Asc && self.bounds.is_some() {
-            return Err(KeyFault::key("bounds", "the header of an .asc file says where it lies."));
+    fn raster_file(&self, files: Files) -> Result<RasterFile, KeyFault> {
+        let path = self.found(files)?;
+        if files.is_none() {
+            return Ok(RasterFile { path, format: RasterFormat::Part, bounds: None });
         }
+        let format = RasterFormat::of(&path).map_err(|sentence| KeyFault::value("file", sentence))?;
         let bounds = self.bounds.map(rect_of).transpose();
         let bounds = bounds.map_err(|sentence| KeyFault::value("bounds", sentence))?;
         Ok(RasterFile { path, format, bounds })
     }
 
     /// The file that holds the data.
-    fn found(&self, find: &FindFile) -> Result<PathBuf, KeyFault> {
-        let name = self.needed("file", self.file.as_deref())?;
-        find(name).map_err(|sentence| KeyFault::entry("file", sentence))
+    fn found(&self, files: Files) -> Result<PathBuf, KeyFault> {
+        found("file", self.needed("file", self.file.as_deref())?, files)
     }
 
     fn length(&self, key: &'static str, value: Option<f64>) -> Result<f64, KeyFault> {
@@ -186,6 +202,12 @@ impl SavedLayer {
     fn missing(&self, needs: &str) -> KeyFault {
         KeyFault::entry("kind", format!("a layer of the kind \"{}\" {needs}.", self.kind.word()))
     }
+}
+
+/// The file that a key names.
+fn found(key: &'static str, name: &str, files: Files) -> Result<PathBuf, KeyFault> {
+    let found = files.map_or_else(|| Ok(name.into()), |find| find(name));
+    found.map_err(|sentence| KeyFault::entry(key, sentence))
 }
 
 /// Compiles a formula.

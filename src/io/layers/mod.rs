@@ -1,7 +1,8 @@
 //! The vocabulary of layers in text: in recipes (TOML) and in the settings of a project (JSON).
 //!
 //! [`SavedLayer`] is a layer as the text has it, [`LayerSpec`] the same with every value checked and every
-//! formula compiled. Neither reads the files that a layer names.
+//! formula compiled. Neither reads the files that a layer names:
+//! [`LayerSpec::load`] makes a layer of the stack with the data of a [`LayerData`].
 //!
 //! | `kind` | keys besides `name`, `visible`, `locked`, `combine`, `mask`, `mask_file` |
 //! |---|---|
@@ -15,16 +16,22 @@
 mod check_layer;
 mod checks;
 mod fault;
+mod files;
+mod load;
 mod saved;
 mod spec;
 #[cfg(test)]
 mod tests;
+mod values;
 
 pub use check_layer::compiled;
 pub use checks::{positive_length, rect_of};
 pub use fault::{KeyFault, Mark, Step};
+pub use files::{GridFiles, LayerError, LayerFiles};
+pub use load::{LayerData, TextError};
 pub use saved::{SavedCombine, SavedKind, SavedLayer, SavedQuantity, SavedShape, SavedThreat};
 pub use spec::{
     DistanceTo, FindFile, KindSpec, LayerSpec, MaskSpec, RasterFile, RasterFormat, RasterReading, ShapeSpec,
     ThreatsSpec,
 };
+pub use values::check_values;

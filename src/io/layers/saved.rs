@@ -42,7 +42,7 @@ pub struct SavedLayer {
     /// The name of a paint layer in `file`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub layer: Option<String>,
-    /// Where a raster lies whose file does not say it: x₀, y₀, x₁, y₁.
+    /// Where a raster lies, in place of what its file says: x₀, y₀, x₁, y₁.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bounds: Option<[f64; 4]>,
     /// What the values of a raster mean.

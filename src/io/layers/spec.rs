@@ -93,7 +93,8 @@ pub struct RasterFile {
     pub path: PathBuf,
     /// Its format.
     pub format: RasterFormat,
-    /// Where an image lies; over the bounds of the domain without one.
+    /// Where it lies; without one an image covers the bounds of the domain, and a grid lies where its header
+    /// says.
     pub bounds: Option<Rect>,
 }
 
@@ -104,6 +105,8 @@ pub enum RasterFormat {
     Png,
     /// A grid that says which rectangle it covers.
     Asc,
+    /// A part of the project that the layer belongs to; the path is only a name for a person.
+    Part,
 }
 
 impl RasterFormat {
@@ -149,8 +152,13 @@ pub enum DistanceTo {
     Outline,
     /// The shapes of a file.
     File(PathBuf),
-    /// These shapes.
-    Shapes(Vec<ShapeSpec>),
+    /// Shapes in place.
+    Shapes {
+        /// The name of the file that they come from, for a person; empty where there is none.
+        name: String,
+        /// The shapes.
+        shapes: Vec<ShapeSpec>,
+    },
 }
 
 /// A point, line or polygon in world units.
@@ -190,6 +198,14 @@ impl LayerSpec {
     pub fn is_risk(&self) -> bool {
         let is_image = matches!(self.kind, KindSpec::Raster { reading: RasterReading::Diameter, .. });
         self.uses_scale() && !is_image
+    }
+
+    /// The pixels, if it has some.
+    pub fn raster_file(&self) -> Option<&RasterFile> {
+        match &self.kind {
+            KindSpec::Raster { raster, .. } | KindSpec::Band { raster, .. } => Some(raster),
+            _ => None,
+        }
     }
 
     /// The files that it names.

@@ -40,7 +40,7 @@ fn every_kind_is_read_from_its_keys() {
         ),
         (
             r#"{ "kind": "distance", "shapes": [{ "point": [1, 2] }], "at_zero": 0.1, "slope": 0, "range": 5 }"#,
-            "Distance { to: Shapes([Point(DVec2(1.0, 2.0))]), at_zero: 0.1, slope: 0.0, range: Some(5.0) }",
+            "Distance { to: Shapes { name: \"\", shapes: [Point(DVec2(1.0, 2.0))] }, at_zero: 0.1, slope: 0.0, range: Some(5.0) }",
         ),
         (
             r#"{ "kind": "band", "file": "depth.asc", "between": [-20, 0], "diameter": 0.5 }"#,

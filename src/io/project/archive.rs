@@ -21,7 +21,7 @@ const END_BYTES: usize = 22;
 const CENTRAL_BYTES: usize = 46;
 const LOCAL_BYTES: usize = 30;
 /// Most parts of an archive that is read.
-const MOST_PARTS: usize = 64;
+const MOST_PARTS: usize = 4096;
 const DEFLATED: u16 = 8;
 /// 1 January 1980, the first date of the format.
 const NO_DATE: u16 = 0x21;

@@ -5,9 +5,13 @@
 //! - `settings.json`: `format`, `version`, the program that wrote it, and all settings; numbers read back
 //!   exactly.
 //! - `domain.geojson`, if the domain has polygons: their corners in world units.
-//! - `raster.ID` for each layer that reads a raster: 32-bit floats, row by row from the lowest.
+//! - `raster.N` for each raster that layers read, numbered from 0 in the order of the layers: 32-bit floats,
+//!   row by row from the lowest, NaN where there is no value.
 //! - `background.png`, if there is a picture behind the mesh.
 //! - `paint.ID` for each paint layer with paint: its tiles of 32 × 32 pixels.
+//!
+//! Layers have the vocabulary of recipes ([`super::layers`]). Threats, shapes and masks are in
+//! `settings.json`.
 //!
 //! Version 1 had one base field (`base.risk` or `base.diameter`) and two rasters of paint (`paint.tiles`) in
 //! place of the layers.
@@ -24,6 +28,7 @@ mod archive;
 mod old_tiles;
 mod old_version;
 mod painted;
+mod part_names;
 mod pixels;
 mod saved_background;
 mod settings;
@@ -36,15 +41,17 @@ use std::io::{self, Cursor, Read, Write};
 use std::path::Path;
 use std::sync::Arc;
 
-use super::error::{Flaw, PlacedFlaw, ReadError};
+use super::error::{Flaw, PlacedFlaw, ReadError, shown};
 use super::{Meter, geojson, png};
-use crate::document::{Background, Document, Picture, Settings};
+use crate::document::{Document, Picture, Settings};
 use crate::domain::Polygon;
 use crate::geometry::Rect;
-use crate::layers::{LayerId, LayerKind, PaintLayers, Quantity, RasterReading};
+use crate::layers::{LayerId, PaintLayers, Quantity, RasterReading};
 use crate::raster::{Raster, RasterPyramid, TiledRaster};
 use archive::{Archive, ArchiveWriter, Part};
 use old_version::OLD_PAINT;
+use part_names::NewParts;
+pub(super) use part_names::PartNames;
 use settings::{Parts, Saved};
 
 /// The extension of project files.
@@ -56,7 +63,7 @@ const FORMAT: &str = "Meshbrush project";
 
 const SETTINGS: &str = "settings.json";
 const DOMAIN: &str = "domain.geojson";
-/// What errors call the parts with the pixels of rasters.
+/// What errors call a part with the pixels of a raster.
 const RASTER: &str = "raster";
 const BASE_RISK: &str = "base.risk";
 const BASE_DIAMETER: &str = "base.diameter";
@@ -65,8 +72,8 @@ const BACKGROUND: &str = "background.png";
 const PAINT: &str = "paint";
 const OLD_TILES: &str = "paint.tiles";
 
-/// Largest file read: twice the size of the largest picture.
-const MOST_BYTES: u64 = 512 << 20;
+/// Largest file read: the limit of the archive.
+const MOST_BYTES: u64 = u32::MAX as u64;
 /// Most bytes of the settings: enough for a name for each of 300,000 islands.
 const MOST_SETTINGS: u64 = 64 << 20;
 /// Most bytes of the background picture, packed.
@@ -150,7 +157,16 @@ pub fn from_bytes(bytes: &[u8], name: &Path) -> Result<Project, ReadError> {
 /// # Errors
 /// Errors of `out`.
 pub fn write(out: &mut dyn Write, project: &Project) -> io::Result<()> {
-    write_parts(out, &parts(project), &Meter::default())
+    write_named(out, project, &mut PartNames::default())
+}
+
+/// Writes a project without the rasters and pictures that have a name already, and names the others.
+///
+/// # Errors
+/// Errors of `out`.
+pub(super) fn write_named(out: &mut dyn Write, project: &Project, names: &mut PartNames) -> io::Result<()> {
+    let new = names.add(&project.settings);
+    write_parts(out, &parts(project, names, &new), &Meter::default())
 }
 
 /// Writes a project as [`write()`] does, and counts the bytes before packing.
@@ -158,7 +174,9 @@ pub fn write(out: &mut dyn Write, project: &Project) -> io::Result<()> {
 /// # Errors
 /// As [`write()`], and when the work was cancelled.
 pub fn write_metered(out: &mut dyn Write, project: &Project, meter: &Meter) -> io::Result<()> {
-    let parts = parts(project);
+    let mut names = PartNames::default();
+    let new = names.add(&project.settings);
+    let parts = parts(project, &names, &new);
     // Packing takes far longer than this pass, which finds the number of bytes.
     let size = Meter::default();
     for (_, write) in &parts {
@@ -172,27 +190,24 @@ pub fn write_metered(out: &mut dyn Write, project: &Project, meter: &Meter) -> i
 /// A part of the archive: its name, and a function that writes its bytes.
 type ToWrite<'a> = (Cow<'static, str>, Box<dyn Fn(&mut dyn Write) -> io::Result<()> + 'a>);
 
-fn parts(project: &Project) -> Vec<ToWrite<'_>> {
+fn parts<'a>(project: &'a Project, names: &'a PartNames, new: &'a NewParts) -> Vec<ToWrite<'a>> {
     let Project { settings, paint } = project;
     let mut parts: Vec<ToWrite> = vec![(
         SETTINGS.into(),
         Box::new(|out| {
-            serde_json::to_writer_pretty(&mut *out, &Saved::of(settings))?;
+            serde_json::to_writer_pretty(&mut *out, &Saved::of(settings, names))?;
             writeln!(out)
         }),
     )];
     if let Some(region) = settings.domain.region() {
         parts.push((DOMAIN.into(), Box::new(|out| geojson::write(out, region.polygons()))));
     }
-    for layer in &settings.layers {
-        if let LayerKind::Raster { source, .. } = &layer.kind {
-            let raster = source.raster.raster();
-            parts.push((raster_part(layer.id).into(), Box::new(|out| pixels::write_raster(out, raster))));
-        }
+    for (name, raster) in &new.rasters {
+        parts.push((name.clone().into(), Box::new(|out| pixels::write_raster(out, raster.raster()))));
     }
-    if let Some(Background { picture, .. }) = &settings.background {
-        parts
-            .push((BACKGROUND.into(), Box::new(|mut out| png::write(&mut out, picture.size, &picture.rgba))));
+    if let Some((name, picture)) = &new.picture {
+        let write = |mut out: &mut dyn Write| png::write(&mut out, picture.size, &picture.rgba);
+        parts.push((name.clone().into(), Box::new(write)));
     }
     for (id, raster) in
         paint.iter().filter(|(id, raster)| settings.layer(*id).is_some() && !raster.is_blank())
@@ -200,11 +215,6 @@ fn parts(project: &Project) -> Vec<ToWrite<'_>> {
         parts.push((paint_part(id).into(), Box::new(|out| painted::write(out, raster))));
     }
     parts
-}
-
-/// The part with the pixels of a raster.
-fn raster_part(id: LayerId) -> String {
-    format!("raster.{}", id.0)
 }
 
 /// The part with the pixels of a paint layer.
@@ -221,16 +231,21 @@ fn write_parts(out: &mut dyn Write, parts: &[ToWrite], meter: &Meter) -> io::Res
 }
 
 fn parse(bytes: &[u8], meter: &Meter) -> Result<Project, PlacedFlaw> {
+    parse_named(bytes, &mut PartNames::default(), meter)
+}
+
+/// Reads a project that [`write_named`] wrote; `names` are the rasters and pictures read so far.
+pub(super) fn parse_named(bytes: &[u8], names: &mut PartNames, meter: &Meter) -> Result<Project, PlacedFlaw> {
     let archive = Archive::open(bytes)?;
     let text = part(&archive, SETTINGS)?.bytes(MOST_SETTINGS, meter);
     let text = text.map_err(|flaw| in_part(flaw, SETTINGS))?;
     let saved = Saved::parse(&text).map_err(|flaw| flaw.within(SETTINGS))?;
     let old_paint_size = saved.old_paint_size().map_err(|flaw| flaw.within(SETTINGS))?;
-    let settings =
-        saved.into_settings(&mut Packed { archive: &archive, meter }).map_err(|flaw| match flaw.place {
-            super::Place::Part(..) => flaw,
-            _ => flaw.within(SETTINGS),
-        })?;
+    let packed = &mut Packed { archive: &archive, names, meter };
+    let settings = saved.into_settings(packed).map_err(|flaw| match flaw.place {
+        super::Place::Part(..) => flaw,
+        _ => flaw.within(SETTINGS),
+    })?;
     let paint = match old_paint_size {
         Some(size) => old_paint(&archive, size, settings.domain.bounds, meter)
             .map_err(|flaw| in_part(flaw, OLD_TILES))?,
@@ -314,7 +329,13 @@ pub(super) fn read_paint_changes(
 }
 
 fn part<'b, 'a>(archive: &'b Archive<'a>, name: &str) -> Result<&'b Part<'a>, PlacedFlaw> {
-    let missing = || Flaw::Syntax(format!("this is not a Meshbrush project: it has no {name}.")).into();
+    let missing = || {
+        let problem = match name {
+            SETTINGS => format!("this is not a Meshbrush project: it has no {name}."),
+            _ => format!("the project has no part {}. Use another copy.", shown(40, name)),
+        };
+        Flaw::Syntax(problem).into()
+    };
     archive.part(name).ok_or_else(missing)
 }
 
@@ -325,30 +346,26 @@ fn in_part(flaw: Flaw, part: &'static str) -> PlacedFlaw {
 /// Unpacks the parts that the settings refer to.
 struct Packed<'b, 'a> {
     archive: &'b Archive<'a>,
+    names: &'b mut PartNames,
     meter: &'b Meter,
 }
 
 impl Packed<'_, '_> {
-    /// The pixels of a raster of [columns, rows], which are a part of their own. Errors call it `what`.
-    fn pixels(
+    /// Unpacks `count` pixels with `read`. Errors call the part `what`.
+    fn unpack<T>(
         &self,
         name: &str,
         what: &'static str,
-        bounds: Rect,
-        size: [u32; 2],
-        reading: &RasterReading,
-    ) -> Result<Raster, PlacedFlaw> {
-        let bytes = 4 * u64::from(size[0]) * u64::from(size[1]);
-        let raster = part(self.archive, name)?.unpack(bytes, self.meter).and_then(|mut unpacking| {
-            let raster = match reading {
-                RasterReading::Risk => pixels::read_risks(&mut unpacking, bounds, size)?,
-                RasterReading::Diameter => pixels::read_diameters(&mut unpacking, bounds, size)?,
-                RasterReading::Curve(_) => pixels::read_values(&mut unpacking, bounds, size)?,
-            };
+        [columns, rows]: [u32; 2],
+        read: impl FnOnce(&mut archive::Unpacking) -> Result<T, Flaw>,
+    ) -> Result<T, PlacedFlaw> {
+        let bytes = 4 * u64::from(columns) * u64::from(rows);
+        let read = part(self.archive, name)?.unpack(bytes, self.meter).and_then(|mut unpacking| {
+            let read = read(&mut unpacking)?;
             unpacking.finish()?;
-            Ok(raster)
+            Ok(read)
         });
-        raster.map_err(|flaw| in_part(flaw, what))
+        read.map_err(|flaw| in_part(flaw, what))
     }
 }
 
@@ -361,25 +378,38 @@ impl Parts for Packed<'_, '_> {
             .map_err(|flaw| flaw.within(DOMAIN))
     }
 
-    fn background(&mut self) -> Result<Picture, PlacedFlaw> {
-        let bytes = part(self.archive, BACKGROUND)?.bytes(MOST_BACKGROUND, self.meter);
+    fn background(&mut self, name: &str) -> Result<Arc<Picture>, PlacedFlaw> {
+        if let Some(picture) = self.names.picture(name) {
+            return Ok(picture.clone());
+        }
+        let bytes = part(self.archive, name)?.bytes(MOST_BACKGROUND, self.meter);
         let picture = bytes.and_then(|bytes| png::decode_picture(Cursor::new(bytes)));
-        picture.map_err(|flaw| in_part(flaw, BACKGROUND))
+        let picture = Arc::new(picture.map_err(|flaw| in_part(flaw, BACKGROUND))?);
+        self.names.insert_picture(name, picture.clone());
+        Ok(picture)
     }
 
-    fn raster(
-        &mut self,
-        layer: LayerId,
-        bounds: Rect,
-        size: [u32; 2],
-        reading: &RasterReading,
-    ) -> Result<Arc<RasterPyramid>, PlacedFlaw> {
-        let raster = self.pixels(&raster_part(layer), RASTER, bounds, size, reading)?;
-        Ok(Arc::new(RasterPyramid::new(raster)))
+    fn raster(&mut self, name: &str, bounds: Rect, size: [u32; 2]) -> Result<Arc<RasterPyramid>, PlacedFlaw> {
+        if let Some(raster) = self.names.raster(name) {
+            let is_alike = raster.raster().bounds() == bounds && raster.raster().size() == size;
+            let problem = "two layers disagree about its size or place.";
+            return match is_alike {
+                true => Ok(raster.clone()),
+                false => Err(in_part(Flaw::Syntax(problem.into()), RASTER)),
+            };
+        }
+        let read = |input: &mut archive::Unpacking| pixels::read_values(input, bounds, size);
+        let raster = Arc::new(RasterPyramid::new(self.unpack(name, RASTER, size, read)?));
+        self.names.insert_raster(name, raster.clone());
+        Ok(raster)
     }
 
     fn base(&mut self, bounds: Rect, size: [u32; 2], reading: &RasterReading) -> Result<Raster, PlacedFlaw> {
-        let name = if *reading == RasterReading::Risk { BASE_RISK } else { BASE_DIAMETER };
-        self.pixels(name, name, bounds, size, reading)
+        let is_risk = *reading == RasterReading::Risk;
+        let name = if is_risk { BASE_RISK } else { BASE_DIAMETER };
+        self.unpack(name, name, size, |input| match is_risk {
+            true => pixels::read_risks(input, bounds, size),
+            false => pixels::read_diameters(input, bounds, size),
+        })
     }
 }

@@ -8,7 +8,8 @@ use serde::{Deserialize, Serialize};
 
 use super::super::Flaw;
 use super::super::error::PlacedFlaw;
-use super::settings::{Parts, Saved, SavedRaster, formula};
+use super::settings::{Parts, Saved, checked_size, formula, rect};
+use crate::geometry::Rect;
 use crate::layers::{Layer, LayerId, LayerKind, Quantity, RasterReading, RasterSource};
 use crate::raster::RasterPyramid;
 use crate::text::Grouped;
@@ -25,6 +26,24 @@ pub(super) enum SavedBase {
     RiskImage(SavedRaster),
     /// A grid, whose pixels are in the part `base.diameter`.
     DiameterGrid(SavedRaster),
+}
+
+/// A raster without its pixels.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct SavedRaster {
+    name: String,
+    bounds: [f64; 4],
+    columns: u32,
+    rows: u32,
+}
+
+impl SavedRaster {
+    /// The place and the size of the raster.
+    fn checked(&self) -> Result<(Rect, [u32; 2]), PlacedFlaw> {
+        let size = checked_size([self.columns, self.rows])?;
+        Ok((rect("base", self.bounds)?, size))
+    }
 }
 
 /// The layers of paint in version 1, by their place in the stack: diameters and risks.

@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::super::Flaw;
 use super::super::error::{PlacedFlaw, shown};
 use super::old_version::SavedBase;
+use super::part_names::PartNames;
 use super::saved_background::SavedBackground;
 use super::stored_layers::StoredLayer;
 use super::{FORMAT, VERSION};
@@ -15,7 +16,7 @@ use crate::document::{Picture, Settings};
 use crate::domain::{BoundaryMarks, BoundaryTreatment, Domain, DomainShape, Polygon};
 use crate::field::{Formula, RefinementRule, Transfer};
 use crate::geometry::Rect;
-use crate::layers::{LayerId, RasterReading};
+use crate::layers::RasterReading;
 use crate::mesh::{Cleaning, KeptParts, MOST_TRIANGLES};
 use crate::raster::{Raster, RasterPyramid, is_raster_size};
 use crate::text::{Grouped, LengthUnit, Number};
@@ -228,30 +229,9 @@ struct SavedTransfer {
     shape: f64,
 }
 
-/// A raster without its pixels.
-#[derive(Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct SavedRaster {
-    pub(super) name: String,
-    bounds: [f64; 4],
-    columns: u32,
-    rows: u32,
-}
-
-impl SavedRaster {
-    pub(super) fn of(name: &str, raster: &Raster) -> Self {
-        let [columns, rows] = raster.size();
-        Self { name: name.to_owned(), bounds: corners(raster.bounds()), columns, rows }
-    }
-
-    /// The place and the size of the raster.
-    pub(super) fn checked(&self) -> Result<(Rect, [u32; 2]), PlacedFlaw> {
-        let size = [self.columns, self.rows];
-        if !is_raster_size(size) {
-            return Err(Flaw::Size { columns: self.columns.into(), rows: self.rows.into() }.into());
-        }
-        Ok((rect("base", self.bounds)?, size))
-    }
+pub(super) fn checked_size(size: [u32; 2]) -> Result<[u32; 2], Flaw> {
+    let [columns, rows] = size.map(u64::from);
+    if is_raster_size(size) { Ok(size) } else { Err(Flaw::Size { columns, rows }) }
 }
 
 #[derive(Serialize, Deserialize)]
@@ -266,21 +246,16 @@ pub(super) trait Parts {
     /// The polygons of the domain.
     fn polygons(&mut self) -> Result<Vec<Polygon>, PlacedFlaw>;
     /// The picture behind the mesh.
-    fn background(&mut self) -> Result<Picture, PlacedFlaw>;
-    /// The pixels of a raster of [columns, rows], which a layer reads.
-    fn raster(
-        &mut self,
-        layer: LayerId,
-        bounds: Rect,
-        size: [u32; 2],
-        reading: &RasterReading,
-    ) -> Result<Arc<RasterPyramid>, PlacedFlaw>;
+    fn background(&mut self, part: &str) -> Result<Arc<Picture>, PlacedFlaw>;
+    /// The pixels of a raster of [columns, rows], which layers read.
+    fn raster(&mut self, part: &str, bounds: Rect, size: [u32; 2]) -> Result<Arc<RasterPyramid>, PlacedFlaw>;
     /// The pixels of the base field in version 1, likewise.
     fn base(&mut self, bounds: Rect, size: [u32; 2], reading: &RasterReading) -> Result<Raster, PlacedFlaw>;
 }
 
 impl Saved {
-    pub(super) fn of(settings: &Settings) -> Self {
+    /// The settings, whose rasters and pictures have the given names.
+    pub(super) fn of(settings: &Settings, names: &PartNames) -> Self {
         let Transfer { h_min, h_max, shape } = settings.transfer;
         Self {
             format: FORMAT.into(),
@@ -288,7 +263,7 @@ impl Saved {
             written_by: concat!("Meshbrush ", env!("CARGO_PKG_VERSION")).into(),
             name: settings.name.clone(),
             unit: settings.unit.into(),
-            background: settings.background.as_ref().map(SavedBackground::of),
+            background: settings.background.as_ref().map(|background| SavedBackground::of(background, names)),
             domain: SavedDomain {
                 bounds: corners(settings.domain.bounds),
                 shape: match &settings.domain.shape {
@@ -308,7 +283,7 @@ impl Saved {
             transfer: SavedTransfer { h_min, h_max, shape },
             base: None,
             resolution: None,
-            layers: Some(settings.layers.iter().map(StoredLayer::of).collect()),
+            layers: Some(settings.layers.iter().map(|layer| StoredLayer::of(layer, names)).collect()),
             gradation: settings.gradation,
             rule: match settings.rule {
                 RefinementRule::Vertex => SavedRule::Vertex,
@@ -372,7 +347,7 @@ impl Saved {
             (None, Some(base)) => base.into_layers(parts),
             (None, None) => Err(sentence("the settings are not valid: there are no layers.")),
         }?;
-        let background = self.background.map(|saved| saved.with(parts.background()?)).transpose()?;
+        let background = self.background.map(|saved| saved.load(parts)).transpose()?;
         let settings = Settings {
             name: self.name,
             unit: self.unit.into(),

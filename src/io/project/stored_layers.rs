@@ -1,69 +1,131 @@
 //! The layers of a document in `settings.json`, in the vocabulary of recipes.
 
+use std::path::Path;
+use std::sync::Arc;
+
 use serde::{Deserialize, Serialize};
 
 use super::super::Flaw;
 use super::super::error::PlacedFlaw;
-use super::super::layers::{SavedKind, SavedLayer, SavedQuantity};
-use super::settings::{Parts, SavedRaster, formula};
-use crate::layers::{Combine, Layer, LayerId, LayerKind, Quantity, RasterReading, RasterSource};
+use super::super::layers::{KindSpec, LayerData, LayerSpec, RasterFile, SavedLayer, TextError, check_values};
+use super::part_names::PartNames;
+use super::settings::{Parts, checked_size, corners, rect};
+use crate::domain::Polygon;
+use crate::layers::{DistanceTo, Layer, LayerId, LayerKind, RasterSource, ShapeList, Threat};
+use crate::raster::RasterPyramid;
 
-/// A layer with its identifier, and the place of its pixels if it is a raster.
+/// A layer with its identifier, and the place of its pixels if it reads a raster.
+///
+/// Threats, shapes and masks are in place. `file` is the name of the file that the data come from, for a
+/// person.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct StoredLayer {
-    /// Paint is in the part `paint.ID`, the pixels of a raster in the part `raster.ID`.
+    /// Paint is in the part `paint.ID`.
     id: u32,
     layer: SavedLayer,
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    raster: Option<SavedRaster>,
+    raster: Option<StoredRaster>,
+}
+
+/// A raster without its pixels.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct StoredRaster {
+    /// The part with the pixels. Layers that share a raster name the same part.
+    part: String,
+    bounds: [f64; 4],
+    columns: u32,
+    rows: u32,
 }
 
 impl StoredLayer {
-    pub(super) fn of(layer: &Layer) -> Self {
-        let raster = match &layer.kind {
-            LayerKind::Raster { source, .. } | LayerKind::Band { source, .. } => {
-                Some(SavedRaster::of(&source.name, source.raster.raster()))
+    pub(super) fn of(layer: &Layer, names: &PartNames) -> Self {
+        let source = raster_of(layer);
+        let raster = source.map(|source| {
+            let raster = source.raster.raster();
+            let [columns, rows] = raster.size();
+            let part = names.of_raster(&source.raster).to_owned();
+            StoredRaster { part, bounds: corners(raster.bounds()), columns, rows }
+        });
+        let file = match &layer.kind {
+            LayerKind::Distance { to: DistanceTo::Shapes { name, .. }, .. } => {
+                (!name.is_empty()).then(|| name.clone())
             }
-            _ => None,
+            _ => source.map(|source| source.name.clone()),
         };
-        Self { id: layer.id.0, layer: SavedLayer::of(layer, None), raster }
+        Self { id: layer.id.0, layer: SavedLayer::of(layer, file), raster }
     }
 
     pub(super) fn into_layer(self, parts: &mut impl Parts) -> Result<Layer, PlacedFlaw> {
-        let Self { id, layer: saved, raster } = self;
-        let id = LayerId(id);
-        let kind = match saved.kind {
-            SavedKind::Paint => LayerKind::Paint(quantity(&saved, saved.quantity)?),
-            SavedKind::Formula => LayerKind::Formula {
-                quantity: quantity(&saved, saved.quantity)?,
-                formula: formula("layers", saved.formula.as_deref().unwrap_or_default())?,
-            },
-            SavedKind::Raster => {
-                let stored = raster.ok_or_else(|| missing(&saved, "raster"))?;
-                let (bounds, size) = stored.checked()?;
-                let reading = match quantity(&saved, saved.read_as)? {
-                    Quantity::Risk => RasterReading::Risk,
-                    Quantity::Diameter => RasterReading::Diameter,
-                };
-                let raster = parts.raster(id, bounds, size, &reading)?;
-                LayerKind::Raster { source: RasterSource { name: stored.name, raster }, reading }
-            }
-            SavedKind::Threats | SavedKind::Distance | SavedKind::Band => {
-                return Err(missing(&saved, "known kind"));
-            }
-        };
-        let combine = Combine::from(saved.combine);
-        let name = saved.name.unwrap_or_else(|| kind.label().into());
-        Ok(Layer { id, name, visible: saved.visible, locked: saved.locked, combine, mask: None, kind })
+        let Self { id, layer, raster } = self;
+        let name = layer.name.as_deref().unwrap_or(layer.kind.word());
+        let spec = layer.checked_in_project().map_err(|fault| {
+            PlacedFlaw::from(Flaw::Syntax(format!("the layer “{name}” is not valid. {fault}")))
+        })?;
+        spec.load(LayerId(id), &mut InProject { parts, raster })
     }
 }
 
-fn quantity(layer: &SavedLayer, saved: Option<SavedQuantity>) -> Result<Quantity, PlacedFlaw> {
-    saved.map(Quantity::from).ok_or_else(|| missing(layer, "quantity"))
+/// The raster that a layer reads, if it reads one.
+pub(super) fn raster_of(layer: &Layer) -> Option<&RasterSource> {
+    match &layer.kind {
+        LayerKind::Raster { source, .. } | LayerKind::Band { source, .. } => Some(source),
+        _ => None,
+    }
 }
 
-fn missing(layer: &SavedLayer, what: &str) -> PlacedFlaw {
-    let name = layer.name.as_deref().unwrap_or(layer.kind.word());
-    Flaw::Syntax(format!("the layer \"{name}\" has no {what}.")).into()
+/// The data of a layer of a project. Only rasters are parts of their own.
+struct InProject<'a, P> {
+    parts: &'a mut P,
+    raster: Option<StoredRaster>,
+}
+
+impl<P: Parts> LayerData for InProject<'_, P> {
+    type Error = PlacedFlaw;
+
+    fn raster(&mut self, layer: &LayerSpec, _: &RasterFile) -> Result<Arc<RasterPyramid>, PlacedFlaw> {
+        let stored = self.raster.as_ref();
+        let stored = stored.ok_or_else(|| layer.error("its pixels are not part of the project."))?;
+        let (bounds, size) = (rect("raster", stored.bounds)?, checked_size([stored.columns, stored.rows])?);
+        let raster =
+            self.parts.raster(&stored.part, bounds, size).map_err(|PlacedFlaw { place, flaw }| {
+                let flaw = match flaw {
+                    Flaw::Io(error) => Flaw::Io(error),
+                    flaw => Flaw::Syntax(format!(
+                        "the pixels of the layer “{}” cannot be read: {flaw}",
+                        layer.name
+                    )),
+                };
+                PlacedFlaw { place, flaw }
+            })?;
+        if let KindSpec::Raster { reading, .. } = &layer.kind {
+            check_values(&raster, reading).map_err(|problem| layer.error(problem))?;
+        }
+        Ok(raster)
+    }
+
+    fn threats(&mut self, file: &Path) -> Result<Vec<Threat>, PlacedFlaw> {
+        Err(not_in_place(file))
+    }
+
+    fn shapes(&mut self, file: &Path) -> Result<ShapeList, PlacedFlaw> {
+        Err(not_in_place(file))
+    }
+
+    fn polygons(&mut self, file: &Path) -> Result<Vec<Polygon>, PlacedFlaw> {
+        Err(not_in_place(file))
+    }
+}
+
+fn not_in_place(file: &Path) -> PlacedFlaw {
+    let problem = "a layer names the file";
+    Flaw::Syntax(format!("{problem} {}, and a project holds the data of its layers itself.", file.display()))
+        .into()
+}
+
+impl From<TextError> for PlacedFlaw {
+    fn from(TextError(sentence): TextError) -> Self {
+        Flaw::Syntax(sentence).into()
+    }
 }

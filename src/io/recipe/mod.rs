@@ -3,6 +3,7 @@
 //! `docs/recipe.md` lists the keys. Files are named relative to the folder of the recipe.
 
 mod checked;
+mod export;
 mod of_settings;
 mod saved;
 mod text;
@@ -18,6 +19,7 @@ use std::path::{Path, PathBuf};
 use super::error::PlacedFlaw;
 use super::{Flaw, ReadError};
 pub use checked::{OutputSpec, Recipe, checked_gradation};
+pub use export::RecipeFiles;
 pub use saved::{
     SavedDomain, SavedLimits, SavedMesh, SavedName, SavedOutput, SavedParts, SavedRecipe, SavedRule,
     SavedTreatment, SavedUnit,

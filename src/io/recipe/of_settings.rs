@@ -29,7 +29,7 @@ impl SavedRecipe {
             h_min: Some(settings.transfer.h_min),
             h_max: Some(settings.transfer.h_max),
             shape: (settings.transfer.shape != 1.0).then_some(settings.transfer.shape),
-            gradation: None,
+            gradation: settings.gradation,
         };
         Self { domain: domain(settings, region_file), mesh, limits, layer: layers, output: Vec::new() }
     }
