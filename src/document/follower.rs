@@ -242,9 +242,11 @@ impl Follower {
         let shown = &self.shown;
         let goes_on = match &state {
             FollowState::InStep | FollowState::GaveUp { .. } => false,
-            FollowState::Updating { .. } => {
-                shown.settings == *wanted && shown.obeys(wanted) && shown.has_updates()
+            // The mesh keeps moving while a layer or a limit is dragged: newer ones wait for the update.
+            FollowState::Updating { .. } if !shown.obeys(wanted) => {
+                shown.has_updates() && shown.can_follow_layers(wanted)
             }
+            FollowState::Updating { .. } => shown.settings == *wanted && shown.has_updates(),
             // An update of the outline that has begun is finished; what came since is the next one.
             FollowState::FollowingOutline(_) => shown.can_follow_outline(wanted),
             // So is a check: the mesh keeps moving while a layer is dragged.
@@ -293,9 +295,11 @@ impl Follower {
         let result = self.shown.update_mesh(&mut copy, document.paint(), budget);
         // What changed before an error is shown too.
         self.note_changes();
-        result?;
-        if self.shown.has_updates() {
-            return Ok(FollowState::Updating { copy });
+        match result {
+            Ok(()) if self.shown.has_updates() => return Ok(FollowState::Updating { copy }),
+            Err(error) if self.shown.settings == *document.settings() => return Err(error.into()),
+            // What is impossible with outdated layers may be possible with the present ones.
+            Ok(()) | Err(_) => {}
         }
         self.next_state(document.settings())
     }

@@ -27,10 +27,10 @@ impl LayersUpdate {
             && Settings { layers, transfer, gradation, ..shown.clone() }.share_mesh_with(wanted)
     }
 
-    /// The work towards the wanted settings, on the lattice of the shown mesh.
-    pub(super) fn new(wanted: &Settings, lattice: &Lattice) -> Self {
+    /// The work from the shown to the wanted settings, on the lattice of the shown mesh.
+    pub(super) fn new(shown: &Settings, wanted: &Settings, lattice: &Lattice) -> Self {
         let field = SizeField::new(wanted.field_spec(), lattice);
-        let check = LayerCheck::new(&field);
+        let check = LayerCheck::of_changed(&field, &shown.layers);
         Self { settings: wanted.clone(), field: Arc::new(field), check }
     }
 

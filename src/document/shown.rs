@@ -102,7 +102,7 @@ impl Shown {
 
     /// The work that follows other layers in place, where that is possible.
     pub(super) fn follow_layers(&self, wanted: &Settings) -> Option<LayersUpdate> {
-        self.can_follow_layers(wanted).then(|| LayersUpdate::new(wanted, self.mesh.lattice()))
+        self.can_follow_layers(wanted).then(|| LayersUpdate::new(&self.settings, wanted, self.mesh.lattice()))
     }
 
     /// Not so where the mesh is beyond the wanted budgets already: only a rebuild finds out whether they can

@@ -2,9 +2,9 @@
 
 use glam::DVec2;
 
-use super::SizeField;
 use super::engine::analytic::{Analytic, center, cut_between_squares};
 use super::engine::cells::Cells;
+use super::{Layer, SizeField};
 use crate::geometry::Lattice;
 use crate::mesh::Progress;
 use crate::text::Number;
@@ -45,6 +45,16 @@ impl LayerCheck {
         let all = Cells::all(field.lattice().extent());
         let analytic = |n: &usize| field.compiled()[*n].analytic().is_some();
         Self { left: (0..field.compiled().len()).rev().filter(analytic).map(|n| (n, all)).collect() }
+    }
+
+    /// Work that checks the visible layers of a field that differ from all visible ones of `checked`, which
+    /// were found valid on the same lattice.
+    pub fn of_changed(field: &SizeField, checked: &[Layer]) -> Self {
+        let mut check = Self::new(field);
+        let visible: Vec<&Layer> = field.spec().layers.iter().filter(|layer| layer.visible).collect();
+        let is_known = |n: usize| checked.iter().any(|old| old.visible && old.kind == visible[n].kind);
+        check.left.retain(|(n, _)| !is_known(*n));
+        check
     }
 
     /// Whether nothing is left.
