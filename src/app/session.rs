@@ -422,9 +422,7 @@ impl Session {
     /// so.
     fn take_back(&mut self, error: &BuildError) {
         let revision = self.document.revision();
-        if self.document.settings() != self.follower.settings() {
-            self.document.reject_last();
-        }
+        self.document.reject_last();
         if self.document.revision() != revision {
             self.report_edit(format!("{error}{}", notices::advice(error)));
         } else {

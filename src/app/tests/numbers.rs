@@ -68,7 +68,7 @@ fn a_number_in_a_field_is_dragged_and_taken_where_the_drag_ends() {
     drag_number(&mut window, "Diameter", -60.0, Modifiers::NONE);
     // The first points of a movement decide that it is a drag.
     let diameter = settings(&window).layers[0].kind.clone();
-    assert_eq!(diameter, LayerKind::constant(0.1), "{diameter:?}");
+    assert_eq!(diameter, LayerKind::constant(0.107), "{diameter:?}");
     assert_eq!(entries(&window), 1);
 }
 

@@ -3,7 +3,6 @@
 use std::path::{Path, PathBuf};
 
 use eframe::egui::accesskit::Role;
-use eframe::egui::{Key, Modifiers};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 use glam::{DVec2, dvec2};
@@ -97,28 +96,6 @@ fn an_outline_elsewhere_or_far_too_large_is_refused_with_a_sentence() {
         assert!(message.contains(reason) && message.contains("coast.geojson"), "{message}");
         assert_eq!(document(&window).version(), version);
     }
-}
-
-#[test]
-fn the_base_field_shows_what_the_document_has() {
-    let mut window = window_of(TALL);
-    send(&mut window, Command::New);
-    super::select_base(&mut window);
-    let chosen = |window: &Window, name: &str| {
-        use egui_kittest::kittest::NodeT as _;
-        let node = window.get_by_role_and_label(Role::RadioButton, name);
-        node.accesskit_node().data().toggled() == Some(eframe::egui::accesskit::Toggled::True)
-    };
-    window.get_by_role_and_label(Role::RadioButton, "Picture").click();
-    window.run();
-    window.key_press_modifiers(Modifiers::NONE, Key::Escape);
-    window.run();
-    assert!(chosen(&window, "Constant"), "no picture was chosen");
-    window.get_by_role_and_label(Role::RadioButton, "Formula").click();
-    window.run();
-    assert!(chosen(&window, "Formula"));
-    send(&mut window, Command::New);
-    assert!(chosen(&window, "Constant"), "the new document has no formula");
 }
 
 /// Writes a grid of two pixels, of which the right one has no value.

@@ -179,8 +179,6 @@ fn a_formula_typed_for_another_document_is_gone() {
     let mut window = window_of(TALL);
     super::select_base(&mut window);
     let field = "Target diameter h̄(x, y)";
-    window.get_by_role_and_label(Role::RadioButton, "Formula").click();
-    window.run();
     window.get_by_role_and_label(Role::TextInput, field).type_text("0.1*");
     window.run();
     send(&mut window, Command::New);
