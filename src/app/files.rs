@@ -18,7 +18,7 @@ use crate::io::png::{Behind, decode};
 use crate::io::project::Project;
 use crate::io::recipe::{self, RecipeFiles};
 use crate::io::{self, Cancelled, MeshData, MeshSource, Meter, Provenance};
-use crate::layers::{LayerKind, RasterReading, RasterSource};
+use crate::layers::{LayerKind, RasterReading, RasterSource, TargetsInOrder};
 use crate::mesh::Extract;
 use crate::outline::DerivedMesh;
 use crate::raster::{Raster, RasterPyramid};
@@ -222,7 +222,8 @@ pub fn export(
         let write = || -> std::io::Result<(Vec<PathBuf>, usize)> {
             let extract = DerivedMesh::new(&mesh, &domain, &settings.derived_cleaning()).extract(&mesh);
             let target_diameter = if format.wants_node_data() {
-                at_nodes(&extract, meter, |node| field.target_by_rule(rule, &paint, node))?
+                let mut targets = TargetsInOrder::new(&field, &paint, rule);
+                at_nodes(&extract, meter, |node| targets.at(node))?
             } else {
                 Vec::new()
             };
@@ -286,7 +287,11 @@ fn domain_of(path: &Path, meter: &Meter) -> Result<Document, String> {
 }
 
 /// A value at each node, unless it is cancelled.
-fn at_nodes(extract: &Extract, meter: &Meter, value: impl Fn(DVec2) -> f64) -> Result<Vec<f64>, Cancelled> {
+fn at_nodes(
+    extract: &Extract,
+    meter: &Meter,
+    mut value: impl FnMut(DVec2) -> f64,
+) -> Result<Vec<f64>, Cancelled> {
     let mut values = Vec::with_capacity(extract.nodes().len());
     for (n, node) in extract.world_nodes().enumerate() {
         if n.is_multiple_of(NODES_BETWEEN_CHECKS) {

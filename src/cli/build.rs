@@ -13,7 +13,7 @@ use crate::build::{BuildStage, BuiltMesh, MeshBuilder, MeshSpec};
 use crate::domain::{BoundaryMarks, Domain, MeshBoundary, Region};
 use crate::field::RefinementRule;
 use crate::io;
-use crate::layers::PaintLayers;
+use crate::layers::{PaintLayers, TargetsInOrder};
 use crate::mesh::{CoarseError, Extract, InvalidTarget, Limits, Mesh, Progress, TriangleId};
 use crate::outline::DerivedMesh;
 use crate::text::{Grouped, LengthUnit};
@@ -72,7 +72,8 @@ impl FinishedMesh {
 
     /// h̄ at every node, in world units.
     pub fn target_at_nodes(&self, extract: &Extract) -> Vec<f64> {
-        extract.world_nodes().map(|point| self.target_at(point)).collect()
+        let mut targets = TargetsInOrder::new(&self.built.field, &self.paint, self.built.rule);
+        extract.world_nodes().map(|point| targets.at(point)).collect()
     }
 
     /// The triangles whose diameter exceeds their target.

@@ -11,6 +11,7 @@ mod paint_layers;
 mod sampled;
 mod size_field;
 mod targets;
+mod targets_in_order;
 mod threats;
 
 pub use check::{InvalidLayer, LayerCheck};
@@ -21,4 +22,5 @@ pub use mask::{Coverage, Mask};
 pub use paint_layers::PaintLayers;
 pub use size_field::{SizeField, SizeFieldSpec};
 pub use targets::Decision;
+pub use targets_in_order::TargetsInOrder;
 pub use threats::{Threat, ThreatError, ThreatLaw, Threats};
