@@ -6,7 +6,10 @@ use super::{Document, Settings};
 use crate::domain::{BoundaryMarks, BoundaryTreatment, Domain, NamedPolygon};
 use crate::field::{Formula, RefinementRule, Transfer};
 use crate::geometry::Rect;
-use crate::layers::{Layer, LayerKind, RasterReading, RasterSource};
+use crate::layers::{
+    Combine, DistanceTo, Layer, LayerId, LayerKind, Mask, Quantity, RasterReading, RasterSource, ShapeList,
+    Shapes, Threat, ThreatLaw, Threats, ValueCurve,
+};
 use crate::mesh::Cleaning;
 use crate::paint::{Brush, Medium};
 use crate::raster::{Raster, RasterPyramid};
@@ -24,11 +27,13 @@ pub enum Example {
     Terrain,
     /// A sea with its islands.
     Aegean,
+    /// Every kind of layer, on the terrain.
+    Layers,
 }
 
 impl Example {
     /// All examples. The window starts with the first.
-    pub const ALL: [Self; 4] = [Self::Threats, Self::Diamond, Self::Terrain, Self::Aegean];
+    pub const ALL: [Self; 5] = [Self::Threats, Self::Diamond, Self::Terrain, Self::Aegean, Self::Layers];
 
     /// Name for menus.
     pub fn name(self) -> &'static str {
@@ -37,6 +42,7 @@ impl Example {
             Self::Diamond => "The report's diamond",
             Self::Terrain => "Terrain slope",
             Self::Aegean => "Aegean Sea",
+            Self::Layers => "Layers on a terrain",
         }
     }
 
@@ -50,6 +56,9 @@ impl Example {
             Self::Terrain => "Slope of the terrain at Jacksboro, from the SRTM elevation model, as risk.",
             Self::Aegean => {
                 "The sea between Greece and Turkey, fitted to the coast, with 65 islands as holes."
+            }
+            Self::Layers => {
+                "Slope, cliffs, a road, radio masts, paint and a floor: every kind of layer, with limited gradation."
             }
         }
     }
@@ -66,6 +75,7 @@ impl Example {
             Self::Diamond => document(diamond()),
             Self::Terrain => document(terrain(slope())),
             Self::Aegean => document(aegean(&sea())),
+            Self::Layers => layers(slope()),
         }
     }
 }
@@ -95,10 +105,13 @@ fn diamond() -> Settings {
     }
 }
 
+fn source_of(slope: Raster) -> RasterSource {
+    RasterSource { name: "jacksboro_slope.png".into(), raster: Arc::new(RasterPyramid::new(slope)) }
+}
+
 fn terrain(slope: Raster) -> Settings {
     let bounds = slope.bounds();
-    let source =
-        RasterSource { name: "jacksboro_slope.png".into(), raster: Arc::new(RasterPyramid::new(slope)) };
+    let source = source_of(slope);
     let slope_as_risk = LayerKind::Raster { source, reading: RasterReading::Risk };
     Settings {
         name: Example::Terrain.name().into(),
@@ -116,6 +129,74 @@ fn terrain(slope: Raster) -> Settings {
         max_triangles: Settings::MAX_TRIANGLES,
         max_memory: Settings::MAX_MEMORY,
     }
+}
+
+/// The road across the terrain, as shares of its sides, from the lower left.
+const ROAD: [DVec2; 6] = [
+    dvec2(0.04, 0.08),
+    dvec2(0.31, 0.26),
+    dvec2(0.44, 0.33),
+    dvec2(0.52, 0.54),
+    dvec2(0.84, 0.74),
+    dvec2(0.96, 0.96),
+];
+/// Where the terrain was surveyed coarsely, as shares of its sides.
+const SURVEY: [DVec2; 4] = [dvec2(0.60, 0.05), dvec2(0.93, 0.05), dvec2(0.97, 0.33), dvec2(0.66, 0.42)];
+/// A landing site, painted, as shares of the sides of the terrain.
+const LANDING: [DVec2; 3] = [dvec2(0.62, 0.86), dvec2(0.68, 0.91), dvec2(0.76, 0.90)];
+
+/// Every kind of layer, on the terrain.
+fn layers(slope: Raster) -> Document {
+    let bounds = slope.bounds();
+    let at = |share: DVec2| bounds.min + share * bounds.size();
+    let layers = layers_of_terrain(&source_of(slope), at);
+    let transfer = Transfer { h_min: 0.06, h_max: 2.0, shape: 1.6 };
+    let settings = Settings {
+        unit: LengthUnit::Kilometre,
+        spacing: bounds.size().max_element() / 16.0,
+        transfer,
+        layers,
+        gradation: Some(0.4),
+        ..Settings::for_domain(Example::Layers.name().into(), Domain::rectangle(bounds))
+    };
+    let mut document = document(settings);
+    let medium = Medium::Risk(1.0);
+    document.begin_stroke(Brush { medium, radius: 0.9, hardness: 0.5, strength: 0.9 });
+    for share in LANDING {
+        document.draw_to(at(share));
+    }
+    document.end_stroke();
+    without_history(&document)
+}
+
+/// The layers, from the bottom to the top; lengths in kilometres. `at` places a share of the sides.
+fn layers_of_terrain(slope: &RasterSource, at: impl Fn(DVec2) -> DVec2) -> Vec<Layer> {
+    let curve = ValueCurve::new(vec![[0.3, 2.0], [0.6, 1.0], [1.0, 0.5]]).expect("a valid curve");
+    let reading = RasterReading::Curve(Arc::new(curve));
+    let road = ShapeList { lines: vec![ROAD.map(&at).to_vec()], ..ShapeList::default() };
+    let shapes = Shapes::new(road, false).expect("a valid line");
+    let to = DistanceTo::Shapes { name: String::new(), shapes };
+    let mast = |place, range, peak, law| Threat { at: at(place), range, peak, law };
+    let masts = vec![
+        mast(dvec2(0.19, 0.75), 2.8, 1.0, ThreatLaw::Radar),
+        mast(dvec2(0.40, 0.70), 2.2, 0.85, ThreatLaw::Gaussian),
+        mast(dvec2(0.86, 0.52), 2.0, 0.8, ThreatLaw::Disc),
+    ];
+    let floor = LayerKind::target(Formula::constant_of(0.7));
+    let survey = Mask::new(&[vec![SURVEY.map(&at).to_vec()]]).expect("a valid polygon");
+    let named = [
+        ("Base", LayerKind::target(Formula::parse("1.4 + 0.6*sin(x/3)*cos(y/4)").expect("a valid formula"))),
+        ("Slope", LayerKind::Raster { source: slope.clone(), reading }),
+        ("Cliffs", LayerKind::Band { source: slope.clone(), between: [0.97, 1.0], diameter: 0.3 }),
+        ("Road", LayerKind::Distance { to, at_zero: 0.1, slope: 0.3, range: 3.0 }),
+        ("Coarse survey", floor),
+        ("Radio masts", LayerKind::Threats(Threats::new(masts).expect("valid threats"))),
+        ("Landing site", LayerKind::Paint(Quantity::Risk)),
+    ];
+    let layer = |(id, (name, kind)): (u32, (&str, LayerKind))| Layer::new(LayerId(id), name, kind);
+    let mut layers: Vec<Layer> = (0..).zip(named).map(layer).collect();
+    (layers[4].combine, layers[4].mask) = (Combine::Floor, Some(survey));
+    layers
 }
 
 /// Radar sites (where, radius, hardness, strength), and a patrol route between them.
@@ -148,7 +229,11 @@ fn threats() -> Document {
         document.draw_to(dvec2(0.08 + 0.62 * t, 0.30 + 0.21 * sway));
     }
     document.end_stroke();
+    without_history(&document)
+}
+
+/// A document as it is, with nothing to undo.
+fn without_history(document: &Document) -> Document {
     let (settings, paint) = (document.settings().clone(), document.paint().clone());
-    // Opened as it is, with nothing to undo.
     Document::new(settings, Some(paint)).expect("the settings were valid before")
 }

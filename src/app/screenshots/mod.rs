@@ -11,8 +11,9 @@ use glam::{DVec2, dvec2};
 
 use super::SMALLEST_SIZE;
 use super::WINDOW_SIZE;
-use super::command::{BoundaryCommand, BrushCommand, Command, DomainCommand};
+use super::command::{BoundaryCommand, BrushCommand, Command, DomainCommand, LayerCommand};
 use super::tools::{BoundaryToolMode, DomainToolMode, PaintKind, QUERY};
+use super::view::FieldOverlay;
 use crate::document::{Example, Setting};
 use crate::field::{Formula, RefinementRule};
 use crate::io;
@@ -31,12 +32,13 @@ struct Scene {
     act: fn(&mut OffscreenWindow),
 }
 
-const SCENES: [Scene; 10] = [
+const SCENES: [Scene; 11] = [
     scene("window", window),
     scene("query", query),
     scene("diamond", diamond),
     scene("terrain", terrain),
     scene("aegean", aegean),
+    scene("layers", layers),
     scene("boundary", boundary),
     scene("light", light),
     scene("deep", deep),
@@ -114,6 +116,18 @@ fn aegean(window: &mut OffscreenWindow) {
     window.send(Command::Domain(DomainCommand::Mode(DomainToolMode::Brush)));
     window.send(Command::Brush(BrushCommand::Radius(0.2)));
     point_at(window, dvec2(25.25, 38.1));
+}
+
+/// Every kind of layer. The overlay has the colours of the layers that decide h̄; the threats are selected.
+fn layers(window: &mut OffscreenWindow) {
+    window.send(Command::OpenExample(Example::Layers));
+    window.send(Command::SetOverlay(FieldOverlay::Layer));
+    let is_threats = |layer: &&Layer| matches!(layer.kind, LayerKind::Threats(_));
+    if let Some(threats) = window.layers().iter().find(is_threats).map(|layer| layer.id) {
+        window.send(Command::Layer(LayerCommand::Select(threats)));
+    }
+    window.send(Command::Use(&QUERY));
+    point_at(window, dvec2(15.9, 17.2));
 }
 
 /// The pieces of a coast, one of them selected.

@@ -16,6 +16,7 @@ use glam::DVec2;
 use crate::app::App;
 use crate::app::canvas::marks::point_from_px;
 use crate::app::command::Command;
+use crate::layers::Layer;
 use crate::mesh::Progress;
 use crate::render::Image;
 use crate::render::gpu::{device_descriptor, read_back};
@@ -73,6 +74,11 @@ impl OffscreenWindow {
     /// Where the canvas is on the screen, in points.
     pub fn canvas_rect(&self) -> Option<Rect> {
         self.app.canvas.rect()
+    }
+
+    /// The layers of the document, from the bottom to the top.
+    pub fn layers(&self) -> &[Layer] {
+        &self.app.session.document().settings().layers
     }
 
     /// Runs a command and everything that follows from it.
