@@ -242,12 +242,14 @@ fn only_the_window_uses_egui() {
 }
 
 /// Files of the window that may name a tool: the file, and why. All others read the table of tools.
-const NAMES_A_TOOL: [(&str, &str); 8] = [
+const NAMES_A_TOOL: [(&str, &str); 10] = [
     ("src/app/canvas/mod.rs", "Space and the middle button pan with every tool"),
     ("src/app/catalog/tool.rs", "the modes of the tools for domain and boundary are commands"),
     ("src/app/execute/domain.rs", "commands of the tools for domain and boundary select them"),
+    ("src/app/execute/layers.rs", "a layer of threats is edited with the tool for threats"),
     ("src/app/execute/mod.rs", "some commands belong to one tool"),
     ("src/app/panels/brush.rs", "brush and eraser share a section"),
+    ("src/app/execute/threats.rs", "counts uses of the tool for threats"),
     ("src/app/panels/domain.rs", "the section shows the tool's settings while it is selected"),
     ("src/app/screenshots/mod.rs", "pictures of single tools"),
     ("src/app/screenshots/tour.rs", "pictures of single tools"),
@@ -257,7 +259,7 @@ const NAMES_A_TOOL: [(&str, &str); 8] = [
 fn a_tool_is_one_file_and_one_entry_of_the_table() {
     let window = files().into_iter().filter(|file| file.path.starts_with("src/app/"));
     let window = window.filter(|file| !file.path.starts_with("src/app/tools/"));
-    let tools = ["BRUSH", "ERASER", "QUERY", "DOMAIN", "BOUNDARY", "PAN"]
+    let tools = ["BRUSH", "ERASER", "QUERY", "THREATS", "DOMAIN", "BOUNDARY", "PAN"]
         .map(|tool| format!("crate::app::tools::{tool}"));
     let tools: Vec<&str> = tools.iter().map(String::as_str).collect();
     let listed: Vec<String> = NAMES_A_TOOL.iter().map(|(file, _)| (*file).to_owned()).collect();

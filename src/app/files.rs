@@ -9,6 +9,7 @@ use glam::DVec2;
 use super::background::{Aim, Background, Outcome, cancelled, name_of};
 use super::command::{Command, LayerCommand, Opened, OutlineChange};
 use super::session::Session;
+use super::tools::ThreatsTool;
 use super::view::View;
 use super::widgets::format;
 use crate::document::{self, Document, Example, Setting, Settings, extent};
@@ -18,7 +19,7 @@ use crate::io::png::{Behind, decode};
 use crate::io::project::Project;
 use crate::io::recipe::{self, RecipeFiles};
 use crate::io::{self, Cancelled, MeshData, MeshSource, Meter, Provenance};
-use crate::layers::{LayerKind, RasterReading, RasterSource, TargetsInOrder};
+use crate::layers::{LayerKind, RasterReading, RasterSource, TargetsInOrder, Threats};
 use crate::mesh::Extract;
 use crate::outline::DerivedMesh;
 use crate::raster::{Raster, RasterPyramid};
@@ -104,6 +105,42 @@ pub fn load_diameters(session: &Session, background: &mut Background, path: &Pat
             Outcome::PartRead(vec![Command::Layer(LayerCommand::Add(Box::new(kind))), Command::EndGesture])
         }
         Err(problem) => Outcome::NotRead(problem),
+    });
+}
+
+/// Reads a table of threats in place of those of the selected layer.
+pub fn load_threats(session: &Session, background: &mut Background, path: &Path) {
+    let Some(layer) = session.document().active_layer().map(|layer| layer.id) else { return };
+    let file = path.to_owned();
+    background.start(Aim::Read, path, move |meter| {
+        let list = match io::threats::read(&file, meter) {
+            Ok(list) => list,
+            Err(error) => return Outcome::not_read(error),
+        };
+        match Threats::new(list) {
+            Ok(threats) => {
+                let change = LayerCommand::SetKind(layer, Box::new(LayerKind::Threats(threats)));
+                Outcome::PartRead(vec![Command::EndGesture, Command::Layer(change), Command::EndGesture])
+            }
+            Err((_, error)) => Outcome::NotRead(format!("{}: {error}", file.display())),
+        }
+    });
+}
+
+/// Writes the threats of the selected layer as a table.
+pub fn save_threats(session: &Session, background: &mut Background, path: &Path) {
+    let Some((_, threats)) = ThreatsTool::layer(session.document()) else { return };
+    let (threats, file) = (threats.clone(), path.to_owned());
+    background.start(Aim::Export, path, move |meter| {
+        let written = io::write_file_metered(&file, meter, |out| io::threats::write(out, threats.list()));
+        match written {
+            Ok(()) => {
+                let count = format::count(threats.list().len() as u64);
+                Outcome::Exported(format!("{count} threats written to {}.", file.display()))
+            }
+            Err(_) if meter.is_cancelled() => Outcome::Exported(cancelled(Aim::Export, &file)),
+            Err(error) => Outcome::NotWritten(format!("{} could not be written: {error}.", file.display())),
+        }
     });
 }
 

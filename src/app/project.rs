@@ -260,6 +260,16 @@ impl ProjectFile {
         None
     }
 
+    /// The command that writes a table of threats to a path that was typed. Asks before it replaces a file.
+    pub fn save_threats_as(&mut self, path: PathBuf) -> Option<Command> {
+        let path = if path.extension().is_none() { path.with_extension("csv") } else { path };
+        if !io::exists(&path) || io::obstacle(&path).is_some() {
+            return Some(Command::SaveThreats(path));
+        }
+        self.replacing = Some((vec![path.clone()], Command::SaveThreats(path)));
+        None
+    }
+
     /// The command that writes a recipe to a path that was typed. Asks before it replaces other files.
     pub fn save_recipe_as(&mut self, path: PathBuf, recipe: &RecipeFiles) -> Option<Command> {
         let existing = recipe.paths().filter(|file| io::exists(file));

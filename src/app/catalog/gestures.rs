@@ -7,6 +7,8 @@ pub enum Place {
     Painting,
     /// With the query tool.
     Querying,
+    /// With the threats tool.
+    Threats,
     /// On the canvas, with any tool.
     Canvas,
     /// On a number or a slider of a panel.
@@ -19,6 +21,7 @@ impl Place {
         match self {
             Self::Painting => "Painting with the pointer",
             Self::Querying => "Inspecting triangles",
+            Self::Threats => "Threats",
             Self::Canvas => "On the canvas, with any tool",
             Self::Panel => "Numbers and sliders",
         }
@@ -49,7 +52,7 @@ impl GestureHelp {
 }
 
 /// All of them.
-pub static GESTURES: [GestureHelp; 19] = [
+pub static GESTURES: [GestureHelp; 23] = [
     gesture(Place::Painting, "Paint or erase", "drag"),
     gesture(Place::Painting, "Pick the value under the pointer", "Alt+click")
         .in_menu("Hold Alt and click on the canvas: the brush takes the value under the pointer."),
@@ -62,6 +65,10 @@ pub static GESTURES: [GestureHelp; 19] = [
     gesture(Place::Querying, "Go to a neighbour of the triangle", "1, 2, 3"),
     gesture(Place::Querying, "Copy a value of the triangle", "click on it"),
     gesture(Place::Querying, "Copy all its values", "Ctrl+C"),
+    gesture(Place::Threats, "Select or place a threat", "click"),
+    gesture(Place::Threats, "Place a threat on another one", "Ctrl+click"),
+    gesture(Place::Threats, "Place a threat with its range", "drag from a free place"),
+    gesture(Place::Threats, "Move a threat or change its range", "drag its middle or its ring"),
     gesture(Place::Canvas, "Menu for a point", "right-click"),
     gesture(Place::Canvas, "Move the view", "Space+drag"),
     gesture(Place::Canvas, "Move the view", "middle-drag"),

@@ -3,10 +3,11 @@
 use eframe::egui::{Key, Modifiers};
 
 use super::{CatalogItem, GESTURES, GestureHelp, Menu};
-use crate::app::command::{BoundaryCommand, BrushCommand, Command, DomainCommand};
+use crate::app::command::{BoundaryCommand, BrushCommand, Command, DomainCommand, ThreatsCommand};
 use crate::app::frame::FrameState;
 use crate::app::tools::{
-    BOUNDARY, BoundaryToolMode, BrushMode, DOMAIN, DomainToolMode, ERASER, PaintKind, QUERY, TOOLS, Tools,
+    BOUNDARY, BoundaryToolMode, BrushMode, DOMAIN, DomainToolMode, ERASER, PaintKind, QUERY, THREATS, TOOLS,
+    Tools,
 };
 
 const DIGITS: [Key; 10] = [
@@ -65,6 +66,7 @@ pub fn tool(state: &FrameState<'_>) -> Vec<CatalogItem> {
     ]);
     items.extend(GESTURES.iter().filter(|gesture| !gesture.advice.is_empty()).map(gesture_item));
     items.extend(domain_tool(state));
+    items.extend(threats_tool(state));
     items.extend(neighbours(state));
     items.extend(amounts(tools));
     items
@@ -128,6 +130,14 @@ fn domain_tool(state: &FrameState<'_>) -> Vec<CatalogItem> {
         items.push(item("Close the polygon", DomainCommand::ClosePolygon).key(Key::Enter));
     }
     items
+}
+
+/// The key deletes a threat only while the tool is selected.
+fn threats_tool(state: &FrameState<'_>) -> Option<CatalogItem> {
+    let is_selected = state.tools.threats.selected_in(state.session.document()).is_some();
+    let delete = Command::Threats(ThreatsCommand::Delete);
+    let item = CatalogItem::new(Menu::Tool, "Delete the selected threat", delete).key(Key::Delete).group();
+    (state.tools.tool == &THREATS).then(|| item.enabled(is_selected))
 }
 
 fn boundary_tool(state: &FrameState<'_>) -> Vec<CatalogItem> {

@@ -27,6 +27,10 @@ pub enum FileRequest {
     OpenDomain,
     /// To add polygons to the domain of the document.
     AddOutline,
+    /// To open a table of threats.
+    OpenThreats,
+    /// To write a table of threats.
+    SaveThreats,
     /// To write the mesh.
     Export,
 }
@@ -43,6 +47,8 @@ impl FileRequest {
             Self::OpenBackground => "Open background picture",
             Self::OpenDomain => "Open domain",
             Self::AddOutline => "Add outline to this document",
+            Self::OpenThreats => "Open table of threats",
+            Self::SaveThreats => "Save table of threats",
             Self::Export => "Export mesh",
         }
     }
@@ -50,11 +56,14 @@ impl FileRequest {
     /// The word on the button.
     pub fn verb(self) -> &'static str {
         match self {
-            Self::Open | Self::OpenImage | Self::OpenDiameters | Self::OpenBackground | Self::OpenDomain => {
-                "Open"
-            }
+            Self::Open
+            | Self::OpenImage
+            | Self::OpenDiameters
+            | Self::OpenBackground
+            | Self::OpenDomain
+            | Self::OpenThreats => "Open",
             Self::AddOutline => "Add",
-            Self::Save | Self::SaveRecipe => "Save",
+            Self::Save | Self::SaveRecipe | Self::SaveThreats => "Save",
             Self::Export => "Export",
         }
     }
@@ -69,6 +78,7 @@ impl FileRequest {
             Self::OpenDiameters => vec!["asc"],
             Self::OpenBackground => vec!["png"],
             Self::OpenDomain | Self::AddOutline => vec!["geojson", "json"],
+            Self::OpenThreats | Self::SaveThreats => vec!["csv"],
             Self::Export => ExportFormat::endings().collect(),
         }
     }
@@ -83,6 +93,7 @@ impl FileRequest {
             Self::OpenDiameters => "Grids",
             Self::OpenBackground => "Pictures",
             Self::OpenDomain | Self::AddOutline => "Polygons",
+            Self::OpenThreats | Self::SaveThreats => "Tables of threats",
             Self::Export => "Meshes and pictures",
         }
     }
@@ -101,13 +112,14 @@ impl FileRequest {
             Self::OpenBackground => "backgrounds",
             Self::OpenDomain | Self::AddOutline => "domains",
             Self::SaveRecipe => "recipes",
+            Self::OpenThreats | Self::SaveThreats => "threats",
             Self::Export => "exports",
         }
     }
 
     /// Whether a file is written.
     pub fn writes(self) -> bool {
-        matches!(self, Self::Save | Self::SaveRecipe | Self::Export)
+        matches!(self, Self::Save | Self::SaveRecipe | Self::SaveThreats | Self::Export)
     }
 
     /// The name that a file to write is given first; nothing for a file to read.
@@ -117,6 +129,7 @@ impl FileRequest {
         match self {
             Self::Save => format!("{name}.{ENDING}"),
             Self::SaveRecipe => format!("{name}.{}", recipe::ENDING),
+            Self::SaveThreats => format!("{name} threats.csv"),
             Self::Export => format!("{name}.{}", format.ending()),
             _ => String::new(),
         }
@@ -133,6 +146,8 @@ impl FileRequest {
             Self::OpenBackground => Command::OpenBackground(path),
             Self::OpenDomain => Command::OpenDomain(path),
             Self::AddOutline => Command::AddOutline(path),
+            Self::OpenThreats => Command::OpenThreats(path),
+            Self::SaveThreats => Command::SaveThreatsAs(path),
             Self::Export => Command::ExportAs(path),
         }
     }
@@ -144,6 +159,7 @@ impl FileRequest {
         let alone = ExportFormat::of(&path).is_ok_and(|format| format.files(&path).len() == 1);
         match self {
             Self::Save => Command::SaveTo(path),
+            Self::SaveThreats => Command::SaveThreats(path),
             Self::Export if alone => Command::Export(path),
             _ => self.command(path),
         }

@@ -6,7 +6,7 @@ use crate::app::App;
 use crate::app::command::{Command, LayerCommand};
 use crate::app::notices::Offer;
 use crate::app::panels::ask_layer_name;
-use crate::app::tools::PaintKind;
+use crate::app::tools::{PaintKind, THREATS};
 use crate::document::{NoPaintLayer, Setting, Settings};
 use crate::layers::{Layer, LayerId, LayerKind, Quantity};
 
@@ -22,9 +22,7 @@ impl App {
             LayerCommand::Show(id, visible) => self.edit_layer_once(id, |layer| layer.visible = visible),
             LayerCommand::Lock(id, locked) => self.edit_layer_once(id, |layer| layer.locked = locked),
             LayerCommand::Combine(id, combine) => self.edit_layer_once(id, |layer| layer.combine = combine),
-            LayerCommand::SetKind(id, kind) => {
-                self.edit_layers(|layers| edit_layer(layers, id, |layer| layer.kind = *kind));
-            }
+            LayerCommand::SetKind(id, kind) => self.set_kind(id, *kind),
             LayerCommand::Clear(id) => self.session.document_mut().clear_layer(id),
             LayerCommand::AskName(id) => self.ask_layer_name(id, ctx),
             LayerCommand::LimitGradation(limits) => {
@@ -35,7 +33,13 @@ impl App {
         }
     }
 
-    /// Selects a layer. Where it can be painted on, the brush paints its quantity from now on.
+    /// Changes what a layer asks for. Further changes join the gesture.
+    pub(super) fn set_kind(&mut self, id: LayerId, kind: LayerKind) {
+        self.edit_layers(|layers| edit_layer(layers, id, |layer| layer.kind = kind));
+    }
+
+    /// Selects a layer. Where it can be painted on, the brush paints its quantity from now on. A tool that
+    /// cannot edit the layer gives way to the one that can.
     fn select_layer(&mut self, id: LayerId) {
         let document = self.session.document_mut();
         document.activate_layer(id);
@@ -43,6 +47,13 @@ impl App {
             Some(Quantity::Risk) => self.tools.kind = PaintKind::Risk,
             Some(Quantity::Diameter) => self.tools.kind = PaintKind::Diameter,
             None => {}
+        }
+        let layer = document.settings().layer(id);
+        let (paints, has_threats) = (self.tools.paints(), self.tools.tool == &THREATS);
+        match layer.map(|layer| &layer.kind) {
+            Some(LayerKind::Threats(_)) if paints => self.tools.select(&THREATS),
+            Some(LayerKind::Paint(_)) if has_threats => self.tools.select_brush(),
+            _ => {}
         }
     }
 
@@ -82,6 +93,9 @@ impl App {
         let id = document.unused_layer_id();
         let name = unused_name(&document.settings().layers, &kind.name());
         let place = self.place_above_selected();
+        if matches!(kind, LayerKind::Threats(_)) {
+            self.tools.select(&THREATS);
+        }
         self.edit_layers_once(|layers| layers.insert(place, Layer::new(id, name, kind)));
         self.select_layer(id);
     }

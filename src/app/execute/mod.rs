@@ -4,6 +4,7 @@ mod domain;
 mod files;
 mod layers;
 mod painting;
+mod threats;
 
 use eframe::egui::Context;
 use glam::DVec2;
@@ -28,6 +29,7 @@ impl App {
         match self.execute_on_files(command, ctx) {
             None => {}
             Some(Command::Layer(command)) => self.execute_on_layers(command, ctx),
+            Some(Command::Threats(command)) => self.execute_on_threats(command),
             Some(Command::Domain(command)) => self.execute_on_domain(command),
             Some(Command::Boundary(command)) => self.execute_on_boundary(command),
             Some(command) => self.execute_on_document(command, ctx),

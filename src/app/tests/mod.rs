@@ -30,6 +30,7 @@ mod project;
 mod query;
 mod settings;
 mod statistics;
+mod threats;
 mod unit;
 mod tips;
 mod view;

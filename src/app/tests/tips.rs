@@ -5,11 +5,11 @@ use eframe::egui::{Key, Modifiers, vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 use super::{FREE, TALL, Window, canvas, choose, entries, key, open_section, send, wait_until, window_of};
-use crate::app::command::{Command, LayerCommand};
+use crate::app::command::{Command, LayerCommand, ThreatsCommand};
 use crate::app::tools::TOOLS;
 use crate::document::Setting;
 use crate::field::Formula;
-use crate::layers::{DistanceTo, LayerKind};
+use crate::layers::{DistanceTo, LayerKind, Threats};
 
 const CONTROLS: [Role; 7] = [
     Role::Button,
@@ -55,6 +55,10 @@ fn every_control_of_the_panels_has_a_sentence() {
         send(&mut window, Command::Layer(LayerCommand::Add(Box::new(kind))));
         assert_eq!(unexplained(&window), [""; 0]);
     }
+    send(&mut window, Command::Layer(LayerCommand::Add(Box::new(LayerKind::Threats(Threats::default())))));
+    send(&mut window, Command::Threats(ThreatsCommand::Place(FREE)));
+    assert!(window.query_by_label("Selected threat").is_some());
+    assert_eq!(unexplained(&window), [""; 0]);
     send(&mut window, Command::Set(Setting::Gradation(Some(5.0))));
     for tool in TOOLS {
         send(&mut window, Command::Use(tool));

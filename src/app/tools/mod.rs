@@ -12,6 +12,7 @@ mod gesture;
 mod pan;
 mod pen;
 mod query;
+mod threats;
 
 use std::fmt;
 
@@ -26,6 +27,7 @@ pub use gesture::{Gesture, Pointer, Press};
 pub use pan::{PAN, Panning};
 pub use pen::{Pen, PenEffect};
 pub use query::QUERY;
+pub use threats::{THREATS, ThreatGrip, ThreatsTool, grip_at};
 
 use super::command::Command;
 use super::frame::FrameState;
@@ -35,7 +37,7 @@ use crate::geometry::Rect;
 use crate::paint::{Brush, Mirror, PathPoint};
 
 /// All tools, in the order of the tool strip.
-pub static TOOLS: [Tool; 6] = [&BRUSH, &ERASER, &QUERY, &DOMAIN, &BOUNDARY, &PAN];
+pub static TOOLS: [Tool; 7] = [&BRUSH, &ERASER, &QUERY, &THREATS, &DOMAIN, &BOUNDARY, &PAN];
 
 /// One of [`TOOLS`].
 pub type Tool = &'static ToolSpec;
@@ -165,6 +167,8 @@ pub struct Tools {
     pub domain: DomainTool,
     /// The boundary tool.
     pub boundary: BoundaryTool,
+    /// The threats tool.
+    pub threats: ThreatsTool,
     /// How often each of [`TOOLS`] was used.
     uses: [u32; TOOLS.len()],
 }
@@ -189,6 +193,7 @@ impl Tools {
             last_painted: None,
             domain: DomainTool::default(),
             boundary: BoundaryTool::default(),
+            threats: ThreatsTool::default(),
             uses: [0; TOOLS.len()],
         }
     }
@@ -209,6 +214,7 @@ impl Tools {
         let fitting = Self::for_domain(extent, h_min);
         (self.radius, self.diameter) = (fitting.radius, fitting.diameter);
         self.boundary.selected = None;
+        self.threats = ThreatsTool::default();
     }
 
     /// Whether the selected tool shows the brush ring.

@@ -7,7 +7,7 @@ const EDGE: f32 = 2.0;
 
 /// The sentences of controls that have no unit or number in it, by the name of the control. The name of a
 /// choice is that of its group and its own.
-static SENTENCES: [(&str, &str); 114] = [
+static SENTENCES: [(&str, &str); 122] = [
     (
         "What the brush paints/Risk",
         "The brush paints risk, from 0 to 1, which the transfer curve turns into a diameter.",
@@ -62,6 +62,19 @@ static SENTENCES: [(&str, &str); 114] = [
         "This layer alone counts, wherever it asks for anything; the layers below do not.",
     ),
     ("Clear this layer", "Removes all paint of this layer."),
+    ("Add threat", "Adds a threat in the middle of the view, like the selected one."),
+    ("Delete threat", "Removes the selected threat; Delete does so too while the tool Threats is selected."),
+    ("Open table…", "Reads the threats of this layer from a table, in place of those that it has."),
+    (
+        "Save table…",
+        "Writes the threats of this layer as a table with the columns x, y, range, peak and law.",
+    ),
+    (
+        "How the risk falls/Radar",
+        "The peak up to half the range, then as the power that a radar receives, r⁻⁴.",
+    ),
+    ("How the risk falls/Gaussian", "A bell curve; its standard deviation is a third of the range."),
+    ("How the risk falls/Disc", "The peak up to three quarters of the range, then a smooth rim."),
     ("What the formula gives/Diameter", "The formula gives the target diameter itself."),
     (
         "What the formula gives/Risk",
@@ -146,6 +159,7 @@ static SENTENCES: [(&str, &str); 114] = [
     ("Eraser", "Takes paint away, and the mesh coarsens."),
     ("Query", "Shows the triangle that you click and its neighbours."),
     ("Domain", "Adds area to the domain or removes it."),
+    ("Threats", "Places threats on the selected layer of threats, moves them and changes their ranges."),
     ("Boundary", "Names, splits and joins the pieces of the boundary."),
     ("Pan", "Moves the view."),
     ("Undo", "Takes back the last gesture."),

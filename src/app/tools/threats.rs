@@ -1,0 +1,162 @@
+//! The threats tool: places threats of the selected layer, moves them and changes their ranges.
+
+use eframe::egui::{Color32, CursorIcon, Key, Pos2, Rect, Stroke};
+use glam::DVec2;
+
+use super::{Gesture, OverMesh, Pointer, ToolSpec};
+use crate::app::command::{Command, ThreatsCommand};
+use crate::app::frame::FrameState;
+use crate::app::widgets::Hint::{self, Key as HintKey, Text};
+use crate::app::widgets::Icon;
+use crate::document::Document;
+use crate::layers::{Layer, LayerId, LayerKind, Threat, Threats};
+
+/// Edits the threats of the selected layer.
+pub static THREATS: ToolSpec = ToolSpec {
+    cursor: CursorIcon::Crosshair,
+    hint: |_| HINT,
+    paint,
+    press: |press, pointer, commands| {
+        let at = pointer.world(press.at);
+        let reach = REACH_POINTS * pointer.px_per_point / pointer.camera.px_per_world();
+        let places = press.modifiers.command;
+        commands.push(Command::Threats(ThreatsCommand::Press { at, reach, places }));
+        Some(Box::new(Dragging { from: press.at, has_moved: false }))
+    },
+    menu: |state, point| {
+        let place = Command::Threats(ThreatsCommand::Place(point));
+        let delete = Command::Threats(ThreatsCommand::Delete);
+        let selected = ThreatsTool::selected_in(&state.tools.threats, state.session.document());
+        let mut entries = vec![("Place a threat here", place)];
+        entries.extend(selected.map(|_| ("Delete the selected threat", delete)));
+        entries
+    },
+    ..ToolSpec::new("Threats", Key::K, Icon::THREATS)
+};
+
+const HINT: &[Hint] = &[
+    Text("Click to place a threat, drag its middle or its ring"),
+    HintKey("Ctrl+click"),
+    Text("always places one"),
+    HintKey("Del"),
+    Text("deletes it"),
+];
+
+/// How far from a middle or a ring a press still takes hold of it, in points.
+const REACH_POINTS: f64 = 9.0;
+/// Points that a drag must exceed: what is smaller was a click.
+const CLICK_SLACK: f32 = 4.0;
+/// The most threats whose middles and rings are drawn, besides the selected one: more would hide the mesh.
+const MOST_DRAWN: usize = 2_000;
+
+/// What of a threat is dragged.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ThreatGrip {
+    /// The threat itself. Its middle lies at this offset from the pointer, in world units.
+    Middle(DVec2),
+    /// The ring of its range.
+    Ring,
+}
+
+/// What the threats tool keeps.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ThreatsTool {
+    /// The layer of the selected threat, and its number there.
+    pub selected: Option<(LayerId, usize)>,
+    /// What a drag changes.
+    pub grip: Option<ThreatGrip>,
+}
+
+impl ThreatsTool {
+    /// The selected layer and its threats, if it is a layer of threats.
+    pub fn layer(document: &Document) -> Option<(&Layer, &Threats)> {
+        let layer = document.active_layer()?;
+        if let LayerKind::Threats(threats) = &layer.kind { Some((layer, threats)) } else { None }
+    }
+
+    /// The number of the selected threat in the selected layer. An undo can have removed it.
+    pub fn selected_in(&self, document: &Document) -> Option<usize> {
+        let (layer, threats) = Self::layer(document)?;
+        let (_, number) = self.selected.filter(|(id, _)| *id == layer.id)?;
+        (number < threats.list().len()).then_some(number)
+    }
+}
+
+/// The threat that a press at `at` takes hold of, and what of it: the nearest middle within `reach`, or else
+/// the nearest ring. All lengths are in world units.
+pub fn grip_at(threats: &[Threat], at: DVec2, reach: f64) -> Option<(usize, ThreatGrip)> {
+    let nearest = |distance: fn(&Threat, DVec2) -> f64| {
+        let distances = threats.iter().enumerate().map(|(number, threat)| (number, distance(threat, at)));
+        let near = distances.filter(|&(_, distance)| distance <= reach);
+        near.min_by(|(_, a), (_, b)| a.total_cmp(b)).map(|(number, _)| number)
+    };
+    let middle = nearest(|threat, at| threat.at.distance(at));
+    let middle = middle.map(|number| (number, ThreatGrip::Middle(threats[number].at - at)));
+    let ring = || nearest(|threat, at| (threat.at.distance(at) - threat.range).abs());
+    middle.or_else(|| Some((ring()?, ThreatGrip::Ring)))
+}
+
+/// Dragging what was pressed.
+#[derive(Debug)]
+struct Dragging {
+    /// Where the pointer went down, in points.
+    from: Pos2,
+    has_moved: bool,
+}
+
+impl Gesture for Dragging {
+    fn moved(&mut self, at: Pos2, pointer: &Pointer<'_>, commands: &mut Vec<Command>) {
+        self.has_moved |= at.distance(self.from) > CLICK_SLACK;
+        if self.has_moved {
+            commands.push(Command::Threats(ThreatsCommand::DragTo(pointer.world(at))));
+        }
+    }
+
+    fn released(&self, _at: Pos2, _pointer: &Pointer<'_>, commands: &mut Vec<Command>) {
+        commands.push(Command::EndGesture);
+    }
+
+    fn interrupted(&self, commands: &mut Vec<Command>) {
+        commands.push(Command::EndGesture);
+    }
+
+    fn ends_on_escape(&self) -> bool {
+        true
+    }
+}
+
+/// Draws the middles and the rings of the threats in view, the selected one last and wider.
+fn paint(state: &FrameState<'_>, over: &OverMesh<'_>) {
+    let Some((_, threats)) = ThreatsTool::layer(state.session.document()) else { return };
+    let selected = state.tools.threats.selected_in(state.session.document());
+    let others = threats.list().iter().enumerate().filter(|&(number, _)| Some(number) != selected);
+    let circles = others.map(|(_, threat)| circle(threat, over));
+    let visible = circles.filter(|&(at, radius)| is_in_view(at, radius, over.painter.clip_rect()));
+    for (at, radius) in visible.take(MOST_DRAWN) {
+        paint_threat(over, at, radius, 1.2);
+    }
+    if let Some(number) = selected {
+        let (at, radius) = circle(&threats.list()[number], over);
+        paint_threat(over, at, radius, 2.5);
+    }
+}
+
+/// The middle of a threat and the radius of its ring, in points.
+fn circle(threat: &Threat, over: &OverMesh<'_>) -> (Pos2, f32) {
+    let at = (over.screen_from_world)(threat.at);
+    (at, at.distance((over.screen_from_world)(threat.at + DVec2::new(threat.range, 0.0))))
+}
+
+/// Whether the middle or a part of the ring may be in a view.
+fn is_in_view(at: Pos2, radius: f32, view: Rect) -> bool {
+    let corners = [view.left_top(), view.right_top(), view.left_bottom(), view.right_bottom()];
+    let is_around_view = corners.iter().all(|corner| corner.distance(at) < radius);
+    view.contains(at) || (view.distance_to_pos(at) <= radius && !is_around_view)
+}
+
+fn paint_threat(over: &OverMesh<'_>, at: Pos2, radius: f32, width: f32) {
+    for (width, color) in [(width + 2.0, Color32::from_black_alpha(130)), (width, Color32::WHITE)] {
+        over.painter.circle_stroke(at, radius, Stroke::new(width, color));
+    }
+    over.painter.circle(at, 2.5 + width, Color32::WHITE, Stroke::new(1.5, Color32::from_black_alpha(200)));
+}
