@@ -17,7 +17,7 @@ use crate::colormap::Colormap;
 use crate::document::{Document, Example, Setting};
 use crate::domain::{CutShape, Domain};
 use crate::geometry::Rect;
-use crate::layers::{Combine, LayerId, LayerKind};
+use crate::layers::{Combine, LayerId, LayerKind, Mask};
 use crate::mesh::TriangleId;
 
 /// One thing to do. Lengths and points are in world units.
@@ -43,6 +43,8 @@ pub enum Command {
     Threats(ThreatsCommand),
     /// Reads a table of threats in place of those of the selected layer.
     OpenThreats(PathBuf),
+    /// Reads polygons as the mask of the selected layer.
+    OpenMask(PathBuf),
     /// Writes the threats of the selected layer as a table, and asks before another file is replaced.
     SaveThreatsAs(PathBuf),
     /// Writes the threats of the selected layer as a table.
@@ -306,6 +308,8 @@ pub enum LayerCommand {
     Combine(LayerId, Combine),
     /// Changes what a layer asks for. Further changes join this gesture until [`Command::EndGesture`].
     SetKind(LayerId, Box<LayerKind>),
+    /// Makes a layer count only inside a mask, or everywhere.
+    Mask(LayerId, Option<Mask>),
     /// Removes the paint of a layer.
     Clear(LayerId),
     /// Begins to type a new name of a layer in the panel.

@@ -13,13 +13,13 @@ use super::tools::ThreatsTool;
 use super::view::View;
 use super::widgets::format;
 use crate::document::{self, Document, Example, Setting, Settings, extent};
-use crate::domain::{BoundaryMarks, MeshBoundary, NamedPolygon};
+use crate::domain::{BoundaryMarks, MeshBoundary, NamedPolygon, Polygon};
 use crate::geometry::Rect;
 use crate::io::png::{Behind, decode};
 use crate::io::project::Project;
 use crate::io::recipe::{self, RecipeFiles};
 use crate::io::{self, Cancelled, MeshData, MeshSource, Meter, Provenance};
-use crate::layers::{LayerKind, RasterReading, RasterSource, TargetsInOrder, Threats};
+use crate::layers::{LayerKind, Mask, RasterReading, RasterSource, TargetsInOrder, Threats};
 use crate::mesh::Extract;
 use crate::outline::DerivedMesh;
 use crate::raster::{Raster, RasterPyramid};
@@ -105,6 +105,23 @@ pub fn load_diameters(session: &Session, background: &mut Background, path: &Pat
             Outcome::PartRead(vec![Command::Layer(LayerCommand::Add(Box::new(kind))), Command::EndGesture])
         }
         Err(problem) => Outcome::NotRead(problem),
+    });
+}
+
+/// Reads polygons as the mask of the selected layer.
+pub fn load_mask(session: &Session, background: &mut Background, path: &Path) {
+    let Some(layer) = session.document().active_layer().map(|layer| layer.id) else { return };
+    let file = path.to_owned();
+    background.start(Aim::Read, path, move |meter| {
+        let named = match io::geojson::read_named_metered(&file, meter) {
+            Ok(named) => named,
+            Err(error) => return Outcome::not_read(error),
+        };
+        let polygons: Vec<Polygon> = named.into_iter().map(|named| named.polygon).collect();
+        match Mask::new(&polygons) {
+            Ok(mask) => Outcome::PartRead(vec![Command::Layer(LayerCommand::Mask(layer, Some(mask)))]),
+            Err(error) => Outcome::NotRead(format!("{}: {error}", file.display())),
+        }
     });
 }
 

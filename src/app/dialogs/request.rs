@@ -27,6 +27,8 @@ pub enum FileRequest {
     OpenDomain,
     /// To add polygons to the domain of the document.
     AddOutline,
+    /// To open polygons as the mask of a layer.
+    OpenMask,
     /// To open a table of threats.
     OpenThreats,
     /// To write a table of threats.
@@ -47,6 +49,7 @@ impl FileRequest {
             Self::OpenBackground => "Open background picture",
             Self::OpenDomain => "Open domain",
             Self::AddOutline => "Add outline to this document",
+            Self::OpenMask => "Open polygons as mask",
             Self::OpenThreats => "Open table of threats",
             Self::SaveThreats => "Save table of threats",
             Self::Export => "Export mesh",
@@ -61,6 +64,7 @@ impl FileRequest {
             | Self::OpenDiameters
             | Self::OpenBackground
             | Self::OpenDomain
+            | Self::OpenMask
             | Self::OpenThreats => "Open",
             Self::AddOutline => "Add",
             Self::Save | Self::SaveRecipe | Self::SaveThreats => "Save",
@@ -77,7 +81,7 @@ impl FileRequest {
             Self::OpenImage => vec!["png", "asc"],
             Self::OpenDiameters => vec!["asc"],
             Self::OpenBackground => vec!["png"],
-            Self::OpenDomain | Self::AddOutline => vec!["geojson", "json"],
+            Self::OpenDomain | Self::AddOutline | Self::OpenMask => vec!["geojson", "json"],
             Self::OpenThreats | Self::SaveThreats => vec!["csv"],
             Self::Export => ExportFormat::endings().collect(),
         }
@@ -92,7 +96,7 @@ impl FileRequest {
             Self::OpenImage => "Pictures and grids",
             Self::OpenDiameters => "Grids",
             Self::OpenBackground => "Pictures",
-            Self::OpenDomain | Self::AddOutline => "Polygons",
+            Self::OpenDomain | Self::AddOutline | Self::OpenMask => "Polygons",
             Self::OpenThreats | Self::SaveThreats => "Tables of threats",
             Self::Export => "Meshes and pictures",
         }
@@ -110,7 +114,7 @@ impl FileRequest {
             Self::Open | Self::Save => "projects",
             Self::OpenImage | Self::OpenDiameters => "pictures",
             Self::OpenBackground => "backgrounds",
-            Self::OpenDomain | Self::AddOutline => "domains",
+            Self::OpenDomain | Self::AddOutline | Self::OpenMask => "domains",
             Self::SaveRecipe => "recipes",
             Self::OpenThreats | Self::SaveThreats => "threats",
             Self::Export => "exports",
@@ -146,6 +150,7 @@ impl FileRequest {
             Self::OpenBackground => Command::OpenBackground(path),
             Self::OpenDomain => Command::OpenDomain(path),
             Self::AddOutline => Command::AddOutline(path),
+            Self::OpenMask => Command::OpenMask(path),
             Self::OpenThreats => Command::OpenThreats(path),
             Self::SaveThreats => Command::SaveThreatsAs(path),
             Self::Export => Command::ExportAs(path),

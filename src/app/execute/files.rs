@@ -44,6 +44,7 @@ impl App {
             Command::SaveRecipeAs(path) => self.save_recipe_as(path),
             Command::SaveRecipe(path) => files::save_recipe(&self.session, &mut self.background, &path),
             Command::OpenThreats(path) => files::load_threats(&self.session, &mut self.background, &path),
+            Command::OpenMask(path) => files::load_mask(&self.session, &mut self.background, &path),
             Command::SaveThreatsAs(path) => self.commands.extend(self.project.save_threats_as(path)),
             Command::SaveThreats(path) => files::save_threats(&self.session, &mut self.background, &path),
             Command::ExportAs(path) => self.commands.extend(self.project.export_as(path)),

@@ -23,6 +23,7 @@ impl App {
             LayerCommand::Lock(id, locked) => self.edit_layer_once(id, |layer| layer.locked = locked),
             LayerCommand::Combine(id, combine) => self.edit_layer_once(id, |layer| layer.combine = combine),
             LayerCommand::SetKind(id, kind) => self.set_kind(id, *kind),
+            LayerCommand::Mask(id, mask) => self.edit_layer_once(id, |layer| layer.mask = mask),
             LayerCommand::Clear(id) => self.session.document_mut().clear_layer(id),
             LayerCommand::AskName(id) => self.ask_layer_name(id, ctx),
             LayerCommand::LimitGradation(limits) => {

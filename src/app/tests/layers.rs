@@ -134,6 +134,28 @@ fn the_add_menu_adds_every_kind_above_the_selected_layer() {
 }
 
 #[test]
+fn a_mask_from_a_file_limits_a_layer_until_it_is_removed() {
+    let file = super::folder("app-layers", "mask").join("right.geojson");
+    let right = r#"{"type": "Polygon", "coordinates": [[[0.5, 0], [1, 0], [1, 1], [0.5, 1], [0.5, 0]]]}"#;
+    std::fs::write(&file, right).unwrap();
+    let mut window = window_of(TALL);
+    let (before, fine, coarse) = (triangles(&window), level_at(&window, PAINTED), level_at(&window, FREE));
+    assert_eq!(value_of(&window, Role::Definition, "Mask"), "none");
+    click_button(&mut window, "Mask from file…");
+    type_into(&mut window, "Path", file.to_str().unwrap());
+    wait_until(&mut window, |window| active(window).mask.is_some());
+    assert!(value_of(&window, Role::Definition, "Mask").starts_with("0.5"));
+    assert!(triangles(&window) < before && level_at(&window, PAINTED) < fine);
+    assert_eq!((level_at(&window, FREE), entries(&window)), (coarse, 1));
+    click_button(&mut window, "Remove mask");
+    assert_eq!((active(&window).mask.is_none(), triangles(&window), entries(&window)), (true, before, 2));
+    std::fs::write(&file, "{\"type\": \"Polygon\"").unwrap();
+    send(&mut window, Command::OpenMask(file));
+    wait_until(&mut window, |window| notice(window).contains("right.geojson"));
+    assert!(active(&window).mask.is_none());
+}
+
+#[test]
 fn a_layer_is_duplicated_with_its_paint_and_deleted() {
     let mut window = window_of(TALL);
     click_button(&mut window, "Duplicate layer");

@@ -7,7 +7,7 @@ const EDGE: f32 = 2.0;
 
 /// The sentences of controls that have no unit or number in it, by the name of the control. The name of a
 /// choice is that of its group and its own.
-static SENTENCES: [(&str, &str); 122] = [
+static SENTENCES: [(&str, &str); 124] = [
     (
         "What the brush paints/Risk",
         "The brush paints risk, from 0 to 1, which the transfer curve turns into a diameter.",
@@ -62,6 +62,8 @@ static SENTENCES: [(&str, &str); 122] = [
         "This layer alone counts, wherever it asks for anything; the layers below do not.",
     ),
     ("Clear this layer", "Removes all paint of this layer."),
+    ("Mask from file…", "Reads polygons from a GeoJSON file: the layer counts only inside them."),
+    ("Remove mask", "Removes the mask, so that the layer counts everywhere."),
     ("Add threat", "Adds a threat in the middle of the view, like the selected one."),
     ("Delete threat", "Removes the selected threat; Delete does so too while the tool Threats is selected."),
     ("Open table…", "Reads the threats of this layer from a table, in place of those that it has."),

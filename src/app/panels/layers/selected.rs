@@ -4,9 +4,10 @@ use eframe::egui::Ui;
 
 use super::kinds::kind_of;
 use crate::app::command::{Command, LayerCommand};
+use crate::app::dialogs::FileRequest;
 use crate::app::frame::FrameState;
 use crate::app::panels::remark;
-use crate::app::widgets::{Section, segmented, tips};
+use crate::app::widgets::{ActionButton, Section, ValueRow, format, segmented, tips};
 use crate::layers::{Combine, Layer};
 
 /// The name of the group of choices.
@@ -33,6 +34,7 @@ pub fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
             ui.add_enabled_ui(!layer.locked, |ui| {
                 combine_rows(ui, layer, commands);
                 (kind_of(&layer.kind).parameters)(ui, state, layer, commands);
+                mask_rows(ui, state, layer, commands);
             });
         });
     });
@@ -45,4 +47,26 @@ fn combine_rows(ui: &mut Ui, layer: &Layer, commands: &mut Vec<Command>) {
         commands.push(Command::Layer(LayerCommand::Combine(layer.id, combine)));
     }
     remark(ui, tips::sentence(&format!("{COMBINE}/{}", combine_name(layer.combine))));
+}
+
+/// Where the layer counts.
+fn mask_rows(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut Vec<Command>) {
+    ui.add_space(4.0);
+    let symbol = state.unit().symbol();
+    let square = if symbol.is_empty() { String::new() } else { format!("{symbol}²") };
+    let area = layer.mask.as_ref().map_or_else(
+        || "none".to_owned(),
+        |mask| format::with_unit(&format::digits(mask.area(), 6), &square),
+    );
+    let help = "Area of the polygons in which the layer counts; without a mask it counts everywhere.";
+    ValueRow::new("Mask", &area).help(help).show(ui);
+    ui.horizontal(|ui| {
+        if ui.add(ActionButton::new("Mask from file…")).clicked() {
+            commands.push(Command::Ask(FileRequest::OpenMask));
+        }
+        let remove = ActionButton::new("Remove mask");
+        if ui.add_enabled_ui(layer.mask.is_some(), |ui| ui.add(remove)).inner.clicked() {
+            commands.push(Command::Layer(LayerCommand::Mask(layer.id, None)));
+        }
+    });
 }
