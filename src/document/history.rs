@@ -1,6 +1,6 @@
 //! The gestures that can be undone and redone, and the memory that they keep alive.
 
-use std::collections::{HashMap, VecDeque};
+use std::collections::{BTreeSet, HashMap, VecDeque};
 use std::sync::Arc;
 
 use super::Settings;
@@ -203,7 +203,9 @@ impl Memory {
 
     /// Bytes in all. Data that the current settings hold too costs nothing extra.
     fn bytes(&self, current: &Settings) -> usize {
-        let held = shared_data(current).filter_map(|(address, _)| self.shared.get(&address));
+        // Two layers may share a raster: it is held once.
+        let held: BTreeSet<usize> = shared_data(current).map(|(address, _)| address).collect();
+        let held = held.iter().filter_map(|address| self.shared.get(address));
         self.own + self.shared_bytes - held.map(|shared| shared.bytes).sum::<usize>()
     }
 }
@@ -217,7 +219,7 @@ mod tests {
     use crate::domain::{Domain, DomainShape, Region, corners};
     use crate::field::Formula;
     use crate::geometry::Rect;
-    use crate::layers::{Layer, LayerKind, RasterReading, RasterSource};
+    use crate::layers::{Layer, LayerId, LayerKind, RasterReading, RasterSource};
     use crate::raster::{Raster, RasterPyramid};
 
     /// An outline of 4 corners.
@@ -285,5 +287,20 @@ mod tests {
         document.reject_last();
         document.set(Setting::Spacing(0.3)).unwrap();
         assert_eq!(bytes(&document), counted(&document));
+    }
+
+    #[test]
+    fn data_that_two_layers_of_the_document_share_counts_once() {
+        let Setting::Layers(mut layers) = picture(100) else { unreachable!("a picture is a layer") };
+        layers.push(Layer { id: LayerId(1), ..layers[0].clone() });
+        let settings = Settings { layers: layers.clone(), ..Settings::default() };
+        let mut document = Document::new(settings, None).unwrap();
+        for n in 0..4 {
+            layers[1].visible = n % 2 == 1;
+            document.set(Setting::Layers(layers.clone())).unwrap();
+            document.end_gesture();
+            assert_eq!(bytes(&document), counted(&document));
+        }
+        assert_eq!(document.history().len(), 4, "no gesture is dropped");
     }
 }
