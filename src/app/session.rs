@@ -422,7 +422,10 @@ impl Session {
     /// so.
     fn take_back(&mut self, error: &BuildError) {
         let revision = self.document.revision();
-        self.document.reject_last();
+        let is_other = self.document.settings() != self.follower.settings();
+        if is_other || self.document.changed_layers_last() {
+            self.document.reject_last();
+        }
         if self.document.revision() != revision {
             self.report_edit(format!("{error}{}", notices::advice(error)));
         } else {

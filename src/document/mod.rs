@@ -325,6 +325,14 @@ impl Document {
         did
     }
 
+    /// Whether the last gesture changed layers, transfer curve or gradation. The mesh follows these in place,
+    /// so that its settings do not tell whether they can be met.
+    pub fn changed_layers_last(&self) -> bool {
+        let Some(EntryData::Settings(before)) = self.last_data() else { return false };
+        let Settings { layers, transfer, gradation, .. } = &self.settings;
+        before.layers != *layers || before.transfer != *transfer || before.gradation != *gradation
+    }
+
     /// Undoes the last gesture without a way to redo it, if it changed a setting: it turned out that no mesh
     /// can be made.
     ///

@@ -120,7 +120,9 @@ fn ctrl_c_copies_every_value_in_full() {
     assert_eq!(value("True").parse(), Ok(triangle.exact));
     let [a, b, c] = triangle.at_vertices;
     assert_eq!(value("At v₁ v₂ v₃"), format!("{a}, {b}, {c}"));
-    assert_eq!(text.lines().count(), 15, "{text}");
+    // The layer that decides, and what each layer asks for.
+    let layers = settings(&window).layers.len();
+    assert_eq!(text.lines().count(), 15 + 1 + layers, "{text}");
 }
 
 #[test]

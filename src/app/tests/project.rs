@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+use eframe::egui::accesskit::Role;
 use eframe::egui::{self, Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
 use glam::dvec2;
@@ -30,7 +31,7 @@ fn key(window: &mut Window, modifiers: Modifiers, key: Key) {
 }
 
 fn press(window: &mut Window, button: &str) {
-    window.get_by_label(button).click();
+    window.get_by_role_and_label(Role::Button, button).click();
     window.run();
 }
 
