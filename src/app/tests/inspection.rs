@@ -129,7 +129,8 @@ fn ctrl_c_copies_every_value_in_full() {
 fn a_query_opens_the_section_and_scrolls_to_it() {
     let mut window = window();
     open_section(&mut window, "Triangle");
-    window.get_by_role_and_label(Role::Button, "Triangle").click();
+    // It may be scrolled out of sight.
+    window.get_by_role_and_label(Role::Button, "Triangle").click_accesskit();
     window.run();
     assert!(window.query_by_label_contains("No query yet").is_none(), "the section is closed");
     // With the brush the section is far down, and the menu of the canvas queries.

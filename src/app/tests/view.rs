@@ -94,7 +94,7 @@ fn tab_hides_the_panels_and_brings_them_back() {
 
 #[test]
 fn a_hovered_level_is_shown_alone_and_hiding_the_panels_ends_that() {
-    let mut window = window();
+    let mut window = window_of(TALL);
     let legend = |window: &Window, level: u32| {
         let count = window.state().session().level_counts()[level as usize];
         let count = crate::app::widgets::format::count(count as u64);
@@ -135,7 +135,9 @@ fn the_bars_have_room_for_what_they_show_at_any_width() {
             window.hover_at(canvas(&window).center());
             send(&mut window, Command::Zoom(zoom));
             let screen = Rect::from_min_size(Pos2::ZERO, vec2(width, 600.0));
-            let bottom = window.get_all_by_role(Role::Definition).filter(|cell| cell.rect().top() > 570.0);
+            // Rows of the side panel that are scrolled out of sight lie below the screen.
+            let is_in_bar = |cell: &egui_kittest::Node<'_>| (570.0..600.0).contains(&cell.rect().top());
+            let bottom = window.get_all_by_role(Role::Definition).filter(is_in_bar);
             let cells: Vec<Rect> = bottom.map(|cell| cell.rect()).collect();
             assert!(cells.len() >= 5, "{} cells at {width}", cells.len());
             for (i, cell) in cells.iter().enumerate() {
