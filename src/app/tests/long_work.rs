@@ -10,7 +10,7 @@ use glam::dvec2;
 
 use super::{
     FREE, PAINTED_RISK, Window, button_event, fingerprint, key, level_at, notice, on_screen, painted,
-    release_at, stroke, triangles, value_of, window, window_of, window_with,
+    release_at, set, stroke, triangles, value_of, window, window_of, window_with,
 };
 use crate::app::command::Command;
 use crate::document::{Document, Example, Follower, Setting, Stage};
@@ -22,8 +22,10 @@ const TWO_MILLIONS: f64 = 0.00025;
 fn the_former_mesh_is_shown_until_the_new_one_is_whole() {
     // As on a screen: frames that are longer have more time for the mesh.
     let mut window = window_with(Harness::builder().with_size(vec2(1440.0, 900.0)).with_step_dt(1.0 / 60.0));
+    set(&mut window, Setting::SmallestDiameter(TWO_MILLIONS));
     let (before, generation) = (fingerprint(&window), window.state().session().follower().revision());
-    window.state_mut().send(Command::Set(Setting::SmallestDiameter(TWO_MILLIONS)));
+    // Layers and limits are followed in place; another grid is another mesh.
+    window.state_mut().send(Command::Set(Setting::Spacing(1.0 / 23.0)));
     window.step();
     let mut frames = 0;
     while window.state().session().stage() != Stage::InStep {
@@ -52,8 +54,9 @@ fn in_a_small_window_nothing_covers_the_button_that_cancels() {
 #[test]
 fn cancel_gives_a_long_update_up_and_the_next_edit_takes_it_up_again() {
     let mut window = window();
+    set(&mut window, Setting::SmallestDiameter(TWO_MILLIONS));
     let before = fingerprint(&window);
-    window.state_mut().send(Command::Set(Setting::SmallestDiameter(1e-4)));
+    window.state_mut().send(Command::Set(Setting::Spacing(1.0 / 23.0)));
     let patience = Instant::now() + Duration::from_secs(20);
     while window.query_by_label("Cancel").is_none() {
         assert!(Instant::now() < patience, "no progress was shown");
