@@ -46,9 +46,10 @@ fn text(window: &Window) -> String {
     value_of(window, Role::TextInput, "Path")
 }
 
-/// The rows of the list, from the top.
+/// The rows of the list of files, from the top. Rows of layers, behind the dialog, have a value as well.
 fn rows(window: &Window) -> Vec<String> {
-    let mut rows: Vec<_> = window.query_all_by_role(Role::ListBoxOption).collect();
+    let is_file = |row: &egui_kittest::Node<'_>| row.accesskit_node().value().is_none();
+    let mut rows: Vec<_> = window.query_all_by_role(Role::ListBoxOption).filter(is_file).collect();
     rows.sort_by(|a, b| a.rect().top().total_cmp(&b.rect().top()));
     rows.iter().map(|row| row.accesskit_node().label().unwrap_or_default()).collect()
 }
