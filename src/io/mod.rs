@@ -41,6 +41,7 @@ pub mod svg;
 mod table;
 pub mod threats;
 pub mod vtu;
+mod words;
 pub mod world_file;
 
 use std::io::{self, Write};

@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::super::Flaw;
 use super::super::error::{PlacedFlaw, shown};
+use super::super::words::{SavedName, SavedRule, SavedUnit, marks_of, saved_marks};
 use super::old_version::SavedBase;
 use super::part_names::PartNames;
 use super::saved_background::SavedBackground;
@@ -14,12 +15,12 @@ use super::stored_layers::StoredLayer;
 use super::{FORMAT, VERSION};
 use crate::document::{Picture, Settings};
 use crate::domain::{BoundaryMarks, BoundaryTreatment, Domain, DomainShape, Polygon};
-use crate::field::{Formula, RefinementRule, Transfer};
+use crate::field::{Formula, Transfer};
 use crate::geometry::Rect;
 use crate::layers::RasterReading;
 use crate::mesh::{Cleaning, KeptParts, MOST_TRIANGLES};
 use crate::raster::{Raster, RasterPyramid, is_raster_size};
-use crate::text::{Grouped, LengthUnit, Number};
+use crate::text::{Grouped, Number};
 
 /// The fields that every version of the format has.
 #[derive(Deserialize)]
@@ -68,47 +69,6 @@ pub(super) struct Saved {
     max_memory: usize,
 }
 
-#[derive(Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
-enum SavedUnit {
-    #[default]
-    #[serde(rename = "none")]
-    None,
-    #[serde(rename = "m")]
-    Metre,
-    #[serde(rename = "km")]
-    Kilometre,
-    #[serde(rename = "degrees")]
-    Degree,
-}
-
-impl SavedUnit {
-    fn is_none(&self) -> bool {
-        *self == Self::None
-    }
-}
-
-impl From<LengthUnit> for SavedUnit {
-    fn from(unit: LengthUnit) -> Self {
-        match unit {
-            LengthUnit::None => Self::None,
-            LengthUnit::Metre => Self::Metre,
-            LengthUnit::Kilometre => Self::Kilometre,
-            LengthUnit::Degree => Self::Degree,
-        }
-    }
-}
-
-impl From<SavedUnit> for LengthUnit {
-    fn from(saved: SavedUnit) -> Self {
-        match saved {
-            SavedUnit::None => Self::None,
-            SavedUnit::Metre => Self::Metre,
-            SavedUnit::Kilometre => Self::Kilometre,
-            SavedUnit::Degree => Self::Degree,
-        }
-    }
-}
-
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct SavedDomain {
@@ -144,37 +104,14 @@ struct SavedMarks {
     names: Vec<SavedName>,
 }
 
-#[derive(Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct SavedName {
-    /// A point of the piece, x and y.
-    at: [f64; 2],
-    name: String,
-}
-
 impl SavedMarks {
     fn of(marks: &BoundaryMarks) -> Self {
-        let name = |(at, name): &(DVec2, String)| SavedName { at: at.to_array(), name: name.clone() };
-        Self {
-            splits: marks.splits.iter().map(DVec2::to_array).collect(),
-            names: marks.names.iter().map(name).collect(),
-        }
+        let (splits, names) = saved_marks(marks);
+        Self { splits, names }
     }
 
     fn is_empty(&self) -> bool {
         self.splits.is_empty() && self.names.is_empty()
-    }
-
-    /// Names that are not valid are made so.
-    fn into_marks(self) -> BoundaryMarks {
-        let name = |saved: SavedName| {
-            let name = BoundaryMarks::valid_name(&saved.name);
-            (!name.is_empty()).then(|| (saved.at.into(), name))
-        };
-        BoundaryMarks {
-            splits: self.splits.into_iter().map(DVec2::from).collect(),
-            names: self.names.into_iter().filter_map(name).collect(),
-        }
     }
 }
 
@@ -185,6 +122,7 @@ struct SavedCleaning {
     keep_pinches: bool,
 }
 
+/// A share is a table here and a plain number in recipes.
 #[derive(Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 enum SavedParts {
@@ -234,13 +172,6 @@ pub(super) fn checked_size(size: [u32; 2]) -> Result<[u32; 2], Flaw> {
     if is_raster_size(size) { Ok(size) } else { Err(Flaw::Size { columns, rows }) }
 }
 
-#[derive(Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-enum SavedRule {
-    Vertex,
-    Area,
-}
-
 /// Access to the other parts that the settings refer to.
 pub(super) trait Parts {
     /// The polygons of the domain.
@@ -285,10 +216,7 @@ impl Saved {
             resolution: None,
             layers: Some(settings.layers.iter().map(|layer| StoredLayer::of(layer, names)).collect()),
             gradation: settings.gradation,
-            rule: match settings.rule {
-                RefinementRule::Vertex => SavedRule::Vertex,
-                RefinementRule::Area => SavedRule::Area,
-            },
+            rule: settings.rule.into(),
             max_triangles: settings.max_triangles,
             max_memory: settings.max_memory,
         }
@@ -359,7 +287,7 @@ impl Saved {
                 SavedBoundary::OnOutline(diameter) => BoundaryTreatment::OnOutline { diameter },
             },
             cleaning: self.cleaning.into(),
-            boundary_marks: Arc::new(self.boundary_marks.into_marks()),
+            boundary_marks: Arc::new(marks_of(&self.boundary_marks.splits, &self.boundary_marks.names)),
             spacing: self.spacing,
             transfer: Transfer {
                 h_min: self.transfer.h_min,
@@ -368,10 +296,7 @@ impl Saved {
             },
             layers,
             gradation: self.gradation,
-            rule: match self.rule {
-                SavedRule::Vertex => RefinementRule::Vertex,
-                SavedRule::Area => RefinementRule::Area,
-            },
+            rule: self.rule.into(),
             max_triangles: self.max_triangles,
             max_memory: self.max_memory,
         };

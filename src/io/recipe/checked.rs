@@ -3,15 +3,13 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use glam::DVec2;
-
 use super::super::ReadError;
 use super::super::layers::{
     FindFile, KeyFault, KindSpec, LayerSpec, SavedLayer, Step, compiled, positive_length, rect_of,
 };
+use super::super::words::marks_of;
 use super::saved::{
-    SavedDomain, SavedLimits, SavedMesh, SavedOutput, SavedParts, SavedRecipe, SavedRule, SavedTreatment,
-    SavedUnit,
+    SavedDomain, SavedLimits, SavedMesh, SavedOutput, SavedParts, SavedRecipe, SavedTreatment,
 };
 use super::text::{RecipeText, quoted};
 use crate::document::LEAST_MEMORY;
@@ -257,41 +255,6 @@ impl SavedDomain {
         if self.splits.is_empty() && self.names.is_empty() {
             return None;
         }
-        let names = self.names.iter().filter_map(|saved| {
-            let name = BoundaryMarks::valid_name(&saved.name);
-            (!name.is_empty()).then(|| (DVec2::from(saved.at), name))
-        });
-        let splits = self.splits.iter().copied().map(DVec2::from).collect();
-        Some(Arc::new(BoundaryMarks { splits, names: names.collect() }))
-    }
-}
-
-impl From<SavedUnit> for LengthUnit {
-    fn from(saved: SavedUnit) -> Self {
-        match saved {
-            SavedUnit::None => Self::None,
-            SavedUnit::Metre => Self::Metre,
-            SavedUnit::Kilometre => Self::Kilometre,
-            SavedUnit::Degree => Self::Degree,
-        }
-    }
-}
-
-impl From<SavedRule> for RefinementRule {
-    fn from(saved: SavedRule) -> Self {
-        match saved {
-            SavedRule::Vertex => Self::Vertex,
-            SavedRule::Area => Self::Area,
-        }
-    }
-}
-
-impl From<SavedParts> for KeptParts {
-    fn from(saved: SavedParts) -> Self {
-        match saved {
-            SavedParts::All => Self::All,
-            SavedParts::Largest => Self::Largest,
-            SavedParts::Share(share) => Self::Share(share),
-        }
+        Some(Arc::new(marks_of(&self.splits, &self.names)))
     }
 }

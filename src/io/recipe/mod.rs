@@ -17,13 +17,11 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use super::error::PlacedFlaw;
+pub use super::words::{SavedName, SavedRule, SavedUnit};
 use super::{Flaw, ReadError};
 pub use checked::{OutputSpec, Recipe, checked_gradation};
 pub use export::RecipeFiles;
-pub use saved::{
-    SavedDomain, SavedLimits, SavedMesh, SavedName, SavedOutput, SavedParts, SavedRecipe, SavedRule,
-    SavedTreatment, SavedUnit,
-};
+pub use saved::{SavedDomain, SavedLimits, SavedMesh, SavedOutput, SavedParts, SavedRecipe, SavedTreatment};
 use text::RecipeText;
 pub use write::to_text;
 

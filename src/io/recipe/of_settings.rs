@@ -1,13 +1,9 @@
-use super::saved::{
-    SavedDomain, SavedLimits, SavedMesh, SavedName, SavedParts, SavedRecipe, SavedRule, SavedTreatment,
-    SavedUnit,
-};
+use super::super::words::{SavedUnit, saved_marks};
+use super::saved::{SavedDomain, SavedLimits, SavedMesh, SavedRecipe, SavedTreatment};
 use crate::document::Settings;
 use crate::domain::{BoundaryTreatment, DomainShape};
-use crate::field::RefinementRule;
 use crate::geometry::Rect;
 use crate::io::layers::SavedLayer;
-use crate::mesh::KeptParts;
 use crate::text::LengthUnit;
 
 impl SavedRecipe {
@@ -18,10 +14,7 @@ impl SavedRecipe {
     pub fn of_settings(settings: &Settings, region_file: &str, layers: Vec<SavedLayer>) -> Self {
         let mesh = SavedMesh {
             spacing: Some(settings.spacing),
-            rule: Some(match settings.rule {
-                RefinementRule::Vertex => SavedRule::Vertex,
-                RefinementRule::Area => SavedRule::Area,
-            }),
+            rule: Some(settings.rule.into()),
             max_triangles: Some(settings.max_triangles),
             ..SavedMesh::default()
         };
@@ -37,20 +30,11 @@ impl SavedRecipe {
 
 fn domain(settings: &Settings, region_file: &str) -> SavedDomain {
     let Rect { min, max } = settings.domain.bounds;
+    let (splits, names) = saved_marks(&settings.boundary_marks);
     let rectangle = SavedDomain {
-        unit: (settings.unit != LengthUnit::None).then_some(match settings.unit {
-            LengthUnit::None => SavedUnit::None,
-            LengthUnit::Metre => SavedUnit::Metre,
-            LengthUnit::Kilometre => SavedUnit::Kilometre,
-            LengthUnit::Degree => SavedUnit::Degree,
-        }),
-        splits: settings.boundary_marks.splits.iter().map(|at| at.to_array()).collect(),
-        names: settings
-            .boundary_marks
-            .names
-            .iter()
-            .map(|(at, name)| saved_name(at.to_array(), name))
-            .collect(),
+        unit: (settings.unit != LengthUnit::None).then(|| settings.unit.into()),
+        splits,
+        names,
         ..SavedDomain::default()
     };
     match &settings.domain.shape {
@@ -70,17 +54,9 @@ fn domain(settings: &Settings, region_file: &str) -> SavedDomain {
                 BoundaryTreatment::OnOutline { .. } => SavedTreatment::Outline,
             }),
             boundary_diameter: settings.boundary.diameter(),
-            parts: Some(match settings.cleaning.parts {
-                KeptParts::All => SavedParts::All,
-                KeptParts::Largest => SavedParts::Largest,
-                KeptParts::Share(share) => SavedParts::Share(share),
-            }),
+            parts: Some(settings.cleaning.parts.into()),
             keep_pinches: settings.cleaning.keeps_pinches,
             ..rectangle
         },
     }
-}
-
-fn saved_name(at: [f64; 2], name: &str) -> SavedName {
-    SavedName { at, name: name.to_owned() }
 }

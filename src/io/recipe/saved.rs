@@ -4,6 +4,8 @@ use serde::de::{Deserializer, Error, Visitor};
 use serde::{Deserialize, Serialize, Serializer};
 
 use super::super::layers::SavedLayer;
+use super::super::words::{SavedName, SavedRule, SavedUnit};
+use crate::mesh::KeptParts;
 
 /// A whole recipe.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -104,33 +106,6 @@ pub struct SavedOutput {
     pub light: Option<bool>,
 }
 
-/// A name of a piece of the boundary.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, expecting = "a table such as { at = [1, 2], name = \"harbour\" }")]
-pub struct SavedName {
-    /// A point of the piece.
-    pub at: [f64; 2],
-    /// The name.
-    pub name: String,
-}
-
-/// The units.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum SavedUnit {
-    /// Plain numbers.
-    #[serde(rename = "none")]
-    None,
-    /// Metres.
-    #[serde(rename = "m")]
-    Metre,
-    /// Kilometres.
-    #[serde(rename = "km")]
-    Kilometre,
-    /// Degrees of longitude and latitude.
-    #[serde(rename = "degrees")]
-    Degree,
-}
-
 /// The boundary treatments.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
@@ -143,16 +118,6 @@ pub enum SavedTreatment {
     Outline,
 }
 
-/// The refinement rules.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum SavedRule {
-    /// The three vertices.
-    Vertex,
-    /// The whole triangle.
-    Area,
-}
-
 /// The parts of the mesh that stay.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SavedParts {
@@ -162,6 +127,26 @@ pub enum SavedParts {
     Largest,
     /// A share of the area.
     Share(f64),
+}
+
+impl From<KeptParts> for SavedParts {
+    fn from(parts: KeptParts) -> Self {
+        match parts {
+            KeptParts::All => Self::All,
+            KeptParts::Largest => Self::Largest,
+            KeptParts::Share(share) => Self::Share(share),
+        }
+    }
+}
+
+impl From<SavedParts> for KeptParts {
+    fn from(saved: SavedParts) -> Self {
+        match saved {
+            SavedParts::All => Self::All,
+            SavedParts::Largest => Self::Largest,
+            SavedParts::Share(share) => Self::Share(share),
+        }
+    }
 }
 
 impl<'de> Deserialize<'de> for SavedParts {
