@@ -1,17 +1,12 @@
 //! `.geojson`: polygons with holes, as geographic programs write them (RFC 7946).
 
-use std::fmt;
 use std::fs::File;
 use std::io::{self, BufReader, Read, Take, Write};
 use std::path::Path;
 
-use serde::Deserialize;
-use serde::de::{Deserializer, SeqAccess, Visitor};
-use serde_json::Value;
-
 use super::coordinates;
 use super::error::{Flaw, PlacedFlaw, ReadError};
-use super::positions::Coordinates;
+use super::features::{Object, Wanted};
 use super::{Counted, Meter};
 use crate::domain::{NamedPolygon, Polygon};
 use crate::text::LengthUnit;
@@ -142,10 +137,8 @@ fn too_long(bytes: u64) -> PlacedFlaw {
 
 /// Reads as [`read_outline`] does, from any input.
 pub(super) fn parse(input: impl Read) -> Result<Outline, PlacedFlaw> {
-    let mut json = serde_json::Deserializer::from_reader(input);
-    let object = Object::deserialize(&mut json).map_err(placed)?;
-    json.end().map_err(placed)?;
-    let crs = object.crs.as_ref().and_then(|crs| crs["properties"]["name"].as_str()).map(str::to_owned);
+    let object = Object::parse(input)?;
+    let crs = object.crs_name();
     let mut polygons = Vec::new();
     let mut others = Vec::new();
     collect(object, "", &mut polygons, &mut others).map_err(Flaw::Syntax)?;
@@ -188,98 +181,25 @@ fn no_polygon(others: &[String]) -> String {
     )
 }
 
-/// The error of serde_json with its line.
-pub(super) fn placed(error: serde_json::Error) -> PlacedFlaw {
-    let line = error.line();
-    if error.is_eof() {
-        return Flaw::CutOff.at(line.max(1));
+/// A reader of polygons.
+struct Polygons;
+
+impl Wanted for Polygons {
+    fn is_wanted(kind: &str) -> bool {
+        kind.ends_with("Polygon")
     }
-    if error.is_io() {
-        return Flaw::Io(error.into()).into();
-    }
-    let text = error.to_string();
-    let problem = text.split(" at line ").next().unwrap_or(&text);
-    Flaw::Syntax(format!("this is not valid GeoJSON: {problem}.")).at(line.max(1))
-}
-
-/// Any object of the format. Other members are ignored.
-#[derive(Deserialize)]
-struct Object {
-    #[serde(rename = "type")]
-    kind: String,
-    #[serde(default)]
-    coordinates: Option<Coordinates>,
-    #[serde(default, rename = "properties", deserialize_with = "name_of")]
-    name: String,
-    /// The coordinate reference system, as of the format before RFC 7946.
-    #[serde(default)]
-    crs: Option<Value>,
-    #[serde(default)]
-    geometry: Option<Box<Self>>,
-    #[serde(default, deserialize_with = "with_polygons")]
-    geometries: Vec<Self>,
-    #[serde(default, deserialize_with = "with_polygons")]
-    features: Vec<Self>,
-}
-
-impl Object {
-    fn has_polygons(&self) -> bool {
-        let mut inner = self.geometry.as_deref().into_iter().chain(&self.geometries).chain(&self.features);
-        self.kind.ends_with("Polygon") || inner.any(Self::has_polygons)
-    }
-}
-
-/// The objects of a list that have polygons, and its first object, to be named in an error. The others are
-/// dropped: a file may have millions of points.
-fn with_polygons<'de, D: Deserializer<'de>>(json: D) -> Result<Vec<Object>, D::Error> {
-    json.deserialize_seq(Objects)
-}
-
-struct Objects;
-
-impl<'de> Visitor<'de> for Objects {
-    type Value = Vec<Object>;
-
-    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        f.write_str("a list of features or geometries")
-    }
-
-    fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Vec<Object>, A::Error> {
-        let mut objects: Vec<Object> = Vec::new();
-        while let Some(object) = list.next_element::<Object>()? {
-            if objects.is_empty() || object.has_polygons() {
-                objects.push(object);
-            }
-        }
-        Ok(objects)
-    }
-}
-
-/// The properties that may be the name of a feature.
-const NAMES: [&str; 5] = ["name", "NAME", "Name", "title", "id"];
-
-/// The name that the properties of a feature give it; empty if they give none.
-fn name_of<'de, D: Deserializer<'de>>(json: D) -> Result<String, D::Error> {
-    let properties = Value::deserialize(json)?;
-    let text = |value: &Value| match value {
-        Value::String(text) => Some(text.clone()),
-        Value::Number(number) => Some(number.to_string()),
-        _ => None,
-    };
-    let found =
-        NAMES.iter().find_map(|name| properties.get(name).and_then(text).filter(|name| !name.is_empty()));
-    Ok(found.unwrap_or_default())
 }
 
 /// Collects polygons with their names, and the kind of the first other geometry. `name` is that of the
 /// object around this one. The recursion is bounded, as the parser bounds the nesting.
 fn collect(
-    object: Object,
+    mut object: Object<Polygons>,
     name: &str,
     polygons: &mut Vec<NamedPolygon>,
     others: &mut Vec<String>,
 ) -> Result<(), String> {
-    let Object { kind, coordinates, name: own_name, geometry, geometries, features, .. } = object;
+    let (kind, coordinates) = (std::mem::take(&mut object.kind), object.coordinates.take());
+    let own_name = std::mem::take(&mut object.name);
     let name = if own_name.is_empty() { name } else { &own_name };
     let named = |polygon| NamedPolygon { polygon, name: name.to_owned() };
     match (kind.as_str(), coordinates) {
@@ -294,6 +214,5 @@ fn collect(
         (_, Some(_)) => {}
         (_, None) => {}
     }
-    let inner = geometry.map(|geometry| *geometry).into_iter().chain(geometries).chain(features);
-    inner.into_iter().try_for_each(|object| collect(object, name, polygons, others))
+    object.into_inner().try_for_each(|object| collect(object, name, polygons, others))
 }

@@ -17,6 +17,7 @@ mod blocks;
 mod coordinates;
 pub mod csv;
 mod error;
+mod features;
 mod folder;
 mod interrupt;
 mod mesh_file;

@@ -4,10 +4,9 @@ use std::io::{self, Read, Write};
 use std::path::Path;
 
 use glam::DVec2;
-use serde::Deserialize;
-use serde_json::Value;
 
 use super::error::{Flaw, PlacedFlaw, ReadError};
+use super::features::{Object, Wanted};
 use super::positions::Coordinates;
 use super::{Meter, coordinates, geojson};
 use crate::domain::MOST_CORNERS;
@@ -44,29 +43,18 @@ pub fn read_from(input: impl Read, name: &Path) -> Result<ShapeFile, ReadError> 
     geojson::read_limited(input, name, |input| parse(input))
 }
 
-/// Any object of the format. Other members are ignored.
-#[derive(Deserialize)]
-struct Object {
-    #[serde(rename = "type")]
-    kind: String,
-    #[serde(default)]
-    coordinates: Option<Coordinates>,
-    /// The coordinate reference system, as of the format before RFC 7946.
-    #[serde(default)]
-    crs: Option<Value>,
-    #[serde(default)]
-    geometry: Option<Box<Self>>,
-    #[serde(default)]
-    geometries: Vec<Self>,
-    #[serde(default)]
-    features: Vec<Self>,
+/// A reader of all shapes.
+struct AllShapes;
+
+impl Wanted for AllShapes {
+    fn is_wanted(kind: &str) -> bool {
+        depth_of(kind).is_some()
+    }
 }
 
 fn parse(input: impl Read) -> Result<ShapeFile, PlacedFlaw> {
-    let mut json = serde_json::Deserializer::from_reader(input);
-    let object = Object::deserialize(&mut json).map_err(geojson::placed)?;
-    json.end().map_err(geojson::placed)?;
-    let crs = object.crs.as_ref().and_then(|crs| crs["properties"]["name"].as_str()).map(str::to_owned);
+    let object = Object::parse(input)?;
+    let crs = object.crs_name();
     let mut shapes = ShapeList::default();
     collect(object, &mut shapes).map_err(Flaw::Syntax)?;
     if shapes.is_empty() {
@@ -91,14 +79,14 @@ fn places(shapes: &ShapeList) -> impl Iterator<Item = DVec2> {
 }
 
 /// Collects the shapes of an object. The recursion is bounded, as the parser bounds the nesting.
-fn collect(object: Object, shapes: &mut ShapeList) -> Result<(), String> {
-    let Object { kind, coordinates, geometry, geometries, features, .. } = object;
-    if let Some(depth) = depth_of(&kind) {
+fn collect(mut object: Object<AllShapes>, shapes: &mut ShapeList) -> Result<(), String> {
+    let kind = &object.kind;
+    if let Some(depth) = depth_of(kind) {
+        let coordinates = object.coordinates.take();
         let coordinates = coordinates.ok_or_else(|| format!("a {kind} has no \"coordinates\"."))?;
-        take(&kind, coordinates, depth, shapes)?;
+        take(kind, coordinates, depth, shapes)?;
     }
-    let inner = geometry.map(|geometry| *geometry).into_iter().chain(geometries).chain(features);
-    inner.into_iter().try_for_each(|object| collect(object, shapes))
+    object.into_inner().try_for_each(|object| collect(object, shapes))
 }
 
 /// How deep the positions of a geometry are nested.
