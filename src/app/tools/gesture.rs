@@ -27,15 +27,27 @@ pub trait Gesture: Debug + Send {
     /// The pointer moved to `at`, in points.
     fn moved(&mut self, at: Pos2, pointer: &Pointer<'_>, commands: &mut Vec<Command>);
 
+    /// Whether its moves change settings of the document. They are then one undo step, and Escape takes them
+    /// back.
+    fn changes_settings(&self) -> bool {
+        false
+    }
+
     /// The button was released at `at`, in points.
-    fn released(&self, _at: Pos2, _pointer: &Pointer<'_>, _commands: &mut Vec<Command>) {}
+    fn released(&self, _at: Pos2, _pointer: &Pointer<'_>, commands: &mut Vec<Command>) {
+        self.interrupted(commands);
+    }
 
     /// The window lost the pointer. What was done so far stays.
-    fn interrupted(&self, _commands: &mut Vec<Command>) {}
+    fn interrupted(&self, commands: &mut Vec<Command>) {
+        if self.changes_settings() {
+            commands.push(Command::EndGesture);
+        }
+    }
 
     /// Whether Escape ends the gesture.
     fn ends_on_escape(&self) -> bool {
-        false
+        self.changes_settings()
     }
 
     /// The cursor meanwhile, if not the tool's.

@@ -112,15 +112,7 @@ impl Gesture for Dragging {
         }
     }
 
-    fn released(&self, _at: Pos2, _pointer: &Pointer<'_>, commands: &mut Vec<Command>) {
-        commands.push(Command::EndGesture);
-    }
-
-    fn interrupted(&self, commands: &mut Vec<Command>) {
-        commands.push(Command::EndGesture);
-    }
-
-    fn ends_on_escape(&self) -> bool {
+    fn changes_settings(&self) -> bool {
         true
     }
 }
