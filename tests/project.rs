@@ -15,10 +15,10 @@ use meshbrush::internals::field::{Formula, RefinementRule, Transfer};
 use meshbrush::internals::geometry::Rect;
 use meshbrush::internals::io::project::{self, Project};
 use meshbrush::internals::layers::{
-    Combine, Layer, LayerId, LayerKind, Quantity, RasterReading, RasterSource,
+    Combine, Layer, LayerId, LayerKind, PaintLayers, Quantity, RasterReading, RasterSource,
 };
 use meshbrush::internals::paint::{Brush, DiameterChange, Medium};
-use meshbrush::internals::raster::{Raster, RasterPyramid};
+use meshbrush::internals::raster::{Raster, RasterPyramid, Tile, TilePlace};
 use meshbrush::internals::text::LengthUnit;
 
 const NAME: &str = "test.meshbrush";
@@ -507,10 +507,12 @@ fn errors_stay_short_for_long_values() {
 fn declared_sizes_take_no_memory() {
     let bytes = bytes_of(&small());
     let directory = bytes.windows(4).rposition(|four| four == b"PK\x01\x02").unwrap();
-    // The paint announces 3 GB, which it does not have.
-    let mut bomb = bytes.clone();
-    bomb[directory + 24..directory + 28].copy_from_slice(&3_000_000_000u32.to_le_bytes());
-    refused(&bomb, &["paint", "damaged"]);
+    // The paint announces bytes that it does not have: few enough to try, and too many for so small a file.
+    for (declared, word) in [(900_000_000u32, "damaged"), (3_000_000_000, "would take more than 1 GB")] {
+        let mut bomb = bytes.clone();
+        bomb[directory + 24..directory + 28].copy_from_slice(&declared.to_le_bytes());
+        refused(&bomb, &["paint", word]);
+    }
     // The settings are 64 MB of blanks, packed in 64 kB.
     let mut blanks = flate2::write::DeflateEncoder::new(Vec::new(), flate2::Compression::best());
     std::io::Write::write_all(&mut blanks, &vec![b' '; 64 << 20]).unwrap();
@@ -520,6 +522,32 @@ fn declared_sizes_take_no_memory() {
     for declared in [64 << 20, 1000u32] {
         bomb[at + 24..at + 28].copy_from_slice(&declared.to_le_bytes());
         refused(&bomb, &["settings.json"]);
+    }
+}
+
+#[test]
+fn paint_of_all_layers_together_is_limited_by_the_size_of_the_file() {
+    let mut settings = small().settings;
+    settings.layers = Layer::stack([const { LayerKind::Paint(Quantity::Risk) }; 3]);
+    let mut paint = PaintLayers::default();
+    for layer in &settings.layers {
+        let mut raster = settings.blank_raster(layer.id);
+        raster.exchange(TilePlace { depth: 0, x: 0, y: 0 }, Some(Arc::new(Tile::filled(1.0))));
+        paint.insert(layer.id, raster);
+    }
+    let bytes = bytes_of(&Project { settings, paint });
+    opened(&bytes).unwrap();
+    let of_paint =
+        |at: &usize| bytes[*at..].starts_with(b"PK\x01\x02") && bytes[at + 46..].starts_with(b"paint.");
+    let directory: Vec<usize> = (0..bytes.len() - 46).filter(of_paint).collect();
+    let [first, second, third] = directory[..] else { panic!("{directory:?}") };
+    let declared = |at: usize| u32::from_le_bytes(bytes[at + 24..][..4].try_into().unwrap());
+    // The last part declares all that the others leave, or one byte more.
+    let left = 1_000_000_000 - declared(first) - declared(second);
+    for (declared, word) in [(left, "damaged"), (left + 1, "would take more than 1 GB")] {
+        let mut bomb = bytes.clone();
+        bomb[third + 24..][..4].copy_from_slice(&declared.to_le_bytes());
+        refused(&bomb, &["paint", word]);
     }
 }
 

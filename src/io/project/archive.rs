@@ -80,6 +80,16 @@ impl<'a> Archive<'a> {
 }
 
 impl<'a> Part<'a> {
+    /// The number of bytes in the archive.
+    pub fn packed_bytes(&self) -> u64 {
+        self.packed.len() as u64
+    }
+
+    /// The number of unpacked bytes, as declared.
+    pub fn declared_bytes(&self) -> u64 {
+        self.size
+    }
+
     /// A reader that unpacks the part. The meter counts the packed bytes. Memory is allocated for what is
     /// read, not for what is declared.
     ///

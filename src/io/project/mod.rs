@@ -46,10 +46,11 @@ use super::{Meter, geojson, png};
 use crate::document::{Document, Picture, Settings};
 use crate::domain::Polygon;
 use crate::geometry::Rect;
-use crate::layers::{LayerId, PaintLayers, Quantity, RasterReading};
+use crate::layers::{Layer, LayerId, PaintLayers, Quantity, RasterReading};
 use crate::raster::{Raster, RasterPyramid, TiledRaster};
 use archive::{Archive, ArchiveWriter, Part};
 use old_version::OLD_PAINT;
+use painted::Allowance;
 use part_names::NewParts;
 pub(super) use part_names::PartNames;
 use settings::{Parts, Saved};
@@ -257,17 +258,25 @@ pub(super) fn parse_named(bytes: &[u8], names: &mut PartNames, meter: &Meter) ->
 /// The pixels of the paint layers.
 fn paint(archive: &Archive, settings: &Settings, meter: &Meter) -> Result<PaintLayers, PlacedFlaw> {
     let mut paint = PaintLayers::default();
-    for layer in &settings.layers {
-        let name = paint_part(layer.id);
-        let (Some(quantity), Some(part)) = (layer.paints(), archive.part(&name)) else { continue };
-        let raster = part.unpack(tiled::MOST_BYTES, meter).and_then(|mut unpacking| {
+    let mut allowance = Allowance::for_parts(paint_parts(archive, settings).map(|(_, _, part)| part));
+    for (id, quantity, part) in paint_parts(archive, settings) {
+        let raster = allowance.unpack(part, meter).and_then(|mut unpacking| {
             let raster = painted::read(&mut unpacking, quantity)?;
             unpacking.finish()?;
             Ok(raster)
         });
-        paint.insert(layer.id, raster.map_err(|flaw| in_part(flaw, PAINT))?);
+        paint.insert(id, raster.map_err(|flaw| in_part(flaw, PAINT))?);
     }
     Ok(paint)
+}
+
+/// The parts with paint, and the layers that they belong to.
+fn paint_parts<'b, 'a>(
+    archive: &'b Archive<'a>,
+    settings: &'b Settings,
+) -> impl Iterator<Item = (LayerId, Quantity, &'b Part<'a>)> {
+    let part = |layer: &Layer| Some((layer.id, layer.paints()?, archive.part(&paint_part(layer.id))?));
+    settings.layers.iter().filter_map(part)
 }
 
 /// The pixels of the paint in version 1.
@@ -316,13 +325,12 @@ pub(super) fn read_paint_changes(
     paint: &mut PaintLayers,
 ) -> Result<(), Flaw> {
     let archive = Archive::open(bytes)?;
-    for layer in &settings.layers {
-        let part = archive.part(&paint_part(layer.id));
-        let (Some(quantity), Some(part)) = (layer.paints(), part) else { continue };
-        let mut unpacking = part.unpack(tiled::MOST_BYTES, &Meter::default())?;
+    let mut allowance = Allowance::for_parts(paint_parts(&archive, settings).map(|(_, _, part)| part));
+    for (id, quantity, part) in paint_parts(&archive, settings) {
+        let mut unpacking = allowance.unpack(part, &Meter::default())?;
         let (grid, changes) = painted::read_changes(&mut unpacking, quantity)?;
         unpacking.finish()?;
-        let raster = paint.get_or_insert(layer.id, || TiledRaster::new(grid, tiled::blank(quantity)));
+        let raster = paint.get_or_insert(id, || TiledRaster::new(grid, tiled::blank(quantity)));
         painted::apply(raster, changes);
     }
     Ok(())

@@ -6,11 +6,48 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use super::super::Flaw;
-use super::archive::Unpacking;
+use super::super::{Flaw, Meter};
+use super::archive::{Part, Unpacking};
 use super::tiled::{self, ChangedTiles};
 use crate::layers::Quantity;
 use crate::raster::{PixelGrid, TiledRaster, ValueRanges};
+use crate::text::Bytes;
+
+/// Bytes of unpacked paint that a file of any size may have: 250 million pixels.
+const ALWAYS_ALLOWED: u64 = 1_000_000_000;
+/// Beyond that, the most unpacked bytes for a packed one. Strokes pack to a half or a tenth.
+const MOST_RATIO: u64 = 40;
+
+/// The bytes of paint that may be unpacked from a file, all layers together.
+pub struct Allowance {
+    total: u64,
+    left: u64,
+}
+
+impl Allowance {
+    /// The allowance for a file with these parts of paint.
+    pub fn for_parts<'p, 'a: 'p>(parts: impl Iterator<Item = &'p Part<'a>>) -> Self {
+        let packed: u64 = parts.map(Part::packed_bytes).sum();
+        let total = ALWAYS_ALLOWED.max(packed.saturating_mul(MOST_RATIO));
+        Self { total, left: total }
+    }
+
+    /// A reader that unpacks a part.
+    ///
+    /// # Errors
+    /// When it declares more bytes than are left.
+    pub fn unpack<'a>(&mut self, part: &Part<'a>, meter: &Meter) -> Result<Unpacking<'a>, Flaw> {
+        let size = part.declared_bytes();
+        self.left = self.left.checked_sub(size).ok_or_else(|| {
+            let limit = Bytes(self.total as usize);
+            Flaw::Syntax(format!(
+                "unpacked, the paint of all layers would take more than {limit}, the limit for a file of this size. \
+                 Use another copy."
+            ))
+        })?;
+        part.unpack(size, meter)
+    }
+}
 
 /// Writes all pixels of a layer.
 ///

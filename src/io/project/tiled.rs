@@ -16,9 +16,6 @@ use crate::geometry::Rect;
 use crate::layers::Quantity;
 use crate::raster::{PixelGrid, TILE, Tile, TilePlace, TiledRaster};
 
-/// Most bytes of a raster: what fits the archive.
-pub const MOST_BYTES: u64 = u32::MAX as u64;
-
 const PIXELS: usize = (TILE * TILE) as usize;
 
 /// Tiles by their places; `None` where a tile is removed.
@@ -155,7 +152,7 @@ mod tests {
 
     fn unpacked<T>(bytes: &[u8], read: impl Fn(&mut Unpacking) -> Result<T, Flaw>) -> Result<T, Flaw> {
         let archive = Archive::open(bytes)?;
-        let mut input = archive.part(NAME).unwrap().unpack(MOST_BYTES, &Meter::default())?;
+        let mut input = archive.part(NAME).unwrap().unpack(u64::MAX, &Meter::default())?;
         let result = read(&mut input)?;
         input.finish()?;
         Ok(result)
