@@ -11,7 +11,7 @@ use meshbrush::internals::geometry::{Lattice, Rect};
 use meshbrush::internals::io::png::{Behind, read_metered as read_png};
 use meshbrush::internals::io::project::{self, Project};
 use meshbrush::internals::io::{
-    MeshData, MeshFormat, Meter, Provenance, geojson, stl, vtu, write_file_metered,
+    MeshData, MeshFormat, Meter, Provenance, asc, geojson, shapes, stl, vtu, write_file_metered,
 };
 use meshbrush::internals::layers::{Layer, LayerKind, RasterReading, RasterSource};
 use meshbrush::internals::mesh::{Limits, Mesh};
@@ -74,6 +74,16 @@ fn large_project() -> Project {
     project
 }
 
+/// A grid larger than a block.
+fn grid_file(folder: &Path) -> PathBuf {
+    let file = folder.join("grid.asc");
+    let values = (0..200 * 200).map(|n| n as f32).collect();
+    let mut text = Vec::new();
+    asc::write(&mut text, &Raster::from_values(Rect::UNIT, [200, 200], values)).unwrap();
+    fs::write(&file, text).unwrap();
+    file
+}
+
 /// An output that cancels the meter after `after` bytes.
 struct Cancelling<'a, W> {
     inner: W,
@@ -131,10 +141,15 @@ fn a_meter_with_a_total_ends_at_it() {
     // The names and sizes of the parts are read, but not unpacked.
     assert!(done < total && total - done < 1000, "{done} of {total}");
 
-    let meter = Meter::default();
+    // One meter counts one file after another.
     geojson::read_named_metered(Path::new("assets/aegean_sea.geojson"), &meter).unwrap();
     assert_eq!(meter.total(), Some(meter.done()));
-    let meter = Meter::default();
+    shapes::read(Path::new("assets/aegean_sea.geojson"), &meter).unwrap();
+    assert_eq!(meter.total(), Some(meter.done()));
+    let grid = grid_file(&folder);
+    asc::read_metered(&grid, &meter).unwrap();
+    let bytes = fs::metadata(&grid).unwrap().len();
+    assert_eq!((meter.done(), meter.total()), (bytes, Some(bytes)));
     read_png(Path::new("assets/jacksboro_slope.png"), Rect::UNIT, Behind::Black, &meter).unwrap();
     assert_eq!(meter.total(), Some(meter.done()));
 }
@@ -144,9 +159,12 @@ fn a_cancelled_read_is_an_error() {
     let folder = folder("read");
     let file = folder.join("a.meshbrush");
     write_file_metered(&file, &Meter::default(), |out| project::write(out, &large_project())).unwrap();
+    let grid = grid_file(&folder);
     let meter = Meter::default();
     meter.cancel();
     let bad = [
+        asc::read_metered(&grid, &meter).err(),
+        shapes::read(Path::new("assets/aegean_sea.geojson"), &meter).err(),
         geojson::read_named_metered(Path::new("assets/aegean_sea.geojson"), &meter).err(),
         read_png(Path::new("assets/jacksboro_slope.png"), Rect::UNIT, Behind::Black, &meter).err(),
         project::read_metered(&file, &meter).err(),

@@ -99,7 +99,7 @@ pub fn load_background(session: &Session, background: &mut Background, path: &Pa
 pub fn load_diameters(session: &Session, background: &mut Background, path: &Path) {
     let bounds = session.document().settings().domain.bounds;
     let file = path.to_owned();
-    background.start(Aim::Read, path, move |_| match diameters_of(&file, bounds) {
+    background.start(Aim::Read, path, move |meter| match diameters_of(&file, bounds, meter) {
         Ok(raster) => {
             let kind = raster_layer(&file, raster, RasterReading::Diameter);
             Outcome::PartRead(vec![Command::Layer(LayerCommand::Add(Box::new(kind))), Command::EndGesture])
@@ -167,8 +167,8 @@ fn raster_layer(file: &Path, raster: Raster, reading: RasterReading) -> LayerKin
 }
 
 /// Target diameters by pixel; infinite where the grid has no value.
-fn diameters_of(path: &Path, bounds: Rect) -> Result<Raster, String> {
-    let grid = grid_within(path, bounds)?;
+fn diameters_of(path: &Path, bounds: Rect, meter: &Meter) -> Result<Raster, String> {
+    let grid = grid_within(path, bounds, meter)?;
     if let Some((x, y)) = grid.all().pixels().find(|&(x, y)| grid.get(x, y) <= 0.0) {
         let (value, at) = (grid.get(x, y), grid.pixel_center(x, y));
         return Err(format!(
@@ -184,8 +184,8 @@ fn diameters_of(path: &Path, bounds: Rect) -> Result<Raster, String> {
 }
 
 /// A grid that covers some of `bounds`.
-fn grid_within(path: &Path, bounds: Rect) -> Result<Raster, String> {
-    let grid = io::asc::read(path).map_err(|error| error.to_string())?;
+fn grid_within(path: &Path, bounds: Rect, meter: &Meter) -> Result<Raster, String> {
+    let grid = io::asc::read_metered(path, meter).map_err(|error| error.to_string())?;
     if grid.bounds().intersection(&bounds).is_none_or(|common| !common.is_proper()) {
         let (file, grid, document) = (path.display(), extent(&grid.bounds()), extent(&bounds));
         return Err(format!(
@@ -202,7 +202,7 @@ fn risk_of(path: &Path, bounds: Rect, meter: &Meter) -> Result<Raster, String> {
         let picture = io::png::read_metered(path, bounds, Behind::Black, meter);
         return picture.map_err(|error| error.to_string());
     }
-    let grid = grid_within(path, bounds)?;
+    let grid = grid_within(path, bounds, meter)?;
     let file = path.display();
     if let Some((x, y)) = grid.all().pixels().find(|&(x, y)| !is_risk(grid.get(x, y))) {
         let (value, at) = (grid.get(x, y), grid.pixel_center(x, y));

@@ -12,7 +12,7 @@ use super::terminal::Terminal;
 use crate::build::{BuildStage, BuiltMesh, MeshBuilder, MeshSpec};
 use crate::domain::{BoundaryMarks, Domain, MeshBoundary, Region};
 use crate::field::RefinementRule;
-use crate::io;
+use crate::io::{self, Meter};
 use crate::layers::{PaintLayers, TargetsInOrder};
 use crate::mesh::{CoarseError, Extract, InvalidTarget, Limits, Mesh, Progress, TriangleId};
 use crate::outline::DerivedMesh;
@@ -113,12 +113,15 @@ struct ToMesh {
 }
 
 fn read(request: &MeshRequest, terminal: &mut Terminal) -> Result<ToMesh, Failure> {
+    let meter = Meter::default();
     let Some(path) = &request.project else {
-        let ReadSources { spec, paint, marks, unit, notes } = read_sources(request)?;
+        let read = terminal.while_metered("reading", &meter, || read_sources(request, &meter));
+        let ReadSources { spec, paint, marks, unit, notes } = read?;
         notes.iter().for_each(|note| terminal.note(note));
         return Ok(ToMesh { spec, marks: Arc::new(marks), unit, paint });
     };
-    let document = io::project::read(path)?;
+    let reading = format!("reading {}", path.display());
+    let document = terminal.while_metered(&reading, &meter, || io::project::read_metered(path, &meter))?;
     let settings = document.settings();
     let max_triangles = request.asked_budget.unwrap_or(settings.max_triangles);
     let limits = Limits { max_triangles, ..request.limits };

@@ -38,13 +38,13 @@ pub struct ReadSources {
     pub notes: Vec<String>,
 }
 
-/// Reads the files of a request that names no project.
+/// Reads the files of a request that names no project. The meter counts the bytes of each file.
 ///
 /// # Errors
 /// When a file cannot be read or used, or there is no coarse grid.
-pub fn read_sources(request: &MeshRequest) -> Result<ReadSources, Failure> {
-    let grids = GridFiles::read(visible(request))?;
-    let (domain, marks, unit) = domain(request, grids.extent())?;
+pub fn read_sources(request: &MeshRequest, meter: &Meter) -> Result<ReadSources, Failure> {
+    let grids = GridFiles::read(visible(request), meter)?;
+    let (domain, marks, unit) = domain(request, grids.extent(), meter)?;
     let marks = request.marks.as_deref().cloned().unwrap_or(marks);
     let unit = request.unit.unwrap_or(unit);
     let bounds = domain.bounds;
@@ -53,7 +53,7 @@ pub fn read_sources(request: &MeshRequest) -> Result<ReadSources, Failure> {
         Lattice::covering(bounds, spacing, request.limits.most_triangles()).map_err(CoarseError::from)?;
     let boundary = boundary(request, spacing, &lattice)?;
     let transfer = transfer(request, bisection_edge_length(lattice.spacing(), 0));
-    let (layers, paint) = layers(request, LayerFiles::new(grids, bounds, transfer))?;
+    let (layers, paint) = layers(request, LayerFiles::new(grids, bounds, transfer, meter))?;
     let notes = notes(request, &layers, bounds);
     let field = field_spec(request, layers, transfer, &domain, &lattice)?;
     let (rule, limits) = (request.rule, request.limits);
@@ -84,12 +84,13 @@ fn layers(request: &MeshRequest, mut files: LayerFiles) -> Result<(Vec<Layer>, P
 fn domain(
     request: &MeshRequest,
     extent: Option<Rect>,
+    meter: &Meter,
 ) -> Result<(Domain, BoundaryMarks, LengthUnit), Failure> {
     if let Some(path) = &request.region {
         let outline = if is_standard_stream(path) {
             io::geojson::read_outline_from(stdin().lock(), Path::new("standard input"))?
         } else {
-            io::geojson::read_outline(path, &Meter::default())?
+            io::geojson::read_outline(path, meter)?
         };
         return domain_of(&outline.polygons, request.domain)
             .map(|(domain, marks)| (domain, marks, outline.unit))

@@ -56,8 +56,9 @@ impl Meter {
         if self.is_cancelled() { Err(Cancelled) } else { Ok(()) }
     }
 
-    /// Sets the number of bytes in all.
+    /// Begins to count the bytes of a file, and sets their number.
     pub fn expect(&self, bytes: u64) {
+        self.0.done.store(0, Ordering::Relaxed);
         self.0.total.store(bytes, Ordering::Relaxed);
     }
 

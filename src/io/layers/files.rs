@@ -33,15 +33,15 @@ pub enum LayerError {
 pub struct GridFiles(BTreeMap<PathBuf, Arc<RasterPyramid>>);
 
 impl GridFiles {
-    /// Reads those that layers name.
+    /// Reads those that layers name. The meter counts the bytes of each file.
     ///
     /// # Errors
-    /// When a file is of no use.
-    pub fn read<'a>(layers: impl Iterator<Item = &'a LayerSpec>) -> Result<Self, ReadError> {
+    /// When a file is of no use, and when the work was cancelled.
+    pub fn read<'a>(layers: impl Iterator<Item = &'a LayerSpec>, meter: &Meter) -> Result<Self, ReadError> {
         let mut grids = BTreeMap::new();
         for RasterFile { path, format, bounds } in layers.filter_map(LayerSpec::raster_file) {
             if *format == RasterFormat::Asc && bounds.is_none() && !grids.contains_key(path) {
-                grids.insert(path.clone(), Arc::new(RasterPyramid::new(asc::read(path)?)));
+                grids.insert(path.clone(), Arc::new(RasterPyramid::new(asc::read_metered(path, meter)?)));
             }
         }
         Ok(Self(grids))
@@ -64,13 +64,15 @@ pub struct LayerFiles {
     domain: Rect,
     /// The scale of images that are diameters.
     transfer: Transfer,
+    meter: Meter,
 }
 
 impl LayerFiles {
     /// Images without a place cover `domain`, in world units; those of diameters have the scale of
-    /// `transfer`.
-    pub fn new(grids: GridFiles, domain: Rect, transfer: Transfer) -> Self {
-        Self { grids, images: BTreeMap::new(), projects: BTreeMap::new(), domain, transfer }
+    /// `transfer`. The meter counts the bytes of each file.
+    pub fn new(grids: GridFiles, domain: Rect, transfer: Transfer, meter: &Meter) -> Self {
+        let (images, projects) = (BTreeMap::new(), BTreeMap::new());
+        Self { grids, images, projects, domain, transfer, meter: meter.clone() }
     }
 
     /// Adds the paint of a layer, if that is a paint layer, to `paint`.
@@ -85,7 +87,7 @@ impl LayerFiles {
     ) -> Result<(), LayerError> {
         let KindSpec::Paint { quantity, from: Some((path, name)) } = &layer.kind else { return Ok(()) };
         if !self.projects.contains_key(path) {
-            self.projects.insert(path.clone(), project::read(path)?);
+            self.projects.insert(path.clone(), project::read_metered(path, &self.meter)?);
         }
         let document = &self.projects[path];
         let layers = &document.settings().layers;
@@ -126,10 +128,10 @@ impl LayerFiles {
         let place = bounds.unwrap_or(self.domain);
         let raster = match format {
             RasterFormat::Asc => {
-                let grid = asc::read(path)?;
+                let grid = asc::read_metered(path, &self.meter)?;
                 Raster::from_values(place, grid.size(), grid.values().to_vec())
             }
-            _ => png::read(path, place, behind)?,
+            _ => png::read_metered(path, place, behind, &self.meter)?,
         };
         let raster = Arc::new(RasterPyramid::new(raster));
         if bounds.is_none() {
@@ -158,15 +160,15 @@ impl LayerData for LayerFiles {
     }
 
     fn threats(&mut self, file: &Path) -> Result<Vec<Threat>, LayerError> {
-        Ok(threats::read(file, &Meter::default())?)
+        Ok(threats::read(file, &self.meter)?)
     }
 
     fn shapes(&mut self, file: &Path) -> Result<ShapeList, LayerError> {
-        Ok(shapes::read(file, &Meter::default())?.shapes)
+        Ok(shapes::read(file, &self.meter)?.shapes)
     }
 
     fn polygons(&mut self, file: &Path) -> Result<Vec<Polygon>, LayerError> {
-        Ok(geojson::read(file)?)
+        Ok(geojson::without_names(geojson::read_named_metered(file, &self.meter)?))
     }
 }
 
