@@ -861,3 +861,12 @@ fn a_signal_during_an_export_leaves_the_old_file_and_no_part_of_the_new_one() {
         assert_eq!((folder.names(), folder.read("m.msh")), (vec!["m.msh".to_owned()], "old".to_owned()));
     }
 }
+
+#[test]
+fn a_target_of_infinity_asks_for_nothing() {
+    let folder = Folder::new("infinity");
+    let hash = |arguments: &str| folder.json(arguments)["hash"].clone();
+    assert_eq!(hash("--target 1/0"), hash("--target 100"));
+    assert_eq!(hash("--target 1/0 --target 0.02"), hash("--target 0.02"));
+    assert_ne!(hash("--target 0.02"), hash("--target 100"));
+}

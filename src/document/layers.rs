@@ -2,8 +2,8 @@
 
 use glam::DVec2;
 
-use super::{Document, Settings};
-use crate::layers::{Layer, LayerId, Quantity};
+use super::{Document, Settings, SettingsError};
+use crate::layers::{Layer, LayerId, PaintLayers, Quantity};
 use crate::paint::Medium;
 use crate::raster::{PixelGrid, TiledRaster};
 
@@ -15,7 +15,7 @@ const COARSEST_PIXELS: f64 = 1024.0;
 #[non_exhaustive]
 pub enum NoPaintLayer {
     /// There is no paint layer for the brush.
-    #[error("No layer for painted {}: add a paint layer to paint on.", quantity(*.0))]
+    #[error("No layer for painted {}: add a paint layer to paint on.", noun(*.0))]
     Missing(Option<Quantity>),
     /// The layer is locked.
     #[error("The layer “{name}” is locked: unlock it to paint on it, or select another layer.")]
@@ -35,7 +35,7 @@ pub enum NoPaintLayer {
     },
 }
 
-fn quantity(quantity: Option<Quantity>) -> &'static str {
+fn noun(quantity: Option<Quantity>) -> &'static str {
     match quantity {
         Some(Quantity::Risk) => "risk",
         Some(Quantity::Diameter) => "diameters",
@@ -54,11 +54,26 @@ impl Settings {
     pub fn blank_raster(&self, id: LayerId) -> TiledRaster {
         let bounds = self.domain.bounds;
         let pixel = DVec2::splat(bounds.size().max_element() / COARSEST_PIXELS);
-        let blank = match self.layer(id).and_then(Layer::paints) {
-            Some(Quantity::Risk) => 0.0,
-            _ => f32::INFINITY,
-        };
-        TiledRaster::new(PixelGrid { origin: bounds.min, pixel }, blank)
+        let quantity = self.layer(id).and_then(Layer::paints).unwrap_or(Quantity::Diameter);
+        TiledRaster::new(PixelGrid { origin: bounds.min, pixel }, quantity.blank())
+    }
+
+    /// Checks that each paint layer has pixels of its own quantity: a risk of 0 asks for nothing, and a
+    /// diameter of 0 cannot be met.
+    pub(super) fn check_paint(&self, paint: &PaintLayers) -> Result<(), SettingsError> {
+        for layer in &self.layers {
+            if let (Some(quantity), Some(raster)) = (layer.paints(), paint.get(layer.id))
+                && raster.blank() != quantity.blank()
+            {
+                let other = match quantity {
+                    Quantity::Risk => Quantity::Diameter,
+                    Quantity::Diameter => Quantity::Risk,
+                };
+                let [is, read_as] = [other, quantity].map(|quantity| noun(Some(quantity)));
+                return Err(SettingsError::PaintedOther { layer: layer.name.clone(), is, read_as });
+            }
+        }
+        Ok(())
     }
 }
 
@@ -129,6 +144,59 @@ impl Document {
                 Err(NoPaintLayer::Hidden { id: *id, name: name.clone() })
             }
             Some(layer) => Ok(layer.id),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::dvec2;
+
+    use super::*;
+    use crate::document::Setting;
+    use crate::field::Formula;
+    use crate::layers::LayerKind;
+    use crate::paint::Brush;
+
+    #[test]
+    fn painted_pixels_are_not_read_as_another_quantity() {
+        let stack = |quantity| Layer::stack([LayerKind::Paint(quantity)]);
+        let [risk, diameter] = [Quantity::Risk, Quantity::Diameter].map(stack);
+        let with = |layers: &Vec<Layer>| Settings { layers: layers.clone(), ..Settings::default() };
+        let mut document = Document::new(with(&risk), None).unwrap();
+        // Nothing is painted yet.
+        document.set(Setting::Layers(diameter.clone())).unwrap();
+        document.set(Setting::Layers(risk.clone())).unwrap();
+        document.begin_stroke(Brush { medium: Medium::Risk(1.0), radius: 0.1, hardness: 1.0, strength: 1.0 });
+        document.draw_to(dvec2(0.5, 0.5));
+        document.end_stroke();
+        let before = (document.settings().clone(), document.version());
+        let error = document.set(Setting::Layers(diameter.clone())).unwrap_err().to_string();
+        let said = "The pixels of the layer “Painted diameter” are risk, and cannot be read as diameters.";
+        assert_eq!(error, format!("{said} Add another paint layer."));
+        assert_eq!((document.settings().clone(), document.version()), before);
+        assert_eq!(document.risk_at(dvec2(0.5, 0.5)), Some(1.0));
+        // Nor does a document open with them.
+        let paint = document.paint().clone();
+        assert!(Document::new(with(&diameter), Some(paint.clone())).is_err());
+        assert!(Document::new(with(&risk), Some(paint)).is_ok());
+    }
+
+    #[test]
+    fn a_constant_of_infinity_asks_for_nothing_and_one_below_it_must_be_positive() {
+        let with = |text: &str| {
+            let layers = Layer::stack([LayerKind::target(Formula::parse(text).unwrap())]);
+            Settings { layers, ..Settings::default() }.checked()
+        };
+        for text in ["1/0", "inf", "1e-9"] {
+            assert!(with(text).is_ok(), "{text}");
+        }
+        for text in ["0", "-1", "-1/0", "0/0"] {
+            let error = with(text).unwrap_err().to_string();
+            assert!(
+                error.ends_with("cannot be met: it must be positive; write inf to ask for nothing."),
+                "{error}"
+            );
         }
     }
 }

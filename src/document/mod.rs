@@ -86,11 +86,13 @@ impl Document {
     /// When the settings are out of range.
     pub fn new(settings: Settings, paint: Option<PaintLayers>) -> Result<Self, SettingsError> {
         let settings = settings.checked()?;
+        let paint = paint.unwrap_or_default();
+        settings.check_paint(&paint)?;
         let active = settings.layers.iter().rev().find(|layer| layer.paints().is_some());
         Ok(Self {
             active: active.map(|layer| layer.id),
             settings,
-            paint: paint.unwrap_or_default(),
+            paint,
             history: History::default(),
             stroke: None,
             finishing: false,
@@ -281,6 +283,7 @@ impl Document {
             return Ok(());
         }
         let settings = settings.checked()?;
+        settings.check_paint(&self.paint)?;
         self.end_stroke();
         let joins = self.open_gesture == Some(kind);
         let old = std::mem::replace(&mut self.settings, settings);

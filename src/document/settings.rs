@@ -74,9 +74,21 @@ pub enum SettingsError {
     /// Two layers have the same identifier.
     #[error("There are two layers with the identifier {0}: each layer needs its own.")]
     SameLayer(u32),
-    /// A constant layer is not a length.
-    #[error("A target diameter of {} cannot be met: it must be positive and finite.", Number(*.0))]
+    /// A constant layer asks for a diameter that no mesh can meet.
+    #[error("A target diameter of {} cannot be met: it must be positive; write inf to ask for nothing.", Number(*.0))]
     Constant(f64),
+    /// A paint layer has pixels of the other quantity.
+    #[error(
+        "The pixels of the layer “{layer}” are {is}, and cannot be read as {read_as}. Add another paint layer."
+    )]
+    PaintedOther {
+        /// The name of the layer.
+        layer: String,
+        /// What its pixels are.
+        is: &'static str,
+        /// What they would be read as.
+        read_as: &'static str,
+    },
     /// The memory budget is too small for any mesh.
     #[error("A memory budget of {} cannot be kept: choose {} at least.", Bytes(*bytes), Bytes(LEAST_MEMORY))]
     Memory {
@@ -137,9 +149,10 @@ impl Settings {
             }
             if let LayerKind::Formula { quantity: Quantity::Diameter, formula } = &layer.kind
                 && let Some(value) = formula.constant()
+                && (value.is_nan() || value <= 0.0)
             {
-                checked_target(value, self.domain.bounds.center())
-                    .map_err(|e| SettingsError::Constant(e.value))?;
+                // Infinity asks for nothing, as it does where a formula has it in some places only.
+                return Err(SettingsError::Constant(value));
             }
         }
         Ok(())

@@ -54,6 +54,16 @@ pub enum Quantity {
     Diameter,
 }
 
+impl Quantity {
+    /// The value of paint where nothing is painted: it asks for nothing.
+    pub fn blank(self) -> f32 {
+        match self {
+            Self::Risk => 0.0,
+            Self::Diameter => f32::INFINITY,
+        }
+    }
+}
+
 /// What a layer asks for.
 #[derive(Clone, Debug, PartialEq)]
 pub enum LayerKind {

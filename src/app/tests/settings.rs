@@ -160,6 +160,23 @@ fn impossible_settings_are_refused_with_a_sentence() {
 }
 
 #[test]
+fn a_base_of_infinity_asks_for_nothing() {
+    let mut window = window_of(TALL);
+    set(&mut window, Setting::Layers(Layer::usual(LayerKind::constant(0.02))));
+    super::select_base(&mut window);
+    let fine = fingerprint(&window);
+    type_into(&mut window, "Target diameter h̄(x, y)", "1/0");
+    assert_ne!(fingerprint(&window), fine);
+    assert!(
+        notice(&window).is_empty() && window.query_by_role_and_label(Role::TextInput, "Diameter").is_none()
+    );
+    let nothing = fingerprint(&window);
+    let h_max = settings(&window).transfer.h_max;
+    set(&mut window, Setting::Layers(Layer::usual(LayerKind::constant(h_max))));
+    assert_eq!(fingerprint(&window), nothing);
+}
+
+#[test]
 fn the_rule_switches_and_says_what_it_misses() {
     let mut window = window_of(TALL);
     open_section(&mut window, "Mesh");

@@ -330,7 +330,7 @@ pub(super) fn read_paint_changes(
         let mut unpacking = allowance.unpack(part, &Meter::default())?;
         let (grid, changes) = painted::read_changes(&mut unpacking, quantity)?;
         unpacking.finish()?;
-        let raster = paint.get_or_insert(id, || TiledRaster::new(grid, tiled::blank(quantity)));
+        let raster = paint.get_or_insert(id, || TiledRaster::new(grid, quantity.blank()));
         painted::apply(raster, changes);
     }
     Ok(())

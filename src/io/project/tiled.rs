@@ -21,14 +21,6 @@ const PIXELS: usize = (TILE * TILE) as usize;
 /// Tiles by their places; `None` where a tile is removed.
 pub type ChangedTiles = BTreeMap<TilePlace, Option<Arc<Tile>>>;
 
-/// The value of a raster where nothing is painted.
-pub fn blank(quantity: Quantity) -> f32 {
-    match quantity {
-        Quantity::Risk => 0.0,
-        Quantity::Diameter => f32::INFINITY,
-    }
-}
-
 /// Writes all tiles of a raster.
 ///
 /// # Errors
@@ -55,7 +47,7 @@ pub fn read_raster(input: &mut Unpacking, grid: PixelGrid, quantity: Quantity) -
     if let Some((place, _)) = tiles.iter().find(|(_, tile)| tile.is_none()) {
         return Err(misplaced(*place));
     }
-    TiledRaster::from_tiles(grid, blank(quantity), tiles.into_iter().filter_map(present)).map_err(misplaced)
+    TiledRaster::from_tiles(grid, quantity.blank(), tiles.into_iter().filter_map(present)).map_err(misplaced)
 }
 
 /// Reads tiles that changed.
@@ -84,7 +76,7 @@ pub fn read_changes(input: &mut Unpacking, quantity: Quantity) -> Result<Changed
 /// The raster with the pixels of a project of version 1: tiles of 64 × 64 pixels over `bounds`, which has
 /// `size` = [columns, rows] pixels.
 pub fn from_old_tiles(bounds: &Rect, size: [u32; 2], tiles: &Tiles, quantity: Quantity) -> TiledRaster {
-    let blank = blank(quantity);
+    let blank = quantity.blank();
     let mut raster = TiledRaster::new(PixelGrid::filling(bounds, size), blank);
     for (&old_place, pixels) in tiles {
         let values = match quantity {
@@ -169,7 +161,7 @@ mod tests {
             Quantity::Diameter => Medium::Diameter(0.02, DiameterChange::Finer),
         };
         let grid = PixelGrid { origin: dvec2(0.0, 5.0), pixel: dvec2(0.01, 0.02) };
-        let mut raster = TiledRaster::new(grid, blank(quantity));
+        let mut raster = TiledRaster::new(grid, quantity.blank());
         for (radius, at) in [(0.7, dvec2(-1.0, 4.0)), (0.1, dvec2(-1.5, 4.0)), (0.01, dvec2(0.0, 5.0))] {
             let brush = Brush { medium, radius, hardness: 0.3, strength: 0.7 };
             let mut stroke = Stroke::new(brush, 1.0, bounds());
@@ -267,7 +259,7 @@ mod tests {
         for quantity in [Quantity::Risk, Quantity::Diameter] {
             let raster = from_old_tiles(&bounds(), size, &old, quantity);
             for (x, y) in all.pixels() {
-                let expected = old.get(&[x / 64, y / 64]).map_or(blank(quantity), |tile| {
+                let expected = old.get(&[x / 64, y / 64]).map_or(quantity.blank(), |tile| {
                     let columns = if x / 64 == 2 { 150 - 128 } else { 64 };
                     let index = (y % 64 * columns + x % 64) as usize;
                     if quantity == Quantity::Risk { tile.risk[index] } else { tile.diameter[index] }

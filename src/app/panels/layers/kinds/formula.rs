@@ -36,7 +36,7 @@ fn parameters(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut
         set_kind_once(layer, kind, commands);
     }
     ui.add_space(4.0);
-    if let (Quantity::Diameter, Some(diameter)) = (quantity, formula.constant()) {
+    if let (Quantity::Diameter, Some(diameter)) = (quantity, formula.constant().filter(|d| d.is_finite())) {
         constant_row(ui, state, layer, diameter, commands);
     }
     let row = match quantity {
