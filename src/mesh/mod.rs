@@ -34,6 +34,6 @@ pub use kernel::{
     bisection_edge_length, level_for_diameter,
 };
 pub use query::{
-    Adjacency, Cleaning, Fingerprint, Forecast, KeptParts, Location, Locator, PatchedLocator, Removed,
-    RemovedPart, Topology, Violation, barycentric, fingerprint_of, interpolate,
+    Adjacency, Cause, Cleaning, Fingerprint, Forecast, KeptParts, Location, Locator, PatchedLocator, Removed,
+    RemovedPart, Topology, TreeTriangle, Violation, barycentric, fingerprint_of, interpolate,
 };

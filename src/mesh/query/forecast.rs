@@ -17,10 +17,9 @@
 
 use std::collections::HashMap;
 
-use crate::geometry::{Lattice, LatticePoint, LatticeRect};
-use crate::mesh::kernel::{
-    Bitset, Limits, Mesh, Progress, RefineError, Search, TriangleId, WalkEnd, is_parents_apex,
-};
+use super::tree::TreeTriangle;
+use crate::geometry::{LatticePoint, LatticeRect};
+use crate::mesh::kernel::{Bitset, Limits, Mesh, Progress, RefineError, Search, TriangleId, WalkEnd};
 
 /// Counts what [`Updater`](crate::mesh::Updater) would do after a change of the rule, in slices, and leaves
 /// the mesh alone.
@@ -76,76 +75,10 @@ enum Fate {
     Stays,
 }
 
-/// A triangle of the bisection tree, in the mesh or not.
-#[derive(Clone, Copy, Debug)]
-struct TreeTriangle {
-    /// Where the right angle is.
-    apex: LatticePoint,
-    /// The ends of the bisection edge.
-    ends: [LatticePoint; 2],
-    level: u32,
-}
-
-impl TreeTriangle {
-    fn of(mesh: &Mesh, id: TriangleId) -> Self {
-        let triangle = mesh.triangle(id);
-        let ends = triangle.bisection_edge().map(|end| mesh.node(end));
-        Self { apex: mesh.node(triangle.apex()), ends, level: triangle.level() }
-    }
-
-    fn corners(&self) -> [LatticePoint; 3] {
-        [self.apex, self.ends[0], self.ends[1]]
-    }
-
-    fn midpoint(&self) -> LatticePoint {
-        self.ends[0].midpoint(self.ends[1])
-    }
-
-    fn children(&self) -> [Self; 2] {
-        let apex = self.midpoint();
-        self.ends.map(|end| Self { apex, ends: [end, self.apex], level: self.level + 1 })
-    }
-
-    /// How many triangles of the domain come when this one is bisected, or go below zero.
-    fn gain(&self, is_in_domain: &impl Fn([LatticePoint; 3], u32) -> bool) -> i64 {
-        let counts = |triangle: &Self| i64::from(is_in_domain(triangle.corners(), triangle.level));
-        self.children().iter().map(counts).sum::<i64>() - counts(self)
-    }
-
-    /// The triangle that this one is half of; its level must not be 0.
-    fn parent(&self, lattice: &Lattice) -> Self {
-        let ([first, second], middle) = (self.ends, self.apex);
-        let first_is_apex = is_parents_apex(first, middle, self.level, lattice);
-        let (apex, end) = if first_is_apex { (first, second) } else { (second, first) };
-        // No other triangle has this half of the cut edge: its other end is on the lattice.
-        let far = LatticePoint::new(2 * middle.x - end.x, 2 * middle.y - end.y);
-        Self { apex, ends: [end, far], level: self.level - 1 }
-    }
-
-    /// The mirror image across the bisection edge, `None` where the domain ends there.
-    fn across(&self, mesh: &Mesh) -> Option<Self> {
-        let [p, q] = self.ends;
-        let mirrored = |p: u32, q: u32, apex: u32| (p + q).checked_sub(apex);
-        let apex = LatticePoint::new(mirrored(p.x, q.x, self.apex.x)?, mirrored(p.y, q.y, self.apex.y)?);
-        let image = Self { apex, ..*self };
-        image.coarse_entry(mesh).map(|_| image)
-    }
-
-    /// Number of the coarse triangle that this lies in, and its entry; `None` beyond the domain.
-    fn coarse_entry(&self, mesh: &Mesh) -> Option<(usize, TriangleId)> {
-        let steps = 4 * u64::from(mesh.lattice().cell_steps());
-        // A point strictly inside, in quarters of a lattice step.
-        let inner = |[apex, p, q]: [u32; 3]| 2 * u64::from(apex) + u64::from(p) + u64::from(q);
-        let (x, y) = (inner(self.corners().map(|c| c.x)), inner(self.corners().map(|c| c.y)));
-        let [columns, rows] = mesh.lattice().cells().map(u64::from);
-        let (column, row) = (x / steps, y / steps);
-        if column >= columns || row >= rows {
-            return None;
-        }
-        let upper = x % steps + y % steps > steps;
-        let number = 2 * (row * columns + column) as usize + usize::from(upper);
-        mesh.coarse.get(number).map(|entry| (number, entry))
-    }
+/// How many triangles of the domain come when one is bisected, or go below zero.
+fn gain(triangle: &TreeTriangle, is_in_domain: &impl Fn([LatticePoint; 3], u32) -> bool) -> i64 {
+    let counts = |triangle: &TreeTriangle| i64::from(is_in_domain(triangle.corners(), triangle.level()));
+    triangle.children().iter().map(counts).sum::<i64>() - counts(triangle)
 }
 
 impl Forecast {
@@ -198,10 +131,10 @@ impl Forecast {
         is_in_domain: impl Fn([LatticePoint; 3], u32) -> bool,
         visits: usize,
     ) -> Result<Progress, RefineError> {
-        let gain = |triangle: &TreeTriangle| triangle.gain(&is_in_domain);
+        let gain = |triangle: &TreeTriangle| gain(triangle, &is_in_domain);
         let max_level = self.max_level;
         let exceeds = |triangle: &TreeTriangle| {
-            triangle.level < max_level && exceeds(triangle.corners(), triangle.level)
+            triangle.level() < max_level && exceeds(triangle.corners(), triangle.level())
         };
         let deepest = mesh.lattice().deepest_level();
         // Ends: as the update does, see the head of `update.rs`.
@@ -210,8 +143,8 @@ impl Forecast {
                 if !exceeds(&triangle) {
                     continue;
                 }
-                if triangle.level >= deepest {
-                    return Err(RefineError::too_fine(mesh.lattice(), triangle.apex));
+                if triangle.level() >= deepest {
+                    return Err(RefineError::too_fine(mesh.lattice(), triangle.apex()));
                 }
                 self.bisect(mesh, triangle, gain);
                 self.asked.extend(triangle.children());
@@ -255,10 +188,10 @@ impl Forecast {
             }
             let across = triangle.across(mesh);
             if let Some(across) = across
-                && across.level > 0
-                && !self.is_node(mesh, across.apex, &across)
+                && let Some(parent) = across.parent(mesh.lattice())
+                && !self.is_node(mesh, across.apex(), &across)
             {
-                self.chain.push(across.parent(mesh.lattice()));
+                self.chain.push(parent);
                 continue;
             }
             self.chain.pop();
@@ -276,17 +209,17 @@ impl Forecast {
         exceeds: impl Fn(&TreeTriangle) -> bool,
         gain: impl Fn(&TreeTriangle) -> i64,
     ) {
-        if triangle.level == 0 || self.fates.contains_key(&triangle.apex) {
+        if self.fates.contains_key(&triangle.apex()) {
             return;
         }
-        let parent = triangle.parent(mesh.lattice());
+        let Some(parent) = triangle.parent(mesh.lattice()) else { return };
         let parents = [Some(parent), parent.across(mesh)];
         let parents = || parents.iter().flatten();
         if parents().any(|parent| parent.children().iter().any(|child| self.is_bisected(mesh, child))) {
             return;
         }
         let fate = if parents().any(exceeds) { Fate::Stays } else { Fate::Goes };
-        self.fates.insert(triangle.apex, fate);
+        self.fates.insert(triangle.apex(), fate);
         if fate == Fate::Goes {
             self.removed += parents().count();
             self.change -= parents().map(gain).sum::<i64>();
@@ -295,7 +228,7 @@ impl Forecast {
     }
 
     fn is_bisected(&mut self, mesh: &Mesh, triangle: &TreeTriangle) -> bool {
-        triangle.level < mesh.lattice().deepest_level() && self.is_node(mesh, triangle.midpoint(), triangle)
+        triangle.level() < mesh.lattice().deepest_level() && self.is_node(mesh, triangle.midpoint(), triangle)
     }
 
     /// Whether a point of a triangle, which may lie on its rim, is a node as far as counted.

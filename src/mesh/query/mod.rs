@@ -1,6 +1,8 @@
-//! Questions to a finished mesh: location, adjacency, survey, interpolation, fingerprint, checks, forecast.
+//! Questions to a finished mesh: location, adjacency, survey, interpolation, fingerprint, checks, forecast,
+//! the bisection tree and the causes of its triangles.
 
 mod adjacency;
+mod cause;
 mod check;
 mod cleaning;
 mod fingerprint;
@@ -12,8 +14,10 @@ mod locator;
 mod patched_locator;
 mod parts;
 mod topology;
+mod tree;
 
 pub use adjacency::Adjacency;
+pub use cause::Cause;
 pub use check::Violation;
 pub use cleaning::{Cleaning, KeptParts, Removed, RemovedPart};
 pub use fingerprint::{Fingerprint, fingerprint_of};
@@ -23,3 +27,4 @@ pub use locate::Location;
 pub use locator::Locator;
 pub use patched_locator::PatchedLocator;
 pub use topology::Topology;
+pub use tree::TreeTriangle;

@@ -1,0 +1,160 @@
+//! Why triangles are there: the stated cause, replayed alone from the coarse grid, makes the triangle.
+//!
+//! `MESHBRUSH_CAUSES=10000` asks about that many triangles and prints the shares.
+
+use fastrand::Rng;
+use glam::{DVec2, dvec2};
+use meshbrush::internals::field::{Formula, Transfer};
+use meshbrush::internals::geometry::{Lattice, LatticePoint, Rect};
+use meshbrush::internals::layers::{
+    Layer, LayerKind, PaintLayers, SizeField, SizeFieldSpec, Threat, ThreatLaw, Threats,
+};
+use meshbrush::internals::mesh::{Cause, Limits, Mesh, TreeTriangle, TriangleId};
+
+/// A mesh with holes, its coarse grid, and the field it satisfies.
+struct Case {
+    coarse: Mesh,
+    mesh: Mesh,
+    field: SizeField,
+}
+
+impl Case {
+    fn random(seed: u64) -> Self {
+        let mut random = Rng::with_seed(seed);
+        let lattice = Lattice::covering(Rect::UNIT, [0.2, 0.11][random.usize(..2)], 1000).unwrap();
+        let hole = dvec2(random.f64(), random.f64());
+        let keeps = |center: DVec2| center.distance(hole) > 0.2;
+        let coarse = Mesh::coarse_grid(&lattice, keeps, &Limits::default()).unwrap();
+        let transfer = Transfer { h_min: 0.002 + 0.01 * random.f64(), h_max: 0.5, shape: 1.0 };
+        let gradation = random.bool().then(|| 0.2 + random.f64());
+        let layers = Layer::stack([disc(&mut random), threats(&mut random), strip(&mut random)]);
+        let spec = SizeFieldSpec { layers, transfer, unasked: 0.5, outline: None, gradation };
+        let field = SizeField::new(spec, &lattice);
+        let mut mesh = coarse.clone();
+        mesh.refine(&Limits::default(), |element| Ok(field.exceeds(PaintLayers::blank(), element))).unwrap();
+        Self { coarse, mesh, field }
+    }
+
+    fn exceeds(&self, triangle: &TreeTriangle) -> bool {
+        self.field.asks_for_more(PaintLayers::blank(), triangle.corners(), triangle.level())
+    }
+
+    /// The coarse grid, refined until a triangle and its halves would be there, and no further.
+    fn replayed(&self, required_by: &TreeTriangle) -> Mesh {
+        let mut mesh = self.coarse.clone();
+        let [a, b, c] = required_by.corners().map(LatticePoint::as_dvec2);
+        let inner = 0.5 * a + 0.25 * (b + c);
+        mesh.refine(&Limits::default(), |element| {
+            Ok(element.triangle.level() <= required_by.level() && contains(element.corners, inner))
+        })
+        .unwrap();
+        mesh
+    }
+}
+
+fn disc(random: &mut Rng) -> LayerKind {
+    let [x, y, r] = [random.f64(), random.f64(), 0.1 * random.f64()];
+    let text = format!("if(hypot(x - {x}, y - {y}) < {r}, {}, inf)", 0.01 + 0.02 * random.f64());
+    LayerKind::target(Formula::parse(&text).unwrap())
+}
+
+fn strip(random: &mut Rng) -> LayerKind {
+    let at = random.f64();
+    LayerKind::target(Formula::parse(&format!("0.004 + 0.7 * abs(x + 0.3 * y - {at})")).unwrap())
+}
+
+fn threats(random: &mut Rng) -> LayerKind {
+    let mut threat = || Threat {
+        at: dvec2(random.f64(), random.f64()),
+        range: 0.02 + 0.2 * random.f64(),
+        peak: random.f64(),
+        law: ThreatLaw::Radar,
+    };
+    let list = (0..5).map(|_| threat()).collect();
+    LayerKind::Threats(Threats::new(list).unwrap())
+}
+
+/// Whether a point lies in a triangle, by areas.
+fn contains([a, b, c]: [LatticePoint; 3], point: DVec2) -> bool {
+    let [a, b, c] = [a, b, c].map(LatticePoint::as_dvec2);
+    let sides = [(a, b), (b, c), (c, a)].map(|(from, to)| (to - from).perp_dot(point - from));
+    sides.iter().all(|&side| side >= 0.0) || sides.iter().all(|&side| side <= 0.0)
+}
+
+/// The corners, in no order.
+fn sorted(corners: [LatticePoint; 3]) -> [[u32; 2]; 3] {
+    let mut corners = corners.map(|c| [c.x, c.y]);
+    corners.sort_unstable();
+    corners
+}
+
+fn has_triangle(mesh: &Mesh, triangle: &TreeTriangle) -> bool {
+    let wanted = sorted(triangle.corners());
+    let [a, b, c] = triangle.corners().map(LatticePoint::as_dvec2);
+    let inner = 0.5 * a + 0.25 * (b + c);
+    // It is there, or has been bisected: then its leaves lie in it and are deeper.
+    (0..mesh.raw_triangle_count()).map(TriangleId::from_index).any(|id| {
+        let corners = mesh.triangle(id).vertices.map(|node| mesh.node(node));
+        sorted(corners) == wanted
+            || (mesh.triangle(id).level() > triangle.level() && contains(corners, inner))
+    })
+}
+
+#[test]
+fn the_stated_cause_alone_makes_the_triangle() {
+    let wanted: usize = std::env::var("MESHBRUSH_CAUSES").map_or(600, |text| text.parse().unwrap());
+    let (mut own, mut forced, mut longest) = (0, 0, 0);
+    for seed in 0.. {
+        let case = Case::random(seed);
+        let mut random = Rng::with_seed(seed);
+        for _ in 0..20 {
+            let id = TriangleId::from_index(random.usize(..case.mesh.raw_triangle_count()));
+            let triangle = TreeTriangle::of(&case.mesh, id);
+            let cause = case.mesh.cause_of(&triangle, |one| case.exceeds(one));
+            match &cause {
+                Cause::Coarse => assert_eq!(triangle.level(), 0),
+                Cause::OwnRule { parent } => {
+                    assert!(case.exceeds(parent));
+                    own += 1;
+                }
+                Cause::Compatibility { chain } => {
+                    assert!(case.exceeds(&chain[0]), "seed {seed}, {id:?}");
+                    assert!(!case.exceeds(chain.last().unwrap()), "it would be its own cause");
+                    let levels: Vec<_> = chain.iter().map(TreeTriangle::level).collect();
+                    assert!(levels.is_sorted_by(|a, b| a >= b) && levels[0] >= triangle.level() - 1);
+                    forced += 1;
+                    longest = longest.max(chain.len());
+                }
+                other => panic!("{other:?}"),
+            }
+            if let Some(required_by) = cause.required_by() {
+                assert!(has_triangle(&case.replayed(required_by), &triangle), "seed {seed}, {id:?}: {cause:?}");
+            }
+        }
+        if own + forced >= wanted {
+            break;
+        }
+    }
+    println!("own rule {own}, compatibility {forced}, longest chain {longest}");
+    assert!(own > wanted / 4 && forced > wanted / 20 && longest > 3, "{own} {forced} {longest}");
+}
+
+#[test]
+fn the_tree_of_a_mesh_is_walked_up_and_down() {
+    let case = Case::random(3);
+    let mesh = &case.mesh;
+    for index in 0..mesh.raw_triangle_count() {
+        let id = TriangleId::from_index(index);
+        let triangle = TreeTriangle::of(mesh, id);
+        assert_eq!(mesh.entry_of(&triangle), Some(id));
+        assert!(!mesh.is_bisected(&triangle));
+        let Some(parent) = triangle.parent(mesh.lattice()) else { continue };
+        assert!(mesh.is_bisected(&parent) && mesh.entry_of(&parent).is_none());
+        let sibling = triangle.sibling(mesh.lattice()).unwrap();
+        assert!(parent.children().iter().any(|child| child.is_same(&sibling)));
+        assert!(!sibling.is_same(&triangle));
+        assert_eq!(triangle.ancestors(mesh.lattice()).len(), triangle.level() as usize);
+        // Two siblings of one level fill the parent: their leaves are found there.
+        assert!(mesh.is_bisected(&sibling) || mesh.entry_of(&sibling).is_some());
+    }
+}
