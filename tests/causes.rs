@@ -128,7 +128,10 @@ fn the_stated_cause_alone_makes_the_triangle() {
                 other => panic!("{other:?}"),
             }
             if let Some(required_by) = cause.required_by() {
-                assert!(has_triangle(&case.replayed(required_by), &triangle), "seed {seed}, {id:?}: {cause:?}");
+                assert!(
+                    has_triangle(&case.replayed(required_by), &triangle),
+                    "seed {seed}, {id:?}: {cause:?}"
+                );
             }
         }
         if own + forced >= wanted {

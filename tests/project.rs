@@ -288,7 +288,7 @@ fn settings_are_readable_text_and_unzip_unpacks_them() {
     assert_eq!(said.trim(), expected, "{}", String::from_utf8_lossy(&python.stderr));
 }
 
-/// A small document that has every part.
+/// A small document that has every part. Tests try each of its bits, so its paint is a dab of either kind.
 fn small() -> Project {
     let square = vec![vec![dvec2(0.0, 0.0), dvec2(1.0, 0.1), dvec2(0.3, 1.0)]];
     let raster = Raster::from_values(Rect::UNIT, [2, 2], vec![0.0, 0.25, 0.5, 1.0]);
@@ -298,7 +298,12 @@ fn small() -> Project {
         ..Settings::default()
     };
     let mut document = Document::new(settings, None).unwrap();
-    scribble(&mut document, &mut fastrand::Rng::with_seed(3));
+    let h_min = document.settings().transfer.h_min;
+    for medium in [Medium::Risk(1.0), Medium::Diameter(h_min, DiameterChange::Finer)] {
+        document.begin_stroke(Brush { medium, radius: 0.03125, hardness: 1.0, strength: 1.0 });
+        document.draw_to(dvec2(0.625, 0.375));
+        document.end_stroke();
+    }
     Project::of(&document)
 }
 
