@@ -1,8 +1,8 @@
 //! Why a triangle is in a mesh: the rule asked for it, or compatibility did.
 //!
 //! A triangle t came into being when its parent p was bisected, together with the triangle across p's
-//! bisection edge. One of these two exceeds its target, or some triangle farther away does, and RefineTriangle
-//! (Algorithm 2) came past p on its way to coarser triangles:
+//! bisection edge. One of these two exceeds its target, or some triangle farther away does, and
+//! RefineTriangle (Algorithm 2) came past p on its way to coarser triangles:
 //!
 //! ```text
 //!    t0 ──▶ t1 ──▶ t2 ──▶ p        t0 exceeds its target; across the bisection edge of each lies the next,
