@@ -3,13 +3,13 @@
 
 use std::fmt::Write;
 use std::io::Cursor;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use meshbrush::internals::domain::{Domain, RegionError};
 use meshbrush::internals::field::Formula;
 use meshbrush::internals::geometry::Rect;
 use meshbrush::internals::io::png::{Behind, decode};
-use meshbrush::internals::io::{asc, geojson, points};
+use meshbrush::internals::io::{asc, geojson, points, recipe, shapes, threats};
 
 const NAME: &str = "the file";
 
@@ -29,6 +29,22 @@ fn read_points(bytes: &[u8]) -> Result<(), String> {
     points::read_from(bytes, Path::new(NAME)).map(drop).map_err(|error| error.to_string())
 }
 
+fn read_shapes(bytes: &[u8]) -> Result<(), String> {
+    shapes::read_from(bytes, Path::new(NAME)).map(drop).map_err(|error| error.to_string())
+}
+
+fn read_threats(bytes: &[u8]) -> Result<(), String> {
+    threats::read_from(bytes, Path::new(NAME)).map(drop).map_err(|error| error.to_string())
+}
+
+fn read_recipe(bytes: &[u8]) -> Result<(), String> {
+    let Ok(text) = String::from_utf8(bytes.to_vec()) else { return Ok(()) };
+    let found = |name: &str| Ok(PathBuf::from(name));
+    let read = recipe::parse(Path::new(NAME), text, &found);
+    // The sentence is the first line; below it, a pointer into the text.
+    read.map(drop).map_err(|error| error.to_string().lines().next().unwrap_or_default().to_owned())
+}
+
 fn read_png(bytes: &[u8]) -> Result<(), String> {
     decode(Cursor::new(bytes), Rect::UNIT, Behind::Black).map(drop).map_err(|flaw| format!("{NAME}: {flaw}"))
 }
@@ -42,6 +58,45 @@ fn read_formula(bytes: &[u8]) -> Result<(), String> {
 
 const GEOJSON: &str = r#"{"type":"FeatureCollection","features":[{"type":"Feature","properties":{"a":[1,{"b":null}]},
 "geometry":{"type":"MultiPolygon","coordinates":[[[[0,0],[4,0,9],[4e0,4],[0,0]],[[1,1],[2,1],[2,1.5]]]]}}]}"#;
+
+const SHAPES: &str = r#"{"type":"GeometryCollection","geometries":[{"type":"MultiPoint","coordinates":[[1,2],[3,4]]},
+{"type":"LineString","coordinates":[[0,0],[1e1,-1]]},{"type":"Polygon","coordinates":[[[0,0],[4,0],[4,4],[0,0]]]}]}"#;
+
+const THREATS: &str = "Lon;lat;peak;range;law;note\n1,5;2;0.5;3;gaussian;\"a;b\"\n-1;0;1;2e1;;\n";
+
+const RECIPE: &str = r#"
+[domain]
+bounds = [0, 0, 2, 1]
+inside = "x < 1"
+unit = "km"
+[mesh]
+spacing = 0.5 # coarse
+rule = "area"
+[limits]
+h_min = 1e-2
+gradation = 0.3
+[[layer]]
+kind = "formula"
+quantity = "diameter"
+formula = "0.1 + x^2"
+[[layer]]
+kind = "threats"
+threats = [{ x = 1, y = 0.5, range = 0.2, law = "disc" }]
+[[layer]]
+kind = "distance"
+to = "outline"
+at_zero = 0.02
+slope = 0.1
+mask = [[[[0, 0], [1, 0], [1, 1]]]]
+[[layer]]
+kind = "band"
+file = "depth.asc"
+between = [-20, 0]
+diameter = 0.03
+combine = "floor"
+[[output]]
+file = "a.vtu"
+"#;
 
 /// A small valid file of each format with its reader.
 fn samples() -> Vec<(Vec<u8>, Reader)> {
@@ -58,29 +113,40 @@ fn samples() -> Vec<(Vec<u8>, Reader)> {
         (asc.into(), read_asc),
         ("name,\"Y\", X \n\"a, \"\"b\"\"\",\"2\", 1\n,inf,-2e3\n".into(), read_points),
         (png, read_png),
+        (SHAPES.into(), read_shapes),
+        (THREATS.into(), read_threats),
         ("if(abs(x)+θ <= 8 and not y, hypot(x, 2^-y), max(1e-3, r))".into(), read_formula),
     ]
+}
+
+/// The samples, and a recipe. A part of a recipe can be a recipe, even an empty one.
+fn all_samples() -> Vec<(Vec<u8>, Reader)> {
+    samples().into_iter().chain([(RECIPE.into(), read_recipe as Reader)]).collect()
 }
 
 fn assert_sentence(said: Result<(), String>) {
     if let Err(sentence) = said {
         assert!(sentence.starts_with(NAME), "{sentence}");
-        assert!(sentence.ends_with('.') && sentence.len() < 400, "{sentence}");
+        let is_whole =
+            sentence.ends_with('.') || (sentence.contains("did you mean") && sentence.ends_with('?'));
+        assert!(is_whole && sentence.len() < 400, "{sentence}");
     }
 }
 
 #[test]
 fn every_prefix_gives_a_result_or_a_sentence() {
-    for (file, read) in samples() {
+    for (file, read) in all_samples() {
         assert_eq!(read(&file), Ok(()));
         (0..file.len()).for_each(|end| assert_sentence(read(&file[..end])));
+    }
+    for (file, read) in samples() {
         assert!(read(&[]).is_err() && read(&file[..file.len() / 2]).is_err());
     }
 }
 
 #[test]
 fn every_changed_byte_gives_a_result_or_a_sentence() {
-    for (file, read) in samples() {
+    for (file, read) in all_samples() {
         let mut changed = file.clone();
         for at in 0..file.len() {
             for byte in [0, b'0', b'9', b'-', b'e', b'"', b'[', b'}', b' ', b'\n', 0x7f, 0xff, file[at] ^ 1] {
@@ -120,6 +186,21 @@ fn outlines_that_are_too_large_are_refused_before_they_take_memory() {
     assert!(said(&polygon(&"[".repeat(1_000_000))).contains("line 1: "));
     let nested = r#"{"type":"GeometryCollection","geometries":["#.repeat(100_000);
     assert!(said(&nested).contains("recursion limit exceeded"));
+}
+
+#[test]
+fn shapes_that_are_too_many_are_refused_before_they_take_memory() {
+    let of = |geometry: &str, count: usize| {
+        let list = format!("{geometry},").repeat(count);
+        let last = r#"{"type":"Point","coordinates":[0,0]}"#;
+        read_shapes(format!(r#"{{"type":"GeometryCollection","geometries":[{list}{last}]}}"#).as_bytes())
+    };
+    let point = r#"{"type":"Point","coordinates":[1,2]}"#;
+    assert!(of(point, 1_000_005).unwrap_err().contains("more than 1,000,000 geometries, the limit"));
+    let two = r#"{"type":"LineString","coordinates":[[1,2],[3,4]]}"#;
+    assert!(of(two, 500_000).unwrap_err().contains("1,000,001 points, and the limit is 1,000,000"));
+    // What is no geometry is not kept.
+    assert_eq!(of(r#"{"type":"x"}"#, 1_500_000), Ok(()));
 }
 
 #[test]
