@@ -6,6 +6,7 @@ mod edits;
 mod examples;
 mod follower;
 mod history;
+mod layer_titles;
 mod layers;
 mod layers_update;
 mod outline;
@@ -276,7 +277,7 @@ impl Document {
     /// # Errors
     /// When the new settings are out of range. The document then stays as it was.
     pub fn set(&mut self, setting: Setting) -> Result<(), SettingsError> {
-        let (kind, title) = (setting.kind(), setting.title());
+        let (kind, title) = (setting.kind(), setting.title(&self.settings));
         let mut settings = self.settings.clone();
         setting.apply(&mut settings);
         if settings == self.settings {

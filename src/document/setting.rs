@@ -1,6 +1,7 @@
 use std::mem::Discriminant;
 use std::sync::Arc;
 
+use super::layer_titles::layers_title;
 use super::{Background, Settings};
 use crate::domain::{BoundaryMarks, BoundaryTreatment, Domain};
 use crate::field::RefinementRule;
@@ -64,14 +65,14 @@ impl Setting {
         SettingKind(std::mem::discriminant(self))
     }
 
-    /// The name of the change in the history, for display only.
-    pub fn title(&self) -> &'static str {
+    /// The name of the change in the history, for display only. `before` are the settings without it.
+    pub fn title(&self, before: &Settings) -> &'static str {
         match self {
             Self::Spacing(_) => "coarse spacing",
             Self::SmallestDiameter(_) => "smallest diameter",
             Self::LargestDiameter(_) => "largest diameter",
             Self::TransferShape(_) => "transfer curve",
-            Self::Layers(_) => "layers",
+            Self::Layers(layers) => layers_title(&before.layers, layers),
             Self::Gradation(_) => "gradation",
             Self::RefinementRule(_) => "refinement rule",
             Self::MaxTriangles(_) => "triangle budget",
