@@ -1,3 +1,4 @@
+use super::engine::analytic::squares_along;
 use super::engine::asked::Share;
 use super::engine::cells::{Cells, Cut};
 use super::engine::reading::{Answer, lengths};
@@ -64,6 +65,12 @@ impl SizeField {
     /// The lattice that it answers for.
     pub fn lattice(&self) -> &Lattice {
         &self.lattice
+    }
+
+    /// The number of squares along the longer side of the lattice on which formulas, threats and distances
+    /// are constant: they count with their values at the centres.
+    pub fn squares_along(&self) -> u32 {
+        squares_along(&self.lattice)
     }
 
     /// The visible layers, from the bottom to the top.

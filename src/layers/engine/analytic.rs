@@ -41,6 +41,12 @@ pub fn square_bits(lattice: &Lattice) -> u32 {
     (extent.x.max(extent.y).next_power_of_two().ilog2()).saturating_sub(FINEST_LOG)
 }
 
+/// Number of these squares along the longer side of the lattice.
+pub fn squares_along(lattice: &Lattice) -> u32 {
+    let extent = lattice.extent();
+    extent.x.max(extent.y).div_ceil(1 << square_bits(lattice))
+}
+
 impl Function {
     fn at(&self, point: DVec2) -> f64 {
         match self {
