@@ -215,6 +215,15 @@ pub fn paint_line(painter: &Painter, points: impl Iterator<Item = Pos2>, color: 
     length
 }
 
+/// A line in a colour between light rims on a dark halo, so that it differs from the colours of all levels.
+pub fn paint_rimmed_line(painter: &Painter, points: impl Iterator<Item = Pos2>, color: Color32, width: f32) {
+    let (lines, _) = lines_in_view(painter, points, width);
+    let halo = Stroke::new(width + 3.5, Color32::from_black_alpha(110));
+    for stroke in [halo, Stroke::new(width + 1.8, Color32::WHITE), Stroke::new(width, color)] {
+        painter.extend(lines.iter().map(|line| Shape::line(line.clone(), stroke)));
+    }
+}
+
 /// The parts of a line in view, without edges that are too short to be seen, and their length in points.
 fn lines_in_view(painter: &Painter, points: impl Iterator<Item = Pos2>, width: f32) -> (Vec<Vec<Pos2>>, f32) {
     let view = painter.clip_rect().expand(width);

@@ -4,6 +4,7 @@ mod background;
 mod coordinates;
 mod floats;
 mod gpu;
+mod layer_marks;
 mod legend;
 mod menu;
 pub mod marks;
@@ -372,6 +373,7 @@ impl Canvas {
         }
         let pointer = response.hover_pos();
         let over = OverMesh { painter: &painter, screen_from_world: &screen_from_world, pointer };
+        layer_marks::paint(state, &over, tokens(ui).accent);
         (state.tools.tool.paint)(state, &over);
         if let Some(gesture) = &self.gesture {
             gesture.paint(&painter);

@@ -7,12 +7,14 @@ use egui_kittest::Harness;
 use glam::dvec2;
 
 use super::{
-    FREE, RESTING_PLACE, Window, canvas, choose, key, on_screen, scratch, send, set, settings, stroke,
+    FREE, PAINTED_RISK, RESTING_PLACE, Window, canvas, choose, key, on_screen, scratch, send, set, settings,
+    stroke,
 };
 use crate::app::App;
-use crate::app::command::Command;
+use crate::app::command::{Command, LayerCommand};
 use crate::app::view::FieldOverlay;
 use crate::document::{self, Setting};
+use crate::layers::{DistanceTo, LayerId, LayerKind, Mask, ShapeList, Shapes};
 
 /// A window whose canvas is drawn, on the software driver. Slower: only for what is judged by its picture.
 fn drawn_window() -> Window {
@@ -142,6 +144,37 @@ fn a_background_picture_shows_through_the_fill_and_edges_stay_dark() {
     let image = shown(1.0);
     let row = (-40..40).map(|x| pixel(&image, at + vec2(x as f32, 0.0)));
     assert!(row.clone().any(|color| color[0] < 120), "{:?}", row.collect::<Vec<_>>());
+}
+
+#[test]
+fn the_canvas_shows_the_mask_and_the_shapes_of_the_selected_layer() {
+    let mut window = drawn_window();
+    let corners = [dvec2(0.7, 0.3), dvec2(0.95, 0.3), dvec2(0.95, 0.7), dvec2(0.7, 0.7)];
+    let mask = Mask::new(&[vec![corners.to_vec()]]).unwrap();
+    send(&mut window, Command::Layer(LayerCommand::Mask(PAINTED_RISK, Some(mask))));
+    window.hover_at(RESTING_PLACE);
+    let at = on_screen(&window, dvec2(0.95, 0.5));
+    let mut shown = |command| {
+        send(&mut window, Command::Layer(command));
+        picture(&mut window)
+    };
+    assert!(colorful(&shown(LayerCommand::Select(PAINTED_RISK)), at, 3) >= 7, "a line of the accent colour");
+    assert_eq!(colorful(&shown(LayerCommand::Select(LayerId(0))), at, 3), 0, "another layer is selected");
+    shown(LayerCommand::Select(PAINTED_RISK));
+    assert_eq!(colorful(&shown(LayerCommand::Show(PAINTED_RISK, false)), at, 3), 0, "the layer is hidden");
+
+    let points = vec![dvec2(0.8, 0.4)];
+    let list = ShapeList { points, lines: vec![vec![corners[1], corners[2]]], ..ShapeList::default() };
+    let to = DistanceTo::Shapes { name: String::new(), shapes: Shapes::new(list, true).unwrap() };
+    let distance = LayerKind::Distance { to, at_zero: 1.0, slope: 0.0, range: 1.0 };
+    let drawn = shown(LayerCommand::Add(Box::new(distance)));
+    let plain = shown(LayerCommand::Select(LayerId(0)));
+    for place in [at, on_screen(&window, dvec2(0.8, 0.4))] {
+        let whitest = |image: &Picture| {
+            (-2..=2).map(|x| pixel(image, place + vec2(x as f32, 0.0)).into_iter().min()).max().flatten()
+        };
+        assert!(whitest(&drawn) > Some(235) && whitest(&plain) < Some(200), "{:?}", whitest(&plain));
+    }
 }
 
 #[test]
