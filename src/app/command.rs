@@ -17,7 +17,7 @@ use crate::colormap::Colormap;
 use crate::document::{Document, Example, Setting};
 use crate::domain::{CutShape, Domain};
 use crate::geometry::Rect;
-use crate::layers::{Combine, LayerId, LayerKind, Mask};
+use crate::layers::{Combine, DistanceTo, LayerId, LayerKind, Mask};
 use crate::mesh::TriangleId;
 
 /// One thing to do. Lengths and points are in world units.
@@ -43,6 +43,14 @@ pub enum Command {
     Threats(ThreatsCommand),
     /// Reads a table of threats in place of those of the selected layer.
     OpenThreats(PathBuf),
+    /// Reads a picture or a grid, and adds a band of its values.
+    OpenBand(PathBuf),
+    /// Reads a picture or a grid, and adds it as a layer with a curve from its values to diameters.
+    OpenValues(PathBuf),
+    /// Reads points, lines and polygons, and adds a layer of the distance to them.
+    OpenShapes(PathBuf),
+    /// Reads points, lines and polygons, to which the selected layer measures the distance from then on.
+    ReplaceShapes(PathBuf),
     /// Reads polygons as the mask of the selected layer.
     OpenMask(PathBuf),
     /// Writes the threats of the selected layer as a table, and asks before another file is replaced.
@@ -292,6 +300,9 @@ pub enum LayerCommand {
     Select(LayerId),
     /// Adds a layer above the selected one.
     Add(Box<LayerKind>),
+    /// Adds a band of the selected layer's raster, or else of the highest raster. Asks for a file where there
+    /// is none.
+    AddBand,
     /// Adds a copy above a layer.
     Duplicate(LayerId),
     /// Removes a layer.
@@ -308,6 +319,8 @@ pub enum LayerCommand {
     Combine(LayerId, Combine),
     /// Changes what a layer asks for. Further changes join this gesture until [`Command::EndGesture`].
     SetKind(LayerId, Box<LayerKind>),
+    /// Chooses what the distance of a layer is measured to.
+    MeasureTo(LayerId, DistanceTo),
     /// Makes a layer count only inside a mask, or everywhere.
     Mask(LayerId, Option<Mask>),
     /// Removes the paint of a layer.

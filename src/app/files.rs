@@ -7,22 +7,21 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::background::{Aim, Background, Outcome, cancelled, name_of};
-use super::command::{Command, LayerCommand, Opened, OutlineChange};
+use super::command::{Command, Opened, OutlineChange};
 use super::session::Session;
-use super::tools::ThreatsTool;
 use super::view::View;
 use super::widgets::format;
-use crate::document::{self, Document, Example, Setting, Settings, extent};
-use crate::domain::{BoundaryMarks, MeshBoundary, NamedPolygon, Polygon};
+use crate::document::{self, Document, Example, Setting, Settings};
+use crate::domain::{BoundaryMarks, MeshBoundary, NamedPolygon};
 use crate::geometry::Rect;
 use crate::io::png::{Behind, decode};
 use crate::io::project::Project;
 use crate::io::recipe::{self, RecipeFiles};
 use crate::io::{self, Cancelled, MeshData, MeshSource, Meter, Provenance};
-use crate::layers::{LayerKind, Mask, RasterReading, RasterSource, TargetsInOrder, Threats};
+use crate::layers::TargetsInOrder;
 use crate::mesh::Extract;
 use crate::outline::DerivedMesh;
-use crate::raster::{Raster, RasterPyramid};
+use crate::raster::Raster;
 use crate::render::export::ExportFormat;
 
 /// Width and height in kilometres of the terrain that comes with the program: 403 × 344 pixels of 3″ at 36.6°
@@ -59,20 +58,6 @@ pub fn example(example: Example) -> Document {
     example.document(terrain_slope, aegean_sea)
 }
 
-/// Reads a picture and adds it as a layer of risk.
-pub fn load_image(session: &Session, background: &mut Background, path: &Path) {
-    let bounds = session.document().settings().domain.bounds;
-    let file = path.to_owned();
-    background.start(Aim::Read, path, move |meter| match risk_of(&file, bounds, meter) {
-        Ok(raster) => {
-            let kind = raster_layer(&file, raster, RasterReading::Risk);
-            let commands = vec![Command::Layer(LayerCommand::Add(Box::new(kind))), Command::EndGesture];
-            Outcome::Read { path: file, commands }
-        }
-        Err(problem) => Outcome::NotRead(problem),
-    });
-}
-
 /// Reads a picture to be shown behind the mesh. A world file beside it says where it lies; without one it
 /// covers the bounds of the domain.
 pub fn load_background(session: &Session, background: &mut Background, path: &Path) {
@@ -93,132 +78,6 @@ pub fn load_background(session: &Session, background: &mut Background, path: &Pa
             Err(error) => Outcome::not_read(error),
         }
     });
-}
-
-/// Reads a grid and adds it as a layer of target diameters.
-pub fn load_diameters(session: &Session, background: &mut Background, path: &Path) {
-    let bounds = session.document().settings().domain.bounds;
-    let file = path.to_owned();
-    background.start(Aim::Read, path, move |meter| match diameters_of(&file, bounds, meter) {
-        Ok(raster) => {
-            let kind = raster_layer(&file, raster, RasterReading::Diameter);
-            Outcome::PartRead(vec![Command::Layer(LayerCommand::Add(Box::new(kind))), Command::EndGesture])
-        }
-        Err(problem) => Outcome::NotRead(problem),
-    });
-}
-
-/// Reads polygons as the mask of the selected layer.
-pub fn load_mask(session: &Session, background: &mut Background, path: &Path) {
-    let Some(layer) = session.document().active_layer().map(|layer| layer.id) else { return };
-    let file = path.to_owned();
-    background.start(Aim::Read, path, move |meter| {
-        let named = match io::geojson::read_named_metered(&file, meter) {
-            Ok(named) => named,
-            Err(error) => return Outcome::not_read(error),
-        };
-        let polygons: Vec<Polygon> = named.into_iter().map(|named| named.polygon).collect();
-        match Mask::new(&polygons) {
-            Ok(mask) => Outcome::PartRead(vec![Command::Layer(LayerCommand::Mask(layer, Some(mask)))]),
-            Err(error) => Outcome::NotRead(format!("{}: {error}", file.display())),
-        }
-    });
-}
-
-/// Reads a table of threats in place of those of the selected layer.
-pub fn load_threats(session: &Session, background: &mut Background, path: &Path) {
-    let Some(layer) = session.document().active_layer().map(|layer| layer.id) else { return };
-    let file = path.to_owned();
-    background.start(Aim::Read, path, move |meter| {
-        let list = match io::threats::read(&file, meter) {
-            Ok(list) => list,
-            Err(error) => return Outcome::not_read(error),
-        };
-        match Threats::new(list) {
-            Ok(threats) => {
-                let change = LayerCommand::SetKind(layer, Box::new(LayerKind::Threats(threats)));
-                Outcome::PartRead(vec![Command::EndGesture, Command::Layer(change), Command::EndGesture])
-            }
-            Err((_, error)) => Outcome::NotRead(format!("{}: {error}", file.display())),
-        }
-    });
-}
-
-/// Writes the threats of the selected layer as a table.
-pub fn save_threats(session: &Session, background: &mut Background, path: &Path) {
-    let Some((_, threats)) = ThreatsTool::layer(session.document()) else { return };
-    let (threats, file) = (threats.clone(), path.to_owned());
-    background.start(Aim::Export, path, move |meter| {
-        let written = io::write_file_metered(&file, meter, |out| io::threats::write(out, threats.list()));
-        match written {
-            Ok(()) => {
-                let count = format::count(threats.list().len() as u64);
-                Outcome::Exported(format!("{count} threats written to {}.", file.display()))
-            }
-            Err(_) if meter.is_cancelled() => Outcome::Exported(cancelled(Aim::Export, &file)),
-            Err(error) => Outcome::NotWritten(format!("{} could not be written: {error}.", file.display())),
-        }
-    });
-}
-
-fn raster_layer(file: &Path, raster: Raster, reading: RasterReading) -> LayerKind {
-    let source = RasterSource { name: name_of(file), raster: Arc::new(RasterPyramid::new(raster)) };
-    LayerKind::Raster { source, reading }
-}
-
-/// Target diameters by pixel; infinite where the grid has no value.
-fn diameters_of(path: &Path, bounds: Rect, meter: &Meter) -> Result<Raster, String> {
-    let grid = grid_within(path, bounds, meter)?;
-    if let Some((x, y)) = grid.all().pixels().find(|&(x, y)| grid.get(x, y) <= 0.0) {
-        let (value, at) = (grid.get(x, y), grid.pixel_center(x, y));
-        return Err(format!(
-            "{}: the target diameter is {value} at x = {}, y = {}; it must be positive.",
-            path.display(),
-            at.x,
-            at.y
-        ));
-    }
-    let values =
-        grid.values().iter().map(|&value| if value.is_nan() { f32::INFINITY } else { value }).collect();
-    Ok(Raster::from_values(grid.bounds(), grid.size(), values))
-}
-
-/// A grid that covers some of `bounds`.
-fn grid_within(path: &Path, bounds: Rect, meter: &Meter) -> Result<Raster, String> {
-    let grid = io::asc::read_metered(path, meter).map_err(|error| error.to_string())?;
-    if grid.bounds().intersection(&bounds).is_none_or(|common| !common.is_proper()) {
-        let (file, grid, document) = (path.display(), extent(&grid.bounds()), extent(&bounds));
-        return Err(format!(
-            "{file}: the grid lies outside this document: it covers {grid}, and the document {document}. Set the bounds in \
-             the Domain panel first."
-        ));
-    }
-    Ok(grid)
-}
-
-/// Risks by pixel: a picture over `bounds`, or a grid, which has a placement of its own.
-fn risk_of(path: &Path, bounds: Rect, meter: &Meter) -> Result<Raster, String> {
-    if !path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("asc")) {
-        let picture = io::png::read_metered(path, bounds, Behind::Black, meter);
-        return picture.map_err(|error| error.to_string());
-    }
-    let grid = grid_within(path, bounds, meter)?;
-    let file = path.display();
-    if let Some((x, y)) = grid.all().pixels().find(|&(x, y)| !is_risk(grid.get(x, y))) {
-        let (value, at) = (grid.get(x, y), grid.pixel_center(x, y));
-        return Err(format!(
-            "{file}: the risk is {value} at x = {}, y = {}; it must lie from 0 to 1. If the values are target \
-             diameters, use *Open grid as target diameter…* in the menu File; else scale them first.",
-            at.x, at.y
-        ));
-    }
-    let values = grid.values().iter().map(|&risk| if risk.is_nan() { 0.0 } else { risk }).collect();
-    Ok(Raster::from_values(grid.bounds(), grid.size(), values))
-}
-
-/// Whether a pixel of a grid is a risk, or has no value.
-fn is_risk(value: f32) -> bool {
-    value.is_nan() || (0.0..=1.0).contains(&value)
 }
 
 /// Reads polygons, and opens a document with them as its domain.

@@ -23,6 +23,7 @@ mod inspection;
 mod journal;
 mod keys;
 mod latest;
+mod layer_files;
 mod layer_pictures;
 mod notices;
 mod panels;

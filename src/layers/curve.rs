@@ -1,6 +1,7 @@
 //! Target diameters as a function of a raster's own values.
 
 use crate::field::Bounds;
+use crate::raster::ValueRange;
 
 /// A piecewise linear function from a value to a target diameter, constant beyond its ends.
 ///
@@ -79,6 +80,49 @@ impl ValueCurve {
         Ok(Self { knots })
     }
 
+    /// The straight line over a range of values, from the first of two target diameters, in world units, to
+    /// the second; one knot where the range is one value. `None` if a number is not valid.
+    pub fn over(values: ValueRange, [at_least, at_greatest]: [f64; 2]) -> Option<Self> {
+        let mut knots = vec![[f64::from(values.least), at_least]];
+        if !values.is_one() {
+            knots.push([f64::from(values.greatest), at_greatest]);
+        }
+        Self::new(knots).ok()
+    }
+
+    /// The same function with another knot, halfway between the two neighbours that are furthest apart in
+    /// value. `None` if there is no number between any two.
+    pub fn with_another_knot(&self) -> Option<Self> {
+        let halfway = |place: usize| 0.5 * self.knots[place - 1][0] + 0.5 * self.knots[place][0];
+        // Half the distance: the distance itself may overflow.
+        let gap = |place: &usize| halfway(*place) - self.knots[place - 1][0];
+        let place = (1..self.knots.len()).max_by(|a, b| gap(a).total_cmp(&gap(b)))?;
+        let value = halfway(place);
+        let mut knots = self.knots.clone();
+        knots.insert(place, [value, self.diameter(value)]);
+        Self::new(knots).ok()
+    }
+
+    /// The curve with another knot [value, target diameter] at a place, counted from 0.
+    ///
+    /// # Errors
+    /// When a number is not valid, or the values do not increase.
+    pub fn with_knot(&self, place: usize, knot: [f64; 2]) -> Result<Self, CurveError> {
+        let mut knots = self.knots.clone();
+        knots[place] = knot;
+        Self::new(knots)
+    }
+
+    /// The curve without the knot at a place, counted from 0.
+    ///
+    /// # Errors
+    /// When it is the only one.
+    pub fn without_knot(&self, place: usize) -> Result<Self, CurveError> {
+        let mut knots = self.knots.clone();
+        knots.remove(place);
+        Self::new(knots)
+    }
+
     /// The knots as [value, target diameter], in increasing order of value.
     pub fn knots(&self) -> &[[f64; 2]] {
         &self.knots
@@ -134,6 +178,32 @@ mod tests {
         assert!(curve.diameter(f64::NAN).is_nan());
         let one = ValueCurve::new(vec![[3.0, 0.7]]).unwrap();
         assert_eq!([one.diameter(-1.0), one.diameter(3.0), one.diameter(8.0)], [0.7; 3]);
+    }
+
+    #[test]
+    fn another_knot_lies_in_the_widest_gap_and_changes_no_diameter() {
+        let curve = ValueCurve::new(vec![[-10.0, 0.5], [0.0, 0.1], [100.0, 2.1]]).unwrap();
+        let finer = curve.with_another_knot().unwrap();
+        assert_eq!(finer.knots().len(), 4);
+        assert_eq!(finer.knots()[2][0], 50.0);
+        for value in [-20.0, -5.0, 20.0, 50.0, 70.0, 200.0] {
+            assert!((finer.diameter(value) - curve.diameter(value)).abs() < 1e-15, "{value}");
+        }
+        assert_eq!(finer.without_knot(2), Ok(curve));
+        let full = ValueCurve::new(vec![[1.0, 0.5], [1.0f64.next_up(), 0.1]]).unwrap();
+        assert_eq!(full.with_another_knot(), None);
+        let widest = ValueCurve::new(vec![[f64::MIN, 0.5], [f64::MAX, 0.1]]).unwrap();
+        assert_eq!(widest.with_another_knot().unwrap().knots()[1][0], 0.0);
+    }
+
+    #[test]
+    fn knots_are_changed_and_removed_within_the_rules() {
+        let curve = ValueCurve::new(vec![[0.0, 0.1], [100.0, 2.1]]).unwrap();
+        assert_eq!(curve.with_knot(1, [50.0, 1.0]).unwrap().knots(), [[0.0, 0.1], [50.0, 1.0]]);
+        assert!(matches!(curve.with_knot(1, [-1.0, 1.0]), Err(CurveError::Order { knot: 2, .. })));
+        let one = curve.without_knot(0).unwrap();
+        assert_eq!(one.knots(), [[100.0, 2.1]]);
+        assert_eq!(one.without_knot(0), Err(CurveError::Empty));
     }
 
     #[test]

@@ -216,6 +216,14 @@ impl LayerKind {
         Self::Formula { quantity: Quantity::Risk, formula }
     }
 
+    /// The raster that the layer reads, if it reads one.
+    pub fn raster_source(&self) -> Option<&RasterSource> {
+        match self {
+            Self::Raster { source, .. } | Self::Band { source, .. } => Some(source),
+            _ => None,
+        }
+    }
+
     /// What a new layer of this kind is called: after its file, if it has one.
     pub fn name(&self) -> String {
         match self {

@@ -13,6 +13,7 @@ mod size_field;
 mod targets;
 mod targets_in_order;
 mod threats;
+mod usual;
 
 pub use check::{InvalidLayer, LayerCheck};
 pub use curve::{CurveError, ValueCurve};

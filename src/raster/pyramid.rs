@@ -108,6 +108,16 @@ impl RasterPyramid {
         self.scales.last().map_or(SquareValues::NONE, |top| top.get(0, 0))
     }
 
+    /// The range of the finite values, if there are any. Reads every pixel if a value is infinite.
+    pub fn finite_range(&self) -> Option<ValueRange> {
+        let whole = self.whole().range?;
+        if whole.least.is_finite() && whole.greatest.is_finite() {
+            return Some(whole);
+        }
+        let finite = self.raster.values().iter().copied().filter(|value| value.is_finite());
+        finite.map(ValueRange::one).reduce(ValueRange::union)
+    }
+
     /// The values in a closed rectangle in world units. At most nine squares decide, so values from around
     /// the rectangle may be in the range.
     pub fn values_in(&self, area: &Rect) -> SquareValues {

@@ -27,6 +27,14 @@ pub enum FileRequest {
     OpenDomain,
     /// To add polygons to the domain of the document.
     AddOutline,
+    /// To open a picture or a grid, and make a band of its values.
+    OpenBand,
+    /// To open a picture or a grid through a curve of its values.
+    OpenValues,
+    /// To open points, lines and polygons as a layer of distances.
+    OpenShapes,
+    /// To open them in place of those of a layer.
+    ReplaceShapes,
     /// To open polygons as the mask of a layer.
     OpenMask,
     /// To open a table of threats.
@@ -49,6 +57,10 @@ impl FileRequest {
             Self::OpenBackground => "Open background picture",
             Self::OpenDomain => "Open domain",
             Self::AddOutline => "Add outline to this document",
+            Self::OpenBand => "Open picture or grid as band",
+            Self::OpenValues => "Open picture or grid through a curve",
+            Self::OpenShapes => "Open shapes to measure the distance to",
+            Self::ReplaceShapes => "Open other shapes for this layer",
             Self::OpenMask => "Open polygons as mask",
             Self::OpenThreats => "Open table of threats",
             Self::SaveThreats => "Save table of threats",
@@ -64,6 +76,10 @@ impl FileRequest {
             | Self::OpenDiameters
             | Self::OpenBackground
             | Self::OpenDomain
+            | Self::OpenBand
+            | Self::OpenValues
+            | Self::OpenShapes
+            | Self::ReplaceShapes
             | Self::OpenMask
             | Self::OpenThreats => "Open",
             Self::AddOutline => "Add",
@@ -78,10 +94,12 @@ impl FileRequest {
             Self::Open => vec![ENDING, "geojson", "json", "png", "asc"],
             Self::Save => vec![ENDING],
             Self::SaveRecipe => vec![recipe::ENDING],
-            Self::OpenImage => vec!["png", "asc"],
+            Self::OpenImage | Self::OpenBand | Self::OpenValues => vec!["png", "asc"],
             Self::OpenDiameters => vec!["asc"],
             Self::OpenBackground => vec!["png"],
-            Self::OpenDomain | Self::AddOutline | Self::OpenMask => vec!["geojson", "json"],
+            Self::OpenDomain | Self::AddOutline | Self::OpenShapes | Self::ReplaceShapes | Self::OpenMask => {
+                vec!["geojson", "json"]
+            }
             Self::OpenThreats | Self::SaveThreats => vec!["csv"],
             Self::Export => ExportFormat::endings().collect(),
         }
@@ -93,10 +111,11 @@ impl FileRequest {
             Self::Open => "Projects, domains, pictures, grids",
             Self::Save => "Projects",
             Self::SaveRecipe => "Recipes",
-            Self::OpenImage => "Pictures and grids",
+            Self::OpenImage | Self::OpenBand | Self::OpenValues => "Pictures and grids",
             Self::OpenDiameters => "Grids",
             Self::OpenBackground => "Pictures",
             Self::OpenDomain | Self::AddOutline | Self::OpenMask => "Polygons",
+            Self::OpenShapes | Self::ReplaceShapes => "Points, lines and polygons",
             Self::OpenThreats | Self::SaveThreats => "Tables of threats",
             Self::Export => "Meshes and pictures",
         }
@@ -112,9 +131,10 @@ impl FileRequest {
     pub fn folder_key(self) -> &'static str {
         match self {
             Self::Open | Self::Save => "projects",
-            Self::OpenImage | Self::OpenDiameters => "pictures",
+            Self::OpenImage | Self::OpenDiameters | Self::OpenBand | Self::OpenValues => "pictures",
             Self::OpenBackground => "backgrounds",
             Self::OpenDomain | Self::AddOutline | Self::OpenMask => "domains",
+            Self::OpenShapes | Self::ReplaceShapes => "shapes",
             Self::SaveRecipe => "recipes",
             Self::OpenThreats | Self::SaveThreats => "threats",
             Self::Export => "exports",
@@ -150,6 +170,10 @@ impl FileRequest {
             Self::OpenBackground => Command::OpenBackground(path),
             Self::OpenDomain => Command::OpenDomain(path),
             Self::AddOutline => Command::AddOutline(path),
+            Self::OpenBand => Command::OpenBand(path),
+            Self::OpenValues => Command::OpenValues(path),
+            Self::OpenShapes => Command::OpenShapes(path),
+            Self::ReplaceShapes => Command::ReplaceShapes(path),
             Self::OpenMask => Command::OpenMask(path),
             Self::OpenThreats => Command::OpenThreats(path),
             Self::SaveThreats => Command::SaveThreatsAs(path),

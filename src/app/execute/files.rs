@@ -10,12 +10,13 @@ use crate::app::background::{Aim, Outcome, WorkId};
 use crate::app::command::{Command, Opened, OutlineChange};
 use crate::app::dialogs::{Dialog, FileRequest};
 use crate::app::journal::JournalKeeper;
-use crate::app::{files, journal, project};
+use crate::app::{files, journal, layer_files, project};
 use crate::document::Document;
 
 impl App {
     /// Runs commands about files, windows and dialogs, and returns others.
     pub(super) fn execute_on_files(&mut self, command: Command, ctx: &Context) -> Option<Command> {
+        let command = self.execute_on_layer_files(command)?;
         match command {
             Command::New => self.open(files::new_document()),
             Command::OpenExample(example) => self.open(files::example(example)),
@@ -27,8 +28,6 @@ impl App {
                 Err(problem) => self.fail(problem),
             },
             Command::OpenProject(path) => project::open_project(&mut self.background, &path),
-            Command::OpenDiameters(path) => files::load_diameters(&self.session, &mut self.background, &path),
-            Command::OpenImage(path) => files::load_image(&self.session, &mut self.background, &path),
             Command::OpenBackground(path) => {
                 files::load_background(&self.session, &mut self.background, &path);
             }
@@ -43,10 +42,7 @@ impl App {
             }
             Command::SaveRecipeAs(path) => self.save_recipe_as(path),
             Command::SaveRecipe(path) => files::save_recipe(&self.session, &mut self.background, &path),
-            Command::OpenThreats(path) => files::load_threats(&self.session, &mut self.background, &path),
-            Command::OpenMask(path) => files::load_mask(&self.session, &mut self.background, &path),
             Command::SaveThreatsAs(path) => self.commands.extend(self.project.save_threats_as(path)),
-            Command::SaveThreats(path) => files::save_threats(&self.session, &mut self.background, &path),
             Command::ExportAs(path) => self.commands.extend(self.project.export_as(path)),
             Command::Export(path) => {
                 let started = files::export(&self.session, &self.view, &mut self.background, &path);
@@ -71,6 +67,24 @@ impl App {
             Command::About => self.dialogs.open(Dialog::About),
             Command::CloseDialog => self.dialogs.close(),
             Command::Quit => ctx.send_viewport_cmd(ViewportCommand::Close),
+            other => return Some(other),
+        }
+        None
+    }
+
+    /// Runs commands about the files of layers, and returns others.
+    fn execute_on_layer_files(&mut self, command: Command) -> Option<Command> {
+        let (session, background) = (&self.session, &mut self.background);
+        match command {
+            Command::OpenImage(path) => layer_files::load_image(session, background, &path),
+            Command::OpenDiameters(path) => layer_files::load_diameters(session, background, &path),
+            Command::OpenBand(path) => layer_files::load_band(session, background, &path),
+            Command::OpenValues(path) => layer_files::load_values(session, background, &path),
+            Command::OpenShapes(path) => layer_files::load_shapes(session, background, &path),
+            Command::ReplaceShapes(path) => layer_files::replace_shapes(session, background, &path),
+            Command::OpenMask(path) => layer_files::load_mask(session, background, &path),
+            Command::OpenThreats(path) => layer_files::load_threats(session, background, &path),
+            Command::SaveThreats(path) => layer_files::save_threats(session, background, &path),
             other => return Some(other),
         }
         None

@@ -4,17 +4,19 @@ use eframe::egui::Context;
 
 use crate::app::App;
 use crate::app::command::{Command, LayerCommand};
+use crate::app::dialogs::FileRequest;
 use crate::app::notices::Offer;
 use crate::app::panels::ask_layer_name;
 use crate::app::tools::{PaintKind, THREATS};
 use crate::document::{NoPaintLayer, Setting, Settings};
-use crate::layers::{Layer, LayerId, LayerKind, Quantity};
+use crate::layers::{DistanceTo, Layer, LayerId, LayerKind, Quantity};
 
 impl App {
     pub(super) fn execute_on_layers(&mut self, command: LayerCommand, ctx: &Context) {
         match command {
             LayerCommand::Select(id) => self.select_layer(id),
             LayerCommand::Add(kind) => self.add_layer(*kind),
+            LayerCommand::AddBand => self.add_band(),
             LayerCommand::Duplicate(id) => self.duplicate_layer(id),
             LayerCommand::Delete(id) => self.delete_layer(id),
             LayerCommand::Move(id, place) => self.edit_layers_once(|layers| move_layer(layers, id, place)),
@@ -23,6 +25,7 @@ impl App {
             LayerCommand::Lock(id, locked) => self.edit_layer_once(id, |layer| layer.locked = locked),
             LayerCommand::Combine(id, combine) => self.edit_layer_once(id, |layer| layer.combine = combine),
             LayerCommand::SetKind(id, kind) => self.set_kind(id, *kind),
+            LayerCommand::MeasureTo(id, to) => self.edit_layer_once(id, |layer| measure_to(layer, to)),
             LayerCommand::Mask(id, mask) => self.edit_layer_once(id, |layer| layer.mask = mask),
             LayerCommand::Clear(id) => self.session.document_mut().clear_layer(id),
             LayerCommand::AskName(id) => self.ask_layer_name(id, ctx),
@@ -101,6 +104,28 @@ impl App {
         self.select_layer(id);
     }
 
+    /// Adds a band of the selected layer's raster, or else of the highest raster; asks for a file where there
+    /// is none.
+    fn add_band(&mut self) {
+        let document = self.session.document();
+        let Settings { layers, transfer, .. } = document.settings();
+        let all = document.active_layer().into_iter().chain(layers.iter().rev());
+        let Some(source) = all.map(|layer| &layer.kind).find_map(LayerKind::raster_source) else {
+            return self.send(Command::Ask(FileRequest::OpenBand));
+        };
+        match LayerKind::band_of(source.clone(), transfer) {
+            Some(band) => self.add_layer(band),
+            None => {
+                let name = &source.name;
+                let problem = format!(
+                    "No pixel of {name} has a value, so a band of its values would be empty. Select a layer of \
+                     another raster first."
+                );
+                self.session.report(problem);
+            }
+        }
+    }
+
     fn duplicate_layer(&mut self, id: LayerId) {
         let document = self.session.document();
         let layers = &document.settings().layers;
@@ -171,6 +196,13 @@ fn quantity_of(kind: PaintKind) -> Quantity {
 fn edit_layer(layers: &mut [Layer], id: LayerId, edit: impl FnOnce(&mut Layer)) {
     if let Some(layer) = layers.iter_mut().find(|layer| layer.id == id) {
         edit(layer);
+    }
+}
+
+/// Changes what the distance of a layer is measured to. Other kinds of layers stay as they are.
+fn measure_to(layer: &mut Layer, target: DistanceTo) {
+    if let LayerKind::Distance { to, .. } = &mut layer.kind {
+        *to = target;
     }
 }
 

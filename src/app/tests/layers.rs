@@ -25,7 +25,7 @@ fn names(window: &Window) -> Vec<&str> {
     settings(window).layers.iter().rev().map(|layer| layer.name.as_str()).collect()
 }
 
-fn active(window: &Window) -> &Layer {
+pub(super) fn active(window: &Window) -> &Layer {
     document(window).active_layer().expect("a selected layer")
 }
 
@@ -39,12 +39,12 @@ fn click_on(window: &mut Window, role: Role, name: &str) {
 }
 
 /// Clicks on a button of the panel. The window has no other button of that name outside menus.
-fn click_button(window: &mut Window, name: &str) {
+pub(super) fn click_button(window: &mut Window, name: &str) {
     click_on(window, Role::Button, name);
 }
 
 /// Selects a layer by a click on its row.
-fn select(window: &mut Window, name: &str) {
+pub(super) fn select(window: &mut Window, name: &str) {
     click_on(window, Role::ListBoxOption, name);
     assert_eq!(active(window).name, name);
 }
@@ -62,7 +62,7 @@ fn drag_row(window: &mut Window, name: &str, down: f32) {
 }
 
 /// Chooses in a group: other groups have choices of the same name.
-fn choose_in(window: &mut Window, group: &str, choice: &str) {
+pub(super) fn choose_in(window: &mut Window, group: &str, choice: &str) {
     let group = window.get_by_role_and_label(Role::RadioGroup, group).rect();
     let choices = window.get_all_by_role_and_label(Role::RadioButton, choice);
     let own: Vec<_> = choices.filter(|choice| group.contains(choice.rect().center())).collect();
@@ -354,7 +354,8 @@ fn a_raster_layer_shows_its_file_its_pixels_and_how_it_is_read() {
     };
     assert_eq!(reading(&window), RasterReading::Risk);
     choose_in(&mut window, "What the values mean", "Diameter");
-    assert_eq!(reading(&window), RasterReading::Diameter);
+    assert!(notice(&window).contains("the target diameter is 0"), "{}", notice(&window));
+    assert_eq!(reading(&window), RasterReading::Risk, "a project with such a layer would not open");
 }
 
 #[test]

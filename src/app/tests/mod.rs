@@ -16,6 +16,7 @@ mod gallery;
 mod help;
 mod inspection;
 mod keys;
+mod layer_data;
 mod layers;
 mod long_work;
 mod menus;

@@ -1,5 +1,7 @@
 //! Every control explains itself.
 
+use std::sync::Arc;
+
 use eframe::egui::accesskit::Role;
 use eframe::egui::{Key, Modifiers, vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
@@ -7,9 +9,11 @@ use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use super::{FREE, TALL, Window, canvas, choose, entries, key, open_section, send, wait_until, window_of};
 use crate::app::command::{Command, LayerCommand, ThreatsCommand};
 use crate::app::tools::TOOLS;
-use crate::document::Setting;
+use crate::document::{Setting, Settings};
 use crate::field::Formula;
-use crate::layers::{DistanceTo, LayerKind, Threats};
+use crate::geometry::Rect;
+use crate::layers::{DistanceTo, LayerKind, RasterSource, Threats};
+use crate::raster::{Raster, RasterPyramid};
 
 const CONTROLS: [Role; 7] = [
     Role::Button,
@@ -51,7 +55,15 @@ fn every_control_of_the_panels_has_a_sentence() {
     assert!(window.query_by_label("Interpolated").is_some(), "of the queried triangle");
     assert_eq!(unexplained(&window), [""; 0]);
     let distance = LayerKind::Distance { to: DistanceTo::Outline, at_zero: 0.1, slope: 0.3, range: 0.2 };
-    for kind in [LayerKind::constant(0.2), LayerKind::risk(Formula::constant_of(0.1)), distance] {
+    let raster = || {
+        let raster = Raster::from_values(Rect::UNIT, [2, 1], vec![0.0, 1.0]);
+        RasterSource { name: "depth.asc".into(), raster: Arc::new(RasterPyramid::new(raster)) }
+    };
+    let transfer = Settings::default().transfer;
+    let [curve, band] = [LayerKind::curve_of(raster(), &transfer), LayerKind::band_of(raster(), &transfer)];
+    let [curve, band] = [curve, band].map(|kind| kind.expect("a raster with values"));
+    let (formula, risk) = (LayerKind::constant(0.2), LayerKind::risk(Formula::constant_of(0.1)));
+    for kind in [formula, risk, distance, curve, band] {
         send(&mut window, Command::Layer(LayerCommand::Add(Box::new(kind))));
         assert_eq!(unexplained(&window), [""; 0]);
     }

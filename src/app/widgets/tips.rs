@@ -7,7 +7,7 @@ const EDGE: f32 = 2.0;
 
 /// The sentences of controls that have no unit or number in it, by the name of the control. The name of a
 /// choice is that of its group and its own.
-static SENTENCES: [(&str, &str); 124] = [
+static SENTENCES: [(&str, &str); 127] = [
     (
         "What the brush paints/Risk",
         "The brush paints risk, from 0 to 1, which the transfer curve turns into a diameter.",
@@ -85,6 +85,12 @@ static SENTENCES: [(&str, &str); 124] = [
     ("What the values mean/Diameter", "The raster holds target diameters, in the unit of the document."),
     ("What the values mean/Risk", "The raster holds risk, from 0 to 1."),
     ("What the values mean/Curve", "A curve gives the target diameter for each value of the raster."),
+    ("Add knot", "Adds a knot halfway between the two that are furthest apart; it changes no diameter."),
+    (
+        "Open shapes…",
+        "Reads points, lines and polygons from a GeoJSON file, to measure the distance to them.",
+    ),
+    ("Use outline", "Measures the distance to the outline of the domain again."),
     ("Limit the range", "Beyond a distance of your choice the layer asks for nothing."),
     ("Field overlay/Layer", "Colours the domain by the layer that decides h̄."),
     ("Decided by", "The layer whose target diameter counts at the point, after all layers are combined."),

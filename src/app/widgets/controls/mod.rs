@@ -2,6 +2,7 @@
 
 mod dropdown;
 mod grab;
+mod knot_row;
 mod layer_row;
 mod number;
 mod number_cell;
@@ -16,6 +17,7 @@ mod transfer;
 mod transfer_plot;
 
 pub use dropdown::dropdown_row;
+pub use knot_row::{KnotAnswer, KnotRow};
 pub use layer_row::{LayerRow, LayerRowAnswer};
 pub use number::NumberRow;
 pub use section::Section;

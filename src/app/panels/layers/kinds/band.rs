@@ -3,8 +3,9 @@
 use eframe::egui::Ui;
 
 use super::raster::source_rows;
-use super::{KindPanel, set_kind_once};
-use crate::app::command::Command;
+use super::{Addition, KindPanel, set_kind_once};
+use crate::app::command::{Command, LayerCommand};
+use crate::app::dialogs::FileRequest;
 use crate::app::frame::FrameState;
 use crate::app::widgets::{Icon, NumberRow};
 use crate::layers::{Layer, LayerKind};
@@ -13,7 +14,10 @@ use crate::layers::{Layer, LayerKind};
 pub const BAND: KindPanel = KindPanel {
     is_of: |kind| matches!(kind, LayerKind::Band { .. }),
     icon: Icon::BAND,
-    additions: &[],
+    additions: &[
+        Addition { title: "band of a raster…", command: |_| Command::Layer(LayerCommand::AddBand) },
+        Addition { title: "band of a file…", command: |_| Command::Ask(FileRequest::OpenBand) },
+    ],
     parameters,
 };
 

@@ -3,9 +3,10 @@
 use eframe::egui::Ui;
 
 use super::{Addition, KindPanel, add, set_kind_once};
-use crate::app::command::Command;
+use crate::app::command::{Command, LayerCommand};
+use crate::app::dialogs::FileRequest;
 use crate::app::frame::FrameState;
-use crate::app::widgets::{Icon, NumberRow, ValueRow, toggle_row};
+use crate::app::widgets::{ActionButton, Icon, NumberRow, ValueRow, toggle_row};
 use crate::document::Settings;
 use crate::layers::{DistanceTo, Layer, LayerKind};
 
@@ -13,17 +14,16 @@ use crate::layers::{DistanceTo, Layer, LayerKind};
 pub const DISTANCE: KindPanel = KindPanel {
     is_of: |kind| matches!(kind, LayerKind::Distance { .. }),
     icon: Icon::DISTANCE,
-    additions: &[Addition { title: "distance to the outline", command: add_distance_to_outline }],
+    additions: &[
+        Addition { title: "distance to the outline", command: add_distance_to_outline },
+        Addition { title: "distance to shapes…", command: |_| Command::Ask(FileRequest::OpenShapes) },
+    ],
     parameters,
 };
 
 fn add_distance_to_outline(state: &FrameState<'_>) -> Command {
-    add(LayerKind::Distance {
-        to: DistanceTo::Outline,
-        at_zero: state.session.document().settings().transfer.h_min,
-        slope: Settings::USUAL_GRADATION,
-        range: f64::INFINITY,
-    })
+    let transfer = &state.session.document().settings().transfer;
+    add(LayerKind::distance_to(DistanceTo::Outline, transfer, Settings::USUAL_GRADATION))
 }
 
 fn parameters(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut Vec<Command>) {
@@ -34,6 +34,7 @@ fn parameters(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut
         DistanceTo::Shapes { name, .. } => name,
     };
     ValueRow::new("Distance to", target).help("What the distance is measured to.").show(ui);
+    target_buttons(ui, layer, to, commands);
     let (mut at_zero, mut slope, mut range) = (*at_zero, *slope, *range);
     let positive = f64::MIN_POSITIVE..=f64::MAX;
     let unit = state.unit().symbol();
@@ -54,4 +55,19 @@ fn parameters(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut
     if changed {
         set_kind_once(layer, LayerKind::Distance { to: to.clone(), at_zero, slope, range }, commands);
     }
+}
+
+/// What chooses the target of the distance.
+fn target_buttons(ui: &mut Ui, layer: &Layer, to: &DistanceTo, commands: &mut Vec<Command>) {
+    ui.horizontal(|ui| {
+        if ui.add(ActionButton::new("Open shapes…")).clicked() {
+            commands.push(Command::Ask(FileRequest::ReplaceShapes));
+        }
+        let is_shapes = *to != DistanceTo::Outline;
+        let outline = ActionButton::new("Use outline");
+        if ui.add_enabled_ui(is_shapes, |ui| ui.add(outline)).inner.clicked() {
+            commands.push(Command::Layer(LayerCommand::MeasureTo(layer.id, DistanceTo::Outline)));
+        }
+    });
+    ui.add_space(4.0);
 }

@@ -1,6 +1,7 @@
 //! The kinds of layers: a table with a file for each.
 
 mod band;
+mod curve;
 mod distance;
 mod formula;
 mod paint;

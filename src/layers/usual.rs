@@ -1,0 +1,68 @@
+//! Layers as they are added: with numbers that suit their data and the limits of h̄.
+
+use std::sync::Arc;
+
+use super::{DistanceTo, LayerKind, RasterReading, RasterSource, ValueCurve};
+use crate::field::Transfer;
+
+impl LayerKind {
+    /// A band of the middle third of a raster's values, with the geometric mean of `h_min` and `h_max` as its
+    /// diameter. `None` if no pixel has a finite value.
+    pub fn band_of(source: RasterSource, transfer: &Transfer) -> Option<Self> {
+        let range = source.raster.finite_range()?;
+        let [least, greatest] = [range.least, range.greatest].map(f64::from);
+        let third = (greatest - least) / 3.0;
+        let diameter = (transfer.h_min * transfer.h_max).sqrt();
+        Some(Self::Band { source, between: [least + third, greatest - third], diameter })
+    }
+
+    /// A raster through a curve that is finest at its least value. `None` if no pixel has a finite value.
+    pub fn curve_of(source: RasterSource, transfer: &Transfer) -> Option<Self> {
+        let curve = ValueCurve::over(source.raster.finite_range()?, [transfer.h_min, transfer.h_max])?;
+        Some(Self::Raster { source, reading: RasterReading::Curve(Arc::new(curve)) })
+    }
+
+    /// `h_min` at distance 0, growing by `slope` per unit of length without an end.
+    pub fn distance_to(to: DistanceTo, transfer: &Transfer, slope: f64) -> Self {
+        Self::Distance { to, at_zero: transfer.h_min, slope, range: f64::INFINITY }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Rect;
+    use crate::raster::{Raster, RasterPyramid};
+
+    const TRANSFER: Transfer = Transfer { h_min: 0.01, h_max: 0.16, shape: 1.0 };
+
+    fn source(values: [f32; 4]) -> RasterSource {
+        let raster = Raster::from_values(Rect::UNIT, [2, 2], values.to_vec());
+        RasterSource { name: "depth.asc".into(), raster: Arc::new(RasterPyramid::new(raster)) }
+    }
+
+    #[test]
+    fn a_band_holds_the_middle_third_of_the_finite_values() {
+        let of = |values| LayerKind::band_of(source(values), &TRANSFER);
+        let Some(LayerKind::Band { between, diameter, .. }) = of([-30.0, f32::NAN, 60.0, f32::INFINITY])
+        else {
+            panic!("a band")
+        };
+        assert!((diameter - 0.04).abs() < 1e-15, "{diameter}");
+        assert_eq!(between, [0.0, 30.0]);
+        let Some(LayerKind::Band { between, .. }) = of([5.0; 4]) else { panic!("a band") };
+        assert_eq!(between, [5.0, 5.0], "one value");
+        assert_eq!(of([f32::NAN, f32::NAN, f32::INFINITY, f32::NEG_INFINITY]), None);
+    }
+
+    #[test]
+    fn a_curve_spans_the_finite_values() {
+        let knots = |values| match LayerKind::curve_of(source(values), &TRANSFER)? {
+            LayerKind::Raster { reading: RasterReading::Curve(curve), .. } => Some(curve.knots().to_vec()),
+            other => panic!("{other:?}"),
+        };
+        assert_eq!(knots([-30.0, f32::NAN, 60.0, f32::INFINITY]), Some(vec![[-30.0, 0.01], [60.0, 0.16]]));
+        assert_eq!(knots([5.0; 4]), Some(vec![[5.0, 0.01]]));
+        assert_eq!(knots([f32::NAN; 4]), None);
+    }
+}
