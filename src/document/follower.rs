@@ -1,18 +1,19 @@
 //! Keeps field and mesh in step with a document.
 //!
 //! ```text
-//!                     paint                      settings
+//!                     paint                   other settings
 //!        ┌──────────────────────────┐  ┌─────────────────────────────┐
 //!        │                          ▼  │                             ▼
 //!    ┌────────┐    done    ┌──────────────┐   vertex rule    ┌──────────────┐
 //!    │ InStep │ ◀───────── │   Updating   │ ───────────────▶ │  Rebuilding  │ ──┐ newer settings:
 //!    └────────┘            └──────────────┘ ◀─── shown ───── └──────────────┘ ◀─┘ shown, then the next
 //!        │                        ▲
-//!        │ outline                │ indexed
+//!        │ outline, layers        │ indexed, checked
 //!        ▼                        │
 //!    ┌──────────────────────────────┐         error, cancel   ┌────────┐
 //!    │      FollowingOutline        │      (any state) ─────▶ │ GaveUp │ ── next edit ──▶ (any state)
-//!    └──────────────────────────────┘                         └────────┘
+//!    │      FollowingLayers         │                         └────────┘
+//!    └──────────────────────────────┘
 //! ```
 //!
 //! Every edit may arrive in every state; [`Follower::advance`] first chooses the state for the document as it
@@ -33,10 +34,10 @@ use crate::mesh::{Changes, Mesh, MeshCopy, Progress};
 /// Keeps field and mesh in step with a document, in slices.
 ///
 /// Paint changes the mesh where it is, and nowhere else ([`Updater`](crate::mesh::Updater)): the mesh is
-/// conforming and can be drawn after every slice, and once in step it is the one made from scratch. So does
-/// an edit of the outline of a fitted domain. For everything else (settings, and every edit under the vertex
-/// rule, which cannot be undone locally) another mesh is built beside the one that is shown; the two change
-/// places when the new one is whole.
+/// conforming and can be drawn after every slice, and once in step it is the one made from scratch. So do
+/// edits of layers, limits and gradation, and of the outline of a fitted domain. For everything else (other
+/// settings, and every edit under the vertex rule, which cannot be undone locally) another mesh is built
+/// beside the one that is shown; the two change places when the new one is whole.
 #[derive(Clone, Debug)]
 pub struct Follower {
     shown: Shown,

@@ -15,11 +15,7 @@ pub use pyramid::{RasterPyramid, SquareValues};
 pub use ranges::{PixelGrid, ValueRange, ValueRanges, power_of_two};
 pub use tiled::{TILE, Tile, TilePlace, TiledRaster};
 
-/// Most pixels along a side of a raster that is laid over a mesh: products of pixel and lattice coordinates
-/// then fit 64 bits.
-pub const MAX_SIDE: u32 = 8192;
-
-/// Most pixels along a side of any raster, such as one that is read from a file.
+/// Most pixels along a side of a raster.
 pub const LONGEST_SIDE: u32 = 65_536;
 
 /// Most pixels of a raster.
