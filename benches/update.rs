@@ -215,7 +215,7 @@ fn memory(level: u8) {
     );
     let count = scene.mesh.raw_triangle_count() as f64;
     let (arrays, marks) = (scene.mesh.bytes() as f64 / count, updater.bytes() as f64 / count);
-    // A max-mipmap is a third larger than its finest level.
+    // The pixels of the paint, and the ranges of their values above them: a third more.
     let field = (SIDE * SIDE) as usize * 4 / 3;
     let resident = resident().saturating_sub(before + field) as f64 / count;
     eprintln!(
