@@ -27,6 +27,7 @@ mod layers;
 mod outline;
 mod paint;
 mod build;
+mod explain;
 mod document;
 mod io;
 mod colormap;

@@ -11,9 +11,9 @@ use std::fs;
 use source::{Function, SourceFile, read_src, read_texts};
 
 /// The modules, lowest first: each imports only from those before it.
-const MODULES: [&str; 17] = [
+const MODULES: [&str; 18] = [
     "text", "geometry", "mesh", "raster", "field", "domain", "layers", "outline", "paint", "build",
-    "document", "io", "colormap", "scene", "render", "cli", "app",
+    "explain", "document", "io", "colormap", "scene", "render", "cli", "app",
 ];
 
 /// What lib.rs declares besides: documentation, and the door for our own tests.

@@ -2,6 +2,8 @@
 //!
 //! `MESHBRUSH_CAUSES=10000` asks about that many triangles and prints the shares.
 
+use std::process::Command;
+
 use fastrand::Rng;
 use glam::{DVec2, dvec2};
 use meshbrush::internals::field::{Formula, Transfer};
@@ -10,6 +12,7 @@ use meshbrush::internals::layers::{
     Layer, LayerKind, PaintLayers, SizeField, SizeFieldSpec, Threat, ThreatLaw, Threats,
 };
 use meshbrush::internals::mesh::{Cause, Limits, Mesh, TreeTriangle, TriangleId};
+use serde_json::Value;
 
 /// A mesh with holes, its coarse grid, and the field it satisfies.
 struct Case {
@@ -162,4 +165,59 @@ fn the_tree_of_a_mesh_is_walked_up_and_down() {
         // Two siblings of one level fill the parent: their leaves are found there.
         assert!(mesh.is_bisected(&sibling) || mesh.entry_of(&sibling).is_some());
     }
+}
+
+/// What `meshbrush why` prints, or the status and the error.
+fn why(arguments: &[&str]) -> Result<String, (Option<i32>, String)> {
+    let run = Command::new(env!("CARGO_BIN_EXE_meshbrush")).arg("why").args(arguments).output().unwrap();
+    let [out, err] = [run.stdout, run.stderr].map(|bytes| String::from_utf8(bytes).unwrap());
+    if run.status.success() { Ok(out) } else { Err((run.status.code(), err)) }
+}
+
+/// Fine in a small disc only, so that most triangles around it are there for compatibility.
+const DISC: [&str; 6] =
+    ["--spacing", "0.1", "--rule", "area", "--target", "if(hypot(x-0.3,y-0.5)<0.002,0.001,1)"];
+
+#[test]
+fn the_command_line_names_the_layer_and_the_place() {
+    let own = why(&[&["0.3,0.5"][..], &DISC].concat()).unwrap();
+    assert!(own.contains("exceeds its target.\nThe least target diameter in it is at (0.30"), "{own}");
+    assert!(own.contains("the layer “Formula” asks for 0.001"), "{own}");
+    let forced = why(&[&["0.27,0.46"][..], &DISC].concat()).unwrap();
+    assert!(forced.contains("It was bisected to keep the mesh compatible."), "{forced}");
+    assert!(forced.contains("A triangle of level 1"), "{forced}");
+    assert_eq!(
+        why(&["0.9,0.9", "--target", "1"]).unwrap().lines().last().unwrap(),
+        "It is a triangle of the coarse grid: no bisection made it."
+    );
+    let carried = why(&[&["0.27,0.46", "--gradation", "0.2"][..], &DISC].concat()).unwrap();
+    assert!(carried.contains("the gradation carries it there."), "{carried}");
+}
+
+#[test]
+fn the_chain_of_the_command_line_goes_level_by_level_to_the_parent() {
+    let text = why(&[&["0.27,0.46", "--json"][..], &DISC].concat()).unwrap();
+    let answer: Value = serde_json::from_str(&text).unwrap();
+    assert_eq!(answer["cause"], "compatibility");
+    let levels: Vec<u64> =
+        answer["chain"].as_array().unwrap().iter().map(|link| link["level"].as_u64().unwrap()).collect();
+    assert!(levels.is_sorted_by(|a, b| a - 1 == *b || a == b), "{levels:?}");
+    assert_eq!(*levels.last().unwrap(), answer["level"].as_u64().unwrap() - 1);
+    assert_eq!(answer["demand"]["layer"], "Formula");
+    assert!((answer["demand"]["target"].as_f64().unwrap() - 0.001).abs() < 1e-9);
+    let first = &answer["chain"][0];
+    assert!(first["diameter"].as_f64().unwrap() > 0.001);
+}
+
+#[test]
+fn the_command_line_refuses_points_outside() {
+    assert_eq!(
+        why(&["7,7"]).unwrap_err(),
+        (Some(1), "meshbrush: No triangle is at 7,7: the domain goes from 0,0 to 1,1.\n".into())
+    );
+    let (status, error) = why(&["-1,inf"]).unwrap_err();
+    assert_eq!(status, Some(2));
+    assert!(error.contains("is no point. Write two numbers and a comma"), "{error}");
+    let (_, hole) = why(&["0.5,0.5", "--inside", "hypot(x-0.5,y-0.5) > 0.3"]).unwrap_err();
+    assert!(hole.contains("in a hole of the domain"), "{hole}");
 }

@@ -32,6 +32,13 @@ pub enum Command {
     /// bisection edge), are those of the .node and .ele files that `mesh` writes from the same options.
     #[command(after_help = LOCATE_EXAMPLES)]
     Locate(LocateArguments),
+    /// Build a mesh and say why the triangle at a point is there
+    ///
+    /// Either its parent exceeds its target, and then the layer and the place that decide are named; or it
+    /// was bisected to keep the mesh compatible, and then the triangle that required it is, with the chain of
+    /// triangles between them.
+    #[command(after_help = WHY_EXAMPLES)]
+    Why(WhyArguments),
     /// Write a project as a recipe, with the files that it names beside it
     ///
     /// The recipe gives the mesh of the project. Existing files are replaced.
@@ -69,6 +76,11 @@ Examples:
 const LOCATE_EXAMPLES: &str = "\
 Example:
   meshbrush locate --spacing 0.1 --target '0.01 + 0.2*hypot(x - 0.5, y - 0.5)' --points points.csv -o found.csv";
+
+const WHY_EXAMPLES: &str = "\
+Examples:
+  meshbrush why 0.48,0.52 --spacing 0.1 --target '0.01 + 0.2*hypot(x - 0.5, y - 0.5)'
+  meshbrush why 2.5,1 --project coast.meshbrush --json";
 
 /// The options in whose place a project or a recipe stands.
 const DECIDED_BY_A_FILE: [&str; 22] = [
@@ -381,6 +393,21 @@ pub struct LocateArguments {
     /// Interpolate this formula in x and y from the vertices, instead of the target diameter
     #[arg(long, value_name = "EXPR", allow_hyphen_values = true, help_heading = "Points")]
     pub quantity: Option<String>,
+}
+
+/// `meshbrush why`.
+#[derive(Debug, Args)]
+pub struct WhyArguments {
+    /// A point of the domain, in its coordinates
+    #[arg(value_name = "X,Y", allow_hyphen_values = true)]
+    pub point: String,
+
+    #[command(flatten)]
+    pub input: InputArguments,
+
+    /// Print the answer as one JSON object on standard output
+    #[arg(long, help_heading = "Output")]
+    pub json: bool,
 }
 
 /// `meshbrush completions`.

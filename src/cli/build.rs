@@ -9,12 +9,13 @@ use super::failure::Failure;
 use super::request::MeshRequest;
 use super::sources::{ReadSources, read_sources};
 use super::terminal::Terminal;
-use crate::build::{BuildStage, BuiltMesh, MeshBuilder, MeshSpec};
+use crate::build::{BuildStage, BuiltMesh, MeshBuilder, MeshSpec, RefinementCriterion};
 use crate::domain::{BoundaryMarks, Domain, MeshBoundary, Region};
+use crate::explain::Explanation;
 use crate::field::RefinementRule;
 use crate::io::{self, Meter};
-use crate::layers::{PaintLayers, TargetsInOrder};
-use crate::mesh::{CoarseError, Extract, InvalidTarget, Limits, Mesh, Progress, TriangleId};
+use crate::layers::{Layer, PaintLayers, TargetsInOrder};
+use crate::mesh::{CoarseError, Extract, InvalidTarget, Limits, Mesh, Progress, TreeTriangle, TriangleId};
 use crate::outline::DerivedMesh;
 use crate::text::{Grouped, LengthUnit};
 
@@ -28,6 +29,7 @@ pub struct FinishedMesh {
     pub derived: DerivedMesh,
     /// What is painted on the layers.
     paint: PaintLayers,
+    limits: Limits,
     domain: Domain,
     marks: Arc<BoundaryMarks>,
     /// The unit of coordinates and lengths.
@@ -76,6 +78,18 @@ impl FinishedMesh {
         extract.world_nodes().map(|point| targets.at(point)).collect()
     }
 
+    /// Why a triangle is in the mesh.
+    pub fn explanation(&self, id: TriangleId) -> Explanation {
+        let BuiltMesh { domain, field, rule, mesh, .. } = &self.built;
+        let criterion = RefinementCriterion::new(domain, field, *rule, Some(&self.paint));
+        Explanation::new(mesh, TreeTriangle::of(mesh, id), &criterion, &self.limits)
+    }
+
+    /// The layers of the size field, from the bottom to the top.
+    pub fn layers(&self) -> &[Layer] {
+        &self.built.field.spec().layers
+    }
+
     /// The triangles whose diameter exceeds their target.
     ///
     /// # Errors
@@ -91,7 +105,7 @@ impl FinishedMesh {
 /// When a file is of no use, the target is impossible somewhere, or a limit is reached.
 pub fn build(request: &MeshRequest, terminal: &mut Terminal) -> Result<FinishedMesh, Failure> {
     let ToMesh { spec, marks, unit, paint } = read(request, terminal)?;
-    let (cleaning, domain) = (spec.cleaning, spec.domain.clone());
+    let (cleaning, limits, domain) = (spec.cleaning, spec.limits, spec.domain.clone());
     let mut builder = MeshBuilder::new(spec);
     let refinement = run(&mut builder, &paint, terminal);
     terminal.clear();
@@ -101,7 +115,7 @@ pub fn build(request: &MeshRequest, terminal: &mut Terminal) -> Result<FinishedM
     if derived.patch().leaves_nothing_of(&built.mesh) {
         return Err(CoarseError::EmptyDomain { spacing: built.mesh.lattice().spacing() }.into());
     }
-    Ok(FinishedMesh { built, derived, paint, domain, marks, unit, refinement, capped })
+    Ok(FinishedMesh { built, derived, paint, limits, domain, marks, unit, refinement, capped })
 }
 
 /// What to mesh: that of a saved document, as the window does, or what the options describe.

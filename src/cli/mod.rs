@@ -19,6 +19,7 @@ mod requested_files;
 mod sources;
 mod summary;
 mod terminal;
+mod why;
 
 use std::ffi::OsString;
 use std::io::{self, Write};
@@ -82,6 +83,7 @@ fn run_command(
     match (arguments.command, window) {
         (Some(Command::Mesh(typed)), _) => mesh::run(&typed, line, &mut out, terminal),
         (Some(Command::Locate(typed)), _) => locate::run(&typed, &mut out, terminal),
+        (Some(Command::Why(typed)), _) => why::run(&typed, &mut out, terminal),
         (Some(Command::Recipe(typed)), _) => recipe::write(&typed, terminal),
         (Some(Command::Completions(typed)), _) => {
             let mut script = Vec::new();
@@ -111,5 +113,5 @@ fn run_command(
 
 fn without_window() -> Failure {
     let problem = "This meshbrush was built without its window (feature `gui`). Its commands are `mesh`,";
-    Failure::Usage(format!("{problem} `locate` and `recipe`; `meshbrush --help` lists them."))
+    Failure::Usage(format!("{problem} `locate`, `why` and `recipe`; `meshbrush --help` lists them."))
 }

@@ -105,19 +105,37 @@ fn cells_within(bounds: &Rect, reach: f64, lattice: &Lattice) -> Option<Cells> {
 }
 
 /// A triangle in units of the world, with the corner of the lattice as origin.
-struct TriangleInWorld {
+pub struct TriangleInWorld {
     corners: [DVec2; 3],
     octagon: Octagon,
     origin: DVec2,
 }
 
 impl TriangleInWorld {
-    fn new(corners: [LatticePoint; 3], lattice: &Lattice) -> Self {
+    pub fn new(corners: [LatticePoint; 3], lattice: &Lattice) -> Self {
         Self {
             octagon: Octagon::triangle(corners),
             corners: corners.map(|c| c.as_dvec2() * lattice.step()),
             origin: lattice.bounds().min,
         }
+    }
+
+    pub fn centroid(&self) -> DVec2 {
+        self.origin + self.corners.iter().sum::<DVec2>() / 3.0
+    }
+
+    /// The point of the closed triangle that is nearest to `point`, both in world units.
+    pub fn nearest(&self, point: DVec2) -> DVec2 {
+        let p = point - self.origin;
+        let [a, b, c] = self.corners;
+        let edges = [[a, b], [b, c], [c, a]];
+        let sides = edges.map(|[from, to]| (to - from).perp_dot(p - from));
+        if sides.iter().all(|&side| side >= 0.0) || sides.iter().all(|&side| side <= 0.0) {
+            return point;
+        }
+        let nearest = edges.map(|edge| nearest_on_segment(p, edge));
+        let closer = |a: DVec2, b: DVec2| if b.distance_squared(p) < a.distance_squared(p) { b } else { a };
+        self.origin + nearest.into_iter().fold(nearest[0], closer)
     }
 
     fn bounds(&self) -> Rect {
@@ -126,7 +144,7 @@ impl TriangleInWorld {
     }
 
     /// The distance between the closed triangle and the closed rectangle of some cells, in world units.
-    fn distance(&self, cells: &Cells, lattice: &Lattice) -> f64 {
+    pub fn distance(&self, cells: &Cells, lattice: &Lattice) -> f64 {
         if self.octagon.meets(&cells.octagon()) {
             return 0.0;
         }

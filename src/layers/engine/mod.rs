@@ -5,6 +5,7 @@ pub mod asked;
 pub mod cells;
 mod compiled;
 pub mod gradation;
+pub mod least;
 pub mod reading;
 pub mod search;
 

@@ -1,0 +1,69 @@
+//! Why a triangle is in a mesh: the cause, and what asked for it.
+
+mod sentences;
+
+use crate::build::RefinementCriterion;
+use crate::layers::LeastTarget;
+use crate::mesh::{Cause, Limits, Mesh, TreeTriangle, bisection_edge_length};
+
+pub use sentences::Words;
+
+/// Why a triangle is in a mesh.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Explanation {
+    /// The triangle.
+    pub triangle: TreeTriangle,
+    /// What made it.
+    pub cause: Cause,
+    /// Why [`Cause::required_by`] exceeds its target.
+    pub demand: Option<Demand>,
+}
+
+/// Why a triangle exceeds its target.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Demand {
+    /// The outline of the domain passes through it, and its diameter exceeds that of the boundary.
+    Outline,
+    /// h̄ is below its diameter at some point.
+    Target(LeastTarget),
+}
+
+impl Explanation {
+    /// Why a triangle of the bisection tree is in a mesh that is up to date with a criterion and limits.
+    ///
+    /// Time grows with the number of levels, not with the mesh.
+    pub fn new(
+        mesh: &Mesh,
+        triangle: TreeTriangle,
+        criterion: &RefinementCriterion<'_>,
+        limits: &Limits,
+    ) -> Self {
+        let cap = limits.max_level.unwrap_or(u32::MAX);
+        let cause = mesh.cause_of(&triangle, |one| {
+            one.level() < cap && criterion.asks_to_bisect(one.corners(), one.level())
+        });
+        let demand = cause.required_by().map(|one| {
+            if criterion.outline_asks(one.corners(), one.level()) {
+                Demand::Outline
+            } else {
+                Demand::Target(criterion.least_within(one.corners()))
+            }
+        });
+        Self { triangle, cause, demand }
+    }
+
+    /// ℓ_b of the triangle that exceeds its target, in world units; that of the triangle itself if it is
+    /// coarse.
+    pub fn length(&self, mesh: &Mesh) -> f64 {
+        let level = self.cause.required_by().unwrap_or(&self.triangle).level();
+        bisection_edge_length(mesh.lattice().spacing(), level)
+    }
+
+    /// How many bisections lie between the triangle that exceeds its target and the parent of the triangle.
+    pub fn steps(&self) -> usize {
+        match &self.cause {
+            Cause::Compatibility { chain } => chain.len() - 1,
+            _ => 0,
+        }
+    }
+}

@@ -1,0 +1,118 @@
+//! An explanation as sentences for a person.
+
+use glam::DVec2;
+
+use super::{Demand, Explanation};
+use crate::geometry::LatticePoint;
+use crate::layers::{Layer, LeastTarget};
+use crate::mesh::{Cause, Mesh, TreeTriangle, bisection_edge_length};
+use crate::text::LengthUnit;
+
+/// What sentences need to name things.
+pub struct Words<'a> {
+    /// The mesh of the explanation.
+    pub mesh: &'a Mesh,
+    /// The layers of the size field.
+    pub layers: &'a [Layer],
+    /// The unit of lengths.
+    pub unit: LengthUnit,
+}
+
+impl Words<'_> {
+    /// The explanation, a sentence for each step of the argument.
+    pub fn sentences(&self, explanation: &Explanation) -> Vec<String> {
+        let level = explanation.triangle.level();
+        match &explanation.cause {
+            Cause::Coarse => vec!["It is a triangle of the coarse grid: no bisection made it.".into()],
+            Cause::OwnRule { parent } => vec![
+                format!(
+                    "It is half of a triangle of level {}, which has the diameter {} and exceeds its target.",
+                    parent.level(),
+                    self.length(parent)
+                ),
+                self.demand(explanation),
+            ],
+            Cause::Compatibility { chain } => {
+                let (first, steps) = (&chain[0], explanation.steps());
+                let plural = if steps == 1 { "bisection" } else { "bisections" };
+                vec![
+                    format!(
+                        "Its parent, of level {}, satisfies the rule. It was bisected to keep the mesh compatible.",
+                        level.saturating_sub(1)
+                    ),
+                    format!(
+                        "A triangle of level {} near {} required it, {steps} {plural} away; it has the diameter {} and \
+                         exceeds its target.",
+                        first.level(),
+                        self.place(self.centroid(first)),
+                        self.length(first)
+                    ),
+                    self.demand(explanation),
+                ]
+            }
+            _ => vec!["Nothing needs it: the mesh is not up to date with the size field.".into()],
+        }
+    }
+
+    fn demand(&self, explanation: &Explanation) -> String {
+        match explanation.demand {
+            None => String::new(),
+            Some(Demand::Outline) => {
+                "The outline of the domain passes through it, and its diameter exceeds that of the boundary."
+                    .into()
+            }
+            Some(Demand::Target(least)) => self.least(&least),
+        }
+    }
+
+    fn least(&self, least: &LeastTarget) -> String {
+        let LeastTarget { target, at, from, layer } = *least;
+        let layer = layer.and_then(|id| self.layers.iter().find(|layer| layer.id == id));
+        let asks = match layer {
+            Some(layer) => format!("the layer “{}” asks for", layer.name),
+            None => "no layer asks for anything, so that the upper limit counts:".into(),
+        };
+        let target = self.with_unit(target);
+        if at.distance(from) > self.mesh.lattice().step().max_element() {
+            let (at, from) = (self.place(at), self.place(from));
+            format!(
+                "The least target diameter in it is {target} at {at}: {asks} a finer one at {from}, and the \
+                     gradation carries it there."
+            )
+        } else {
+            format!("The least target diameter in it is at {}, where {asks} {target}.", self.place(at))
+        }
+    }
+
+    fn centroid(&self, triangle: &TreeTriangle) -> DVec2 {
+        let corners = triangle.corners().map(|c: LatticePoint| self.mesh.lattice().world_from_lattice(c));
+        corners.iter().sum::<DVec2>() / 3.0
+    }
+
+    fn length(&self, triangle: &TreeTriangle) -> String {
+        self.with_unit(bisection_edge_length(self.mesh.lattice().spacing(), triangle.level()))
+    }
+
+    fn with_unit(&self, length: f64) -> String {
+        let symbol = self.unit.symbol();
+        let digits = significant(length, 4);
+        if symbol.is_empty() { digits } else { format!("{digits} {symbol}") }
+    }
+
+    /// A point, as exactly as the domain can be told apart.
+    fn place(&self, point: DVec2) -> String {
+        let size = self.mesh.lattice().bounds().size().max_element();
+        let decimals = (6.0 - libm::log10(size).floor()).clamp(0.0, 12.0) as usize;
+        format!("({:.decimals$}, {:.decimals$})", point.x, point.y)
+    }
+}
+
+/// A positive number with so many significant digits.
+fn significant(value: f64, digits: i32) -> String {
+    if !(value.is_finite() && value > 0.0) {
+        return value.to_string();
+    }
+    let exponent = libm::log10(value).floor() as i32;
+    let decimals = (digits - 1 - exponent).max(0) as usize;
+    format!("{value:.decimals$}")
+}
