@@ -60,16 +60,17 @@ pub use document::{
     Background, Document, Example, Follower, MeshChange, Picture, Setting, Settings, SettingsError, Stage,
 };
 pub use layers::{
-    Combine, Decision, InvalidLayer, Layer, LayerId, LayerKind, PaintLayers, Quantity, RasterReading,
-    RasterSource, SizeField, SizeFieldSpec,
+    Combine, Decision, InvalidLayer, Layer, LayerId, LayerKind, LeastTarget, PaintLayers, Quantity,
+    RasterReading, RasterSource, SizeField, SizeFieldSpec,
 };
 pub use paint::{Brush, Medium};
 pub use text::LengthUnit;
 
 // Query a mesh.
+pub use explain::{Demand, Explanation, Words};
 pub use mesh::{
-    Adjacency, Cleaning, KeptParts, Location, Locator, Neighbour, NodeId, Orientation, PatchedLocator,
-    Removed, RemovedPart, Topology, Triangle, TriangleId, barycentric, interpolate,
+    Adjacency, Cause, Cleaning, KeptParts, Location, Locator, Neighbour, NodeId, Orientation, PatchedLocator,
+    Removed, RemovedPart, Topology, TreeTriangle, Triangle, TriangleId, barycentric, interpolate,
 };
 
 // Read and write files.
