@@ -93,7 +93,7 @@ impl Follower {
         let mut first = Rebuild::new(document.settings(), spec, Parts::default());
         while first.advance(document, usize::MAX)? == Progress::More {}
         Ok(Self {
-            shown: first.finish(),
+            shown: first.finish(document.paint()),
             state: FollowState::InStep,
             change: Some(MeshChange::Replaced),
             revision: 0,
@@ -215,7 +215,7 @@ impl Follower {
                 if let FollowState::Rebuilding(rebuild) = &mut self.state {
                     rebuild.repaint(&areas);
                 }
-                self.shown.repaint(&areas);
+                self.shown.repaint(&areas, document.paint());
             }
             Repainted::Everything => {
                 self.state = FollowState::InStep;
@@ -347,7 +347,7 @@ impl Follower {
         match rebuild.advance(document, budget) {
             Ok(Progress::More) => return Ok(FollowState::Rebuilding(rebuild)),
             Ok(Progress::Done) => {
-                let former = std::mem::replace(&mut self.shown, rebuild.finish());
+                let former = std::mem::replace(&mut self.shown, rebuild.finish(document.paint()));
                 self.revision += 1;
                 self.change = Some(MeshChange::Replaced);
                 // Unless an export holds it, the next mesh of a drag is built in its memory.

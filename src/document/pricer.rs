@@ -168,7 +168,7 @@ fn paint_more(
     let mut paint = document.paint().clone();
     paint.insert(question.layer, raster);
     let field = follower.field();
-    let affected = areas.iter().filter_map(|area| field.area_affected_by(area));
+    let affected = areas.iter().filter_map(|area| field.area_affected_by(area, &paint));
     match affected.reduce(|a, b| union(&a, &b)) {
         None => Work::Known(Price::Nothing(NoChange::OutsideField)),
         Some(area) => {

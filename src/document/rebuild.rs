@@ -4,6 +4,7 @@ use super::shown::Shown;
 use super::{Document, Settings, Stage};
 use crate::build::{BuildError, BuildStage, MeshBuilder, MeshSpec, Parts};
 use crate::geometry::Rect;
+use crate::layers::PaintLayers;
 use crate::mesh::Progress;
 
 /// Builds the mesh of a document, in slices.
@@ -72,7 +73,7 @@ impl Rebuild {
     }
 
     /// Once done: the mesh, to be shown.
-    pub(super) fn finish(self) -> Shown {
-        Shown::new(self.settings, self.builder.finish(), self.repainted)
+    pub(super) fn finish(self, paint: &PaintLayers) -> Shown {
+        Shown::new(self.settings, self.builder.finish(), &self.repainted, paint)
     }
 }

@@ -39,23 +39,23 @@ enum Upkeep {
 
 impl Shown {
     /// A mesh that was just built. `repainted` was painted meanwhile, in world units.
-    pub(super) fn new(settings: Settings, built: BuiltMesh, repainted: Vec<Rect>) -> Self {
+    pub(super) fn new(settings: Settings, built: BuiltMesh, repainted: &[Rect], paint: &PaintLayers) -> Self {
         let BuiltMesh { domain, field, mesh, .. } = built;
         let updater = Updater::new(settings.limits());
         let upkeep = Upkeep::InPlace;
         let mut shown = Self { settings, domain, field, mesh: Arc::new(mesh), updater, upkeep };
-        shown.repaint(&repainted);
+        shown.repaint(repainted, paint);
         shown
     }
 
-    /// Notes where the paint changed, in world units.
-    pub(super) fn repaint(&mut self, areas: &[Rect]) {
+    /// Notes where the paint changed, in world units. `paint` is the paint as it is now.
+    pub(super) fn repaint(&mut self, areas: &[Rect], paint: &PaintLayers) {
         if areas.is_empty() {
             return;
         }
         match self.settings.rule {
             RefinementRule::Area => {
-                let changed = areas.iter().filter_map(|area| self.field.area_affected_by(area));
+                let changed = areas.iter().filter_map(|area| self.field.area_affected_by(area, paint));
                 changed.for_each(|area| self.updater.add(area));
             }
             RefinementRule::Vertex => self.upkeep = Upkeep::NewMesh,

@@ -5,17 +5,37 @@ use super::{Combine, DistanceTo, Layer, LayerKind, PaintLayers, SizeField, SizeF
 use crate::geometry::{LatticeRect, Rect};
 use crate::raster::ValueRanges;
 
+/// How often the reach of an edit is made smaller.
+const MOST_ROUNDS: usize = 8;
+
 impl SizeField {
     /// The part of the lattice in which triangles can get another answer after the paint changed within a
     /// rectangle in world units; `None` where it lies outside.
-    pub fn area_affected_by(&self, repainted: &Rect) -> Option<LatticeRect> {
-        self.affected(&repainted.expanded(self.reach()))
+    pub fn area_affected_by(&self, repainted: &Rect, paint: &PaintLayers) -> Option<LatticeRect> {
+        self.affected(&repainted.expanded(self.reach(repainted, paint)))
     }
 
     /// How far beyond an edit gradation can carry its effect, in world units.
-    fn reach(&self) -> f64 {
+    ///
+    /// At distance d it can only lower what is above h_min + g d. So the greatest diameter that the layers
+    /// ask for around the edit bounds the distance, which bounds what is around the edit, and so on.
+    fn reach(&self, edited: &Rect, paint: &PaintLayers) -> f64 {
         let SizeFieldSpec { transfer, unasked, gradation, .. } = self.spec();
-        gradation.map_or(0.0, |slope| (transfer.h_max.min(*unasked) - transfer.h_min).max(0.0) / slope)
+        let Some(slope) = gradation else { return 0.0 };
+        let reach = |greatest: f64| (greatest - transfer.h_min).max(0.0) / slope;
+        // No triangle is larger than a coarse one, so more than `unasked` is never needed.
+        let most = transfer.h_max.min(*unasked);
+        let mut distance = reach(most);
+        for _ in 0..MOST_ROUNDS {
+            let Some(around) = self.affected(&edited.expanded(distance)) else { break };
+            let ([_, greatest], _) = self.diameters(paint, &Cells::of(&around));
+            let next = reach(greatest.min(most));
+            if next > 0.9 * distance {
+                break;
+            }
+            distance = next;
+        }
+        distance
     }
 
     /// The lattice rectangle around one in world units, with one step to spare for rounding.
@@ -61,7 +81,7 @@ impl SizeField {
             }
         }
         changed.dedup();
-        changed.iter().filter_map(|area| self.area_affected_by(area)).collect()
+        changed.iter().filter_map(|area| self.area_affected_by(area, paint)).collect()
     }
 }
 
@@ -144,5 +164,32 @@ impl Layer {
             }
             LayerKind::Distance { .. } => None,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::dvec2;
+
+    use super::*;
+    use crate::field::Transfer;
+    use crate::geometry::Lattice;
+
+    #[test]
+    fn gradation_carries_an_edit_as_far_as_the_diameters_around_it_let_it() {
+        let lattice = Lattice::covering(Rect::UNIT, 0.05, 1000).unwrap();
+        let transfer = Transfer { h_min: 0.01, h_max: 5.0, shape: 1.0 };
+        let paint = PaintLayers::default();
+        let edited = Rect::around(dvec2(0.5, 0.5), 0.01);
+        let side = |base: f64, gradation| {
+            let layers = Layer::stack([LayerKind::constant(base)]);
+            let spec = SizeFieldSpec { layers, transfer, unasked: 0.07, outline: None, gradation };
+            let area = SizeField::new(spec, &lattice).area_affected_by(&edited, &paint).unwrap();
+            f64::from(area.max.x - area.min.x) * lattice.step().x
+        };
+        assert!((side(0.03, None) - 0.02).abs() < 1e-6);
+        // (0.03 − 0.01) / 0.2 beyond the edit on both sides, and no farther for a larger h_max.
+        assert!((side(0.03, Some(0.2)) - 0.22).abs() < 1e-6);
+        assert!((side(5.0, Some(0.2)) - 0.62).abs() < 1e-6, "no more than triangles can need");
     }
 }

@@ -114,6 +114,14 @@ impl Cells {
     }
 }
 
+impl Cells {
+    /// The cells that a rectangle covers or touches from within, at least one along each side.
+    pub fn of(rect: &LatticeRect) -> Self {
+        let [min, max] = [rect.min, rect.max].map(|p| [i64::from(p.x), i64::from(p.y)]);
+        Self { min: [0, 1].map(|axis: usize| min[axis].min(max[axis] - 1).max(0)), max }
+    }
+}
+
 impl From<Cells> for LatticeRect {
     /// The closed rectangle. The cells must lie on the lattice.
     fn from(cells: Cells) -> Self {
