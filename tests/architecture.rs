@@ -145,7 +145,7 @@ fn the_mesh_knows_only_geometry() {
 
 #[test]
 fn the_parts_of_the_mesh_import_downwards() {
-    let parts = ["kernel", "extract", "query"];
+    let parts = ["kernel", "extract", "query", "steps"];
     let mut found = Vec::new();
     for file in files().into_iter().filter(|file| file.module.len() > 1 && file.top_module() == "mesh") {
         let own = parts.iter().position(|part| *part == file.module[1]);

@@ -18,12 +18,13 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! Three parts: `kernel` makes and changes meshes, `extract` numbers what leaves the program, `query` asks.
-//! `extract` imports from `kernel`, and `query` from both; never the other way.
+//! Four parts: `kernel` makes and changes meshes, `extract` numbers what leaves the program, `query` asks,
+//! `steps` shows the algorithms at work. Each imports only from those before it.
 
 mod kernel;
 mod extract;
 mod query;
+mod steps;
 
 pub use extract::{
     BoundaryEdge, Cell, Extract, MeshEdge, MeshPatch, MeshStatistics, MeshView, PatchPieces, PatchTriangle,
@@ -36,4 +37,8 @@ pub use kernel::{
 pub use query::{
     Adjacency, Cause, Cleaning, Fingerprint, Forecast, KeptParts, Location, Locator, PatchedLocator, Removed,
     RemovedPart, Topology, TreeTriangle, Violation, barycentric, fingerprint_of, interpolate,
+};
+pub use steps::{
+    Algorithm, BOUNDARY, NeighbourCase, Recording, ReportRow, RowChange, Step, StepAction, StepPlayer,
+    StepRecorder,
 };

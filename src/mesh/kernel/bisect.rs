@@ -46,7 +46,7 @@ impl Mesh {
     ///          o                       o
     /// ```
     #[inline(always)]
-    pub(super) fn bisect_pair(&mut self, a: TriangleId, b: TriangleId) {
+    pub(in crate::mesh) fn bisect_pair(&mut self, a: TriangleId, b: TriangleId) {
         let midpoint = self.push_midpoint(a);
         self.counts.bisected(self.triangle(a).kind());
         self.counts.bisected(self.triangle(b).kind());
