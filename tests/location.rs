@@ -306,6 +306,43 @@ fn a_million_hostile_points_are_found_where_brute_force_finds_them() {
 }
 
 #[test]
+fn a_walk_leads_from_the_bucket_to_the_answer_through_neighbours() {
+    for (seed, (name, subject)) in subjects().into_iter().enumerate() {
+        let mesh = &subject.mesh;
+        let mut random = Rng::with_seed(100 + seed as u64);
+        let (mut longest, mut found) = (0, 0);
+        for _ in 0..20_000 {
+            let world = hostile(mesh, &mut random);
+            let path = mesh.walk_path(world);
+            assert_eq!(path.last().copied(), mesh.locate(world).triangle(), "{name}: {world:?}");
+            let across = |pair: &[TriangleId]| {
+                mesh.neighbours(pair[0]).iter().any(|next| next.triangle() == Some(pair[1]))
+            };
+            assert!(path.windows(2).all(across), "{name}: {path:?} to {world:?}");
+            let distinct: BTreeSet<_> = path.iter().collect();
+            assert_eq!(distinct.len(), path.len(), "{name}: {path:?} to {world:?}");
+            longest = longest.max(path.len().saturating_sub(1));
+            found += usize::from(!path.is_empty());
+        }
+        assert!(found > 1000 && longest as f64 <= mesh.walk_bound(), "{name}: {longest} steps");
+    }
+}
+
+#[test]
+fn the_mean_walk_is_that_of_random_points() {
+    let subjects = subjects();
+    let [square, one] =
+        ["square", "one"].map(|name| &subjects.iter().find(|(n, _)| *n == name).unwrap().1.mesh);
+    assert_eq!((one.mean_walk_steps(100), one.walk_bound()), (0.0, 1.0));
+    let mut random = Rng::with_seed(5);
+    let steps = |_| square.walk_path(dvec2(random.f64(), random.f64())).len() - 1;
+    let mean = (0..20_000).map(steps).sum::<usize>() as f64 / 20_000.0;
+    let sampled = square.mean_walk_steps(1000);
+    assert!((sampled / mean - 1.0).abs() < 0.1 && mean > 1.0, "{sampled} of {mean}");
+    assert_eq!(square.walk_bound(), 4096.0);
+}
+
+#[test]
 fn a_point_with_a_nodes_coordinates_is_on_that_vertex_and_one_ulp_off_is_not() {
     for (name, subject) in subjects() {
         let mesh = &subject.mesh;

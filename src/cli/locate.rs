@@ -13,15 +13,9 @@ use super::output::{check_place, is_standard_stream};
 use super::request::{MeshRequest, parse_formula};
 use super::terminal::Terminal;
 use crate::field::Formula;
-use crate::io::{Interruption, Number, points, write_file_metered};
-use crate::mesh::{
-    Cell, Extract, Location, Locator, NodeId, PatchedLocator, TriangleId, barycentric, interpolate,
-};
-
-const HEADER: &str = "x,y,where,triangle,level,v1,v2,v3,zeta1,zeta2,zeta3,value";
-
-/// With more than one point for this many triangles, building a search tree pays off.
-const TRIANGLES_PER_POINT: usize = 16;
+use crate::io::located::LocatedIn;
+use crate::io::{Interruption, points, write_file_metered};
+use crate::mesh::Extract;
 
 /// Runs the command. `out` is standard output.
 ///
@@ -68,69 +62,18 @@ fn read_points(path: &Path, request: &MeshRequest) -> Result<Vec<DVec2>, Failure
 /// What the answers are computed from.
 struct Answers<'a> {
     finished: &'a FinishedMesh,
-    /// The mesh as files have it: ids are those of a file.
     extract: Extract<'a>,
     /// What to interpolate instead of h̄.
     quantity: Option<&'a Formula>,
 }
 
 impl Answers<'_> {
-    /// One row for each point, in their order.
     fn write(&self, points: &[DVec2], out: &mut dyn Write) -> io::Result<()> {
-        let mesh = self.finished.mesh();
-        let many = points.len() > mesh.raw_triangle_count() / TRIANGLES_PER_POINT;
-        let locator = many.then(|| Locator::new(mesh));
-        let patch = self.finished.derived.patch();
-        let patched = (!patch.is_empty()).then(|| PatchedLocator::new(mesh, patch, &self.extract));
-        writeln!(out, "{HEADER}")?;
-        for &point in points {
-            let location = match &locator {
-                Some(locator) => locator.locate(point),
-                None => mesh.locate(point),
-            };
-            let (location, number) = match &patched {
-                Some(patched) => {
-                    let location = patched.locate(&self.extract, point, location);
-                    (location, location.triangle())
-                }
-                None => (location, location.triangle().and_then(|id| self.extract.place_of(id))),
-            };
-            write!(out, "{},{},{}", Number(point.x), Number(point.y), name(&location))?;
-            match number {
-                Some(triangle) => self.write_triangle(point, triangle, out)?,
-                None => writeln!(out, ",,,,,,,,,")?,
-            }
-        }
-        Ok(())
-    }
-
-    /// The columns from `triangle` on. Vertices and ζ are in the order of the vertices in files, so that each
-    /// ζ belongs to the vertex in the same place.
-    fn write_triangle(&self, point: DVec2, place: TriangleId, out: &mut dyn Write) -> io::Result<()> {
-        let Cell { corners, level, .. } = self.extract.cell(place);
-        let nodes = corners.map(NodeId::from_index);
-        let at = self.finished.mesh().lattice().lattice_from_world(point);
-        let zeta = barycentric(nodes.map(|node| self.extract.node(node)), at);
-        let value = interpolate(zeta, nodes.map(|node| self.value_at(self.extract.world(node))));
-        let [a, b, c] = corners;
-        let [zeta1, zeta2, zeta3] = zeta.map(Number);
-        writeln!(out, ",{},{},{a},{b},{c},{zeta1},{zeta2},{zeta3},{}", place.index(), level, Number(value))
-    }
-
-    fn value_at(&self, node: DVec2) -> f64 {
-        match self.quantity {
+        let value_at = |node: DVec2| match self.quantity {
             Some(formula) => formula.eval(node.x, node.y),
             None => self.finished.target_at(node),
-        }
-    }
-}
-
-fn name(location: &Location) -> &'static str {
-    match location {
-        Location::Inside { .. } => "inside",
-        Location::OnEdge { .. } => "edge",
-        Location::OnVertex { .. } => "vertex",
-        Location::OutsideBounds | Location::OutsideDomain => "outside",
-        Location::Invalid => "invalid",
+        };
+        let (mesh, patch) = (self.finished.mesh(), self.finished.derived.patch());
+        LocatedIn { mesh, patch, extract: &self.extract, value_at: &value_at }.write(points, out)
     }
 }

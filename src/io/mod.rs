@@ -25,6 +25,7 @@ mod meter;
 pub mod geojson;
 pub mod journal;
 pub mod layers;
+pub mod located;
 pub mod msh;
 pub mod node;
 pub mod obj;

@@ -24,9 +24,21 @@ impl Mesh {
     /// skipping the edge just crossed only saves a test.
     #[inline]
     pub(in crate::mesh) fn walk(&self, start: TriangleId, p: DVec2) -> WalkEnd {
+        self.walk_through(start, p, |_| {})
+    }
+
+    /// Walks as [`Self::walk`] does, and visits every triangle on the way, the first and the last included.
+    #[inline]
+    pub(in crate::mesh) fn walk_through(
+        &self,
+        start: TriangleId,
+        p: DVec2,
+        mut visit: impl FnMut(TriangleId),
+    ) -> WalkEnd {
         let mut id = start;
         let mut previous = None;
         'step: loop {
+            visit(id);
             let triangle = self.triangle(id);
             let mut sides = [Side::Left; 3];
             for (j, (from, to)) in triangle.edge_nodes().into_iter().enumerate() {

@@ -60,23 +60,107 @@ impl Mesh {
     /// descendant of the coarse triangle around the point (Algorithm 14) and never leaves that coarse
     /// triangle, as no edge on its rim has the point strictly beyond: holes cannot trap it.
     pub fn locate(&self, point: DVec2) -> Location {
-        let p = self.lattice.lattice_from_world(point);
-        if p.is_nan() {
-            return Location::Invalid;
-        }
-        let extent = self.lattice.extent().as_dvec2();
-        if !(p.cmpge(DVec2::ZERO).all() && p.cmple(extent).all()) {
-            return Location::OutsideBounds;
-        }
+        let p = match self.point_on_lattice(point) {
+            Ok(p) => p,
+            Err(nowhere) => return nowhere,
+        };
         self.coarse_numbers_round(p)
             .filter_map(|number| self.coarse.get(number))
-            .map(|start| match self.walk(start, p) {
-                WalkEnd::Found(id, sides) => self.lowest_round(id, sides),
-                WalkEnd::Blocked => unreachable!("the walk stays in the coarse triangle that it starts in"),
-            })
+            .map(|start| self.found_from(start, p, |_| {}).1)
             .filter(|found| *found != Location::OutsideDomain)
             .min_by_key(Location::triangle)
             .unwrap_or(Location::OutsideDomain)
+    }
+
+    /// Lattice coordinates of a point in world coordinates, or why no triangle can contain it.
+    fn point_on_lattice(&self, point: DVec2) -> Result<DVec2, Location> {
+        let p = self.lattice.lattice_from_world(point);
+        if p.is_nan() {
+            return Err(Location::Invalid);
+        }
+        let extent = self.lattice.extent().as_dvec2();
+        let is_within = p.cmpge(DVec2::ZERO).all() && p.cmple(extent).all();
+        if is_within { Ok(p) } else { Err(Location::OutsideBounds) }
+    }
+
+    /// Walks from `start` to `p`, both in the same coarse triangle, through the triangles visited. Returns
+    /// the triangle in which the walk ends, and where it finds the point.
+    #[inline]
+    fn found_from(
+        &self,
+        start: TriangleId,
+        p: DVec2,
+        visit: impl FnMut(TriangleId),
+    ) -> (TriangleId, Location) {
+        match self.walk_through(start, p, visit) {
+            WalkEnd::Found(id, sides) => (id, self.lowest_round(id, sides)),
+            WalkEnd::Blocked => unreachable!("the walk stays in the coarse triangle that it starts in"),
+        }
+    }
+
+    /// The triangles through which [`Self::locate`] finds a point in world coordinates, from the triangle of
+    /// the bucket to the answer (Algorithm 15). Consecutive triangles are neighbours. Empty where no triangle
+    /// of the domain contains the point.
+    ///
+    /// Where the point lies on an edge or a vertex, the walk ends in any triangle around it; the last
+    /// triangles then lead to the one that is given as the answer.
+    pub fn walk_path(&self, point: DVec2) -> Vec<TriangleId> {
+        let Ok(p) = self.point_on_lattice(point) else { return Vec::new() };
+        let starts = self.coarse_numbers_round(p).filter_map(|number| self.coarse.get(number));
+        let found = starts.filter_map(|start| {
+            let (end, location) = self.found_from(start, p, |_| {});
+            Some((location.triangle()?, start, end, location))
+        });
+        let Some((answer, start, end, location)) = found.min_by_key(|(answer, ..)| *answer) else {
+            return Vec::new();
+        };
+        let mut path = Vec::new();
+        self.walk_through(start, p, |id| path.push(id));
+        match location {
+            Location::OnVertex { node, .. } => path.extend(self.turns_between(node, end, answer)),
+            _ if end != answer => path.push(answer),
+            _ => {}
+        }
+        path
+    }
+
+    /// The triangles around `node` from `from` to `to`, without the first.
+    fn turns_between(&self, node: NodeId, from: TriangleId, to: TriangleId) -> Vec<TriangleId> {
+        let (mut turns, mut last) = (Vec::new(), from);
+        for id in self.raw_triangles_around(node, from).skip(1) {
+            if last == to {
+                break;
+            }
+            // At the boundary of the grid, the triangles on the other side of the first one follow.
+            if !self.triangle(last).raw_neighbours.iter().any(|across| across.triangle() == Some(id)) {
+                turns.clear();
+            }
+            turns.push(id);
+            last = id;
+        }
+        turns
+    }
+
+    /// The mean number of steps from triangle to triangle in which [`Self::locate`] finds a point of the
+    /// domain, over about `count` points that are spread evenly. Zero where none is in the domain.
+    pub fn mean_walk_steps(&self, count: usize) -> f64 {
+        let bounds = self.lattice.bounds();
+        let mut shares = DVec2::splat(0.5);
+        let (mut steps, mut found) = (0, 0);
+        for _ in 0..count {
+            // The R2 sequence: powers of the root of x³ = x + 1.
+            shares = (shares + DVec2::new(0.754_877_666_246_692_8, 0.569_840_290_998_053_3)).fract();
+            let path = self.walk_path(bounds.min + shares * bounds.size());
+            steps += path.len().saturating_sub(1);
+            found += usize::from(!path.is_empty());
+        }
+        if found > 0 { steps as f64 / found as f64 } else { 0.0 }
+    }
+
+    /// The most steps that Algorithm 15 takes: 2 to the power of the deepest level.
+    pub fn walk_bound(&self) -> f64 {
+        let deepest = self.level_counts().len().saturating_sub(1);
+        (0..deepest).fold(1.0, |bound, _| 2.0 * bound)
     }
 
     /// Coarse triangles that contain a point in lattice coordinates (Algorithm 14): one, or up to six around
