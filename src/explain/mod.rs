@@ -1,11 +1,13 @@
 //! Why a triangle is in a mesh: the cause, and what asked for it.
 
+mod node;
 mod sentences;
 
 use crate::build::RefinementCriterion;
 use crate::layers::LeastTarget;
 use crate::mesh::{Cause, Limits, Mesh, TreeTriangle, bisection_edge_length};
 
+pub use node::NodeFacts;
 pub use sentences::Words;
 
 /// Why a triangle is in a mesh.
