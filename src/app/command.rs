@@ -8,6 +8,7 @@ use glam::DVec2;
 
 use super::background::WorkId;
 use super::dialogs::FileRequest;
+use super::explore::TreeStep;
 use super::help::HelpTopic;
 use super::readout::Quantity;
 use super::tools::{BoundaryToolMode, BrushMode, DomainToolMode, PaintKind, PenEffect, Tool};
@@ -124,6 +125,8 @@ pub enum Command {
     QueryTriangle(TriangleId),
     /// Queries a neighbour of the queried triangle, by its place from 0; 0 is the bisection neighbour.
     QueryNeighbour(usize),
+    /// Looks at other triangles and nodes of the bisection tree than the queried one.
+    Explore(ExploreCommand),
     /// Copies everything that the inspector shows of the queried triangle.
     CopyReadout,
     /// Opens the question for a place to go to.
@@ -212,6 +215,15 @@ impl PartialEq for Opened {
     fn eq(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.document, &other.document) && self.home == other.home
     }
+}
+
+/// What is looked at of the bisection tree around the queried triangle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ExploreCommand {
+    /// Goes to another triangle of the tree.
+    Step(TreeStep),
+    /// Shows the node at a corner of the shown triangle, 0 being the apex, or none.
+    ShowCorner(Option<usize>),
 }
 
 /// What changes about the brush.

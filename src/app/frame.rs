@@ -21,6 +21,7 @@ use super::catalog::catalog;
 use super::command::Command;
 use super::cuts::PATIENCE;
 use super::dialogs::FileFacts;
+use super::explore::Explore;
 use super::layer_pictures::LayerPictures;
 use super::project::ProjectFile;
 use super::readout::Readout;
@@ -51,6 +52,8 @@ pub struct FrameState<'a> {
     pub view: &'a View,
     /// What each layer asks for, as small pictures.
     pub layer_pictures: &'a LayerPictures,
+    /// Why the queried triangle is in the mesh.
+    pub explore: &'a Explore,
     /// Where the pointer is on the canvas, in world units.
     pub pointer: Option<DVec2>,
     /// The queried point and the triangle around it.
@@ -160,6 +163,9 @@ impl App {
         let bounds = self.session.document().settings().domain.bounds;
         let plan = self.canvas.planned_stroke(ctx, &self.tools, bounds).filter(|_| !self.asks_something());
         let prices = self.session.price_stroke(plan, deadline);
+        if self.tools.tool.explains {
+            self.explore.advance(&self.session);
+        }
         self.canvas.note_work(&self.session);
         if cuts || follows || derives || finds || measures || prices {
             ctx.request_repaint();
@@ -227,6 +233,7 @@ impl App {
             tools: &self.tools,
             view: &self.view,
             layer_pictures: &self.layer_pictures,
+            explore: &self.explore,
             pointer: self.canvas.pointer(),
             readout,
             reproducible: self.reproducible,

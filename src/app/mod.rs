@@ -28,6 +28,7 @@ mod layer_pictures;
 mod notices;
 mod panels;
 mod project;
+mod explore;
 pub mod readout;
 mod screenshots;
 pub mod session;
@@ -50,6 +51,7 @@ use background::Background;
 use canvas::{Canvas, CanvasGpu};
 use command::Command;
 use dialogs::Dialogs;
+use explore::Explore;
 use help::HelpTopic;
 use journal::JournalKeeper;
 use layer_pictures::LayerPictures;
@@ -81,6 +83,7 @@ pub struct App {
     view: View,
     canvas: Canvas,
     layer_pictures: LayerPictures,
+    explore: Explore,
     dialogs: Dialogs,
     /// What the help window shows, while it is open.
     help: Option<HelpTopic>,
@@ -138,6 +141,7 @@ impl App {
             view,
             canvas: Canvas::new(gpu),
             layer_pictures: LayerPictures::default(),
+            explore: Explore::default(),
             dialogs: Dialogs::default(),
             help: None,
             background: Background::new(ctx),

@@ -354,6 +354,11 @@ impl Session {
         self.queried = point;
     }
 
+    /// The queried point, in world units.
+    pub fn queried(&self) -> Option<DVec2> {
+        self.queried
+    }
+
     /// The queried point and the triangle around it in the mesh on the screen.
     pub fn readout(&self, quantity: Quantity) -> Option<Readout> {
         self.queried.map(|point| Readout::at(point, self, quantity))

@@ -37,6 +37,8 @@ pub enum CanvasAid {
     Contours,
     /// Handles at the corners of the background picture.
     PictureCorners,
+    /// Why the queried triangle is there.
+    Cause,
 }
 
 /// Which of them are shown.
@@ -50,11 +52,13 @@ pub struct CanvasAids {
     pub contours: bool,
     /// Handles at the corners of the background picture.
     pub picture_corners: bool,
+    /// Why the queried triangle is there: the chain of triangles, and the place that decides.
+    pub cause: bool,
 }
 
 impl Default for CanvasAids {
     fn default() -> Self {
-        Self { coordinates: true, scale_bar: true, contours: false, picture_corners: false }
+        Self { coordinates: true, scale_bar: true, contours: false, picture_corners: false, cause: true }
     }
 }
 
@@ -65,6 +69,7 @@ impl CanvasAids {
             CanvasAid::ScaleBar => &mut self.scale_bar,
             CanvasAid::Contours => &mut self.contours,
             CanvasAid::PictureCorners => &mut self.picture_corners,
+            CanvasAid::Cause => &mut self.cause,
         };
         *shown = !*shown;
     }

@@ -1,6 +1,7 @@
 //! The canvas: the mesh, what is drawn over it, and gestures of the pointer on it.
 
 mod background;
+mod cause_marks;
 mod coordinates;
 mod floats;
 mod gpu;
@@ -332,10 +333,8 @@ impl Canvas {
     fn paint_contours(&self, painter: &Painter, rect: Rect, camera: &Camera) {
         let (screen, visible) = (camera.screen_map(), camera.visible_world());
         let at = |world| marks::point_from_px(rect, screen(world), painter.pixels_per_point());
-        let in_view = self.contours.lines().iter().filter(|line| {
-            let (line, view) = (line.bounds, visible);
-            line.min.cmple(view.max).all() && view.min.cmple(line.max).all()
-        });
+        let lines = self.contours.lines().iter();
+        let in_view = lines.filter(|line| line.bounds.intersection(&visible).is_some());
         let in_view: Vec<_> = in_view.map(|line| &line.contour).collect();
         // Where there are very many, only every second level has lines, or every fourth.
         let mut every = 1;
@@ -374,6 +373,7 @@ impl Canvas {
         let pointer = response.hover_pos();
         let over = OverMesh { painter: &painter, screen_from_world: &screen_from_world, pointer };
         layer_marks::paint(state, &over, tokens(ui).accent);
+        cause_marks::paint(state, &over, tokens(ui).accent);
         (state.tools.tool.paint)(state, &over);
         if let Some(gesture) = &self.gesture {
             gesture.paint(&painter);

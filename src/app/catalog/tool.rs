@@ -3,7 +3,10 @@
 use eframe::egui::{Key, Modifiers};
 
 use super::{CatalogItem, GESTURES, GestureHelp, Menu};
-use crate::app::command::{BoundaryCommand, BrushCommand, Command, DomainCommand, ThreatsCommand};
+use crate::app::command::{
+    BoundaryCommand, BrushCommand, Command, DomainCommand, ExploreCommand, ThreatsCommand,
+};
+use crate::app::explore::TreeStep;
 use crate::app::frame::FrameState;
 use crate::app::tools::{
     BOUNDARY, BoundaryToolMode, BrushMode, DOMAIN, DomainToolMode, ERASER, PaintKind, QUERY, THREATS, TOOLS,
@@ -69,6 +72,7 @@ pub fn tool(state: &FrameState<'_>) -> Vec<CatalogItem> {
     items.extend(threats_tool(state));
     items.extend(neighbours(state));
     items.extend(amounts(tools));
+    items.extend(tree_steps(state));
     items
 }
 
@@ -86,6 +90,28 @@ fn neighbours(state: &FrameState<'_>) -> impl Iterator<Item = CatalogItem> + use
     titles.into_iter().enumerate().map(move |(place, title)| {
         let item = CatalogItem::new(Menu::Tool, title, Command::QueryNeighbour(place)).enabled(is_queried);
         let item = if has_keys { item.key(DIGITS[place]) } else { item };
+        if place == 0 { item.group() } else { item }
+    })
+}
+
+/// Steps in the bisection tree from the queried triangle. They have keys with the tool that explains it.
+fn tree_steps(state: &FrameState<'_>) -> impl Iterator<Item = CatalogItem> + use<> {
+    let steps = [
+        ("Go to the parent triangle", TreeStep::Parent, Modifiers::NONE, Key::PageUp),
+        ("Go to the sibling", TreeStep::Sibling, Modifiers::SHIFT, Key::PageUp),
+        ("Go to the first half", TreeStep::Child(0), Modifiers::NONE, Key::PageDown),
+        ("Go to the second half", TreeStep::Child(1), Modifiers::SHIFT, Key::PageDown),
+        ("Go to the coarse triangle", TreeStep::Coarse, Modifiers::COMMAND, Key::PageUp),
+        ("Go back to the queried triangle", TreeStep::Queried, Modifiers::COMMAND, Key::PageDown),
+        ("Go towards the triangle that required it", TreeStep::PreviousLink, Modifiers::NONE, Key::Comma),
+        ("Go back along the chain", TreeStep::NextLink, Modifiers::NONE, Key::Period),
+    ];
+    let has_keys = state.tools.tool.explains;
+    let leads = steps.map(|(_, step, ..)| state.explore.target(step, state.session.mesh()).is_some());
+    steps.into_iter().zip(leads).enumerate().map(move |(place, ((title, step, modifiers, key), leads))| {
+        let command = Command::Explore(ExploreCommand::Step(step));
+        let item = CatalogItem::new(Menu::Tool, title, command).enabled(leads);
+        let item = if has_keys { item.keys(modifiers, key) } else { item };
         if place == 0 { item.group() } else { item }
     })
 }

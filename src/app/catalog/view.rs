@@ -31,6 +31,7 @@ pub fn view(state: &FrameState<'_>) -> Vec<CatalogItem> {
         aid("Coordinates along the canvas", CanvasAid::Coordinates).checked(view.aids.coordinates),
         aid("Scale bar", CanvasAid::ScaleBar).checked(view.aids.scale_bar),
         aid("Contour lines of h̄", CanvasAid::Contours).checked(view.aids.contours),
+        aid("Why the queried triangle is there", CanvasAid::Cause).checked(view.aids.cause),
         overlay("No overlay", FieldOverlay::None).group(),
         overlay("Overlay risk", FieldOverlay::Risk).key(Key::O),
         overlay("Overlay target", FieldOverlay::Target).keys(Modifiers::SHIFT, Key::O),

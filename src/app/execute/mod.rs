@@ -10,8 +10,9 @@ use eframe::egui::Context;
 use glam::DVec2;
 
 use super::App;
-use super::command::Command;
+use super::command::{Command, ExploreCommand};
 use super::dialogs::{Dialog, fill_in_place};
+use super::explore::TreeStep;
 use super::inspection::{Inspection, NEIGHBOURS};
 use super::tools::QUERY;
 use crate::mesh::TriangleId;
@@ -55,6 +56,8 @@ impl App {
             Command::Query(point) => self.query(point),
             Command::QueryTriangle(id) => self.query_triangle(id),
             Command::QueryNeighbour(place) => self.query_neighbour(place),
+            Command::Explore(ExploreCommand::Step(step)) => self.walk_tree(step),
+            Command::Explore(ExploreCommand::ShowCorner(corner)) => self.explore.show_corner(corner),
             Command::CopyReadout => self.copy_readout(ctx),
             Command::AskPlace => self.dialogs.open(Dialog::GoTo),
             Command::AskPlaceNear(point) => {
@@ -108,6 +111,16 @@ impl App {
         ctx.copy_text(inspection.full_text());
         let news = format!("Copied: all values of {}", inspection.title().to_lowercase());
         self.session.tell(news);
+    }
+
+    /// Goes to a triangle of the bisection tree, and moves the view where it is out of sight.
+    fn walk_tree(&mut self, step: TreeStep) {
+        let mesh = self.session.mesh();
+        self.explore.step(step, mesh);
+        if let Some(shown) = self.explore.shown() {
+            let corners = shown.corners().map(|corner| mesh.lattice().world_from_lattice(corner));
+            self.view.reveal(corners.iter().sum::<DVec2>() / 3.0);
+        }
     }
 
     fn query_neighbour(&mut self, place: usize) {

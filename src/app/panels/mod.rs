@@ -18,6 +18,7 @@ mod statistics;
 mod status;
 mod transfer;
 mod view;
+mod why;
 
 use eframe::egui::{self, Frame, Id, Margin, Response, RichText, ScrollArea, Ui};
 
@@ -27,6 +28,7 @@ pub use brush::BRUSH;
 pub use domain::DOMAIN;
 pub use inspector::INSPECTOR;
 pub use layers::{LAYER_KINDS, ask_name as ask_layer_name, combine_name};
+pub use why::WHY;
 
 use super::command::Command;
 use super::frame::FrameState;
@@ -46,12 +48,13 @@ pub struct Panel {
 }
 
 /// All sections of the side panel, from the top. Those of the selected tool move to the top.
-pub static PANELS: [&Panel; 12] = [
+pub static PANELS: [&Panel; 13] = [
     &BRUSH,
     &layers::LAYERS,
     &transfer::TRANSFER,
     &levels::LEVELS,
     &INSPECTOR,
+    &WHY,
     &mesh::MESH,
     &statistics::STATISTICS,
     &DOMAIN,

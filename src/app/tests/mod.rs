@@ -35,6 +35,7 @@ mod threats;
 mod unit;
 mod tips;
 mod view;
+mod why;
 
 use std::fs;
 use std::path::PathBuf;
@@ -51,6 +52,7 @@ use glam::{DVec2, dvec2};
 use crate::app::App;
 use crate::app::canvas::CANVAS_NAME;
 use crate::app::command::{Command, LayerCommand, Opened};
+use crate::app::explore::Explore;
 use crate::app::session::Session;
 use crate::app::tools::Tools;
 use crate::app::view::View;
@@ -363,6 +365,10 @@ fn document(window: &Window) -> &Document {
 impl App {
     fn session(&self) -> &Session {
         &self.session
+    }
+
+    fn explore(&self) -> &Explore {
+        &self.explore
     }
 
     fn tools(&self) -> &Tools {

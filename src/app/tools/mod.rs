@@ -67,6 +67,8 @@ pub struct ToolSpec {
     pub highlights_hovered: bool,
     /// Whether it needs the pieces of the boundary.
     pub finds_boundary: bool,
+    /// Whether it says why the queried triangle is there.
+    pub explains: bool,
     /// Draws over the mesh while the tool is selected.
     pub paint: fn(&FrameState<'_>, &OverMesh<'_>),
     /// What happens when the primary button is pressed.
@@ -105,6 +107,7 @@ impl ToolSpec {
             brush: None,
             highlights_hovered: false,
             finds_boundary: false,
+            explains: false,
             paint: |_, _| {},
             press: |_, _, _| None,
             press_secondary: |_, _| false,

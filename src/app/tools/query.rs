@@ -10,9 +10,10 @@ use crate::app::widgets::Icon;
 
 /// Queries a point: its triangle, neighbours and values.
 pub static QUERY: ToolSpec = ToolSpec {
-    panels: &[&panels::INSPECTOR],
+    panels: &[&panels::INSPECTOR, &panels::WHY],
     hint: |_| HINT,
     highlights_hovered: true,
+    explains: true,
     menu: |state, _| match state.readout.and_then(|readout| readout.triangle.as_ref()) {
         Some(_) => vec![("Copy the values of the triangle", Command::CopyReadout)],
         None => Vec::new(),

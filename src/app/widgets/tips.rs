@@ -7,7 +7,7 @@ const EDGE: f32 = 2.0;
 
 /// The sentences of controls that have no unit or number in it, by the name of the control. The name of a
 /// choice is that of its group and its own.
-static SENTENCES: [(&str, &str); 127] = [
+static SENTENCES: [(&str, &str); 138] = [
     (
         "What the brush paints/Risk",
         "The brush paints risk, from 0 to 1, which the transfer curve turns into a diameter.",
@@ -92,6 +92,20 @@ static SENTENCES: [(&str, &str); 127] = [
     ),
     ("Use outline", "Measures the distance to the outline of the domain again."),
     ("Limit the range", "Beyond a distance of your choice the layer asks for nothing."),
+    (
+        "Show on the canvas",
+        "Draws the triangles that led to the queried one, and a cross where the least target diameter is.",
+    ),
+    ("Parent", "Shows the triangle that this one is half of; Page Up."),
+    ("Sibling", "Shows the other half of the parent; Shift+Page Up."),
+    ("First half", "Shows the first half of a bisected triangle; Page Down."),
+    ("Second half", "Shows the second half of a bisected triangle; Shift+Page Down."),
+    ("Coarse triangle", "Shows the triangle of the coarse grid that this one is part of; Ctrl+Page Up."),
+    ("Queried triangle", "Shows the queried triangle again; Ctrl+Page Down."),
+    ("Node of the triangle/No node", "Shows no node."),
+    ("Node of the triangle/Apex", "Shows the node at the right angle, the newest one of the triangle."),
+    ("Node of the triangle/End 1", "Shows the node at the first end of the bisection edge."),
+    ("Node of the triangle/End 2", "Shows the node at the second end of the bisection edge."),
     ("Field overlay/Layer", "Colours the domain by the layer that decides h̄."),
     ("Decided by", "The layer whose target diameter counts at the point, after all layers are combined."),
     (
