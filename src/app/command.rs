@@ -11,6 +11,7 @@ use super::dialogs::FileRequest;
 use super::explore::TreeStep;
 use super::help::HelpTopic;
 use super::readout::Quantity;
+use super::stepping::StepCommand;
 use super::tools::{BoundaryToolMode, BrushMode, DomainToolMode, PaintKind, PenEffect, Tool};
 use super::view::{CanvasAid, FieldOverlay};
 use super::widgets::Answer;
@@ -148,6 +149,9 @@ pub enum Command {
     Domain(DomainCommand),
     /// Selects or splits pieces of the boundary, or sets up the tool for it.
     Boundary(BoundaryCommand),
+
+    /// Steps through the refinement.
+    Steps(StepCommand),
 
     /// Shows the whole domain.
     Fit,

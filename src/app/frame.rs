@@ -26,6 +26,7 @@ use super::layer_pictures::LayerPictures;
 use super::project::ProjectFile;
 use super::readout::Readout;
 use super::session::Session;
+use super::stepping::{self, Stepping};
 use super::tools::Tools;
 use super::view::View;
 use super::{help, journal, keys, panels, project};
@@ -50,6 +51,8 @@ pub struct FrameState<'a> {
     pub tools: &'a Tools,
     /// What is shown, and how.
     pub view: &'a View,
+    /// The mode that steps through the refinement, while it is on.
+    pub stepping: Option<&'a Stepping>,
     /// What each layer asks for, as small pictures.
     pub layer_pictures: &'a LayerPictures,
     /// Why the queried triangle is in the mesh.
@@ -108,20 +111,16 @@ impl App {
                 self.commands.push(command);
             }
             let lattice = self.session.mesh().lattice();
-            self.canvas.take_event(event, ctx, &mut self.view, &self.tools, lattice, &mut self.commands);
+            let tools = self.stepping.as_ref().map_or(&self.tools, Stepping::tools);
+            self.canvas.take_event(event, ctx, &mut self.view, tools, lattice, &mut self.commands);
         }
         // Widgets must not act on these keys again.
         for index in used_keys.into_iter().rev() {
             ctx.input_mut(|input| input.events.remove(index));
         }
         self.run_commands(ctx);
-        self.canvas.take_state(
-            ctx,
-            &mut self.view,
-            &self.tools,
-            self.session.mesh().lattice(),
-            &mut self.commands,
-        );
+        let tools = self.stepping.as_ref().map_or(&self.tools, Stepping::tools);
+        self.canvas.take_state(ctx, &mut self.view, tools, self.session.mesh().lattice(), &mut self.commands);
     }
 
     fn command_of_key(&self, event: &Event, ctx: &Context) -> Option<Command> {
@@ -161,13 +160,15 @@ impl App {
         let finds = self.tools.tool.finds_boundary && self.session.find_boundary(patience, ctx);
         let measures = self.session.take_figures(patience);
         let bounds = self.session.document().settings().domain.bounds;
-        let plan = self.canvas.planned_stroke(ctx, &self.tools, bounds).filter(|_| !self.asks_something());
+        let steps = self.advance_steps(patience, ctx);
+        let plan = self.canvas.planned_stroke(ctx, self.shown_tools(), bounds);
+        let plan = plan.filter(|_| !self.asks_something());
         let prices = self.session.price_stroke(plan, deadline);
         if self.tools.tool.explains {
             self.explore.advance(&self.session);
         }
         self.canvas.note_work(&self.session);
-        if cuts || follows || derives || finds || measures || prices {
+        if cuts || follows || derives || finds || measures || prices || steps {
             ctx.request_repaint();
         }
     }
@@ -197,12 +198,17 @@ impl App {
         let Some(response) = self.canvas.layout(ui, &mut self.view, self.session.mesh().lattice()) else {
             return;
         };
-        if !self.starts_with_file {
+        let shows_step = self.stepping.as_ref().is_some_and(|stepping| stepping.player().is_some());
+        if !self.starts_with_file && !shows_step {
             self.canvas.draw_mesh(ui, &mut self.session, &self.view, commands);
         }
         let files = self.background.rows(self.project.is_leaving());
         let state = self.state(readout);
-        self.canvas.draw_marks(ui, &response, &state);
+        if shows_step {
+            stepping::paint(ui, &response, &state);
+        } else {
+            self.canvas.draw_marks(ui, &response, &state);
+        }
         let floats = self.canvas.draw_floats(ui, &response, &state, &files, commands);
         self.canvas.note_floats(floats);
     }
@@ -230,14 +236,20 @@ impl App {
         FrameState {
             session: &self.session,
             project: &self.project,
-            tools: &self.tools,
+            tools: self.shown_tools(),
             view: &self.view,
+            stepping: self.stepping.as_ref(),
             layer_pictures: &self.layer_pictures,
             explore: &self.explore,
             pointer: self.canvas.pointer(),
             readout,
             reproducible: self.reproducible,
         }
+    }
+
+    /// The tools that act on what the canvas shows.
+    fn shown_tools(&self) -> &Tools {
+        self.stepping.as_ref().map_or(&self.tools, Stepping::tools)
     }
 
     /// Whether a dialog or a question is open, which takes the keys.

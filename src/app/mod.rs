@@ -33,6 +33,7 @@ pub mod readout;
 mod screenshots;
 pub mod session;
 mod statistics;
+mod stepping;
 #[cfg(test)]
 mod tests;
 pub mod theme;
@@ -58,6 +59,7 @@ use layer_pictures::LayerPictures;
 use project::ProjectFile;
 pub use screenshots::{write as write_screenshots, write_manual as write_manual_pictures, write_tour};
 use session::Session;
+use stepping::Stepping;
 use tools::Tools;
 use view::View;
 
@@ -82,6 +84,8 @@ pub struct App {
     tools: Tools,
     view: View,
     canvas: Canvas,
+    /// The mode that steps through the refinement, while it is on.
+    stepping: Option<Stepping>,
     layer_pictures: LayerPictures,
     explore: Explore,
     dialogs: Dialogs,
@@ -140,6 +144,7 @@ impl App {
             tools,
             view,
             canvas: Canvas::new(gpu),
+            stepping: None,
             layer_pictures: LayerPictures::default(),
             explore: Explore::default(),
             dialogs: Dialogs::default(),

@@ -39,6 +39,6 @@ pub use query::{
     RemovedPart, Topology, TreeTriangle, Violation, barycentric, fingerprint_of, interpolate,
 };
 pub use steps::{
-    Algorithm, BOUNDARY, NeighbourCase, Recording, ReportRow, RowChange, Step, StepAction, StepPlayer,
-    StepRecorder,
+    Algorithm, BOUNDARY, NeighbourCase, Recording, ReportRow, RowChange, Step, StepAction, StepPart,
+    StepPlayer, StepRecorder,
 };

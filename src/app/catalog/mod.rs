@@ -5,6 +5,7 @@ mod file;
 mod gestures;
 mod help;
 mod layer;
+mod steps;
 mod tool;
 mod view;
 
@@ -22,6 +23,7 @@ pub fn catalog(state: &FrameState<'_>) -> Vec<CatalogItem> {
         tool::tool(state),
         layer::layer(state),
         view::view(state),
+        steps::steps(state),
         help::examples(),
         help::help(),
     ]

@@ -4,6 +4,7 @@ mod domain;
 mod files;
 mod layers;
 mod painting;
+mod steps;
 mod threats;
 
 use eframe::egui::Context;
@@ -14,7 +15,7 @@ use super::command::{Command, ExploreCommand};
 use super::dialogs::{Dialog, fill_in_place};
 use super::explore::TreeStep;
 use super::inspection::{Inspection, NEIGHBOURS};
-use super::tools::QUERY;
+use super::tools::{QUERY, Tool};
 use crate::mesh::TriangleId;
 
 /// A triangle that was asked for is shown at least so large, in pixels.
@@ -31,6 +32,7 @@ impl App {
             None => {}
             Some(Command::Layer(command)) => self.execute_on_layers(command, ctx),
             Some(Command::Threats(command)) => self.execute_on_threats(command),
+            Some(Command::Steps(command)) => self.execute_on_steps(command, ctx),
             Some(Command::Domain(command)) => self.execute_on_domain(command),
             Some(Command::Boundary(command)) => self.execute_on_boundary(command),
             Some(command) => self.execute_on_document(command, ctx),
@@ -76,15 +78,18 @@ impl App {
             Command::LineTo(point) => self.line_to(point),
             Command::Escape => self.escape(),
 
-            Command::Use(tool) => self.tools.select(tool),
+            Command::Use(tool) => self.use_tool(tool),
             Command::Brush(command) => self.execute_on_brush(command),
             other => self.view.execute(other, ctx),
         }
     }
 
-    /// Cancels what is in progress: the stroke, the cut, or the rectangle or polygon. Else closes the
-    /// help, or clears query and message.
+    /// Ends the steps. Else cancels what is in progress: the stroke, the cut, or the rectangle or polygon.
+    /// Else closes the help, or clears query and message.
     fn escape(&mut self) {
+        if self.help.is_none() && self.stepping.take().is_some() {
+            return;
+        }
         if self.session.document().stroke().is_some() {
             return self.session.document_mut().cancel_stroke();
         }
@@ -98,6 +103,12 @@ impl App {
             self.session.query(None);
             self.session.notices_mut().dismiss();
         }
+    }
+
+    /// Selects a tool, for the mesh of the document.
+    fn use_tool(&mut self, tool: Tool) {
+        self.stepping = None;
+        self.tools.select(tool);
     }
 
     fn copy(&mut self, text: String, ctx: &Context) {

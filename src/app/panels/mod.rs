@@ -16,6 +16,7 @@ mod levels;
 mod mesh;
 mod statistics;
 mod status;
+mod steps;
 mod transfer;
 mod view;
 mod why;
@@ -79,6 +80,12 @@ pub fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
         .frame(bar)
         .exact_size(metrics::STATUS_BAR)
         .show(ui, |ui| status::status_bar(ui, state));
+    if let Some(stepping) = state.stepping {
+        egui::Panel::bottom("steps")
+            .frame(bar)
+            .exact_size(steps::BAR_HEIGHT)
+            .show(ui, |ui| steps::step_bar(ui, stepping, commands));
+    }
     if !state.view.panels {
         return;
     }
@@ -87,6 +94,14 @@ pub fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
         .resizable(false)
         .exact_size(metrics::TOOL + 12.0)
         .show(ui, |ui| bars::tool_strip(ui, state, commands));
+    if let Some(stepping) = state.stepping {
+        egui::Panel::right("step")
+            .frame(Frame::new().fill(t.panel))
+            .resizable(false)
+            .exact_size(steps::WIDTH)
+            .show(ui, |ui| steps::show(ui, stepping, state, commands));
+        return;
+    }
     // The scroll bar is in the margin.
     egui::Panel::right("side")
         .frame(Frame::new().fill(t.panel))

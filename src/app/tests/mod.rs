@@ -31,6 +31,7 @@ mod project;
 mod query;
 mod settings;
 mod statistics;
+mod steps;
 mod threats;
 mod unit;
 mod tips;
@@ -54,6 +55,7 @@ use crate::app::canvas::CANVAS_NAME;
 use crate::app::command::{Command, LayerCommand, Opened};
 use crate::app::explore::Explore;
 use crate::app::session::Session;
+use crate::app::stepping::Stepping;
 use crate::app::tools::Tools;
 use crate::app::view::View;
 use crate::app::widgets::format;
@@ -377,6 +379,10 @@ impl App {
 
     fn view(&self) -> &View {
         &self.view
+    }
+
+    fn stepping(&self) -> Option<&Stepping> {
+        self.stepping.as_ref()
     }
 
     fn is_cutting(&self) -> bool {

@@ -17,7 +17,7 @@ use crate::document::{self, Setting};
 use crate::layers::{DistanceTo, LayerId, LayerKind, Mask, ShapeList, Shapes};
 
 /// A window whose canvas is drawn, on the software driver. Slower: only for what is judged by its picture.
-fn drawn_window() -> Window {
+pub fn drawn_window() -> Window {
     let mut setup = egui_kittest::wgpu::default_wgpu_setup();
     if let eframe::egui_wgpu::WgpuSetup::CreateNew(create) = &mut setup {
         create.device_descriptor = Arc::new(crate::render::gpu::device_descriptor);

@@ -8,6 +8,7 @@ use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 use super::{FREE, TALL, Window, canvas, choose, entries, key, open_section, send, wait_until, window_of};
 use crate::app::command::{Command, LayerCommand, ThreatsCommand};
+use crate::app::stepping::StepCommand;
 use crate::app::tools::TOOLS;
 use crate::document::{Setting, Settings};
 use crate::field::Formula;
@@ -76,6 +77,13 @@ fn every_control_of_the_panels_has_a_sentence() {
         send(&mut window, Command::Use(tool));
         assert_eq!(unexplained(&window), [""; 0], "{}", tool.name);
     }
+    send(&mut window, Command::Steps(StepCommand::Begin));
+    for moved in [0, 1, 5, 40] {
+        send(&mut window, Command::Steps(StepCommand::Move(moved)));
+        wait_until(&mut window, |window| window.query_by_label("Changed rows").is_some());
+        assert_eq!(unexplained(&window), [""; 0], "{moved} steps");
+    }
+    send(&mut window, Command::Steps(StepCommand::Leave));
     // An edited document would be asked about before another one opens.
     for _ in 0..entries(&window) {
         send(&mut window, Command::Undo);

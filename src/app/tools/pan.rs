@@ -2,7 +2,7 @@
 
 use eframe::egui::{CursorIcon, Key, PointerButton, Pos2};
 
-use super::{Gesture, Pointer, ToolSpec};
+use super::{Gesture, Pointer, ToolSpec, Tools};
 use crate::app::command::Command;
 use crate::app::widgets::Hint::{self, Key as HintKey, Text};
 use crate::app::widgets::Icon;
@@ -17,6 +17,15 @@ pub static PAN: ToolSpec = ToolSpec {
 
 const HINT: &[Hint] =
     &[Text("Drag to move, wheel to zoom"), HintKey("Home"), Text("fits"), HintKey("B"), Text("brush")];
+
+impl Tools {
+    /// The same tools with this one selected.
+    pub fn panning(&self) -> Self {
+        let mut tools = self.clone();
+        tools.select(&PAN);
+        tools
+    }
+}
 
 /// Moving the view.
 #[derive(Debug)]

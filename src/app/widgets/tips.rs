@@ -7,7 +7,7 @@ const EDGE: f32 = 2.0;
 
 /// The sentences of controls that have no unit or number in it, by the name of the control. The name of a
 /// choice is that of its group and its own.
-static SENTENCES: [(&str, &str); 138] = [
+static SENTENCES: [(&str, &str); 151] = [
     (
         "What the brush paints/Risk",
         "The brush paints risk, from 0 to 1, which the transfer curve turns into a diameter.",
@@ -219,6 +219,19 @@ static SENTENCES: [(&str, &str); 138] = [
     ("At v₁ v₂ v₃", "The values at the vertices."),
     ("Interpolated", "The value at the point, interpolated linearly from the vertices."),
     ("True (difference)", "The value of the field at the point, and by how much the interpolation differs."),
+    ("Leave the steps", "Shows the mesh of the document again; Escape does so too."),
+    ("First step", "Goes back to the coarse grid."),
+    ("Previous step", "Takes the last step back."),
+    ("Play the steps", "Goes forwards by itself, until the end."),
+    ("Pause the steps", "Stops at this step."),
+    ("Next step", "Runs the next step."),
+    ("Last step", "Goes to the end of the refinement."),
+    ("Step", "How many steps are done. Drag to go to any of them."),
+    ("Steps per second/1", "Plays 1 step in a second."),
+    ("Steps per second/3", "Plays 3 steps in a second."),
+    ("Steps per second/10", "Plays 10 steps in a second."),
+    ("Steps per second/30", "Plays 30 steps in a second."),
+    ("Steps per second/300", "Plays 300 steps in a second."),
     (
         "Nodes on outline",
         "Nodes of the boundary that lie on the outline. The others would make an angle too small.",

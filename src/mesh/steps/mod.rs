@@ -8,11 +8,13 @@
 //!
 //! Everything is numbered as in the report: triangles and nodes from 1, and −1 stands for the boundary.
 
+mod parts;
 mod player;
 mod pseudo_code;
 mod recorder;
 mod recording;
 
+pub use parts::StepPart;
 pub use player::StepPlayer;
 pub use pseudo_code::{Algorithm, NeighbourCase};
 pub use recorder::StepRecorder;

@@ -73,6 +73,18 @@ impl Icon {
     pub const DISTANCE: Self = Self(material::ICON_STRAIGHTEN.codepoint);
     /// A layer of a band of values.
     pub const BAND: Self = Self(material::ICON_LINE_WEIGHT.codepoint);
+    /// The first of many.
+    pub const FIRST: Self = Self(material::ICON_FIRST_PAGE.codepoint);
+    /// One back.
+    pub const BACK: Self = Self(material::ICON_CHEVRON_LEFT.codepoint);
+    /// Goes forwards by itself.
+    pub const PLAY: Self = Self(material::ICON_PLAY_ARROW.codepoint);
+    /// Stops for a while.
+    pub const PAUSE: Self = Self(material::ICON_PAUSE.codepoint);
+    /// One forwards.
+    pub const FORWARD: Self = Self(material::ICON_CHEVRON_RIGHT.codepoint);
+    /// The last of many.
+    pub const LAST: Self = Self(material::ICON_LAST_PAGE.codepoint);
     /// The home folder.
     pub const HOME: Self = Self(material::ICON_HOME.codepoint);
 

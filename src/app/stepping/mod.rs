@@ -1,0 +1,218 @@
+//! The mode that steps through the refinement of the document's mesh: Algorithms 10 to 12, forwards and
+//! backwards.
+//!
+//! The document and its mesh stay as they are. The steps are recorded on another thread; the canvas then
+//! shows the arrays at one step in place of the mesh. An edit of the document ends the mode.
+
+mod picture;
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use eframe::egui::Context;
+use glam::DVec2;
+
+pub use picture::paint;
+
+use super::latest::Latest;
+use super::session::Session;
+use super::tools::Tools;
+use crate::build::RefinementCriterion;
+use crate::mesh::{Mesh, Progress, Recording, StepPlayer, StepRecorder};
+
+/// A mesh with more triangles is recorded up to here: nobody follows more steps.
+pub const MOST_TRIANGLES: usize = 20_000;
+/// Steps per second that can be chosen, with their names.
+pub const SPEEDS: [(f64, &str); 5] = [(1.0, "1"), (3.0, "3"), (10.0, "10"), (30.0, "30"), (300.0, "300")];
+/// Triangles that are asked about between two looks at the clock.
+const SLICE: usize = 4096;
+
+/// One thing to do in this mode.
+#[derive(Clone, Debug, PartialEq)]
+pub enum StepCommand {
+    /// Begins to step through the refinement.
+    Begin,
+    /// Shows the mesh of the document again.
+    Leave,
+    /// Goes to where so many steps are done.
+    GoTo(usize),
+    /// Goes so many steps forwards, or backwards.
+    Move(isize),
+    /// Begins or ends to go forwards by itself.
+    TogglePlay,
+    /// Sets how many steps it goes in a second.
+    Speed(f64),
+}
+
+/// The mode.
+pub struct Stepping {
+    /// Tools that only move the view.
+    tools: Tools,
+    document: DocumentState,
+    recording: Latest<(), Result<Recording, String>>,
+    player: Option<StepPlayer>,
+    /// The time up to which steps were played, in seconds, while it goes forwards by itself.
+    played_until: Option<f64>,
+    speed: f64,
+}
+
+/// Identifies a document and its state.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct DocumentState {
+    opened_documents: u64,
+    revision: u64,
+}
+
+impl DocumentState {
+    fn of(session: &Session) -> Self {
+        Self { opened_documents: session.opened_documents(), revision: session.document().revision() }
+    }
+}
+
+impl Stepping {
+    /// The mode for the document of a session.
+    pub fn new(session: &Session, tools: &Tools) -> Self {
+        Self {
+            tools: tools.panning(),
+            document: DocumentState::of(session),
+            recording: Latest::default(),
+            player: None,
+            played_until: None,
+            speed: SPEEDS[1].0,
+        }
+    }
+
+    /// The tools that act on the canvas.
+    pub fn tools(&self) -> &Tools {
+        &self.tools
+    }
+
+    /// The arrays at the step that is shown; `None` until the steps are recorded.
+    pub fn player(&self) -> Option<&StepPlayer> {
+        self.player.as_ref()
+    }
+
+    /// Whether it goes forwards by itself.
+    pub fn is_playing(&self) -> bool {
+        self.played_until.is_some()
+    }
+
+    /// Steps per second.
+    pub fn speed(&self) -> f64 {
+        self.speed
+    }
+
+    /// Whether the document is still the one that is stepped through.
+    pub fn belongs_to(&self, session: &Session) -> bool {
+        self.document == DocumentState::of(session)
+    }
+
+    /// Takes what was recorded, waiting for it up to `patience`, and plays. Returns whether anything is being
+    /// recorded.
+    ///
+    /// # Errors
+    /// A sentence, when there are no steps to show.
+    pub fn advance(&mut self, session: &Session, patience: Duration, ctx: &Context) -> Result<bool, String> {
+        if self.player.is_some() {
+            self.play(ctx);
+            return Ok(false);
+        }
+        if self.recording.has(&()) {
+            let works = self.recording.take(patience);
+            if let Some((_, recorded)) = self.recording.last() {
+                self.player = Some(StepPlayer::new(Arc::new(recorded.clone()?)));
+                self.recording = Latest::default();
+            }
+            return Ok(works);
+        }
+        if session.follower().is_in_step(session.document()) {
+            self.recording.start((), record(session)?, ctx);
+        } else if session.stage().is_settled() {
+            return Err("There are no steps to show, as the mesh is not up to date with the document.".into());
+        }
+        Ok(true)
+    }
+
+    /// Goes to where `position` steps are done.
+    pub fn go_to(&mut self, position: usize) {
+        if let Some(player) = &mut self.player {
+            player.go_to(position);
+        }
+    }
+
+    /// Goes so many steps forwards, or backwards, and ends the playing.
+    pub fn go_by(&mut self, steps: isize) {
+        self.played_until = None;
+        if let Some(player) = &mut self.player {
+            player.go_to(player.position().saturating_add_signed(steps));
+        }
+    }
+
+    /// Begins or ends to go forwards by itself. At the end it begins again.
+    pub fn toggle_play(&mut self, ctx: &Context) {
+        let Some(player) = &mut self.player else { return };
+        self.played_until = match self.played_until {
+            Some(_) => None,
+            None => {
+                if player.position() == player.len() {
+                    player.go_to(0);
+                }
+                Some(ctx.input(|input| input.time))
+            }
+        };
+    }
+
+    /// Sets how many steps it goes in a second.
+    pub fn set_speed(&mut self, speed: f64) {
+        self.speed = speed;
+    }
+
+    /// The middle of the triangle that the step is about, in world units.
+    pub fn place(&self) -> Option<DVec2> {
+        let player = self.player.as_ref()?;
+        let number = player.step()?.triangle;
+        let lattice = &player.recording().lattice;
+        (number > 0).then(|| {
+            player.corners(number).map(|corner| lattice.world_from_lattice(corner)).iter().sum::<DVec2>()
+                / 3.0
+        })
+    }
+
+    fn play(&mut self, ctx: &Context) {
+        let (Some(player), Some(until)) = (&mut self.player, &mut self.played_until) else { return };
+        let steps = ((ctx.input(|input| input.time) - *until) * self.speed).max(0.0).floor();
+        player.go_to(player.position() + steps as usize);
+        *until += steps / self.speed;
+        if player.position() == player.len() {
+            self.played_until = None;
+        } else {
+            ctx.request_repaint_after(Duration::from_secs_f64(1.0 / self.speed));
+        }
+    }
+}
+
+/// The work of recording, for another thread.
+fn record(session: &Session) -> Result<impl FnOnce() -> Result<Recording, String> + Send + 'static, String> {
+    let follower = session.follower();
+    let spec = follower.settings().mesh_spec().map_err(|error| error.to_string())?;
+    let (domain, field) = (follower.domain().clone(), follower.shared_field());
+    let (rule, paint) = (spec.rule, session.document().paint().clone());
+    let coarse = Mesh::coarse_grid(&spec.lattice, |node| domain.admits(node), &spec.limits)
+        .map_err(|error| error.to_string())?;
+    if coarse.raw_triangle_count() > MOST_TRIANGLES {
+        return Err(format!(
+            "The coarse grid has {} triangles, and steps are shown of up to {MOST_TRIANGLES}. Set a larger grid spacing.",
+            coarse.raw_triangle_count()
+        ));
+    }
+    Ok(move || {
+        let mut recorder = StepRecorder::new(coarse, spec.limits, MOST_TRIANGLES);
+        let mut criterion = RefinementCriterion::new(&domain, &field, rule, Some(&paint));
+        while recorder
+            .advance(|element| criterion.exceeds(element), SLICE)
+            .map_err(|error| error.to_string())?
+            == Progress::More
+        {}
+        Ok(recorder.finish())
+    })
+}
