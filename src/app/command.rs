@@ -83,6 +83,10 @@ pub enum Command {
     ExportAs(PathBuf),
     /// Writes the mesh; the ending chooses the format.
     Export(PathBuf),
+    /// Writes steps of the refinement, and asks before other files are replaced.
+    ExportStepsAs(PathBuf),
+    /// Writes steps of the refinement, each to a file with its number.
+    ExportSteps(PathBuf),
     /// Cancels the reading or writing of a file.
     CancelWork(WorkId),
     /// Opens the unsaved work that an earlier run left behind and that is offered now.

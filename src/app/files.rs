@@ -215,7 +215,10 @@ fn at_nodes(
     Ok(values)
 }
 
-/// Names of files, one after the other.
+/// Names of files, one after the other; of many only the first and the last one.
 pub fn listed(files: &[PathBuf]) -> String {
-    files.iter().map(|file| file.display().to_string()).collect::<Vec<_>>().join(", ")
+    match files {
+        [first, .., last] if files.len() > 5 => format!("{} … {}", first.display(), last.display()),
+        _ => files.iter().map(|file| file.display().to_string()).collect::<Vec<_>>().join(", "),
+    }
 }

@@ -252,11 +252,16 @@ impl ProjectFile {
     /// The command that exports to a path that was typed. Asks before it replaces other files.
     pub fn export_as(&mut self, path: PathBuf) -> Option<Command> {
         let files = ExportFormat::of(&path).map_or(Vec::new(), |format| format.files(&path));
+        self.ask_to_replace(files, Command::Export(path))
+    }
+
+    /// The command that writes files. Asks before it replaces any.
+    pub fn ask_to_replace(&mut self, files: Vec<PathBuf>, command: Command) -> Option<Command> {
         let existing: Vec<PathBuf> = files.into_iter().filter(|file| io::exists(file)).collect();
         if existing.is_empty() || existing.iter().any(|file| io::obstacle(file).is_some()) {
-            return Some(Command::Export(path));
+            return Some(command);
         }
-        self.replacing = Some((existing, Command::Export(path)));
+        self.replacing = Some((existing, command));
         None
     }
 
@@ -272,13 +277,7 @@ impl ProjectFile {
 
     /// The command that writes a recipe to a path that was typed. Asks before it replaces other files.
     pub fn save_recipe_as(&mut self, path: PathBuf, recipe: &RecipeFiles) -> Option<Command> {
-        let existing = recipe.paths().filter(|file| io::exists(file));
-        let existing: Vec<PathBuf> = existing.map(Path::to_owned).collect();
-        if existing.is_empty() || existing.iter().any(|file| io::obstacle(file).is_some()) {
-            return Some(Command::SaveRecipe(path));
-        }
-        self.replacing = Some((existing, Command::SaveRecipe(path)));
-        None
+        self.ask_to_replace(recipe.paths().map(Path::to_owned).collect(), Command::SaveRecipe(path))
     }
 
     /// Saves the document as it is now, on another thread.

@@ -38,6 +38,7 @@ pub mod recipe;
 mod rows;
 pub mod shapes;
 pub mod sms;
+pub mod steps;
 pub mod stl;
 pub mod svg;
 mod table;

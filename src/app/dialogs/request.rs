@@ -43,6 +43,8 @@ pub enum FileRequest {
     SaveThreats,
     /// To write the mesh.
     Export,
+    /// To write steps of the refinement.
+    ExportSteps,
 }
 
 impl FileRequest {
@@ -65,6 +67,7 @@ impl FileRequest {
             Self::OpenThreats => "Open table of threats",
             Self::SaveThreats => "Save table of threats",
             Self::Export => "Export mesh",
+            Self::ExportSteps => "Export steps as SVG",
         }
     }
 
@@ -84,7 +87,7 @@ impl FileRequest {
             | Self::OpenThreats => "Open",
             Self::AddOutline => "Add",
             Self::Save | Self::SaveRecipe | Self::SaveThreats => "Save",
-            Self::Export => "Export",
+            Self::Export | Self::ExportSteps => "Export",
         }
     }
 
@@ -102,6 +105,7 @@ impl FileRequest {
             }
             Self::OpenThreats | Self::SaveThreats => vec!["csv"],
             Self::Export => ExportFormat::endings().collect(),
+            Self::ExportSteps => vec!["svg"],
         }
     }
 
@@ -118,6 +122,7 @@ impl FileRequest {
             Self::OpenShapes | Self::ReplaceShapes => "Points, lines and polygons",
             Self::OpenThreats | Self::SaveThreats => "Tables of threats",
             Self::Export => "Meshes and pictures",
+            Self::ExportSteps => "Drawings",
         }
     }
 
@@ -137,13 +142,13 @@ impl FileRequest {
             Self::OpenShapes | Self::ReplaceShapes => "shapes",
             Self::SaveRecipe => "recipes",
             Self::OpenThreats | Self::SaveThreats => "threats",
-            Self::Export => "exports",
+            Self::Export | Self::ExportSteps => "exports",
         }
     }
 
     /// Whether a file is written.
     pub fn writes(self) -> bool {
-        matches!(self, Self::Save | Self::SaveRecipe | Self::SaveThreats | Self::Export)
+        matches!(self, Self::Save | Self::SaveRecipe | Self::SaveThreats | Self::Export | Self::ExportSteps)
     }
 
     /// The name that a file to write is given first; nothing for a file to read.
@@ -155,6 +160,7 @@ impl FileRequest {
             Self::SaveRecipe => format!("{name}.{}", recipe::ENDING),
             Self::SaveThreats => format!("{name} threats.csv"),
             Self::Export => format!("{name}.{}", format.ending()),
+            Self::ExportSteps => format!("{name} step.svg"),
             _ => String::new(),
         }
     }
@@ -178,6 +184,7 @@ impl FileRequest {
             Self::OpenThreats => Command::OpenThreats(path),
             Self::SaveThreats => Command::SaveThreatsAs(path),
             Self::Export => Command::ExportAs(path),
+            Self::ExportSteps => Command::ExportStepsAs(path),
         }
     }
 

@@ -50,6 +50,8 @@ impl App {
                     self.fail(problem);
                 }
             }
+            Command::ExportStepsAs(path) => self.export_steps_as(path),
+            Command::ExportSteps(path) => self.export_steps(&path),
             Command::CancelWork(id) => self.cancel_work(id),
             Command::AnswerLeaving(answer) => {
                 self.commands.extend(self.project.answer_leaving(answer, &mut self.session));
@@ -103,7 +105,7 @@ impl App {
     }
 
     /// Says that a file was not read or written: in the dialog that asked for it, or else on the canvas.
-    fn fail(&mut self, problem: String) {
+    pub(super) fn fail(&mut self, problem: String) {
         self.starts_with_file = false;
         if !self.dialogs.fail(&problem) {
             self.session.report(problem);

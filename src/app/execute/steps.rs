@@ -1,10 +1,12 @@
 //! Commands of the mode that steps through the refinement.
 
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use eframe::egui::Context;
 
 use crate::app::App;
+use crate::app::command::Command;
 use crate::app::stepping::{StepCommand, Stepping};
 
 impl App {
@@ -23,9 +25,27 @@ impl App {
             StepCommand::Move(steps) => stepping.go_by(steps),
             StepCommand::TogglePlay => stepping.toggle_play(ctx),
             StepCommand::Speed(speed) => stepping.set_speed(speed),
+            StepCommand::ExportRange(first, last) => stepping.set_export_range(first, last),
         }
         if let Some(place) = self.stepping.as_ref().and_then(Stepping::place) {
             self.view.reveal(place);
+        }
+    }
+
+    /// Writes the chosen steps, and asks before other files are replaced.
+    pub(super) fn export_steps_as(&mut self, path: PathBuf) {
+        let Some(stepping) = &self.stepping else { return };
+        match stepping.files(&path) {
+            Ok(files) => self.commands.extend(self.project.ask_to_replace(files, Command::ExportSteps(path))),
+            Err(problem) => self.fail(problem),
+        }
+    }
+
+    /// Writes the chosen steps.
+    pub(super) fn export_steps(&mut self, path: &Path) {
+        let Some(stepping) = &self.stepping else { return };
+        if let Err(problem) = stepping.export(path, &self.session, &self.view, &mut self.background) {
+            self.fail(problem);
         }
     }
 

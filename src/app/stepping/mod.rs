@@ -4,6 +4,7 @@
 //! The document and its mesh stay as they are. The steps are recorded on another thread; the canvas then
 //! shows the arrays at one step in place of the mesh. An edit of the document ends the mode.
 
+mod export;
 mod picture;
 
 use std::sync::Arc;
@@ -12,6 +13,7 @@ use std::time::Duration;
 use eframe::egui::Context;
 use glam::DVec2;
 
+pub use export::MOST_FILES;
 pub use picture::paint;
 
 use super::latest::Latest;
@@ -24,6 +26,8 @@ use crate::mesh::{Mesh, Progress, Recording, StepPlayer, StepRecorder};
 pub const MOST_TRIANGLES: usize = 20_000;
 /// Steps per second that can be chosen, with their names.
 pub const SPEEDS: [(f64, &str); 5] = [(1.0, "1"), (3.0, "3"), (10.0, "10"), (30.0, "30"), (300.0, "300")];
+/// How many steps are exported if nothing else is chosen.
+const FIRST_EXPORTED: usize = 50;
 /// Triangles that are asked about between two looks at the clock.
 const SLICE: usize = 4096;
 
@@ -42,6 +46,8 @@ pub enum StepCommand {
     TogglePlay,
     /// Sets how many steps it goes in a second.
     Speed(f64),
+    /// Sets the first and the last step to be exported.
+    ExportRange(usize, usize),
 }
 
 /// The mode.
@@ -54,6 +60,8 @@ pub struct Stepping {
     /// The time up to which steps were played, in seconds, while it goes forwards by itself.
     played_until: Option<f64>,
     speed: f64,
+    /// The first and the last step to be exported.
+    export_range: [usize; 2],
 }
 
 /// Identifies a document and its state.
@@ -79,6 +87,7 @@ impl Stepping {
             player: None,
             played_until: None,
             speed: SPEEDS[1].0,
+            export_range: [0, FIRST_EXPORTED],
         }
     }
 

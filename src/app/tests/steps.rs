@@ -1,17 +1,17 @@
 //! Stepping through the refinement.
 
 use eframe::egui::accesskit::Role;
-use eframe::egui::{Key, Modifiers, vec2};
+use eframe::egui::{Event, Key, Modifiers, vec2};
 use egui_kittest::kittest::Queryable as _;
 use glam::dvec2;
 
 use super::pictures::drawn_window;
 use super::{
-    FREE, Window, click, entries, fingerprint, key, notice, on_screen, send, set, triangles, wait_until,
-    window,
+    CTRL_SHIFT, FREE, Window, click, entries, fingerprint, key, notice, on_screen, send, set, triangles,
+    wait_until, window,
 };
 use crate::app::command::Command;
-use crate::app::stepping::{MOST_TRIANGLES, StepCommand};
+use crate::app::stepping::{MOST_FILES, MOST_TRIANGLES, StepCommand};
 use crate::document::Setting;
 use crate::mesh::{StepAction, StepPlayer, fingerprint_of};
 
@@ -174,4 +174,35 @@ fn the_step_is_seen_on_the_canvas() {
     let at = on_screen(&window, dvec2(0.999, 0.999));
     let [r, g, b, _] = image.get_pixel(at.x as u32, at.y as u32).0;
     assert!(r.max(g).max(b) > 30, "the mesh covers the domain: {r} {g} {b}");
+}
+
+#[test]
+fn chosen_steps_are_written_as_numbered_drawings() {
+    let mut window = window();
+    coarse(&mut window);
+    begin(&mut window);
+    let folder = super::folder("app-steps", "drawings");
+    send(&mut window, Command::Steps(StepCommand::ExportRange(3, 6)));
+    key(&mut window, CTRL_SHIFT, Key::E);
+    let path = folder.join("lesson.svg");
+    key(&mut window, Modifiers::COMMAND, Key::A);
+    window.event(Event::Text(path.display().to_string()));
+    window.run();
+    key(&mut window, Modifiers::NONE, Key::Enter);
+    wait_until(&mut window, |window| notice(window).contains("4 steps written"));
+    let files = || std::fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().file_name());
+    let mut names: Vec<_> = files().map(|name| name.into_string().unwrap()).collect();
+    names.sort();
+    assert_eq!(names, ["lesson-0003.svg", "lesson-0004.svg", "lesson-0005.svg", "lesson-0006.svg"]);
+    let drawing = std::fs::read_to_string(folder.join(&names[1])).unwrap();
+    assert!(drawing.contains(&format!("Step 4 of {}", player(&window).len())));
+    send(&mut window, Command::ExportStepsAs(path.clone()));
+    assert!(window.query_by_label("Replace 4 files?").is_some());
+    press_button(&mut window, "Replace");
+    wait_until(&mut window, |window| notice(window).contains("4 steps written"));
+    send(&mut window, Command::Steps(StepCommand::ExportRange(0, 100_000)));
+    if player(&window).len() > MOST_FILES {
+        send(&mut window, Command::ExportStepsAs(path));
+        assert!(notice(&window).contains("at most 500"), "{}", notice(&window));
+    }
 }

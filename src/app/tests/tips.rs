@@ -77,13 +77,6 @@ fn every_control_of_the_panels_has_a_sentence() {
         send(&mut window, Command::Use(tool));
         assert_eq!(unexplained(&window), [""; 0], "{}", tool.name);
     }
-    send(&mut window, Command::Steps(StepCommand::Begin));
-    for moved in [0, 1, 5, 40] {
-        send(&mut window, Command::Steps(StepCommand::Move(moved)));
-        wait_until(&mut window, |window| window.query_by_label("Changed rows").is_some());
-        assert_eq!(unexplained(&window), [""; 0], "{moved} steps");
-    }
-    send(&mut window, Command::Steps(StepCommand::Leave));
     // An edited document would be asked about before another one opens.
     for _ in 0..entries(&window) {
         send(&mut window, Command::Undo);
@@ -94,6 +87,20 @@ fn every_control_of_the_panels_has_a_sentence() {
     for tool in TOOLS {
         send(&mut window, Command::Use(tool));
         assert_eq!(unexplained(&window), [""; 0], "{} in a domain of polygons", tool.name);
+    }
+}
+
+#[test]
+fn every_control_of_the_steps_has_a_sentence() {
+    let mut window = window_of(TALL);
+    send(&mut window, Command::Set(Setting::SmallestDiameter(0.06)));
+    send(&mut window, Command::Set(Setting::Spacing(0.25)));
+    send(&mut window, Command::Steps(StepCommand::Begin));
+    wait_until(&mut window, |window| window.query_by_label("Changed rows").is_some());
+    open_section(&mut window, "Export");
+    for moved in [0, 1, 5, 40] {
+        send(&mut window, Command::Steps(StepCommand::Move(moved)));
+        assert_eq!(unexplained(&window), [""; 0], "{moved} steps");
     }
 }
 

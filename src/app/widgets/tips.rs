@@ -7,7 +7,7 @@ const EDGE: f32 = 2.0;
 
 /// The sentences of controls that have no unit or number in it, by the name of the control. The name of a
 /// choice is that of its group and its own.
-static SENTENCES: [(&str, &str); 151] = [
+static SENTENCES: [(&str, &str); 154] = [
     (
         "What the brush paints/Risk",
         "The brush paints risk, from 0 to 1, which the transfer curve turns into a diameter.",
@@ -226,6 +226,12 @@ static SENTENCES: [(&str, &str); 151] = [
     ("Pause the steps", "Stops at this step."),
     ("Next step", "Runs the next step."),
     ("Last step", "Goes to the end of the refinement."),
+    ("From step", "The first step to be exported; 0 is the coarse grid."),
+    ("To step", "The last step to be exported."),
+    (
+        "Export steps as SVG…",
+        "Writes a drawing of each of these steps, with its number in the name of the file.",
+    ),
     ("Step", "How many steps are done. Drag to go to any of them."),
     ("Steps per second/1", "Plays 1 step in a second."),
     ("Steps per second/3", "Plays 3 steps in a second."),

@@ -2,6 +2,7 @@
 
 mod bar;
 mod code;
+mod export;
 mod rows;
 
 use eframe::egui::{Align, Frame, Layout, Margin, RichText, ScrollArea, Ui};
@@ -25,7 +26,10 @@ pub fn show(ui: &mut Ui, stepping: &Stepping, state: &FrameState<'_>, commands: 
         Frame::new().inner_margin(margin).show(ui, |ui| {
             title(ui, commands);
             match stepping.player() {
-                Some(player) => contents(ui, player, state),
+                Some(player) => {
+                    contents(ui, player, state);
+                    export::section(ui, stepping, player.len(), commands);
+                }
                 None => drop(ui.label("The steps are being recorded…")),
             }
             ui.add_space(metrics::PANEL_MARGIN);
@@ -54,8 +58,9 @@ fn contents(ui: &mut Ui, player: &StepPlayer, state: &FrameState<'_>) {
     Section::new("Triangle").id("triangle of the step").show(ui, |ui| triangle_rows(ui, player, state));
     if let Some(step) = player.step() {
         let (algorithm, lines) = step.lines();
-        let title = format!("Algorithm {}: {}", algorithm.number(), algorithm.name());
-        Section::new(&title).id("algorithm of the step").show(ui, |ui| code::lines(ui, algorithm, lines));
+        let title = format!("Algorithm {}", algorithm.number());
+        let section = Section::new(&title).note(algorithm.name()).id("algorithm of the step");
+        section.show(ui, |ui| code::lines(ui, algorithm, lines));
     }
     Section::new("Changed rows").show(ui, |ui| rows::changed_rows(ui, player, state));
 }

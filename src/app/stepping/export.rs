@@ -1,0 +1,104 @@
+//! Steps as numbered drawings.
+
+use std::ops::RangeInclusive;
+use std::path::{Path, PathBuf};
+
+use super::Stepping;
+use crate::app::background::{Aim, Background, Outcome, cancelled};
+use crate::app::files::listed;
+use crate::app::session::Session;
+use crate::app::view::View;
+use crate::app::widgets::format;
+use crate::colormap::Ground;
+use crate::io::{self, steps};
+
+/// Most steps that are exported at once.
+pub const MOST_FILES: usize = 500;
+/// Letters on a dark and on a light ground.
+const ON_DARK: [u8; 3] = [0xe8; 3];
+const ON_LIGHT: [u8; 3] = [0x20; 3];
+
+impl Stepping {
+    /// The first and the last step to be exported.
+    pub fn export_range(&self) -> RangeInclusive<usize> {
+        let last = self.player().map_or(0, |player| player.len());
+        let [from, to] = self.export_range;
+        from.min(last)..=to.min(last)
+    }
+
+    /// Sets the first and the last step to be exported.
+    pub fn set_export_range(&mut self, first: usize, last: usize) {
+        self.export_range = [first, last];
+    }
+
+    /// The files of the steps to be exported.
+    ///
+    /// # Errors
+    /// A sentence, when there are too many of them, or none.
+    pub fn files(&self, path: &Path) -> Result<Vec<PathBuf>, String> {
+        let range = self.export_range();
+        let count = range.clone().count();
+        if count == 0 {
+            return Err("No step was exported: the first one comes after the last one.".into());
+        }
+        if count > MOST_FILES {
+            return Err(format!(
+                "{} steps are too many: at most {MOST_FILES} are exported at once. Choose fewer.",
+                format::count(count as u64)
+            ));
+        }
+        let last = self.player().map_or(0, |player| player.len());
+        Ok(range.map(|position| steps::numbered(path, position, last)).collect())
+    }
+
+    /// Writes the drawings on another thread.
+    ///
+    /// # Errors
+    /// A sentence, when they cannot be written.
+    pub fn export(
+        &self,
+        path: &Path,
+        session: &Session,
+        view: &View,
+        background: &mut Background,
+    ) -> Result<(), String> {
+        let files = self.files(path)?;
+        let blocked = |file: &PathBuf| {
+            Some(format!("{} could not be written: {}.", file.display(), io::obstacle(file)?))
+        };
+        if let Some(problem) = files.iter().find_map(blocked) {
+            return Err(problem);
+        }
+        let Some(mut player) = self.player.clone() else { return Ok(()) };
+        let colors = view.level_colors(session.follower().settings());
+        let (range, ground, path) = (self.export_range(), view.ground, path.to_owned());
+        background.start(Aim::Export, &path.clone(), move |meter| {
+            let [across, waiting, relinked] = Ground::ON_LEVELS;
+            let colors = steps::StepColors {
+                levels: colors.as_table(),
+                background: ground.canvas(),
+                text: if ground == Ground::Dark { ON_DARK } else { ON_LIGHT },
+                parts: [waiting, relinked, across],
+            };
+            for (position, file) in range.zip(&files) {
+                player.go_to(position);
+                let mut drawing = Vec::new();
+                let written = steps::write(&mut drawing, &player, &colors)
+                    .and_then(|()| io::write_file_metered(file, meter, |out| out.write_all(&drawing)));
+                match written {
+                    Ok(()) => _ = meter.add(drawing.len() as u64),
+                    Err(_) if meter.is_cancelled() => return Outcome::Exported(cancelled(Aim::Export, file)),
+                    Err(error) => {
+                        return Outcome::NotWritten(format!(
+                            "{} could not be written: {error}.",
+                            file.display()
+                        ));
+                    }
+                }
+            }
+            let count = format::count(files.len() as u64);
+            Outcome::Exported(format!("{count} steps written to {}.", listed(&files)))
+        });
+        Ok(())
+    }
+}
