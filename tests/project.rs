@@ -117,6 +117,9 @@ fn documents() -> Vec<Document> {
             unit: LengthUnit::ALL[random.usize(..4)],
             boundary: BoundaryTreatment::Fitted { diameter: extent / (20.0 + random.f64()) },
             boundary_marks: Arc::new(marks(&domain)),
+            pins: Arc::new(
+                (0..random.usize(..5)).map(|_| dvec2(random.f64(), -extent * random.f64())).collect(),
+            ),
             spacing: extent / (3.0 + random.f64()),
             transfer: Transfer { h_min: extent / 700.3, h_max: extent / 3.7, shape: 0.1 + random.f64() },
             layers: Layer::usual(LayerKind::constant(extent * random.f64().max(1e-3))),

@@ -149,6 +149,9 @@ pub enum Command {
     /// Chooses what the inspector interpolates.
     Inspect(Quantity),
 
+    /// Edits the pins, or does something with their table.
+    Pins(PinsCommand),
+
     /// Edits the domain, or sets up the tool for it.
     Domain(DomainCommand),
     /// Selects or splits pieces of the boundary, or sets up the tool for it.
@@ -289,6 +292,40 @@ pub enum BoundaryCommand {
     Mode(BoundaryToolMode),
     /// Joins the selected piece with the next one.
     Join,
+}
+
+/// One thing to do with pins. Points and lengths are in world units.
+#[derive(Clone, Debug, PartialEq)]
+pub enum PinsCommand {
+    /// Takes hold of the pin at a point, at most `reach` away, or queries the point.
+    Press {
+        /// Where.
+        at: DVec2,
+        /// How far from a pin still counts.
+        reach: f64,
+    },
+    /// Moves the pin that was taken hold of. Further moves join this gesture until [`Command::EndGesture`].
+    DragTo(DVec2),
+    /// Pins the queried point.
+    Pin,
+    /// Pins a point.
+    Add(DVec2),
+    /// Selects a pin by its number from 0, queries it, and puts it in sight.
+    Select(usize),
+    /// Removes the selected pin.
+    Delete,
+    /// Removes all pins.
+    DeleteAll,
+    /// Reads the values of pins for some milliseconds.
+    Read,
+    /// Makes the table of the pins, and copies it.
+    Copy,
+    /// Copies the table, which was made for so many pins.
+    Copied(String, usize),
+    /// Writes the table, and asks before another file is replaced.
+    ExportAs(PathBuf),
+    /// Writes the table.
+    Export(PathBuf),
 }
 
 /// What the domain tool does.

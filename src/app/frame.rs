@@ -23,6 +23,7 @@ use super::cuts::PATIENCE;
 use super::dialogs::FileFacts;
 use super::explore::Explore;
 use super::layer_pictures::LayerPictures;
+use super::pins::PinReader;
 use super::project::ProjectFile;
 use super::readout::Readout;
 use super::session::Session;
@@ -57,6 +58,8 @@ pub struct FrameState<'a> {
     pub layer_pictures: &'a LayerPictures,
     /// Why the queried triangle is in the mesh.
     pub explore: &'a Explore,
+    /// The values of the pins.
+    pub pins: &'a PinReader,
     /// Where the pointer is on the canvas, in world units.
     pub pointer: Option<DVec2>,
     /// The queried point and the triangle around it.
@@ -241,6 +244,7 @@ impl App {
             stepping: self.stepping.as_ref(),
             layer_pictures: &self.layer_pictures,
             explore: &self.explore,
+            pins: &self.pins,
             pointer: self.canvas.pointer(),
             readout,
             reproducible: self.reproducible,

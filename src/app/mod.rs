@@ -27,6 +27,7 @@ mod layer_files;
 mod layer_pictures;
 mod notices;
 mod panels;
+mod pins;
 mod project;
 mod explore;
 pub mod readout;
@@ -56,6 +57,7 @@ use explore::Explore;
 use help::HelpTopic;
 use journal::JournalKeeper;
 use layer_pictures::LayerPictures;
+use pins::PinReader;
 use project::ProjectFile;
 pub use screenshots::{write as write_screenshots, write_manual as write_manual_pictures, write_tour};
 use session::Session;
@@ -88,6 +90,7 @@ pub struct App {
     stepping: Option<Stepping>,
     layer_pictures: LayerPictures,
     explore: Explore,
+    pins: PinReader,
     dialogs: Dialogs,
     /// What the help window shows, while it is open.
     help: Option<HelpTopic>,
@@ -147,6 +150,7 @@ impl App {
             stepping: None,
             layer_pictures: LayerPictures::default(),
             explore: Explore::default(),
+            pins: PinReader::default(),
             dialogs: Dialogs::default(),
             help: None,
             background: Background::new(ctx),

@@ -265,13 +265,13 @@ impl ProjectFile {
         None
     }
 
-    /// The command that writes a table of threats to a path that was typed. Asks before it replaces a file.
-    pub fn save_threats_as(&mut self, path: PathBuf) -> Option<Command> {
+    /// The command that writes a table to a path that was typed. Asks before it replaces a file.
+    pub fn save_table_as(&mut self, path: PathBuf, save: fn(PathBuf) -> Command) -> Option<Command> {
         let path = if path.extension().is_none() { path.with_extension("csv") } else { path };
         if !io::exists(&path) || io::obstacle(&path).is_some() {
-            return Some(Command::SaveThreats(path));
+            return Some(save(path));
         }
-        self.replacing = Some((vec![path.clone()], Command::SaveThreats(path)));
+        self.replacing = Some((vec![path.clone()], save(path)));
         None
     }
 

@@ -58,11 +58,20 @@ impl Readout {
     /// Reads out the point `point`, in world units.
     pub fn at(point: DVec2, session: &Session, quantity: Quantity) -> Self {
         let location = session.locate(point);
-        let value = |p: DVec2| value_at(p, session.document(), session.follower(), quantity);
-        let triangle = location.triangle().map(|id| read_triangle(session.view(), id, point, value));
+        let triangle = location.triangle().map(|id| triangle_with(id, point, session, quantity));
         let decision = session.follower().field().decision_at(session.document().paint(), point);
         Self { point, location, triangle, decision }
     }
+
+    /// The triangle around a point in world units, without what the layers ask for there.
+    pub fn triangle_at(point: DVec2, session: &Session, quantity: Quantity) -> Option<TriangleReadout> {
+        session.locate(point).triangle().map(|id| triangle_with(id, point, session, quantity))
+    }
+}
+
+fn triangle_with(id: TriangleId, point: DVec2, session: &Session, quantity: Quantity) -> TriangleReadout {
+    let value = |p: DVec2| value_at(p, session.document(), session.follower(), quantity);
+    read_triangle(session.view(), id, point, value)
 }
 
 fn read_triangle(

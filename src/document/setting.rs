@@ -1,6 +1,8 @@
 use std::mem::Discriminant;
 use std::sync::Arc;
 
+use glam::DVec2;
+
 use super::layer_titles::layers_title;
 use super::{Background, Settings};
 use crate::domain::{BoundaryMarks, BoundaryTreatment, Domain};
@@ -49,6 +51,8 @@ pub enum Setting {
     Cleaning(Cleaning),
     /// Names of pieces of the boundary, and where it is split.
     BoundaryMarks(BoundaryMarks),
+    /// Points whose triangles and values are followed, in world units.
+    Pins(Arc<Vec<DVec2>>),
     /// The unit of coordinates and lengths.
     LengthUnit(LengthUnit),
     /// The picture behind the mesh, or none.
@@ -83,6 +87,7 @@ impl Setting {
             Self::Boundary(_) => "boundary",
             Self::Cleaning(_) => "cleaning",
             Self::BoundaryMarks(_) => "boundary names",
+            Self::Pins(_) => "pins",
             Self::LengthUnit(_) => "unit",
             Self::Background(_) => "background",
         }
@@ -114,6 +119,7 @@ impl Setting {
             Self::Boundary(boundary) => settings.boundary = boundary,
             Self::Cleaning(cleaning) => settings.cleaning = cleaning,
             Self::BoundaryMarks(marks) => settings.boundary_marks = Arc::new(marks),
+            Self::Pins(pins) => settings.pins = pins,
             Self::LengthUnit(unit) => settings.unit = unit,
             Self::Background(background) => settings.background = background,
         }

@@ -1,6 +1,8 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
+use glam::DVec2;
+
 use super::Background;
 use crate::build::MeshSpec;
 use crate::domain::{BoundaryMarks, BoundaryTreatment, Domain};
@@ -27,6 +29,8 @@ pub struct Settings {
     pub cleaning: Cleaning,
     /// Names of pieces of the boundary, and where it is split. They do not change the mesh.
     pub boundary_marks: Arc<BoundaryMarks>,
+    /// Points whose triangles and values are followed, in world units. They do not change the mesh.
+    pub pins: Arc<Vec<DVec2>>,
     /// Largest side δ̄ of a coarse cell, in world units.
     pub spacing: f64,
     /// From risk to diameter; its ends bound h̄ everywhere.
@@ -65,6 +69,9 @@ pub enum SettingsError {
          above the bottom."
     )]
     BackgroundBounds,
+    /// A pin is nowhere.
+    #[error("A pin at x = {}, y = {} cannot be kept: both must be finite numbers.", Number(_0.x), Number(_0.y))]
+    Pin(DVec2),
     /// The domain is empty.
     #[error("Nothing would be left of the domain: keep some of it.")]
     EmptyDomain,
@@ -128,6 +135,9 @@ impl Settings {
             && !(0.0..=1.0).contains(&share)
         {
             return Err(SettingsError::PartShare(share));
+        }
+        if let Some(&pin) = self.pins.iter().find(|pin| !pin.is_finite()) {
+            return Err(SettingsError::Pin(pin));
         }
         self.check_layers()?;
         if let Some(slope) = self.gradation
@@ -219,8 +229,9 @@ impl Settings {
         };
         let Self { unit, cleaning, max_triangles, max_memory, .. } = *other;
         let (boundary_marks, background) = (other.boundary_marks.clone(), other.background.clone());
+        let pins = other.pins.clone();
         let derived = Self { boundary, boundary_marks, cleaning, max_triangles, max_memory, ..self.clone() };
-        Self { unit, background, ..derived } == *other
+        Self { unit, background, pins, ..derived } == *other
     }
 
     /// What the mesh may cost.
@@ -266,6 +277,7 @@ impl Default for Settings {
             boundary: BoundaryTreatment::usual(1.0 / 24.0),
             cleaning: Cleaning::FOR_SOLVERS,
             boundary_marks: Arc::default(),
+            pins: Arc::default(),
             transfer: Transfer { h_min: 0.0024, h_max: 0.2, shape: 1.0 },
             layers: Layer::usual(LayerKind::constant(0.2)),
             gradation: None,

@@ -2,6 +2,7 @@
 
 mod background;
 mod cause_marks;
+mod contours;
 mod coordinates;
 mod floats;
 mod gpu;
@@ -10,13 +11,13 @@ mod legend;
 mod menu;
 pub mod marks;
 mod overlay;
+mod pins;
 pub mod picture_corners;
 mod price;
 mod way_back;
 
 use eframe::egui::{
-    self, Context, CursorIcon, Event, Id, Key, Painter, PointerButton, Popup, Rect, Response, Sense,
-    TouchPhase, Ui,
+    self, Context, CursorIcon, Event, Id, Key, PointerButton, Popup, Rect, Response, Sense, TouchPhase, Ui,
 };
 use glam::DVec2;
 
@@ -35,7 +36,7 @@ use super::view::View;
 use crate::geometry::{Lattice, Rect as WorldRect};
 use crate::mesh::Progress;
 use crate::paint::StrokePlan;
-use crate::scene::{Camera, Highlights};
+use crate::scene::Highlights;
 
 /// Free space around the domain when it is fitted, in points.
 const FIT_MARGIN: f32 = 24.0;
@@ -43,8 +44,6 @@ const FIT_MARGIN: f32 = 24.0;
 const HINT_HEIGHT: f32 = 32.0;
 /// Share by which one point of scrolling zooms; a notch of a wheel scrolls by about 50 points.
 const ZOOM_PER_POINT: f64 = 0.004;
-/// Most corners of contour lines that a frame draws.
-const MOST_CONTOUR_CORNERS: usize = 150_000;
 /// Name by which tests and screen readers find the canvas.
 pub const CANVAS_NAME: &str = "Mesh canvas";
 
@@ -320,38 +319,8 @@ impl Canvas {
         ui.painter().add(gpu.shape(rect, camera, style));
     }
 
-    /// Brings the contour lines closer to the field, while they are shown.
-    fn follow_contours(&mut self, ctx: &Context, session: &Session, view: &View) {
-        if !view.aids.contours {
-            return self.contours.clear();
-        }
-        let revision = session.document().revision() + session.follower().revision();
-        self.contours.advance(session.follower(), session.document().paint(), revision, ctx);
-    }
-
-    /// Draws the contour lines that are in view.
-    fn paint_contours(&self, painter: &Painter, rect: Rect, camera: &Camera) {
-        let (screen, visible) = (camera.screen_map(), camera.visible_world());
-        let at = |world| marks::point_from_px(rect, screen(world), painter.pixels_per_point());
-        let lines = self.contours.lines().iter();
-        let in_view = lines.filter(|line| line.bounds.intersection(&visible).is_some());
-        let in_view: Vec<_> = in_view.map(|line| &line.contour).collect();
-        // Where there are very many, only every second level has lines, or every fourth.
-        let mut every = 1;
-        let corners = |every: u32| {
-            let shown = in_view.iter().filter(|line| line.level.is_multiple_of(every));
-            shown.map(|line| line.points.len()).sum::<usize>()
-        };
-        while every < 64 && corners(every) > MOST_CONTOUR_CORNERS {
-            every *= 2;
-        }
-        for line in in_view.iter().filter(|line| line.level.is_multiple_of(every)) {
-            marks::paint_contour(painter, line.points.iter().map(|&point| at(point)));
-        }
-    }
-
     /// Draws highlights, what the tool shows, the brush ring and the price beside it, and sets the cursor.
-    pub fn draw_marks(&self, ui: &Ui, response: &Response, state: &FrameState<'_>) {
+    pub fn draw_marks(&self, ui: &mut Ui, response: &Response, state: &FrameState<'_>) {
         let Some(camera) = state.view.camera else { return };
         let (rect, px_per_point) = (response.rect, ui.pixels_per_point());
         let painter = ui.painter_at(rect);
@@ -375,6 +344,7 @@ impl Canvas {
         layer_marks::paint(state, &over, tokens(ui).accent);
         cause_marks::paint(state, &over, tokens(ui).accent);
         (state.tools.tool.paint)(state, &over);
+        pins::show(ui, rect, state, &over);
         if let Some(gesture) = &self.gesture {
             gesture.paint(&painter);
         }

@@ -52,7 +52,7 @@ impl GestureHelp {
 }
 
 /// All of them.
-pub static GESTURES: [GestureHelp; 23] = [
+pub static GESTURES: [GestureHelp; 24] = [
     gesture(Place::Painting, "Paint or erase", "drag"),
     gesture(Place::Painting, "Pick the value under the pointer", "Alt+click")
         .in_menu("Hold Alt and click on the canvas: the brush takes the value under the pointer."),
@@ -62,6 +62,7 @@ pub static GESTURES: [GestureHelp; 23] = [
     gesture(Place::Painting, "Size of the brush", "Shift+drag")
         .in_menu("Hold Shift and drag sideways on the canvas: the brush becomes larger or smaller."),
     gesture(Place::Querying, "Inspect a triangle", "click"),
+    gesture(Place::Querying, "Move a pin", "drag it"),
     gesture(Place::Querying, "Go to a neighbour of the triangle", "1, 2, 3"),
     gesture(Place::Querying, "Copy a value of the triangle", "click on it"),
     gesture(Place::Querying, "Copy all its values", "Ctrl+C"),

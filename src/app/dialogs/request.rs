@@ -3,7 +3,7 @@
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
-use crate::app::command::Command;
+use crate::app::command::{Command, PinsCommand};
 use crate::io::project::ENDING;
 use crate::io::recipe;
 use crate::render::export::ExportFormat;
@@ -41,6 +41,8 @@ pub enum FileRequest {
     OpenThreats,
     /// To write a table of threats.
     SaveThreats,
+    /// To write the table of the pins.
+    ExportPins,
     /// To write the mesh.
     Export,
     /// To write steps of the refinement.
@@ -66,6 +68,7 @@ impl FileRequest {
             Self::OpenMask => "Open polygons as mask",
             Self::OpenThreats => "Open table of threats",
             Self::SaveThreats => "Save table of threats",
+            Self::ExportPins => "Export table of pins",
             Self::Export => "Export mesh",
             Self::ExportSteps => "Export steps as SVG",
         }
@@ -87,7 +90,7 @@ impl FileRequest {
             | Self::OpenThreats => "Open",
             Self::AddOutline => "Add",
             Self::Save | Self::SaveRecipe | Self::SaveThreats => "Save",
-            Self::Export | Self::ExportSteps => "Export",
+            Self::ExportPins | Self::Export | Self::ExportSteps => "Export",
         }
     }
 
@@ -103,7 +106,7 @@ impl FileRequest {
             Self::OpenDomain | Self::AddOutline | Self::OpenShapes | Self::ReplaceShapes | Self::OpenMask => {
                 vec!["geojson", "json"]
             }
-            Self::OpenThreats | Self::SaveThreats => vec!["csv"],
+            Self::OpenThreats | Self::SaveThreats | Self::ExportPins => vec!["csv"],
             Self::Export => ExportFormat::endings().collect(),
             Self::ExportSteps => vec!["svg"],
         }
@@ -121,6 +124,7 @@ impl FileRequest {
             Self::OpenDomain | Self::AddOutline | Self::OpenMask => "Polygons",
             Self::OpenShapes | Self::ReplaceShapes => "Points, lines and polygons",
             Self::OpenThreats | Self::SaveThreats => "Tables of threats",
+            Self::ExportPins => "Tables",
             Self::Export => "Meshes and pictures",
             Self::ExportSteps => "Drawings",
         }
@@ -142,13 +146,21 @@ impl FileRequest {
             Self::OpenShapes | Self::ReplaceShapes => "shapes",
             Self::SaveRecipe => "recipes",
             Self::OpenThreats | Self::SaveThreats => "threats",
-            Self::Export | Self::ExportSteps => "exports",
+            Self::ExportPins | Self::Export | Self::ExportSteps => "exports",
         }
     }
 
     /// Whether a file is written.
     pub fn writes(self) -> bool {
-        matches!(self, Self::Save | Self::SaveRecipe | Self::SaveThreats | Self::Export | Self::ExportSteps)
+        matches!(
+            self,
+            Self::Save
+                | Self::SaveRecipe
+                | Self::SaveThreats
+                | Self::ExportPins
+                | Self::Export
+                | Self::ExportSteps
+        )
     }
 
     /// The name that a file to write is given first; nothing for a file to read.
@@ -159,6 +171,7 @@ impl FileRequest {
             Self::Save => format!("{name}.{ENDING}"),
             Self::SaveRecipe => format!("{name}.{}", recipe::ENDING),
             Self::SaveThreats => format!("{name} threats.csv"),
+            Self::ExportPins => format!("{name} pins.csv"),
             Self::Export => format!("{name}.{}", format.ending()),
             Self::ExportSteps => format!("{name} step.svg"),
             _ => String::new(),
@@ -183,6 +196,7 @@ impl FileRequest {
             Self::OpenMask => Command::OpenMask(path),
             Self::OpenThreats => Command::OpenThreats(path),
             Self::SaveThreats => Command::SaveThreatsAs(path),
+            Self::ExportPins => Command::Pins(PinsCommand::ExportAs(path)),
             Self::Export => Command::ExportAs(path),
             Self::ExportSteps => Command::ExportStepsAs(path),
         }
@@ -196,6 +210,7 @@ impl FileRequest {
         match self {
             Self::Save => Command::SaveTo(path),
             Self::SaveThreats => Command::SaveThreats(path),
+            Self::ExportPins => Command::Pins(PinsCommand::Export(path)),
             Self::Export if alone => Command::Export(path),
             _ => self.command(path),
         }

@@ -42,7 +42,9 @@ impl App {
             }
             Command::SaveRecipeAs(path) => self.save_recipe_as(path),
             Command::SaveRecipe(path) => files::save_recipe(&self.session, &mut self.background, &path),
-            Command::SaveThreatsAs(path) => self.commands.extend(self.project.save_threats_as(path)),
+            Command::SaveThreatsAs(path) => {
+                self.commands.extend(self.project.save_table_as(path, Command::SaveThreats));
+            }
             Command::ExportAs(path) => self.commands.extend(self.project.export_as(path)),
             Command::Export(path) => {
                 let started = files::export(&self.session, &self.view, &mut self.background, &path);

@@ -5,6 +5,7 @@ mod files;
 mod layers;
 mod painting;
 mod steps;
+mod pins;
 mod threats;
 
 use eframe::egui::Context;
@@ -33,6 +34,7 @@ impl App {
             Some(Command::Layer(command)) => self.execute_on_layers(command, ctx),
             Some(Command::Threats(command)) => self.execute_on_threats(command),
             Some(Command::Steps(command)) => self.execute_on_steps(command, ctx),
+            Some(Command::Pins(command)) => self.execute_on_pins(command, ctx),
             Some(Command::Domain(command)) => self.execute_on_domain(command),
             Some(Command::Boundary(command)) => self.execute_on_boundary(command),
             Some(command) => self.execute_on_document(command, ctx),

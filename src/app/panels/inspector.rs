@@ -3,12 +3,12 @@
 use eframe::egui::Ui;
 
 use super::Panel;
-use crate::app::command::Command;
+use crate::app::command::{Command, PinsCommand};
 use crate::app::frame::FrameState;
 use crate::app::inspection::{Inspection, LayerAnswer, NEIGHBOURS, Row};
 use crate::app::readout::{Quantity, Readout, TriangleReadout};
 use crate::app::theme::tokens;
-use crate::app::widgets::{Chip, Icon, Section, ValueRow, chips, empty_state, segmented};
+use crate::app::widgets::{ActionButton, Chip, Icon, Section, ValueRow, chips, empty_state, segmented};
 use crate::mesh::{Location, TriangleId};
 
 /// The queried triangle, its neighbours, and a quantity in it.
@@ -47,6 +47,9 @@ fn triangle_rows(
     commands: &mut Vec<Command>,
 ) -> Option<TriangleId> {
     copied_rows(ui, &inspection.place_rows(), commands);
+    if ui.add(ActionButton::new("Pin")).clicked() {
+        commands.push(Command::Pins(PinsCommand::Pin));
+    }
     let hovered = neighbour_chips(ui, triangle, inspection, commands);
     let mut quantity = state.view.quantity;
     let choices = [(Quantity::TargetDiameter, "h̄"), (Quantity::Risk, "Risk")];

@@ -14,6 +14,7 @@ mod inspector;
 mod layers;
 mod levels;
 mod mesh;
+mod pins;
 mod statistics;
 mod status;
 mod steps;
@@ -29,6 +30,7 @@ pub use brush::BRUSH;
 pub use domain::DOMAIN;
 pub use inspector::INSPECTOR;
 pub use layers::{LAYER_KINDS, ask_name as ask_layer_name, combine_name};
+pub use pins::PINS;
 pub use why::WHY;
 
 use super::command::Command;
@@ -49,13 +51,14 @@ pub struct Panel {
 }
 
 /// All sections of the side panel, from the top. Those of the selected tool move to the top.
-pub static PANELS: [&Panel; 13] = [
+pub static PANELS: [&Panel; 14] = [
     &BRUSH,
     &layers::LAYERS,
     &transfer::TRANSFER,
     &levels::LEVELS,
     &INSPECTOR,
     &WHY,
+    &PINS,
     &mesh::MESH,
     &statistics::STATISTICS,
     &DOMAIN,

@@ -26,6 +26,7 @@ mod orientation;
 mod outline;
 mod painting;
 mod pictures;
+mod pins;
 mod polygon;
 mod project;
 mod query;

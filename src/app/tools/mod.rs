@@ -26,7 +26,7 @@ pub use eraser::ERASER;
 pub use gesture::{Gesture, Pointer, Press};
 pub use pan::{PAN, Panning};
 pub use pen::{Pen, PenEffect};
-pub use query::QUERY;
+pub use query::{PIN_REACH_POINTS, PinsTool, QUERY};
 pub use threats::{THREATS, ThreatGrip, ThreatsTool, grip_at};
 
 use super::command::Command;
@@ -65,6 +65,8 @@ pub struct ToolSpec {
     pub brush: Option<fn(&Tools) -> Brush>,
     /// Whether the triangle under the pointer is highlighted.
     pub highlights_hovered: bool,
+    /// Whether it moves pins, and shows the values of the one under the pointer.
+    pub moves_pins: bool,
     /// Whether it needs the pieces of the boundary.
     pub finds_boundary: bool,
     /// Whether it says why the queried triangle is there.
@@ -106,6 +108,7 @@ impl ToolSpec {
             has_ring: |_| false,
             brush: None,
             highlights_hovered: false,
+            moves_pins: false,
             finds_boundary: false,
             explains: false,
             paint: |_, _| {},
@@ -172,6 +175,8 @@ pub struct Tools {
     pub boundary: BoundaryTool,
     /// The threats tool.
     pub threats: ThreatsTool,
+    /// The pins of the query tool.
+    pub pins: PinsTool,
     /// How often each of [`TOOLS`] was used.
     uses: [u32; TOOLS.len()],
 }
@@ -197,6 +202,7 @@ impl Tools {
             domain: DomainTool::default(),
             boundary: BoundaryTool::default(),
             threats: ThreatsTool::default(),
+            pins: PinsTool::default(),
             uses: [0; TOOLS.len()],
         }
     }
@@ -218,6 +224,7 @@ impl Tools {
         (self.radius, self.diameter) = (fitting.radius, fitting.diameter);
         self.boundary.selected = None;
         self.threats = ThreatsTool::default();
+        self.pins = PinsTool::default();
     }
 
     /// Whether the selected tool shows the brush ring.

@@ -1,32 +1,85 @@
 //! The query tool.
 
-use eframe::egui::Key;
+use eframe::egui::{Key, Pos2};
+use glam::DVec2;
 
-use super::ToolSpec;
-use crate::app::command::Command;
+use super::{Gesture, Pointer, ToolSpec};
+use crate::app::command::{Command, PinsCommand};
 use crate::app::panels;
 use crate::app::widgets::Hint::{self, Key as HintKey, Text};
 use crate::app::widgets::Icon;
 
-/// Queries a point: its triangle, neighbours and values.
+/// Queries a point: its triangle, neighbours and values. Moves pins.
 pub static QUERY: ToolSpec = ToolSpec {
-    panels: &[&panels::INSPECTOR, &panels::WHY],
+    panels: &[&panels::INSPECTOR, &panels::WHY, &panels::PINS],
     hint: |_| HINT,
     highlights_hovered: true,
     explains: true,
-    menu: |state, _| match state.readout.and_then(|readout| readout.triangle.as_ref()) {
-        Some(_) => vec![("Copy the values of the triangle", Command::CopyReadout)],
-        None => Vec::new(),
+    moves_pins: true,
+    menu: |state, point| {
+        let triangle = state.readout.and_then(|readout| readout.triangle.as_ref());
+        let pins = &state.session.document().settings().pins;
+        let selected = state.tools.pins.selected_of(pins);
+        let pin = Some(("Pin here", Command::Pins(PinsCommand::Add(point))));
+        let delete = selected.map(|_| ("Delete the selected pin", Command::Pins(PinsCommand::Delete)));
+        let copy = triangle.map(|_| ("Copy the values of the triangle", Command::CopyReadout));
+        [pin, delete, copy].into_iter().flatten().collect()
     },
     press: |press, pointer, commands| {
-        commands.push(Command::Query(pointer.world(press.at)));
-        None
+        let at = pointer.world(press.at);
+        let reach = PIN_REACH_POINTS * pointer.px_per_point / pointer.camera.px_per_world();
+        commands.push(Command::Pins(PinsCommand::Press { at, reach }));
+        Some(Box::new(Dragging { from: press.at, has_moved: false }))
     },
     ..ToolSpec::new("Query", Key::Q, Icon::QUERY)
 };
 
+/// How far from a pin the pointer still takes hold of it, in points.
+pub const PIN_REACH_POINTS: f64 = 9.0;
+/// Points that a drag must exceed: what is smaller was a click.
+const CLICK_SLACK: f32 = 4.0;
+
+/// What the query tool keeps of pins.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PinsTool {
+    /// The number of the selected pin, from 0.
+    pub selected: Option<usize>,
+    /// The offset of the pin that is dragged from the pointer, in world units.
+    pub grip: Option<DVec2>,
+}
+
+impl PinsTool {
+    /// The selected pin. An undo can have removed it.
+    pub fn selected_of(&self, pins: &[DVec2]) -> Option<usize> {
+        self.selected.filter(|number| *number < pins.len())
+    }
+}
+
+/// Dragging a pin.
+#[derive(Debug)]
+struct Dragging {
+    /// Where the pointer went down, in points.
+    from: Pos2,
+    has_moved: bool,
+}
+
+impl Gesture for Dragging {
+    fn moved(&mut self, at: Pos2, pointer: &Pointer<'_>, commands: &mut Vec<Command>) {
+        self.has_moved |= at.distance(self.from) > CLICK_SLACK;
+        if self.has_moved {
+            commands.push(Command::Pins(PinsCommand::DragTo(pointer.world(at))));
+        }
+    }
+
+    fn changes_settings(&self) -> bool {
+        true
+    }
+}
+
 const HINT: &[Hint] = &[
     Text("Click a triangle to inspect it"),
+    HintKey("P"),
+    Text("pin"),
     HintKey("1"),
     HintKey("2"),
     HintKey("3"),

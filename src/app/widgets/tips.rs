@@ -7,7 +7,7 @@ const EDGE: f32 = 2.0;
 
 /// The sentences of controls that have no unit or number in it, by the name of the control. The name of a
 /// choice is that of its group and its own.
-static SENTENCES: [(&str, &str); 154] = [
+static SENTENCES: [(&str, &str); 160] = [
     (
         "What the brush paints/Risk",
         "The brush paints risk, from 0 to 1, which the transfer curve turns into a diameter.",
@@ -175,6 +175,18 @@ static SENTENCES: [(&str, &str); 154] = [
     ("Theme/Dark", "Light text on a dark window."),
     ("Theme/Light", "Dark text on a light window."),
     ("Theme/Desktop", "Dark or light, as the desktop is set."),
+    ("Pin", "Marks the point and follows its triangle and values through every edit; P."),
+    ("Pin the query", "Marks the queried point and follows its triangle and values; P."),
+    ("Delete pin", "Removes the selected pin; Delete does so too while the query tool is selected."),
+    ("Delete all pins", "Removes all pins of the document."),
+    (
+        "Copy table",
+        "Copies the pins as the table that “meshbrush locate” prints for the saved document, with h̄ as the value.",
+    ),
+    (
+        "Export table…",
+        "Writes the pins as the table that “meshbrush locate” prints for the saved document, with h̄ as the value.",
+    ),
     ("Quantity/h̄", "The inspector interpolates the target diameter."),
     ("Quantity/Risk", "The inspector interpolates the risk, from 0 to 1."),
     ("Brush", "Paints risk or a target diameter."),

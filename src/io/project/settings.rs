@@ -51,6 +51,9 @@ pub(super) struct Saved {
     cleaning: SavedCleaning,
     #[serde(default, skip_serializing_if = "SavedMarks::is_empty")]
     boundary_marks: SavedMarks,
+    /// x and y of each.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pins: Vec<[f64; 2]>,
     spacing: f64,
     transfer: SavedTransfer,
     /// In version 1: the field under the paint, and the pixels of the paint along the longer side.
@@ -210,6 +213,7 @@ impl Saved {
             },
             cleaning: settings.cleaning.into(),
             boundary_marks: SavedMarks::of(&settings.boundary_marks),
+            pins: settings.pins.iter().map(DVec2::to_array).collect(),
             spacing: settings.spacing,
             transfer: SavedTransfer { h_min, h_max, shape },
             base: None,
@@ -288,6 +292,7 @@ impl Saved {
             },
             cleaning: self.cleaning.into(),
             boundary_marks: Arc::new(marks_of(&self.boundary_marks.splits, &self.boundary_marks.names)),
+            pins: Arc::new(self.pins.into_iter().map(DVec2::from_array).collect()),
             spacing: self.spacing,
             transfer: Transfer {
                 h_min: self.transfer.h_min,
