@@ -24,6 +24,10 @@ pub enum FieldOverlay {
     Target,
     /// The layer that decides h̄, in the layer's colour.
     Layer,
+    /// By how much the mesh is finer than h̄ asks for.
+    Slack,
+    /// The triangles that only compatibility asked for.
+    Forced,
 }
 
 /// An aid to orientation on the canvas, which can be switched off.

@@ -1,6 +1,7 @@
 //! Why a triangle is in a mesh: the cause, and what asked for it.
 
 mod node;
+mod sampled;
 mod sentences;
 
 use crate::build::RefinementCriterion;
@@ -8,6 +9,7 @@ use crate::layers::LeastTarget;
 use crate::mesh::{Cause, Limits, Mesh, TreeTriangle, bisection_edge_length};
 
 pub use node::NodeFacts;
+pub use sampled::PixelTriangles;
 pub use sentences::Words;
 
 /// Why a triangle is in a mesh.

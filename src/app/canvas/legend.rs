@@ -2,7 +2,7 @@
 
 use eframe::egui::{Align2, Color32, Mesh, Rect, Role, Sense, Shape, Ui, Vec2, WidgetInfo, pos2, vec2};
 
-use super::overlay::risk_color;
+use super::overlay::{FORCED, MOST_SLACK, risk_color, slack_color};
 use crate::app::frame::FrameState;
 use crate::app::layer_pictures::layer_color32;
 use crate::app::theme::{font, tokens};
@@ -26,6 +26,8 @@ pub fn show(ui: &Ui, inner: Rect, state: &FrameState<'_>) {
         FieldOverlay::Risk => risk_legend(ui, inner),
         FieldOverlay::Target => target_legend(ui, inner, state),
         FieldOverlay::Layer => layer_legend(ui, inner, state),
+        FieldOverlay::Slack => slack_legend(ui, inner),
+        FieldOverlay::Forced => forced_legend(ui, inner),
         FieldOverlay::None if state.view.aids.contours => target_legend(ui, inner, state),
         FieldOverlay::None => {}
     }
@@ -69,6 +71,40 @@ fn risk_legend(ui: &Ui, inner: Rect) {
     ] {
         ui.painter().text(pos2(x, bar.bottom() + 3.0), align, text, font::axis(), t.label);
     }
+}
+
+/// How often the mesh could be halved less, in the colours over level 0.
+fn slack_legend(ui: &Ui, inner: Rect) {
+    let place = boxed(ui, inner, 30.0, "Slack h̄ / h", "Legend: slack 1 to 16");
+    let t = tokens(ui);
+    let bar = place.with_max_y(place.top() + 12.0);
+    let steps = 16;
+    for step in 0..steps {
+        let share = (step as f32 + 0.5) / steps as f32;
+        let [r, g, b, a] = slack_color(share * MOST_SLACK);
+        let left = bar.left() + bar.width() * step as f32 / steps as f32;
+        let cell = Rect::from_min_size(pos2(left, bar.top()), vec2(bar.width() / steps as f32, bar.height()));
+        let color = t.level_zero.blend(Color32::from_rgba_unmultiplied(r, g, b, a));
+        ui.painter().rect_filled(cell, 0.0, color);
+    }
+    for (x, align, text) in [
+        (bar.left(), Align2::LEFT_TOP, "1"),
+        (bar.center().x, Align2::CENTER_TOP, "4"),
+        (bar.right(), Align2::RIGHT_TOP, "≥ 16"),
+    ] {
+        ui.painter().text(pos2(x, bar.bottom() + 3.0), align, text, font::axis(), t.label);
+    }
+}
+
+/// The colour of triangles that only compatibility asked for.
+fn forced_legend(ui: &Ui, inner: Rect) {
+    let spoken = "Legend: triangles that only compatibility asked for";
+    let place = boxed(ui, inner, LAYER_ROW, "Cause", spoken);
+    let swatch = Rect::from_min_size(place.min + vec2(0.0, 3.0), vec2(SWATCH, LAYER_ROW - 6.0));
+    let [r, g, b, _] = FORCED;
+    ui.painter().rect_filled(swatch, 2.0, Color32::from_rgb(r, g, b));
+    let room = Rect::from_min_max(pos2(swatch.right() + 6.0, place.top()), place.right_bottom());
+    elided_text(ui, room, "compatibility", tokens(ui).value);
 }
 
 /// The visible layers in their colours, from the top.

@@ -10,8 +10,10 @@ use super::super::frame::NO_LIMIT;
 use super::super::latest::Latest;
 use super::super::layer_pictures::layer_color32;
 use super::super::view::FieldOverlay;
+use crate::build::RefinementCriterion;
 use crate::colormap::LevelColors;
 use crate::document::{Document, Follower};
+use crate::explain::PixelTriangles;
 use crate::geometry::Rect;
 use crate::layers::{Layer, LayerId, PaintLayers, SizeField};
 use crate::scene::Overlay;
@@ -84,7 +86,7 @@ impl OverlayColors {
         let (_, Pixels { rgba, size: [columns, rows] }) = self.latest.last()?;
         let opacity = match kind {
             FieldOverlay::Target => TARGET_OPACITY,
-            FieldOverlay::Layer => LAYER_OPACITY,
+            FieldOverlay::Layer | FieldOverlay::Slack | FieldOverlay::Forced => LAYER_OPACITY,
             FieldOverlay::Risk | FieldOverlay::None => 1.0,
         };
         Some(Overlay { bounds, columns: *columns, rows: *rows, rgba, opacity, revision: self.revision })
@@ -105,11 +107,26 @@ fn colors_of(
 ) -> impl FnOnce() -> Pixels + Send + 'static {
     let (paint, layers) = (document.paint().clone(), document.settings().layers.clone());
     let field = follower.shared_field();
+    let of_mesh = matches!(state.kind, FieldOverlay::Slack | FieldOverlay::Forced);
+    let mesh = of_mesh.then(|| follower.shared_mesh());
+    let (domain, settings) = (follower.domain().clone(), follower.settings().clone());
     move || {
         let size = pixels_over(&state.bounds);
         let rgba = match state.kind {
             FieldOverlay::Risk => risk_colors(&layers, &paint, state.bounds, size),
             FieldOverlay::Layer => layer_colors(&field, &paint, state.bounds, size),
+            FieldOverlay::Slack | FieldOverlay::Forced => {
+                let mesh = mesh.expect("the mesh is shared for these overlays");
+                let pixels = PixelTriangles::new(&mesh, state.bounds, size);
+                if state.kind == FieldOverlay::Slack {
+                    let target = field.sampled(&paint, state.bounds, size);
+                    pixels.slack(&target).into_iter().map(slack_color).collect()
+                } else {
+                    let criterion = RefinementCriterion::new(&domain, &field, settings.rule, Some(&paint));
+                    let forced = pixels.forced(&criterion, &settings.limits());
+                    forced.into_iter().map(|forced| if forced { FORCED } else { [0; 4] }).collect()
+                }
+            }
             _ => target_colors(&field, &paint, &state, size),
         };
         Pixels { rgba, size }
@@ -143,6 +160,18 @@ fn target_colors(
     let level = |target: f32| field.level_of_diameter(f64::from(target)).unwrap_or(63).min(63) as u8;
     let target = field.sampled(paint, state.bounds, size);
     target.values().iter().map(|&target| state.colors.of(level(target))).collect()
+}
+
+/// The colour of triangles that only compatibility asked for.
+pub const FORCED: [u8; 4] = [0xff, 0x8a, 0x1e, 0xff];
+
+/// Halvings from which on slack has its strongest colour.
+pub const MOST_SLACK: f32 = 4.0;
+
+/// From nothing to white, with the halvings by which the mesh is finer than h̄ asks for.
+pub fn slack_color(halvings: f32) -> [u8; 4] {
+    let share = (halvings / MOST_SLACK).clamp(0.0, 1.0);
+    [0xff, 0xff, 0xff, if halvings.is_nan() { 0 } else { (share * 255.0) as u8 }]
 }
 
 /// From nothing to a warm red; alpha carries the risk.

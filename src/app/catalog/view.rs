@@ -36,6 +36,8 @@ pub fn view(state: &FrameState<'_>) -> Vec<CatalogItem> {
         overlay("Overlay risk", FieldOverlay::Risk).key(Key::O),
         overlay("Overlay target", FieldOverlay::Target).keys(Modifiers::SHIFT, Key::O),
         overlay("Overlay deciding layer", FieldOverlay::Layer),
+        overlay("Overlay slack", FieldOverlay::Slack),
+        overlay("Overlay forced triangles", FieldOverlay::Forced),
     ];
     for (i, map) in Colormap::ALL.into_iter().enumerate() {
         let title = format!("{} colours", map.name());

@@ -38,8 +38,10 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
             (FieldOverlay::Risk, "Risk"),
             (FieldOverlay::Target, "Target"),
             (FieldOverlay::Layer, "Layer"),
+            (FieldOverlay::Slack, "Slack"),
+            (FieldOverlay::Forced, "Forced"),
         ];
-        if segmented(ui, "Field overlay", &mut overlay, &overlays).changed() {
+        if dropdown_row(ui, "Overlay", &mut overlay, &overlays).changed() {
             commands.push(Command::SetOverlay(overlay));
         }
         let mut theme = view.theme;

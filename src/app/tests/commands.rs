@@ -65,7 +65,9 @@ fn a_command_shows_an_overlay_and_its_key_hides_it_again() {
     assert_eq!(overlay(&window), FieldOverlay::Target);
     open_section(&mut window, "View");
     for (name, expected) in [("No overlay", FieldOverlay::None), ("Target", FieldOverlay::Target)] {
-        window.get_by_role_and_label(Role::RadioButton, name).click();
+        window.get_by_role_and_label(Role::ComboBox, "Overlay").click();
+        window.run();
+        window.get_by_role_and_label(Role::Button, name).click();
         window.run();
         assert_eq!(overlay(&window), expected);
     }

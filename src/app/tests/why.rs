@@ -119,3 +119,15 @@ fn an_edit_is_explained_once_the_mesh_is_complete() {
     assert!(window.state().explore().explanation().is_none());
     assert!(says(&window, "what asked for it appears here"));
 }
+
+#[test]
+fn overlays_of_slack_and_forced_triangles_have_legends() {
+    let mut window = window_of(TALL);
+    for (entry, legend) in [
+        ("Overlay slack", "Legend: slack 1 to 16"),
+        ("Overlay forced triangles", "Legend: triangles that only compatibility asked for"),
+    ] {
+        super::choose(&mut window, "View", entry);
+        assert!(window.query_by_label(legend).is_some(), "{legend}");
+    }
+}

@@ -7,7 +7,7 @@ const EDGE: f32 = 2.0;
 
 /// The sentences of controls that have no unit or number in it, by the name of the control. The name of a
 /// choice is that of its group and its own.
-static SENTENCES: [(&str, &str); 160] = [
+static SENTENCES: [(&str, &str); 157] = [
     (
         "What the brush paints/Risk",
         "The brush paints risk, from 0 to 1, which the transfer curve turns into a diameter.",
@@ -106,7 +106,6 @@ static SENTENCES: [(&str, &str); 160] = [
     ("Node of the triangle/Apex", "Shows the node at the right angle, the newest one of the triangle."),
     ("Node of the triangle/End 1", "Shows the node at the first end of the bisection edge."),
     ("Node of the triangle/End 2", "Shows the node at the second end of the bisection edge."),
-    ("Field overlay/Layer", "Colours the domain by the layer that decides h̄."),
     ("Decided by", "The layer whose target diameter counts at the point, after all layers are combined."),
     (
         "Through gradation from",
@@ -169,9 +168,10 @@ static SENTENCES: [(&str, &str); 160] = [
         "Draws lines along which h̄ is the same, with their length in the unit of the document.",
     ),
     ("Colours", "The colours of the levels."),
-    ("Field overlay/No overlay", "Shows the mesh alone."),
-    ("Field overlay/Risk", "Shows the risk over the mesh, from 0 to 1; O switches."),
-    ("Field overlay/Target", "Shows over the mesh the level that h̄ asks for; Shift+O switches."),
+    (
+        "Overlay",
+        "What is shown over the mesh: risk, the level that h̄ asks for, the deciding layer, where the mesh is finer than h̄ asks for (slack), or the triangles that only compatibility asked for (forced).",
+    ),
     ("Theme/Dark", "Light text on a dark window."),
     ("Theme/Light", "Dark text on a light window."),
     ("Theme/Desktop", "Dark or light, as the desktop is set."),

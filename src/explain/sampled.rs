@@ -1,0 +1,117 @@
+//! What of the mesh is finer than its field asks for, on a grid of pixels to be shown.
+
+use std::collections::HashMap;
+
+use glam::DVec2;
+
+use crate::build::RefinementCriterion;
+use crate::geometry::Rect;
+use crate::mesh::{Limits, Mesh, TreeTriangle, TriangleId};
+use crate::raster::Raster;
+
+/// The triangles of a mesh at the centres of pixels.
+pub struct PixelTriangles<'a> {
+    mesh: &'a Mesh,
+    grid: Raster<u8>,
+}
+
+impl<'a> PixelTriangles<'a> {
+    /// Pixels over `bounds` in world units; `size` is [columns, rows].
+    pub fn new(mesh: &'a Mesh, bounds: Rect, size: [u32; 2]) -> Self {
+        Self { mesh, grid: Raster::filled(bounds, size, 0) }
+    }
+
+    /// The centre of each pixel in world units and the triangle there, row by row from the lowest.
+    fn iter(&self) -> impl Iterator<Item = (DVec2, Option<TriangleId>)> + '_ {
+        let centers = self.grid.pixel_centers();
+        self.grid.all().pixels().map(move |(x, y)| {
+            let center = centers(x, y);
+            (center, self.mesh.locate(center).triangle())
+        })
+    }
+
+    /// log₂ of h̄ / h at each pixel, at least 0: by how many halvings the mesh is finer than h̄ asks for
+    /// there. NaN beyond the mesh. `target` has h̄ at the same pixels.
+    pub fn slack(&self, target: &Raster) -> Vec<f32> {
+        let slack = |id: TriangleId, target: f32| {
+            let diameter = self.mesh.diameter(self.mesh.triangle(id).level());
+            libm::log2(f64::from(target) / diameter).max(0.0) as f32
+        };
+        let pixels = self.iter().zip(target.values());
+        pixels.map(|((_, id), &target)| id.map_or(f32::NAN, |id| slack(id, target))).collect()
+    }
+
+    /// Whether the triangle at each pixel is there for compatibility only: its parent does not exceed its
+    /// target.
+    pub fn forced(&self, criterion: &RefinementCriterion<'_>, limits: &Limits) -> Vec<bool> {
+        let cap = limits.max_level.unwrap_or(u32::MAX);
+        let mut known = HashMap::new();
+        let mut is_forced = |id: TriangleId| {
+            *known.entry(id).or_insert_with(|| {
+                let parent = TreeTriangle::of(self.mesh, id).parent(self.mesh.lattice());
+                let asks = |one: &TreeTriangle| {
+                    one.level() < cap && criterion.asks_to_bisect(one.corners(), one.level())
+                };
+                parent.is_some_and(|parent| !asks(&parent))
+            })
+        };
+        self.iter().map(|(_, id)| id.is_some_and(&mut is_forced)).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::dvec2;
+
+    use super::*;
+    use crate::domain::{BoundaryTreatment, Domain};
+    use crate::explain::Explanation;
+    use crate::field::{Formula, RefinementRule, Transfer};
+    use crate::geometry::Lattice;
+    use crate::layers::{Layer, LayerKind, PaintLayers, SizeFieldSpec};
+    use crate::mesh::{Cause, Cleaning, Progress};
+    use crate::{MeshBuilder, MeshSpec};
+
+    #[test]
+    fn forced_triangles_are_those_that_compatibility_asked_for() {
+        let domain = Domain::rectangle(Rect::UNIT);
+        let target = Formula::parse("if(hypot(x - 0.3, y - 0.4) < 0.01, 0.003, 0.3)").unwrap();
+        let field = SizeFieldSpec {
+            layers: Layer::stack([LayerKind::target(target)]),
+            transfer: Transfer { h_min: 0.001, h_max: 1.0, shape: 1.0 },
+            unasked: 1.0,
+            outline: None,
+            gradation: None,
+        };
+        let limits = Limits::default();
+        let spec = MeshSpec {
+            lattice: Lattice::covering(domain.bounds, 0.1, 100_000).unwrap(),
+            domain,
+            boundary: BoundaryTreatment::usual(0.1),
+            field,
+            rule: RefinementRule::Area,
+            cleaning: Cleaning::NONE,
+            limits,
+        };
+        let mut builder = MeshBuilder::new(spec);
+        while builder.advance(None, 10_000).unwrap() == Progress::More {}
+        let built = builder.finish();
+        let size = [40, 40];
+        let pixels = PixelTriangles::new(&built.mesh, Rect::UNIT, size);
+        let criterion = RefinementCriterion::by_area(&built.domain, &built.field, PaintLayers::blank());
+        let forced = pixels.forced(&criterion, &limits);
+        let slack = pixels.slack(&built.field.sampled(PaintLayers::blank(), Rect::UNIT, size));
+        let mut both = [0, 0];
+        for (((point, id), forced), slack) in pixels.iter().zip(&forced).zip(&slack) {
+            let triangle = TreeTriangle::of(&built.mesh, id.unwrap());
+            let cause = Explanation::new(&built.mesh, triangle, &criterion, &limits).cause;
+            assert_eq!(*forced, matches!(cause, Cause::Compatibility { .. }), "{point}");
+            both[usize::from(*forced)] += 1;
+            assert!(*slack >= 0.0);
+        }
+        assert!(both[0] > 100 && both[1] > 100, "{both:?}");
+        // A coarse triangle has the diameter 0.14 where 0.3 is asked for.
+        let corner = pixels.iter().position(|(point, _)| point.distance(dvec2(0.99, 0.99)) < 0.02).unwrap();
+        assert!((f64::from(slack[corner]) - libm::log2(0.3 / 0.141_421_356)).abs() < 1e-3);
+    }
+}
