@@ -132,6 +132,10 @@ pub enum Command {
     QueryNeighbour(usize),
     /// Looks at other triangles and nodes of the bisection tree than the queried one.
     Explore(ExploreCommand),
+    /// As [`Command::QueryNeighbour`], and keeps the triangles on the way in sight.
+    FollowNeighbour(usize),
+    /// Measures how many steps point location takes.
+    MeasureWalks,
     /// Copies everything that the inspector shows of the queried triangle.
     CopyReadout,
     /// Opens the question for a place to go to.
@@ -180,8 +184,14 @@ pub enum Command {
     SetOverlay(FieldOverlay),
     /// Chooses the colours of the levels.
     Colormap(Colormap),
-    /// Shows one level alone, or all.
+    /// Shows one level alone, or all, while the pointer is on the legend.
     ShowLevel(Option<u32>),
+    /// Hides or shows a level on the canvas.
+    ToggleLevel(u32),
+    /// Shows one level alone on the canvas; all if it is alone already.
+    IsolateLevel(u32),
+    /// Shows all levels on the canvas.
+    ShowAllLevels,
     /// Highlights a neighbour of the queried triangle, or none.
     HighlightNeighbour(Option<TriangleId>),
     /// Dark, light, or as the desktop has it.

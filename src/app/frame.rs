@@ -30,6 +30,7 @@ use super::session::Session;
 use super::stepping::{self, Stepping};
 use super::tools::Tools;
 use super::view::View;
+use super::walks::WalkMeter;
 use super::{help, journal, keys, panels, project};
 use crate::text::LengthUnit;
 
@@ -58,6 +59,8 @@ pub struct FrameState<'a> {
     pub layer_pictures: &'a LayerPictures,
     /// Why the queried triangle is in the mesh.
     pub explore: &'a Explore,
+    /// How long the walks of point location are.
+    pub walks: &'a WalkMeter,
     /// The values of the pins.
     pub pins: &'a PinReader,
     /// Where the pointer is on the canvas, in world units.
@@ -128,7 +131,9 @@ impl App {
 
     fn command_of_key(&self, event: &Event, ctx: &Context) -> Option<Command> {
         let (key, modifiers) = match *event {
-            Event::Key { key, pressed: true, modifiers, .. } => (key, modifiers),
+            Event::Key { key, physical_key, pressed: true, modifiers, .. } => {
+                (keys::with_digits(key, physical_key, modifiers), modifiers)
+            }
             // Ctrl+C reaches the window as this event only.
             Event::Copy => (Key::C, Modifiers::COMMAND),
             _ => return None,
@@ -161,7 +166,7 @@ impl App {
         let follows = self.session.follow(deadline);
         let derives = self.session.advance_derivation(patience, ctx);
         let finds = self.tools.tool.finds_boundary && self.session.find_boundary(patience, ctx);
-        let measures = self.session.take_figures(patience);
+        let measures = self.session.take_figures(patience) | self.walks.take(patience);
         let bounds = self.session.document().settings().domain.bounds;
         let steps = self.advance_steps(patience, ctx);
         let plan = self.canvas.planned_stroke(ctx, self.shown_tools(), bounds);
@@ -245,6 +250,7 @@ impl App {
             layer_pictures: &self.layer_pictures,
             explore: &self.explore,
             pins: &self.pins,
+            walks: &self.walks,
             pointer: self.canvas.pointer(),
             readout,
             reproducible: self.reproducible,

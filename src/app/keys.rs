@@ -28,6 +28,12 @@ pub fn command_of(
     Some(item.command)
 }
 
+/// The key that was pressed. With Shift a digit types another character on most keyboards, and not the same
+/// on all of them: there the place of the key counts.
+pub fn with_digits(key: Key, physical_key: Option<Key>, modifiers: Modifiers) -> Key {
+    physical_key.filter(|key| modifiers.shift && ("0"..="9").contains(&key.name())).unwrap_or(key)
+}
+
 /// Removes presses of Tab, which egui would move the focus by, and returns the commands that they stand for:
 /// while nothing has the focus, Tab hides and shows the panels.
 pub fn catch_tab(ctx: &Context, raw_input: &mut RawInput) -> Vec<Command> {

@@ -40,6 +40,7 @@ mod tests;
 pub mod theme;
 pub mod tools;
 pub mod view;
+mod walks;
 pub mod widgets;
 
 use std::path::PathBuf;
@@ -64,6 +65,7 @@ use session::Session;
 use stepping::Stepping;
 use tools::Tools;
 use view::View;
+use walks::WalkMeter;
 
 use crate::document::{Document, Example};
 use crate::render::gpu::device_descriptor;
@@ -91,6 +93,7 @@ pub struct App {
     layer_pictures: LayerPictures,
     explore: Explore,
     pins: PinReader,
+    walks: WalkMeter,
     dialogs: Dialogs,
     /// What the help window shows, while it is open.
     help: Option<HelpTopic>,
@@ -151,6 +154,7 @@ impl App {
             layer_pictures: LayerPictures::default(),
             explore: Explore::default(),
             pins: PinReader::default(),
+            walks: WalkMeter::default(),
             dialogs: Dialogs::default(),
             help: None,
             background: Background::new(ctx),

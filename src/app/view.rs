@@ -39,6 +39,8 @@ pub enum CanvasAid {
     ScaleBar,
     /// Contour lines of h̄.
     Contours,
+    /// The walk of point location to the queried point.
+    Walk,
     /// Handles at the corners of the background picture.
     PictureCorners,
     /// Why the queried triangle is there.
@@ -54,6 +56,8 @@ pub struct CanvasAids {
     pub scale_bar: bool,
     /// Contour lines of h̄ where one level ends and the next begins.
     pub contours: bool,
+    /// The walk of point location to the queried point.
+    pub walk: bool,
     /// Handles at the corners of the background picture.
     pub picture_corners: bool,
     /// Why the queried triangle is there: the chain of triangles, and the place that decides.
@@ -62,7 +66,14 @@ pub struct CanvasAids {
 
 impl Default for CanvasAids {
     fn default() -> Self {
-        Self { coordinates: true, scale_bar: true, contours: false, picture_corners: false, cause: true }
+        Self {
+            coordinates: true,
+            scale_bar: true,
+            contours: false,
+            walk: true,
+            picture_corners: false,
+            cause: true,
+        }
     }
 }
 
@@ -72,6 +83,7 @@ impl CanvasAids {
             CanvasAid::Coordinates => &mut self.coordinates,
             CanvasAid::ScaleBar => &mut self.scale_bar,
             CanvasAid::Contours => &mut self.contours,
+            CanvasAid::Walk => &mut self.walk,
             CanvasAid::PictureCorners => &mut self.picture_corners,
             CanvasAid::Cause => &mut self.cause,
         };
@@ -101,6 +113,8 @@ pub struct View {
     pub panels: bool,
     /// A level that is shown alone, while the pointer is on it in the legend.
     pub lone_level: Option<u32>,
+    /// Bit ℓ: whether level ℓ is hidden on the canvas.
+    pub hidden_levels: u64,
     /// A neighbour of the queried triangle, while the pointer is on it in the inspector.
     pub hovered_neighbour: Option<TriangleId>,
     /// What the inspector interpolates.
@@ -123,6 +137,7 @@ impl Default for View {
             aids: CanvasAids::default(),
             panels: true,
             lone_level: None,
+            hidden_levels: 0,
             hovered_neighbour: None,
             quantity: Quantity::TargetDiameter,
             reveals_inspector: false,
@@ -145,7 +160,11 @@ impl View {
             Ground::Dark => Style::dark(colors),
             Ground::Light => Style::light(colors),
         };
-        let shown_levels = self.lone_level.map_or(u64::MAX, |level| 1 << level.min(63));
+        // A hidden level stays hidden under the pointer: a click on its row shows what it does.
+        let shown_levels = match self.lone_level.map(bit_of) {
+            Some(lone) if lone & self.hidden_levels == 0 => lone,
+            _ => !self.hidden_levels,
+        };
         // Edges and highlights stay sharp over the picture.
         let fill_opacity = settings.background.as_ref().map_or(1.0, |picture| 1.0 - picture.opacity as f32);
         Style { edges: self.edges, shown_levels, fill_opacity, ..style }.at_density(px_per_point)
@@ -178,6 +197,10 @@ impl View {
             Command::SetOverlay(overlay) => self.overlay = overlay,
             Command::Colormap(map) => self.colormap = map,
             Command::ShowLevel(level) => self.lone_level = level,
+            Command::ToggleLevel(level) => self.hidden_levels ^= bit_of(level),
+            Command::IsolateLevel(level) if self.hidden_levels == !bit_of(level) => self.hidden_levels = 0,
+            Command::IsolateLevel(level) => self.hidden_levels = !bit_of(level),
+            Command::ShowAllLevels => self.hidden_levels = 0,
             Command::HighlightNeighbour(id) => self.hovered_neighbour = id,
             Command::Inspect(quantity) => self.quantity = quantity,
             Command::Theme(theme) => self.set_theme(theme, ctx),
@@ -264,6 +287,10 @@ impl View {
             camera.centered_on(point).zoomed(factor, camera.half_size_px())
         });
     }
+}
+
+fn bit_of(level: u32) -> u64 {
+    1 << level.min(63)
 }
 
 /// The deepest level that h_min or the diameter at the outline can ask for.

@@ -11,6 +11,7 @@ mod legend;
 mod menu;
 pub mod marks;
 mod overlay;
+mod paths;
 mod pins;
 pub mod picture_corners;
 mod price;
@@ -343,6 +344,7 @@ impl Canvas {
         let over = OverMesh { painter: &painter, screen_from_world: &screen_from_world, pointer };
         layer_marks::paint(state, &over, tokens(ui).accent);
         cause_marks::paint(state, &over, tokens(ui).accent);
+        paths::paint(state, &over);
         (state.tools.tool.paint)(state, &over);
         pins::show(ui, rect, state, &over);
         if let Some(gesture) = &self.gesture {

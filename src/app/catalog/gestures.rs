@@ -23,7 +23,7 @@ impl Place {
             Self::Querying => "Inspecting triangles",
             Self::Threats => "Threats",
             Self::Canvas => "On the canvas, with any tool",
-            Self::Panel => "Numbers and sliders",
+            Self::Panel => "In the panels",
         }
     }
 }
@@ -52,7 +52,7 @@ impl GestureHelp {
 }
 
 /// All of them.
-pub static GESTURES: [GestureHelp; 24] = [
+pub static GESTURES: [GestureHelp; 27] = [
     gesture(Place::Painting, "Paint or erase", "drag"),
     gesture(Place::Painting, "Pick the value under the pointer", "Alt+click")
         .in_menu("Hold Alt and click on the canvas: the brush takes the value under the pointer."),
@@ -64,6 +64,7 @@ pub static GESTURES: [GestureHelp; 24] = [
     gesture(Place::Querying, "Inspect a triangle", "click"),
     gesture(Place::Querying, "Move a pin", "drag it"),
     gesture(Place::Querying, "Go to a neighbour of the triangle", "1, 2, 3"),
+    gesture(Place::Querying, "Follow neighbours and keep the trail", "Shift+1, 2, 3"),
     gesture(Place::Querying, "Copy a value of the triangle", "click on it"),
     gesture(Place::Querying, "Copy all its values", "Ctrl+C"),
     gesture(Place::Threats, "Select or place a threat", "click"),
@@ -80,5 +81,7 @@ pub static GESTURES: [GestureHelp; 24] = [
     gesture(Place::Panel, "Change the number under the pointer", "wheel"),
     gesture(Place::Panel, "Set the default", "double-click"),
     gesture(Place::Panel, "Type a number", "click"),
+    gesture(Place::Panel, "Hide or show a level", "click on its row"),
+    gesture(Place::Panel, "Show one level alone", "Alt+click on its row"),
     gesture(Place::Panel, "Step a number while it is typed", "Up"),
 ];

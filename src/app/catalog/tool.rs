@@ -72,6 +72,7 @@ pub fn tool(state: &FrameState<'_>) -> Vec<CatalogItem> {
     items.extend(domain_tool(state));
     items.extend(threats_tool(state));
     items.extend(neighbours(state));
+    items.extend(trail(state));
     items.extend(pins(state));
     items.extend(amounts(tools));
     items.extend(tree_steps(state));
@@ -93,6 +94,18 @@ fn neighbours(state: &FrameState<'_>) -> impl Iterator<Item = CatalogItem> + use
         let item = CatalogItem::new(Menu::Tool, title, Command::QueryNeighbour(place)).enabled(is_queried);
         let item = if has_keys { item.key(DIGITS[place]) } else { item };
         if place == 0 { item.group() } else { item }
+    })
+}
+
+/// The same, with the triangles on the way kept in sight.
+fn trail(state: &FrameState<'_>) -> impl Iterator<Item = CatalogItem> + use<> {
+    let names = ["bisection", "second", "third"];
+    let has_keys = state.tools.tool == &QUERY;
+    let is_queried = state.session.queried_triangle().is_some();
+    names.into_iter().enumerate().map(move |(place, name)| {
+        let title = format!("Follow the {name} neighbour and keep the trail");
+        let item = CatalogItem::new(Menu::Tool, title, Command::FollowNeighbour(place)).enabled(is_queried);
+        if has_keys { item.keys(Modifiers::SHIFT, DIGITS[place]) } else { item }
     })
 }
 

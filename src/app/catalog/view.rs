@@ -32,6 +32,7 @@ pub fn view(state: &FrameState<'_>) -> Vec<CatalogItem> {
         aid("Scale bar", CanvasAid::ScaleBar).checked(view.aids.scale_bar),
         aid("Contour lines of h̄", CanvasAid::Contours).checked(view.aids.contours),
         aid("Why the queried triangle is there", CanvasAid::Cause).checked(view.aids.cause),
+        aid("Walk of point location", CanvasAid::Walk).checked(view.aids.walk),
         overlay("No overlay", FieldOverlay::None).group(),
         overlay("Overlay risk", FieldOverlay::Risk).key(Key::O),
         overlay("Overlay target", FieldOverlay::Target).keys(Modifiers::SHIFT, Key::O),
@@ -39,6 +40,15 @@ pub fn view(state: &FrameState<'_>) -> Vec<CatalogItem> {
         overlay("Overlay slack", FieldOverlay::Slack),
         overlay("Overlay forced triangles", FieldOverlay::Forced),
     ];
+    let queried = state.session.queried_triangle().map(|id| state.session.view().triangle(id).level());
+    let of_triangle = |title: &str, command: fn(u32) -> Command| {
+        CatalogItem::new(View, title, command(queried.unwrap_or(0))).enabled(queried.is_some())
+    };
+    items.extend([
+        of_triangle("Hide or show the level of the triangle", Command::ToggleLevel).group(),
+        of_triangle("Show only the level of the triangle", Command::IsolateLevel),
+        CatalogItem::new(View, "Show all levels", Command::ShowAllLevels).enabled(view.hidden_levels != 0),
+    ]);
     for (i, map) in Colormap::ALL.into_iter().enumerate() {
         let title = format!("{} colours", map.name());
         let item = CatalogItem::new(View, title, Command::Colormap(map)).checked(view.colormap == map);

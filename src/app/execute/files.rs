@@ -151,6 +151,7 @@ impl App {
         let extent = settings.domain.bounds.size().max_element();
         self.tools.fit_to(extent, settings.transfer.h_min);
         self.view.fit();
+        self.view.hidden_levels = 0;
     }
 
     fn cancel_work(&mut self, id: WorkId) {

@@ -59,7 +59,9 @@ impl App {
             Command::Copy(text) => self.copy(text, ctx),
             Command::Query(point) => self.query(point),
             Command::QueryTriangle(id) => self.query_triangle(id),
-            Command::QueryNeighbour(place) => self.query_neighbour(place),
+            Command::QueryNeighbour(place) => self.query_neighbour(place, false),
+            Command::FollowNeighbour(place) => self.query_neighbour(place, true),
+            Command::MeasureWalks => self.walks.measure(&self.session, ctx),
             Command::Explore(ExploreCommand::Step(step)) => self.walk_tree(step),
             Command::Explore(ExploreCommand::ShowCorner(corner)) => self.explore.show_corner(corner),
             Command::CopyReadout => self.copy_readout(ctx),
@@ -69,7 +71,7 @@ impl App {
                 self.dialogs.open(Dialog::GoTo);
             }
             Command::GoTo(point) => {
-                self.session.query(Some(point));
+                self.ask(Some(point));
                 self.view.execute(Command::LookAt(point), ctx);
             }
             Command::GoToTriangle(id) => self.go_to_triangle(id),
@@ -102,7 +104,7 @@ impl App {
         } else if gesture_ended || !self.tools.domain.corners.is_empty() {
             self.tools.domain.corners.clear();
         } else if self.help.take().is_none() {
-            self.session.query(None);
+            self.ask(None);
             self.session.notices_mut().dismiss();
         }
     }
@@ -136,10 +138,21 @@ impl App {
         }
     }
 
-    fn query_neighbour(&mut self, place: usize) {
+    fn query_neighbour(&mut self, place: usize, keeps_trail: bool) {
         let Some(id) = self.session.queried_triangle() else { return };
         match self.session.view().neighbours(id)[place].triangle() {
-            Some(neighbour) => self.query_triangle(neighbour),
+            Some(neighbour) => {
+                let (from, to) = (self.middle_of(id), self.middle_of(neighbour));
+                let mut trail = std::mem::take(&mut self.tools.trail);
+                self.query_triangle(neighbour);
+                if keeps_trail {
+                    if trail.is_empty() {
+                        trail.push(from);
+                    }
+                    trail.push(to);
+                    self.tools.trail = trail;
+                }
+            }
             None => {
                 let name = NEIGHBOURS[place].to_lowercase();
                 self.session.tell(format!("There is no {name}: that edge is on the boundary."));
@@ -149,22 +162,31 @@ impl App {
 
     fn query(&mut self, point: DVec2) {
         self.view.reveals_inspector = true;
-        self.session.query(Some(point));
+        self.ask(Some(point));
         self.tools.note_use(&QUERY);
+    }
+
+    /// Queries a point or none. The trail to the former one ends.
+    fn ask(&mut self, point: Option<DVec2>) {
+        self.tools.trail.clear();
+        self.session.query(point);
+    }
+
+    fn middle_of(&self, id: TriangleId) -> DVec2 {
+        let [a, b, c] = self.session.view().world_corners(id);
+        (a + b + c) / 3.0
     }
 
     /// Queries a triangle, and moves the view where it is out of sight.
     fn query_triangle(&mut self, id: TriangleId) {
-        let [a, b, c] = self.session.view().world_corners(id);
-        let middle = (a + b + c) / 3.0;
-        self.session.query(Some(middle));
+        let middle = self.middle_of(id);
+        self.ask(Some(middle));
         self.view.reveal(middle);
     }
 
     fn go_to_triangle(&mut self, id: TriangleId) {
-        let [a, b, c] = self.session.view().world_corners(id);
-        let middle = (a + b + c) / 3.0;
-        self.session.query(Some(middle));
+        let middle = self.middle_of(id);
+        self.ask(Some(middle));
         self.view.go_to(middle, self.session.view().diameter(id), TRIANGLE_PX);
     }
 }

@@ -62,7 +62,7 @@ impl App {
         let mut pins = self.session.document().settings().pins.to_vec();
         pins[number] = to + grip;
         self.session.set(Setting::Pins(Arc::new(pins)));
-        self.session.query(Some(to + grip));
+        self.ask(Some(to + grip));
     }
 
     /// Adds a pin as a gesture of its own, and selects it.
@@ -80,7 +80,7 @@ impl App {
     fn select_pin(&mut self, number: usize) {
         let Some(&pin) = self.session.document().settings().pins.get(number) else { return };
         self.tools.pins.selected = Some(number);
-        self.session.query(Some(pin));
+        self.ask(Some(pin));
         self.view.reveal(pin);
     }
 

@@ -8,7 +8,10 @@ use crate::app::frame::FrameState;
 use crate::app::inspection::{Inspection, LayerAnswer, NEIGHBOURS, Row};
 use crate::app::readout::{Quantity, Readout, TriangleReadout};
 use crate::app::theme::tokens;
-use crate::app::widgets::{ActionButton, Chip, Icon, Section, ValueRow, chips, empty_state, segmented};
+use crate::app::view::CanvasAid;
+use crate::app::widgets::{
+    ActionButton, Chip, Icon, Section, ValueRow, chips, empty_state, format, segmented, toggle_row, value_row,
+};
 use crate::mesh::{Location, TriangleId};
 
 /// The queried triangle, its neighbours, and a quantity in it.
@@ -61,7 +64,27 @@ fn triangle_rows(
     layer_rows(ui, inspection, commands);
     ui.add_space(4.0);
     copied_rows(ui, &inspection.corner_rows(), commands);
+    walk_rows(ui, state, commands);
     hovered
+}
+
+/// How many steps point location took, beside their mean and their bound.
+fn walk_rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
+    let Some(readout) = state.readout else { return };
+    if state.walks.is_due(state.session) {
+        // It is measured only while it is shown.
+        commands.push(Command::MeasureWalks);
+    }
+    let mesh = state.session.mesh();
+    let steps = mesh.walk_path(readout.point).len().saturating_sub(1);
+    let steps = if steps == 1 { "1 step".into() } else { format!("{} steps", format::count(steps as u64)) };
+    let mean = state.walks.mean_steps().map_or("…".into(), |mean| format::fixed(mean, 1));
+    let bound = format::count(mesh.walk_bound() as u64);
+    value_row(ui, "Walk", &format!("{steps} (mean {mean}, bound {bound})"));
+    let mut shown = state.view.aids.walk;
+    if toggle_row(ui, "Show the walk", &mut shown).changed() {
+        commands.push(Command::ToggleAid(CanvasAid::Walk));
+    }
 }
 
 /// What each visible layer asks for at the point, and which one decides.
@@ -107,7 +130,9 @@ fn neighbour_chips(
             let chip = Chip::new(colors[i], &text, NEIGHBOURS[i]).number(i + 1).help(NEIGHBOUR_HELP[i]);
             let response = chip.enabled(id.is_some()).show(ui);
             if response.clicked() {
-                commands.extend(id.map(Command::QueryTriangle));
+                let follows = ui.input(|input| input.modifiers.shift);
+                let follow = Some(Command::FollowNeighbour(i)).filter(|_| follows);
+                commands.extend(follow.or(id.map(Command::QueryTriangle)));
             }
             hovered = id.filter(|_| response.hovered()).or(hovered);
         }
@@ -119,9 +144,9 @@ fn neighbour_chips(
 const VERTEX_HELP: &str = "A vertex with its number in files, and its x and y in the unit of the document.";
 
 const NEIGHBOUR_HELP: [&str; 3] = [
-    "The neighbour across the bisection edge. With the query tool, key 1 goes there.",
-    "The second neighbour, anticlockwise. With the query tool, key 2 goes there.",
-    "The third neighbour, anticlockwise. With the query tool, key 3 goes there.",
+    "The neighbour across the bisection edge. With the query tool, key 1 goes there; Shift keeps the trail.",
+    "The second neighbour, anticlockwise. With the query tool, key 2 goes there; Shift keeps the trail.",
+    "The third neighbour, anticlockwise. With the query tool, key 3 goes there; Shift keeps the trail.",
 ];
 
 fn no_triangle(ui: &mut Ui, readout: &Readout) {

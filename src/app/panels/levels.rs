@@ -6,12 +6,15 @@ use super::Panel;
 use crate::app::command::Command;
 use crate::app::frame::FrameState;
 use crate::app::view::deepest_level;
-use crate::app::widgets::{LevelLegend, LevelRow, Section, format};
+use crate::app::widgets::{ActionButton, LevelLegend, LevelRow, Section, format};
 use crate::colormap::LevelColors;
 
 /// Height of the legend in points, for any number of levels: the sections below must not move while the
 /// pointer drags the coarse spacing or the smallest diameter.
 const HEIGHT: f32 = 224.0;
+
+/// Room for the button that shows all levels again, in points.
+const BUTTON_HEIGHT: f32 = 36.0;
 
 /// The legend, which is the histogram as well: colours as on the canvas, counts beside the bars.
 pub static LEVELS: Panel = Panel { name: "levels", only_with_tool: false, show };
@@ -28,12 +31,21 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
         let under_pointer = state.pointer.and_then(|point| state.session.locate(point).triangle());
         let lit = under_pointer.map(|id| state.session.view().triangle(id).level());
         ui.set_min_height(HEIGHT);
-        LevelLegend::new(&rows).unit(state.unit()).lit(lit).max_height(HEIGHT).show(ui)
+        let hidden = state.view.hidden_levels;
+        let height = if hidden == 0 { HEIGHT } else { HEIGHT - BUTTON_HEIGHT };
+        let legend = LevelLegend::new(&rows).unit(state.unit()).lit(lit).hidden(hidden);
+        let answer = legend.max_height(height).show(ui);
+        if hidden != 0 && ui.add(ActionButton::new("Show all levels")).clicked() {
+            commands.push(Command::ShowAllLevels);
+        }
+        answer
     });
-    let hovered = section.flatten();
-    if hovered != state.view.lone_level {
-        commands.push(Command::ShowLevel(hovered));
+    let answer = section.unwrap_or_default();
+    if answer.hovered != state.view.lone_level {
+        commands.push(Command::ShowLevel(answer.hovered));
     }
+    commands.extend(answer.toggled.map(Command::ToggleLevel));
+    commands.extend(answer.isolated.map(Command::IsolateLevel));
 }
 
 fn row(state: &FrameState<'_>, level: usize, counts: &[usize], colors: &LevelColors) -> LevelRow {

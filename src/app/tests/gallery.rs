@@ -128,7 +128,7 @@ fn field(ui: &mut Ui, state: &mut State) {
 fn inspector(ui: &mut Ui, state: &mut State, levels: u32) {
     Section::new("Levels").note("37,987 triangles").show(ui, |ui| {
         let rows = level_rows(ui, levels);
-        state.hovered_level = LevelLegend::new(&rows).lit(Some(8)).show(ui);
+        state.hovered_level = LevelLegend::new(&rows).lit(Some(8)).show(ui).hovered;
     });
     Section::new("Triangle 18,204").id("inspector").show(ui, |ui| {
         value_row(ui, "Level · orientation", "8 · anticlockwise");

@@ -37,6 +37,7 @@ mod threats;
 mod unit;
 mod tips;
 mod view;
+mod walks;
 mod why;
 
 use std::fs;

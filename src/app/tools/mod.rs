@@ -177,6 +177,8 @@ pub struct Tools {
     pub threats: ThreatsTool,
     /// The pins of the query tool.
     pub pins: PinsTool,
+    /// The middles of the triangles that were followed from neighbour to neighbour, in world units.
+    pub trail: Vec<DVec2>,
     /// How often each of [`TOOLS`] was used.
     uses: [u32; TOOLS.len()],
 }
@@ -203,6 +205,7 @@ impl Tools {
             boundary: BoundaryTool::default(),
             threats: ThreatsTool::default(),
             pins: PinsTool::default(),
+            trail: Vec::new(),
             uses: [0; TOOLS.len()],
         }
     }
@@ -225,6 +228,7 @@ impl Tools {
         self.boundary.selected = None;
         self.threats = ThreatsTool::default();
         self.pins = PinsTool::default();
+        self.trail.clear();
     }
 
     /// Whether the selected tool shows the brush ring.

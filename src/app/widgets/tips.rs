@@ -7,7 +7,7 @@ const EDGE: f32 = 2.0;
 
 /// The sentences of controls that have no unit or number in it, by the name of the control. The name of a
 /// choice is that of its group and its own.
-static SENTENCES: [(&str, &str); 157] = [
+static SENTENCES: [(&str, &str); 160] = [
     (
         "What the brush paints/Risk",
         "The brush paints risk, from 0 to 1, which the transfer curve turns into a diameter.",
@@ -187,6 +187,15 @@ static SENTENCES: [(&str, &str); 157] = [
         "Export table…",
         "Writes the pins as the table that “meshbrush locate” prints for the saved document, with h̄ as the value.",
     ),
+    (
+        "Walk",
+        "Steps from triangle to triangle in which point location finds the point; their mean over 1,000 points of this mesh, and the report's bound 2^M_L.",
+    ),
+    (
+        "Show the walk",
+        "Draws the walk of point location from the triangle of the bucket to the queried point.",
+    ),
+    ("Show all levels", "Shows the hidden levels again."),
     ("Quantity/h̄", "The inspector interpolates the target diameter."),
     ("Quantity/Risk", "The inspector interpolates the risk, from 0 to 1."),
     ("Brush", "Paints risk or a target diameter."),

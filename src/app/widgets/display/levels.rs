@@ -37,13 +37,26 @@ pub struct LevelLegend<'a> {
     rows: &'a [LevelRow],
     unit: LengthUnit,
     lit: Option<u32>,
+    /// Bit ℓ: whether level ℓ is hidden on the canvas.
+    hidden: u64,
     max_height: f32,
+}
+
+/// What was done with the rows of a legend.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct LevelAnswer {
+    /// The level under the pointer.
+    pub hovered: Option<u32>,
+    /// The level that was clicked, to be hidden or shown.
+    pub toggled: Option<u32>,
+    /// The level that was clicked with Alt, to be shown alone.
+    pub isolated: Option<u32>,
 }
 
 impl<'a> LevelLegend<'a> {
     /// A legend of `rows`, from the top down.
     pub fn new(rows: &'a [LevelRow]) -> Self {
-        Self { rows, unit: LengthUnit::None, lit: None, max_height: 360.0 }
+        Self { rows, unit: LengthUnit::None, lit: None, hidden: 0, max_height: 360.0 }
     }
 
     /// The unit of the diameters.
@@ -58,14 +71,20 @@ impl<'a> LevelLegend<'a> {
         self
     }
 
+    /// The levels that are hidden on the canvas, as bits.
+    pub fn hidden(mut self, levels: u64) -> Self {
+        self.hidden = levels;
+        self
+    }
+
     /// The greatest height in points; 360 by default.
     pub fn max_height(mut self, height: f32) -> Self {
         self.max_height = height;
         self
     }
 
-    /// Shows the legend, and returns the level under the pointer.
-    pub fn show(self, ui: &mut Ui) -> Option<u32> {
+    /// Shows the legend, and returns what was done with its rows.
+    pub fn show(self, ui: &mut Ui) -> LevelAnswer {
         let rows = self.rows.len().max(1) as f32;
         let row_height = (self.max_height / rows).floor().clamp(SMALLEST_ROW, ROW);
         let height = (rows * row_height).min(self.max_height);
@@ -79,7 +98,7 @@ impl<'a> LevelLegend<'a> {
             .inner
     }
 
-    fn rows_ui(&self, ui: &mut Ui, height: f32) -> Option<u32> {
+    fn rows_ui(&self, ui: &mut Ui, height: f32) -> LevelAnswer {
         let layout = Layout::of(ui, self.rows);
         let size = vec2(ui.available_width(), height * self.rows.len() as f32);
         let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
@@ -87,29 +106,49 @@ impl<'a> LevelLegend<'a> {
             Rect::from_min_size(pos2(rect.left(), rect.top() + height * i as f32), vec2(rect.width(), height))
         };
         let responses: Vec<_> =
-            self.rows.iter().enumerate().map(|(i, row)| sense(ui, place(i), row, self.unit)).collect();
-        let hovered = responses
-            .iter()
-            .zip(self.rows)
-            .find(|(response, _)| response.hovered())
-            .map(|(_, row)| row.level);
+            self.rows.iter().enumerate().map(|(i, row)| self.sense(ui, place(i), row)).collect();
+        let level_where = |is: fn(&Response) -> bool| {
+            let found = responses.iter().zip(self.rows).find(|(response, _)| is(response));
+            found.map(|(_, row)| row.level)
+        };
+        let (hovered, clicked) = (level_where(Response::hovered), level_where(Response::clicked));
+        let isolates = ui.input(|input| input.modifiers.alt);
         for (i, row) in self.rows.iter().enumerate() {
             let lit = hovered.or(self.lit) == Some(row.level);
-            layout.paint(ui, place(i), row, lit, hovered.is_some() && !lit);
+            let opacity = match (self.is_hidden(row.level), hovered.is_some() && !lit) {
+                (true, _) => 0.15,
+                (false, true) => 0.4,
+                (false, false) => 1.0,
+            };
+            layout.paint(ui, place(i), row, lit, opacity);
         }
-        hovered
+        LevelAnswer {
+            hovered,
+            toggled: clicked.filter(|_| !isolates),
+            isolated: clicked.filter(|_| isolates),
+        }
     }
-}
 
-/// Registers a row for the pointer, tests and screen readers. Rows take no focus: there may be more than
-/// fifty.
-fn sense(ui: &Ui, rect: Rect, row: &LevelRow, unit: LengthUnit) -> Response {
-    let response = ui.interact(rect, ui.scope_id().with(("level", row.level)), Sense::hover());
-    let triangles = if row.count == 1 { "triangle" } else { "triangles" };
-    let name = format!("Level {}: {} {triangles}", row.level, format::count(row.count));
-    response.widget_info(|| WidgetInfo::labeled(Role::ListItem, true, &name));
-    let diameter = unit.after(&format::digits(row.diameter, 4));
-    response.on_hover_text_at_pointer(format!("{name}\nDiameter {diameter}"))
+    fn is_hidden(&self, level: u32) -> bool {
+        self.hidden >> level.min(63) & 1 == 1
+    }
+
+    /// Registers a row for the pointer, tests and screen readers. Rows take no focus: there may be more than
+    /// fifty.
+    fn sense(&self, ui: &Ui, rect: Rect, row: &LevelRow) -> Response {
+        let response = ui.interact(rect, ui.scope_id().with(("level", row.level)), Sense::CLICK);
+        let triangles = if row.count == 1 { "triangle" } else { "triangles" };
+        let name = format!("Level {}: {} {triangles}", row.level, format::count(row.count));
+        let is_hidden = self.is_hidden(row.level);
+        response.widget_info(|| WidgetInfo {
+            current_text_value: Some(if is_hidden { "hidden" } else { "shown" }.into()),
+            ..WidgetInfo::labeled(Role::ListItem, true, &name)
+        });
+        let diameter = self.unit.after(&format::digits(row.diameter, 4));
+        let click = if is_hidden { "A click shows it" } else { "A click hides it" };
+        let help = format!("{name}\nDiameter {diameter}\n{click}, Alt+click shows it alone.");
+        response.on_hover_text_at_pointer(help)
+    }
 }
 
 /// The widths of the legend's columns, which depend on all rows.
@@ -125,16 +164,16 @@ impl Layout {
         Self { total: most.max(1) as f32, count: widest.size().x.ceil() }
     }
 
-    fn paint(&self, ui: &Ui, rect: Rect, row: &LevelRow, lit: bool, dimmed: bool) {
+    fn paint(&self, ui: &Ui, rect: Rect, row: &LevelRow, lit: bool, opacity: f32) {
         let t = tokens(ui);
         if lit {
             ui.painter().rect_filled(rect.expand2(vec2(6.0, 0.0)), 4.0, t.field);
         }
-        let ink = if lit || row.count > 0 { t.label } else { t.faint };
+        let ink = if (lit || row.count > 0) && opacity > 0.2 { t.label } else { t.faint };
         let level =
             paint::line(ui, &row.level.to_string(), font::small_value(), if lit { t.value } else { ink });
         paint::at_right(ui, rect.with_max_x(rect.left() + LEVEL), level);
-        let end = self.bar(ui, rect, row, if dimmed { 0.4 } else { 1.0 });
+        let end = self.bar(ui, rect, row, opacity);
         let count = format::count(row.count);
         let count = paint::line(ui, &count, font::small_value(), if lit { t.value } else { ink });
         paint::at_left(ui, rect.with_min_x(end + 8.0), count);

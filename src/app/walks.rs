@@ -1,0 +1,41 @@
+//! How many steps point location takes in the mesh, which is measured on another thread.
+
+use std::time::Duration;
+
+use eframe::egui::Context;
+
+use super::latest::Latest;
+use super::session::Session;
+
+/// Points that are located: the mean is then known to a few percent.
+const SAMPLES: usize = 1000;
+
+/// Measures the walks of point location (Algorithm 15), and keeps the last mean.
+#[derive(Default)]
+pub struct WalkMeter(Latest<u64, f64>);
+
+impl WalkMeter {
+    /// The mean number of steps that was measured last; it may be that of an earlier mesh.
+    pub fn mean_steps(&self) -> Option<f64> {
+        self.0.last().map(|(_, mean)| *mean)
+    }
+
+    /// Whether [`Self::measure`] would measure.
+    pub fn is_due(&self, session: &Session) -> bool {
+        let is_settled = session.stage().is_settled() && !session.document().is_in_gesture();
+        is_settled && !self.0.is_running() && !self.0.has(&session.follower().revision())
+    }
+
+    /// Measures the mesh, where that is due.
+    pub fn measure(&mut self, session: &Session, ctx: &Context) {
+        if self.is_due(session) {
+            let mesh = session.shared_mesh();
+            self.0.start(session.follower().revision(), move || mesh.mean_walk_steps(SAMPLES), ctx);
+        }
+    }
+
+    /// Takes a mean that is ready, waiting for it up to `patience`. Returns whether one is being measured.
+    pub fn take(&mut self, patience: Duration) -> bool {
+        self.0.take(patience)
+    }
+}
