@@ -870,3 +870,29 @@ fn a_target_of_infinity_asks_for_nothing() {
     assert_eq!(hash("--target 1/0 --target 0.02"), hash("--target 0.02"));
     assert_ne!(hash("--target 0.02"), hash("--target 100"));
 }
+
+#[test]
+fn a_recorded_session_is_replayed_and_a_difference_gives_status_1() {
+    let folder = Folder::new("replay");
+    let text = fs::read_to_string("tests/sessions/random_gestures.jsonl").unwrap();
+    let lines: Vec<&str> = text.lines().take(6).collect();
+    folder.file("a.jsonl", lines.join("\n") + "\n");
+    let ran = folder.run("replay a.jsonl");
+    assert_eq!((ran.status, ran.err.as_str()), (0, ""));
+    assert!(
+        ran.out.starts_with("4 edits replayed: every mesh is the recorded one, and the last has "),
+        "{ran:?}"
+    );
+    assert_eq!(folder.run("replay a.jsonl --json").json()["agrees"], true);
+
+    let last: Value = serde_json::from_str(lines[5]).unwrap();
+    let found = last["gives"]["mesh"]["fingerprint"].as_str().unwrap();
+    folder.file("b.jsonl", lines.join("\n").replace(found, "an old one") + "\n");
+    let ran = folder.run("replay b.jsonl --json");
+    assert_eq!(ran.status, 1);
+    let difference = &ran.json()["difference"];
+    assert_eq!(difference["edit"], ran.err.split_once("after edit ").unwrap().1[..1].parse::<u64>().unwrap());
+    assert!(difference["expected"].as_str().unwrap().starts_with("an old one"));
+    assert!(ran.err.contains("expected is an old one") && ran.err.contains(found), "{ran:?}");
+    assert_eq!(folder.run("replay missing.jsonl").status, 1);
+}

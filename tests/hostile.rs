@@ -5,11 +5,15 @@ use std::fmt::Write;
 use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
+use glam::dvec2;
+use meshbrush::internals::document::{Document, Settings};
 use meshbrush::internals::domain::{Domain, RegionError};
 use meshbrush::internals::field::Formula;
 use meshbrush::internals::geometry::Rect;
 use meshbrush::internals::io::png::{Behind, decode};
-use meshbrush::internals::io::{asc, geojson, points, recipe, shapes, threats};
+use meshbrush::internals::io::{Meter, asc, geojson, points, recipe, recording, shapes, threats};
+use meshbrush::internals::layers::{Layer, LayerKind, Quantity};
+use meshbrush::internals::paint::{Brush, DiameterChange, Medium};
 
 const NAME: &str = "the file";
 
@@ -54,6 +58,28 @@ fn read_formula(bytes: &[u8]) -> Result<(), String> {
     let formula = Formula::parse(text).map_err(|mistake| format!("{NAME}: {mistake}"))?;
     let _ = formula.eval(0.5, -0.5);
     Ok(())
+}
+
+/// Reads a recording and does its edits again.
+fn read_recording(bytes: &[u8]) -> Result<(), String> {
+    let file = recording::from_bytes(bytes, Path::new(NAME)).map_err(|error| error.to_string())?;
+    file.replay(&Meter::default()).map(drop).map_err(|error| error.to_string())
+}
+
+/// A recording of a stroke and its undo on a few coarse triangles.
+fn recording_sample() -> Vec<u8> {
+    let layers = Layer::stack([LayerKind::Paint(Quantity::Diameter)]);
+    let settings = Settings { spacing: 0.9, max_triangles: 500, layers, ..Settings::default() };
+    let mut document = Document::new(settings, None).unwrap();
+    document.record();
+    let medium = Medium::Diameter(0.3, DiameterChange::Finer);
+    document.begin_stroke(Brush { medium, radius: 0.2, hardness: 0.5, strength: 1.0 });
+    document.draw_to(dvec2(0.5, 0.25));
+    document.end_stroke();
+    document.undo();
+    let mut bytes = Vec::new();
+    recording::write(&mut bytes, document.recording().unwrap(), &Meter::default()).unwrap();
+    bytes
 }
 
 const GEOJSON: &str = r#"{"type":"FeatureCollection","features":[{"type":"Feature","properties":{"a":[1,{"b":null}]},
@@ -141,6 +167,21 @@ fn every_prefix_gives_a_result_or_a_sentence() {
     }
     for (file, read) in samples() {
         assert!(read(&[]).is_err() && read(&file[..file.len() / 2]).is_err());
+    }
+}
+
+#[test]
+fn damaged_recordings_give_a_result_or_a_sentence() {
+    let file = recording_sample();
+    assert_eq!(read_recording(&file), Ok(()));
+    (0..file.len()).step_by(5).for_each(|end| assert_sentence(read_recording(&file[..end])));
+    assert!(read_recording(&[]).is_err() && read_recording(&file[..file.len() / 2]).is_err());
+    let mut changed = file.clone();
+    for at in 0..file.len() {
+        // Each is a mesh: fewer changes than of the other formats.
+        changed[at] = [b'9', b'-', b'"', 0xff][at % 4];
+        assert_sentence(read_recording(&changed));
+        changed[at] = file[at];
     }
 }
 

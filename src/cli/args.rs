@@ -4,6 +4,9 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
+#[cfg(feature = "gui")]
+use super::more_args::ScreenshotsArguments;
+use super::more_args::{CompletionsArguments, RecipeArguments, ReplayArguments};
 use crate::field::RefinementRule;
 use crate::render::export::ExportFormat;
 
@@ -43,6 +46,11 @@ pub enum Command {
     ///
     /// The recipe gives the mesh of the project. Existing files are replaced.
     Recipe(RecipeArguments),
+    /// Do the edits of a recorded session again, and compare the mesh after each
+    ///
+    /// *Export as test…* in the window writes the file. The exit status is 1 if a mesh is not the recorded
+    /// one.
+    Replay(ReplayArguments),
     /// Print a script that lets a shell complete the program's options
     ///
     /// For bash: meshbrush completions bash > ~/.local/share/bash-completion/completions/meshbrush
@@ -52,17 +60,6 @@ pub enum Command {
     /// They are painted without a display, by the program's own commands.
     #[cfg(feature = "gui")]
     Screenshots(ScreenshotsArguments),
-}
-
-/// Which project, and where the recipe goes.
-#[derive(Debug, Args)]
-pub struct RecipeArguments {
-    /// A project saved in the window (.meshbrush)
-    pub project: PathBuf,
-
-    /// The recipe to write; the files that it names are named after it
-    #[arg(short, long, value_name = "RECIPE.toml")]
-    pub output: PathBuf,
 }
 
 const MESH_EXAMPLES: &str = "\
@@ -408,28 +405,4 @@ pub struct WhyArguments {
     /// Print the answer as one JSON object on standard output
     #[arg(long, help_heading = "Output")]
     pub json: bool,
-}
-
-/// `meshbrush completions`.
-#[derive(Debug, Args)]
-pub struct CompletionsArguments {
-    /// The shell
-    pub shell: clap_complete::Shell,
-}
-
-/// `meshbrush screenshots`.
-#[cfg(feature = "gui")]
-#[derive(Debug, Args)]
-pub struct ScreenshotsArguments {
-    /// Folder to write to; created if it does not exist
-    #[arg(value_name = "DIR")]
-    pub folder: PathBuf,
-
-    /// Write the pictures of the manual instead of those of the README
-    #[arg(long)]
-    pub manual: bool,
-
-    /// Write the steps of a first session, from opening a coast to exporting its mesh, instead
-    #[arg(long, conflicts_with = "manual")]
-    pub tour: bool,
 }

@@ -11,9 +11,11 @@ mod failure;
 mod layer_options;
 mod locate;
 mod mesh;
+mod more_args;
 mod output;
 mod quantities;
 mod recipe;
+mod replay;
 mod request;
 mod requested_files;
 mod sources;
@@ -84,6 +86,7 @@ fn run_command(
         (Some(Command::Mesh(typed)), _) => mesh::run(&typed, line, &mut out, terminal),
         (Some(Command::Locate(typed)), _) => locate::run(&typed, &mut out, terminal),
         (Some(Command::Why(typed)), _) => why::run(&typed, &mut out, terminal),
+        (Some(Command::Replay(typed)), _) => replay::run(&typed, &mut out, terminal),
         (Some(Command::Recipe(typed)), _) => recipe::write(&typed, terminal),
         (Some(Command::Completions(typed)), _) => {
             let mut script = Vec::new();
@@ -113,5 +116,7 @@ fn run_command(
 
 fn without_window() -> Failure {
     let problem = "This meshbrush was built without its window (feature `gui`). Its commands are `mesh`,";
-    Failure::Usage(format!("{problem} `locate`, `why` and `recipe`; `meshbrush --help` lists them."))
+    Failure::Usage(format!(
+        "{problem} `locate`, `why`, `recipe` and `replay`; `meshbrush --help` lists them."
+    ))
 }

@@ -2,8 +2,9 @@
 
 use std::path::Path;
 
-use super::args::{BoundaryArgument, InputArguments, RecipeArguments};
+use super::args::{BoundaryArgument, InputArguments};
 use super::failure::Failure;
+use super::more_args::RecipeArguments;
 use super::request::{MeshRequest, USUAL_BUDGET, limits, parts, rule};
 use super::terminal::Terminal;
 use crate::io::Meter;

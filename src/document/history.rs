@@ -34,15 +34,15 @@ impl EntryData {
     }
 }
 
-fn own_bytes(settings: &Settings) -> usize {
+pub(super) fn own_bytes(settings: &Settings) -> usize {
     let layers: usize = settings.layers.iter().map(|layer| size_of_val(layer) + layer.name.capacity()).sum();
     size_of::<Settings>() + settings.name.capacity() + layers
 }
 
 /// Data behind an `Arc`, which other settings may share: its address and its size in bytes.
-type SharedData = (usize, usize);
+pub(super) type SharedData = (usize, usize);
 
-fn shared_data(settings: &Settings) -> impl Iterator<Item = SharedData> + '_ {
+pub(super) fn shared_data(settings: &Settings) -> impl Iterator<Item = SharedData> + '_ {
     let outline = settings.domain.region().map(|region| (Arc::as_ptr(region).addr(), region.bytes()));
     let marks = (Arc::as_ptr(&settings.boundary_marks).addr(), settings.boundary_marks.bytes());
     let pins = (Arc::as_ptr(&settings.pins).addr(), size_of_val(&settings.pins[..]));

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::{Document, Settings, SettingsError};
+use super::{Document, Edit, Settings, SettingsError};
 use crate::layers::{Layer, LayerId, PaintLayers, Quantity};
 use crate::paint::Medium;
 use crate::raster::{PixelGrid, TiledRaster};
@@ -111,9 +111,11 @@ impl Document {
 
     /// Gives a new layer the pixels of another one. The layer itself is added by a setting.
     pub fn copy_paint(&mut self, from: LayerId, to: LayerId) {
+        self.end_gesture();
         if let Some(raster) = self.paint.get(from).cloned() {
             self.paint.insert(to, raster);
             self.edits.layers.insert(to);
+            self.note_edit("copy paint", || Edit::CopyPaint { from, to });
         }
     }
 

@@ -13,12 +13,13 @@ mod outline;
 mod outline_update;
 mod pricer;
 mod rebuild;
+mod recording;
+mod replay;
 mod setting;
 mod settings;
 mod shown;
 mod stage;
-
-use glam::DVec2;
+mod strokes;
 
 pub use background::{Background, Picture};
 pub use edits::Edits;
@@ -28,15 +29,17 @@ pub use history::History;
 pub use layers::NoPaintLayer;
 pub use outline::{OutlineError, extent};
 pub use pricer::{NoChange, Price, Pricer};
+pub use recording::{Edit, EditError, RecordedEdit, RecordedStroke, Recording};
+pub use replay::{Replay, ReplayedMesh};
 pub use setting::{Setting, SettingKind};
 pub use settings::{LEAST_MEMORY, MAX_COARSE_TRIANGLES, Settings, SettingsError};
 pub use stage::Stage;
 
 use crate::geometry::Rect;
 use crate::layers::{LayerId, PaintLayers};
-use crate::mesh::Progress;
-use crate::paint::{Brush, Medium, Mirror, Patch, PathPoint, Stroke};
+use crate::paint::Patch;
 use history::{Entry, EntryData};
+use strokes::LayerStroke;
 
 /// The ground state: settings and paint, the only data that is edited, undone and saved.
 ///
@@ -58,17 +61,12 @@ pub struct Document {
     open_gesture: Option<SettingKind>,
     repainted: Repainted,
     edits: Edits,
+    /// The edits as data, if they are recorded.
+    recording: Option<Recording>,
     revision: u64,
     version: u64,
     /// The highest version so far.
     last_version: u64,
-}
-
-/// A stroke, and the layer that it paints on.
-#[derive(Clone, Debug)]
-struct LayerStroke {
-    layer: LayerId,
-    stroke: Stroke,
 }
 
 /// Where the paint changed since [`Document::take_repainted`] was last called.
@@ -100,6 +98,7 @@ impl Document {
             open_gesture: None,
             repainted: Repainted::Everything,
             edits: Edits::everything(),
+            recording: None,
             revision: 0,
             version: 0,
             last_version: 0,
@@ -132,99 +131,6 @@ impl Document {
         self.version
     }
 
-    /// The current stroke, from [`Self::begin_stroke`] until it ends.
-    pub fn stroke(&self) -> Option<&Stroke> {
-        self.stroke.as_ref().map(|current| &current.stroke)
-    }
-
-    /// Begins a stroke on the layer that [`Self::layer_for`] chooses. It touches nothing until
-    /// [`Self::extend_stroke`]. The current stroke or gesture ends first. Nothing begins where no layer can
-    /// be painted on.
-    pub fn begin_stroke(&mut self, brush: Brush) {
-        self.begin_mirrored_stroke(brush, Mirror::default());
-    }
-
-    /// Begins a stroke that is repeated in the lines of `mirror`, as [`Self::begin_stroke`] does.
-    pub fn begin_mirrored_stroke(&mut self, brush: Brush, mirror: Mirror) {
-        self.end_stroke();
-        self.end_gesture();
-        let Ok(layer) = self.layer_for(&brush.medium) else { return };
-        self.active = Some(layer);
-        let settings = &self.settings;
-        self.paint.get_or_insert(layer, || settings.blank_raster(layer));
-        let stroke = Stroke::new(brush, settings.transfer.h_max, settings.domain.bounds).mirrored(mirror);
-        self.stroke = Some(LayerStroke { layer, stroke });
-        self.finishing = false;
-    }
-
-    /// Extends the current stroke to a point in world units and draws it there at once.
-    pub fn draw_to(&mut self, point: DVec2) {
-        self.extend_stroke(point);
-        while self.advance_stroke(usize::MAX) == Progress::More {}
-    }
-
-    /// Extends the current stroke to a point; [`Self::advance_stroke`] draws the new segment.
-    pub fn extend_stroke(&mut self, point: impl Into<PathPoint>) {
-        if let Some(LayerStroke { layer, stroke }) = &mut self.stroke
-            && let Some(raster) = self.paint.get(*layer)
-        {
-            stroke.extend(raster, point);
-        }
-    }
-
-    /// Draws at most one segment of the current stroke, and about `pixels` of it. A stroke that was finished
-    /// ends with its last segment.
-    pub fn advance_stroke(&mut self, pixels: usize) -> Progress {
-        let Some(LayerStroke { layer, stroke }) = &mut self.stroke else { return Progress::Done };
-        let layer = *layer;
-        let area = self.paint.get_mut(layer).and_then(|raster| stroke.advance(raster, pixels));
-        let progress = if stroke.is_drawn() { Progress::Done } else { Progress::More };
-        if let Some(area) = area {
-            self.note_repainted(layer, [area]);
-        }
-        if self.finishing && progress == Progress::Done {
-            self.end_stroke();
-        }
-        progress
-    }
-
-    /// Whether the current stroke is drawn to its last point; true without a stroke.
-    pub fn is_stroke_drawn(&self) -> bool {
-        self.stroke().is_none_or(Stroke::is_drawn)
-    }
-
-    /// Lets the current stroke end as soon as [`Self::advance_stroke`] has drawn it to its last point.
-    pub fn finish_stroke(&mut self) {
-        self.finishing = true;
-        if self.is_stroke_drawn() {
-            self.end_stroke();
-        }
-    }
-
-    /// Draws the rest of the current stroke at once and ends it: it becomes one entry of the history.
-    pub fn end_stroke(&mut self) {
-        self.finishing = false;
-        while self.advance_stroke(usize::MAX) == Progress::More {}
-        let Some(LayerStroke { layer, stroke }) = self.stroke.take() else { return };
-        let title = match stroke.brush().medium {
-            Medium::Eraser => "erase",
-            _ => "paint",
-        };
-        let Some(raster) = self.paint.get_mut(layer) else { return };
-        let patch = stroke.finish(raster);
-        if !patch.is_empty() {
-            self.enter(title, EntryData::Paint(vec![(layer, patch)]));
-        }
-    }
-
-    /// Removes the current stroke, as if it had never begun.
-    pub fn cancel_stroke(&mut self) {
-        let Some(LayerStroke { layer, stroke }) = self.stroke.take() else { return };
-        let Some(raster) = self.paint.get_mut(layer) else { return };
-        let areas = stroke.finish(raster).exchange(raster);
-        self.note_repainted(layer, areas);
-    }
-
     /// Opens another document in place of this one. Nothing of this one is kept: the history is empty, and
     /// what was not saved is lost.
     ///
@@ -232,6 +138,7 @@ impl Document {
     /// former document (a file, a mesh) is not taken for one of this.
     pub fn replace_with(&mut self, other: Self) {
         let version = self.last_version + 1;
+        let records = self.recording.is_some();
         *self = Self {
             history: History::default(),
             stroke: None,
@@ -242,8 +149,12 @@ impl Document {
             revision: self.revision + 1,
             version,
             last_version: version,
+            recording: None,
             ..other
         };
+        if records {
+            self.record();
+        }
     }
 
     /// Removes the paint of all layers that are not locked, as one gesture.
@@ -268,7 +179,9 @@ impl Document {
             }
         }
         if !patches.is_empty() {
+            let cleared = patches.iter().map(|(layer, _)| *layer).collect();
             self.enter(title, EntryData::Paint(patches));
+            self.note_edit(title, || Edit::Clear(cleared));
         }
     }
 
@@ -287,17 +200,25 @@ impl Document {
         settings.check_paint(&self.paint)?;
         self.end_stroke();
         let joins = self.open_gesture == Some(kind);
+        if joins {
+            self.settings = settings;
+            self.edits.settings = true;
+            self.revision += 1;
+            self.next_version();
+        } else {
+            self.enter_settings(title, settings);
+        }
+        self.note_settings(title, joins);
+        self.open_gesture = Some(kind);
+        Ok(())
+    }
+
+    /// Changes the settings, as an entry of the history.
+    fn enter_settings(&mut self, title: &'static str, settings: Settings) {
         let old = std::mem::replace(&mut self.settings, settings);
         self.edits.settings = true;
-        if !joins {
-            self.enter(title, EntryData::Settings(Box::new(old)));
-        }
+        self.enter(title, EntryData::Settings(Box::new(old)));
         self.revision += 1;
-        self.open_gesture = Some(kind);
-        if joins {
-            self.next_version();
-        }
-        Ok(())
     }
 
     /// Ends the current settings gesture, such as the drag of a slider: the next change is an entry of its
@@ -316,6 +237,9 @@ impl Document {
         let mut history = std::mem::take(&mut self.history);
         let did = history.undo(|entry| self.exchange(entry));
         self.history = history;
+        if did {
+            self.note_edit("undo", || Edit::Undo);
+        }
         did
     }
 
@@ -326,6 +250,9 @@ impl Document {
         let mut history = std::mem::take(&mut self.history);
         let did = history.redo(|entry| self.exchange(entry));
         self.history = history;
+        if did {
+            self.note_edit("redo", || Edit::Redo);
+        }
         did
     }
 
@@ -399,8 +326,6 @@ impl Document {
         self.history.last_done().map(|entry| &entry.data)
     }
 
-    /// The paint to resample from. Within a gesture it is the paint before the gesture: resampling it in
-    /// every step would blur it.
     fn note_repainted(&mut self, layer: LayerId, areas: impl IntoIterator<Item = Rect>) {
         for area in areas {
             self.edits.layers.insert(layer);

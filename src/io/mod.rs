@@ -13,6 +13,7 @@
 
 pub mod asc;
 mod atomic;
+mod base64;
 mod blocks;
 mod coordinates;
 pub mod csv;
@@ -35,6 +36,7 @@ mod positions;
 pub mod project;
 mod provenance;
 pub mod recipe;
+pub mod recording;
 mod rows;
 pub mod shapes;
 pub mod sms;

@@ -37,7 +37,7 @@ pub struct Part<'a> {
 }
 
 /// The parts of an archive with their names.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct Archive<'a>(Vec<(&'a str, Part<'a>)>);
 
 impl<'a> Archive<'a> {

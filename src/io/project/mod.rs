@@ -25,6 +25,7 @@
 //! field. A program reads all versions up to its own.
 
 mod archive;
+pub(super) mod embedded;
 mod old_tiles;
 mod old_version;
 mod painted;

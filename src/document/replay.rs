@@ -1,0 +1,73 @@
+use super::{Document, Edit, EditError, Follower, Settings};
+use crate::build::BuildError;
+use crate::layers::PaintLayers;
+use crate::mesh::Fingerprint;
+
+/// Does recorded edits again, and makes the mesh after each.
+#[derive(Debug)]
+pub struct Replay {
+    document: Document,
+    follower: Follower,
+}
+
+/// The mesh that an edit leads to, or why there is none.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ReplayedMesh {
+    /// The mesh of the document.
+    Mesh {
+        /// Equal for equal meshes.
+        fingerprint: Fingerprint,
+        /// Triangles of the domain.
+        triangles: usize,
+    },
+    /// The document has no mesh; the edit stands nevertheless.
+    None(BuildError),
+}
+
+impl Replay {
+    /// Begins with a document and its mesh.
+    ///
+    /// # Errors
+    /// A sentence for a person, when the settings are out of range or there is no mesh.
+    pub fn new(settings: Settings, paint: PaintLayers) -> Result<Self, String> {
+        let document = Document::new(settings, Some(paint)).map_err(|error| error.to_string())?;
+        Self::of_document(document)
+    }
+
+    fn of_document(mut document: Document) -> Result<Self, String> {
+        let follower = Follower::new(&mut document).map_err(|error| error.to_string())?;
+        Ok(Self { document, follower })
+    }
+
+    /// The document as it is.
+    pub fn document(&self) -> &Document {
+        &self.document
+    }
+
+    /// Does an edit. [`Self::advance`] makes the mesh.
+    ///
+    /// # Errors
+    /// When it is not possible.
+    pub fn apply(&mut self, edit: &Edit) -> Result<(), EditError> {
+        self.document.apply(edit)
+    }
+
+    /// Works on the mesh: about `budget` edges, pixels or triangles. Returns the result once it is there.
+    pub fn advance(&mut self, budget: usize) -> Option<ReplayedMesh> {
+        match self.follower.advance(&mut self.document, budget) {
+            Ok(stage) if !stage.is_settled() => None,
+            Ok(_) => Some(match self.follower.stopped() {
+                None => ReplayedMesh::of(&self.follower),
+                Some(error) => ReplayedMesh::None(error.clone()),
+            }),
+            Err(error) => Some(ReplayedMesh::None(error)),
+        }
+    }
+}
+
+impl ReplayedMesh {
+    fn of(follower: &Follower) -> Self {
+        let mesh = follower.mesh();
+        Self::Mesh { fingerprint: mesh.fingerprint(), triangles: mesh.triangle_count() }
+    }
+}
