@@ -79,6 +79,10 @@ pub enum Command {
     SaveRecipeAs(PathBuf),
     /// Writes the document as a recipe, with the files that it names beside it.
     SaveRecipe(PathBuf),
+    /// Writes what was done since the document was opened, and asks before another file is replaced.
+    ExportTestAs(PathBuf),
+    /// Writes what was done since the document was opened, with the fingerprint after each edit.
+    ExportTest(PathBuf),
     /// Writes the mesh to a file, and asks before another one is replaced.
     ExportAs(PathBuf),
     /// Writes the mesh; the ending chooses the format.

@@ -1,6 +1,6 @@
 //! Opening and exporting files, and the documents that come with the program.
 
-use std::io::Cursor;
+use std::io::{Cursor, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -11,18 +11,19 @@ use super::command::{Command, Opened, OutlineChange};
 use super::session::Session;
 use super::view::View;
 use super::widgets::format;
-use crate::document::{self, Document, Example, Setting, Settings};
+use crate::document::{self, Document, Example, Recording, Setting, Settings};
 use crate::domain::{BoundaryMarks, MeshBoundary, NamedPolygon};
 use crate::geometry::Rect;
 use crate::io::png::{Behind, decode};
 use crate::io::project::Project;
 use crate::io::recipe::{self, RecipeFiles};
-use crate::io::{self, Cancelled, MeshData, MeshSource, Meter, Provenance};
+use crate::io::{self, Cancelled, MeshData, MeshSource, Meter, Provenance, recording};
 use crate::layers::TargetsInOrder;
 use crate::mesh::Extract;
 use crate::outline::DerivedMesh;
 use crate::raster::Raster;
 use crate::render::export::ExportFormat;
+use crate::text::{Bytes, Grouped};
 
 /// Width and height in kilometres of the terrain that comes with the program: 403 × 344 pixels of 3″ at 36.6°
 /// N.
@@ -173,6 +174,45 @@ pub fn recipe_of(session: &Session, path: &Path) -> RecipeFiles {
         name.into()
     };
     RecipeFiles::new(&Project::of(session.document()), &path)
+}
+
+/// Does the edits since the document was opened again, and writes each with the fingerprint of the mesh
+/// after it.
+///
+/// # Errors
+/// A sentence, when there were more edits than are recorded.
+pub fn export_test(session: &mut Session, background: &mut Background, path: &Path) -> Result<(), String> {
+    let document = session.document_mut();
+    document.end_stroke();
+    document.end_gesture();
+    let Some(recording) = document.recording().filter(|recording| !recording.is_full()).cloned() else {
+        let most = Bytes(Recording::MAX_BYTES);
+        return Err(format!(
+            "This session cannot be exported as a test: its edits need more than {most}. Save the document and open it \
+             again: a test begins with the document as it was opened."
+        ));
+    };
+    let file = path.to_owned();
+    background.start(Aim::Export, path, move |meter| {
+        let write = |out: &mut dyn Write| recording::write(out, &recording, meter);
+        match io::write_file_metered(&file, meter, write) {
+            Ok(()) => {
+                let edits = match recording.edits().len() {
+                    1 => "1 edit".into(),
+                    count => format!("{} edits", Grouped(count)),
+                };
+                let (file, about) = (file.display(), "“meshbrush replay” verifies them");
+                Outcome::Exported(format!("{edits} written to {file}; {about}."))
+            }
+            Err(_) if meter.is_cancelled() => Outcome::Exported(cancelled(Aim::Export, &file)),
+            Err(error) => {
+                let problem = error.to_string();
+                let problem = problem.trim_end_matches('.');
+                Outcome::NotWritten(format!("{} could not be written: {problem}.", file.display()))
+            }
+        }
+    });
+    Ok(())
 }
 
 /// Writes the document as a recipe, with the files that it names beside it.

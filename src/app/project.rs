@@ -15,6 +15,7 @@ use super::widgets::{Answer, ConfirmDialog};
 use crate::io;
 use crate::io::project::{ENDING, Project};
 use crate::io::recipe::RecipeFiles;
+use crate::io::recording;
 use crate::render::export::ExportFormat;
 
 /// Most files that are remembered.
@@ -272,6 +273,16 @@ impl ProjectFile {
             return Some(save(path));
         }
         self.replacing = Some((vec![path.clone()], save(path)));
+        None
+    }
+
+    /// The command that writes a test to a path that was typed. Asks before it replaces a file.
+    pub fn export_test_as(&mut self, path: PathBuf) -> Option<Command> {
+        let path = if path.extension().is_none() { path.with_extension(recording::ENDING) } else { path };
+        if !io::exists(&path) || io::obstacle(&path).is_some() {
+            return Some(Command::ExportTest(path));
+        }
+        self.replacing = Some((vec![path.clone()], Command::ExportTest(path)));
         None
     }
 

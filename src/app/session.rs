@@ -57,6 +57,7 @@ impl Session {
     /// When no mesh can be built for it.
     pub fn new(mut document: Document) -> Result<Self, BuildError> {
         let began = Instant::now();
+        document.record();
         let follower = Follower::new(&mut document)?;
         Ok(Self {
             document,

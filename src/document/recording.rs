@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::history::{own_bytes, shared_data};
-use super::{Document, NoPaintLayer, Settings, SettingsError};
+use super::{Document, History, NoPaintLayer, Settings, SettingsError};
 use crate::layers::{LayerId, PaintLayers};
 use crate::paint::{Brush, Mirror, PathPoint};
 
@@ -155,9 +155,10 @@ fn recorded(settings: &Settings) -> Arc<Settings> {
 }
 
 impl Document {
-    /// Records the edits from now on, and forgets those recorded so far. The history must be empty.
+    /// Records the edits from now on, and forgets those recorded so far. What was done before can no longer
+    /// be undone: that would reach back beyond the recording.
     pub fn record(&mut self) {
-        debug_assert!(self.history.is_empty(), "undo would reach back beyond the recording");
+        self.history = History::default();
         // Blank pixels are not saved. The next stroke makes them again, at the place that is right by then.
         let blank = self.paint.iter().filter(|(_, raster)| raster.is_blank()).map(|(id, _)| id);
         for id in blank.collect::<Vec<_>>() {

@@ -24,6 +24,7 @@ pub fn file(state: &FrameState<'_>) -> Vec<CatalogItem> {
             .keys(Modifiers::COMMAND | Modifiers::SHIFT, Key::O),
         CatalogItem::new(File, "Add outline to this document…", Command::Ask(FileRequest::AddOutline)),
         CatalogItem::new(File, "Export mesh…", Command::Ask(FileRequest::Export)).ctrl(Key::E),
+        CatalogItem::new(File, "Export as test…", Command::Ask(FileRequest::ExportTest)),
     ];
     for (i, path) in state.project.recent().iter().enumerate() {
         let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use crate::app::command::{Command, PinsCommand};
 use crate::io::project::ENDING;
-use crate::io::recipe;
+use crate::io::{recipe, recording};
 use crate::render::export::ExportFormat;
 
 /// Why a path is asked for.
@@ -17,6 +17,8 @@ pub enum FileRequest {
     Save,
     /// To write the document as a recipe.
     SaveRecipe,
+    /// To write what was done as a test.
+    ExportTest,
     /// To open a picture or a grid as risk.
     OpenImage,
     /// To open a grid as target diameters.
@@ -56,6 +58,7 @@ impl FileRequest {
             Self::Open => "Open",
             Self::Save => "Save project",
             Self::SaveRecipe => "Save as recipe",
+            Self::ExportTest => "Export as test",
             Self::OpenImage => "Open picture as risk",
             Self::OpenDiameters => "Open grid as target diameter",
             Self::OpenBackground => "Open background picture",
@@ -90,7 +93,7 @@ impl FileRequest {
             | Self::OpenThreats => "Open",
             Self::AddOutline => "Add",
             Self::Save | Self::SaveRecipe | Self::SaveThreats => "Save",
-            Self::ExportPins | Self::Export | Self::ExportSteps => "Export",
+            Self::ExportPins | Self::Export | Self::ExportSteps | Self::ExportTest => "Export",
         }
     }
 
@@ -100,6 +103,7 @@ impl FileRequest {
             Self::Open => vec![ENDING, "geojson", "json", "png", "asc"],
             Self::Save => vec![ENDING],
             Self::SaveRecipe => vec![recipe::ENDING],
+            Self::ExportTest => vec![recording::ENDING],
             Self::OpenImage | Self::OpenBand | Self::OpenValues => vec!["png", "asc"],
             Self::OpenDiameters => vec!["asc"],
             Self::OpenBackground => vec!["png"],
@@ -118,6 +122,7 @@ impl FileRequest {
             Self::Open => "Projects, domains, pictures, grids",
             Self::Save => "Projects",
             Self::SaveRecipe => "Recipes",
+            Self::ExportTest => "Recorded sessions",
             Self::OpenImage | Self::OpenBand | Self::OpenValues => "Pictures and grids",
             Self::OpenDiameters => "Grids",
             Self::OpenBackground => "Pictures",
@@ -145,6 +150,7 @@ impl FileRequest {
             Self::OpenDomain | Self::AddOutline | Self::OpenMask => "domains",
             Self::OpenShapes | Self::ReplaceShapes => "shapes",
             Self::SaveRecipe => "recipes",
+            Self::ExportTest => "tests",
             Self::OpenThreats | Self::SaveThreats => "threats",
             Self::ExportPins | Self::Export | Self::ExportSteps => "exports",
         }
@@ -156,6 +162,7 @@ impl FileRequest {
             self,
             Self::Save
                 | Self::SaveRecipe
+                | Self::ExportTest
                 | Self::SaveThreats
                 | Self::ExportPins
                 | Self::Export
@@ -170,6 +177,7 @@ impl FileRequest {
         match self {
             Self::Save => format!("{name}.{ENDING}"),
             Self::SaveRecipe => format!("{name}.{}", recipe::ENDING),
+            Self::ExportTest => format!("{name}.{}", recording::ENDING),
             Self::SaveThreats => format!("{name} threats.csv"),
             Self::ExportPins => format!("{name} pins.csv"),
             Self::Export => format!("{name}.{}", format.ending()),
@@ -184,6 +192,7 @@ impl FileRequest {
             Self::Open => Command::Open(path),
             Self::Save => Command::SaveAs(path),
             Self::SaveRecipe => Command::SaveRecipeAs(path),
+            Self::ExportTest => Command::ExportTestAs(path),
             Self::OpenImage => Command::OpenImage(path),
             Self::OpenDiameters => Command::OpenDiameters(path),
             Self::OpenBackground => Command::OpenBackground(path),
@@ -211,6 +220,7 @@ impl FileRequest {
             Self::Save => Command::SaveTo(path),
             Self::SaveThreats => Command::SaveThreats(path),
             Self::ExportPins => Command::Pins(PinsCommand::Export(path)),
+            Self::ExportTest => Command::ExportTest(path),
             Self::Export if alone => Command::Export(path),
             _ => self.command(path),
         }

@@ -17,6 +17,7 @@ impl App {
     /// Runs commands about files, windows and dialogs, and returns others.
     pub(super) fn execute_on_files(&mut self, command: Command, ctx: &Context) -> Option<Command> {
         let command = self.execute_on_layer_files(command)?;
+        let command = self.execute_on_own_files(command)?;
         match command {
             Command::New => self.open(files::new_document()),
             Command::OpenExample(example) => self.open(files::example(example)),
@@ -32,16 +33,6 @@ impl App {
                 files::load_background(&self.session, &mut self.background, &path);
             }
             Command::OpenDomain(path) => files::load_domain(&mut self.background, &path),
-            Command::Save => match self.project.path() {
-                Some(path) => self.send(Command::SaveTo(path.to_owned())),
-                None => self.send(Command::Ask(FileRequest::Save)),
-            },
-            Command::SaveAs(path) => self.commands.extend(self.project.save_as(path)),
-            Command::SaveTo(path) => {
-                self.project.save_to(path, &mut self.session, &mut self.background);
-            }
-            Command::SaveRecipeAs(path) => self.save_recipe_as(path),
-            Command::SaveRecipe(path) => files::save_recipe(&self.session, &mut self.background, &path),
             Command::SaveThreatsAs(path) => {
                 self.commands.extend(self.project.save_table_as(path, Command::SaveThreats));
             }
@@ -89,6 +80,30 @@ impl App {
             Command::OpenMask(path) => layer_files::load_mask(session, background, &path),
             Command::OpenThreats(path) => layer_files::load_threats(session, background, &path),
             Command::SaveThreats(path) => layer_files::save_threats(session, background, &path),
+            other => return Some(other),
+        }
+        None
+    }
+
+    /// Runs commands that write the document, and returns others.
+    fn execute_on_own_files(&mut self, command: Command) -> Option<Command> {
+        match command {
+            Command::Save => match self.project.path() {
+                Some(path) => self.send(Command::SaveTo(path.to_owned())),
+                None => self.send(Command::Ask(FileRequest::Save)),
+            },
+            Command::SaveAs(path) => self.commands.extend(self.project.save_as(path)),
+            Command::SaveTo(path) => {
+                self.project.save_to(path, &mut self.session, &mut self.background);
+            }
+            Command::SaveRecipeAs(path) => self.save_recipe_as(path),
+            Command::SaveRecipe(path) => files::save_recipe(&self.session, &mut self.background, &path),
+            Command::ExportTestAs(path) => self.commands.extend(self.project.export_test_as(path)),
+            Command::ExportTest(path) => {
+                if let Err(problem) = files::export_test(&mut self.session, &mut self.background, &path) {
+                    self.fail(problem);
+                }
+            }
             other => return Some(other),
         }
         None

@@ -12,10 +12,10 @@ use glam::dvec2;
 
 use super::{Window, document, paint, send, show, window};
 use crate::app::command::Command;
-use crate::document::{Example, Settings, Stage};
+use crate::document::{Example, Setting, Settings, Stage};
 use crate::io::journal::Journal;
 use crate::io::project::{self, Project};
-use crate::io::recipe;
+use crate::io::{Meter, recipe, recording};
 use crate::mesh::Fingerprint;
 
 /// The title of the first example once it is edited.
@@ -191,6 +191,33 @@ fn a_document_is_saved_as_a_recipe_and_files_beside_it_are_asked_about() {
     wait(&mut window, "saving", |_| file.exists());
     let recipe = recipe::read(&file).unwrap();
     assert!(recipe.layers.len() == 2 && project::read(&beside).is_ok(), "{:?}", recipe.layers);
+}
+
+#[test]
+fn a_session_is_exported_as_a_test_that_replays() {
+    let file = folder("test").join("threats.jsonl");
+    let mut window = window();
+    paint(&mut window, 0.9);
+    send(&mut window, Command::Set(Setting::SmallestDiameter(0.004)));
+    send(&mut window, Command::EndGesture);
+    send(&mut window, Command::Undo);
+    send(&mut window, Command::Set(Setting::Spacing(1e-9)));
+    send(&mut window, Command::ExportTestAs(file.with_extension("")));
+    wait(&mut window, "exporting", |_| file.exists());
+    let replayed = recording::read(&file).unwrap().replay(&Meter::default()).unwrap();
+    assert_eq!((replayed.edits, replayed.difference), (3, None), "what was refused is no edit");
+    assert_eq!(replayed.triangles, window.state().session().mesh().triangle_count());
+    // A document that is opened has a recording of its own.
+    let before = fs::read(&file).unwrap();
+    send(&mut window, Command::ExportTestAs(file.clone()));
+    press(&mut window, "Cancel");
+    assert_eq!(fs::read(&file).unwrap(), before);
+    send(&mut window, Command::OpenExample(Example::Diamond));
+    press(&mut window, "Do not save");
+    send(&mut window, Command::ExportTest(file.clone()));
+    wait(&mut window, "exporting", |_| fs::read(&file).unwrap() != before);
+    let replayed = recording::read(&file).unwrap().replay(&Meter::default()).unwrap();
+    assert_eq!((replayed.edits, replayed.triangles), (0, 9560));
 }
 
 #[test]
