@@ -896,3 +896,15 @@ fn a_recorded_session_is_replayed_and_a_difference_gives_status_1() {
     assert!(ran.err.contains("expected is an old one") && ran.err.contains(found), "{ran:?}");
     assert_eq!(folder.run("replay missing.jsonl").status, 1);
 }
+
+#[test]
+fn the_experiment_of_the_report_has_its_triangles() {
+    let ran = Folder::new("report").run("report --runs 1 --level 6 --json");
+    assert_eq!(ran.status, 0, "{ran:?}");
+    let answer = ran.json();
+    let rows = answer["meshes"].as_array().unwrap();
+    let triangles: Vec<_> = rows.iter().map(|row| row["triangles"].as_u64().unwrap()).collect();
+    assert_eq!(triangles, [1088, 1600, 2888, 4936, 9560, 17752]);
+    assert_eq!(rows[4]["triangles_in_report"], 9560);
+    assert!(answer["gradient"].as_f64().unwrap().is_finite() && answer["gradient_in_report"] == 1.01);
+}

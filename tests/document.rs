@@ -188,7 +188,7 @@ fn what_cannot_be_met_leaves_document_and_mesh_as_they_were() {
         Setting::LargestDiameter(f64::INFINITY),
         Setting::TransferShape(0.0),
         Setting::Layers(Layer::usual(LayerKind::constant(0.0))),
-        Setting::Layers(Layer::usual(LayerKind::target(Formula::parse("1 / 0").unwrap()))),
+        Setting::Layers(Layer::usual(LayerKind::target(Formula::parse("0 / 0").unwrap()))),
         Setting::Gradation(Some(0.0)),
         Setting::Gradation(Some(f64::NAN)),
         Setting::MaxMemory(0),

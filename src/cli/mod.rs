@@ -16,6 +16,7 @@ mod output;
 mod quantities;
 mod recipe;
 mod replay;
+mod report;
 mod request;
 mod requested_files;
 mod sources;
@@ -87,6 +88,7 @@ fn run_command(
         (Some(Command::Locate(typed)), _) => locate::run(&typed, &mut out, terminal),
         (Some(Command::Why(typed)), _) => why::run(&typed, &mut out, terminal),
         (Some(Command::Replay(typed)), _) => replay::run(&typed, &mut out, terminal),
+        (Some(Command::Report(typed)), _) => report::run(&typed, &mut out, terminal),
         (Some(Command::Recipe(typed)), _) => recipe::write(&typed, terminal),
         (Some(Command::Completions(typed)), _) => {
             let mut script = Vec::new();
@@ -117,6 +119,6 @@ fn run_command(
 fn without_window() -> Failure {
     let problem = "This meshbrush was built without its window (feature `gui`). Its commands are `mesh`,";
     Failure::Usage(format!(
-        "{problem} `locate`, `why`, `recipe` and `replay`; `meshbrush --help` lists them."
+        "{problem} `locate`, `why`, `recipe`, `replay` and `report`; `meshbrush --help` lists them."
     ))
 }

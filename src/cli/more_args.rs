@@ -26,6 +26,22 @@ pub struct ReplayArguments {
     pub json: bool,
 }
 
+/// `meshbrush report`.
+#[derive(Debug, Args)]
+pub struct ReportArguments {
+    /// How often each mesh is made; the mean time is printed
+    #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u32).range(1..=1000))]
+    pub runs: u32,
+
+    /// Highest level to refine to; the report goes to 13
+    #[arg(long, value_name = "L", default_value_t = 13, value_parser = clap::value_parser!(u32).range(6..=13))]
+    pub level: u32,
+
+    /// Print the numbers as one JSON object
+    #[arg(long)]
+    pub json: bool,
+}
+
 /// `meshbrush completions`.
 #[derive(Debug, Args)]
 pub struct CompletionsArguments {

@@ -32,9 +32,10 @@ struct Scene {
     act: fn(&mut OffscreenWindow),
 }
 
-const SCENES: [Scene; 11] = [
+const SCENES: [Scene; 12] = [
     scene("window", window),
     scene("query", query),
+    scene("why", why),
     scene("diamond", diamond),
     scene("terrain", terrain),
     scene("aegean", aegean),
@@ -93,6 +94,15 @@ fn query(window: &mut OffscreenWindow) {
     look_at(window, place, 7.0);
     window.send(Command::Query(place));
     point_at(window, place + dvec2(0.012, 0.028));
+}
+
+/// A triangle that compatibility asked for, with the chain of triangles that led to it.
+fn why(window: &mut OffscreenWindow) {
+    let place = dvec2(0.7431, 0.0208);
+    window.send(Command::Use(&QUERY));
+    look_at(window, place + dvec2(0.0, 0.03), 5.0);
+    window.send(Command::Query(place));
+    point_at(window, place - dvec2(0.0, 0.05));
 }
 
 /// Figure 1 of the report.

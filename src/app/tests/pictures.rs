@@ -2,13 +2,12 @@
 
 use std::sync::Arc;
 
-use eframe::egui::{Key, Modifiers, Pos2, vec2};
+use eframe::egui::{Key, Modifiers, Pos2, ThemePreference, vec2};
 use egui_kittest::Harness;
 use glam::dvec2;
 
 use super::{
-    FREE, PAINTED_RISK, RESTING_PLACE, Window, canvas, choose, key, on_screen, scratch, send, set, settings,
-    stroke,
+    FREE, PAINTED_RISK, RESTING_PLACE, Window, canvas, key, on_screen, scratch, send, set, settings, stroke,
 };
 use crate::app::App;
 use crate::app::command::{Command, LayerCommand};
@@ -115,7 +114,7 @@ fn an_overlay_and_the_light_theme_are_seen_on_the_canvas() {
     assert!(is_warm, "risk is warm");
     send(&mut window, Command::SetOverlay(FieldOverlay::None));
     assert_eq!(pixel(&picture(&mut window), at), pixel(&plain, at));
-    choose(&mut window, "View", "Light theme");
+    send(&mut window, Command::Theme(ThemePreference::Light));
     let light = picture(&mut window);
     let corner = canvas(&window).left_top() + vec2(3.0, 3.0);
     assert!(pixel(&plain, corner)[0] < 40 && pixel(&light, corner)[0] > 180);
@@ -188,6 +187,6 @@ fn the_screenshots_are_the_same_every_time() {
         let second = scope.spawn(|| take("screenshots-2"));
         (take("screenshots-1"), second.join().unwrap())
     });
-    assert_eq!(first.len(), 11);
+    assert_eq!(first.len(), 12);
     assert!(first == second, "the same commands, another picture");
 }
