@@ -70,7 +70,8 @@ impl<'a> Archive<'a> {
             parts.push((name, part));
             rest = after;
         }
-        Ok(Self(parts))
+        // With a wrong count, parts that a project need not have would go unnoticed.
+        if rest.is_empty() { Ok(Self(parts)) } else { Err(Flaw::Damaged) }
     }
 
     /// The part with this name.
