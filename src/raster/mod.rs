@@ -99,7 +99,7 @@ impl<T: Copy> Raster<T> {
     /// A raster with the same value everywhere; `size` is [columns, rows].
     ///
     /// # Panics
-    /// When [`is_raster_size`] is false.
+    /// When `is_raster_size` is false.
     pub fn filled(bounds: Rect, size: [u32; 2], value: T) -> Self {
         Self::from_values(bounds, size, vec![value; size[0] as usize * size[1] as usize])
     }
@@ -107,7 +107,7 @@ impl<T: Copy> Raster<T> {
     /// A raster with the given values, row by row from the lowest; `size` is [columns, rows].
     ///
     /// # Panics
-    /// When [`is_raster_size`] is false, or the number of values is not columns times rows.
+    /// When `is_raster_size` is false, or the number of values is not columns times rows.
     pub fn from_values(bounds: Rect, size: [u32; 2], values: Vec<T>) -> Self {
         assert!(is_raster_size(size), "sizes are checked where a raster is read");
         assert_eq!(values.len(), size[0] as usize * size[1] as usize);

@@ -71,7 +71,7 @@ impl RasterPyramid {
         self.raster.sample(point).filter(|value| !value.is_nan())
     }
 
-    /// The values in the square in column `x` and row `y` at a scale, see [`ValueRanges`].
+    /// The values in the square in column `x` and row `y` at a scale, see `ValueRanges`.
     pub fn square(&self, scale: i32, x: i32, y: i32) -> SquareValues {
         let coarsest = FINEST + self.scales.len() as i32 - 1;
         if scale < 0 {

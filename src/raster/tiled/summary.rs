@@ -94,7 +94,7 @@ impl TiledRaster {
     /// Puts a tile at a place, or removes the one there, and returns what was there.
     ///
     /// # Panics
-    /// When the place is beyond the limits of [`TilePlace::is_valid`], a new tile has no parent, or a tile to
+    /// When the place is beyond the limits of `TilePlace::is_valid`, a new tile has no parent, or a tile to
     /// remove has children.
     pub fn exchange(&mut self, place: TilePlace, tile: Option<Arc<Tile>>) -> Option<Arc<Tile>> {
         assert!(place.is_valid(), "{place:?} is checked where it is read");
