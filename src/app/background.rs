@@ -213,6 +213,32 @@ impl Background {
     }
 }
 
+/// The outcome of an export: `done` is a sentence about the file that was written.
+pub fn exported(
+    written: std::io::Result<()>,
+    meter: &Meter,
+    path: &Path,
+    done: impl FnOnce() -> String,
+) -> Outcome {
+    match written {
+        Ok(()) => Outcome::Exported(done()),
+        Err(error) => not_exported(&error, meter, path),
+    }
+}
+
+/// The outcome of an export that was cancelled or failed.
+pub fn not_exported(error: &std::io::Error, meter: &Meter, path: &Path) -> Outcome {
+    if meter.is_cancelled() {
+        return Outcome::Exported(cancelled(Aim::Export, path));
+    }
+    let problem = error.to_string();
+    Outcome::NotWritten(format!(
+        "{} could not be written: {}.",
+        path.display(),
+        problem.trim_end_matches('.')
+    ))
+}
+
 /// Says that writing a file was cancelled.
 pub fn cancelled(aim: Aim, path: &Path) -> String {
     let left =

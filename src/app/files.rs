@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use super::background::{Aim, Background, Outcome, cancelled, name_of};
+use super::background::{Aim, Background, Outcome, cancelled, exported, name_of};
 use super::command::{Command, Opened, OutlineChange};
 use super::session::Session;
 use super::view::View;
@@ -195,22 +195,13 @@ pub fn export_test(session: &mut Session, background: &mut Background, path: &Pa
     let file = path.to_owned();
     background.start(Aim::Export, path, move |meter| {
         let write = |out: &mut dyn Write| recording::write(out, &recording, meter);
-        match io::write_file_metered(&file, meter, write) {
-            Ok(()) => {
-                let edits = match recording.edits().len() {
-                    1 => "1 edit".into(),
-                    count => format!("{} edits", Grouped(count)),
-                };
-                let (file, about) = (file.display(), "“meshbrush replay” verifies them");
-                Outcome::Exported(format!("{edits} written to {file}; {about}."))
-            }
-            Err(_) if meter.is_cancelled() => Outcome::Exported(cancelled(Aim::Export, &file)),
-            Err(error) => {
-                let problem = error.to_string();
-                let problem = problem.trim_end_matches('.');
-                Outcome::NotWritten(format!("{} could not be written: {problem}.", file.display()))
-            }
-        }
+        exported(io::write_file_metered(&file, meter, write), meter, &file, || {
+            let edits = match recording.edits().len() {
+                1 => "1 edit".into(),
+                count => format!("{} edits", Grouped(count)),
+            };
+            format!("{edits} written to {}; “meshbrush replay” verifies them.", file.display())
+        })
     });
     Ok(())
 }

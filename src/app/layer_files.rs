@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use super::background::{Aim, Background, Outcome, cancelled, name_of};
+use super::background::{Aim, Background, Outcome, exported, name_of};
 use super::command::{Command, LayerCommand};
 use super::session::Session;
 use super::tools::ThreatsTool;
@@ -131,14 +131,8 @@ pub fn save_threats(session: &Session, background: &mut Background, path: &Path)
     let (threats, file) = (threats.clone(), path.to_owned());
     background.start(Aim::Export, path, move |meter| {
         let written = io::write_file_metered(&file, meter, |out| io::threats::write(out, threats.list()));
-        match written {
-            Ok(()) => {
-                let count = format::count(threats.list().len() as u64);
-                Outcome::Exported(format!("{count} threats written to {}.", file.display()))
-            }
-            Err(_) if meter.is_cancelled() => Outcome::Exported(cancelled(Aim::Export, &file)),
-            Err(error) => Outcome::NotWritten(format!("{} could not be written: {error}.", file.display())),
-        }
+        let count = format::count(threats.list().len() as u64);
+        exported(written, meter, &file, || format!("{count} threats written to {}.", file.display()))
     });
 }
 

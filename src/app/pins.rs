@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use glam::DVec2;
 
-use super::background::{Aim, Background, Outcome, cancelled};
+use super::background::{Aim, Background, Outcome, exported};
 use super::command::{Command, PinsCommand};
 use super::readout::{Quantity, Readout, TriangleReadout};
 use super::session::Session;
@@ -89,8 +89,12 @@ impl PinReader {
 
 /// The pin nearest to a point, at most `reach` away. Lengths are in world units.
 pub fn nearest_pin(pins: &[DVec2], to: DVec2, reach: f64) -> Option<usize> {
-    let distances = pins.iter().enumerate().map(|(number, pin)| (number, pin.distance(to)));
-    let near = distances.filter(|&(_, distance)| distance <= reach);
+    nearest_within(pins.iter().map(|pin| pin.distance(to)), reach)
+}
+
+/// The number of the least distance that is at most `reach`.
+pub fn nearest_within(distances: impl Iterator<Item = f64>, reach: f64) -> Option<usize> {
+    let near = distances.enumerate().filter(|&(_, distance)| distance <= reach);
     near.min_by(|(_, a), (_, b)| a.total_cmp(b)).map(|(number, _)| number)
 }
 
@@ -115,11 +119,8 @@ pub fn export_table(session: &Session, background: &mut Background, path: &Path)
     let (count, write) = table(session);
     let file = path.to_owned();
     background.start(Aim::Export, path, move |meter| {
-        match io::write_file_metered(&file, meter, |out| write(out, meter)) {
-            Ok(()) => Outcome::Exported(format!("{} written to {}.", counted(count), file.display())),
-            Err(_) if meter.is_cancelled() => Outcome::Exported(cancelled(Aim::Export, &file)),
-            Err(error) => Outcome::NotWritten(format!("{} could not be written: {error}.", file.display())),
-        }
+        let written = io::write_file_metered(&file, meter, |out| write(out, meter));
+        exported(written, meter, &file, || format!("{} written to {}.", counted(count), file.display()))
     });
 }
 

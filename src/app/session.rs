@@ -310,11 +310,6 @@ impl Session {
         }
     }
 
-    /// The queried point, in world units.
-    pub fn queried_point(&self) -> Option<DVec2> {
-        self.queried
-    }
-
     /// The triangle around the queried point.
     pub fn queried_triangle(&self) -> Option<TriangleId> {
         self.queried.and_then(|point| self.locate(point).triangle())

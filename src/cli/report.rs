@@ -12,7 +12,7 @@ use crate::build::MeshBuilder;
 use crate::document::{Example, Settings};
 use crate::field::Formula;
 use crate::layers::{Layer, LayerKind};
-use crate::mesh::{Mesh, Progress, bisection_edge_length};
+use crate::mesh::{Progress, bisection_edge_length};
 use crate::text::Grouped;
 
 /// The level of the smallest mesh of the report: all its times are in proportion to that.
@@ -88,7 +88,7 @@ fn measured(level: u32, runs: u32) -> Result<Row, Failure> {
         let mut builder = MeshBuilder::new(spec);
         while builder.advance(None, usize::MAX)? == Progress::More {}
         seconds += start.elapsed().as_secs_f64();
-        triangles = Mesh::triangle_count(&builder.finish().mesh);
+        triangles = builder.finish().mesh.triangle_count();
     }
     let stated = STATED_TRIANGLES.iter().find(|(other, _)| *other == level);
     let triangles_in_report = stated.map(|(_, triangles)| *triangles);

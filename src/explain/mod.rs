@@ -6,7 +6,7 @@ mod sentences;
 
 use crate::build::RefinementCriterion;
 use crate::layers::LeastTarget;
-use crate::mesh::{Cause, Limits, Mesh, TreeTriangle, bisection_edge_length};
+use crate::mesh::{Cause, Limits, Mesh, TreeTriangle};
 
 pub use node::NodeFacts;
 pub use sampled::PixelTriangles;
@@ -42,10 +42,7 @@ impl Explanation {
         criterion: &RefinementCriterion<'_>,
         limits: &Limits,
     ) -> Self {
-        let cap = limits.max_level.unwrap_or(u32::MAX);
-        let cause = mesh.cause_of(&triangle, |one| {
-            one.level() < cap && criterion.asks_to_bisect(one.corners(), one.level())
-        });
+        let cause = mesh.cause_of(&triangle, |one| asks_to_bisect(one, criterion, limits));
         let demand = cause.required_by().map(|one| {
             if criterion.outline_asks(one.corners(), one.level()) {
                 Demand::Outline
@@ -56,13 +53,6 @@ impl Explanation {
         Self { triangle, cause, demand }
     }
 
-    /// ℓ_b of the triangle that exceeds its target, in world units; that of the triangle itself if it is
-    /// coarse.
-    pub fn length(&self, mesh: &Mesh) -> f64 {
-        let level = self.cause.required_by().unwrap_or(&self.triangle).level();
-        bisection_edge_length(mesh.lattice().spacing(), level)
-    }
-
     /// How many bisections lie between the triangle that exceeds its target and the parent of the triangle.
     pub fn steps(&self) -> usize {
         match &self.cause {
@@ -70,4 +60,10 @@ impl Explanation {
             _ => 0,
         }
     }
+}
+
+/// Whether a triangle exceeds its target, and may be bisected.
+fn asks_to_bisect(triangle: &TreeTriangle, criterion: &RefinementCriterion<'_>, limits: &Limits) -> bool {
+    let is_deepest = limits.max_level.is_some_and(|deepest| triangle.level() >= deepest);
+    !is_deepest && criterion.asks_to_bisect(triangle.corners(), triangle.level())
 }

@@ -4,6 +4,7 @@ use std::collections::HashMap;
 
 use glam::DVec2;
 
+use super::asks_to_bisect;
 use crate::build::RefinementCriterion;
 use crate::geometry::Rect;
 use crate::mesh::{Limits, Mesh, TreeTriangle, TriangleId};
@@ -44,15 +45,11 @@ impl<'a> PixelTriangles<'a> {
     /// Whether the triangle at each pixel is there for compatibility only: its parent does not exceed its
     /// target.
     pub fn forced(&self, criterion: &RefinementCriterion<'_>, limits: &Limits) -> Vec<bool> {
-        let cap = limits.max_level.unwrap_or(u32::MAX);
         let mut known = HashMap::new();
         let mut is_forced = |id: TriangleId| {
             *known.entry(id).or_insert_with(|| {
                 let parent = TreeTriangle::of(self.mesh, id).parent(self.mesh.lattice());
-                let asks = |one: &TreeTriangle| {
-                    one.level() < cap && criterion.asks_to_bisect(one.corners(), one.level())
-                };
-                parent.is_some_and(|parent| !asks(&parent))
+                parent.is_some_and(|parent| !asks_to_bisect(&parent, criterion, limits))
             })
         };
         self.iter().map(|(_, id)| id.is_some_and(&mut is_forced)).collect()

@@ -6,7 +6,7 @@ use super::{Demand, Explanation};
 use crate::geometry::LatticePoint;
 use crate::layers::{Layer, LeastTarget};
 use crate::mesh::{Cause, Mesh, TreeTriangle, bisection_edge_length};
-use crate::text::LengthUnit;
+use crate::text::{LengthUnit, significant};
 
 /// What sentences need to name things.
 pub struct Words<'a> {
@@ -94,9 +94,7 @@ impl Words<'_> {
     }
 
     fn with_unit(&self, length: f64) -> String {
-        let symbol = self.unit.symbol();
-        let digits = significant(length, 4);
-        if symbol.is_empty() { digits } else { format!("{digits} {symbol}") }
+        self.unit.after(&significant(length, 4))
     }
 
     /// A point, as exactly as the domain can be told apart.
@@ -105,14 +103,4 @@ impl Words<'_> {
         let decimals = (6.0 - libm::log10(size).floor()).clamp(0.0, 12.0) as usize;
         format!("({:.decimals$}, {:.decimals$})", point.x, point.y)
     }
-}
-
-/// A positive number with so many significant digits.
-fn significant(value: f64, digits: i32) -> String {
-    if !(value.is_finite() && value > 0.0) {
-        return value.to_string();
-    }
-    let exponent = libm::log10(value).floor() as i32;
-    let decimals = (digits - 1 - exponent).max(0) as usize;
-    format!("{value:.decimals$}")
 }

@@ -13,7 +13,6 @@
 
 pub mod asc;
 mod atomic;
-mod base64;
 mod blocks;
 mod coordinates;
 pub mod csv;

@@ -69,8 +69,7 @@ pub fn write(out: &mut impl Write, player: &StepPlayer, colors: &StepColors<'_>)
 
 /// Which step, what it does, its algorithm, and the stack.
 fn caption(player: &StepPlayer) -> Vec<String> {
-    let stack: Vec<String> = player.stack().iter().map(u32::to_string).collect();
-    let stack = if stack.is_empty() { "empty".into() } else { stack.join(", ") };
+    let stack = player.stack_in_words();
     let place = format!("Step {} of {}", player.position(), player.len());
     let Some(step) = player.step() else {
         return vec![format!("{place}: the coarse grid"), format!("S_b: {stack}")];

@@ -2,12 +2,14 @@
 //! under a part of it.
 
 mod bytes;
+mod digits;
 mod grouped;
 mod number;
 mod pointer;
 mod unit;
 
 pub use bytes::Bytes;
+pub use digits::{fixed, rounded, significant};
 pub use grouped::{Grouped, group_digits};
 pub use number::Number;
 pub use pointer::{draw_pointer, printable};

@@ -1,6 +1,8 @@
 //! What is drawn over the mesh: the brush ring, highlighted triangles and their numbers.
 
-use eframe::egui::{Align2, Color32, Painter, Pos2, Rect, Shape, Stroke, StrokeKind, Vec2, pos2, vec2};
+use eframe::egui::{
+    Align2, Color32, FontId, Painter, Pos2, Rect, Shape, Stroke, StrokeKind, Vec2, pos2, vec2,
+};
 use glam::DVec2;
 
 use super::super::theme::font;
@@ -17,6 +19,21 @@ const SMALLEST_NUMBERED: f64 = 26.0;
 
 /// Ground of a neighbour's number, on any colour of its triangle.
 pub const NUMBER_DISC: Color32 = Color32::from_black_alpha(225);
+
+/// Draws a number on a ground around it.
+pub fn paint_number(
+    painter: &Painter,
+    at: Pos2,
+    number: impl ToString,
+    font: FontId,
+    color: Color32,
+    ground: Color32,
+) {
+    let galley = painter.layout_no_wrap(number.to_string(), font, color);
+    let place = Rect::from_center_size(at, galley.size() + vec2(8.0, 2.0));
+    painter.rect_filled(place, 6.0, ground);
+    painter.galley(place.center() - galley.size() / 2.0, galley, color);
+}
 
 /// Draws the selected triangle, its neighbours and the one under the pointer.
 pub fn paint_highlights(

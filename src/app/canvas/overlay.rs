@@ -109,7 +109,8 @@ fn colors_of(
     let field = follower.shared_field();
     let of_mesh = matches!(state.kind, FieldOverlay::Slack | FieldOverlay::Forced);
     let mesh = of_mesh.then(|| follower.shared_mesh());
-    let (domain, settings) = (follower.domain().clone(), follower.settings().clone());
+    let rule = (state.kind == FieldOverlay::Forced)
+        .then(|| (follower.domain().clone(), follower.settings().rule, follower.settings().limits()));
     move || {
         let size = pixels_over(&state.bounds);
         let rgba = match state.kind {
@@ -122,8 +123,9 @@ fn colors_of(
                     let target = field.sampled(&paint, state.bounds, size);
                     pixels.slack(&target).into_iter().map(slack_color).collect()
                 } else {
-                    let criterion = RefinementCriterion::new(&domain, &field, settings.rule, Some(&paint));
-                    let forced = pixels.forced(&criterion, &settings.limits());
+                    let (domain, rule, limits) = rule.expect("the rule is taken along for this overlay");
+                    let criterion = RefinementCriterion::new(&domain, &field, rule, Some(&paint));
+                    let forced = pixels.forced(&criterion, &limits);
                     forced.into_iter().map(|forced| if forced { FORCED } else { [0; 4] }).collect()
                 }
             }

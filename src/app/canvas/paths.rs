@@ -3,7 +3,7 @@
 use eframe::egui::{Color32, Pos2, Rect, Stroke, vec2};
 use glam::DVec2;
 
-use super::marks::{NUMBER_DISC, paint_line};
+use super::marks::{NUMBER_DISC, paint_line, paint_number};
 use crate::app::frame::FrameState;
 use crate::app::theme::font;
 use crate::app::tools::OverMesh;
@@ -51,10 +51,7 @@ fn paint_trail(over: &OverMesh<'_>, trail: &[DVec2]) {
     let points: Vec<Pos2> = trail.iter().map(|&middle| (over.screen_from_world)(middle)).collect();
     paint_line(over.painter, points.iter().copied(), TRAIL, 2.0);
     for at in apart(&points, SMALLEST_DISTANCE_OF_NUMBERS) {
-        let galley = over.painter.layout_no_wrap((at + 1).to_string(), font::caption(), TRAIL);
-        let ground = Rect::from_center_size(points[at], galley.size() + vec2(8.0, 2.0));
-        over.painter.rect_filled(ground, 7.0, NUMBER_DISC);
-        over.painter.galley(ground.center() - galley.size() / 2.0, galley, TRAIL);
+        paint_number(over.painter, points[at], at + 1, font::caption(), TRAIL, NUMBER_DISC);
     }
 }
 

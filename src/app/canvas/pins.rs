@@ -8,7 +8,7 @@ use super::super::readout::{Quantity, Readout, TriangleReadout};
 use super::super::theme::font;
 use super::super::tools::{OverMesh, PIN_REACH_POINTS};
 use super::super::widgets::{format, paint_floating};
-use super::marks::NUMBER_DISC;
+use super::marks::{NUMBER_DISC, paint_number};
 use crate::app::pins::nearest_pin;
 use crate::text::LengthUnit;
 
@@ -48,13 +48,9 @@ fn paint_pin(over: &OverMesh<'_>, at: Pos2, number: usize, is_hovered: bool, is_
     let (fill, rim) = (Color32::from_rgb(0xff, 0x5c, 0x8a), Color32::WHITE);
     over.painter.circle_filled(at, radius + 2.5, Color32::from_black_alpha(200));
     over.painter.circle(at, radius, fill, Stroke::new(if is_selected { 2.0 } else { 1.2 }, rim));
-    let text = (number + 1).to_string();
     let font = if is_hovered || is_selected { font::strong() } else { font::caption() };
     let middle = at + vec2(NUMBER_OFFSET, -NUMBER_OFFSET);
-    let galley = over.painter.layout_no_wrap(text, font, Color32::WHITE);
-    let ground = Rect::from_center_size(middle, galley.size() + vec2(8.0, 2.0));
-    over.painter.rect_filled(ground, 6.0, NUMBER_DISC);
-    over.painter.galley(ground.center() - galley.size() / 2.0, galley, Color32::WHITE);
+    paint_number(over.painter, middle, number + 1, font, Color32::WHITE, NUMBER_DISC);
 }
 
 /// The values of a pin on a ground beside it.

@@ -141,7 +141,7 @@ fn pins(state: &FrameState<'_>) -> Vec<CatalogItem> {
     vec![
         item("Pin the queried point", Command::Pins(PinsCommand::Pin))
             .key(Key::P)
-            .enabled(state.session.queried_point().is_some())
+            .enabled(state.session.queried().is_some())
             .group(),
         delete.enabled(state.tools.pins.selected_of(pins).is_some()),
         item("Delete all pins", Command::Pins(PinsCommand::DeleteAll)).enabled(has_pins),

@@ -20,7 +20,7 @@ impl App {
         match command {
             PinsCommand::Press { at, reach } => self.press_pins(at, reach),
             PinsCommand::DragTo(to) => self.drag_pin(to),
-            PinsCommand::Pin => match self.session.queried_point() {
+            PinsCommand::Pin => match self.session.queried() {
                 Some(point) => self.add_pin(point),
                 None => {
                     self.session.tell("There is no query to pin: click the mesh with the query tool.".into())

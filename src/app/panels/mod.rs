@@ -37,7 +37,7 @@ use super::command::Command;
 use super::frame::FrameState;
 use super::theme::{font, metrics, tokens};
 use super::tools::Tool;
-use super::widgets;
+use super::widgets::{self, ActionButton};
 use crate::document::Setting;
 
 /// A section of the side panel.
@@ -142,6 +142,23 @@ fn sections(tool: Tool) -> impl Iterator<Item = &'static Panel> {
     let of_tool = |panel: &&Panel| tool.panels.iter().any(|own| own.name == panel.name);
     let others = PANELS.into_iter().filter(move |panel| !panel.only_with_tool && !of_tool(panel));
     tool.panels.iter().copied().chain(others)
+}
+
+/// Rows of buttons: name, whether it is enabled, and the command that it sends.
+fn button_rows<Row>(ui: &mut Ui, rows: impl IntoIterator<Item = Row>, commands: &mut Vec<Command>)
+where
+    Row: IntoIterator<Item = (&'static str, bool, Command)>,
+{
+    for row in rows {
+        ui.horizontal(|ui| {
+            for (name, enabled, command) in row {
+                let button = ActionButton::new(name);
+                if ui.add_enabled_ui(enabled, |ui| ui.add(button)).inner.clicked() {
+                    commands.push(command);
+                }
+            }
+        });
+    }
 }
 
 /// Sends the end of a gesture when a control was released.

@@ -2,13 +2,13 @@
 
 use eframe::egui::{Align2, FontId, Pos2, Rect, Role, ScrollArea, Sense, Ui, WidgetInfo, pos2, vec2};
 
-use super::{Panel, remark};
+use super::{Panel, button_rows, remark};
 use crate::app::command::{Command, PinsCommand};
 use crate::app::dialogs::FileRequest;
 use crate::app::frame::FrameState;
 use crate::app::pins::PinRow;
 use crate::app::theme::{font, tokens};
-use crate::app::widgets::{ActionButton, Section, format};
+use crate::app::widgets::{Section, format};
 
 /// All pins with their triangles and values; with the tool that moves them, and as long as there are pins.
 pub static PINS: Panel = Panel { name: "pins", only_with_tool: false, show };
@@ -169,14 +169,5 @@ fn buttons(ui: &mut Ui, state: &FrameState<'_>, has_pins: bool, commands: &mut V
         ],
         vec![("Delete all pins", has_pins, pin(PinsCommand::DeleteAll))],
     ];
-    for row in rows {
-        ui.horizontal(|ui| {
-            for (name, enabled, command) in row {
-                let button = ActionButton::new(name);
-                if ui.add_enabled_ui(enabled, |ui| ui.add(button)).inner.clicked() {
-                    commands.push(command);
-                }
-            }
-        });
-    }
+    button_rows(ui, rows, commands);
 }

@@ -3,15 +3,13 @@
 use eframe::egui::{RichText, Ui};
 use glam::DVec2;
 
-use super::{Panel, remark};
+use super::{Panel, button_rows, remark};
 use crate::app::command::{Command, ExploreCommand};
 use crate::app::explore::TreeStep;
 use crate::app::frame::FrameState;
 use crate::app::theme::{font, tokens};
 use crate::app::view::CanvasAid;
-use crate::app::widgets::{
-    ActionButton, Chip, Icon, Section, ValueRow, chips, empty_state, format, segmented, toggle_row,
-};
+use crate::app::widgets::{Chip, Icon, Section, ValueRow, chips, empty_state, format, segmented, toggle_row};
 use crate::explain::{Explanation, NodeFacts, Words};
 use crate::mesh::{Mesh, TreeTriangle, bisection_edge_length};
 
@@ -85,16 +83,11 @@ fn step_buttons(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>
         [("First half", TreeStep::Child(0)), ("Second half", TreeStep::Child(1))],
         [("Coarse triangle", TreeStep::Coarse), ("Queried triangle", TreeStep::Queried)],
     ];
-    for row in rows {
-        ui.horizontal(|ui| {
-            for (name, leads) in row {
-                let enabled = state.explore.target(leads, mesh).is_some();
-                if ui.add_enabled_ui(enabled, |ui| ui.add(ActionButton::new(name))).inner.clicked() {
-                    step(leads, commands);
-                }
-            }
-        });
-    }
+    let button = |(name, leads)| {
+        let enabled = state.explore.target(leads, mesh).is_some();
+        (name, enabled, Command::Explore(ExploreCommand::Step(leads)))
+    };
+    button_rows(ui, rows.map(|row| row.map(button)), commands);
     ui.add_space(4.0);
 }
 

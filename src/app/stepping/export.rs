@@ -4,7 +4,7 @@ use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 
 use super::Stepping;
-use crate::app::background::{Aim, Background, Outcome, cancelled};
+use crate::app::background::{Aim, Background, Outcome, not_exported};
 use crate::app::files::listed;
 use crate::app::session::Session;
 use crate::app::view::View;
@@ -87,13 +87,7 @@ impl Stepping {
                     .and_then(|()| io::write_file_metered(file, meter, |out| out.write_all(&drawing)));
                 match written {
                     Ok(()) => _ = meter.add(drawing.len() as u64),
-                    Err(_) if meter.is_cancelled() => return Outcome::Exported(cancelled(Aim::Export, file)),
-                    Err(error) => {
-                        return Outcome::NotWritten(format!(
-                            "{} could not be written: {error}.",
-                            file.display()
-                        ));
-                    }
+                    Err(error) => return not_exported(&error, meter, file),
                 }
             }
             let count = format::count(files.len() as u64);

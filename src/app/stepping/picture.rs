@@ -1,9 +1,9 @@
 //! The mesh at a step, on the canvas.
 
-use eframe::egui::{Align2, Color32, Mesh, Painter, Pos2, Rect, Response, Shape, Stroke, Ui, pos2, vec2};
+use eframe::egui::{Color32, Mesh, Painter, Pos2, Rect, Response, Shape, Stroke, Ui, pos2, vec2};
 
 use super::Stepping;
-use crate::app::canvas::marks::{NUMBER_DISC, point_from_px};
+use crate::app::canvas::marks::{self, NUMBER_DISC, point_from_px};
 use crate::app::frame::FrameState;
 use crate::app::theme::font;
 use crate::colormap::{Ground, LevelColors};
@@ -142,14 +142,8 @@ fn paint_number(painter: &Painter, at: Pos2, number: u32, part: Option<StepPart>
         Some(part) => (font::strong(), color_of(part)),
         None => (font::caption(), Color32::from_gray(0xe6)),
     };
-    let galley = painter.layout_no_wrap(number.to_string(), font, color);
-    let place = Rect::from_center_size(at, galley.size() + vec2(8.0, 3.0));
-    painter.rect_filled(
-        place,
-        5.0,
-        if part.is_some() { NUMBER_DISC } else { Color32::from_black_alpha(150) },
-    );
-    painter.galley(Align2::CENTER_CENTER.anchor_size(at, galley.size()).min, galley, color);
+    let ground = if part.is_some() { NUMBER_DISC } else { Color32::from_black_alpha(150) };
+    marks::paint_number(painter, at, number, font, color, ground);
 }
 
 fn shortest_edge([a, b, c]: &[Pos2; 3]) -> f32 {

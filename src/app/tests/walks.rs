@@ -21,7 +21,7 @@ fn the_inspector_says_how_long_the_walk_is_and_a_toggle_hides_it() {
     let walk = |window: &Window| value_of(window, Role::Definition, "Walk");
     wait_until(&mut window, |window| !walk(window).contains('…'));
     let app = window.state();
-    let queried = app.session().queried_point().unwrap();
+    let queried = app.session().queried().unwrap();
     let mesh = app.session().mesh();
     let (steps, mean) = (mesh.walk_path(queried).len() - 1, mesh.mean_walk_steps(1000));
     assert!(steps > 1 && mean > 0.0);

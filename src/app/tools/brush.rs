@@ -3,7 +3,7 @@
 use eframe::egui::{Key, Modifiers, Painter, Pos2};
 use glam::DVec2;
 
-use super::{Gesture, PaintKind, Pointer, Press, ToolSpec, Tools};
+use super::{CLICK_SLACK, Gesture, PaintKind, Pointer, Press, ToolSpec, Tools};
 use crate::app::canvas::marks;
 use crate::app::command::{BrushCommand, Command};
 use crate::app::frame::FrameState;
@@ -22,9 +22,6 @@ pub static BRUSH: ToolSpec = ToolSpec {
     menu: line_to_here,
     ..ToolSpec::new("Brush", Key::B, Icon::BRUSH)
 };
-
-/// Points that the pointer must move, with Shift held, before a click becomes a drag of the brush's size.
-const CLICK_SLACK: f32 = 4.0;
 
 /// Length of the string on which the pointer pulls the brush at full smoothing, in points.
 const LONGEST_STRING: f32 = 80.0;

@@ -3,7 +3,7 @@
 use eframe::egui::{Key, Painter, Pos2, Rect};
 use glam::DVec2;
 
-use super::{Gesture, OverMesh, Pointer, Press, ToolSpec, Tools};
+use super::{CLICK_SLACK, Gesture, OverMesh, Pointer, Press, ToolSpec, Tools};
 use crate::app::canvas::marks;
 use crate::app::command::{Command, DomainCommand};
 use crate::app::frame::FrameState;
@@ -27,8 +27,6 @@ pub static DOMAIN: ToolSpec = ToolSpec {
 
 /// Points within which a press takes hold of a corner of the open polygon.
 const CORNER_POINTS: f64 = 9.0;
-/// Points that a drag must exceed, a rectangle in both directions: what is smaller was a click.
-const CLICK_SLACK: f32 = 4.0;
 
 const HINT: &[Hint] = &[
     Text("Cut the domain: brush, rectangle or polygon"),

@@ -64,6 +64,39 @@ pub trait Gesture: Debug + Send {
     fn paint(&self, _painter: &Painter) {}
 }
 
+/// Points that a drag must exceed: what is smaller was a click.
+pub const CLICK_SLACK: f32 = 4.0;
+
+/// Dragging something that is part of the settings.
+#[derive(Debug)]
+pub struct SettingsDrag {
+    /// Where the pointer went down, in points.
+    from: Pos2,
+    has_moved: bool,
+    /// What a move to a place in the world sends.
+    command: fn(DVec2) -> Command,
+}
+
+impl SettingsDrag {
+    /// A press at `from`, in points.
+    pub fn new(from: Pos2, command: fn(DVec2) -> Command) -> Self {
+        Self { from, has_moved: false, command }
+    }
+}
+
+impl Gesture for SettingsDrag {
+    fn moved(&mut self, at: Pos2, pointer: &Pointer<'_>, commands: &mut Vec<Command>) {
+        self.has_moved |= at.distance(self.from) > CLICK_SLACK;
+        if self.has_moved {
+            commands.push((self.command)(pointer.world(at)));
+        }
+    }
+
+    fn changes_settings(&self) -> bool {
+        true
+    }
+}
+
 /// The canvas as gestures see it.
 pub struct Pointer<'a> {
     /// Where the canvas is, in points.

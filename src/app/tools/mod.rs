@@ -23,7 +23,7 @@ pub use boundary::{BOUNDARY, BoundaryTool, BoundaryToolMode};
 pub use brush::{BRUSH, BrushMode, picks};
 pub use domain::{DOMAIN, DomainTool, DomainToolMode};
 pub use eraser::ERASER;
-pub use gesture::{Gesture, Pointer, Press};
+pub use gesture::{CLICK_SLACK, Gesture, Pointer, Press, SettingsDrag};
 pub use pan::{PAN, Panning};
 pub use pen::{Pen, PenEffect};
 pub use query::{PIN_REACH_POINTS, PinsTool, QUERY};

@@ -1,9 +1,9 @@
 //! The query tool.
 
-use eframe::egui::{Key, Pos2};
+use eframe::egui::Key;
 use glam::DVec2;
 
-use super::{Gesture, Pointer, ToolSpec};
+use super::{SettingsDrag, ToolSpec};
 use crate::app::command::{Command, PinsCommand};
 use crate::app::panels;
 use crate::app::widgets::Hint::{self, Key as HintKey, Text};
@@ -29,15 +29,13 @@ pub static QUERY: ToolSpec = ToolSpec {
         let at = pointer.world(press.at);
         let reach = PIN_REACH_POINTS * pointer.px_per_point / pointer.camera.px_per_world();
         commands.push(Command::Pins(PinsCommand::Press { at, reach }));
-        Some(Box::new(Dragging { from: press.at, has_moved: false }))
+        Some(Box::new(SettingsDrag::new(press.at, |at| Command::Pins(PinsCommand::DragTo(at)))))
     },
     ..ToolSpec::new("Query", Key::Q, Icon::QUERY)
 };
 
 /// How far from a pin the pointer still takes hold of it, in points.
 pub const PIN_REACH_POINTS: f64 = 9.0;
-/// Points that a drag must exceed: what is smaller was a click.
-const CLICK_SLACK: f32 = 4.0;
 
 /// What the query tool keeps of pins.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -52,27 +50,6 @@ impl PinsTool {
     /// The selected pin. An undo can have removed it.
     pub fn selected_of(&self, pins: &[DVec2]) -> Option<usize> {
         self.selected.filter(|number| *number < pins.len())
-    }
-}
-
-/// Dragging a pin.
-#[derive(Debug)]
-struct Dragging {
-    /// Where the pointer went down, in points.
-    from: Pos2,
-    has_moved: bool,
-}
-
-impl Gesture for Dragging {
-    fn moved(&mut self, at: Pos2, pointer: &Pointer<'_>, commands: &mut Vec<Command>) {
-        self.has_moved |= at.distance(self.from) > CLICK_SLACK;
-        if self.has_moved {
-            commands.push(Command::Pins(PinsCommand::DragTo(pointer.world(at))));
-        }
-    }
-
-    fn changes_settings(&self) -> bool {
-        true
     }
 }
 

@@ -3,9 +3,10 @@
 use eframe::egui::{Color32, CursorIcon, Key, Pos2, Rect, Stroke};
 use glam::DVec2;
 
-use super::{Gesture, OverMesh, Pointer, ToolSpec};
+use super::{OverMesh, SettingsDrag, ToolSpec};
 use crate::app::command::{Command, ThreatsCommand};
 use crate::app::frame::FrameState;
+use crate::app::pins::nearest_within;
 use crate::app::widgets::Hint::{self, Key as HintKey, Text};
 use crate::app::widgets::Icon;
 use crate::document::Document;
@@ -21,7 +22,7 @@ pub static THREATS: ToolSpec = ToolSpec {
         let reach = REACH_POINTS * pointer.px_per_point / pointer.camera.px_per_world();
         let places = press.modifiers.command;
         commands.push(Command::Threats(ThreatsCommand::Press { at, reach, places }));
-        Some(Box::new(Dragging { from: press.at, has_moved: false }))
+        Some(Box::new(SettingsDrag::new(press.at, |at| Command::Threats(ThreatsCommand::DragTo(at)))))
     },
     menu: |state, point| {
         let place = Command::Threats(ThreatsCommand::Place(point));
@@ -44,8 +45,6 @@ const HINT: &[Hint] = &[
 
 /// How far from a middle or a ring a press still takes hold of it, in points.
 const REACH_POINTS: f64 = 9.0;
-/// Points that a drag must exceed: what is smaller was a click.
-const CLICK_SLACK: f32 = 4.0;
 /// The most threats whose middles and rings are drawn, besides the selected one: more would hide the mesh.
 const MOST_DRAWN: usize = 2_000;
 
@@ -85,36 +84,12 @@ impl ThreatsTool {
 /// The threat that a press at `at` takes hold of, and what of it: the nearest middle within `reach`, or else
 /// the nearest ring. All lengths are in world units.
 pub fn grip_at(threats: &[Threat], at: DVec2, reach: f64) -> Option<(usize, ThreatGrip)> {
-    let nearest = |distance: fn(&Threat, DVec2) -> f64| {
-        let distances = threats.iter().enumerate().map(|(number, threat)| (number, distance(threat, at)));
-        let near = distances.filter(|&(_, distance)| distance <= reach);
-        near.min_by(|(_, a), (_, b)| a.total_cmp(b)).map(|(number, _)| number)
-    };
-    let middle = nearest(|threat, at| threat.at.distance(at));
+    let from_middles = threats.iter().map(|threat| threat.at.distance(at));
+    let from_rings = threats.iter().map(|threat| (threat.at.distance(at) - threat.range).abs());
+    let middle = nearest_within(from_middles, reach);
     let middle = middle.map(|number| (number, ThreatGrip::Middle(threats[number].at - at)));
-    let ring = || nearest(|threat, at| (threat.at.distance(at) - threat.range).abs());
+    let ring = || nearest_within(from_rings, reach);
     middle.or_else(|| Some((ring()?, ThreatGrip::Ring)))
-}
-
-/// Dragging what was pressed.
-#[derive(Debug)]
-struct Dragging {
-    /// Where the pointer went down, in points.
-    from: Pos2,
-    has_moved: bool,
-}
-
-impl Gesture for Dragging {
-    fn moved(&mut self, at: Pos2, pointer: &Pointer<'_>, commands: &mut Vec<Command>) {
-        self.has_moved |= at.distance(self.from) > CLICK_SLACK;
-        if self.has_moved {
-            commands.push(Command::Threats(ThreatsCommand::DragTo(pointer.world(at))));
-        }
-    }
-
-    fn changes_settings(&self) -> bool {
-        true
-    }
 }
 
 /// Draws the middles and the rings of the threats in view, the selected one last and wider.

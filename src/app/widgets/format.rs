@@ -5,6 +5,7 @@
 //! nothing jumps.
 
 use crate::text::{LengthUnit, group_digits};
+pub use crate::text::{fixed, rounded, significant};
 
 /// A count, grouped by thousands: `37,987`.
 pub fn count(value: u64) -> String {
@@ -19,34 +20,6 @@ pub fn change(value: i64) -> String {
         _ => "−",
     };
     format!("{sign}{}", count(value.unsigned_abs()))
-}
-
-/// `value` with exactly `decimals` digits after the point, grouped before it: `1,234.50`.
-pub fn fixed(value: f64, decimals: usize) -> String {
-    if !value.is_finite() {
-        return not_finite(value);
-    }
-    let digits = format!("{:.decimals$}", value.abs());
-    let negative = value < 0.0 && digits.bytes().any(|byte| (b'1'..=b'9').contains(&byte));
-    let (whole, rest) = digits.split_at(digits.find('.').unwrap_or(digits.len()));
-    format!("{}{}{rest}", if negative { "−" } else { "" }, group_digits(whole))
-}
-
-/// `value` with exactly `digits` significant digits, trailing zeros kept: `0.0640`, `1,230`, `1.20e-7`.
-///
-/// For values that are being dragged. Below 1e-4 and from 1e15 up the answer is in scientific notation.
-pub fn significant(value: f64, digits: usize) -> String {
-    if value == 0.0 || !value.is_finite() {
-        return fixed(value, 0);
-    }
-    let digits = digits.max(1);
-    let scientific = format!("{:.*e}", digits - 1, value.abs());
-    let exponent = exponent_of(&scientific);
-    if (-4..15).contains(&exponent) {
-        let decimals = (digits as i32 - 1 - exponent).max(0) as usize;
-        return fixed(rounded(value, digits), decimals);
-    }
-    format!("{}{scientific}", if value < 0.0 { "−" } else { "" })
 }
 
 /// `value` with at most `digits` significant digits and no trailing zeros: `0.064`, `2`, `1.2e-7`.
@@ -125,25 +98,6 @@ pub fn file_size(bytes: u64) -> String {
 /// `text` with spaces before it, so that it takes at least `width` characters.
 pub fn padded(text: &str, width: usize) -> String {
     format!("{text:>width$}")
-}
-
-/// `value` rounded to `digits` significant digits: exactly what [`significant`] shows.
-pub fn rounded(value: f64, digits: usize) -> f64 {
-    let text = format!("{:.*e}", digits.max(1) - 1, value);
-    text.parse().unwrap_or(value)
-}
-
-fn not_finite(value: f64) -> String {
-    match value {
-        v if v.is_nan() => "–",
-        v if v > 0.0 => "∞",
-        _ => "−∞",
-    }
-    .to_owned()
-}
-
-fn exponent_of(scientific: &str) -> i32 {
-    scientific.split('e').nth(1).and_then(|e| e.parse().ok()).unwrap_or(0)
 }
 
 #[cfg(test)]

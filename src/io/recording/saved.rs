@@ -1,9 +1,9 @@
 //! The lines of the file.
 
+use base64::prelude::{BASE64_STANDARD, Engine};
 use glam::DVec2;
 use serde::{Deserialize, Serialize};
 
-use super::super::base64;
 use super::super::error::{Flaw, PlacedFlaw};
 use super::super::project::PartNames;
 use super::super::project::Project;
@@ -112,10 +112,9 @@ impl SavedSettings {
         let project = Project { settings: after.clone(), paint: PaintLayers::default() };
         let pixels = pixels_of(&project, names);
         let (old, mut settings) = (values_of(before, names), values_of(after, names));
+        let removed: Vec<_> = old.keys().filter(|key| !settings.contains_key(*key)).cloned().collect();
         settings.retain(|key, value| old.get(key) != Some(value));
-        let after_has = values_of(after, names);
-        let removed = old.keys().filter(|key| !after_has.contains_key(*key));
-        settings.extend(removed.map(|key| (key.clone(), serde_json::Value::Null)));
+        settings.extend(removed.into_iter().map(|key| (key, serde_json::Value::Null)));
         let is_same_outline = before.domain.region() == after.domain.region();
         let polygons = polygons_of(after).filter(|_| !is_same_outline);
         Self { settings, polygons, pixels }
@@ -166,12 +165,12 @@ fn polygons_from(saved: Vec<Vec<Vec<[f64; 2]>>>) -> Vec<Polygon> {
 fn pixels_of(project: &Project, names: &mut PartNames) -> Option<String> {
     let mut bytes = Vec::new();
     let has_any = write_pixels(&mut bytes, project, names).expect("memory takes all bytes");
-    has_any.then(|| base64::encode(&bytes))
+    has_any.then(|| BASE64_STANDARD.encode(&bytes))
 }
 
 fn decoded(pixels: Option<&str>) -> Result<Option<Vec<u8>>, Flaw> {
     let flaw = || Flaw::Syntax("\"pixels\" is not in base64.".into());
-    pixels.map(|text| base64::decode(text).ok_or_else(flaw)).transpose()
+    pixels.map(|text| BASE64_STANDARD.decode(text).map_err(|_| flaw())).transpose()
 }
 
 #[derive(Debug, Serialize, Deserialize)]

@@ -68,6 +68,12 @@ impl StepPlayer {
         &self.stack
     }
 
+    /// S_b as text: its triangles, the top last.
+    pub fn stack_in_words(&self) -> String {
+        let triangles: Vec<String> = self.stack.iter().map(u32::to_string).collect();
+        if triangles.is_empty() { "empty".into() } else { triangles.join(", ") }
+    }
+
     /// The vertices of a triangle by its number, in its order.
     ///
     /// # Panics

@@ -81,8 +81,7 @@ fn sentence(player: &StepPlayer) -> String {
 fn triangle_rows(ui: &mut Ui, player: &StepPlayer, state: &FrameState<'_>) {
     // Everything about a step is in sight in a window of the usual height.
     ui.spacing_mut().item_spacing.y = 0.0;
-    let stack: Vec<String> = player.stack().iter().map(u32::to_string).collect();
-    let stack = if stack.is_empty() { "empty".into() } else { stack.join(", ") };
+    let stack = player.stack_in_words();
     if let Some(step) = player.step().filter(|step| step.action != StepAction::Finish) {
         let spacing = player.recording().lattice.spacing();
         let length = format::length(bisection_edge_length(spacing, step.level.into()), state.unit());

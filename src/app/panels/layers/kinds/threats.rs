@@ -6,7 +6,8 @@ use super::{Addition, KindPanel, add, set_kind_once};
 use crate::app::command::{Command, ThreatsCommand};
 use crate::app::dialogs::FileRequest;
 use crate::app::frame::FrameState;
-use crate::app::widgets::{ActionButton, Icon, NumberRow, ValueRow, format, segmented};
+use crate::app::panels::button_rows;
+use crate::app::widgets::{Icon, NumberRow, ValueRow, format, segmented};
 use crate::layers::{Layer, LayerKind, Threat, ThreatLaw, Threats};
 
 /// Places with a risk around them.
@@ -93,14 +94,5 @@ fn buttons(
             ("Save table…", has_threats, Command::Ask(FileRequest::SaveThreats)),
         ],
     ];
-    for row in rows {
-        ui.horizontal(|ui| {
-            for (name, enabled, command) in row {
-                let button = ActionButton::new(name);
-                if ui.add_enabled_ui(enabled, |ui| ui.add(button)).inner.clicked() {
-                    commands.push(command);
-                }
-            }
-        });
-    }
+    button_rows(ui, rows, commands);
 }
