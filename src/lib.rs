@@ -27,6 +27,7 @@ mod layers;
 mod outline;
 mod paint;
 mod build;
+mod path;
 mod explain;
 mod document;
 mod io;
@@ -47,7 +48,9 @@ pub use domain::{
     Region, RegionError, Ring,
 };
 pub use field::formula::ParseError;
-pub use field::{Bounds, Formula, RefinementRule, RiskToDiameter, Transfer, TransferError, VertexRule};
+pub use field::{
+    Bounds, CostFormula, Formula, RefinementRule, RiskToDiameter, Transfer, TransferError, VertexRule,
+};
 pub use geometry::{GridError, Lattice, LatticePoint, LatticeRect, Rect};
 pub use mesh::{
     Changes, CoarseError, Element, Fingerprint, Forecast, InvalidTarget, Limits, MOST_TRIANGLES, MemoryLimit,
@@ -61,10 +64,13 @@ pub use document::{
 };
 pub use layers::{
     Combine, Decision, InvalidLayer, Layer, LayerId, LayerKind, LeastTarget, PaintLayers, Quantity,
-    RasterReading, RasterSource, SizeField, SizeFieldSpec,
+    RasterReading, RasterSource, RiskField, SizeField, SizeFieldSpec,
 };
 pub use paint::{Brush, Medium};
 pub use text::LengthUnit;
+
+// Find paths.
+pub use path::{CostDensity, CostRange, FormulaCost, PathError, Waypoint, WeightedCost, Weights};
 
 // Query a mesh.
 pub use explain::{Demand, Explanation, Words};

@@ -11,8 +11,8 @@ use std::fs;
 use source::{Function, SourceFile, read_src, read_texts};
 
 /// The modules, lowest first: each imports only from those before it.
-const MODULES: [&str; 18] = [
-    "text", "geometry", "mesh", "raster", "field", "domain", "layers", "outline", "paint", "build",
+const MODULES: [&str; 19] = [
+    "text", "geometry", "mesh", "raster", "field", "domain", "layers", "outline", "paint", "build", "path",
     "explain", "document", "io", "colormap", "scene", "render", "cli", "app",
 ];
 

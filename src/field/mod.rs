@@ -9,7 +9,7 @@ mod vertex_rule;
 
 pub use bounds::Bounds;
 pub use contours::{Contour, contours};
-pub use formula::Formula;
+pub use formula::{CostFormula, Formula};
 pub use target::{RefinementRule, checked_target, f32_not_below};
 pub use transfer::{RiskToDiameter, Transfer, TransferError, TransferTable};
 pub use vertex_rule::VertexRule;

@@ -9,6 +9,7 @@ mod layer;
 mod least;
 mod mask;
 mod paint_layers;
+mod risk;
 mod sampled;
 mod size_field;
 mod targets;
@@ -23,6 +24,7 @@ pub use layer::{Combine, DistanceTo, Layer, LayerId, LayerKind, Quantity, Raster
 pub use least::LeastTarget;
 pub use mask::{Coverage, Mask};
 pub use paint_layers::PaintLayers;
+pub use risk::RiskField;
 pub use size_field::{SizeField, SizeFieldSpec};
 pub use targets::Decision;
 pub use targets_in_order::TargetsInOrder;

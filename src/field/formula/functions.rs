@@ -110,6 +110,8 @@ pub(super) enum Noun {
     Y,
     Radius,
     Angle,
+    /// The risk, in formulas that may use it.
+    Risk,
     Number(f64),
 }
 
@@ -179,9 +181,20 @@ pub(super) fn find_function(name: &str) -> Option<&'static Function> {
     FUNCTIONS.iter().find(|f| f.name() == name)
 }
 
-pub(super) fn find_noun(name: &str) -> Option<Noun> {
+pub(super) fn find_noun(name: &str, has_risk: bool) -> Option<Noun> {
+    if has_risk && name == "risk" {
+        return Some(Noun::Risk);
+    }
     let found = NOUNS.iter().find(|(known, _)| *known == name);
     found.map(|&(_, noun)| noun)
+}
+
+/// What a formula may name, for a message.
+pub(super) fn coordinates(has_risk: bool) -> &'static str {
+    match has_risk {
+        true => "a cost is a formula of `x`, `y` and `risk`",
+        false => "the coordinates are `x`, `y`, `r` and `theta`",
+    }
 }
 
 /// What to write instead of an unknown name, if anything is close enough.

@@ -7,21 +7,22 @@ use crate::geometry::Rect;
 /// 0 or 1.
 const TRUTH: Bounds = Bounds::new(0.0, 1.0);
 
-/// Bounds of the values of a program over a rectangle.
-pub(super) fn bounds(program: &Program, rect: &Rect) -> Bounds {
+/// Bounds of the values of a program over a rectangle, with the given risks.
+pub(super) fn bounds(program: &Program, rect: &Rect, risk: Bounds) -> Bounds {
     if program.slots() <= SMALL_STACK {
-        run_on::<SMALL_STACK>(program.code(), rect)
+        run_on::<SMALL_STACK>(program.code(), rect, risk)
     } else {
-        run_on::<LARGE_STACK>(program.code(), rect)
+        run_on::<LARGE_STACK>(program.code(), rect, risk)
     }
 }
 
-fn run_on<const SLOTS: usize>(code: &[Op], rect: &Rect) -> Bounds {
+fn run_on<const SLOTS: usize>(code: &[Op], rect: &Rect, risk: Bounds) -> Bounds {
     let mut machine = Machine {
         stack: [Bounds::ANYTHING; SLOTS],
         top: 0,
         x: Bounds::new(rect.min.x, rect.max.x),
         y: Bounds::new(rect.min.y, rect.max.y),
+        risk,
     };
     machine.run(code, Bounds::ANYTHING)
 }
@@ -33,6 +34,7 @@ struct Machine<const SLOTS: usize> {
     top: usize,
     x: Bounds,
     y: Bounds,
+    risk: Bounds,
 }
 
 impl<const SLOTS: usize> Machine<SLOTS> {
@@ -57,6 +59,7 @@ impl<const SLOTS: usize> Machine<SLOTS> {
                 Op::Number(value) => self.load(&mut acc, Bounds::one(value)),
                 Op::X => self.load(&mut acc, self.x),
                 Op::Y => self.load(&mut acc, self.y),
+                Op::Risk => self.load(&mut acc, self.risk),
                 Op::FirstLink(sign) => {
                     let left = self.pop();
                     self.push(compared(sign, left, acc));

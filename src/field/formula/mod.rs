@@ -28,6 +28,7 @@
 
 #[cfg(test)]
 mod bounds_tests;
+mod cost;
 mod error;
 mod function_bounds;
 mod functions;
@@ -42,6 +43,7 @@ use std::fmt;
 use std::str::FromStr;
 use std::sync::Arc;
 
+pub use cost::CostFormula;
 pub use error::ParseError;
 pub use functions::functions;
 pub use parser::{MAX_LENGTH, MAX_NESTING};
@@ -84,7 +86,7 @@ impl Formula {
     /// assert_eq!(mistake.pointer(), "1 + 2*sqr(x)\n      ^^^");
     /// ```
     pub fn parse(source: &str) -> Result<Self, ParseError> {
-        let program = parser::compile(source)?;
+        let program = parser::compile(source, false)?;
         Ok(Self { source: source.into(), program: Arc::new(program) })
     }
 
@@ -112,7 +114,7 @@ impl Formula {
     /// # Ok::<(), meshbrush::ParseError>(())
     /// ```
     pub fn bounds(&self, rect: &Rect) -> Bounds {
-        interval::bounds(&self.program, rect)
+        interval::bounds(&self.program, rect, Bounds::ANYTHING)
     }
 
     /// The formula of a number: its shortest text.

@@ -7,7 +7,9 @@ use std::ops::Range;
 
 use super::error::{ParseError, quote};
 use super::function_bounds as bounds;
-use super::functions::{Form, Function, Noun, find_function, find_noun, modulo, power, suggestion};
+use super::functions::{
+    Form, Function, Noun, coordinates, find_function, find_noun, modulo, power, suggestion,
+};
 use super::lexer::{Lexer, Token};
 use super::program::{Compare, Op, Program, run};
 
@@ -30,21 +32,15 @@ mod binding {
     pub(super) const POWER: u8 = 7;
 }
 
-/// Compiles a formula.
-pub(super) fn compile(source: &str) -> Result<Program, ParseError> {
+/// Compiles a formula, which may use the risk if `has_risk`.
+pub(super) fn compile(source: &str, has_risk: bool) -> Result<Program, ParseError> {
     if source.len() > MAX_LENGTH {
         let start = source.floor_char_boundary(MAX_LENGTH);
         let message = format!("The formula is {} bytes long; at most {MAX_LENGTH} are read.", source.len());
         return Err(ParseError::new(source, start..source.len(), message));
     }
-    let mut parser = Parser {
-        source,
-        lexer: Lexer::new(source),
-        token: Token::End,
-        span: 0..0,
-        code: Vec::new(),
-        nesting: 0,
-    };
+    let (lexer, code) = (Lexer::new(source), Vec::new());
+    let mut parser = Parser { source, lexer, token: Token::End, span: 0..0, code, nesting: 0, has_risk };
     parser.advance()?;
     if parser.token == Token::End {
         let message = "The formula is empty; write a number or a formula in x and y.";
@@ -88,6 +84,7 @@ struct Parser<'a> {
     span: Range<usize>,
     code: Vec<Op>,
     nesting: usize,
+    has_risk: bool,
 }
 
 impl<'a> Parser<'a> {
@@ -245,7 +242,7 @@ impl<'a> Parser<'a> {
             let message = format!("`{name}` needs its values in parentheses: `{}`.", function.call);
             return Err(self.mistake(span, message));
         }
-        let Some(noun) = find_noun(name) else {
+        let Some(noun) = find_noun(name, self.has_risk) else {
             return Err(self.unknown_name(name, span));
         };
         if called {
@@ -255,6 +252,7 @@ impl<'a> Parser<'a> {
         Ok(match noun {
             Noun::X => self.load(Op::X),
             Noun::Y => self.load(Op::Y),
+            Noun::Risk => self.load(Op::Risk),
             Noun::Number(value) => self.load(Op::Number(value)),
             Noun::Radius => {
                 let (x, y) = (self.load(Op::X), self.load(Op::Y));
@@ -366,7 +364,7 @@ impl<'a> Parser<'a> {
         if !constant {
             return Value { start, constant, slots };
         }
-        let result = run(&self.code[start..], slots, 0.0, 0.0);
+        let result = run(&self.code[start..], slots, [0.0; 3]);
         self.code.truncate(start);
         self.load(Op::Number(result))
     }
@@ -397,7 +395,7 @@ impl<'a> Parser<'a> {
     fn unknown_name(&self, name: &str, span: Range<usize>) -> ParseError {
         let advice = match suggestion(name) {
             Some(here) => format!("write {here}"),
-            None => "the coordinates are `x`, `y`, `r` and `theta`".to_owned(),
+            None => coordinates(self.has_risk).to_owned(),
         };
         self.mistake(span, format!("There is no {}; {advice}.", quote(name)))
     }

@@ -25,6 +25,8 @@ pub(super) enum Op {
     X,
     /// Loads the y coordinate.
     Y,
+    /// Loads the risk.
+    Risk,
     Negate,
     Not,
     /// 1 if the value is not 0, else 0.
@@ -122,7 +124,12 @@ impl Program {
     }
 
     pub(super) fn run(&self, x: f64, y: f64) -> f64 {
-        run(&self.code, self.slots, x, y)
+        run(&self.code, self.slots, [x, y, 0.0])
+    }
+
+    /// Runs a program that may load the risk.
+    pub(super) fn run_with_risk(&self, x: f64, y: f64, risk: f64) -> f64 {
+        run(&self.code, self.slots, [x, y, risk])
     }
 
     pub(super) fn code(&self) -> &[Op] {
@@ -152,16 +159,21 @@ impl Program {
     }
 }
 
-/// Runs code that needs `slots` slots of the stack and leaves one value in the accumulator.
-pub(super) fn run(code: &[Op], slots: usize, x: f64, y: f64) -> f64 {
-    if slots <= SMALL_STACK { run_on::<SMALL_STACK>(code, x, y) } else { run_on::<LARGE_STACK>(code, x, y) }
+/// Runs code that needs `slots` slots of the stack and leaves one value in the accumulator. `values` are x, y
+/// and the risk.
+pub(super) fn run(code: &[Op], slots: usize, values: [f64; 3]) -> f64 {
+    if slots <= SMALL_STACK {
+        run_on::<SMALL_STACK>(code, values)
+    } else {
+        run_on::<LARGE_STACK>(code, values)
+    }
 }
 
 /// Runs code with a stack of `SLOTS` slots.
 ///
 /// Longer than other functions by design: one line for each instruction, around one accumulator and one stack
 /// that separate functions would have to pass on.
-fn run_on<const SLOTS: usize>(code: &[Op], x: f64, y: f64) -> f64 {
+fn run_on<const SLOTS: usize>(code: &[Op], [x, y, risk]: [f64; 3]) -> f64 {
     let mut stack = [0.0; SLOTS];
     let mut top = 0; // number of values on the stack
     let mut acc = 0.0;
@@ -194,6 +206,7 @@ fn run_on<const SLOTS: usize>(code: &[Op], x: f64, y: f64) -> f64 {
             Op::Number(value) => load!(value),
             Op::X => load!(x),
             Op::Y => load!(y),
+            Op::Risk => load!(risk),
             // Operations on the accumulator, then on the stack and the accumulator.
             Op::Negate => acc = -acc,
             Op::Not => acc = truth(acc == 0.0),

@@ -1,0 +1,237 @@
+//! What a path costs per unit of length.
+
+use glam::DVec2;
+
+use super::PathError;
+use crate::field::{Bounds, CostFormula};
+use crate::geometry::Rect;
+use crate::layers::RiskField;
+
+/// A cost per unit of length, in world units: positive and finite.
+///
+/// Where it jumps, the smaller value counts (it is lower semicontinuous), so that a path of least cost
+/// exists.
+pub trait CostDensity: Send + Sync {
+    /// The cost at a point in world units.
+    fn at(&self, point: DVec2) -> f64;
+
+    /// Bounds of the cost over a closed rectangle in world units; they may be wider than the values.
+    fn range(&self, rectangle: &Rect) -> CostRange;
+
+    /// The risk at a point in world units; 0 where the cost knows no risk.
+    fn risk_at(&self, _point: DVec2) -> f64 {
+        0.0
+    }
+}
+
+/// No cost in a rectangle is smaller than the one or greater than the other.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CostRange {
+    /// At most the least cost; −∞ where the cost may be NaN.
+    pub least: f64,
+    /// At least the greatest cost; ∞ where the cost may be NaN.
+    pub greatest: f64,
+}
+
+impl CostRange {
+    /// Whether the range has positive, finite numbers only.
+    pub fn is_valid(&self) -> bool {
+        self.least > 0.0 && self.greatest < f64::INFINITY
+    }
+
+    /// The range of the costs of both.
+    pub fn union(self, other: Self) -> Self {
+        Self { least: self.least.min(other.least), greatest: self.greatest.max(other.greatest) }
+    }
+}
+
+impl From<Bounds> for CostRange {
+    fn from(Bounds { least, greatest, valid }: Bounds) -> Self {
+        match valid {
+            true => Self { least, greatest },
+            false => Self { least: f64::NEG_INFINITY, greatest: f64::INFINITY },
+        }
+    }
+}
+
+/// How much length and risk count.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Weights {
+    /// λ: the cost of a unit of length without risk.
+    pub length: f64,
+    /// κ: the cost of a unit of length at risk 1, beside that.
+    pub risk: f64,
+}
+
+impl Default for Weights {
+    fn default() -> Self {
+        Self { length: 1.0, risk: 10.0 }
+    }
+}
+
+/// The cost density λ + κ · risk.
+#[derive(Clone, Debug)]
+pub struct WeightedCost {
+    weights: Weights,
+    risk: RiskField,
+}
+
+impl WeightedCost {
+    /// The cost of a risk with the given weights.
+    ///
+    /// # Errors
+    /// When a weight is negative, NaN or infinite, or both are zero.
+    pub fn new(weights: Weights, risk: RiskField) -> Result<Self, PathError> {
+        let Weights { length, risk: of_risk } = weights;
+        let is_weight = |weight: f64| (0.0..f64::INFINITY).contains(&weight);
+        if !(is_weight(length) && is_weight(of_risk) && length + of_risk > 0.0) {
+            return Err(PathError::InvalidWeights { length, risk: of_risk });
+        }
+        Ok(Self { weights, risk })
+    }
+
+    fn of_risk(&self, risk: f64) -> f64 {
+        // Rounding keeps order, so bounds of the risk give bounds of the cost.
+        self.weights.length + self.weights.risk * risk
+    }
+}
+
+impl CostDensity for WeightedCost {
+    fn at(&self, point: DVec2) -> f64 {
+        self.of_risk(self.risk.at(point))
+    }
+
+    fn range(&self, rectangle: &Rect) -> CostRange {
+        let Bounds { least, greatest, .. } = self.risk.range(rectangle);
+        CostRange { least: self.of_risk(least), greatest: self.of_risk(greatest) }
+    }
+
+    fn risk_at(&self, point: DVec2) -> f64 {
+        self.risk.at(point)
+    }
+}
+
+/// A formula of x, y and the risk as cost density.
+#[derive(Clone, Debug)]
+pub struct FormulaCost {
+    /// The formula.
+    pub formula: CostFormula,
+    /// The risk in it.
+    pub risk: RiskField,
+}
+
+impl CostDensity for FormulaCost {
+    fn at(&self, point: DVec2) -> f64 {
+        self.formula.eval(point.x, point.y, self.risk.at(point))
+    }
+
+    fn range(&self, rectangle: &Rect) -> CostRange {
+        self.formula.bounds(rectangle, self.risk.range(rectangle)).into()
+    }
+
+    fn risk_at(&self, point: DVec2) -> f64 {
+        self.risk.at(point)
+    }
+}
+
+/// How often a rectangle is quartered to find valid bounds of its costs.
+const QUARTERINGS: u32 = 6;
+
+/// The range of a cost density over a rectangle, checked.
+///
+/// # Errors
+/// When the cost is zero, negative, NaN or infinite at a place, or its bounds are.
+pub fn checked_range(
+    density: &(impl CostDensity + ?Sized),
+    rectangle: &Rect,
+) -> Result<CostRange, PathError> {
+    let range = density.range(rectangle);
+    if range.is_valid() {
+        return Ok(range);
+    }
+    divided_range(density, rectangle, QUARTERINGS)
+}
+
+#[cold]
+fn divided_range(
+    density: &(impl CostDensity + ?Sized),
+    rectangle: &Rect,
+    quarterings: u32,
+) -> Result<CostRange, PathError> {
+    let range = density.range(rectangle);
+    if range.is_valid() {
+        return Ok(range);
+    }
+    let Rect { min, max } = *rectangle;
+    let at = rectangle.center();
+    for place in [at, min, max, DVec2::new(min.x, max.y), DVec2::new(max.x, min.y)] {
+        let value = density.at(place);
+        if !(value > 0.0 && value < f64::INFINITY) {
+            return Err(PathError::InvalidCost { at: place, value });
+        }
+    }
+    let Some(quarterings) = quarterings.checked_sub(1) else { return Err(PathError::UnboundedCost { at }) };
+    let quarters = [min, max, DVec2::new(min.x, max.y), DVec2::new(max.x, min.y)];
+    let mut joined: Option<CostRange> = None;
+    for corner in quarters {
+        let range = divided_range(density, &Rect::spanning(corner, at), quarterings)?;
+        joined = Some(joined.map_or(range, |joined| joined.union(range)));
+    }
+    joined.ok_or(PathError::UnboundedCost { at })
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::dvec2;
+
+    use super::*;
+    use crate::field::Formula;
+    use crate::layers::{Layer, LayerKind, PaintLayers};
+
+    fn risk(formula: &str) -> RiskField {
+        let stack = Layer::stack([LayerKind::risk(Formula::parse(formula).unwrap())]);
+        RiskField::new(&stack, PaintLayers::blank())
+    }
+
+    fn formula(cost: &str, of_risk: &str) -> FormulaCost {
+        FormulaCost { formula: CostFormula::parse(cost).unwrap(), risk: risk(of_risk) }
+    }
+
+    #[test]
+    fn weights_make_a_cost_of_the_risk() {
+        let cost = WeightedCost::new(Weights { length: 2.0, risk: 4.0 }, risk("0.25 + 0.5*x")).unwrap();
+        assert_eq!(cost.at(dvec2(0.5, 0.0)), 4.0);
+        assert_eq!(cost.range(&Rect::UNIT), CostRange { least: 3.0, greatest: 5.0 });
+        for (length, of_risk) in [(0.0, 0.0), (-1.0, 2.0), (f64::NAN, 1.0), (1.0, f64::INFINITY)] {
+            let refused = WeightedCost::new(Weights { length, risk: of_risk }, risk("x"));
+            assert!(matches!(refused, Err(PathError::InvalidWeights { .. })), "{length} {of_risk}");
+        }
+    }
+
+    #[test]
+    fn a_formula_uses_the_risk_and_only_costs_may() {
+        let cost = formula("1 + 20*risk^2 + y", "x");
+        assert_eq!(cost.at(dvec2(0.5, 1.0)), 7.0);
+        assert_eq!(cost.range(&Rect::UNIT), CostRange { least: 1.0, greatest: 22.0 });
+        let refused = Formula::parse("1 + risk").unwrap_err().to_string();
+        assert!(refused.starts_with("There is no `risk`"), "{refused}");
+        let refused = CostFormula::parse("1 + risky").unwrap_err().to_string();
+        assert!(refused.contains("`risk`"), "{refused}");
+    }
+
+    #[test]
+    fn a_bad_cost_is_refused_with_its_place() {
+        for bad in ["x - 0.5", "1/(x-0.5)", "0", "-1", "0/0", "inf", "sqrt(x-0.5)"] {
+            let Err(PathError::InvalidCost { at, value }) = checked_range(&formula(bad, "0"), &Rect::UNIT)
+            else {
+                panic!("{bad}")
+            };
+            assert!(Rect::UNIT.contains(at) && !(value > 0.0 && value < f64::INFINITY), "{bad}");
+        }
+        let narrow = checked_range(&formula("1 - 0.999999*max(0, 1-1e9*(x-0.3)^2)*2", "0"), &Rect::UNIT);
+        assert!(narrow.is_err());
+        // Too wide over the square, and positive over its parts.
+        let range = checked_range(&formula("x*x - x + 0.3", "0"), &Rect::UNIT).unwrap();
+        assert!(range.least > 0.0 && range.least <= 0.05);
+    }
+}

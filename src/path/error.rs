@@ -1,0 +1,124 @@
+use std::fmt;
+
+use glam::DVec2;
+
+use crate::text::Number;
+
+/// Why there is no path.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum PathError {
+    /// The cost is zero, negative, NaN or infinite at a place.
+    #[error(
+        "The cost at {} is {}. A cost per unit of length must be positive and finite everywhere; \
+         change the formula, or give the length a weight above 0.",
+        Place(*at), Number(*value)
+    )]
+    InvalidCost {
+        /// A place with this cost, in world units.
+        at: DVec2,
+        /// The cost there.
+        value: f64,
+    },
+    /// Interval arithmetic finds no positive, finite bounds of the cost around a place.
+    #[error(
+        "The cost near {} has no positive, finite bounds. Write the formula so that it stays positive and \
+         finite there, for example max(0.01, …) or min(1000, …).",
+        Place(*at)
+    )]
+    UnboundedCost {
+        /// The place, in world units.
+        at: DVec2,
+    },
+    /// A weight is negative, NaN or infinite, or both are zero.
+    #[error(
+        "The weights {} for length and {} for risk make no cost: they must be finite numbers from 0, and one \
+         of them above 0.",
+        Number(*length), Number(*risk)
+    )]
+    InvalidWeights {
+        /// The weight of the length.
+        length: f64,
+        /// The weight of the risk.
+        risk: f64,
+    },
+    /// A coordinate is NaN or infinite.
+    #[error("The {which} {} is not a place: its coordinates must be finite numbers.", Place(*at))]
+    NotAPlace {
+        /// Which place.
+        which: Waypoint,
+        /// The place as given.
+        at: DVec2,
+    },
+    /// The start, the goal or a via point is not in the domain.
+    #[error("The {which} {} lies outside the domain. Choose a place inside it.", Place(*at))]
+    Outside {
+        /// Which place.
+        which: Waypoint,
+        /// The place, in world units.
+        at: DVec2,
+    },
+    /// The start, the goal or a via point is in a part where no path may go.
+    #[error("The {which} {} lies in a keep-out region. Choose a place beside it.", Place(*at))]
+    KeptOut {
+        /// Which place.
+        which: Waypoint,
+        /// The place, in world units.
+        at: DVec2,
+    },
+    /// No path leads from one place to the next.
+    #[error(
+        "No path leads from the {from} to the {to}: they lie in different parts of the domain. \
+         Choose two places in one part, or open a gap between the parts."
+    )]
+    Apart {
+        /// Where the path would begin.
+        from: Waypoint,
+        /// Where it would end.
+        to: Waypoint,
+    },
+    /// Fewer than two places.
+    #[error("A path needs a start and a goal.")]
+    TooFewPlaces,
+}
+
+/// A place that a path must visit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Waypoint {
+    /// Where the path begins.
+    Start,
+    /// A place in between, counted from 1.
+    Via(usize),
+    /// Where the path ends.
+    Goal,
+}
+
+impl Waypoint {
+    /// The waypoint at a place of `count` in order.
+    pub fn of(index: usize, count: usize) -> Self {
+        match index {
+            0 => Self::Start,
+            _ if index + 1 == count => Self::Goal,
+            _ => Self::Via(index),
+        }
+    }
+}
+
+impl fmt::Display for Waypoint {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Start => f.write_str("start"),
+            Self::Via(number) => write!(f, "via point {number}"),
+            Self::Goal => f.write_str("goal"),
+        }
+    }
+}
+
+/// A point for a sentence.
+struct Place(DVec2);
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "({}, {})", Number(self.0.x), Number(self.0.y))
+    }
+}

@@ -1,0 +1,7 @@
+//! Paths of least cost through the domain, with bounds of how far from the best they can be.
+
+mod cost;
+mod error;
+
+pub use cost::{CostDensity, CostRange, FormulaCost, WeightedCost, Weights, checked_range};
+pub use error::{PathError, Waypoint};
