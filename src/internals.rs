@@ -11,4 +11,4 @@ macro_rules! modules {
     };
 }
 
-modules! { text geometry mesh raster field domain layers outline paint build path explain document io colormap scene render }
+modules! { text geometry mesh plot raster field domain layers outline paint build path explain document io colormap scene render }

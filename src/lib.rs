@@ -20,6 +20,7 @@
 mod text;
 mod geometry;
 mod mesh;
+mod plot;
 mod raster;
 mod field;
 mod domain;

@@ -11,9 +11,9 @@ use std::fs;
 use source::{Function, SourceFile, read_src, read_texts};
 
 /// The modules, lowest first: each imports only from those before it.
-const MODULES: [&str; 19] = [
-    "text", "geometry", "mesh", "raster", "field", "domain", "layers", "outline", "paint", "build", "path",
-    "explain", "document", "io", "colormap", "scene", "render", "cli", "app",
+const MODULES: [&str; 20] = [
+    "text", "geometry", "mesh", "plot", "raster", "field", "domain", "layers", "outline", "paint", "build",
+    "path", "explain", "document", "io", "colormap", "scene", "render", "cli", "app",
 ];
 
 /// What lib.rs declares besides: documentation, and the door for our own tests.

@@ -31,6 +31,7 @@ pub mod node;
 pub mod obj;
 pub mod png;
 pub mod points;
+pub mod plot;
 mod positions;
 pub mod project;
 mod provenance;

@@ -61,7 +61,7 @@ pub fn write(
 }
 
 /// Text without the characters that are markup.
-fn escaped(text: &str) -> String {
+pub(super) fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }
 

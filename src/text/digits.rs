@@ -28,10 +28,29 @@ pub fn significant(value: f64, digits: usize) -> String {
     format!("{}{scientific}", if value < 0.0 { "−" } else { "" })
 }
 
+/// `value` with at most `digits` significant digits and no trailing zeros: `0.064`, `2`, `1.2e-7`.
+pub fn digits(value: f64, digits: usize) -> String {
+    let text = significant(value, digits);
+    let (mantissa, exponent) = text.split_at(text.find('e').unwrap_or(text.len()));
+    if !mantissa.contains('.') {
+        return text;
+    }
+    format!("{}{exponent}", mantissa.trim_end_matches('0').trim_end_matches('.'))
+}
+
 /// `value` rounded to `digits` significant digits: exactly what [`significant`] shows.
 pub fn rounded(value: f64, digits: usize) -> f64 {
     let text = format!("{:.*e}", digits.max(1) - 1, value);
     text.parse().unwrap_or(value)
+}
+
+/// `number` with its unit, if there is one. Only the sign of degrees follows without a space.
+pub fn with_unit(number: &str, unit: &str) -> String {
+    match unit {
+        "" => number.to_owned(),
+        "°" => format!("{number}°"),
+        _ => format!("{number} {unit}"),
+    }
 }
 
 fn not_finite(value: f64) -> String {

@@ -5,7 +5,7 @@
 //! nothing jumps.
 
 use crate::text::{LengthUnit, group_digits};
-pub use crate::text::{fixed, rounded, significant};
+pub use crate::text::{digits, fixed, rounded, significant, with_unit};
 
 /// A count, grouped by thousands: `37,987`.
 pub fn count(value: u64) -> String {
@@ -20,16 +20,6 @@ pub fn change(value: i64) -> String {
         _ => "−",
     };
     format!("{sign}{}", count(value.unsigned_abs()))
-}
-
-/// `value` with at most `digits` significant digits and no trailing zeros: `0.064`, `2`, `1.2e-7`.
-pub fn digits(value: f64, digits: usize) -> String {
-    let text = significant(value, digits);
-    let (mantissa, exponent) = text.split_at(text.find('e').unwrap_or(text.len()));
-    if !mantissa.contains('.') {
-        return text;
-    }
-    format!("{}{exponent}", mantissa.trim_end_matches('0').trim_end_matches('.'))
 }
 
 /// All digits of `value`: exactly this number when it is read again. Without commas, for other programs.
@@ -49,15 +39,6 @@ pub fn length(value: f64, unit: LengthUnit) -> String {
 /// `0.5813`, `23.58°`.
 pub fn coordinate(value: f64, step: f64, unit: LengthUnit) -> String {
     unit.after(&fixed(value, decimals_for(step)))
-}
-
-/// `number` with its unit, if there is one. Only the sign of degrees follows without a space.
-pub fn with_unit(number: &str, unit: &str) -> String {
-    match unit {
-        "" => number.to_owned(),
-        "°" => format!("{number}°"),
-        _ => format!("{number} {unit}"),
-    }
 }
 
 /// The number of decimals that tells apart values `step` from each other, at most 15.
