@@ -15,6 +15,8 @@ pub enum TreeStep {
     Queried,
     /// To the coarse triangle.
     Coarse,
+    /// To a triangle on the way down from the coarse triangle to the queried one, by its level.
+    Ancestor(u32),
     /// To the triangle that this one is half of.
     Parent,
     /// To the other half of the parent.
@@ -93,6 +95,12 @@ impl Explore {
         }
     }
 
+    /// The way down the bisection tree: from the coarse triangle to the parent of the queried one.
+    pub fn path_down(&self, mesh: &Mesh) -> Vec<TreeTriangle> {
+        let queried = self.explanation.as_ref().map(|explanation| &explanation.triangle);
+        queried.map_or_else(Vec::new, |queried| queried.ancestors(mesh.lattice()))
+    }
+
     /// The place of the shown triangle in the chain.
     pub fn link(&self) -> Option<usize> {
         let place = self.place.as_ref()?;
@@ -107,6 +115,9 @@ impl Explore {
         match step {
             TreeStep::Queried => self.explanation.as_ref().map(|explanation| explanation.triangle),
             TreeStep::Coarse => here.ancestors(mesh.lattice()).first().copied(),
+            TreeStep::Ancestor(level) => {
+                self.path_down(mesh).into_iter().find(|ancestor| ancestor.level() == level)
+            }
             TreeStep::Parent => here.parent(mesh.lattice()),
             TreeStep::Sibling => here.sibling(mesh.lattice()),
             TreeStep::Child(half) => mesh.is_bisected(here).then(|| here.children()[half]),

@@ -127,7 +127,7 @@ pub fn export(
     if let Some(problem) = format.files(path).iter().find_map(blocked) {
         return Err(problem);
     }
-    let (mesh, domain) = (session.shared_mesh(), session.follower().domain().clone());
+    let (mesh, domain) = (session.follower().shared_mesh(), session.follower().domain().clone());
     let (field, settings) = (session.follower().field().clone(), session.follower().settings().clone());
     let (paint, rule) = (session.document().paint().clone(), settings.rule);
     let look = view.picture(session.document().settings());

@@ -5,6 +5,7 @@
 //! commands run and when things are drawn, `execute` what a command does. Tools, panels and export formats
 //! are tables with a file for each entry.
 
+mod ages;
 mod background;
 mod boundary;
 mod busy;

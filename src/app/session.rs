@@ -1,11 +1,11 @@
 //! The document, the mesh that follows it, edits on their way to the document, and the queried point.
 
-use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use eframe::egui::Context;
 use glam::DVec2;
 
+use super::ages::AgeKeeper;
 use super::boundary::BoundaryFinder;
 use super::cuts::CutQueue;
 use super::derivation::{Derivation, Derived, PiecesChange};
@@ -15,6 +15,7 @@ use super::statistics::{Measured, Statistician};
 use crate::build::BuildError;
 use crate::document::{Document, Follower, MeshChange, Pricer, Setting, Stage};
 use crate::domain::{BoundaryMarks, BoundaryPieces, CutShape};
+use crate::explain::AgesNow;
 use crate::geometry::Rect;
 use crate::mesh::{Location, Mesh, MeshView, Progress, TriangleId};
 use crate::paint::StrokePlan;
@@ -46,6 +47,7 @@ pub struct Session {
     derivation: Derivation,
     boundary: BoundaryFinder,
     statistician: Statistician,
+    ages: AgeKeeper,
     /// What became of the follower's mesh since the canvas last asked.
     mesh_change: Option<MeshChange>,
 }
@@ -72,6 +74,7 @@ impl Session {
             derivation: Derivation::default(),
             boundary: BoundaryFinder::default(),
             statistician: Statistician::default(),
+            ages: AgeKeeper::default(),
             mesh_change: None,
         })
     }
@@ -99,11 +102,6 @@ impl Session {
     /// The mesh of the follower, which the derived mesh differs from along an outline.
     pub fn mesh(&self) -> &Mesh {
         self.follower.mesh()
-    }
-
-    /// The mesh of the follower, for work on another thread.
-    pub fn shared_mesh(&self) -> Arc<Mesh> {
-        self.follower.shared_mesh()
     }
 
     /// The mesh that is derived along the outline of the domain; `None` without an outline, and until it is
@@ -372,6 +370,7 @@ impl Session {
     /// user to undo or erase.
     pub fn follow(&mut self, deadline: Instant) -> bool {
         let began = self.update_began.unwrap_or_else(Instant::now);
+        self.ages.look_at(&self.document);
         let revision = self.follower.revision();
         let left = loop {
             if self.document.advance_stroke(SLICE) == Progress::More && Instant::now() < deadline {
@@ -400,9 +399,15 @@ impl Session {
         }
         if let Some(change) = self.follower.take_change() {
             self.derivation.note_change(&change, self.follower.mesh());
+            self.ages.note(&change, self.follower.mesh());
             MeshChange::join(&mut self.mesh_change, change, self.follower.mesh());
         }
-        left
+        left | self.ages.advance(self.follower.mesh(), deadline)
+    }
+
+    /// How many edits ago each triangle of the follower's mesh came.
+    pub fn ages(&self) -> AgesNow {
+        self.ages.snapshot()
     }
 
     /// Computes the price of a stroke until `deadline`. Returns whether work is left. `None` cancels.

@@ -28,6 +28,8 @@ pub enum FieldOverlay {
     Slack,
     /// The triangles that only compatibility asked for.
     Forced,
+    /// How many edits ago each triangle came.
+    Age,
 }
 
 /// An aid to orientation on the canvas, which can be switched off.

@@ -29,7 +29,7 @@ impl WalkMeter {
     /// Measures the mesh, where that is due.
     pub fn measure(&mut self, session: &Session, ctx: &Context) {
         if self.is_due(session) {
-            let mesh = session.shared_mesh();
+            let mesh = session.follower().shared_mesh();
             self.0.start(session.follower().revision(), move || mesh.mean_walk_steps(SAMPLES), ctx);
         }
     }

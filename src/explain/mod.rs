@@ -1,5 +1,6 @@
 //! Why a triangle is in a mesh: the cause, and what asked for it.
 
+mod ages;
 mod node;
 mod sampled;
 mod sentences;
@@ -8,6 +9,7 @@ use crate::build::RefinementCriterion;
 use crate::layers::LeastTarget;
 use crate::mesh::{Cause, Limits, Mesh, TreeTriangle};
 
+pub use ages::{Ages, AgesNow};
 pub use node::NodeFacts;
 pub use sampled::PixelTriangles;
 pub use sentences::Words;

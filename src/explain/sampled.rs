@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use glam::DVec2;
 
-use super::asks_to_bisect;
+use super::{AgesNow, asks_to_bisect};
 use crate::build::RefinementCriterion;
 use crate::geometry::Rect;
 use crate::mesh::{Limits, Mesh, TreeTriangle, TriangleId};
@@ -40,6 +40,12 @@ impl<'a> PixelTriangles<'a> {
         };
         let pixels = self.iter().zip(target.values());
         pixels.map(|((_, id), &target)| id.map_or(f32::NAN, |id| slack(id, target))).collect()
+    }
+
+    /// How many edits ago the triangle at each pixel came; `None` if it was there before the first, and
+    /// beyond the mesh.
+    pub fn ages(&self, ages: &AgesNow) -> Vec<Option<u32>> {
+        self.iter().map(|(_, id)| ages.of(id?)).collect()
     }
 
     /// Whether the triangle at each pixel is there for compatibility only: its parent does not exceed its

@@ -30,6 +30,9 @@ pub fn paint(state: &FrameState<'_>, over: &OverMesh<'_>, accent: Color32) {
         return;
     }
     let marks = CauseMarks { over, mesh: state.session.mesh(), accent };
+    for ancestor in state.explore.path_down(marks.mesh) {
+        marks.ancestor(&ancestor);
+    }
     marks.chain(state.explore.chain());
     if let Some(Demand::Target(least)) = state.explore.explanation().and_then(|one| one.demand) {
         marks.decision(least.at, least.from);
@@ -69,6 +72,15 @@ impl CauseMarks<'_> {
     fn outline(&self, triangle: &TreeTriangle, color: Color32, width: f32) {
         let [a, b, c] = self.corners(triangle);
         marks::paint_rimmed_line(self.painter(), [a, b, c, a].into_iter(), color, width);
+    }
+
+    /// A triangle on the way down the bisection tree: fainter than those of the chain.
+    fn ancestor(&self, triangle: &TreeTriangle) {
+        let [a, b, c] = self.corners(triangle);
+        for (width, color) in [(2.5, Color32::from_black_alpha(110)), (1.0, Color32::from_white_alpha(120))] {
+            let stroke = Stroke::new(width, color);
+            self.painter().add(Shape::closed_line(vec![a, b, c], stroke));
+        }
     }
 
     /// The triangles of the chain, with an arrow from each to the next.

@@ -2,7 +2,7 @@
 
 use eframe::egui::{Align2, Color32, Mesh, Rect, Role, Sense, Shape, Ui, Vec2, WidgetInfo, pos2, vec2};
 
-use super::overlay::{FORCED, MOST_SLACK, risk_color, slack_color};
+use super::overlay::{FORCED, MOST_SLACK, OLD_AGE, age_color, risk_color, slack_color};
 use crate::app::frame::FrameState;
 use crate::app::layer_pictures::layer_color32;
 use crate::app::theme::{font, tokens};
@@ -28,6 +28,7 @@ pub fn show(ui: &Ui, inner: Rect, state: &FrameState<'_>) {
         FieldOverlay::Layer => layer_legend(ui, inner, state),
         FieldOverlay::Slack => slack_legend(ui, inner),
         FieldOverlay::Forced => forced_legend(ui, inner),
+        FieldOverlay::Age => age_legend(ui, inner),
         FieldOverlay::None if state.view.aids.contours => target_legend(ui, inner, state),
         FieldOverlay::None => {}
     }
@@ -76,22 +77,35 @@ fn risk_legend(ui: &Ui, inner: Rect) {
 /// How often the mesh could be halved less, in the colours over level 0.
 fn slack_legend(ui: &Ui, inner: Rect) {
     let place = boxed(ui, inner, 30.0, "Slack h̄ / h", "Legend: slack 1 to 16");
+    let steps = 16u16;
+    let color = |step| slack_color((f32::from(step) + 0.5) / f32::from(steps) * MOST_SLACK);
+    scale(ui, place, (0..steps).map(color), ["1", "4", "≥ 16"].map(str::to_owned));
+}
+
+/// From the last edit to old triangles, a cell for each edit.
+fn age_legend(ui: &Ui, inner: Rect) {
+    let place = boxed(ui, inner, 30.0, "Edits ago", "Legend: edits ago, 0 to 10");
+    let colors = (0..OLD_AGE + 1).map(|age| age_color(Some(age)));
+    scale(ui, place, colors, ["0".into(), (OLD_AGE / 2).to_string(), format!("≥ {OLD_AGE}")]);
+}
+
+/// Cells of colours over level 0 side by side, with text below the left, the middle and the right.
+fn scale(ui: &Ui, place: Rect, colors: impl ExactSizeIterator<Item = [u8; 4]>, texts: [String; 3]) {
     let t = tokens(ui);
     let bar = place.with_max_y(place.top() + 12.0);
-    let steps = 16;
-    for step in 0..steps {
-        let share = (step as f32 + 0.5) / steps as f32;
-        let [r, g, b, a] = slack_color(share * MOST_SLACK);
-        let left = bar.left() + bar.width() * step as f32 / steps as f32;
-        let cell = Rect::from_min_size(pos2(left, bar.top()), vec2(bar.width() / steps as f32, bar.height()));
+    let width = bar.width() / colors.len() as f32;
+    for (cell, [r, g, b, a]) in colors.enumerate() {
+        let left = bar.left() + width * cell as f32;
+        let cell = Rect::from_min_size(pos2(left, bar.top()), vec2(width, bar.height()));
         let color = t.level_zero.blend(Color32::from_rgba_unmultiplied(r, g, b, a));
         ui.painter().rect_filled(cell, 0.0, color);
     }
-    for (x, align, text) in [
-        (bar.left(), Align2::LEFT_TOP, "1"),
-        (bar.center().x, Align2::CENTER_TOP, "4"),
-        (bar.right(), Align2::RIGHT_TOP, "≥ 16"),
-    ] {
+    let places = [
+        (bar.left(), Align2::LEFT_TOP),
+        (bar.center().x, Align2::CENTER_TOP),
+        (bar.right(), Align2::RIGHT_TOP),
+    ];
+    for ((x, align), text) in places.into_iter().zip(texts) {
         ui.painter().text(pos2(x, bar.bottom() + 3.0), align, text, font::axis(), t.label);
     }
 }

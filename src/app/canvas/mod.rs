@@ -306,9 +306,8 @@ impl Canvas {
             return;
         };
         let settings = session.follower().settings();
-        let (document, follower) = (session.document(), session.follower());
         let colors = view.level_colors(settings);
-        let overlay = self.overlay_colors.overlay(view.overlay, document, follower, colors, ui.ctx());
+        let overlay = self.overlay_colors.overlay(view.overlay, session, colors, ui.ctx());
         let style = view.style(settings, ui.pixels_per_point());
         match gpu.sync(session, change, overlay.as_ref(), &camera, &style) {
             Ok(Progress::Done) => {}

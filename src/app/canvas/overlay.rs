@@ -9,10 +9,10 @@ use super::super::contours::pixels_over;
 use super::super::frame::NO_LIMIT;
 use super::super::latest::Latest;
 use super::super::layer_pictures::layer_color32;
+use super::super::session::Session;
 use super::super::view::FieldOverlay;
 use crate::build::RefinementCriterion;
 use crate::colormap::LevelColors;
-use crate::document::{Document, Follower};
 use crate::explain::PixelTriangles;
 use crate::geometry::Rect;
 use crate::layers::{Layer, LayerId, PaintLayers, SizeField};
@@ -63,8 +63,7 @@ impl OverlayColors {
     pub fn overlay<'a>(
         &'a mut self,
         kind: FieldOverlay,
-        document: &Document,
-        follower: &Follower,
+        session: &Session,
         colors: LevelColors,
         ctx: &Context,
     ) -> Option<Overlay<'a>> {
@@ -72,6 +71,7 @@ impl OverlayColors {
             self.latest = Latest::default();
             return None;
         }
+        let (document, follower) = (session.document(), session.follower());
         let bounds = document.settings().domain.bounds;
         let (document_state, mesh) = (document.revision(), follower.revision());
         let state = OverlayState { kind, document: document_state, mesh, bounds, colors };
@@ -79,14 +79,16 @@ impl OverlayColors {
         // Those of another domain or another kind are of no use.
         self.latest.keep_if(|found| found.kind == kind && found.bounds == bounds);
         if !self.latest.has(&state) {
-            let compute = colors_of(state.clone(), document, follower);
+            let compute = colors_of(state.clone(), session);
             self.latest.start(state, compute, ctx);
             self.take(if self.waits { NO_LIMIT } else { PATIENCE });
         }
         let (_, Pixels { rgba, size: [columns, rows] }) = self.latest.last()?;
         let opacity = match kind {
             FieldOverlay::Target => TARGET_OPACITY,
-            FieldOverlay::Layer | FieldOverlay::Slack | FieldOverlay::Forced => LAYER_OPACITY,
+            FieldOverlay::Layer | FieldOverlay::Slack | FieldOverlay::Forced | FieldOverlay::Age => {
+                LAYER_OPACITY
+            }
             FieldOverlay::Risk | FieldOverlay::None => 1.0,
         };
         Some(Overlay { bounds, columns: *columns, rows: *rows, rgba, opacity, revision: self.revision })
@@ -100,15 +102,13 @@ impl OverlayColors {
     }
 }
 
-fn colors_of(
-    state: OverlayState,
-    document: &Document,
-    follower: &Follower,
-) -> impl FnOnce() -> Pixels + Send + 'static {
+fn colors_of(state: OverlayState, session: &Session) -> impl FnOnce() -> Pixels + Send + 'static {
+    let (document, follower) = (session.document(), session.follower());
     let (paint, layers) = (document.paint().clone(), document.settings().layers.clone());
     let field = follower.shared_field();
-    let of_mesh = matches!(state.kind, FieldOverlay::Slack | FieldOverlay::Forced);
+    let of_mesh = matches!(state.kind, FieldOverlay::Slack | FieldOverlay::Forced | FieldOverlay::Age);
     let mesh = of_mesh.then(|| follower.shared_mesh());
+    let ages = (state.kind == FieldOverlay::Age).then(|| session.ages());
     let rule = (state.kind == FieldOverlay::Forced)
         .then(|| (follower.domain().clone(), follower.settings().rule, follower.settings().limits()));
     move || {
@@ -116,10 +116,12 @@ fn colors_of(
         let rgba = match state.kind {
             FieldOverlay::Risk => risk_colors(&layers, &paint, state.bounds, size),
             FieldOverlay::Layer => layer_colors(&field, &paint, state.bounds, size),
-            FieldOverlay::Slack | FieldOverlay::Forced => {
+            FieldOverlay::Slack | FieldOverlay::Forced | FieldOverlay::Age => {
                 let mesh = mesh.expect("the mesh is shared for these overlays");
                 let pixels = PixelTriangles::new(&mesh, state.bounds, size);
-                if state.kind == FieldOverlay::Slack {
+                if let Some(ages) = ages {
+                    pixels.ages(&ages).into_iter().map(age_color).collect()
+                } else if state.kind == FieldOverlay::Slack {
                     let target = field.sampled(&paint, state.bounds, size);
                     pixels.slack(&target).into_iter().map(slack_color).collect()
                 } else {
@@ -174,6 +176,15 @@ pub const MOST_SLACK: f32 = 4.0;
 pub fn slack_color(halvings: f32) -> [u8; 4] {
     let share = (halvings / MOST_SLACK).clamp(0.0, 1.0);
     [0xff, 0xff, 0xff, if halvings.is_nan() { 0 } else { (share * 255.0) as u8 }]
+}
+
+/// Edits from which on a triangle counts as old.
+pub const OLD_AGE: u32 = 10;
+
+/// From white for the last edit to nothing for what is old, or was there before the first edit.
+pub fn age_color(edits_ago: Option<u32>) -> [u8; 4] {
+    let age = edits_ago.map_or(OLD_AGE, |age| age.min(OLD_AGE));
+    [0xff, 0xff, 0xff, (255 * (OLD_AGE - age) / OLD_AGE) as u8]
 }
 
 /// From nothing to a warm red; alpha carries the risk.

@@ -39,6 +39,7 @@ pub fn view(state: &FrameState<'_>) -> Vec<CatalogItem> {
         overlay("Overlay deciding layer", FieldOverlay::Layer),
         overlay("Overlay slack", FieldOverlay::Slack),
         overlay("Overlay forced triangles", FieldOverlay::Forced),
+        overlay("Overlay age of triangles", FieldOverlay::Age),
     ];
     let queried = state.session.queried_triangle().map(|id| state.session.view().triangle(id).level());
     let of_triangle = |title: &str, command: fn(u32) -> Command| {

@@ -40,6 +40,7 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
             (FieldOverlay::Layer, "Layer"),
             (FieldOverlay::Slack, "Slack"),
             (FieldOverlay::Forced, "Forced"),
+            (FieldOverlay::Age, "Age"),
         ];
         if dropdown_row(ui, "Overlay", &mut overlay, &overlays).changed() {
             commands.push(Command::SetOverlay(overlay));

@@ -33,6 +33,7 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
             commands.push(Command::ToggleAid(CanvasAid::Cause));
         }
         ui.add_space(6.0);
+        path_chips(ui, state, commands);
         step_buttons(ui, state, commands);
         triangle_rows(ui, state, shown);
         node_rows(ui, state, commands);
@@ -66,6 +67,26 @@ fn chain_chips(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>)
             let help = "Shows this triangle of the chain; its number is its level.";
             if Chip::new(color, &text, &name).help(help).show(ui).clicked() {
                 step(TreeStep::Link(place), commands);
+            }
+        }
+    });
+    ui.add_space(4.0);
+}
+
+/// The way from the coarse triangle down to the queried one. A click goes to a triangle on it.
+fn path_chips(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
+    let path = state.explore.path_down(state.session.mesh());
+    let (Some(shown), false) = (state.explore.shown(), path.is_empty()) else { return };
+    remark(ui, "Down the bisection tree, by level:");
+    let (accent, faint) = (tokens(ui).accent, tokens(ui).faint);
+    chips(ui, |ui| {
+        for ancestor in &path {
+            let level = ancestor.level();
+            let color = if ancestor.is_same(shown) { accent } else { faint };
+            let name = format!("Ancestor of level {level}");
+            let help = "Shows the triangle of this level that the queried one is a part of.";
+            if Chip::new(color, &level.to_string(), &name).help(help).show(ui).clicked() {
+                step(TreeStep::Ancestor(level), commands);
             }
         }
     });

@@ -3,9 +3,10 @@
 use eframe::egui::accesskit::Role;
 use eframe::egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
-use glam::dvec2;
+use glam::{DVec2, dvec2};
 
-use super::{TALL, Window, click, key, stroke, window_of};
+use super::{TALL, Window, click, key, send, stroke, window_of};
+use crate::app::command::Command;
 use crate::app::tools::QUERY;
 use crate::explain::Explanation;
 use crate::mesh::{Cause, TriangleId};
@@ -92,6 +93,9 @@ fn the_tree_is_walked_up_and_down() {
     assert!(!window.state().explore().is_away(), "the sibling of the sibling is the queried triangle");
     key(&mut window, Modifiers::COMMAND, Key::PageUp);
     assert_eq!(window.state().explore().shown().unwrap().level(), 0);
+    press_button(&mut window, &format!("Ancestor of level {}", parent.level()));
+    assert!(window.state().explore().shown().unwrap().is_same(&parent));
+    press_button(&mut window, "Ancestor of level 0");
     choose_node(&mut window, "Apex");
     assert_eq!(row(&window, "Parent nodes").unwrap(), "none: a coarse node");
     press_button(&mut window, "Queried triangle");
@@ -121,13 +125,35 @@ fn an_edit_is_explained_once_the_mesh_is_complete() {
 }
 
 #[test]
-fn overlays_of_slack_and_forced_triangles_have_legends() {
+fn overlays_of_slack_forced_triangles_and_ages_have_legends() {
     let mut window = window_of(TALL);
     for (entry, legend) in [
         ("Overlay slack", "Legend: slack 1 to 16"),
         ("Overlay forced triangles", "Legend: triangles that only compatibility asked for"),
+        ("Overlay age of triangles", "Legend: edits ago, 0 to 10"),
     ] {
         super::choose(&mut window, "View", entry);
         assert!(window.query_by_label(legend).is_some(), "{legend}");
     }
+}
+
+#[test]
+fn the_age_of_a_triangle_counts_the_edits_since_it_came() {
+    let mut window = window_of(TALL);
+    let age = |window: &Window, at: DVec2| {
+        let id = window.state().session().mesh().locate(at).triangle().unwrap();
+        window.state().session().ages().of(id)
+    };
+    let [first, second, other] = [dvec2(0.2, 0.8), dvec2(0.8, 0.2), dvec2(0.5, 0.02)];
+    window.run_steps(5);
+    assert_eq!(age(&window, first), None, "nothing was edited yet");
+    stroke(&mut window, first, first + dvec2(0.05, 0.0));
+    window.run_steps(5);
+    assert_eq!([first, second].map(|at| age(&window, at)), [Some(0), None]);
+    stroke(&mut window, second, second + dvec2(0.05, 0.0));
+    window.run_steps(5);
+    assert_eq!([first, second, other].map(|at| age(&window, at)), [Some(1), Some(0), None]);
+    send(&mut window, Command::Undo);
+    window.run_steps(5);
+    assert_eq!(age(&window, first), Some(2), "an undo is an edit");
 }

@@ -170,7 +170,7 @@ static SENTENCES: [(&str, &str); 160] = [
     ("Colours", "The colours of the levels."),
     (
         "Overlay",
-        "What is shown over the mesh: risk, the level that h̄ asks for, the deciding layer, where the mesh is finer than h̄ asks for (slack), or the triangles that only compatibility asked for (forced).",
+        "What is shown over the mesh: risk, the level that h̄ asks for, the deciding layer, where the mesh is finer than h̄ asks for (slack), the triangles that only compatibility asked for (forced), or how many edits ago a triangle came (age).",
     ),
     ("Theme/Dark", "Light text on a dark window."),
     ("Theme/Light", "Dark text on a light window."),
