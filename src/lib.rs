@@ -71,7 +71,10 @@ pub use paint::{Brush, Medium};
 pub use text::LengthUnit;
 
 // Find paths.
-pub use path::{CostDensity, CostRange, FormulaCost, PathError, Waypoint, WeightedCost, Weights};
+pub use path::{
+    Certificate, CertificateEnd, CertificateTask, CostDensity, CostRange, FormulaCost, PathError, Placement,
+    PlacementTest, Waypoint, WeightedCost, Weights,
+};
 
 // Query a mesh.
 pub use explain::{Demand, Explanation, Words};

@@ -126,6 +126,36 @@ impl DomainOnLattice {
         Self { fitted, on_outline, ..self.clone() }
     }
 
+    /// The lattice that the domain is indexed on.
+    pub fn lattice(&self) -> &Lattice {
+        &self.lattice
+    }
+
+    /// Whether no point of an element belongs to the domain itself, whatever the boundary treatment. Of the
+    /// domain of a formula, this is known where interval arithmetic shows it.
+    pub fn has_none_of(&self, element: &Element) -> bool {
+        match (&self.region, &self.formula) {
+            (Some(region), _) => region.lies_outside(element.corners, element.triangle.level()),
+            (None, Some(formula)) => {
+                let bounds = formula.bounds(&bounding_rectangle(element));
+                bounds.least == 0.0 && bounds.greatest == 0.0
+            }
+            (None, None) => false,
+        }
+    }
+
+    /// Whether the boundary of the domain itself may pass through an element.
+    pub fn may_cut(&self, element: &Element) -> bool {
+        match (&self.region, &self.formula) {
+            (Some(region), _) => region.outline_crosses(element.corners, element.triangle.level()),
+            (None, Some(formula)) => {
+                let bounds = formula.bounds(&bounding_rectangle(element));
+                !bounds.valid || (bounds.least <= 0.0 && bounds.greatest >= 0.0)
+            }
+            (None, None) => false,
+        }
+    }
+
     /// The region, where nodes along its outline are moved onto it ([`BoundaryTreatment::OnOutline`]).
     pub fn region_on_outline(&self) -> Option<&RegionOnLattice> {
         self.region.as_deref().filter(|_| self.on_outline)
@@ -203,4 +233,10 @@ impl DomainOnLattice {
             _ => false,
         }
     }
+}
+
+/// The smallest rectangle around an element, in world units.
+fn bounding_rectangle(element: &Element) -> Rect {
+    let [a, b, c] = element.world_corners();
+    Rect::spanning(a, b).union(&Rect::new(c, c))
 }

@@ -18,6 +18,12 @@ pub trait CostDensity: Send + Sync {
     /// Bounds of the cost over a closed rectangle in world units; they may be wider than the values.
     fn range(&self, rectangle: &Rect) -> CostRange;
 
+    /// Bounds of the derivatives along x and y over a closed rectangle in world units; they may be wider than
+    /// the values. `None` where the cost may jump, or its derivatives are not known.
+    fn derivatives(&self, _rectangle: &Rect) -> Option<[CostRange; 2]> {
+        None
+    }
+
     /// The risk at a point in world units; 0 where the cost knows no risk.
     fn risk_at(&self, _point: DVec2) -> f64 {
         0.0

@@ -2,7 +2,7 @@ use std::fmt;
 
 use glam::DVec2;
 
-use crate::text::Number;
+use crate::text::{Grouped, Number};
 
 /// Why there is no path.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -76,6 +76,14 @@ pub enum PathError {
         from: Waypoint,
         /// Where it would end.
         to: Waypoint,
+    },
+    /// The mesh of a certificate would be too large.
+    #[error(
+        "The bound needs a mesh of more than {} nodes. Choose a coarser grid for it.", Grouped(*limit)
+    )]
+    TooLarge {
+        /// The most nodes.
+        limit: usize,
     },
     /// Fewer than two places.
     #[error("A path needs a start and a goal.")]

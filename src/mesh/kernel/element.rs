@@ -46,6 +46,12 @@ impl Mesh {
         self.element_of(self.triangle(id), diameters)
     }
 
+    /// The elements of all entries of the array, those outside a fitted domain included.
+    pub fn raw_elements(&self) -> impl Iterator<Item = Element<'_>> {
+        let diameters = Diameters::of(self);
+        self.triangles.iter().map(move |triangle| self.element_of(triangle, &diameters))
+    }
+
     /// The element of a triangle that need not be in the array.
     #[inline]
     pub(in crate::mesh) fn element_of<'a>(

@@ -1,0 +1,72 @@
+//! Which triangles to bisect, and how often.
+
+use glam::DVec2;
+
+use super::minorant::Minorant;
+use super::programme::ProgrammeSolution;
+use super::quadratic::QuadraticSpace;
+use super::setup::Kept;
+
+/// One round aims at leaving at least this part of what is lost: estimates are too rough to aim farther.
+const LEAST_LEFT: f64 = 0.12;
+/// Most bisections of a triangle in one round.
+const MOST_BISECTIONS: u32 = 3;
+/// Bisections of the range in which the equal loss is searched.
+const SEARCH_STEPS: usize = 60;
+
+/// What the bound loses in each triangle, in the unit of the cost, as far as the flow z of the dual tells.
+///
+/// ```text
+/// η = Σ |z_i| (mean c − mean ℓ)            the cost is more than its minorant
+///   + least c · (Σ |z_i| − |Σ z_i|)        the path is curved
+///   + least c · Σ |z_i| · h / distance     the path may take a short cut through a hole
+/// ```
+pub(super) fn estimates(
+    space: &QuadraticSpace,
+    minorants: &[Minorant],
+    solution: &ProgrammeSolution,
+    kept: &Kept,
+) -> Vec<f64> {
+    let distance =
+        space.elements[kept.start].flat.centroid().distance(space.elements[kept.goal].flat.centroid());
+    let one = |index: usize| {
+        let (element, minorant, flows) = (&space.elements[index], &minorants[index], &solution.flows[index]);
+        let lengths: f64 = flows.iter().map(|flow| flow.length()).sum();
+        let straight = flows.iter().sum::<DVec2>().length();
+        let affine = minorant.affine_mean();
+        // Limited, since the cost may be infinite where next to nothing flows.
+        let above = (minorant.mean - affine).clamp(0.0, 3.0 * affine);
+        let diameter = element.flat.diameter();
+        let short_cut = if kept.cut[index] { diameter / distance.max(diameter) } else { 0.0 };
+        let lost = lengths * above + minorant.least * ((lengths - straight).max(0.0) + lengths * short_cut);
+        if lost.is_finite() { lost } else { 0.0 }
+    };
+    (0..space.elements.len()).map(one).collect()
+}
+
+/// How often to bisect each triangle so that all together lose about `goal`.
+///
+/// One bisection divides what a triangle on the path loses by about 2^(3/2): its part of the path is shorter
+/// by √2, and an affine function misses half as much. A path is a line, so n bisections make 2^(n/2)
+/// triangles on it. The fewest triangles result where all lose equally much.
+pub(super) fn bisections(estimates: &[f64], goal: f64) -> Vec<u32> {
+    let all: f64 = estimates.iter().sum();
+    let goal = goal.max(LEAST_LEFT * all);
+    let left = |equal: f64| -> f64 {
+        let after = |one: f64| if one > equal { equal * libm::cbrt(one / equal) } else { one };
+        estimates.iter().map(|&one| after(one)).sum()
+    };
+    let (mut low, mut high) = (0.0, estimates.iter().copied().fold(0.0, f64::max));
+    for _ in 0..SEARCH_STEPS {
+        let middle = 0.5 * (low + high);
+        if left(middle) > goal {
+            high = middle;
+        } else {
+            low = middle;
+        }
+    }
+    let equal = high.max(f64::MIN_POSITIVE);
+    let most = f64::from(MOST_BISECTIONS);
+    let wanted = |&one: &f64| (libm::log2(one / equal) / 1.5).round().clamp(0.0, most) as u32;
+    estimates.iter().map(wanted).collect()
+}

@@ -1,0 +1,313 @@
+//! Affine functions below the cost density of a triangle.
+//!
+//! A plane is fitted to samples, and lowered by the least value of the density minus the plane. That value is
+//! bounded by branch and bound over rectangles: the part of the triangle in each is a convex polygon, on
+//! which the plane is known exactly and the density by its range.
+//!
+//! The density counts inside the triangle only. At a jump along an edge the triangle on the other side keeps
+//! the function's derivative along the edge below the smaller value; see the head of the module.
+
+use std::cmp::Ordering;
+use std::collections::BinaryHeap;
+
+use glam::{DVec2, dvec2};
+
+use super::triangle::{FlatTriangle, Plane};
+use crate::geometry::Rect;
+use crate::path::CostDensity;
+
+/// Samples for the plane, in each direction of the triangle.
+const SAMPLES: usize = 5;
+/// Most rectangles that are looked at for one bound.
+const MOST_RECTANGLES: usize = 240;
+/// Rectangles are asked about without a margin of this part of the domain's size, so that a jump that lies on
+/// an edge but for rounding counts as on the edge.
+pub(super) const INSET: f64 = 1e-10;
+/// What rounding can change a value by, as a part of it.
+const ROUNDING: f64 = 1e-13;
+/// A plane below this part of the least value at a corner is not used.
+const LOWEST: f64 = 0.05;
+
+/// What is known of the cost density in a triangle.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Minorant {
+    /// Values at the corners of an affine function that is below the density inside the triangle.
+    pub at_corners: [f64; 3],
+    /// The density's mean over samples.
+    pub mean: f64,
+    /// A lower bound of the density inside the triangle.
+    pub least: f64,
+}
+
+impl Minorant {
+    /// Of the affine functions tried, the one with the greatest mean. A jump nearer to an edge than `inset`
+    /// may count as on the edge.
+    pub(super) fn new(cost: &dyn CostDensity, triangle: &FlatTriangle, inset: f64) -> Self {
+        let samples = Samples::new(cost, triangle);
+        let origin = triangle.centroid();
+        let search = |plane, attained| Search::new(cost, triangle, inset, plane, attained);
+        let flat = Plane { value: 0.0, slope: DVec2::ZERO, origin };
+        let least = search(flat, samples.least()).bound(0.002 * samples.least());
+        let mean = samples.mean(least);
+        let constant = Self { at_corners: [least; 3], mean, least };
+        let varies = samples.spread() > 1e-9 * mean;
+        if !varies {
+            return constant;
+        }
+        let Some(plane) = samples.fitted_plane(origin) else { return constant };
+        let above = samples.least_above(&plane);
+        // To be worth it, the plane must gain on the constant.
+        let gain = plane.value - least;
+        let shift = search(plane, above).bound(0.02 * (gain + above).max(0.0));
+        let at_corners = triangle.corners.map(|corner| {
+            let value = plane.at(corner) + shift;
+            value - ROUNDING * (value.abs() + plane.value.abs() + shift.abs())
+        });
+        let fits = at_corners.iter().all(|&value| value >= LOWEST * least);
+        let greater = at_corners.iter().sum::<f64>() > 3.0 * least;
+        if fits && greater { Self { at_corners, mean, least } } else { constant }
+    }
+
+    /// The same, for a cost of at most `most`. More than the best path can feel makes a programme ill
+    /// conditioned.
+    pub(super) fn at_most(self, most: f64) -> Self {
+        let greatest = self.at_corners.iter().copied().fold(0.0, f64::max);
+        if greatest <= most {
+            self
+        } else if greatest.is_finite() {
+            Self { at_corners: self.at_corners.map(|value| value * (most / greatest)), ..self }
+        } else {
+            Self { at_corners: [most; 3], ..self }
+        }
+    }
+
+    /// The mean of the affine function.
+    pub(super) fn affine_mean(&self) -> f64 {
+        self.at_corners.iter().sum::<f64>() / 3.0
+    }
+}
+
+/// Values of the density at points inside a triangle.
+struct Samples(Vec<(DVec2, f64)>);
+
+impl Samples {
+    fn new(cost: &dyn CostDensity, triangle: &FlatTriangle) -> Self {
+        let most = (SAMPLES - 1) as f64;
+        let rows = (0..SAMPLES).flat_map(|i| (0..SAMPLES - i).map(move |j| (i, j)));
+        let points = rows.map(|(i, j)| {
+            // A little inside, so that a jump along an edge is not met.
+            let [a, b] = [i, j].map(|n| (n as f64 / most - 1.0 / 3.0) * (1.0 - 1e-6) + 1.0 / 3.0);
+            triangle.point([a, b, 1.0 - a - b])
+        });
+        Self(points.map(|point| (point, cost.at(point))).collect())
+    }
+
+    fn least(&self) -> f64 {
+        self.0.iter().fold(f64::INFINITY, |least, (_, value)| least.min(*value))
+    }
+
+    fn spread(&self) -> f64 {
+        let greatest = self.0.iter().fold(f64::NEG_INFINITY, |most, (_, value)| most.max(*value));
+        greatest - self.least()
+    }
+
+    /// The mean, where an infinite value counts as the least value of the triangle.
+    fn mean(&self, least: f64) -> f64 {
+        let finite = |value: f64| if value.is_finite() { value } else { least };
+        self.0.iter().map(|(_, value)| finite(*value)).sum::<f64>() / self.0.len() as f64
+    }
+
+    fn least_above(&self, plane: &Plane) -> f64 {
+        self.0.iter().fold(f64::INFINITY, |least, (point, value)| least.min(value - plane.at(*point)))
+    }
+
+    /// The plane with the least squares of deviations; `None` where it is not finite.
+    fn fitted_plane(&self, origin: DVec2) -> Option<Plane> {
+        let count = self.0.len() as f64;
+        // The samples lie evenly around the centroid: the value is the mean, and the slope has two equations.
+        let value = self.0.iter().map(|(_, value)| value).sum::<f64>() / count;
+        let (mut xx, mut xy, mut yy, mut right) = (0.0, 0.0, 0.0, DVec2::ZERO);
+        for (point, sample) in &self.0 {
+            let offset = *point - origin;
+            xx += offset.x * offset.x;
+            xy += offset.x * offset.y;
+            yy += offset.y * offset.y;
+            right += offset * (sample - value);
+        }
+        let slope = dvec2(yy * right.x - xy * right.y, xx * right.y - xy * right.x) / (xx * yy - xy * xy);
+        (value.is_finite() && slope.is_finite()).then_some(Plane { value, slope, origin })
+    }
+}
+
+/// Branch and bound for the least value of the density minus a plane inside a triangle.
+struct Search<'a> {
+    cost: &'a dyn CostDensity,
+    triangle: &'a FlatTriangle,
+    inset: f64,
+    plane: Plane,
+    /// A value that is attained, as far as samples tell.
+    attained: f64,
+    open: BinaryHeap<Part>,
+    looked_at: usize,
+}
+
+/// The part of the triangle in a rectangle, with a lower bound of the density minus the plane there.
+struct Part {
+    rectangle: Rect,
+    bound: f64,
+    /// Whether dividing it does not help.
+    is_exact: bool,
+}
+
+impl<'a> Search<'a> {
+    fn new(
+        cost: &'a dyn CostDensity,
+        triangle: &'a FlatTriangle,
+        inset: f64,
+        plane: Plane,
+        attained: f64,
+    ) -> Self {
+        Self { cost, triangle, inset, plane, attained, open: BinaryHeap::new(), looked_at: 0 }
+    }
+
+    /// A lower bound, within `tolerance` of the least value where the allowance of rectangles is enough.
+    fn bound(mut self, tolerance: f64) -> f64 {
+        let [a, b, c] = self.triangle.corners;
+        self.add(Rect::spanning(a, b).union(&Rect::new(c, c)), f64::NEG_INFINITY);
+        // Ends: the allowance shrinks with every turn.
+        while let Some(part) = self.open.pop() {
+            let close = part.bound >= self.attained - tolerance;
+            if part.is_exact || close || self.looked_at >= MOST_RECTANGLES {
+                return part.bound;
+            }
+            for quarter in quarters(&part.rectangle) {
+                self.add(quarter, part.bound);
+            }
+        }
+        // No rectangle has a part of the triangle: it is flat.
+        self.attained
+    }
+
+    fn add(&mut self, rectangle: Rect, bound_of_whole: f64) {
+        let polygon = clipped(self.triangle, &rectangle);
+        if polygon.is_flat() {
+            return;
+        }
+        self.looked_at += 1;
+        let inset = DVec2::splat(self.inset).min(0.25 * rectangle.size());
+        let inner = Rect::new(rectangle.min + inset, rectangle.max - inset);
+        let range = self.cost.range(&inner);
+        let highest = polygon.corners().iter().map(|&p| self.plane.at(p)).fold(f64::NEG_INFINITY, f64::max);
+        let below = |value: f64| value - ROUNDING * (value.abs() + highest.abs());
+        let is_exact = range.least == range.greatest;
+        let mut bound = below(range.least) - highest;
+        if !is_exact {
+            bound = bound.max(self.bound_by_slopes(&rectangle, &inner));
+        } else {
+            self.attained = self.attained.min(bound);
+        }
+        self.open.push(Part { rectangle, bound: bound.max(bound_of_whole), is_exact });
+    }
+
+    /// The mean value theorem: f ≥ f(m) − Σ |x − m| · greatest |∂f|, for the density minus the plane.
+    fn bound_by_slopes(&mut self, rectangle: &Rect, inner: &Rect) -> f64 {
+        let Some(slopes) = self.cost.derivatives(inner) else { return f64::NEG_INFINITY };
+        let middle = rectangle.center();
+        let value = self.cost.at(middle);
+        let half = 0.5 * rectangle.size();
+        let steepest = |axis: usize| {
+            let plane = self.plane.slope[axis];
+            (slopes[axis].least - plane).abs().max((slopes[axis].greatest - plane).abs())
+        };
+        let plane = self.plane.at(middle);
+        let fall = half.x * steepest(0) + half.y * steepest(1);
+        let bound = value - plane - fall - ROUNDING * (value.abs() + plane.abs() + fall);
+        if bound.is_nan() { f64::NEG_INFINITY } else { bound }
+    }
+}
+
+fn quarters(rectangle: &Rect) -> [Rect; 4] {
+    let (min, middle, max) = (rectangle.min, rectangle.center(), rectangle.max);
+    [
+        Rect::new(min, middle),
+        Rect::new(dvec2(middle.x, min.y), dvec2(max.x, middle.y)),
+        Rect::new(dvec2(min.x, middle.y), dvec2(middle.x, max.y)),
+        Rect::new(middle, max),
+    ]
+}
+
+/// A convex polygon of at most seven corners: a triangle cut by a rectangle.
+#[derive(Clone, Copy)]
+struct Clipped {
+    corners: [DVec2; 8],
+    count: usize,
+    /// Twice the area of the rectangle, for comparison.
+    scale: f64,
+}
+
+fn clipped(triangle: &FlatTriangle, rectangle: &Rect) -> Clipped {
+    let [a, b, c] = triangle.corners;
+    let size = rectangle.size();
+    let mut polygon = Clipped { corners: [a, b, c, a, a, a, a, a], count: 3, scale: size.x * size.y };
+    for axis in 0..2 {
+        polygon = polygon.cut(|p| p[axis] - rectangle.min[axis]);
+        polygon = polygon.cut(|p| rectangle.max[axis] - p[axis]);
+    }
+    polygon
+}
+
+impl Clipped {
+    fn corners(&self) -> &[DVec2] {
+        &self.corners[..self.count]
+    }
+
+    /// The part where `inside` is not negative.
+    fn cut(&self, inside: impl Fn(DVec2) -> f64) -> Self {
+        let mut cut = Self { count: 0, ..*self };
+        let old = self.corners();
+        for (index, &to) in old.iter().enumerate() {
+            let from = old[(index + old.len() - 1) % old.len()];
+            let [before, after] = [inside(from), inside(to)];
+            if (before < 0.0) != (after < 0.0) {
+                cut.push(from.lerp(to, before / (before - after)));
+            }
+            if after >= 0.0 {
+                cut.push(to);
+            }
+        }
+        cut
+    }
+
+    fn push(&mut self, corner: DVec2) {
+        if self.count < self.corners.len() {
+            self.corners[self.count] = corner;
+            self.count += 1;
+        }
+    }
+
+    /// Whether it has no area but for rounding.
+    fn is_flat(&self) -> bool {
+        let corners = self.corners();
+        let Some(&first) = corners.first() else { return true };
+        let fan = corners.windows(2).map(|pair| (pair[0] - first).perp_dot(pair[1] - first));
+        fan.sum::<f64>().abs() <= 1e-12 * self.scale
+    }
+}
+
+// The part with the least bound comes first.
+impl Ord for Part {
+    fn cmp(&self, other: &Self) -> Ordering {
+        other.bound.total_cmp(&self.bound)
+    }
+}
+impl PartialOrd for Part {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+impl PartialEq for Part {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other) == Ordering::Equal
+    }
+}
+impl Eq for Part {}

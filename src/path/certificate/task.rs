@@ -1,0 +1,126 @@
+use std::sync::Arc;
+
+use glam::DVec2;
+
+use crate::domain::DomainOnLattice;
+use crate::geometry::{GridError, Lattice, Rect};
+use crate::mesh::Element;
+use crate::path::{CostDensity, PathError, Waypoint};
+
+/// Coarse cells along the longer side of the domain, unless the task says otherwise.
+const CELLS: f64 = 8.0;
+/// A certificate of more nodes takes minutes.
+const MOST_NODES: usize = 12_000;
+
+/// How a triangle lies to the part of the plane where paths may go.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Placement {
+    /// All of it belongs to that part, or none can tell.
+    Inside,
+    /// The boundary may pass through it: smaller triangles give a better bound.
+    Cut,
+    /// No point of the closed triangle belongs to that part.
+    Outside,
+}
+
+/// Tells how a triangle of the certificate's mesh lies.
+pub type PlacementTest = Arc<dyn Fn(&Element) -> Placement + Send + Sync>;
+
+/// What to prove: that no path costs less than the known one by more than a part of its cost.
+#[derive(Clone)]
+pub struct CertificateTask {
+    /// The cost density.
+    pub cost: Arc<dyn CostDensity>,
+    /// The coarse grid of the certificate's mesh. The bound is best where jumps of the cost follow the mesh:
+    /// the lattice of the mesh that is shown, or a coarser one that has the lines between pixels.
+    pub lattice: Lattice,
+    /// Where paths may go.
+    pub placement: PlacementTest,
+    /// The known path, in world units, from the start to the goal.
+    pub path: Vec<DVec2>,
+    /// Its cost, rounded up.
+    pub upper: f64,
+    /// The requested width: (upper − lower) / upper.
+    pub width: f64,
+    /// It ends with a programme of so many nodes.
+    pub most_nodes: usize,
+}
+
+/// Why a certificate ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum CertificateEnd {
+    /// The requested width is reached.
+    Reached,
+    /// The lower bound has nearly the least cost, as far as estimates tell: only a better path helps.
+    UpperBoundLimits,
+    /// Finer triangles no longer raise the bound.
+    NoMoreGain,
+    /// The mesh has as many nodes as the task allows.
+    TooLarge,
+    /// The solver failed. The bound is that of the programmes before.
+    SolverFailed,
+}
+
+impl CertificateTask {
+    /// The task for a known path in a rectangle without holes. `upper` is the cost of the path, and `width`
+    /// the requested part of it.
+    ///
+    /// # Errors
+    /// When the rectangle is none.
+    pub fn in_rectangle(
+        bounds: Rect,
+        cost: Arc<dyn CostDensity>,
+        path: Vec<DVec2>,
+        upper: f64,
+        width: f64,
+    ) -> Result<Self, GridError> {
+        let lattice = Self::lattice_over(bounds)?;
+        let placement: PlacementTest = Arc::new(|_| Placement::Inside);
+        Ok(Self { cost, lattice, placement, path, upper, width, most_nodes: MOST_NODES })
+    }
+
+    /// A coarse grid for a certificate.
+    ///
+    /// # Errors
+    /// When the rectangle is none.
+    pub fn lattice_over(bounds: Rect) -> Result<Lattice, GridError> {
+        Lattice::covering(bounds, bounds.size().max_element() / CELLS, 8 * MOST_NODES)
+    }
+
+    /// The same task, where paths stay in a domain.
+    pub fn within(self, domain: DomainOnLattice) -> Self {
+        let lattice = *domain.lattice();
+        let placement: PlacementTest = Arc::new(move |element| {
+            if domain.has_none_of(element) {
+                Placement::Outside
+            } else if domain.may_cut(element) {
+                Placement::Cut
+            } else {
+                Placement::Inside
+            }
+        });
+        Self { lattice, placement, ..self }
+    }
+
+    pub(super) fn start(&self) -> DVec2 {
+        self.path[0]
+    }
+
+    pub(super) fn goal(&self) -> DVec2 {
+        self.path[self.path.len() - 1]
+    }
+
+    pub(super) fn check(&self) -> Result<(), PathError> {
+        if self.path.len() < 2 {
+            return Err(PathError::TooFewPlaces);
+        }
+        for (which, at) in [(Waypoint::Start, self.start()), (Waypoint::Goal, self.goal())] {
+            if !at.is_finite() {
+                return Err(PathError::NotAPlace { which, at });
+            }
+        }
+        let is_cost = self.upper.is_finite() && (self.upper > 0.0 || self.start() == self.goal());
+        if is_cost { Ok(()) } else { Err(PathError::InvalidCost { at: self.start(), value: self.upper }) }
+    }
+}

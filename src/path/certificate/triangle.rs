@@ -1,0 +1,55 @@
+use glam::DVec2;
+
+/// A triangle in world coordinates, with the gradients of its barycentric coordinates.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct FlatTriangle {
+    pub corners: [DVec2; 3],
+    /// Gradients of the barycentric coordinates.
+    slopes: [DVec2; 3],
+}
+
+/// An affine function of the plane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Plane {
+    /// Its value at `origin`.
+    pub value: f64,
+    pub slope: DVec2,
+    pub origin: DVec2,
+}
+
+impl Plane {
+    pub(super) fn at(&self, point: DVec2) -> f64 {
+        self.value + self.slope.dot(point - self.origin)
+    }
+}
+
+impl FlatTriangle {
+    pub(super) fn new(corners: [DVec2; 3]) -> Self {
+        let [a, b, c] = corners;
+        let twice_area = (b - a).perp_dot(c - a);
+        let slopes = [(b, c), (c, a), (a, b)].map(|(from, to)| (to - from).perp() / twice_area);
+        Self { corners, slopes }
+    }
+
+    /// Length of the longest side.
+    pub(super) fn diameter(&self) -> f64 {
+        let [a, b, c] = self.corners;
+        a.distance(b).max(b.distance(c)).max(c.distance(a))
+    }
+
+    pub(super) fn centroid(&self) -> DVec2 {
+        self.corners.iter().sum::<DVec2>() / 3.0
+    }
+
+    /// The point with the given barycentric coordinates.
+    pub(super) fn point(&self, barycentric: [f64; 3]) -> DVec2 {
+        self.corners.iter().zip(barycentric).map(|(&corner, share)| corner * share).sum()
+    }
+
+    /// The barycentric coordinates of a point. They sum to 1, but for rounding.
+    pub(super) fn barycentric(&self, point: DVec2) -> [f64; 3] {
+        let [a, ..] = self.corners;
+        let [_, second, third] = self.slopes.map(|slope| slope.dot(point - a));
+        [1.0 - second - third, second, third]
+    }
+}
