@@ -77,7 +77,7 @@ pub use path::{
 };
 
 // Query a mesh.
-pub use explain::{Demand, Explanation, Words};
+pub use explain::{Bisections, Demand, Explanation, LevelFigures, Words};
 pub use mesh::{
     Adjacency, Cause, Cleaning, KeptParts, Location, Locator, Neighbour, NodeId, Orientation, PatchedLocator,
     Removed, RemovedPart, Topology, TreeTriangle, Triangle, TriangleId, barycentric, interpolate,

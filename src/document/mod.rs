@@ -4,6 +4,7 @@
 mod background;
 mod edits;
 mod examples;
+mod experiment;
 mod follower;
 mod history;
 mod layer_titles;
@@ -24,6 +25,7 @@ mod strokes;
 pub use background::{Background, Picture};
 pub use edits::Edits;
 pub use examples::Example;
+pub use experiment::{Experiment, ExperimentMesh};
 pub use follower::{Follower, MeshChange};
 pub use history::History;
 pub use layers::NoPaintLayer;

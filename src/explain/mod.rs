@@ -1,6 +1,7 @@
 //! Why a triangle is in a mesh: the cause, and what asked for it.
 
 mod ages;
+mod by_level;
 mod node;
 mod sampled;
 mod sentences;
@@ -10,6 +11,7 @@ use crate::layers::LeastTarget;
 use crate::mesh::{Cause, Limits, Mesh, TreeTriangle};
 
 pub use ages::{Ages, AgesNow};
+pub use by_level::{Bisections, LevelFigures, bisections_plot, diameters_plot, triangles_plot};
 pub use node::NodeFacts;
 pub use sampled::PixelTriangles;
 pub use sentences::Words;
