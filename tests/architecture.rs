@@ -236,7 +236,7 @@ fn egui_and_wgpu_meet_in_listed_files_only() {
 #[test]
 fn only_the_window_uses_egui() {
     let others: Vec<SourceFile> = files().into_iter().filter(|file| file.top_module() != "app").collect();
-    for word in ["egui", "eframe", "rfd"] {
+    for word in ["egui", "egui_plot", "eframe", "rfd"] {
         assert_none(with_word(others.clone(), word), "only the window uses egui:");
     }
 }

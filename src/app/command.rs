@@ -10,6 +10,7 @@ use super::background::WorkId;
 use super::dialogs::FileRequest;
 use super::explore::TreeStep;
 use super::help::HelpTopic;
+use super::plots::PlotsCommand;
 use super::readout::Quantity;
 use super::stepping::StepCommand;
 use super::tools::{BoundaryToolMode, BrushMode, DomainToolMode, PaintKind, PenEffect, Tool};
@@ -159,6 +160,9 @@ pub enum Command {
 
     /// Edits the pins, or does something with their table.
     Pins(PinsCommand),
+
+    /// Shows plots, or does something with them.
+    Plots(PlotsCommand),
 
     /// Edits the domain, or sets up the tool for it.
     Domain(DomainCommand),

@@ -24,6 +24,7 @@ use super::dialogs::FileFacts;
 use super::explore::Explore;
 use super::layer_pictures::LayerPictures;
 use super::pins::PinReader;
+use super::plots::Plots;
 use super::project::ProjectFile;
 use super::readout::Readout;
 use super::session::Session;
@@ -63,6 +64,8 @@ pub struct FrameState<'a> {
     pub walks: &'a WalkMeter,
     /// The values of the pins.
     pub pins: &'a PinReader,
+    /// The chosen plot, and what was measured for plots.
+    pub plots: &'a Plots,
     /// Where the pointer is on the canvas, in world units.
     pub pointer: Option<DVec2>,
     /// The queried point and the triangle around it.
@@ -167,6 +170,7 @@ impl App {
         let derives = self.session.advance_derivation(patience, ctx);
         let finds = self.tools.tool.finds_boundary && self.session.find_boundary(patience, ctx);
         let measures = self.session.take_figures(patience) | self.walks.take(patience);
+        let plots = self.take_plots(patience);
         let bounds = self.session.document().settings().domain.bounds;
         let steps = self.advance_steps(patience, ctx);
         let plan = self.canvas.planned_stroke(ctx, self.shown_tools(), bounds);
@@ -176,7 +180,7 @@ impl App {
             self.explore.advance(&self.session);
         }
         self.canvas.note_work(&self.session);
-        if cuts || follows || derives || finds || measures || prices || steps {
+        if cuts || follows || derives || finds || measures || plots || prices || steps {
             ctx.request_repaint();
         }
     }
@@ -191,6 +195,7 @@ impl App {
         let mut commands = Vec::new();
         panels::show(ui, &self.state(readout.as_ref()), &mut commands);
         self.view.reveals_inspector = false;
+        self.plots.reveal(false);
         egui::CentralPanel::default()
             .frame(Frame::NONE)
             .show(ui, |ui| self.draw_canvas(ui, readout.as_ref(), &mut commands));
@@ -250,6 +255,7 @@ impl App {
             layer_pictures: &self.layer_pictures,
             explore: &self.explore,
             pins: &self.pins,
+            plots: &self.plots,
             walks: &self.walks,
             pointer: self.canvas.pointer(),
             readout,

@@ -29,6 +29,7 @@ mod layer_pictures;
 mod notices;
 mod panels;
 mod pins;
+mod plots;
 mod project;
 mod explore;
 pub mod readout;
@@ -60,6 +61,7 @@ use help::HelpTopic;
 use journal::JournalKeeper;
 use layer_pictures::LayerPictures;
 use pins::PinReader;
+use plots::Plots;
 use project::ProjectFile;
 pub use screenshots::{write as write_screenshots, write_manual as write_manual_pictures, write_tour};
 use session::Session;
@@ -94,6 +96,7 @@ pub struct App {
     layer_pictures: LayerPictures,
     explore: Explore,
     pins: PinReader,
+    plots: Plots,
     walks: WalkMeter,
     dialogs: Dialogs,
     /// What the help window shows, while it is open.
@@ -155,6 +158,7 @@ impl App {
             layer_pictures: LayerPictures::default(),
             explore: Explore::default(),
             pins: PinReader::default(),
+            plots: Plots::default(),
             walks: WalkMeter::default(),
             dialogs: Dialogs::default(),
             help: None,

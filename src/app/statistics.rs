@@ -53,11 +53,8 @@ impl Statistician {
 
     /// Whether the mesh is settled and was not measured yet.
     pub fn is_due(&self, document: &Document, follower: &Follower, derivation: &Derivation) -> bool {
-        let is_fitted = follower.settings().domain.region().is_some();
-        let is_derived = !is_fitted || derivation.current(follower).is_some();
-        let is_settled = follower.stage().is_settled() && !document.is_in_gesture();
         let is_known = self.0.is_running() || self.0.has(&MeasuredMesh::now(follower, derivation));
-        is_settled && is_derived && !is_known
+        !is_known && MeasuredMesh::is_settled(document, follower, derivation)
     }
 
     /// Measures the mesh, where that is due.
@@ -92,7 +89,15 @@ impl Statistician {
 }
 
 impl MeasuredMesh {
-    fn now(follower: &Follower, derivation: &Derivation) -> Self {
+    /// Whether the mesh is as the document asks for, and derived where it has to be.
+    pub fn is_settled(document: &Document, follower: &Follower, derivation: &Derivation) -> bool {
+        let is_fitted = follower.settings().domain.region().is_some();
+        let is_derived = !is_fitted || derivation.current(follower).is_some();
+        follower.stage().is_settled() && !document.is_in_gesture() && is_derived
+    }
+
+    /// The mesh as it is.
+    pub fn now(follower: &Follower, derivation: &Derivation) -> Self {
         Self { follower: follower.revision(), derived: derivation.pieces_revision() }
     }
 }

@@ -90,7 +90,8 @@ impl Experiment {
     pub const STATED_GRADIENT: f64 = 1.01;
 
     /// The gradient of the line of best fit from the smallest mesh of the report on: of times over
-    /// triangles, both in proportion to that mesh, and of their logarithms. `None` with fewer than two meshes.
+    /// triangles, both in proportion to that mesh, and of their logarithms. `None` with fewer than two
+    /// meshes.
     pub fn gradients(&self) -> Option<[f64; 2]> {
         let points = self.scaled();
         let logarithms: Vec<_> = points.iter().map(|point| point.map(libm::log)).collect();
@@ -119,7 +120,7 @@ impl Experiment {
             let fit = places.map(|x| [x, at_zero + gradient * x]).collect();
             series.insert(0, Series::new("Line of best fit", Mark::Line, fit));
             note = format!(
-                "Gradient {gradient:.3}, on logarithmic axes {logarithmic:.3}; report: {}",
+                "Gradient {gradient:.3}, of the logarithms {logarithmic:.3}; report: {}",
                 Self::STATED_GRADIENT
             );
         }

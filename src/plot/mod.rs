@@ -65,7 +65,7 @@ impl Plot {
             points.map(move |point| point[axis]).collect::<Vec<f64>>()
         });
         let mut x = AxisRange::around(&self.x, x, false);
-        if has_bars && self.x.scale != Scale::Logarithmic {
+        if self.x.scale == Scale::Whole || (has_bars && self.x.scale == Scale::Linear) {
             x = x.widened(0.5);
         }
         [x, AxisRange::around(&self.y, y, has_bars)]

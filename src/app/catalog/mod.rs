@@ -5,6 +5,7 @@ mod file;
 mod gestures;
 mod help;
 mod layer;
+mod plots;
 mod steps;
 mod tool;
 mod view;
@@ -23,6 +24,7 @@ pub fn catalog(state: &FrameState<'_>) -> Vec<CatalogItem> {
         tool::tool(state),
         layer::layer(state),
         view::view(state),
+        plots::plots(state),
         steps::steps(state),
         help::examples(),
         help::help(),

@@ -4,8 +4,9 @@ use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
 use crate::app::command::{Command, PinsCommand};
+use crate::app::plots::PlotsCommand;
 use crate::io::project::ENDING;
-use crate::io::{recipe, recording};
+use crate::io::{plot, recipe, recording};
 use crate::render::export::ExportFormat;
 
 /// Why a path is asked for.
@@ -45,6 +46,8 @@ pub enum FileRequest {
     SaveThreats,
     /// To write the table of the pins.
     ExportPins,
+    /// To write the plot.
+    ExportPlot,
     /// To write the mesh.
     Export,
     /// To write steps of the refinement.
@@ -72,6 +75,7 @@ impl FileRequest {
             Self::OpenThreats => "Open table of threats",
             Self::SaveThreats => "Save table of threats",
             Self::ExportPins => "Export table of pins",
+            Self::ExportPlot => "Export plot",
             Self::Export => "Export mesh",
             Self::ExportSteps => "Export steps as SVG",
         }
@@ -93,7 +97,9 @@ impl FileRequest {
             | Self::OpenThreats => "Open",
             Self::AddOutline => "Add",
             Self::Save | Self::SaveRecipe | Self::SaveThreats => "Save",
-            Self::ExportPins | Self::Export | Self::ExportSteps | Self::ExportTest => "Export",
+            Self::ExportPins | Self::ExportPlot | Self::Export | Self::ExportSteps | Self::ExportTest => {
+                "Export"
+            }
         }
     }
 
@@ -112,6 +118,7 @@ impl FileRequest {
             }
             Self::OpenThreats | Self::SaveThreats | Self::ExportPins => vec!["csv"],
             Self::Export => ExportFormat::endings().collect(),
+            Self::ExportPlot => plot::ENDINGS.to_vec(),
             Self::ExportSteps => vec!["svg"],
         }
     }
@@ -130,6 +137,7 @@ impl FileRequest {
             Self::OpenShapes | Self::ReplaceShapes => "Points, lines and polygons",
             Self::OpenThreats | Self::SaveThreats => "Tables of threats",
             Self::ExportPins => "Tables",
+            Self::ExportPlot => "Drawings and tables",
             Self::Export => "Meshes and pictures",
             Self::ExportSteps => "Drawings",
         }
@@ -152,7 +160,7 @@ impl FileRequest {
             Self::SaveRecipe => "recipes",
             Self::ExportTest => "tests",
             Self::OpenThreats | Self::SaveThreats => "threats",
-            Self::ExportPins | Self::Export | Self::ExportSteps => "exports",
+            Self::ExportPins | Self::ExportPlot | Self::Export | Self::ExportSteps => "exports",
         }
     }
 
@@ -165,6 +173,7 @@ impl FileRequest {
                 | Self::ExportTest
                 | Self::SaveThreats
                 | Self::ExportPins
+                | Self::ExportPlot
                 | Self::Export
                 | Self::ExportSteps
         )
@@ -180,6 +189,7 @@ impl FileRequest {
             Self::ExportTest => format!("{name}.{}", recording::ENDING),
             Self::SaveThreats => format!("{name} threats.csv"),
             Self::ExportPins => format!("{name} pins.csv"),
+            Self::ExportPlot => format!("{name} plot.svg"),
             Self::Export => format!("{name}.{}", format.ending()),
             Self::ExportSteps => format!("{name} step.svg"),
             _ => String::new(),
@@ -206,6 +216,7 @@ impl FileRequest {
             Self::OpenThreats => Command::OpenThreats(path),
             Self::SaveThreats => Command::SaveThreatsAs(path),
             Self::ExportPins => Command::Pins(PinsCommand::ExportAs(path)),
+            Self::ExportPlot => Command::Plots(PlotsCommand::ExportAs(path)),
             Self::Export => Command::ExportAs(path),
             Self::ExportSteps => Command::ExportStepsAs(path),
         }
@@ -220,6 +231,7 @@ impl FileRequest {
             Self::Save => Command::SaveTo(path),
             Self::SaveThreats => Command::SaveThreats(path),
             Self::ExportPins => Command::Pins(PinsCommand::Export(path)),
+            Self::ExportPlot => Command::Plots(PlotsCommand::Export(path)),
             Self::ExportTest => Command::ExportTest(path),
             Self::Export if alone => Command::Export(path),
             _ => self.command(path),

@@ -6,6 +6,7 @@ mod layers;
 mod painting;
 mod steps;
 mod pins;
+mod plots;
 mod threats;
 
 use eframe::egui::Context;
@@ -35,6 +36,7 @@ impl App {
             Some(Command::Threats(command)) => self.execute_on_threats(command),
             Some(Command::Steps(command)) => self.execute_on_steps(command, ctx),
             Some(Command::Pins(command)) => self.execute_on_pins(command, ctx),
+            Some(Command::Plots(command)) => self.execute_on_plots(command, ctx),
             Some(Command::Domain(command)) => self.execute_on_domain(command),
             Some(Command::Boundary(command)) => self.execute_on_boundary(command),
             Some(command) => self.execute_on_document(command, ctx),

@@ -15,6 +15,7 @@ mod layers;
 mod levels;
 mod mesh;
 mod pins;
+mod plots;
 mod statistics;
 mod status;
 mod steps;
@@ -51,7 +52,7 @@ pub struct Panel {
 }
 
 /// All sections of the side panel, from the top. Those of the selected tool move to the top.
-pub static PANELS: [&Panel; 14] = [
+pub static PANELS: [&Panel; 15] = [
     &BRUSH,
     &layers::LAYERS,
     &transfer::TRANSFER,
@@ -61,6 +62,7 @@ pub static PANELS: [&Panel; 14] = [
     &PINS,
     &mesh::MESH,
     &statistics::STATISTICS,
+    &plots::PLOTS,
     &DOMAIN,
     &BOUNDARY,
     &fit::FIT,

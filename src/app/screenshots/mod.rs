@@ -12,6 +12,7 @@ use glam::{DVec2, dvec2};
 use super::SMALLEST_SIZE;
 use super::WINDOW_SIZE;
 use super::command::{BoundaryCommand, BrushCommand, Command, DomainCommand, LayerCommand};
+use super::plots::{PlotKind, PlotsCommand};
 use super::tools::{BoundaryToolMode, DomainToolMode, PaintKind, QUERY};
 use super::view::FieldOverlay;
 use crate::document::{Example, Setting};
@@ -32,10 +33,11 @@ struct Scene {
     act: fn(&mut OffscreenWindow),
 }
 
-const SCENES: [Scene; 12] = [
+const SCENES: [Scene; 13] = [
     scene("window", window),
     scene("query", query),
     scene("why", why),
+    scene("plots", plots),
     scene("diamond", diamond),
     scene("terrain", terrain),
     scene("aegean", aegean),
@@ -103,6 +105,11 @@ fn why(window: &mut OffscreenWindow) {
     look_at(window, place + dvec2(0.0, 0.03), 5.0);
     window.send(Command::Query(place));
     point_at(window, place - dvec2(0.0, 0.05));
+}
+
+/// What compatibility costs, by level.
+fn plots(window: &mut OffscreenWindow) {
+    window.send(Command::Plots(PlotsCommand::Show(PlotKind::Bisections)));
 }
 
 /// Figure 1 of the report.

@@ -27,6 +27,7 @@ mod outline;
 mod painting;
 mod pictures;
 mod pins;
+mod plots;
 mod polygon;
 mod project;
 mod query;
@@ -56,6 +57,7 @@ use crate::app::App;
 use crate::app::canvas::CANVAS_NAME;
 use crate::app::command::{Command, LayerCommand, Opened};
 use crate::app::explore::Explore;
+use crate::app::plots::Plots;
 use crate::app::session::Session;
 use crate::app::stepping::Stepping;
 use crate::app::tools::Tools;
@@ -381,6 +383,10 @@ impl App {
 
     fn view(&self) -> &View {
         &self.view
+    }
+
+    fn plots(&self) -> &Plots {
+        &self.plots
     }
 
     fn stepping(&self) -> Option<&Stepping> {

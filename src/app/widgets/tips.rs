@@ -7,7 +7,7 @@ const EDGE: f32 = 2.0;
 
 /// The sentences of controls that have no unit or number in it, by the name of the control. The name of a
 /// choice is that of its group and its own.
-static SENTENCES: [(&str, &str); 160] = [
+static SENTENCES: [(&str, &str); 168] = [
     (
         "What the brush paints/Risk",
         "The brush paints risk, from 0 to 1, which the transfer curve turns into a diameter.",
@@ -175,6 +175,20 @@ static SENTENCES: [(&str, &str); 160] = [
     ("Theme/Dark", "Light text on a dark window."),
     ("Theme/Light", "Dark text on a light window."),
     ("Theme/Desktop", "Dark or light, as the desktop is set."),
+    ("Plot", "Which figures of the mesh, or which times, are plotted; F9 opens this panel."),
+    (
+        "Deepest level",
+        "The finest mesh that is measured: the report goes to level 13 with 2,113,944 triangles.",
+    ),
+    ("Runs", "How often each mesh is made; the mean time counts."),
+    (
+        "Measure",
+        "Makes the meshes of Section 5.4 of the report, and plots the time that they take on this machine.",
+    ),
+    ("Export plot…", "Writes the plot as a drawing (.svg) or as a table (.csv)."),
+    ("Copy numbers", "Copies the numbers of the plot as a table."),
+    ("Measuring", "Which of the meshes is being made."),
+    ("Cancel measuring", "Ends the measuring; what was measured so far stays."),
     ("Pin", "Marks the point and follows its triangle and values through every edit; P."),
     ("Pin the query", "Marks the queried point and follows its triangle and values; P."),
     ("Delete pin", "Removes the selected pin; Delete does so too while the query tool is selected."),

@@ -1,0 +1,32 @@
+//! Entries of the menu View about plots.
+
+use eframe::egui::Key;
+
+use super::{CatalogItem, Menu};
+use crate::app::command::Command;
+use crate::app::dialogs::FileRequest;
+use crate::app::frame::FrameState;
+use crate::app::plots::{PlotKind, PlotsCommand};
+
+/// The plots, and what to do with them.
+pub fn plots(state: &FrameState<'_>) -> Vec<CatalogItem> {
+    let item = |title: &str, command| CatalogItem::new(Menu::View, title, Command::Plots(command));
+    let plots = state.plots;
+    let show = item("Show the plots", PlotsCommand::Show(plots.kind())).key(Key::F9).group();
+    let of_kind = |(kind, name): (PlotKind, &str)| {
+        let title = format!("Plot {}{}", name[..1].to_lowercase(), &name[1..]);
+        item(&title, PlotsCommand::Show(kind)).checked(plots.kind() == kind)
+    };
+    let measure = if plots.is_measuring() {
+        item("Cancel the measuring of time", PlotsCommand::CancelMeasuring)
+    } else {
+        item("Measure the time per triangle", PlotsCommand::Measure)
+    };
+    let is_known = plots.is_known();
+    let export = CatalogItem::new(Menu::View, "Export plot…", Command::Ask(FileRequest::ExportPlot));
+    let copy = item("Copy the numbers of the plot", PlotsCommand::Copy);
+    let mut items = vec![show];
+    items.extend(PlotKind::ALL.map(of_kind));
+    items.extend([measure, export.enabled(is_known), copy.enabled(is_known)]);
+    items
+}

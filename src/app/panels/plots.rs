@@ -1,0 +1,87 @@
+//! Plots of the mesh by level, and the experiment of Section 5.4 of the report.
+
+use eframe::egui::Ui;
+
+use super::{Panel, button_rows, remark};
+use crate::app::command::Command;
+use crate::app::dialogs::FileRequest;
+use crate::app::frame::FrameState;
+use crate::app::plots::{PlotKind, Plots, PlotsCommand};
+use crate::app::widgets::{ActionButton, NumberRow, Section, dropdown_row, plot_view, value_row};
+use crate::document::Experiment;
+
+/// A chosen plot, and what it takes to measure those of time.
+pub static PLOTS: Panel = Panel { name: "plots", only_with_tool: false, show };
+
+/// Height of a plot, in points.
+const HEIGHT: f32 = 210.0;
+/// Height of legend and note, in points.
+const ROOM_AROUND: f32 = 56.0;
+const HOW_TO_MEASURE: &str = "Measure makes the meshes of Section 5.4 of the report on this machine. The deepest has \
+                              2,113,944 triangles.";
+/// The least deepest level that gives a line of best fit, and most runs.
+const LEAST_LEVEL: u32 = 6;
+const MOST_RUNS: u32 = 100;
+
+fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
+    let plots = state.plots;
+    Section::new("Plots").closed().reveal(plots.reveals()).show(ui, |ui| {
+        let mut kind = plots.kind();
+        if dropdown_row(ui, "Plot", &mut kind, &PlotKind::ALL).changed() {
+            commands.push(Command::Plots(PlotsCommand::Choose(kind)));
+        }
+        if kind.is_of_experiment() {
+            measuring(ui, plots, commands);
+        } else if plots.is_due(state.session) {
+            // The figures are computed only while they are shown.
+            commands.push(Command::Plots(PlotsCommand::Compute));
+        }
+        ui.add_space(6.0);
+        let known = plots.plot(state.session);
+        ui.scope(|ui| {
+            // The same room before the plot is known: nothing jumps.
+            ui.set_min_height(HEIGHT + ROOM_AROUND);
+            match &known {
+                None if kind.is_of_experiment() => remark(ui, HOW_TO_MEASURE),
+                None => remark(ui, "The mesh is being measured."),
+                Some((plot, is_current)) => {
+                    // The former plot stays until the next one is known.
+                    if !is_current {
+                        ui.set_opacity(0.5);
+                    }
+                    plot_view(ui, kind.name(), plot, HEIGHT);
+                }
+            }
+        });
+        let is_known = known.is_some();
+        let copy = Command::Plots(PlotsCommand::Copy);
+        let export = Command::Ask(FileRequest::ExportPlot);
+        button_rows(
+            ui,
+            [vec![("Export plot…", is_known, export), ("Copy numbers", is_known, copy)]],
+            commands,
+        );
+    });
+}
+
+/// How the experiment is measured, and the button that begins it; or its progress.
+fn measuring(ui: &mut Ui, plots: &Plots, commands: &mut Vec<Command>) {
+    if plots.is_measuring() {
+        let level = plots.experiment().meshes.len() + 1;
+        value_row(ui, "Measuring", &format!("level {level} of {}", plots.last_level));
+        if ui.add(ActionButton::new("Cancel measuring")).clicked() {
+            commands.push(Command::Plots(PlotsCommand::CancelMeasuring));
+        }
+        return;
+    }
+    let (mut level, mut runs) = (f64::from(plots.last_level), f64::from(plots.runs));
+    let levels = f64::from(LEAST_LEVEL)..=f64::from(Experiment::LAST_LEVEL);
+    let deepest = NumberRow::new("Deepest level", &mut level).range(levels).integer().show(ui);
+    let often = NumberRow::new("Runs", &mut runs).range(1.0..=f64::from(MOST_RUNS)).integer().show(ui);
+    if deepest.changed() || often.changed() {
+        commands.push(Command::Plots(PlotsCommand::SetUp { last_level: level as u32, runs: runs as u32 }));
+    }
+    if ui.add(ActionButton::new("Measure")).clicked() {
+        commands.push(Command::Plots(PlotsCommand::Measure));
+    }
+}

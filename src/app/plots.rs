@@ -1,0 +1,294 @@
+//! Plots of the mesh, and of the time that meshes take on this machine.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{Receiver, TryRecvError, channel};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use eframe::egui::Context;
+
+use super::background::{Aim, Background, exported};
+use super::latest::Latest;
+use super::session::Session;
+use super::statistics::MeasuredMesh;
+use crate::build::RefinementCriterion;
+use crate::document::{Experiment, ExperimentMesh};
+use crate::explain::{LevelFigures, bisections_plot, diameters_plot, triangles_plot};
+use crate::io;
+use crate::plot::Plot;
+
+/// What can be plotted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PlotKind {
+    /// Triangles per level.
+    Triangles,
+    /// Closure cost: required and forced bisections per level.
+    Bisections,
+    /// The smallest and the largest h per level.
+    Diameters,
+    /// The time for one triangle over the number of triangles.
+    Time,
+    /// The same as Figure 5 of the report shows it.
+    Figure5,
+}
+
+impl PlotKind {
+    /// All of them with their names.
+    pub const ALL: [(Self, &'static str); 5] = [
+        (Self::Triangles, "Triangles per level"),
+        (Self::Bisections, "Closure cost"),
+        (Self::Diameters, "h per level"),
+        (Self::Time, "Time per triangle"),
+        (Self::Figure5, "Figure 5 of the report"),
+    ];
+
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        Self::ALL.iter().find(|(kind, _)| *kind == self).map_or("", |(_, name)| name)
+    }
+
+    /// Whether it shows the experiment of the report and not the mesh of the document.
+    pub fn is_of_experiment(self) -> bool {
+        matches!(self, Self::Time | Self::Figure5)
+    }
+}
+
+/// One thing to do with plots.
+#[derive(Clone, Debug, PartialEq)]
+pub enum PlotsCommand {
+    /// Chooses a plot, and opens the panel.
+    Show(PlotKind),
+    /// Chooses a plot.
+    Choose(PlotKind),
+    /// Computes the figures of the levels.
+    Compute,
+    /// Sets how the experiment is measured.
+    SetUp {
+        /// The deepest level.
+        last_level: u32,
+        /// How often each mesh is made.
+        runs: u32,
+    },
+    /// Measures the experiment.
+    Measure,
+    /// Ends the measuring.
+    CancelMeasuring,
+    /// Copies the numbers of the plot.
+    Copy,
+    /// Writes the plot, and asks before another file is replaced.
+    ExportAs(PathBuf),
+    /// Writes the plot.
+    Export(PathBuf),
+}
+
+/// What the figures of the levels depend on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Key {
+    mesh: MeasuredMesh,
+    document: u64,
+}
+
+/// An experiment in progress.
+struct Measuring {
+    meshes: Receiver<Result<ExperimentMesh, String>>,
+    is_cancelled: Arc<AtomicBool>,
+}
+
+/// Computes what plots show, and keeps it.
+pub struct Plots {
+    kind: PlotKind,
+    reveals: bool,
+    levels: Latest<Key, Vec<LevelFigures>>,
+    experiment: Experiment,
+    measuring: Option<Measuring>,
+    /// The deepest level of the experiment that is measured next, or is being measured.
+    pub last_level: u32,
+    /// How often each of its meshes is made.
+    pub runs: u32,
+}
+
+impl Default for Plots {
+    fn default() -> Self {
+        Self {
+            kind: PlotKind::Triangles,
+            reveals: false,
+            levels: Latest::default(),
+            experiment: Experiment::default(),
+            measuring: None,
+            last_level: Experiment::LAST_LEVEL,
+            runs: 3,
+        }
+    }
+}
+
+impl Plots {
+    /// Which plot is shown.
+    pub fn kind(&self) -> PlotKind {
+        self.kind
+    }
+
+    /// Chooses which plot is shown.
+    pub fn choose(&mut self, kind: PlotKind) {
+        self.kind = kind;
+    }
+
+    /// Whether the panel is to be opened and scrolled to.
+    pub fn reveals(&self) -> bool {
+        self.reveals
+    }
+
+    /// Makes the panel open and scroll to its plot, in the next frame only.
+    pub fn reveal(&mut self, reveals: bool) {
+        self.reveals = reveals;
+    }
+
+    /// The chosen plot, and whether it is that of the mesh as it is. `None` until it is known.
+    pub fn plot(&self, session: &Session) -> Option<(Plot, bool)> {
+        if self.kind.is_of_experiment() {
+            let experiment = &self.experiment;
+            let plot = if self.kind == PlotKind::Time {
+                experiment.time_per_triangle()
+            } else {
+                experiment.figure_5()
+            };
+            return (!experiment.meshes.is_empty()).then_some((plot, true));
+        }
+        let (key, levels) = self.levels.last()?;
+        let plot = match self.kind {
+            PlotKind::Triangles => triangles_plot(levels),
+            PlotKind::Bisections => bisections_plot(levels),
+            _ => diameters_plot(levels, session.document().settings().unit),
+        };
+        Some((plot, *key == Key::of(session)))
+    }
+
+    /// Whether there is a plot to show.
+    pub fn is_known(&self) -> bool {
+        match self.kind.is_of_experiment() {
+            true => !self.experiment.meshes.is_empty(),
+            false => self.levels.last().is_some(),
+        }
+    }
+
+    /// Whether [`Self::compute`] would compute the figures of the levels.
+    pub fn is_due(&self, session: &Session) -> bool {
+        let is_settled =
+            MeasuredMesh::is_settled(session.document(), session.follower(), session.derivation());
+        is_settled && !self.levels.is_running() && !self.levels.has(&Key::of(session))
+    }
+
+    /// Computes the figures of the levels on another thread, where that is due.
+    pub fn compute(&mut self, session: &Session, ctx: &Context) {
+        if !self.is_due(session) {
+            return;
+        }
+        let follower = session.follower();
+        let extract = session.derived().map(|derived| derived.shared_extract());
+        let (mesh, domain, field) =
+            (follower.shared_mesh(), follower.domain().clone(), follower.shared_field());
+        let (rule, limits) = (follower.settings().rule, follower.settings().limits());
+        let paint = session.document().paint().clone();
+        let compute = move || {
+            let criterion = RefinementCriterion::new(&domain, &field, rule, Some(&paint));
+            let extract = extract.unwrap_or_else(|| Arc::new(mesh.extract().into_owned()));
+            LevelFigures::of(&mesh, &extract, &criterion, &limits)
+        };
+        self.levels.start(Key::of(session), compute, ctx);
+    }
+
+    /// Takes what was computed and measured, waiting for figures of levels up to `patience`. Returns whether
+    /// some are being computed.
+    ///
+    /// # Errors
+    /// A sentence, when the experiment failed.
+    pub fn take(&mut self, patience: Duration) -> Result<bool, String> {
+        while let Some(measuring) = &self.measuring {
+            match measuring.meshes.try_recv() {
+                Ok(Ok(mesh)) => self.experiment.meshes.push(mesh),
+                Ok(Err(problem)) => {
+                    self.measuring = None;
+                    return Err(problem);
+                }
+                Err(TryRecvError::Empty) => break,
+                Err(TryRecvError::Disconnected) => self.measuring = None,
+            }
+        }
+        Ok(self.levels.take(patience))
+    }
+
+    /// What was measured so far.
+    pub fn experiment(&self) -> &Experiment {
+        &self.experiment
+    }
+
+    /// Whether the experiment is being measured.
+    pub fn is_measuring(&self) -> bool {
+        self.measuring.is_some()
+    }
+
+    /// Measures the experiment on another thread. Nothing happens while it is being measured.
+    pub fn measure(&mut self, ctx: &Context) {
+        if self.is_measuring() {
+            return;
+        }
+        let (sender, meshes) = channel();
+        let is_cancelled = Arc::new(AtomicBool::new(false));
+        self.experiment = Experiment::default();
+        self.measuring = Some(Measuring { meshes, is_cancelled: is_cancelled.clone() });
+        let (ctx, last_level, runs) = (ctx.clone(), self.last_level, self.runs);
+        thread::spawn(move || {
+            let start = Instant::now();
+            for level in 1..=last_level {
+                let clock = || start.elapsed().as_secs_f64();
+                let goes_on = || !is_cancelled.load(Ordering::Relaxed);
+                let mesh = ExperimentMesh::measure(level, runs, clock, goes_on).map_err(|e| e.to_string());
+                // The receiver is gone when the window is closed.
+                let Some(mesh) = mesh.transpose().filter(|_| goes_on()) else { break };
+                let failed = mesh.is_err();
+                if sender.send(mesh).is_err() || failed {
+                    break;
+                }
+                ctx.request_repaint();
+            }
+            drop(sender);
+            ctx.request_repaint();
+        });
+    }
+
+    /// Ends the experiment. What was measured stays.
+    pub fn cancel(&mut self) {
+        if let Some(measuring) = self.measuring.take() {
+            measuring.is_cancelled.store(true, Ordering::Relaxed);
+        }
+    }
+
+    /// The numbers of the chosen plot as text: a table of the experiment, or else the series.
+    pub fn text(&self, session: &Session) -> Option<String> {
+        if self.kind.is_of_experiment() {
+            return (!self.experiment.meshes.is_empty()).then(|| self.experiment.table(self.runs));
+        }
+        let mut text = Vec::new();
+        io::plot::write_csv(&mut text, &self.plot(session)?.0).ok()?;
+        String::from_utf8(text).ok()
+    }
+
+    /// Writes the chosen plot to a file: a drawing or a table, as the ending says.
+    pub fn export(&self, session: &Session, background: &mut Background, path: &Path) {
+        let Some((plot, _)) = self.plot(session) else { return };
+        let file = path.to_owned();
+        background.start(Aim::Export, path, move |meter| {
+            let written =
+                io::write_file_metered(&file, meter, |mut out| io::plot::write(&mut out, &plot, &file));
+            exported(written, meter, &file, || format!("The plot was written to {}.", file.display()))
+        });
+    }
+}
+
+impl Key {
+    fn of(session: &Session) -> Self {
+        let mesh = MeasuredMesh::now(session.follower(), session.derivation());
+        Self { mesh, document: session.document().revision() }
+    }
+}

@@ -1,0 +1,161 @@
+//! A plot of plain data.
+
+use std::ops::RangeInclusive;
+
+use eframe::egui::{Color32, Rect, RichText, Role, Sense, Ui, Vec2, WidgetInfo, pos2, vec2};
+use egui_plot::{
+    AxisHints, Bar, BarChart, GridMark, Line, LineStyle, Plot as Chart, PlotBounds, PlotPoints, PlotUi,
+    Points, VLine,
+};
+
+use super::paint;
+use crate::app::theme::{Tokens, font, tokens};
+use crate::plot::{Axis, AxisRange, Mark, Plot, Series, Tick};
+
+/// Room for a number along each axis, in points.
+const TICK_ROOM: Vec2 = vec2(46.0, 28.0);
+/// Height of a row of the legend, in points.
+const LEGEND_ROW: f32 = 18.0;
+/// Width of a sample in the legend, and the space after a name.
+const SAMPLE: f32 = 14.0;
+const GAP: f32 = 16.0;
+
+/// Shows a plot in the full width and so many points high, with its legend above and its note below. Returns
+/// the x under the pointer.
+///
+/// Beside the pointer are the values there. `name` names it for tests and screen readers.
+pub fn plot_view(ui: &mut Ui, name: &str, plot: &Plot, height: f32) -> Option<f64> {
+    let t = *tokens(ui);
+    if plot.series.len() > 1 {
+        legend(ui, plot, &t);
+    }
+    let [x, y] = plot.ranges();
+    let size = vec2(ui.available_width(), height);
+    let count = |room: f32, each: f32| (room / each) as usize;
+    let ticks = [x.ticks(count(size.x, TICK_ROOM.x)), y.ticks(count(size.y, TICK_ROOM.y))];
+    let bounds = PlotBounds::from_min_max([x.low(), y.low()], [x.high(), y.high()]);
+    let [x_marks, y_marks] = [grid(&x, &ticks[0]), grid(&y, &ticks[1])];
+    let [x_axis, y_axis] = [AxisHints::new_x(), AxisHints::new_y()];
+    let chart = Chart::new(name)
+        .width(size.x)
+        .height(size.y)
+        .sense(Sense::hover())
+        .set_margin_fraction(Vec2::ZERO)
+        .show_x(false)
+        .show_y(false)
+        .show_crosshair(false)
+        .grid_color(t.line)
+        .grid_spacing(1.0..=2.0)
+        .custom_x_axes(vec![hints(x_axis, &plot.x, ticks[0].clone(), &t)])
+        .custom_y_axes(vec![hints(y_axis, &plot.y, ticks[1].clone(), &t)])
+        .x_grid_spacer(move |_| x_marks.clone())
+        .y_grid_spacer(move |_| y_marks.clone());
+    let draw = |chart: &mut PlotUi<'_>| {
+        chart.set_plot_bounds(bounds);
+        for number in 0..plot.series.len() {
+            draw_series(chart, plot, number, &y, &t);
+        }
+        if let Some(at) = chart.pointer_coordinate().filter(|_| chart.response().hovered()) {
+            chart.vline(VLine::new("pointer", at.x).color(t.faint).width(1.0).allow_hover(false));
+        }
+    };
+    let shown = ui.scope(|ui| {
+        ui.visuals_mut().extreme_bg_color = t.well;
+        chart.show(ui, draw)
+    });
+    let shown = shown.inner;
+    let response = shown.response;
+    response.widget_info(|| WidgetInfo {
+        current_text_value: Some(plot.note.clone()),
+        ..WidgetInfo::labeled(Role::Image, true, name)
+    });
+    let hovered = response.hover_pos().map(|at| plot.x.value(shown.transform.value_from_position(at).x));
+    if let Some(x) = hovered {
+        response.on_hover_text_at_pointer(plot.readout(x).join("\n"));
+    }
+    ui.label(RichText::new(&plot.note).font(font::caption()).color(t.label));
+    hovered
+}
+
+/// The marks of an axis. All have the same distance: none is fainter than the others.
+fn grid(range: &AxisRange, ticks: &[Tick]) -> Vec<GridMark> {
+    let step_size = range.high() - range.low();
+    ticks.iter().map(|tick| GridMark { value: tick.position, step_size }).collect()
+}
+
+fn hints<'a>(hints: AxisHints<'a>, axis: &Axis, ticks: Vec<Tick>, t: &Tokens) -> AxisHints<'a> {
+    let label = move |mark: GridMark, _: &RangeInclusive<f64>| {
+        let tick = ticks.iter().find(|tick| tick.position == mark.value);
+        tick.map_or_else(String::new, |tick| tick.label.clone())
+    };
+    let title = RichText::new(axis.title()).font(font::caption()).color(t.label);
+    hints
+        .label(title)
+        .formatter(label)
+        .label_spacing(1.0..=2.0)
+        .tick_label_color(t.label)
+        .tick_label_font(font::axis())
+}
+
+fn color(number: usize, t: &Tokens) -> Color32 {
+    let [first, second, third] = t.neighbours;
+    [t.accent, first, second, third][number % 4]
+}
+
+fn draw_series(chart: &mut PlotUi<'_>, plot: &Plot, number: usize, y: &AxisRange, t: &Tokens) {
+    let Series { name, mark, points } = &plot.series[number];
+    let color = color(number, t);
+    let place = |&[x, y]: &[f64; 2]| Some([plot.x.position(x)?, plot.y.position(y)?]);
+    let places: Vec<[f64; 2]> = points.iter().filter_map(place).collect();
+    match mark {
+        Mark::Bars => {
+            let [from, width] = plot.bar_span(number);
+            let zero = plot.y.position(0.0).unwrap_or(y.low());
+            let bar = |[x, y]: [f64; 2]| {
+                Bar::new(x + from + 0.5 * width, y - zero).base_offset(zero).width(0.94 * width).fill(color)
+            };
+            let bars = places.into_iter().map(bar).collect();
+            chart.bar_chart(BarChart::new(name, bars).color(color).allow_hover(false));
+        }
+        Mark::Points => {
+            let points = Points::new(name, PlotPoints::from(places)).radius(3.0);
+            chart.points(points.color(color).allow_hover(false));
+        }
+        Mark::Line => {
+            let style = if number == 0 { LineStyle::Solid } else { LineStyle::dashed_loose() };
+            let line = Line::new(name, PlotPoints::from(places)).style(style).width(1.5);
+            chart.line(line.color(color).allow_hover(false));
+        }
+    }
+}
+
+/// A sample and the name of each series, in as many rows as they need.
+fn legend(ui: &mut Ui, plot: &Plot, t: &Tokens) {
+    let names: Vec<_> =
+        plot.series.iter().map(|series| paint::line(ui, &series.name, font::caption(), t.text)).collect();
+    let width = ui.available_width();
+    let mut places = Vec::new();
+    let (mut x, mut row) = (0.0, 0);
+    for name in &names {
+        let wide = SAMPLE + 6.0 + name.size().x;
+        if x > 0.0 && x + wide > width {
+            (x, row) = (0.0, row + 1);
+        }
+        places.push((x, row));
+        x += wide + GAP;
+    }
+    let (_, rect) = ui.allocate_space(vec2(width, LEGEND_ROW * (row + 1) as f32));
+    for (number, (name, (x, row))) in names.into_iter().zip(places).enumerate() {
+        let corner = pos2(rect.left() + x, rect.top() + LEGEND_ROW * row as f32);
+        let place = Rect::from_min_size(corner, vec2(SAMPLE, LEGEND_ROW));
+        let color = color(number, t);
+        let painter = ui.painter();
+        match plot.series[number].mark {
+            Mark::Bars => _ = painter.rect_filled(place.shrink2(vec2(2.0, 4.0)), 2.0, color),
+            Mark::Points => _ = painter.circle_filled(place.center(), 3.5, color),
+            Mark::Line => _ = painter.hline(place.x_range(), place.center().y, (2.0, color)),
+        }
+        let after = Rect::from_min_max(pos2(place.right() + 6.0, place.top()), rect.right_bottom());
+        paint::at_left(ui, after.with_max_y(place.bottom()), name);
+    }
+}
