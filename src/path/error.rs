@@ -85,6 +85,12 @@ pub enum PathError {
         /// The most nodes.
         limit: usize,
     },
+    /// A tolerance is negative or NaN.
+    #[error("A tolerance of {} is no distance: it must be a number from 0.", Number(*tolerance))]
+    InvalidTolerance {
+        /// The tolerance as given.
+        tolerance: f64,
+    },
     /// Fewer than two places.
     #[error("A path needs a start and a goal.")]
     TooFewPlaces,

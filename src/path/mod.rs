@@ -1,9 +1,39 @@
 //! Paths of least cost through the domain, with bounds of how far from the best they can be.
+//!
+//! ```text
+//!   mesh, keep-out regions → PathMesh: triangles that paths go through
+//!   CostDensity            → a lower bound of the cost in each triangle
+//!   March                  → distance to each node: fast marching on triangles
+//!   trace, refine          → a polyline, and a better one near it
+//!   PathFigures            → its cost, rounded up: no path needs to cost more
+//!   LowerBound             → no path costs less
+//! ```
 
 mod certificate;
 mod cost;
 mod error;
+mod integral;
+mod lower;
+mod march;
+mod path_mesh;
+mod place;
+mod planner;
+mod queue;
+mod refine;
+mod resolve;
+mod solution;
+mod trace;
+mod walls;
 
 pub use certificate::{Certificate, CertificateEnd, CertificateTask, Placement, PlacementTest};
 pub use cost::{CostDensity, CostRange, FormulaCost, WeightedCost, Weights, checked_range};
 pub use error::{PathError, Waypoint};
+pub use integral::PathFigures;
+pub use lower::LowerBound;
+pub use march::{March, Seed};
+pub use path_mesh::{Passage, PathMesh};
+pub use place::Place;
+pub use planner::{PathRequest, Planner};
+pub use refine::Effort;
+pub use solution::{PathSample, Solution};
+pub use walls::Walls;

@@ -34,6 +34,16 @@ impl<'a> MeshView<'a> {
         self.lattice
     }
 
+    /// All nodes in lattice coordinates.
+    pub fn nodes(&self) -> &'a [LatticePoint] {
+        self.nodes
+    }
+
+    /// All triangles; those outside the domain are marked.
+    pub fn triangles(&self) -> &'a [Triangle] {
+        self.triangles
+    }
+
     /// A triangle; `None` where there is none with this id.
     pub fn get(&self, id: TriangleId) -> Option<&'a Triangle> {
         self.triangles.get(id.index())

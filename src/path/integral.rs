@@ -1,0 +1,83 @@
+//! What a polyline costs.
+
+use glam::DVec2;
+
+use super::CostDensity;
+use crate::geometry::Rect;
+
+/// The figures of a polyline.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PathFigures {
+    /// The integral of the cost, as computed.
+    pub cost: f64,
+    /// No less than the integral of the cost.
+    pub upper: f64,
+    /// Length in world units.
+    pub length: f64,
+    /// The integral of the risk.
+    pub risk: f64,
+    /// The greatest risk at the points that were looked at.
+    pub highest_risk: f64,
+}
+
+/// How often a piece is halved at most.
+const MOST_HALVINGS: u32 = 14;
+
+/// Sums and products are off by less than this share.
+const ROUNDING: f64 = 1e-12;
+
+impl PathFigures {
+    /// The figures of a polyline.
+    ///
+    /// The upper bound adds up length times greatest cost over pieces. A piece is halved until bounds of its
+    /// cost differ by less than `tolerance` times their mean, so that the upper bound is above the integral
+    /// by that share at most, except where the cost jumps. It is exact where the cost has one value.
+    pub fn of(points: &[DVec2], density: &dyn CostDensity, tolerance: f64) -> Self {
+        let mut figures = Self::default();
+        for pair in points.windows(2) {
+            figures.add_piece(pair[0], pair[1], density, tolerance, MOST_HALVINGS);
+        }
+        figures.upper *= 1.0 + ROUNDING;
+        figures.cost = figures.cost.min(figures.upper);
+        if let [point] = points {
+            figures.highest_risk = density.risk_at(*point);
+        }
+        figures
+    }
+
+    fn add_piece(&mut self, p: DVec2, q: DVec2, density: &dyn CostDensity, tolerance: f64, halvings: u32) {
+        let length = p.distance(q);
+        let range = density.range(&Rect::spanning(p, q));
+        let spread = range.greatest - range.least;
+        if spread <= tolerance * (range.greatest + range.least) || halvings == 0 {
+            let mean = if spread > 0.0 { gauss(p, q, density) } else { range.greatest };
+            self.cost += length * mean.clamp(range.least, range.greatest);
+            self.upper += length * range.greatest;
+            self.length += length;
+            let risk = density.risk_at(p.midpoint(q));
+            self.risk += length * risk;
+            let ends = density.risk_at(p).max(density.risk_at(q));
+            self.highest_risk = self.highest_risk.max(risk).max(ends);
+            return;
+        }
+        let middle = p.midpoint(q);
+        self.add_piece(p, middle, density, tolerance, halvings - 1);
+        self.add_piece(middle, q, density, tolerance, halvings - 1);
+    }
+}
+
+impl std::ops::AddAssign for PathFigures {
+    /// The figures of both paths, one after the other.
+    fn add_assign(&mut self, other: Self) {
+        self.cost += other.cost;
+        self.upper += other.upper;
+        self.length += other.length;
+        self.risk += other.risk;
+        self.highest_risk = self.highest_risk.max(other.highest_risk);
+    }
+}
+
+/// The mean of the cost over a segment, by Gauss's rule with two points.
+fn gauss(p: DVec2, q: DVec2, density: &dyn CostDensity) -> f64 {
+    0.5 * super::refine::GAUSS.iter().map(|&share| density.at(p.lerp(q, share))).sum::<f64>()
+}

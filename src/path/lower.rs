@@ -1,0 +1,208 @@
+//! A lower bound of what any path costs, from marches on the mesh.
+
+use glam::DVec2;
+
+use super::Passage;
+use super::march::March;
+use super::path_mesh::PathMesh;
+use super::place::Place;
+
+/// A lower bound of the least cost of all paths between two places.
+///
+/// A function v that is continuous, and linear on each triangle with |∇v| ≤ F, the least cost there, grows
+/// along any path by no more than the path costs. So v(goal) − v(start) is a bound; it is λ times that where
+/// |∇v| ≤ F/λ. The marches only propose functions v; the bound follows from the gradients of v alone.
+///
+/// 1. Paths that can be the best cost `upper` at most. Bounds of the distances from the start and from the
+///    goal show through which triangles they go. Only there the gradient counts.
+/// 2. v is the signed distance from the bisector, where both distances are equal: it has no source, where
+///    marches are least exact.
+/// 3. Where |∇v| > F the cost is lowered around, and v is computed again, twice.
+#[derive(Clone, Debug, Default)]
+pub struct LowerBound {
+    march: March,
+    from_start: Vec<f64>,
+    from_goal: Vec<f64>,
+    v: Vec<f64>,
+    costs: Vec<f64>,
+    /// Whether a path that costs at most the upper bound may go through a triangle.
+    counts: Vec<bool>,
+    factors: Vec<f64>,
+}
+
+/// The bound is rounded down by this share.
+const ROUNDING: f64 = 1e-10;
+
+/// How often v is computed again with lowered costs.
+const CORRECTIONS: usize = 2;
+
+/// What a bound is asked about.
+struct Problem<'a> {
+    mesh: &'a PathMesh,
+    costs: &'a [f64],
+    start: Place,
+    goal: Place,
+}
+
+impl LowerBound {
+    /// The bound, where `upper` is the cost of a path, and the marches went from the start and from the goal
+    /// through all triangles that are not closed.
+    pub fn compute(
+        &mut self,
+        mesh: &PathMesh,
+        costs: &[f64],
+        [start, goal]: [Place; 2],
+        [us, ug]: [&March; 2],
+        upper: f64,
+    ) -> f64 {
+        let problem = Problem { mesh, costs, start, goal };
+        self.from_start.clear();
+        self.from_start.extend(us.values().map(finite));
+        self.from_goal.clear();
+        self.from_goal.extend(ug.values().map(finite));
+        self.counts.clear();
+        self.counts.resize(mesh.triangle_count(), true);
+        let clamps =
+            [problem.clamped(&self.from_start, start, goal), problem.clamped(&self.from_goal, goal, start)];
+        let clamped_gain = problem.gain(&clamps[0]).max(-problem.gain(&clamps[1]));
+        self.find_counting(&problem, &clamps, upper);
+        let w: Vec<f64> = self.from_start.iter().zip(&self.from_goal).map(|(s, g)| 0.5 * (s - g)).collect();
+        let mut best = clamped_gain.max(problem.bound(&w, &self.counts));
+        self.costs.clear();
+        self.costs.extend_from_slice(costs);
+        let crossed = problem.crossed(&w);
+        let mut at_nodes = vec![1.0_f64; mesh.node_count()];
+        for correction in 0..=CORRECTIONS {
+            let seeds: Vec<(u32, f64)> = crossed
+                .iter()
+                .map(|&node| (node, w[node as usize].abs() * at_nodes[node as usize]))
+                .collect();
+            self.march.run(mesh, &self.costs, Passage::Partly, &seeds, None);
+            self.v.clear();
+            self.v.extend(self.march.values().zip(&w).map(|(v, &w)| finite(v).copysign(w)));
+            best = best.max(problem.bound(&self.v, &self.counts));
+            if correction < CORRECTIONS {
+                self.lower_costs(&problem, &mut at_nodes);
+            }
+        }
+        best.max(0.0) * (1.0 - ROUNDING)
+    }
+
+    /// Finds the triangles through which a path that costs at most `upper` may go.
+    fn find_counting(&mut self, problem: &Problem, clamps: &[Vec<f64>; 2], upper: f64) {
+        for (t, counts) in (0..).zip(&mut self.counts) {
+            let nodes = problem.mesh.triangles[t as usize].corners;
+            let at = |node: u32| clamps[0][node as usize] + clamps[1][node as usize];
+            *counts =
+                nodes.iter().map(|&node| at(node)).fold(f64::INFINITY, f64::min) <= upper * (1.0 + ROUNDING);
+        }
+    }
+
+    /// Lowers the costs around triangles where v is too steep. `at_nodes` collects the factors.
+    fn lower_costs(&mut self, problem: &Problem, at_nodes: &mut [f64]) {
+        self.factors.clear();
+        self.factors.resize(at_nodes.len(), 1.0);
+        for t in 0..problem.mesh.triangle_count() as u32 {
+            if self.counts[t as usize] && problem.is_open(t) {
+                let ratio = problem.ratio(t, &self.v).min(1.0);
+                for node in problem.mesh.triangles[t as usize].corners {
+                    let factor = &mut self.factors[node as usize];
+                    *factor = factor.min(ratio);
+                }
+            }
+        }
+        for (t, cost) in (0..).zip(&mut self.costs) {
+            let corners = problem.mesh.triangles[t as usize].corners;
+            *cost *= corners.iter().map(|&node| self.factors[node as usize]).fold(1.0, f64::min);
+        }
+        at_nodes.iter_mut().zip(&self.factors).for_each(|(all, factor)| *all *= factor);
+    }
+}
+
+impl Problem<'_> {
+    fn is_open(&self, t: u32) -> bool {
+        self.mesh.passage(t) > Passage::Closed
+    }
+
+    /// The cost of a triangle by the gradient of a function there; infinite where it is constant.
+    fn ratio(&self, t: u32, v: &[f64]) -> f64 {
+        let [a, b, c] = self.mesh.corners(t);
+        let [at_a, at_b, at_c] = self.mesh.triangles[t as usize].corners.map(|node| v[node as usize]);
+        let (p, q) = (b - a, c - a);
+        let (rise_p, rise_q) = (at_b - at_a, at_c - at_a);
+        // ∇v = (rise_p q⊥ − rise_q p⊥) / area, rotated.
+        let gradient: DVec2 = rise_p * q - rise_q * p;
+        self.costs[t as usize] * p.perp_dot(q).abs() / gradient.length()
+    }
+
+    /// How much a function grows from the start to the goal.
+    fn gain(&self, v: &[f64]) -> f64 {
+        self.goal.interpolate(self.mesh, v) - self.start.interpolate(self.mesh, v)
+    }
+
+    /// The bound by a function whose gradients count in some triangles.
+    fn bound(&self, v: &[f64], counts: &[bool]) -> f64 {
+        let mut scale = 1.0_f64;
+        for t in 0..self.mesh.triangle_count() as u32 {
+            if counts[t as usize] && self.is_open(t) {
+                scale = scale.min(self.ratio(t, v));
+            }
+        }
+        let bound = scale * self.gain(v);
+        if bound.is_nan() { 0.0 } else { bound }
+    }
+
+    /// A function that is at most the distance from a place everywhere: λ · (max(u, r) − its value there),
+    /// with the r that gives most at the other place, and λ by the gradients in all triangles.
+    fn clamped(&self, u: &[f64], from: Place, to: Place) -> Vec<f64> {
+        let total = to.interpolate(self.mesh, u);
+        let limits: Vec<f64> = std::iter::once(0.0)
+            .chain((0..CLAMPS).map(|n| total * f64::from(1 << n) / f64::from(1 << CLAMPS)))
+            .collect();
+        // The least ratio of the triangles that reach above each limit.
+        let mut scales = vec![1.0_f64; limits.len()];
+        for t in (0..self.mesh.triangle_count() as u32).filter(|&t| self.is_open(t)) {
+            let corners = self.mesh.triangles[t as usize].corners;
+            let highest = corners.iter().map(|&node| u[node as usize]).fold(0.0, f64::max);
+            let reached = limits.partition_point(|&limit| limit < highest);
+            if reached > 0 {
+                let scale = &mut scales[reached - 1];
+                *scale = scale.min(self.ratio(t, u));
+            }
+        }
+        for n in (1..scales.len()).rev() {
+            scales[n - 1] = scales[n - 1].min(scales[n]);
+        }
+        let gain = |n: &usize| scales[*n] * (total - limits[*n]);
+        let best = (0..limits.len()).max_by(|a, b| gain(a).total_cmp(&gain(b))).unwrap_or(0);
+        let limit = limits[best];
+        let mut function: Vec<f64> = u.iter().map(|&value| value.max(limit)).collect();
+        // Interpolated, the clamped function may be steeper than u where triangles are obtuse.
+        let open = (0..self.mesh.triangle_count() as u32).filter(|&t| self.is_open(t));
+        let scale = open.map(|t| self.ratio(t, &function)).fold(1.0, f64::min) * (1.0 - ROUNDING);
+        let base = from.interpolate(self.mesh, &function);
+        function.iter_mut().for_each(|value| *value = scale * (*value - base));
+        function
+    }
+
+    /// The corners of the triangles in which a function has both signs.
+    fn crossed(&self, w: &[f64]) -> Vec<u32> {
+        let mut is_crossed = vec![false; w.len()];
+        for t in (0..self.mesh.triangle_count() as u32).filter(|&t| self.is_open(t)) {
+            let corners = self.mesh.triangles[t as usize].corners;
+            let signs = corners.map(|node| w[node as usize].is_sign_negative());
+            if signs != [signs[0]; 3] {
+                corners.iter().for_each(|&node| is_crossed[node as usize] = true);
+            }
+        }
+        (0..w.len() as u32).filter(|&node| is_crossed[node as usize]).collect()
+    }
+}
+
+/// The number of limits that a clamped function is tried with.
+const CLAMPS: u32 = 10;
+
+/// A value for nodes that no path reaches: their triangles do not touch those that count.
+fn finite(value: f64) -> f64 {
+    if value.is_finite() { value } else { 0.0 }
+}

@@ -1,0 +1,209 @@
+//! Finds paths on a mesh, and keeps what it knows for the next one.
+
+use glam::DVec2;
+
+use super::integral::PathFigures;
+use super::lower::LowerBound;
+use super::march::{March, Seed};
+use super::path_mesh::PathMesh;
+use super::place::Place;
+use super::refine::{Effort, refine};
+use super::trace::trace;
+use super::walls::Walls;
+use super::{CostDensity, Passage, PathError, Solution, Waypoint};
+use crate::geometry::Rect;
+
+/// What is asked of a path.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PathRequest {
+    /// How much work goes into the path.
+    pub effort: Effort,
+    /// Whether a lower bound is computed.
+    pub has_bounds: bool,
+    /// The upper bound is above the integral of the cost by about this share.
+    pub tolerance: f64,
+}
+
+impl PathRequest {
+    /// A path as good as it gets, with bounds.
+    pub const FULL: Self = Self { effort: Effort::FULL, has_bounds: true, tolerance: 2e-5 };
+    /// A path for one frame, without a lower bound.
+    pub const LIVE: Self = Self { effort: Effort::LIVE, has_bounds: false, tolerance: 2e-3 };
+}
+
+/// The tolerance with which two paths are compared.
+const COMPARED: f64 = 1e-3;
+
+/// Finds paths of least cost on one mesh.
+///
+/// The marches from the waypoints are kept: another path between the same places, after the cost changed in
+/// some triangles, computes again only what the change can reach.
+#[derive(Clone, Debug)]
+pub struct Planner {
+    mesh: PathMesh,
+    walls: Walls,
+    costs: Vec<f64>,
+    /// Through open triangles, one for each waypoint.
+    origins: Vec<Origin>,
+    /// Through partly open ones too, where there are any.
+    origins_for_bounds: Vec<Origin>,
+    bound: LowerBound,
+}
+
+/// A march from a waypoint.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Origin {
+    pub march: March,
+    place: Option<Place>,
+    seeds: Vec<Seed>,
+    is_complete: bool,
+}
+
+impl Origin {
+    /// Marches from a place, unless that is done. `until`: only to the corners of that place's triangle.
+    fn run(&mut self, mesh: &PathMesh, costs: &[f64], least: Passage, place: Place, until: Option<Place>) {
+        let seeds = place.seeds(mesh, costs).to_vec();
+        if self.is_complete && self.place == Some(place) && self.seeds == seeds {
+            return;
+        }
+        self.march.run(mesh, costs, least, &seeds, until.map(|place| place.corner_nodes(mesh)));
+        (self.place, self.seeds, self.is_complete) = (Some(place), seeds, until.is_none());
+    }
+
+    /// Follows changed costs; what cannot be followed is marched again later.
+    fn follow(&mut self, mesh: &PathMesh, costs: &[f64], least: Passage, changed: &[u32]) {
+        let seeds = self.place.map(|place| place.seeds(mesh, costs).to_vec());
+        if self.is_complete && seeds.as_ref() == Some(&self.seeds) {
+            self.march.resolve(mesh, costs, least, &self.seeds, changed);
+        } else {
+            self.is_complete = false;
+        }
+    }
+}
+
+impl Planner {
+    /// A planner for a mesh and a cost density.
+    ///
+    /// # Errors
+    /// When the cost is zero, negative, NaN or infinite somewhere.
+    pub fn new(mesh: PathMesh, density: &dyn CostDensity) -> Result<Self, PathError> {
+        let costs = mesh.costs(density)?;
+        let walls = Walls::new(&mesh);
+        let (origins, origins_for_bounds) = Default::default();
+        Ok(Self { mesh, walls, costs, origins, origins_for_bounds, bound: LowerBound::default() })
+    }
+
+    /// The triangles that paths go through.
+    pub fn mesh(&self) -> &PathMesh {
+        &self.mesh
+    }
+
+    /// A lower bound of the cost in each triangle.
+    pub fn costs(&self) -> &[f64] {
+        &self.costs
+    }
+
+    /// Follows a change of the cost inside a rectangle in world units.
+    ///
+    /// # Errors
+    /// When the new cost is zero, negative, NaN or infinite somewhere; then nothing changes.
+    pub fn update(&mut self, density: &dyn CostDensity, area: &Rect) -> Result<(), PathError> {
+        let changed = self.mesh.update_costs(&mut self.costs, density, area)?;
+        for origin in &mut self.origins {
+            origin.follow(&self.mesh, &self.costs, Passage::Open, &changed);
+        }
+        for origin in &mut self.origins_for_bounds {
+            origin.follow(&self.mesh, &self.costs, Passage::Partly, &changed);
+        }
+        Ok(())
+    }
+
+    /// The path of least cost from the first of the places to the last by way of the others, in order.
+    ///
+    /// # Errors
+    /// When a place is not in the domain, or no path leads from one to the next.
+    pub fn solve(
+        &mut self,
+        density: &dyn CostDensity,
+        places: &[DVec2],
+        request: PathRequest,
+    ) -> Result<Solution, PathError> {
+        let places = self.places(places)?;
+        self.march(&places, request.has_bounds);
+        let mut solution = Solution::default();
+        for (leg, pair) in places.windows(2).enumerate() {
+            let ends = [leg, leg + 1].map(|index| Waypoint::of(index, places.len()));
+            let [from, to] = ends;
+            let path = self.leg(density, leg, [pair[0], pair[1]], request);
+            solution.append(path.ok_or(PathError::Apart { from, to })?);
+        }
+        Ok(solution)
+    }
+
+    /// The places on the mesh.
+    pub(super) fn places(&self, places: &[DVec2]) -> Result<Vec<Place>, PathError> {
+        if places.len() < 2 {
+            return Err(PathError::TooFewPlaces);
+        }
+        let find =
+            |(n, &point): (usize, &DVec2)| Place::find(&self.mesh, point, Waypoint::of(n, places.len()));
+        places.iter().enumerate().map(find).collect()
+    }
+
+    /// Marches from each place; to the end from all of them with `complete`.
+    pub(super) fn march(&mut self, places: &[Place], complete: bool) {
+        self.origins.resize_with(places.len(), Origin::default);
+        for (n, origin) in self.origins.iter_mut().enumerate() {
+            match places.get(n + 1) {
+                None if !complete => {}
+                next => {
+                    let until = next.filter(|_| !complete).copied();
+                    origin.run(&self.mesh, &self.costs, Passage::Open, places[n], until);
+                }
+            }
+        }
+        if complete && self.mesh.has_partly {
+            self.origins_for_bounds.resize_with(places.len(), Origin::default);
+            for (origin, &place) in self.origins_for_bounds.iter_mut().zip(places) {
+                origin.run(&self.mesh, &self.costs, Passage::Partly, place, None);
+            }
+        }
+    }
+
+    /// The marches from two places, one after the other, through all triangles that bounds count.
+    pub(super) fn marches(&self, leg: usize) -> [&March; 2] {
+        let origins = if self.mesh.has_partly { &self.origins_for_bounds } else { &self.origins };
+        [&origins[leg].march, &origins[leg + 1].march]
+    }
+
+    fn leg(
+        &mut self,
+        density: &dyn CostDensity,
+        leg: usize,
+        [start, goal]: [Place; 2],
+        request: PathRequest,
+    ) -> Option<Solution> {
+        if start.point == goal.point {
+            return Some(Solution::of(vec![start.point, goal.point], density, request.tolerance));
+        }
+        let traced = trace(&self.mesh, &self.costs, &self.origins[leg].march, start, goal)?;
+        let refined = refine(&traced, density, &self.walls, request.effort);
+        let mut solution = Solution::of(refined, density, request.tolerance);
+        // Where the cost jumps, a refined path can cost more.
+        if PathFigures::of(&traced, density, COMPARED).cost < solution.cost {
+            let other = Solution::of(traced, density, request.tolerance);
+            if other.upper < solution.upper {
+                solution = other;
+            }
+        }
+        if request.has_bounds {
+            let bound = &mut LowerBound::default();
+            std::mem::swap(bound, &mut self.bound);
+            let marches = self.marches(leg);
+            let lower = bound.compute(&self.mesh, &self.costs, [start, goal], marches, solution.upper);
+            std::mem::swap(bound, &mut self.bound);
+            solution.lower = lower.min(solution.upper);
+        }
+        Some(solution)
+    }
+}

@@ -1,0 +1,297 @@
+//! From the path through triangles to a smooth one of less cost.
+
+use glam::DVec2;
+
+use super::CostDensity;
+use super::walls::Walls;
+
+/// The points of Gauss's rule with two points, as shares of a segment.
+pub(super) const GAUSS: [f64; 2] = [0.211_324_865_405_187_13, 0.788_675_134_594_812_9];
+
+/// How much work goes into a path.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Effort {
+    /// About how many pieces the path has in each round.
+    pub pieces: &'static [usize],
+    /// Steps of Newton's method in each round.
+    pub steps: usize,
+}
+
+impl Effort {
+    /// For a path that is shown, and may be improved later.
+    pub const FULL: Self = Self { pieces: &[32, 128, 512], steps: 25 };
+    /// For a path that is shown while something is dragged.
+    pub const LIVE: Self = Self { pieces: &[32, 128], steps: 8 };
+}
+
+/// A path of less cost near a polyline that stays within the walls.
+///
+/// Its vertices move along their normals only: along the path they would slide together. Each round divides
+/// the pieces and takes some steps of Newton's method with damping; the matrix is tridiagonal, because a
+/// piece depends on its two ends.
+pub(super) fn refine(
+    points: &[DVec2],
+    density: &dyn CostDensity,
+    walls: &Walls,
+    effort: Effort,
+) -> Vec<DVec2> {
+    let Some(&first) = effort.pieces.first() else { return points.to_vec() };
+    let mut points = thin_out(points, walls, first);
+    for &pieces in effort.pieces {
+        divide(&mut points, pieces);
+        Relaxation { points: &mut points, density, walls, damping: 1e-2 }.run(effort.steps);
+    }
+    points
+}
+
+/// Chords of about equal lengths in place of many short pieces, where the walls admit them.
+fn thin_out(points: &[DVec2], walls: &Walls, pieces: usize) -> Vec<DVec2> {
+    let lengths: Vec<f64> = points.windows(2).map(|pair| pair[0].distance(pair[1])).collect();
+    let longest = lengths.iter().sum::<f64>() / pieces as f64;
+    let mut thinned = vec![points[0]];
+    let mut at = 0;
+    while at + 1 < points.len() {
+        let (mut end, mut length) = (at + 1, lengths[at]);
+        while end + 1 < points.len() && length + lengths[end] <= longest {
+            length += lengths[end];
+            end += 1;
+        }
+        // A piece of the polyline itself is always admitted.
+        while end > at + 1 && !walls.admit(points[at], points[end]) {
+            end = at + (end - at) / 2;
+        }
+        thinned.push(points[end]);
+        at = end;
+    }
+    thinned
+}
+
+/// Divides the longer pieces until there are about this many.
+fn divide(points: &mut Vec<DVec2>, pieces: usize) {
+    let length: f64 = points.windows(2).map(|pair| pair[0].distance(pair[1])).sum();
+    let longest = length / pieces as f64;
+    let mut divided = vec![points[0]];
+    for pair in points.windows(2) {
+        let parts = (pair[0].distance(pair[1]) / longest * 0.999).ceil().max(1.0) as usize;
+        for part in 1..parts {
+            divided.push(pair[0].lerp(pair[1], part as f64 / parts as f64));
+        }
+        divided.push(pair[1]);
+    }
+    *points = divided;
+}
+
+/// Newton's method for the moves of the vertices along their normals.
+struct Relaxation<'a> {
+    points: &'a mut Vec<DVec2>,
+    density: &'a dyn CostDensity,
+    walls: &'a Walls,
+    /// What is added to the diagonal, as a share of it.
+    damping: f64,
+}
+
+/// The derivatives of the cost by the moves of the inner vertices.
+#[derive(Default)]
+struct Quadratic {
+    gradient: Vec<f64>,
+    diagonal: Vec<f64>,
+    /// Between a vertex and the next.
+    beside: Vec<f64>,
+}
+
+/// A step that gains less than this share of the cost is the last.
+const LEAST_GAIN: f64 = 1e-11;
+
+/// Pieces shorter than this share of the mean length are joined with the next.
+const SHORTEST: f64 = 0.45;
+
+impl Relaxation<'_> {
+    fn run(&mut self, steps: usize) {
+        if self.points.len() < 3 {
+            return;
+        }
+        let mut cost = self.cost(self.points);
+        for _ in 0..steps {
+            if self.even_out() | self.pull_to_corners() {
+                cost = self.cost(self.points);
+            }
+            let normals = self.normals();
+            let quadratic = self.quadratic(&normals);
+            let before = cost;
+            // Ends: the damping grows up to a bound.
+            while self.damping < 1e8 {
+                let moves = quadratic.solve(self.damping);
+                let moved = self.moved(&normals, moves);
+                let new = self.cost(&moved);
+                if new < cost {
+                    (*self.points, cost) = (moved, new);
+                    self.damping = (0.1 * self.damping).max(1e-9);
+                    break;
+                }
+                self.damping *= 10.0;
+            }
+            if self.points.len() < 3 || before - cost <= LEAST_GAIN * before {
+                break;
+            }
+        }
+        self.damping = 1e-2;
+    }
+
+    /// Removes vertices that came too near to others, and returns whether there were any. Pieces of very
+    /// different lengths would keep the vertices from moving.
+    fn even_out(&mut self) -> bool {
+        let points = &*self.points;
+        let count = points.len();
+        let length: f64 = points.windows(2).map(|pair| pair[0].distance(pair[1])).sum();
+        let mean = length / (count - 1) as f64;
+        let mut kept = vec![points[0]];
+        for n in 1..count - 1 {
+            let last = kept[kept.len() - 1];
+            let nearest = last.distance(points[n]).min(points[n].distance(points[n + 1]));
+            if nearest > SHORTEST * mean || !self.walls.admit(last, points[n + 1]) {
+                kept.push(points[n]);
+            }
+        }
+        kept.push(points[count - 1]);
+        let has_removed = kept.len() < count;
+        if has_removed {
+            *self.points = kept;
+        }
+        has_removed
+    }
+
+    /// Moves vertices that a wall keeps from the chord of their neighbours to the corner of the wall, if that
+    /// costs less. Returns whether there were any.
+    fn pull_to_corners(&mut self) -> bool {
+        let mut has_moved = false;
+        for n in 1..self.points.len() - 1 {
+            let [p, at, q] = [self.points[n - 1], self.points[n], self.points[n + 1]];
+            if self.walls.admit(p, q) {
+                continue;
+            }
+            let Some(corner) = self.walls.corner_within(p, q, at).filter(|&corner| corner != at) else {
+                continue;
+            };
+            let is_better =
+                self.piece(p, corner) + self.piece(corner, q) < self.piece(p, at) + self.piece(at, q);
+            if is_better && self.walls.admit(p, corner) && self.walls.admit(corner, q) {
+                self.points[n] = corner;
+                has_moved = true;
+            }
+        }
+        has_moved
+    }
+
+    fn cost(&self, points: &[DVec2]) -> f64 {
+        points.windows(2).map(|pair| self.piece(pair[0], pair[1])).sum()
+    }
+
+    /// The cost of a piece by Gauss's rule with two points.
+    fn piece(&self, p: DVec2, q: DVec2) -> f64 {
+        let sum: f64 = GAUSS.iter().map(|&share| self.density.at(p.lerp(q, share))).sum();
+        0.5 * p.distance(q) * sum
+    }
+
+    /// Unit vectors across the path; zero at its ends.
+    fn normals(&self) -> Vec<DVec2> {
+        let inner = self.points.windows(3).map(|three| (three[2] - three[0]).perp().normalize_or_zero());
+        std::iter::once(DVec2::ZERO).chain(inner).chain([DVec2::ZERO]).collect()
+    }
+
+    /// Derivatives by differences over a tenth of the length of the piece.
+    fn quadratic(&self, normals: &[DVec2]) -> Quadratic {
+        let count = self.points.len();
+        let mut result =
+            Quadratic { gradient: vec![0.0; count], diagonal: vec![0.0; count], beside: vec![0.0; count] };
+        for n in 0..count - 1 {
+            let [p, q] = [self.points[n], self.points[n + 1]];
+            let step = 0.1 * p.distance(q);
+            if step == 0.0 {
+                continue;
+            }
+            let [u, v] = [step * normals[n], step * normals[n + 1]];
+            let at = |i: f64, j: f64| self.piece(p + i * u, q + j * v);
+            let (middle, both, neither) = (at(0.0, 0.0), at(1.0, 1.0), at(-1.0, -1.0));
+            let [[p_up, p_down], [q_up, q_down]] =
+                [[at(1.0, 0.0), at(-1.0, 0.0)], [at(0.0, 1.0), at(0.0, -1.0)]];
+            let squared = step * step;
+            result.gradient[n] += (p_up - p_down) / (2.0 * step);
+            result.gradient[n + 1] += (q_up - q_down) / (2.0 * step);
+            result.diagonal[n] += (p_up - 2.0 * middle + p_down) / squared;
+            result.diagonal[n + 1] += (q_up - 2.0 * middle + q_down) / squared;
+            result.beside[n] =
+                (both + neither + 2.0 * middle - p_up - p_down - q_up - q_down) / (2.0 * squared);
+        }
+        result
+    }
+
+    /// The path with its vertices moved, less far where the walls are in the way.
+    fn moved(&self, normals: &[DVec2], mut moves: Vec<f64>) -> Vec<DVec2> {
+        for (n, step) in moves.iter_mut().enumerate().skip(1) {
+            let reach = self.points.get(n + 1).map_or(0.0, |next| {
+                0.5 * self.points[n].distance(*next).min(self.points[n].distance(self.points[n - 1]))
+            });
+            *step = step.clamp(-reach, reach);
+        }
+        let place = |n: usize, moves: &[f64]| self.points[n] + moves[n] * normals[n];
+        // A piece without moves is one of the path, so this ends with admitted pieces only.
+        for halving in 0..6 {
+            let mut is_admitted = true;
+            for n in 0..self.points.len() - 1 {
+                if moves[n] == 0.0 && moves[n + 1] == 0.0 {
+                    continue;
+                }
+                if !self.walls.admit(place(n, &moves), place(n + 1, &moves)) {
+                    let factor = if halving < 4 { 0.5 } else { 0.0 };
+                    moves[n] *= factor;
+                    moves[n + 1] *= factor;
+                    is_admitted = false;
+                }
+            }
+            if is_admitted {
+                return (0..self.points.len()).map(|n| place(n, &moves)).collect();
+            }
+        }
+        self.without_blocked(normals, moves)
+    }
+
+    /// The path with those moves that the walls admit, one vertex after the other.
+    fn without_blocked(&self, normals: &[DVec2], moves: Vec<f64>) -> Vec<DVec2> {
+        let mut points = self.points.clone();
+        for n in 1..points.len() - 1 {
+            let to = points[n] + moves[n] * normals[n];
+            if self.walls.admit(points[n - 1], to) && self.walls.admit(to, points[n + 1]) {
+                points[n] = to;
+            }
+        }
+        points
+    }
+}
+
+impl Quadratic {
+    /// The moves that lead to the least value of the quadratic function with a damped diagonal, by
+    /// elimination. Where the diagonal is not positive, more is added.
+    fn solve(&self, damping: f64) -> Vec<f64> {
+        let count = self.gradient.len();
+        let scale = self.diagonal.iter().fold(0.0_f64, |most, v| most.max(v.abs()));
+        let mut moves = vec![0.0; count];
+        let mut diagonal = vec![0.0; count];
+        for n in 1..count - 1 {
+            let own = self.diagonal[n].abs().max(1e-9 * scale) * (1.0 + damping);
+            let (mut pivot, mut right) = (own, -self.gradient[n]);
+            if n > 1 {
+                let factor = self.beside[n - 1] / diagonal[n - 1];
+                pivot -= factor * self.beside[n - 1];
+                right -= factor * moves[n - 1];
+            }
+            // Not convex in this direction: a smaller step.
+            diagonal[n] = if pivot > 1e-6 * own { pivot } else { own };
+            moves[n] = right;
+        }
+        for n in (1..count - 1).rev() {
+            let next = if n + 2 < count { self.beside[n] * moves[n + 1] } else { 0.0 };
+            moves[n] = (moves[n] - next) / diagonal[n];
+        }
+        moves
+    }
+}

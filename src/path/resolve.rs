@@ -1,0 +1,245 @@
+//! A march after the costs of some triangles changed.
+
+use super::Passage;
+use super::march::{Front, Kite, March, Seed, through_edge};
+use super::path_mesh::{NONE, PathMesh};
+
+impl March {
+    /// Brings the values up to date after the costs of some triangles changed, and returns how many nodes
+    /// were accepted again. The last run, from the same seeds through the same mesh, must have gone to the
+    /// end.
+    ///
+    /// The values are those of a new run, bit for bit. A node whose value came from a changed triangle, or
+    /// from a node whose value changes, loses its value. Then the march goes on from the others, and nodes
+    /// that were accepted may fall.
+    pub fn resolve(
+        &mut self,
+        mesh: &PathMesh,
+        costs: &[f64],
+        least: Passage,
+        seeds: &[Seed],
+        changed: &[u32],
+    ) -> usize {
+        let mut edit = Edit { march: self, mesh, costs, least, seeds, lost: Vec::new() };
+        edit.march.queue.clear();
+        edit.march.accepted_count = 0;
+        for &t in changed {
+            for node in mesh.triangles[t as usize].corners {
+                if edit.march.nodes[node as usize].from == t {
+                    edit.lose(node);
+                }
+            }
+        }
+        edit.offer_to_lost();
+        for &t in changed {
+            edit.offer_within(t);
+            // A kite has the cost of two triangles.
+            mesh.across[t as usize]
+                .iter()
+                .filter(|&&across| across != NONE)
+                .for_each(|&t| edit.offer_within(t));
+        }
+        while let Some(node) = edit.march.next() {
+            edit.spread(node);
+        }
+        self.accepted_count
+    }
+}
+
+struct Edit<'a> {
+    march: &'a mut March,
+    mesh: &'a PathMesh,
+    costs: &'a [f64],
+    least: Passage,
+    seeds: &'a [Seed],
+    /// Nodes without a value that no value was offered to yet.
+    lost: Vec<u32>,
+}
+
+impl Edit<'_> {
+    fn front(&self, node: u32) -> Front {
+        self.march.nodes[node as usize]
+    }
+
+    /// Takes the value from a node, and from all nodes whose values came from it.
+    fn lose(&mut self, node: u32) {
+        let mut stack = vec![node];
+        while let Some(number) = stack.pop() {
+            let node = &mut self.march.nodes[number as usize];
+            if node.value == f64::INFINITY {
+                continue;
+            }
+            let before = node.value;
+            (node.value, node.from, node.is_accepted) = (f64::INFINITY, NONE, false);
+            self.lost.push(number);
+            self.dependents(number, before, &mut stack);
+        }
+    }
+
+    /// The nodes whose values may come from a node with a value.
+    fn dependents(&self, number: u32, value: f64, found: &mut Vec<u32>) {
+        for &t in self.mesh.around(number) {
+            let corners = self.mesh.triangles[t as usize].corners;
+            let mut add = |node: u32, by: u32| {
+                let front = self.front(node);
+                if node != number && front.from == by && front.value >= value {
+                    found.push(node);
+                }
+            };
+            corners.iter().for_each(|&node| add(node, t));
+            if self.mesh.has_obtuse {
+                let k = (0..3).find(|&k| corners[k] == number).expect("rows have the triangles of a node");
+                let across = self.mesh.across[t as usize][(k + 1) % 3];
+                if let Some(kite) = Kite::of(self.mesh, across, self.least) {
+                    add(kite.apex, across);
+                }
+            }
+        }
+    }
+
+    /// Offers values to the nodes that lost theirs.
+    fn offer_to_lost(&mut self) {
+        while let Some(node) = self.lost.pop() {
+            for &(_, value) in self.seeds.iter().filter(|(seed, _)| *seed == node) {
+                self.offer(node, value, NONE);
+            }
+            for n in 0..self.mesh.around(node).len() {
+                self.offer_in(self.mesh.around(node)[n], node);
+            }
+        }
+    }
+
+    /// Offers values to all corners of a triangle.
+    fn offer_within(&mut self, t: u32) {
+        for node in self.mesh.triangles[t as usize].corners {
+            self.offer_in(t, node);
+        }
+    }
+
+    /// Offers a node what the accepted corners of a triangle around it give.
+    fn offer_in(&mut self, t: u32, node: u32) {
+        let triangle = self.mesh.triangles[t as usize];
+        if triangle.passage < self.least {
+            return;
+        }
+        let k = (0..3).find(|&k| triangle.corners[k] == node).expect("a corner of the triangle");
+        let [a, b] = [1, 2].map(|step| triangle.corners[(k + step) % 3]);
+        let cost = self.costs[t as usize];
+        let (front_a, front_b, to) = (self.front(a), self.front(b), self.front(node));
+        for front in [front_a, front_b].iter().filter(|front| front.is_accepted) {
+            self.offer(node, front.value + cost * front.at.distance(to.at), t);
+        }
+        if front_a.is_accepted && front_b.is_accepted {
+            self.offer(node, through_edge(&front_a, &front_b, [a, b], &to, node, cost), t);
+        }
+        if usize::from(triangle.obtuse) == k
+            && let Some(kite) = Kite::of(self.mesh, t, self.least)
+        {
+            self.offer_through(&kite, t);
+        }
+    }
+
+    fn offer_through(&mut self, kite: &Kite, t: u32) {
+        let cost = kite.triangles.map(|t| self.costs[t as usize]);
+        let cost = cost[0].max(cost[1]);
+        for [a, b] in kite.edges {
+            let [front_a, front_b, to] = [a, b, kite.apex].map(|n| self.front(n));
+            if front_a.is_accepted && front_b.is_accepted {
+                self.offer(kite.apex, through_edge(&front_a, &front_b, [a, b], &to, kite.apex, cost), t);
+            }
+        }
+    }
+
+    /// Offers a value. If the node was accepted with a greater one, those that depend on it lose theirs.
+    fn offer(&mut self, node: u32, value: f64, from: u32) {
+        let known = self.front(node);
+        if value >= known.value || value.is_nan() {
+            return;
+        }
+        if known.is_accepted {
+            self.lose(node);
+            // It has its new value below.
+            self.lost.retain(|&lost| lost != node);
+        }
+        self.march.offer(node, value, from);
+        if known.is_accepted {
+            self.offer_to_lost();
+        }
+    }
+
+    /// Offers values to all nodes around an accepted one.
+    fn spread(&mut self, number: u32) {
+        for n in 0..self.mesh.around(number).len() {
+            let t = self.mesh.around(number)[n];
+            let triangle = self.mesh.triangles[t as usize];
+            for node in triangle.corners {
+                if node != number {
+                    self.offer_in(t, node);
+                }
+            }
+            if self.mesh.has_obtuse {
+                let k = (0..3).find(|&k| triangle.corners[k] == number).expect("a corner of the triangle");
+                let across = self.mesh.across[t as usize][(k + 1) % 3];
+                for obtuse in [across, t] {
+                    if let Some(kite) = Kite::of(self.mesh, obtuse, self.least) {
+                        self.offer_through(&kite, obtuse);
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::{Lattice, Rect};
+    use crate::mesh::{Limits, Mesh};
+
+    fn random_mesh(random: &mut fastrand::Rng) -> PathMesh {
+        let lattice = Lattice::covering(Rect::UNIT, 0.25, 10_000).unwrap();
+        let mut mesh = Mesh::coarse_grid(&lattice, |_| true, &Limits::default()).unwrap();
+        for _ in 0..3 {
+            let [x, y] = [random.f64(), random.f64()];
+            let near = glam::dvec2(x, y);
+            mesh.refine(&Limits::default(), |element| {
+                let [a, b, c] = element.world_corners();
+                Ok(element.diameter() > 0.02 + 0.3 * ((a + b + c) / 3.0).distance(near))
+            })
+            .unwrap();
+        }
+        PathMesh::new(mesh.view())
+    }
+
+    #[test]
+    fn values_after_an_edit_are_those_of_a_new_march_bit_for_bit() {
+        let mut random = fastrand::Rng::with_seed(1403);
+        let (mut redone, mut all) = (0, 0);
+        for _ in 0..40 {
+            let mesh = random_mesh(&mut random);
+            let mut costs: Vec<f64> = (0..mesh.triangle_count()).map(|_| 0.5 + random.f64()).collect();
+            let seeds = [(random.u32(0..mesh.node_count() as u32), 0.0)];
+            let (mut edited, mut fresh) = (March::default(), March::default());
+            edited.run(&mesh, &costs, Passage::Open, &seeds, None);
+            for _ in 0..30 {
+                let changed: Vec<u32> = match random.bool() {
+                    true => (0..random.u32(1..6)).map(|_| random.u32(0..costs.len() as u32)).collect(),
+                    // A disc, as a brush changes it.
+                    false => {
+                        let at = glam::dvec2(random.f64(), random.f64());
+                        let near = |t: &u32| mesh.corners(*t)[0].distance(at) < 0.1;
+                        (0..costs.len() as u32).filter(near).collect()
+                    }
+                };
+                let factor = [0.2, 0.9, 1.1, 5.0][random.usize(..4)];
+                changed.iter().for_each(|&t| costs[t as usize] *= factor);
+                redone += edited.resolve(&mesh, &costs, Passage::Open, &seeds, &changed);
+                all += mesh.node_count();
+                fresh.run(&mesh, &costs, Passage::Open, &seeds, None);
+                let same = edited.values().zip(fresh.values()).all(|(a, b)| a.to_bits() == b.to_bits());
+                assert!(same);
+            }
+        }
+        assert!(redone < all / 2, "{redone} of {all}");
+    }
+}

@@ -1,0 +1,144 @@
+use glam::DVec2;
+
+use super::integral::PathFigures;
+use super::{CostDensity, PathError};
+
+/// A path, and how far from the best it can be.
+#[derive(Clone, Debug, Default, PartialEq)]
+#[non_exhaustive]
+pub struct Solution {
+    /// What the path costs, as computed.
+    pub cost: f64,
+    /// No path costs less: a bound of the best.
+    pub lower: f64,
+    /// No less than what this path costs, so the best costs no more.
+    pub upper: f64,
+    /// Length in world units.
+    pub length: f64,
+    /// The integral of the risk over the length.
+    pub risk: f64,
+    /// The highest risk on the way.
+    pub highest_risk: f64,
+    /// The path from the start to the goal, in world units.
+    pub points: Vec<DVec2>,
+    /// The places in `points` of the start, the via points and the goal.
+    pub stops: Vec<usize>,
+}
+
+/// A place on a path, for a profile.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct PathSample {
+    /// Distance from the start along the path, in world units.
+    pub distance: f64,
+    /// The place, in world units.
+    pub point: DVec2,
+    /// What the path costs up to there.
+    pub cost: f64,
+    /// The risk there.
+    pub risk: f64,
+    /// The cost per unit of length there.
+    pub density: f64,
+}
+
+impl Solution {
+    /// The width of the interval as a share of its upper end: how much better than this path the best can
+    /// be. 0 for a path that costs nothing.
+    pub fn gap(&self) -> f64 {
+        if self.upper > 0.0 { ((self.upper - self.lower) / self.upper).max(0.0) } else { 0.0 }
+    }
+
+    /// Raises the lower bound to another one, for example that of a certificate.
+    pub fn tighten(&mut self, lower: f64) {
+        self.lower = self.lower.max(lower).min(self.upper);
+    }
+
+    /// The solution of a polyline. `tolerance` is that of [`PathFigures::of`].
+    pub(super) fn of(points: Vec<DVec2>, density: &dyn CostDensity, tolerance: f64) -> Self {
+        let PathFigures { cost, upper, length, risk, highest_risk } =
+            PathFigures::of(&points, density, tolerance);
+        let stops = vec![0, points.len() - 1];
+        Self { cost, lower: 0.0, upper, length, risk, highest_risk, points, stops }
+    }
+
+    /// Continues the path with one that begins where it ends.
+    pub(super) fn append(&mut self, next: Self) {
+        if self.points.is_empty() {
+            *self = next;
+            return;
+        }
+        self.cost += next.cost;
+        self.lower += next.lower;
+        self.upper += next.upper;
+        self.length += next.length;
+        self.risk += next.risk;
+        self.highest_risk = self.highest_risk.max(next.highest_risk);
+        let end = self.points.len() - 1;
+        self.points.extend(&next.points[1..]);
+        self.stops.extend(next.stops[1..].iter().map(|stop| end + stop));
+    }
+
+    /// Cost, risk and density at `count` places at equal distances along the path, its ends among them.
+    pub fn profile(&self, density: &dyn CostDensity, count: usize) -> Vec<PathSample> {
+        let count = count.max(2);
+        let mut samples = Vec::with_capacity(count);
+        let (mut piece, mut walked, mut cost) = (0, 0.0, 0.0);
+        let mut last = self.points.first().copied().unwrap_or_default();
+        for n in 0..count {
+            let distance = self.length * n as f64 / (count - 1) as f64;
+            let length = |piece: usize| self.points[piece].distance(self.points[piece + 1]);
+            while piece + 2 < self.points.len() && walked + length(piece) < distance {
+                walked += length(piece);
+                cost += PathFigures::of(&[last, self.points[piece + 1]], density, PROFILE_TOLERANCE).cost;
+                last = self.points[piece + 1];
+                piece += 1;
+            }
+            let point = match piece + 1 < self.points.len() && length(piece) > 0.0 {
+                true => {
+                    let share = ((distance - walked) / length(piece)).clamp(0.0, 1.0);
+                    self.points[piece].lerp(self.points[piece + 1], share)
+                }
+                false => last,
+            };
+            cost += PathFigures::of(&[last, point], density, PROFILE_TOLERANCE).cost;
+            last = point;
+            let (risk, density) = (density.risk_at(point), density.at(point));
+            samples.push(PathSample { distance, point, cost, risk, density });
+        }
+        samples
+    }
+
+    /// The path with fewer points: none of those left out is farther than `tolerance` from it, in world
+    /// units. Stops stay (Douglas and Peucker's method).
+    ///
+    /// # Errors
+    /// When the tolerance is negative or NaN.
+    pub fn simplified(&self, tolerance: f64) -> Result<Vec<DVec2>, PathError> {
+        if tolerance < 0.0 || tolerance.is_nan() {
+            return Err(PathError::InvalidTolerance { tolerance });
+        }
+        let mut keeps = vec![false; self.points.len()];
+        self.stops.iter().for_each(|&stop| keeps[stop] = true);
+        let mut parts: Vec<[usize; 2]> = self.stops.windows(2).map(|pair| [pair[0], pair[1]]).collect();
+        while let Some([first, last]) = parts.pop() {
+            let [a, b] = [self.points[first], self.points[last]];
+            let distances = (first + 1..last).map(|n| (n, distance_to_segment(self.points[n], a, b)));
+            let Some((farthest, distance)) = distances.max_by(|p, q| p.1.total_cmp(&q.1)) else { continue };
+            if distance > tolerance {
+                keeps[farthest] = true;
+                parts.extend([[first, farthest], [farthest, last]]);
+            }
+        }
+        Ok((0..keeps.len()).filter(|&n| keeps[n]).map(|n| self.points[n]).collect())
+    }
+}
+
+/// Bounds of the cost of a piece of a profile differ by this share.
+const PROFILE_TOLERANCE: f64 = 1e-3;
+
+fn distance_to_segment(p: DVec2, a: DVec2, b: DVec2) -> f64 {
+    let (edge, arm) = (b - a, p - a);
+    let squared = edge.length_squared();
+    let share = if squared > 0.0 { (arm.dot(edge) / squared).clamp(0.0, 1.0) } else { 0.0 };
+    p.distance(a + share * edge)
+}

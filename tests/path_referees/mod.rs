@@ -1,0 +1,168 @@
+//! Referees for paths: the quadrature of a radial cost, and a search on a grid with many directions. They
+//! share no code with what they check.
+
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+use glam::{DVec2, dvec2};
+use meshbrush::Rect;
+use meshbrush::internals::path::{CostDensity, CostRange};
+
+/// The cost a + Σ bᵢ e^(−(r/wᵢ)²), which depends on the distance r from the origin only.
+#[derive(Clone, Debug)]
+pub struct Radial {
+    pub floor: f64,
+    /// [b, w] each; b may be negative as long as the cost is positive.
+    pub bumps: Vec<[f64; 2]>,
+}
+
+impl Radial {
+    pub fn random(random: &mut fastrand::Rng) -> Self {
+        let bump = |random: &mut fastrand::Rng| [3.0 * random.f64(), 0.3 + random.f64()];
+        Self { floor: 0.3 + random.f64(), bumps: (0..random.usize(1..4)).map(|_| bump(random)).collect() }
+    }
+
+    pub fn at_radius(&self, r: f64) -> f64 {
+        self.floor + self.bumps.iter().map(|[b, w]| b * (-(r / w) * (r / w)).exp()).sum::<f64>()
+    }
+
+    /// The least cost between two places, by Clairaut's relation: along a geodesic, c(r) · r · sin of the
+    /// angle to the radius is a constant k. The paths considered go out or in, or in to a least radius and out
+    /// again; the angle between the places decides k.
+    pub fn exact(&self, p: DVec2, q: DVec2) -> f64 {
+        let (r1, r2) = (p.length().min(q.length()), p.length().max(q.length()));
+        let angle = p.angle_to(q).abs();
+        let momentum = |r: f64| r * self.at_radius(r);
+        // r c(r) must grow for a unique answer: the caller draws again otherwise.
+        let largest = momentum(r1);
+        let direct = self.swept(largest, r1, r2);
+        if angle <= direct {
+            let k = bisect(0.0, largest, |k| self.swept(k, r1, r2) < angle);
+            return self.cost_of(k, r1, r2);
+        }
+        let turn = |k: f64| bisect(1e-9, r1, |r| momentum(r) < k);
+        let around = |k: f64| {
+            let least = turn(k);
+            self.swept(k, least, r1) + self.swept(k, least, r2)
+        };
+        let k = bisect(0.0, largest, |k| around(k) > angle);
+        let least = turn(k);
+        self.cost_of(k, least, r1) + self.cost_of(k, least, r2)
+    }
+
+    /// Whether r c(r) grows everywhere up to a radius: then there is one geodesic of each kind.
+    pub fn is_simple(&self, radius: f64) -> bool {
+        let momentum = |n: u32| {
+            let r = radius * f64::from(n) / 2000.0;
+            r * self.at_radius(r)
+        };
+        (1..2000).all(|n| momentum(n + 1) > momentum(n))
+    }
+
+    /// The angle swept between two radii: ∫ k / (r √(c²r² − k²)) dr.
+    fn swept(&self, k: f64, from: f64, to: f64) -> f64 {
+        self.integral(k, from, to, |r, root| k / (r * root))
+    }
+
+    /// The cost between two radii: ∫ c² r / √(c²r² − k²) dr.
+    fn cost_of(&self, k: f64, from: f64, to: f64) -> f64 {
+        self.integral(k, from, to, |r, root| self.at_radius(r).powi(2) * r / root)
+    }
+
+    /// With r = from + (to − from) t², which removes the root at the least radius; Simpson's rule.
+    fn integral(&self, k: f64, from: f64, to: f64, f: impl Fn(f64, f64) -> f64) -> f64 {
+        const STEPS: u32 = 4000;
+        let at = |n: f64| {
+            let t = n / f64::from(STEPS);
+            let r = from + (to - from) * t * t;
+            let squared = (r * self.at_radius(r)).powi(2) - k * k;
+            // Near the turning point, c²r² − k² is about its slope times the way from there.
+            if squared <= 0.0 { 0.0 } else { f(r, squared.sqrt()) * 2.0 * t * (to - from) }
+        };
+        // The open rule of midpoints, extrapolated.
+        let midpoints = |steps: u32| {
+            let width = f64::from(STEPS) / f64::from(steps);
+            (0..steps).map(|n| at((f64::from(n) + 0.5) * width)).sum::<f64>() / f64::from(steps)
+        };
+        (4.0 * midpoints(STEPS) - midpoints(STEPS / 2)) / 3.0
+    }
+}
+
+/// Where a condition that holds below ends.
+fn bisect(mut low: f64, mut high: f64, holds: impl Fn(f64) -> bool) -> f64 {
+    for _ in 0..100 {
+        let middle = 0.5 * (low + high);
+        if holds(middle) { low = middle } else { high = middle }
+    }
+    0.5 * (low + high)
+}
+
+impl CostDensity for Radial {
+    fn at(&self, point: DVec2) -> f64 {
+        self.at_radius(point.length())
+    }
+
+    fn range(&self, rectangle: &Rect) -> CostRange {
+        let nearest = DVec2::ZERO.clamp(rectangle.min, rectangle.max).length();
+        let farthest = rectangle.min.abs().max(rectangle.max.abs()).length();
+        // Each bump falls with the distance.
+        CostRange {
+            least: self.at_radius(farthest) * (1.0 - 1e-14),
+            greatest: self.at_radius(nearest) * (1.0 + 1e-14),
+        }
+    }
+}
+
+/// The least cost between two places over a grid of n × n squares of a rectangle, where a step goes to any
+/// square at most `reach` away in both directions, by Dijkstra's algorithm. The cost of a step is the mean at
+/// a few of its points.
+pub fn directions(
+    density: &dyn Fn(DVec2) -> f64,
+    bounds: Rect,
+    [from, to]: [DVec2; 2],
+    n: i32,
+    reach: i32,
+) -> f64 {
+    let place =
+        |x: i32, y: i32| bounds.min + bounds.size() * dvec2(f64::from(x), f64::from(y)) / f64::from(n);
+    let nearest = |p: DVec2| {
+        let share = (p - bounds.min) / bounds.size() * f64::from(n);
+        (share.x.round() as i32, share.y.round() as i32)
+    };
+    let steps: Vec<(i32, i32)> = (-reach..=reach)
+        .flat_map(|x| (-reach..=reach).map(move |y| (x, y)))
+        .filter(|&(x, y)| greatest_divisor(x.abs(), y.abs()) == 1)
+        .collect();
+    let index = |(x, y): (i32, i32)| (y * (n + 1) + x) as usize;
+    let mut best = vec![f64::INFINITY; ((n + 1) * (n + 1)) as usize];
+    let mut heap = BinaryHeap::new();
+    best[index(nearest(from))] = 0.0;
+    heap.push(Reverse((0u64, nearest(from))));
+    while let Some(Reverse((key, at))) = heap.pop() {
+        let value = f64::from_bits(key);
+        if at == nearest(to) {
+            return value;
+        }
+        if value > best[index(at)] {
+            continue;
+        }
+        for &(dx, dy) in &steps {
+            let next = (at.0 + dx, at.1 + dy);
+            if !(0..=n).contains(&next.0) || !(0..=n).contains(&next.1) {
+                continue;
+            }
+            let (p, q) = (place(at.0, at.1), place(next.0, next.1));
+            let mean = (0..4).map(|k| density(p.lerp(q, (f64::from(k) + 0.5) / 4.0))).sum::<f64>() / 4.0;
+            let total = value + mean * p.distance(q);
+            if total < best[index(next)] {
+                best[index(next)] = total;
+                heap.push(Reverse((total.to_bits(), next)));
+            }
+        }
+    }
+    f64::INFINITY
+}
+
+fn greatest_divisor(a: i32, b: i32) -> i32 {
+    if b == 0 { a } else { greatest_divisor(b, a % b) }
+}
