@@ -61,7 +61,8 @@ pub use raster::{PixelRect, Raster, RasterPyramid, TiledRaster};
 
 // Paint.
 pub use document::{
-    Background, Document, Example, Follower, MeshChange, Picture, Setting, Settings, SettingsError, Stage,
+    Background, Document, Example, Follower, MeshChange, PathCost, PathPlan, Picture, Setting, Settings,
+    SettingsError, Stage,
 };
 pub use layers::{
     Combine, Decision, InvalidLayer, Layer, LayerId, LayerKind, LeastTarget, PaintLayers, Quantity,

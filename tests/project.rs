@@ -7,17 +7,18 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use glam::dvec2;
-use meshbrush::internals::document::{Document, Example, Follower, Settings, Stage};
+use meshbrush::internals::document::{Document, Example, Follower, PathCost, PathPlan, Settings, Stage};
 use meshbrush::internals::domain::{
     BoundaryMarks, BoundaryPiece, BoundaryPieces, BoundaryTreatment, Domain, DomainShape,
 };
-use meshbrush::internals::field::{Formula, RefinementRule, Transfer};
+use meshbrush::internals::field::{CostFormula, Formula, RefinementRule, Transfer};
 use meshbrush::internals::geometry::Rect;
 use meshbrush::internals::io::project::{self, Project};
 use meshbrush::internals::layers::{
     Combine, Layer, LayerId, LayerKind, PaintLayers, Quantity, RasterReading, RasterSource,
 };
 use meshbrush::internals::paint::{Brush, DiameterChange, Medium};
+use meshbrush::internals::path::Weights;
 use meshbrush::internals::raster::{Raster, RasterPyramid, Tile, TilePlace};
 use meshbrush::internals::text::LengthUnit;
 
@@ -51,6 +52,17 @@ fn scribble(document: &mut Document, random: &mut fastrand::Rng) {
         }
         document.end_stroke();
     }
+}
+
+/// Some paths with any places, and a cost by weights or by a formula.
+fn paths(random: &mut fastrand::Rng) -> PathPlan {
+    let mut place = || dvec2(random.f64(), -random.f64());
+    let routes = (2..5).map(|count| (0..count).map(|_| place()).collect()).take(2).collect();
+    let cost = match random.bool() {
+        true => PathCost::Weighted(Weights { length: random.f64(), risk: 0.1 + random.f64() }),
+        false => PathCost::Formula(CostFormula::parse("1 + x^2 + 5*risk").unwrap()),
+    };
+    PathPlan { routes, cost }
 }
 
 /// Outlines with holes, crossing themselves and each other, at places where coordinates have many digits.
@@ -120,6 +132,7 @@ fn documents() -> Vec<Document> {
             pins: Arc::new(
                 (0..random.usize(..5)).map(|_| dvec2(random.f64(), -extent * random.f64())).collect(),
             ),
+            paths: Arc::new(paths(&mut random)),
             spacing: extent / (3.0 + random.f64()),
             transfer: Transfer { h_min: extent / 700.3, h_max: extent / 3.7, shape: 0.1 + random.f64() },
             layers: Layer::usual(LayerKind::constant(extent * random.f64().max(1e-3))),

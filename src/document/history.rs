@@ -46,6 +46,7 @@ pub(super) fn shared_data(settings: &Settings) -> impl Iterator<Item = SharedDat
     let outline = settings.domain.region().map(|region| (Arc::as_ptr(region).addr(), region.bytes()));
     let marks = (Arc::as_ptr(&settings.boundary_marks).addr(), settings.boundary_marks.bytes());
     let pins = (Arc::as_ptr(&settings.pins).addr(), size_of_val(&settings.pins[..]));
+    let paths = (Arc::as_ptr(&settings.paths).addr(), settings.paths.bytes());
     let layers = settings.layers.iter().filter_map(|layer| match &layer.kind {
         LayerKind::Paint(_) | LayerKind::Threats(_) | LayerKind::Distance { .. } => None,
         LayerKind::Formula { formula, .. } => Some((formula.address(), formula.bytes())),
@@ -58,7 +59,7 @@ pub(super) fn shared_data(settings: &Settings) -> impl Iterator<Item = SharedDat
         .as_ref()
         .map(|background| (Arc::as_ptr(&background.picture).addr(), background.picture.rgba.len()));
     let domain = settings.domain.formula().map(|formula| (formula.address(), formula.bytes()));
-    layers.chain(domain).chain(outline).chain([marks, pins]).chain(background)
+    layers.chain(domain).chain(outline).chain([marks, pins, paths]).chain(background)
 }
 
 /// One gesture, done or undone.

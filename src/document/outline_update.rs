@@ -24,8 +24,8 @@ impl OutlineUpdate {
         let fits = wanted.boundary.diameter().is_some() && wanted.rule == RefinementRule::Area;
         let has_outlines = shown.domain.formula().is_none() && wanted.domain.formula().is_none();
         let (domain, boundary_marks) = (wanted.domain.clone(), wanted.boundary_marks.clone());
-        let pins = wanted.pins.clone();
-        let otherwise_equal = Settings { domain, boundary_marks, pins, ..shown.clone() } == *wanted;
+        let (pins, paths) = (wanted.pins.clone(), wanted.paths.clone());
+        let otherwise_equal = Settings { domain, boundary_marks, pins, paths, ..shown.clone() } == *wanted;
         fits && has_outlines && shown.domain.bounds == wanted.domain.bounds && otherwise_equal
     }
 

@@ -4,7 +4,7 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::layer_titles::layers_title;
-use super::{Background, Settings};
+use super::{Background, PathPlan, Settings};
 use crate::domain::{BoundaryMarks, BoundaryTreatment, Domain};
 use crate::field::RefinementRule;
 use crate::geometry::Rect;
@@ -53,6 +53,8 @@ pub enum Setting {
     BoundaryMarks(BoundaryMarks),
     /// Points whose triangles and values are followed, in world units.
     Pins(Arc<Vec<DVec2>>),
+    /// Between which places paths are sought, and what they cost.
+    Paths(Arc<PathPlan>),
     /// The unit of coordinates and lengths.
     LengthUnit(LengthUnit),
     /// The picture behind the mesh, or none.
@@ -88,6 +90,7 @@ impl Setting {
             Self::Cleaning(_) => "cleaning",
             Self::BoundaryMarks(_) => "boundary names",
             Self::Pins(_) => "pins",
+            Self::Paths(_) => "path",
             Self::LengthUnit(_) => "unit",
             Self::Background(_) => "background",
         }
@@ -120,6 +123,7 @@ impl Setting {
             Self::Cleaning(cleaning) => settings.cleaning = cleaning,
             Self::BoundaryMarks(marks) => settings.boundary_marks = Arc::new(marks),
             Self::Pins(pins) => settings.pins = pins,
+            Self::Paths(paths) => settings.paths = paths,
             Self::LengthUnit(unit) => settings.unit = unit,
             Self::Background(background) => settings.background = background,
         }

@@ -3,13 +3,14 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use super::Background;
+use super::{Background, PathPlan};
 use crate::build::MeshSpec;
 use crate::domain::{BoundaryMarks, BoundaryTreatment, Domain};
 use crate::field::{RefinementRule, Transfer, TransferError, checked_target};
 use crate::geometry::{GridError, Lattice, Rect};
 use crate::layers::{Layer, LayerKind, Quantity, Shapes, SizeFieldSpec};
 use crate::mesh::{Cleaning, KeptParts, Limits, MemoryLimit};
+use crate::path::PathError;
 use crate::text::{Bytes, LengthUnit, Number};
 
 /// Everything about a document that is not paint.
@@ -31,6 +32,8 @@ pub struct Settings {
     pub boundary_marks: Arc<BoundaryMarks>,
     /// Points whose triangles and values are followed, in world units. They do not change the mesh.
     pub pins: Arc<Vec<DVec2>>,
+    /// Between which places paths are sought, and what they cost. They do not change the mesh.
+    pub paths: Arc<PathPlan>,
     /// Largest side δ̄ of a coarse cell, in world units.
     pub spacing: f64,
     /// From risk to diameter; its ends bound h̄ everywhere.
@@ -72,6 +75,9 @@ pub enum SettingsError {
     /// A pin is nowhere.
     #[error("A pin at x = {}, y = {} cannot be kept: both must be finite numbers.", Number(_0.x), Number(_0.y))]
     Pin(DVec2),
+    /// A path is impossible.
+    #[error(transparent)]
+    Path(#[from] PathError),
     /// The domain is empty.
     #[error("Nothing would be left of the domain: keep some of it.")]
     EmptyDomain,
@@ -136,6 +142,7 @@ impl Settings {
         {
             return Err(SettingsError::PartShare(share));
         }
+        self.paths.check()?;
         if let Some(&pin) = self.pins.iter().find(|pin| !pin.is_finite()) {
             return Err(SettingsError::Pin(pin));
         }
@@ -229,9 +236,9 @@ impl Settings {
         };
         let Self { unit, cleaning, max_triangles, max_memory, .. } = *other;
         let (boundary_marks, background) = (other.boundary_marks.clone(), other.background.clone());
-        let pins = other.pins.clone();
+        let (pins, paths) = (other.pins.clone(), other.paths.clone());
         let derived = Self { boundary, boundary_marks, cleaning, max_triangles, max_memory, ..self.clone() };
-        Self { unit, background, pins, ..derived } == *other
+        Self { unit, background, pins, paths, ..derived } == *other
     }
 
     /// What the mesh may cost.
@@ -278,6 +285,7 @@ impl Default for Settings {
             cleaning: Cleaning::FOR_SOLVERS,
             boundary_marks: Arc::default(),
             pins: Arc::default(),
+            paths: Arc::default(),
             transfer: Transfer { h_min: 0.0024, h_max: 0.2, shape: 1.0 },
             layers: Layer::usual(LayerKind::constant(0.2)),
             gradation: None,

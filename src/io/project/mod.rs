@@ -30,6 +30,7 @@ mod old_tiles;
 mod old_version;
 mod painted;
 mod part_names;
+mod paths;
 mod pixels;
 mod saved_background;
 mod settings;

@@ -10,6 +10,7 @@ use super::super::error::{PlacedFlaw, shown};
 use super::super::words::{SavedName, SavedRule, SavedUnit, marks_of, saved_marks};
 use super::old_version::SavedBase;
 use super::part_names::PartNames;
+use super::paths::SavedPaths;
 use super::saved_background::SavedBackground;
 use super::stored_layers::StoredLayer;
 use super::{FORMAT, VERSION};
@@ -54,6 +55,9 @@ pub(super) struct Saved {
     /// x and y of each.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pins: Vec<[f64; 2]>,
+    /// Missing in files of older versions.
+    #[serde(default, skip_serializing_if = "SavedPaths::is_empty")]
+    paths: SavedPaths,
     spacing: f64,
     transfer: SavedTransfer,
     /// In version 1: the field under the paint, and the pixels of the paint along the longer side.
@@ -214,6 +218,7 @@ impl Saved {
             cleaning: settings.cleaning.into(),
             boundary_marks: SavedMarks::of(&settings.boundary_marks),
             pins: settings.pins.iter().map(DVec2::to_array).collect(),
+            paths: SavedPaths::of(&settings.paths),
             spacing: settings.spacing,
             transfer: SavedTransfer { h_min, h_max, shape },
             base: None,
@@ -293,6 +298,7 @@ impl Saved {
             cleaning: self.cleaning.into(),
             boundary_marks: Arc::new(marks_of(&self.boundary_marks.splits, &self.boundary_marks.names)),
             pins: Arc::new(self.pins.into_iter().map(DVec2::from_array).collect()),
+            paths: self.paths.load()?,
             spacing: self.spacing,
             transfer: Transfer {
                 h_min: self.transfer.h_min,

@@ -1,0 +1,65 @@
+//! The paths of a document in a project.
+
+use std::sync::Arc;
+
+use glam::DVec2;
+use serde::{Deserialize, Serialize};
+
+use crate::document::{PathCost, PathPlan};
+use crate::field::CostFormula;
+use crate::io::Flaw;
+use crate::path::Weights;
+
+/// Between which places, and what they cost.
+#[derive(Debug, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct SavedPaths {
+    /// x and y of each place of each path, from the start to the goal.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    routes: Vec<Vec<[f64; 2]>>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    cost: Option<SavedCost>,
+}
+
+#[derive(Debug, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+enum SavedCost {
+    Weights { length: f64, risk: f64 },
+    Formula(String),
+}
+
+impl SavedPaths {
+    pub(super) fn of(paths: &PathPlan) -> Self {
+        let route = |route: &Vec<DVec2>| route.iter().map(DVec2::to_array).collect();
+        let cost = match &paths.cost {
+            PathCost::Weighted(Weights { length, risk }) => {
+                SavedCost::Weights { length: *length, risk: *risk }
+            }
+            PathCost::Formula(formula) => SavedCost::Formula(formula.source().into()),
+        };
+        let is_usual = paths.cost == PathCost::default();
+        Self { routes: paths.routes.iter().map(route).collect(), cost: (!is_usual).then_some(cost) }
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.routes.is_empty() && self.cost.is_none()
+    }
+
+    /// The paths; their places and weights are checked with all settings.
+    ///
+    /// # Errors
+    /// When the formula is not valid.
+    pub(super) fn load(self) -> Result<Arc<PathPlan>, Flaw> {
+        let route = |route: Vec<[f64; 2]>| route.into_iter().map(DVec2::from_array).collect();
+        let cost = match self.cost {
+            None => PathCost::default(),
+            Some(SavedCost::Weights { length, risk }) => PathCost::Weighted(Weights { length, risk }),
+            Some(SavedCost::Formula(text)) => {
+                PathCost::Formula(CostFormula::parse(&text).map_err(|mistake| {
+                    Flaw::Syntax(format!("the cost of paths is no valid formula. {mistake}"))
+                })?)
+            }
+        };
+        Ok(Arc::new(PathPlan { routes: self.routes.into_iter().map(route).collect(), cost }))
+    }
+}
