@@ -242,13 +242,14 @@ fn only_the_window_uses_egui() {
 }
 
 /// Files of the window that may name a tool: the file, and why. All others read the table of tools.
-const NAMES_A_TOOL: [(&str, &str); 10] = [
+const NAMES_A_TOOL: [(&str, &str); 11] = [
     ("src/app/canvas/mod.rs", "Space and the middle button pan with every tool"),
     ("src/app/catalog/tool.rs", "the modes of the tools for domain and boundary are commands"),
     ("src/app/execute/domain.rs", "commands of the tools for domain and boundary select them"),
     ("src/app/execute/layers.rs", "a layer of threats is edited with the tool for threats"),
     ("src/app/execute/mod.rs", "some commands belong to one tool"),
     ("src/app/panels/brush.rs", "brush and eraser share a section"),
+    ("src/app/execute/report.rs", "Figure 6 of the report is a query"),
     ("src/app/execute/threats.rs", "counts uses of the tool for threats"),
     ("src/app/panels/domain.rs", "the section shows the tool's settings while it is selected"),
     ("src/app/screenshots/mod.rs", "pictures of single tools"),

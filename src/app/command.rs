@@ -12,6 +12,7 @@ use super::explore::TreeStep;
 use super::help::HelpTopic;
 use super::plots::PlotsCommand;
 use super::readout::Quantity;
+use super::report::FigureCommand;
 use super::stepping::StepCommand;
 use super::tools::{BoundaryToolMode, BrushMode, DomainToolMode, PaintKind, PenEffect, Tool};
 use super::view::{CanvasAid, FieldOverlay};
@@ -163,6 +164,9 @@ pub enum Command {
 
     /// Shows plots, or does something with them.
     Plots(PlotsCommand),
+
+    /// Opens or closes a figure of the report.
+    Figure(FigureCommand),
 
     /// Edits the domain, or sets up the tool for it.
     Domain(DomainCommand),

@@ -33,6 +33,7 @@ use super::tools::Tools;
 use super::view::View;
 use super::walks::WalkMeter;
 use super::{help, journal, keys, panels, project};
+use crate::document::ReportFigure;
 use crate::text::LengthUnit;
 
 /// The least time of a frame that goes into updating the mesh.
@@ -66,6 +67,8 @@ pub struct FrameState<'a> {
     pub pins: &'a PinReader,
     /// The chosen plot, and what was measured for plots.
     pub plots: &'a Plots,
+    /// The figure of the report that is shown.
+    pub report: Option<ReportFigure>,
     /// Where the pointer is on the canvas, in world units.
     pub pointer: Option<DVec2>,
     /// The queried point and the triangle around it.
@@ -256,6 +259,7 @@ impl App {
             explore: &self.explore,
             pins: &self.pins,
             plots: &self.plots,
+            report: self.report.and_then(|shown| shown.figure(&self.session)),
             walks: &self.walks,
             pointer: self.canvas.pointer(),
             readout,

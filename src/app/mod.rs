@@ -33,6 +33,7 @@ mod plots;
 mod project;
 mod explore;
 pub mod readout;
+mod report;
 mod screenshots;
 pub mod session;
 mod statistics;
@@ -63,6 +64,7 @@ use layer_pictures::LayerPictures;
 use pins::PinReader;
 use plots::Plots;
 use project::ProjectFile;
+use report::ShownFigure;
 pub use screenshots::{write as write_screenshots, write_manual as write_manual_pictures, write_tour};
 use session::Session;
 use stepping::Stepping;
@@ -97,6 +99,8 @@ pub struct App {
     explore: Explore,
     pins: PinReader,
     plots: Plots,
+    /// The figure of the report that is shown.
+    report: Option<ShownFigure>,
     walks: WalkMeter,
     dialogs: Dialogs,
     /// What the help window shows, while it is open.
@@ -159,6 +163,7 @@ impl App {
             explore: Explore::default(),
             pins: PinReader::default(),
             plots: Plots::default(),
+            report: None,
             walks: WalkMeter::default(),
             dialogs: Dialogs::default(),
             help: None,

@@ -10,6 +10,7 @@ use super::background::{Aim, Background, Outcome, cancelled};
 use super::command::{Command, Opened};
 use super::files::listed;
 use super::frame::FrameState;
+use super::report::FigureCommand;
 use super::session::Session;
 use super::widgets::{Answer, ConfirmDialog};
 use crate::io;
@@ -330,7 +331,12 @@ impl ProjectFile {
 fn leaves(command: &Command) -> bool {
     matches!(
         command,
-        Command::New | Command::OpenExample(_) | Command::Show(_) | Command::Restore | Command::Quit
+        Command::New
+            | Command::OpenExample(_)
+            | Command::Figure(FigureCommand::Open(_))
+            | Command::Show(_)
+            | Command::Restore
+            | Command::Quit
     )
 }
 

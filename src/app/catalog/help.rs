@@ -5,13 +5,20 @@ use eframe::egui::{Key, Modifiers};
 use super::{CatalogItem, Menu};
 use crate::app::command::Command;
 use crate::app::help::HelpTopic;
-use crate::document::Example;
+use crate::app::report::FigureCommand;
+use crate::document::{Example, ReportFigure};
 
-/// Documents that come with the program.
+/// Documents that come with the program, and those of the figures of the report.
 pub fn examples() -> Vec<CatalogItem> {
     let item =
         |example: Example| CatalogItem::new(Menu::Examples, example.name(), Command::OpenExample(example));
-    Example::ALL.map(item).into()
+    let figure = |(number, figure): (usize, ReportFigure)| {
+        let open = Command::Figure(FigureCommand::Open(figure));
+        let item = CatalogItem::new(Menu::Examples, format!("The report, {}", figure.name()), open);
+        if number == 0 { item.group() } else { item }
+    };
+    let figures = ReportFigure::ALL.into_iter().enumerate().map(figure);
+    Example::ALL.map(item).into_iter().chain(figures).collect()
 }
 
 /// The manual, keys and gestures, and what the program is.

@@ -129,7 +129,7 @@ impl App {
         }
     }
 
-    fn open(&mut self, document: Document) {
+    pub(super) fn open(&mut self, document: Document) {
         self.show_document(document);
         self.project.belongs_to(None, self.session.document().version(), true);
     }

@@ -7,6 +7,7 @@ mod painting;
 mod steps;
 mod pins;
 mod plots;
+mod report;
 mod threats;
 
 use eframe::egui::Context;
@@ -36,6 +37,7 @@ impl App {
             Some(Command::Threats(command)) => self.execute_on_threats(command),
             Some(Command::Steps(command)) => self.execute_on_steps(command, ctx),
             Some(Command::Pins(command)) => self.execute_on_pins(command, ctx),
+            Some(Command::Figure(command)) => self.execute_on_report(command, ctx),
             Some(Command::Plots(command)) => self.execute_on_plots(command, ctx),
             Some(Command::Domain(command)) => self.execute_on_domain(command),
             Some(Command::Boundary(command)) => self.execute_on_boundary(command),

@@ -16,6 +16,7 @@ mod levels;
 mod mesh;
 mod pins;
 mod plots;
+mod report;
 mod statistics;
 mod status;
 mod steps;
@@ -124,6 +125,7 @@ fn side_panel(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) 
     }
     area.show(ui, |ui| {
         Frame::new().inner_margin(margin).show(ui, |ui| {
+            report::section(ui, state, commands);
             for panel in sections(state.tools.tool) {
                 (panel.show)(ui, state, commands);
             }

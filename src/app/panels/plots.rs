@@ -14,7 +14,7 @@ use crate::document::Experiment;
 pub static PLOTS: Panel = Panel { name: "plots", only_with_tool: false, show };
 
 /// Height of a plot, in points.
-const HEIGHT: f32 = 210.0;
+pub(super) const HEIGHT: f32 = 210.0;
 /// Height of legend and note, in points.
 const ROOM_AROUND: f32 = 56.0;
 const HOW_TO_MEASURE: &str = "Measure makes the meshes of Section 5.4 of the report on this machine. The deepest has \
@@ -65,7 +65,7 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
 }
 
 /// How the experiment is measured, and the button that begins it; or its progress.
-fn measuring(ui: &mut Ui, plots: &Plots, commands: &mut Vec<Command>) {
+pub(super) fn measuring(ui: &mut Ui, plots: &Plots, commands: &mut Vec<Command>) {
     if plots.is_measuring() {
         let level = plots.experiment().meshes.len() + 1;
         value_row(ui, "Measuring", &format!("level {level} of {}", plots.last_level));

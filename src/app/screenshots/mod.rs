@@ -11,11 +11,13 @@ use glam::{DVec2, dvec2};
 
 use super::SMALLEST_SIZE;
 use super::WINDOW_SIZE;
-use super::command::{BoundaryCommand, BrushCommand, Command, DomainCommand, LayerCommand};
+use super::command::{BoundaryCommand, BrushCommand, Command, DomainCommand, LayerCommand, PinsCommand};
 use super::plots::{PlotKind, PlotsCommand};
+use super::report::FigureCommand;
+use super::stepping::StepCommand;
 use super::tools::{BoundaryToolMode, DomainToolMode, PaintKind, QUERY};
 use super::view::FieldOverlay;
-use crate::document::{Example, Setting};
+use crate::document::{Example, ReportFigure, Setting};
 use crate::field::{Formula, RefinementRule};
 use crate::io;
 use crate::layers::{Layer, LayerKind};
@@ -33,11 +35,15 @@ struct Scene {
     act: fn(&mut OffscreenWindow),
 }
 
-const SCENES: [Scene; 13] = [
+const SCENES: [Scene; 17] = [
     scene("window", window),
     scene("query", query),
     scene("why", why),
     scene("plots", plots),
+    scene("pins", pins),
+    scene("steps", steps),
+    scene("figure-4", figure_4),
+    scene("walk", walk),
     scene("diamond", diamond),
     scene("terrain", terrain),
     scene("aegean", aegean),
@@ -110,6 +116,33 @@ fn why(window: &mut OffscreenWindow) {
 /// What compatibility costs, by level.
 fn plots(window: &mut OffscreenWindow) {
     window.send(Command::Plots(PlotsCommand::Show(PlotKind::Bisections)));
+}
+
+/// Pins with the table of their values.
+fn pins(window: &mut OffscreenWindow) {
+    window.send(Command::Use(&QUERY));
+    for pin in [dvec2(0.651, 0.464), dvec2(0.27, 0.51), dvec2(0.715, 0.735), dvec2(0.9, 0.9)] {
+        window.send(Command::Pins(PinsCommand::Add(pin)));
+    }
+}
+
+/// A step of the refinement, with a triangle that waits on the stack.
+fn steps(window: &mut OffscreenWindow) {
+    window.send(Command::Set(Setting::SmallestDiameter(0.06)));
+    window.send(Command::Set(Setting::Spacing(0.25)));
+    window.send(Command::Steps(StepCommand::Begin));
+    window.send(Command::Steps(StepCommand::GoTo(120)));
+}
+
+/// A pair of triangles whose neighbours are updated, as in Figure 4 of the report.
+fn figure_4(window: &mut OffscreenWindow) {
+    window.send(Command::Figure(FigureCommand::Open(ReportFigure::Neighbours)));
+}
+
+/// The walk of point location, with the test of Figure 6 of the report.
+fn walk(window: &mut OffscreenWindow) {
+    window.send(Command::Figure(FigureCommand::Open(ReportFigure::Orientation)));
+    look_at(window, dvec2(6.2, 0.8), 8.0);
 }
 
 /// Figure 1 of the report.

@@ -20,6 +20,7 @@ use super::latest::Latest;
 use super::session::Session;
 use super::tools::Tools;
 use crate::build::RefinementCriterion;
+use crate::document::ReportFigure;
 use crate::mesh::{Mesh, Progress, Recording, StepPlayer, StepRecorder};
 
 /// A mesh with more triangles is recorded up to here: nobody follows more steps.
@@ -56,6 +57,8 @@ pub struct Stepping {
     tools: Tools,
     document: DocumentState,
     recording: Latest<(), Result<Recording, String>>,
+    /// The figure of the report that the first step shown is to show.
+    figure: Option<ReportFigure>,
     player: Option<StepPlayer>,
     /// The time up to which steps were played, in seconds, while it goes forwards by itself.
     played_until: Option<f64>,
@@ -84,11 +87,17 @@ impl Stepping {
             tools: tools.panning(),
             document: DocumentState::of(session),
             recording: Latest::default(),
+            figure: None,
             player: None,
             played_until: None,
             speed: SPEEDS[1].0,
             export_range: [0, FIRST_EXPORTED],
         }
+    }
+
+    /// As [`Self::new`], to begin at the step that a figure of the report shows.
+    pub fn at_figure(session: &Session, tools: &Tools, figure: ReportFigure) -> Self {
+        Self { figure: Some(figure), ..Self::new(session, tools) }
     }
 
     /// The tools that act on the canvas.
@@ -129,7 +138,14 @@ impl Stepping {
         if self.recording.has(&()) {
             let works = self.recording.take(patience);
             if let Some((_, recorded)) = self.recording.last() {
-                self.player = Some(StepPlayer::new(Arc::new(recorded.clone()?)));
+                let mut player = StepPlayer::new(Arc::new(recorded.clone()?));
+                let shown = player
+                    .recording()
+                    .steps()
+                    .iter()
+                    .position(|step| self.figure.is_some_and(|figure| figure.shows(step)));
+                player.go_to(shown.map_or(0, |index| index + 1));
+                self.player = Some(player);
                 self.recording = Latest::default();
             }
             return Ok(works);

@@ -31,6 +31,7 @@ mod plots;
 mod polygon;
 mod project;
 mod query;
+mod report;
 mod settings;
 mod statistics;
 mod steps;

@@ -25,6 +25,7 @@ pub fn show(ui: &mut Ui, stepping: &Stepping, state: &FrameState<'_>, commands: 
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         Frame::new().inner_margin(margin).show(ui, |ui| {
             title(ui, commands);
+            super::report::section(ui, state, commands);
             match stepping.player() {
                 Some(player) => {
                     contents(ui, player, state);

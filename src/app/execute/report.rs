@@ -1,0 +1,46 @@
+//! Commands about the figures of the report.
+
+use eframe::egui::Context;
+
+use crate::app::App;
+use crate::app::plots::PlotKind;
+use crate::app::report::{FigureCommand, ShownFigure};
+use crate::app::stepping::Stepping;
+use crate::app::tools::QUERY;
+use crate::document::ReportFigure;
+
+impl App {
+    pub(super) fn execute_on_report(&mut self, command: FigureCommand, ctx: &Context) {
+        match command {
+            FigureCommand::Open(figure) => self.open_figure(figure, ctx),
+            FigureCommand::Close => self.report = None,
+            FigureCommand::Copy(text) => {
+                ctx.copy_text(text);
+                self.session.tell("Copied: the figure with its numbers.".into());
+            }
+        }
+    }
+
+    /// Opens the document of a figure, and shows of it what the figure shows.
+    fn open_figure(&mut self, figure: ReportFigure, ctx: &Context) {
+        self.stepping = None;
+        self.open(figure.document());
+        self.report = Some(ShownFigure::new(figure, &self.session));
+        self.view.panels = true;
+        if figure.is_step() {
+            self.stepping = Some(Stepping::at_figure(&self.session, &self.tools, figure));
+        }
+        if let Some(point) = figure.query() {
+            self.use_tool(&QUERY);
+            self.view.aids.walk = true;
+            self.ask(Some(point));
+        }
+        if figure.is_about_time() {
+            self.plots.choose(PlotKind::Figure5);
+        }
+        // Its entry says that the meshes are made; Figure 5 waits for its button.
+        if figure == ReportFigure::Experiment {
+            self.plots.measure(ctx);
+        }
+    }
+}

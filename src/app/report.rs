@@ -1,0 +1,75 @@
+//! A figure of the report that is shown, and its numbers beside ours.
+
+use super::frame::FrameState;
+use super::session::Session;
+use super::stepping::Stepping;
+use super::widgets::format;
+use crate::document::{Comparison, Experiment, ReportFigure};
+
+/// One thing to do with the figures of the report.
+#[derive(Clone, Debug, PartialEq)]
+pub enum FigureCommand {
+    /// Opens the document of a figure, and shows of it what the figure shows.
+    Open(ReportFigure),
+    /// Closes the figure. Its document stays.
+    Close,
+    /// Copies the figure with its numbers.
+    Copy(String),
+}
+
+/// A figure, as long as its document is open.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ShownFigure {
+    figure: ReportFigure,
+    opened_documents: u64,
+}
+
+impl ShownFigure {
+    /// A figure whose document was just opened.
+    pub fn new(figure: ReportFigure, session: &Session) -> Self {
+        Self { figure, opened_documents: session.opened_documents() }
+    }
+
+    /// The figure, while its document is open.
+    pub fn figure(self, session: &Session) -> Option<ReportFigure> {
+        (self.opened_documents == session.opened_documents()).then_some(self.figure)
+    }
+}
+
+/// The numbers of the report beside those on the screen.
+pub fn comparisons(figure: ReportFigure, state: &FrameState<'_>) -> Vec<Comparison> {
+    if figure.is_step() {
+        let player = state.stepping.and_then(Stepping::player);
+        return player.map_or_else(Vec::new, |player| figure.compare_step(player));
+    }
+    if figure.is_about_time() {
+        return of_experiment(figure, state.plots.experiment());
+    }
+    figure.compare_mesh(state.session.mesh(), state.session.queried())
+}
+
+/// The triangles of each mesh, and the gradient of the line of best fit.
+fn of_experiment(figure: ReportFigure, experiment: &Experiment) -> Vec<Comparison> {
+    let count = |count: usize| format::count(count as u64);
+    let row = |mesh: &crate::document::ExperimentMesh| {
+        let stated = mesh.triangles_in_report.map_or_else(|| "–".into(), count);
+        let ours = format!("{} in {}", count(mesh.triangles), format::time(mesh.seconds));
+        Comparison::new(format!("Level {}", mesh.level), stated, ours)
+    };
+    let meshes = experiment.meshes.iter().filter(|_| figure == ReportFigure::Experiment);
+    let mut rows: Vec<Comparison> = meshes.map(row).collect();
+    if let Some([gradient, _]) = experiment.gradients() {
+        let stated = format::fixed(Experiment::STATED_GRADIENT, 2);
+        rows.push(Comparison::new("Gradient", stated, format::fixed(gradient, 3)));
+    }
+    rows
+}
+
+/// Name, text and numbers of a figure, to be copied.
+pub fn as_text(figure: ReportFigure, rows: &[Comparison]) -> String {
+    let mut text = format!("{}\n{}\n\twhat the report says\there\n", figure.name(), figure.text());
+    for Comparison { what, report, ours } in rows {
+        text += &format!("{what}\t{report}\t{ours}\n");
+    }
+    text
+}
