@@ -9,8 +9,10 @@ use super::setup::Kept;
 
 /// One round aims at leaving at least this part of what is lost: estimates are too rough to aim farther.
 const LEAST_LEFT: f64 = 0.12;
-/// Most bisections of a triangle in one round.
-const MOST_BISECTIONS: u32 = 3;
+/// How often a bisection halves what a triangle loses, and the most bisections of a triangle in one round.
+const ELSEWHERE: (f64, f64) = (1.5, 3.0);
+/// The same where the cost jumps: the flow goes round a triangle that was bisected, through the next one.
+const AT_A_JUMP: (f64, f64) = (1.0, 4.0);
 /// Bisections of the range in which the equal loss is searched.
 const SEARCH_STEPS: usize = 60;
 
@@ -48,8 +50,8 @@ pub(super) fn estimates(
 ///
 /// One bisection divides what a triangle on the path loses by about 2^(3/2): its part of the path is shorter
 /// by √2, and an affine function misses half as much. A path is a line, so n bisections make 2^(n/2)
-/// triangles on it. The fewest triangles result where all lose equally much.
-pub(super) fn bisections(estimates: &[f64], goal: f64) -> Vec<u32> {
+/// triangles on it. Where the cost jumps, a bisection gains less. The fewest triangles result where all lose equally much.
+pub(super) fn bisections(estimates: &[f64], minorants: &[Minorant], goal: f64) -> Vec<u32> {
     let all: f64 = estimates.iter().sum();
     let goal = goal.max(LEAST_LEFT * all);
     let left = |equal: f64| -> f64 {
@@ -66,7 +68,9 @@ pub(super) fn bisections(estimates: &[f64], goal: f64) -> Vec<u32> {
         }
     }
     let equal = high.max(f64::MIN_POSITIVE);
-    let most = f64::from(MOST_BISECTIONS);
-    let wanted = |&one: &f64| (libm::log2(one / equal) / 1.5).round().clamp(0.0, most) as u32;
-    estimates.iter().map(wanted).collect()
+    let wanted = |(&one, minorant): (&f64, &Minorant)| {
+        let (halvings, most) = if minorant.has_jump() { AT_A_JUMP } else { ELSEWHERE };
+        (libm::log2(one / equal) / halvings).round().clamp(0.0, most) as u32
+    };
+    estimates.iter().zip(minorants).map(wanted).collect()
 }

@@ -81,6 +81,11 @@ impl Minorant {
         }
     }
 
+    /// Whether no affine function comes near the cost.
+    pub(super) fn has_jump(&self) -> bool {
+        self.mean > 1.1 * self.affine_mean()
+    }
+
     /// The mean of the affine function.
     pub(super) fn affine_mean(&self) -> f64 {
         self.at_corners.iter().sum::<f64>() / 3.0

@@ -209,7 +209,7 @@ impl Certificate {
         let lost = estimates.iter().sum::<f64>() / self.task.upper;
         self.end = self.reason_to_end(before, lost);
         if self.end.is_none() {
-            self.refine(&space, &estimates, lost);
+            self.refine(&space, &minorants, &estimates, lost);
         }
         Ok(self.end)
     }
@@ -231,13 +231,15 @@ impl Certificate {
     }
 
     /// Bisects the triangles that lose most. `lost` is what all lose, as a part of the upper bound.
-    fn refine(&mut self, space: &QuadraticSpace, estimates: &[f64], lost: f64) {
+    fn refine(&mut self, space: &QuadraticSpace, minorants: &[Minorant], estimates: &[f64], lost: f64) {
         // What no refinement changes, as far as the estimates can be trusted.
         let fixed = (self.width() - lost).clamp(0.0, 0.5 * self.task.width);
         let aim = (AIM * (self.task.width - fixed)).min(0.5 * lost);
         let deepest = self.mesh.lattice().deepest_level();
         let mut wanted: Vec<u32> = self.mesh.raw_triangles().iter().map(|t| t.level()).collect();
-        for (element, more) in space.elements.iter().zip(bisections(estimates, aim * self.task.upper)) {
+        for (element, more) in
+            space.elements.iter().zip(bisections(estimates, minorants, aim * self.task.upper))
+        {
             let level = &mut wanted[element.id.index()];
             *level = (*level + more).min(deepest);
         }
