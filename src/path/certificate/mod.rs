@@ -221,8 +221,9 @@ impl Certificate {
             return Some(CertificateEnd::Reached);
         }
         self.idle = if width < 0.98 * before { 0 } else { self.idle + 1 };
-        let upper_limits = lost < 0.5 * width;
-        if self.idle >= MOST_IDLE || (upper_limits && lost < 0.1 * self.task.width) {
+        // Even a bound that loses nothing would not reach the width; the estimates may be off by a factor of two.
+        let upper_limits = width - 2.0 * lost > self.task.width;
+        if self.idle >= MOST_IDLE || (upper_limits && lost < 0.5 * self.task.width) {
             let reason =
                 if upper_limits { CertificateEnd::UpperBoundLimits } else { CertificateEnd::NoMoreGain };
             return Some(reason);

@@ -9,6 +9,8 @@ use crate::path::{CostDensity, PathError, Waypoint};
 
 /// Coarse cells along the longer side of the domain, unless the task says otherwise.
 const CELLS: f64 = 8.0;
+/// Most coarse cells along that side.
+const MOST_CELLS: f64 = 40.0;
 /// A certificate of more nodes takes minutes.
 const MOST_NODES: usize = 12_000;
 
@@ -86,6 +88,24 @@ impl CertificateTask {
     /// When the rectangle is none.
     pub fn lattice_over(bounds: Rect) -> Result<Lattice, GridError> {
         Lattice::covering(bounds, bounds.size().max_element() / CELLS, 8 * MOST_NODES)
+    }
+
+    /// As [`Self::lattice_over`], with the lines between the pixels of a raster of such a `size` (columns, rows)
+    /// over the rectangle, where there is one: a cost that is constant on pixels then follows the mesh.
+    ///
+    /// # Errors
+    /// When the rectangle is none.
+    pub fn lattice_along_pixels(bounds: Rect, size: [u32; 2]) -> Result<Lattice, GridError> {
+        let mut cells = size[0].max(size[1]).max(1);
+        while cells.is_multiple_of(2) && f64::from(cells) > CELLS {
+            cells /= 2;
+        }
+        if f64::from(cells) > MOST_CELLS {
+            return Self::lattice_over(bounds);
+        }
+        // A little more, so that rounding adds no cell.
+        let spacing = bounds.size().max_element() / f64::from(cells) * (1.0 + 1e-12);
+        Lattice::covering(bounds, spacing, 8 * MOST_NODES)
     }
 
     /// The same task, where paths stay in a domain.
