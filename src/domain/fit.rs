@@ -137,7 +137,7 @@ impl DomainOnLattice {
         match (&self.region, &self.formula) {
             (Some(region), _) => region.lies_outside(element.corners, element.triangle.level()),
             (None, Some(formula)) => {
-                let bounds = formula.bounds(&bounding_rectangle(element));
+                let bounds = formula.bounds(&element.world_rectangle());
                 bounds.least == 0.0 && bounds.greatest == 0.0
             }
             (None, None) => false,
@@ -149,7 +149,7 @@ impl DomainOnLattice {
         match (&self.region, &self.formula) {
             (Some(region), _) => region.outline_crosses(element.corners, element.triangle.level()),
             (None, Some(formula)) => {
-                let bounds = formula.bounds(&bounding_rectangle(element));
+                let bounds = formula.bounds(&element.world_rectangle());
                 !bounds.valid || (bounds.least <= 0.0 && bounds.greatest >= 0.0)
             }
             (None, None) => false,
@@ -233,10 +233,4 @@ impl DomainOnLattice {
             _ => false,
         }
     }
-}
-
-/// The smallest rectangle around an element, in world units.
-fn bounding_rectangle(element: &Element) -> Rect {
-    let [a, b, c] = element.world_corners();
-    Rect::spanning(a, b).union(&Rect::new(c, c))
 }

@@ -7,6 +7,7 @@
 //!   trace, refine          → a polyline, and a better one near it
 //!   PathFigures            → its cost, rounded up: no path needs to cost more
 //!   LowerBound             → no path costs less
+//!   Certificate            → a better bound, on a mesh of its own, as close as asked for
 //! ```
 
 mod certificate;
@@ -25,7 +26,9 @@ mod solution;
 mod trace;
 mod walls;
 
-pub use certificate::{Certificate, CertificateEnd, CertificateTask, Placement, PlacementTest};
+pub use certificate::{
+    Certificate, CertificateEnd, CertificateTask, PathCertificate, Placement, PlacementTest,
+};
 pub use cost::{CostDensity, CostRange, FormulaCost, WeightedCost, Weights, checked_range};
 pub use error::{PathError, Waypoint};
 pub use integral::PathFigures;

@@ -32,7 +32,7 @@ enum Kind {
     Power(i32),
     /// e^x.
     Exponential,
-    /// 1 where the point is left of the line x cos φ + y sin φ = 0, and 3 right of it; (cos φ, sin φ) is given.
+    /// 1 left of a line through the origin, and 3 right of it; the unit normal to the right is given.
     HalfPlanes(DVec2),
 }
 

@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use super::{DEEPEST_LEVEL, Mesh, Triangle, TriangleId, bisection_edge_length};
-use crate::geometry::{Lattice, LatticePoint};
+use crate::geometry::{Lattice, LatticePoint, Rect};
 
 /// A triangle as a refinement rule sees it.
 pub struct Element<'a> {
@@ -37,6 +37,12 @@ impl Element<'_> {
     #[inline]
     pub fn world_corners(&self) -> [DVec2; 3] {
         self.corners.map(|c| self.lattice.world_from_lattice(c))
+    }
+
+    /// The smallest rectangle around it, in world units.
+    pub fn world_rectangle(&self) -> Rect {
+        let [a, b, c] = self.world_corners();
+        Rect::new(a.min(b).min(c), a.max(b).max(c))
     }
 }
 

@@ -30,6 +30,7 @@
 //! Nothing is taken from the solver on trust: λ and the difference are computed from the values of v, and
 //! rounded down. A programme that fails leaves the bound of those before.
 
+mod legs;
 mod marking;
 mod minorant;
 mod programme;
@@ -53,6 +54,7 @@ use proof::proven_gain;
 use quadratic::{QuadraticElement, QuadraticSpace};
 use triangle::FlatTriangle;
 
+pub use legs::PathCertificate;
 pub use task::{CertificateEnd, CertificateTask, Placement, PlacementTest};
 
 /// One round aims at losing this part of the requested width.
@@ -221,7 +223,7 @@ impl Certificate {
             return Some(CertificateEnd::Reached);
         }
         self.idle = if width < 0.98 * before { 0 } else { self.idle + 1 };
-        // Even a bound that loses nothing would not reach the width; the estimates may be off by a factor of two.
+        // Even a bound that loses nothing would not reach the width, if estimates are right within a factor of 2.
         let upper_limits = width - 2.0 * lost > self.task.width;
         if self.idle >= MOST_IDLE || (upper_limits && lost < 0.5 * self.task.width) {
             let reason =

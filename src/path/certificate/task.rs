@@ -4,6 +4,7 @@ use glam::DVec2;
 
 use crate::domain::DomainOnLattice;
 use crate::geometry::{GridError, Lattice, Rect};
+use crate::layers::{Coverage, Mask};
 use crate::mesh::Element;
 use crate::path::{CostDensity, PathError, Waypoint};
 
@@ -15,7 +16,7 @@ const MOST_CELLS: f64 = 40.0;
 const MOST_NODES: usize = 12_000;
 
 /// How a triangle lies to the part of the plane where paths may go.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Placement {
     /// All of it belongs to that part, or none can tell.
     Inside,
@@ -90,8 +91,8 @@ impl CertificateTask {
         Lattice::covering(bounds, bounds.size().max_element() / CELLS, 8 * MOST_NODES)
     }
 
-    /// As [`Self::lattice_over`], with the lines between the pixels of a raster of such a `size` (columns, rows)
-    /// over the rectangle, where there is one: a cost that is constant on pixels then follows the mesh.
+    /// As [`Self::lattice_over`], with the lines between the pixels of a raster over the rectangle, where there
+    /// is such a grid: a cost that is constant on pixels then follows the mesh. `size` is [columns, rows].
     ///
     /// # Errors
     /// When the rectangle is none.
@@ -108,17 +109,25 @@ impl CertificateTask {
         Lattice::covering(bounds, spacing, 8 * MOST_NODES)
     }
 
-    /// The same task, where paths stay in a domain.
-    pub fn within(self, domain: DomainOnLattice) -> Self {
+    /// The same task, where paths stay in a domain and outside keep-out regions. The mesh begins with the grid
+    /// that the domain is indexed on, which needs no more cells than [`Self::lattice_over`] makes.
+    pub fn within(self, domain: DomainOnLattice, keep_out: Vec<Mask>) -> Self {
         let lattice = *domain.lattice();
         let placement: PlacementTest = Arc::new(move |element| {
-            if domain.has_none_of(element) {
+            let rectangle = element.world_rectangle();
+            let kept_out = keep_out.iter().map(|mask| match mask.classify(&rectangle) {
+                Coverage::Inside => Placement::Outside,
+                Coverage::Mixed => Placement::Cut,
+                Coverage::Outside => Placement::Inside,
+            });
+            let in_domain = if domain.has_none_of(element) {
                 Placement::Outside
             } else if domain.may_cut(element) {
                 Placement::Cut
             } else {
                 Placement::Inside
-            }
+            };
+            kept_out.fold(in_domain, Placement::max)
         });
         Self { lattice, placement, ..self }
     }
