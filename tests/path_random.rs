@@ -10,9 +10,8 @@ use meshbrush::glam::{DVec2, dvec2};
 use meshbrush::internals::layers::Mask;
 use meshbrush::internals::path::{PathCertificate, PathMesh, PathRequest, Planner, Solution};
 use meshbrush::{
-    BoundaryTreatment, CertificateTask, Domain, DomainOnLattice, Formula, Lattice, Layer, LayerKind, Limits,
-    Mesh, PaintLayers, Raster, RasterPyramid, RasterReading, RasterSource, Rect, RiskField, WeightedCost,
-    Weights,
+    CertificateTask, Formula, Lattice, Layer, LayerKind, Limits, Mesh, PaintLayers, Raster, RasterPyramid,
+    RasterReading, RasterSource, Rect, RiskField, WeightedCost, Weights,
 };
 
 /// The width that certificates are asked for.
@@ -69,12 +68,9 @@ fn mesh(cells: f64, diameter: impl Fn(DVec2) -> f64) -> Mesh {
 }
 
 fn certified(solution: &Solution, cost: &WeightedCost, keep_out: &[Mask]) -> PathCertificate {
-    let lattice = CertificateTask::lattice_over(Rect::UNIT).unwrap();
-    let whole = Domain::rectangle(Rect::UNIT);
-    let domain = DomainOnLattice::new(&whole, BoundaryTreatment::Report, &lattice);
     let cost = Arc::new(cost.clone());
     let task = CertificateTask::in_rectangle(Rect::UNIT, cost, solution.points.clone(), 1.0, WIDTH).unwrap();
-    let task = CertificateTask { most_nodes: 1500, ..task.within(domain, keep_out.to_vec()) };
+    let task = CertificateTask { most_nodes: 1500, ..task.outside_of(keep_out.to_vec()) };
     let mut certificate = PathCertificate::new(solution, &task).unwrap();
     while certificate.advance().unwrap().is_none() {}
     certificate

@@ -50,8 +50,8 @@ pub(super) fn estimates(
 ///
 /// One bisection divides what a triangle on the path loses by about 2^(3/2): its part of the path is shorter
 /// by √2, and an affine function misses half as much. A path is a line, so n bisections make 2^(n/2)
-/// triangles on it. The fewest triangles result where all lose equally much. Where the cost jumps, a bisection
-/// gains less.
+/// triangles on it. The fewest triangles result where all lose equally much. Where the cost jumps, a
+/// bisection gains less.
 pub(super) fn bisections(estimates: &[f64], minorants: &[Minorant], goal: f64) -> Vec<u32> {
     let all: f64 = estimates.iter().sum();
     let goal = goal.max(LEAST_LEFT * all);

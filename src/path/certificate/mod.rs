@@ -223,7 +223,7 @@ impl Certificate {
             return Some(CertificateEnd::Reached);
         }
         self.idle = if width < 0.98 * before { 0 } else { self.idle + 1 };
-        // Even a bound that loses nothing would not reach the width, if estimates are right within a factor of 2.
+        // Even a bound that loses nothing would not reach the width; estimates may be off by a factor of 2.
         let upper_limits = width - 2.0 * lost > self.task.width;
         if self.idle >= MOST_IDLE || (upper_limits && lost < 0.5 * self.task.width) {
             let reason =

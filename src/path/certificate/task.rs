@@ -2,7 +2,7 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use crate::domain::DomainOnLattice;
+use crate::domain::{BoundaryTreatment, Domain, DomainOnLattice};
 use crate::geometry::{GridError, Lattice, Rect};
 use crate::layers::{Coverage, Mask};
 use crate::mesh::Element;
@@ -91,8 +91,9 @@ impl CertificateTask {
         Lattice::covering(bounds, bounds.size().max_element() / CELLS, 8 * MOST_NODES)
     }
 
-    /// As [`Self::lattice_over`], with the lines between the pixels of a raster over the rectangle, where there
-    /// is such a grid: a cost that is constant on pixels then follows the mesh. `size` is [columns, rows].
+    /// As [`Self::lattice_over`], with the lines between the pixels of a raster over the rectangle, where
+    /// there is such a grid: a cost that is constant on pixels then follows the mesh. `size` is
+    /// [columns, rows].
     ///
     /// # Errors
     /// When the rectangle is none.
@@ -109,27 +110,41 @@ impl CertificateTask {
         Lattice::covering(bounds, spacing, 8 * MOST_NODES)
     }
 
-    /// The same task, where paths stay in a domain and outside keep-out regions. The mesh begins with the grid
-    /// that the domain is indexed on, which needs no more cells than [`Self::lattice_over`] makes.
-    pub fn within(self, domain: DomainOnLattice, keep_out: Vec<Mask>) -> Self {
+    /// The same task, where paths stay in a domain that covers the rectangle of the task.
+    pub fn in_domain(self, domain: &Domain) -> Self {
+        let on_lattice = DomainOnLattice::new(domain, BoundaryTreatment::Report, &self.lattice);
+        self.within(on_lattice)
+    }
+
+    /// As [`Self::in_domain`], with a domain on a lattice. The mesh begins with the grid of that lattice,
+    /// which should have no more cells than [`Self::lattice_over`] makes.
+    pub fn within(self, domain: DomainOnLattice) -> Self {
         let lattice = *domain.lattice();
         let placement: PlacementTest = Arc::new(move |element| {
-            let rectangle = element.world_rectangle();
-            let kept_out = keep_out.iter().map(|mask| match mask.classify(&rectangle) {
-                Coverage::Inside => Placement::Outside,
-                Coverage::Mixed => Placement::Cut,
-                Coverage::Outside => Placement::Inside,
-            });
-            let in_domain = if domain.has_none_of(element) {
+            if domain.has_none_of(element) {
                 Placement::Outside
             } else if domain.may_cut(element) {
                 Placement::Cut
             } else {
                 Placement::Inside
-            };
-            kept_out.fold(in_domain, Placement::max)
+            }
         });
         Self { lattice, placement, ..self }
+    }
+
+    /// The same task, where paths stay outside regions besides.
+    pub fn outside_of(self, keep_out: Vec<Mask>) -> Self {
+        let before = self.placement;
+        let placement: PlacementTest = Arc::new(move |element| {
+            let rectangle = element.world_rectangle();
+            let placements = keep_out.iter().map(|mask| match mask.classify(&rectangle) {
+                Coverage::Inside => Placement::Outside,
+                Coverage::Mixed => Placement::Cut,
+                Coverage::Outside => Placement::Inside,
+            });
+            placements.fold(before(element), Placement::max)
+        });
+        Self { placement, ..self }
     }
 
     pub(super) fn start(&self) -> DVec2 {
