@@ -730,7 +730,14 @@ fn files_say_where_they_come_from() {
 
     let colors = LevelColors::new(Colormap::Viridis, Ground::Dark, 12);
     let (size, background, edges) = ([80, 60], [1, 2, 3], true);
-    let style = svg::SvgStyle { size, level_colors: colors.as_table(), background, edges };
+    let style = svg::SvgStyle {
+        size,
+        level_colors: colors.as_table(),
+        background,
+        edges,
+        path: &[],
+        path_colors: [[0; 3]; 2],
+    };
     let svg = text(sample.written(|out, mesh, data| svg::write(out, mesh, &style, data.provenance)));
     let description = svg.split("<desc>").nth(1).unwrap().split("</desc>").next().unwrap();
     let escaped = lines.join("\n").replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;");
@@ -785,6 +792,8 @@ fn svg_shows_every_triangle_and_every_edge_once() {
             level_colors: colors.as_table(),
             background: [1, 2, 3],
             edges: true,
+            path: &[],
+            path_colors: [[0; 3]; 2],
         };
         let file = String::from_utf8(
             sample.written(|out, mesh, data| svg::write(out, mesh, &style, data.provenance)),

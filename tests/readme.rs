@@ -41,8 +41,10 @@ fn every_command_works_as_typed() {
         let summary: serde_json::Value = serde_json::from_str(json).unwrap();
         assert_eq!(summary["violations"], 0);
     }
-    assert_eq!(commands, 8, "the commands were found");
-    for file in ["diamond.vtu", "terrain.msh", "terrain.png", "sea.2dm", "found.csv", "jacksboro.png"] {
+    assert_eq!(commands, 9, "the commands were found");
+    for file in
+        ["diamond.vtu", "terrain.msh", "terrain.png", "sea.2dm", "found.csv", "path.geojson", "jacksboro.png"]
+    {
         assert!(folder.join(file).metadata().unwrap().len() > 100, "{file}");
     }
     std::fs::remove_dir_all(folder).unwrap();
@@ -51,7 +53,7 @@ fn every_command_works_as_typed() {
 #[test]
 fn every_option_and_every_function_is_mentioned() {
     let mut missing = Vec::new();
-    for command in ["mesh", "locate"] {
+    for command in ["mesh", "locate", "path"] {
         let help = Command::new(PROGRAM).args([command, "--help"]).output().unwrap();
         let help = String::from_utf8(help.stdout).unwrap();
         let options =

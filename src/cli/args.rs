@@ -7,6 +7,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 #[cfg(feature = "gui")]
 use super::more_args::ScreenshotsArguments;
 use super::more_args::{CompletionsArguments, RecipeArguments, ReplayArguments, ReportArguments};
+use super::path_args::PathArguments;
 use crate::field::RefinementRule;
 use crate::render::export::ExportFormat;
 
@@ -42,6 +43,12 @@ pub enum Command {
     /// triangles between them.
     #[command(after_help = WHY_EXAMPLES)]
     Why(WhyArguments),
+    /// Build a mesh, find the path of least cost through it, and say how far from the best it can be
+    ///
+    /// The cost per unit of length is --length-weight plus --risk-weight times the risk of the layers, or a
+    /// formula. No path costs less than the lower bound that is printed.
+    #[command(after_help = PATH_EXAMPLES)]
+    Path(PathArguments),
     /// Write a project as a recipe, with the files that it names beside it
     ///
     /// The recipe gives the mesh of the project. Existing files are replaced.
@@ -82,6 +89,12 @@ const WHY_EXAMPLES: &str = "\
 Examples:
   meshbrush why 0.48,0.52 --spacing 0.1 --target '0.01 + 0.2*hypot(x - 0.5, y - 0.5)'
   meshbrush why 2.5,1 --project coast.meshbrush --json";
+
+const PATH_EXAMPLES: &str = "\
+Examples:
+  meshbrush path --from 0.1,0.1 --to 0.9,0.8 --risk 'exp(-20*hypot(x, y)^2)' --h-min 0.01 -o path.geojson
+  meshbrush path --project coast.meshbrush --from 1,2 --via 4,4 --to 8,3 --within 1% -o path.csv -o path.png
+  meshbrush path --from 0,0 --to 1,1 --cost '1 + 5*x' --json";
 
 /// The options in whose place a project or a recipe stands.
 const DECIDED_BY_A_FILE: [&str; 22] = [

@@ -10,11 +10,11 @@ use super::request::MeshRequest;
 use super::sources::{ReadSources, read_sources};
 use super::terminal::Terminal;
 use crate::build::{BuildStage, BuiltMesh, MeshBuilder, MeshSpec, RefinementCriterion};
-use crate::domain::{BoundaryMarks, Domain, MeshBoundary, Region};
+use crate::domain::{BoundaryMarks, Domain, DomainOnLattice, MeshBoundary, Region};
 use crate::explain::Explanation;
 use crate::field::RefinementRule;
 use crate::io::{self, Meter};
-use crate::layers::{Layer, PaintLayers, TargetsInOrder};
+use crate::layers::{Layer, PaintLayers, RiskField, TargetsInOrder};
 use crate::mesh::{CoarseError, Extract, InvalidTarget, Limits, Mesh, Progress, TreeTriangle, TriangleId};
 use crate::outline::DerivedMesh;
 use crate::text::{Grouped, LengthUnit};
@@ -76,6 +76,16 @@ impl FinishedMesh {
     pub fn target_at_nodes(&self, extract: &Extract) -> Vec<f64> {
         let mut targets = TargetsInOrder::new(&self.built.field, &self.paint, self.built.rule);
         extract.world_nodes().map(|point| targets.at(point)).collect()
+    }
+
+    /// The risk of the layers.
+    pub fn risk(&self) -> RiskField {
+        RiskField::new(self.layers(), &self.paint)
+    }
+
+    /// The domain on the lattice of the mesh.
+    pub fn domain(&self) -> &DomainOnLattice {
+        &self.built.domain
     }
 
     /// Why a triangle is in the mesh.

@@ -6,6 +6,7 @@ use crate::field::TransferError;
 use crate::io::ReadError;
 use crate::io::layers::LayerError;
 use crate::mesh::{CoarseError, InvalidTarget, RefineError};
+use crate::path::PathError;
 
 /// Why a command did not do its work. Each prints as one sentence; a formula's mistake adds the lines that
 /// point at it.
@@ -26,6 +27,9 @@ pub enum Failure {
     /// There is no mesh.
     #[error("{0}{advice}", advice = advice(.0))]
     Build(#[from] BuildError),
+    /// There is no path.
+    #[error(transparent)]
+    Path(#[from] PathError),
     /// A file could not be written.
     #[error("{} cannot be written: {problem}.", file.display())]
     Write {

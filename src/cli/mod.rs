@@ -13,6 +13,8 @@ mod locate;
 mod mesh;
 mod more_args;
 mod output;
+mod path;
+mod path_args;
 mod quantities;
 mod recipe;
 mod replay;
@@ -87,6 +89,7 @@ fn run_command(
         (Some(Command::Mesh(typed)), _) => mesh::run(&typed, line, &mut out, terminal),
         (Some(Command::Locate(typed)), _) => locate::run(&typed, &mut out, terminal),
         (Some(Command::Why(typed)), _) => why::run(&typed, &mut out, terminal),
+        (Some(Command::Path(typed)), _) => path::run(&typed, line, &mut out, terminal),
         (Some(Command::Replay(typed)), _) => replay::run(&typed, &mut out, terminal),
         (Some(Command::Report(typed)), _) => report::run(&typed, &mut out, terminal),
         (Some(Command::Recipe(typed)), _) => recipe::write(&typed, terminal),
@@ -119,6 +122,6 @@ fn run_command(
 fn without_window() -> Failure {
     let problem = "This meshbrush was built without its window (feature `gui`). Its commands are `mesh`,";
     Failure::Usage(format!(
-        "{problem} `locate`, `why`, `recipe`, `replay` and `report`; `meshbrush --help` lists them."
+        "{problem} `locate`, `why`, `path`, `recipe`, `replay` and `report`; `meshbrush --help` lists them."
     ))
 }

@@ -38,7 +38,10 @@ pub fn run(typed: &WhyArguments, out: &mut dyn Write, terminal: &mut Terminal) -
 }
 
 /// Reads "X,Y".
-fn point(text: &str) -> Result<DVec2, Failure> {
+///
+/// # Errors
+/// When these are not two finite numbers.
+pub fn point(text: &str) -> Result<DVec2, Failure> {
     let numbers: Option<Vec<f64>> = text.split(',').map(|part| part.trim().parse().ok()).collect();
     match numbers.as_deref() {
         Some(&[x, y]) if x.is_finite() && y.is_finite() => Ok(DVec2::new(x, y)),

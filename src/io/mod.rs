@@ -29,6 +29,7 @@ pub mod located;
 pub mod msh;
 pub mod node;
 pub mod obj;
+pub mod path;
 pub mod png;
 pub mod points;
 pub mod plot;

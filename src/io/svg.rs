@@ -7,6 +7,8 @@
 
 use std::io::{self, Write};
 
+use glam::DVec2;
+
 use super::Provenance;
 use crate::geometry::LatticePoint;
 use crate::mesh::{Extract, NodeId, bisection_edge_length};
@@ -22,6 +24,10 @@ pub struct SvgStyle<'a> {
     pub background: [u8; 3],
     /// Whether edges are drawn, in black with an opacity of one half.
     pub edges: bool,
+    /// A line over the mesh, in world units; none without points.
+    pub path: &'a [DVec2],
+    /// Red, green and blue of that line, and of the wider line below it.
+    pub path_colors: [[u8; 3]; 2],
 }
 
 /// Writes the drawing. The colours come from the caller: `io` does not depend on the colour tables.
@@ -57,7 +63,34 @@ pub fn write(
     if style.edges {
         write_edges(out, mesh, &page, style)?;
     }
+    write_path(out, mesh, &page, style)?;
     writeln!(out, "</svg>")
+}
+
+/// Widths of the line and of the one below it, in pixels.
+const PATH_WIDTHS: [f64; 2] = [4.0, 8.0];
+
+fn write_path(out: &mut impl Write, mesh: &Extract, page: &Page, style: &SvgStyle) -> io::Result<()> {
+    if style.path.is_empty() {
+        return Ok(());
+    }
+    let units_per_px = f64::from(page.width) / f64::from(style.size[0]);
+    let unit = f64::from(1u32 << page.shift);
+    for n in [1, 0] {
+        let [r, g, b] = style.path_colors[n];
+        let width = PATH_WIDTHS[n] * units_per_px;
+        write!(
+            out,
+            "<polyline fill=\"none\" stroke=\"#{r:02x}{g:02x}{b:02x}\" stroke-width=\"{width:.4}\" \
+             stroke-linecap=\"round\" stroke-linejoin=\"round\" points=\""
+        )?;
+        for &point in style.path {
+            let at = mesh.lattice().lattice_from_world(point) / unit;
+            write!(out, "{:.3},{:.3} ", at.x, f64::from(page.height) - at.y)?;
+        }
+        writeln!(out, "\"/>")?;
+    }
+    Ok(())
 }
 
 /// Text without the characters that are markup.

@@ -128,16 +128,26 @@ impl Planner {
         places: &[DVec2],
         request: PathRequest,
     ) -> Result<Solution, PathError> {
+        Ok(Solution::joined(self.legs(density, places, request)?))
+    }
+
+    /// The paths from each of the places to the next: those that [`Self::solve`] joins.
+    ///
+    /// # Errors
+    /// As [`Self::solve`].
+    pub fn legs(
+        &mut self,
+        density: &dyn CostDensity,
+        places: &[DVec2],
+        request: PathRequest,
+    ) -> Result<Vec<Solution>, PathError> {
         let places = self.places(places)?;
         self.march(&places, request.has_bounds);
-        let mut solution = Solution::default();
-        for (leg, pair) in places.windows(2).enumerate() {
-            let ends = [leg, leg + 1].map(|index| Waypoint::of(index, places.len()));
-            let [from, to] = ends;
-            let path = self.leg(density, leg, [pair[0], pair[1]], request);
-            solution.append(path.ok_or(PathError::Apart { from, to })?);
-        }
-        Ok(solution)
+        let leg = |(leg, pair): (usize, &[Place])| {
+            let [from, to] = [leg, leg + 1].map(|index| Waypoint::of(index, places.len()));
+            self.leg(density, leg, [pair[0], pair[1]], request).ok_or(PathError::Apart { from, to })
+        };
+        places.windows(2).enumerate().map(leg).collect()
     }
 
     /// The places on the mesh.

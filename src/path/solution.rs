@@ -61,6 +61,13 @@ impl Solution {
         Self { cost, lower: 0.0, upper, length, risk, highest_risk, points, stops }
     }
 
+    /// The path along several, each of which begins where the last ends.
+    pub fn joined(legs: impl IntoIterator<Item = Self>) -> Self {
+        let mut solution = Self::default();
+        legs.into_iter().for_each(|leg| solution.append(leg));
+        solution
+    }
+
     /// Continues the path with one that begins where it ends.
     pub(super) fn append(&mut self, next: Self) {
         if self.points.is_empty() {
@@ -76,6 +83,24 @@ impl Solution {
         let end = self.points.len() - 1;
         self.points.extend(&next.points[1..]);
         self.stops.extend(next.stops[1..].iter().map(|stop| end + stop));
+    }
+
+    /// Cost, risk and density at some of the points, given by their places in `points`, in order.
+    pub fn samples_at(&self, density: &dyn CostDensity, places: &[usize]) -> Vec<PathSample> {
+        let (mut distance, mut cost) = (0.0, 0.0);
+        let mut samples = Vec::with_capacity(places.len());
+        for (n, &point) in self.points.iter().enumerate() {
+            if n > 0 {
+                distance += self.points[n - 1].distance(point);
+                let piece = [self.points[n - 1], point];
+                cost += PathFigures::of(&piece, density, PROFILE_TOLERANCE).cost;
+            }
+            if places.binary_search(&n).is_ok() {
+                let (risk, density) = (density.risk_at(point), density.at(point));
+                samples.push(PathSample { distance, point, cost, risk, density });
+            }
+        }
+        samples
     }
 
     /// Cost, risk and density at `count` places at equal distances along the path, its ends among them.
@@ -114,6 +139,14 @@ impl Solution {
     /// # Errors
     /// When the tolerance is negative or NaN.
     pub fn simplified(&self, tolerance: f64) -> Result<Vec<DVec2>, PathError> {
+        Ok(self.waypoints(tolerance)?.into_iter().map(|place| self.points[place]).collect())
+    }
+
+    /// The places in `points` of those that [`Self::simplified`] keeps.
+    ///
+    /// # Errors
+    /// When the tolerance is negative or NaN.
+    pub fn waypoints(&self, tolerance: f64) -> Result<Vec<usize>, PathError> {
         if tolerance < 0.0 || tolerance.is_nan() {
             return Err(PathError::InvalidTolerance { tolerance });
         }
@@ -129,7 +162,7 @@ impl Solution {
                 parts.extend([[first, farthest], [farthest, last]]);
             }
         }
-        Ok((0..keeps.len()).filter(|&n| keeps[n]).map(|n| self.points[n]).collect())
+        Ok((0..keeps.len()).filter(|&n| keeps[n]).collect())
     }
 }
 

@@ -3,10 +3,12 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
+use glam::DVec2;
+
 use super::{Image, software};
 use crate::colormap::{Ground, LevelColors};
 use crate::geometry::Lattice;
-use crate::io::{MeshData, MeshFormat, Meter, png, svg, write_file_metered};
+use crate::io::{MeshData, MeshFormat, Meter, Provenance, png, svg, write_file_metered};
 use crate::mesh::{Extract, Mesh};
 use crate::scene::{Camera, Style};
 
@@ -160,6 +162,46 @@ impl ExportFormat {
     }
 }
 
+/// Colours of a path over a mesh, and of the wider line below it.
+const PATH_COLORS: [[u8; 3]; 2] = [[0xff, 0xff, 0xff], [0xc8, 0x1e, 0x4a]];
+/// Widths of these lines in pixels.
+const PATH_WIDTHS: [f32; 2] = [4.0, 8.0];
+
+impl ExportFormat {
+    /// Writes a picture of a mesh with a path over it, in world units.
+    ///
+    /// # Errors
+    /// When this is no format of a picture, errors of the stream, and when the meter was cancelled.
+    pub fn write_path_to(
+        self,
+        out: &mut dyn io::Write,
+        (mesh, extract): (&Mesh, &Extract),
+        path: &[DVec2],
+        look: &Look,
+        provenance: &Provenance,
+        meter: &Meter,
+    ) -> io::Result<()> {
+        match self {
+            Self::Mesh(_) => Err(io::Error::other("the format is no picture")),
+            Self::Svg => {
+                let style = look.for_svg(mesh.lattice());
+                let style = svg::SvgStyle { path, path_colors: PATH_COLORS, ..style };
+                svg::write(&mut meter.count(out), extract, &style, provenance)
+            }
+            Self::Png => {
+                let mut picture = look.draw(mesh, extract);
+                let camera = look.camera(mesh.lattice());
+                let points: Vec<_> = path.iter().map(|&p| camera.screen_from_world(p).as_vec2()).collect();
+                for n in [1, 0] {
+                    software::draw_line(&mut picture, &points, PATH_COLORS[n], PATH_WIDTHS[n]);
+                }
+                meter.check()?;
+                png::write_described(&mut meter.count(out), picture.size, &picture.rgba, provenance)
+            }
+        }
+    }
+}
+
 /// The appearance of a picture of a whole mesh.
 #[derive(Clone, Debug)]
 pub struct Look {
@@ -187,9 +229,13 @@ impl Look {
         [self.width, height]
     }
 
+    fn camera(&self, lattice: &Lattice) -> Camera {
+        Camera::fit(lattice, lattice.bounds(), self.size(lattice), 0.0)
+    }
+
     fn draw(&self, mesh: &Mesh, extract: &Extract) -> Image {
         let lattice = mesh.lattice();
-        let camera = Camera::fit(lattice, lattice.bounds(), self.size(lattice), 0.0);
+        let camera = self.camera(lattice);
         let colors = self.level_colors.clone();
         let style = match self.ground {
             Ground::Dark => Style::dark(colors),
@@ -209,6 +255,8 @@ impl Look {
             level_colors: self.level_colors.as_table(),
             background: self.ground.canvas(),
             edges: self.edges,
+            path: &[],
+            path_colors: [[0; 3]; 2],
         }
     }
 }

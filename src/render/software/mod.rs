@@ -3,7 +3,7 @@
 
 mod rasterizer;
 
-use glam::{DVec2, I64Vec2, Vec2Swizzles};
+use glam::{DVec2, I64Vec2, Vec2, Vec2Swizzles};
 
 use self::rasterizer::{LevelShader, Rasterizer};
 use super::Image;
@@ -192,6 +192,24 @@ fn blended(below: [u8; 4], [r, g, b, a]: [u8; 4], opacity: f32) -> [u8; 4] {
     let share = f32::from(a) / 255.0 * opacity;
     let mix = |from: u8, to: u8| (f32::from(from) + share * (f32::from(to) - f32::from(from))).round() as u8;
     [mix(below[0], r), mix(below[1], g), mix(below[2], b), 0xff]
+}
+
+/// Draws a line through points in pixels over an opaque picture.
+pub fn draw_line(image: &mut Image, points: &[Vec2], [r, g, b]: [u8; 3], width_px: f32) {
+    let [width, height] = image.size;
+    let Some(mut pixmap) = tiny_skia::PixmapMut::from_bytes(&mut image.rgba, width, height) else { return };
+    let mut line = tiny_skia::PathBuilder::new();
+    let Some((first, rest)) = points.split_first() else { return };
+    line.move_to(first.x, first.y);
+    rest.iter().for_each(|p| line.line_to(p.x, p.y));
+    let Some(path) = line.finish() else { return };
+    let stroke = tiny_skia::Stroke {
+        width: width_px,
+        line_join: tiny_skia::LineJoin::Round,
+        line_cap: tiny_skia::LineCap::Round,
+        ..tiny_skia::Stroke::default()
+    };
+    pixmap.stroke_path(&path, &paint([r, g, b, 0xff]), &stroke, tiny_skia::Transform::identity(), None);
 }
 
 fn draw_outlines(image: &mut Image, outlines: &[Outline]) {
