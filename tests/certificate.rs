@@ -11,7 +11,9 @@ use std::time::Instant;
 
 use exact_paths::{ExactPath, exact_paths, square};
 use meshbrush::glam::{DVec2, dvec2};
-use meshbrush::{Certificate, CertificateEnd, CertificateTask, PathError, Rect};
+use meshbrush::{
+    Certificate, CertificateEnd, CertificateTask, CostFormula, FormulaCost, PathError, Rect, RiskField,
+};
 use random_costs::{Cells, RadialPath};
 
 fn wants_table() -> bool {
@@ -80,6 +82,24 @@ fn the_bound_is_below_the_cost_by_quadrature_for_random_radial_densities() {
         widest = widest.max(certificate.width());
     }
     assert!(widest > 0.0);
+}
+
+#[test]
+fn formulas_are_bounded_as_well_as_densities_with_known_derivatives() {
+    for mut case in exact_paths() {
+        let formula = match case.name {
+            "1/r²" => "1/(x^2 + y^2)",
+            "e^x" => "exp(x)",
+            _ => continue,
+        };
+        let before = certified(&case, 0.01).nodes();
+        let formula = CostFormula::parse(formula).unwrap();
+        case.density = Arc::new(FormulaCost { formula, risk: RiskField::default() });
+        let certificate = certified(&case, 0.01);
+        assert_eq!(certificate.end(), Some(CertificateEnd::Reached), "{}", case.name);
+        let nodes = certificate.nodes();
+        assert!(nodes <= before + before / 2, "{}: {nodes} nodes, {before} before", case.name);
+    }
 }
 
 #[test]

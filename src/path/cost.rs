@@ -135,6 +135,11 @@ impl CostDensity for FormulaCost {
         self.formula.bounds(rectangle, self.risk.range(rectangle)).into()
     }
 
+    fn derivatives(&self, rectangle: &Rect) -> Option<[CostRange; 2]> {
+        let slopes = self.formula.derivatives(rectangle, self.risk.range(rectangle))?;
+        Some(slopes.map(CostRange::from))
+    }
+
     fn risk_at(&self, point: DVec2) -> f64 {
         self.risk.at(point)
     }

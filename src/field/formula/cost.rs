@@ -2,7 +2,7 @@ use std::fmt;
 use std::str::FromStr;
 use std::sync::Arc;
 
-use super::{ParseError, Program, interval, parser};
+use super::{Op, ParseError, Program, derivatives, interval, parser};
 use crate::field::Bounds;
 use crate::geometry::Rect;
 
@@ -42,6 +42,13 @@ impl CostFormula {
     /// arithmetic.
     pub fn bounds(&self, rect: &Rect, risk: Bounds) -> Bounds {
         interval::bounds(&self.program, rect, risk)
+    }
+
+    /// Bounds of the derivatives along x and y over a closed rectangle in world units, with the given risks.
+    /// `None` where the formula may jump, the risk varies, or a derivative is not known.
+    pub fn derivatives(&self, rect: &Rect, risk: Bounds) -> Option<[Bounds; 2]> {
+        let is_known = risk.is_one() || !self.program.code().iter().any(|op| matches!(op, Op::Risk));
+        if is_known { derivatives::derivatives(&self.program, rect, risk.least) } else { None }
     }
 
     /// The text as it was typed.

@@ -304,7 +304,7 @@ fn smoothstep(lo: f64, hi: f64, v: f64) -> f64 {
     t * t * (3.0 - 2.0 * t)
 }
 
-fn gauss(d: f64, s: f64) -> f64 {
+pub(super) fn gauss(d: f64, s: f64) -> f64 {
     let t = d / s;
     libm::exp(-0.5 * (t * t))
 }

@@ -150,7 +150,7 @@ fn truth(known: Option<bool>) -> Bounds {
 }
 
 /// Bounds of an operation on the accumulator; `None` for another operation.
-fn unary(op: Op, a: Bounds) -> Option<Bounds> {
+pub(super) fn unary(op: Op, a: Bounds) -> Option<Bounds> {
     Some(match op {
         Op::Negate => a.negated(),
         Op::Not => truth(known_truth(a).map(|truth| !truth)),
@@ -164,7 +164,7 @@ fn unary(op: Op, a: Bounds) -> Option<Bounds> {
 }
 
 /// Bounds of an operation on two values.
-fn binary(op: Op, a: Bounds, b: Bounds) -> Bounds {
+pub(super) fn binary(op: Op, a: Bounds, b: Bounds) -> Bounds {
     match op {
         Op::Add => a.plus(b),
         Op::Subtract => a.minus(b),

@@ -29,6 +29,7 @@
 #[cfg(test)]
 mod bounds_tests;
 mod cost;
+mod derivatives;
 mod error;
 mod function_bounds;
 mod functions;
