@@ -77,6 +77,9 @@ fn a_proof_narrows_the_interval() {
     };
     assert!(width(&folder.json(&options)) > 0.01);
     assert!(width(&folder.json(&format!("{options} --within 1%"))) <= 0.01);
+    // The proof has a grid of its own, however fine that of the mesh is.
+    let fine = "--from 0.2,0.3 --to 0.8,0.6 --cost '1 + x' --spacing 0.012 --within 0.05%";
+    assert!(width(&folder.json(fine)) <= 0.0005);
     let ran = folder.run(&format!("{options} --within 2%"));
     assert!(ran.out.starts_with("cost ") && ran.out.contains("of the best"), "{}", ran.out);
 }
@@ -95,6 +98,9 @@ fn via_points_and_keep_out_regions_count() {
     let around = 2.0 * f64::hypot(0.3, 0.6) + 0.2;
     let found = cost("--keep-out wall.geojson");
     assert!(found > around - 1e-9 && found < around * 1.1, "{found} {around}");
+    let proof = folder.json(&format!("{ends} --keep-out wall.geojson --within 1%"));
+    let lower = proof["lower"].as_f64().unwrap();
+    assert!(lower <= around && lower > 0.97 * around, "{lower} {around}");
 }
 
 #[test]

@@ -10,7 +10,7 @@ use super::request::MeshRequest;
 use super::sources::{ReadSources, read_sources};
 use super::terminal::Terminal;
 use crate::build::{BuildStage, BuiltMesh, MeshBuilder, MeshSpec, RefinementCriterion};
-use crate::domain::{BoundaryMarks, Domain, DomainOnLattice, MeshBoundary, Region};
+use crate::domain::{BoundaryMarks, Domain, MeshBoundary, Region};
 use crate::explain::Explanation;
 use crate::field::RefinementRule;
 use crate::io::{self, Meter};
@@ -83,9 +83,9 @@ impl FinishedMesh {
         RiskField::new(self.layers(), &self.paint)
     }
 
-    /// The domain on the lattice of the mesh.
-    pub fn domain(&self) -> &DomainOnLattice {
-        &self.built.domain
+    /// The domain, in world units.
+    pub fn domain(&self) -> &Domain {
+        &self.domain
     }
 
     /// Why a triangle is in the mesh.

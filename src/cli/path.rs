@@ -18,13 +18,12 @@ use super::request::MeshRequest;
 use super::terminal::Terminal;
 use super::why::point;
 use crate::field::CostFormula;
-use crate::geometry::Rect;
 use crate::io::{self as files, Interruption, Meter, write_file_metered};
-use crate::layers::{Coverage, Mask};
+use crate::layers::Mask;
 use crate::mesh::Extract;
 use crate::path::{
-    Certificate, CertificateTask, CostDensity, FormulaCost, PathMesh, PathRequest, PathSample, Placement,
-    PlacementTest, Planner, Solution, WeightedCost, Weights,
+    Certificate, CertificateTask, CostDensity, FormulaCost, PathMesh, PathRequest, PathSample, Planner,
+    Solution, WeightedCost, Weights,
 };
 use crate::render::export::ExportFormat;
 use crate::text::{Grouped, Number};
@@ -160,31 +159,12 @@ impl Prover<'_> {
     }
 
     fn task(&self, leg: &Solution) -> CertificateTask {
-        let domain = self.finished.domain().clone();
-        let bounds = domain.lattice().bounds();
+        let domain = self.finished.domain();
         let (cost, path) = (self.density.clone(), leg.points.clone());
-        let task = CertificateTask::in_rectangle(bounds, cost, path, leg.upper, self.width)
-            .expect("the bounds of a lattice are a rectangle")
-            .within(domain);
-        if self.keep_out.is_empty() {
-            return task;
-        }
-        let (within, keep_out) = (task.placement.clone(), self.keep_out.to_vec());
-        let placement: PlacementTest = Arc::new(move |element| {
-            let [a, b, c] = element.world_corners();
-            let rectangle = Rect::new(a.min(b).min(c), a.max(b).max(c));
-            let coverages = keep_out.iter().map(|mask| mask.classify(&rectangle));
-            let mut placement = within(element);
-            for coverage in coverages {
-                placement = match coverage {
-                    Coverage::Inside => return Placement::Outside,
-                    Coverage::Mixed if placement == Placement::Inside => Placement::Cut,
-                    _ => placement,
-                };
-            }
-            placement
-        });
-        CertificateTask { placement, ..task }
+        CertificateTask::in_rectangle(domain.bounds, cost, path, leg.upper, self.width)
+            .expect("the bounds of a domain are a rectangle")
+            .in_domain(domain)
+            .outside_of(self.keep_out.to_vec())
     }
 }
 
