@@ -10,9 +10,12 @@
 //!   Certificate            → a better bound, on a mesh of its own, as close as asked for
 //! ```
 
+mod alternatives;
 mod certificate;
+mod corridor;
 mod cost;
 mod error;
+mod front;
 mod integral;
 mod lower;
 mod march;
@@ -26,11 +29,14 @@ mod solution;
 mod trace;
 mod walls;
 
+pub use alternatives::{Alternatives, Difference};
 pub use certificate::{
     Certificate, CertificateEnd, CertificateTask, PathCertificate, Placement, PlacementTest,
 };
+pub use corridor::Corridor;
 pub use cost::{CostDensity, CostRange, FormulaCost, WeightedCost, Weights, checked_range};
 pub use error::{PathError, Waypoint};
+pub use front::{Front, FrontPoint};
 pub use integral::PathFigures;
 pub use lower::LowerBound;
 pub use march::{March, Seed};

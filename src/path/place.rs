@@ -33,8 +33,8 @@ impl Place {
         }
     }
 
-    /// The corners of its triangle, with the exact costs of the segments to them.
-    pub(super) fn seeds(&self, mesh: &PathMesh, costs: &[f64]) -> [Seed; 3] {
+    /// The corners of its triangle, with the exact costs of the segments to them: where a march begins.
+    pub fn seeds(&self, mesh: &PathMesh, costs: &[f64]) -> [Seed; 3] {
         let cost = costs[self.triangle as usize];
         let corners = mesh.triangles[self.triangle as usize].corners;
         corners.map(|node| (node, cost * self.point.distance(mesh.nodes[node as usize])))

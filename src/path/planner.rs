@@ -180,6 +180,20 @@ impl Planner {
         }
     }
 
+    /// The marches through open triangles from two places, one after the other.
+    pub(super) fn open_marches(&self, leg: usize) -> [&March; 2] {
+        [&self.origins[leg].march, &self.origins[leg + 1].march]
+    }
+
+    /// A path with each leg moved to where it costs least nearby.
+    pub(super) fn relaxed(&self, path: &Solution, density: &dyn CostDensity, tolerance: f64) -> Solution {
+        let leg = |stops: &[usize]| {
+            let points = refine(&path.points[stops[0]..=stops[1]], density, &self.walls, Effort::FULL);
+            Solution::of(points, density, tolerance)
+        };
+        Solution::joined(path.stops.windows(2).map(leg))
+    }
+
     /// The marches from two places, one after the other, through all triangles that bounds count.
     pub(super) fn marches(&self, leg: usize) -> [&March; 2] {
         let origins = if self.mesh.has_partly { &self.origins_for_bounds } else { &self.origins };

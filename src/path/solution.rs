@@ -68,6 +68,23 @@ impl Solution {
         solution
     }
 
+    /// Places at equal distances along the path, at least two.
+    pub(super) fn evenly(&self, count: usize) -> Vec<DVec2> {
+        let (mut piece, mut walked) = (0, 0.0);
+        let mut places = Vec::with_capacity(count);
+        for n in 0..count {
+            let distance = self.length * n as f64 / (count - 1) as f64;
+            let length = |piece: usize| self.points[piece].distance(self.points[piece + 1]);
+            while piece + 2 < self.points.len() && walked + length(piece) < distance {
+                walked += length(piece);
+                piece += 1;
+            }
+            let share = ((distance - walked) / length(piece).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+            places.push(self.points[piece].lerp(self.points[piece + 1], share));
+        }
+        places
+    }
+
     /// Continues the path with one that begins where it ends.
     pub(super) fn append(&mut self, next: Self) {
         if self.points.is_empty() {

@@ -1,0 +1,103 @@
+//! Fast marching on the report's meshes beside Dijkstra's algorithm on their edges, from the crate
+//! `pathfinding`: the distances of all nodes from one, and the same after a small edit.
+
+use std::hint::black_box;
+use std::time::Duration;
+
+use criterion::{BenchmarkId, Criterion, Throughput};
+use glam::dvec2;
+use meshbrush::internals::mesh::{Mesh, NodeId};
+use meshbrush::internals::path::{
+    CostDensity, FormulaCost, March, Passage, PathMesh, PathRequest, Place, Planner, Waypoint,
+};
+use meshbrush::{CostFormula, RiskField};
+use meshbrush_benches::diamond;
+use pathfinding::prelude::dijkstra_all;
+
+/// Costs on a scale of integers: the crate compares costs exactly.
+const SCALE: f64 = 1e9;
+
+fn main() {
+    let mut criterion = Criterion::default().configure_from_args();
+    let formula = CostFormula::parse("1 + 5*exp(-0.1*((x - 2)^2 + (y + 1)^2))").expect("it is a formula");
+    let density = FormulaCost { formula, risk: RiskField::default() };
+    for level in [9, 12, 13] {
+        bench(&mut criterion, &diamond::mesh(level), &density);
+    }
+    criterion.final_summary();
+}
+
+fn bench(criterion: &mut Criterion, mesh: &Mesh, density: &dyn CostDensity) {
+    let paths = PathMesh::new(mesh.view());
+    let costs = paths.costs(density).expect("the cost is positive");
+    let place = Place::find(&paths, dvec2(-6.0, -6.1), Waypoint::Start).expect("it is in the square");
+    let seeds = place.seeds(&paths, &costs);
+    let nodes = paths.node_count();
+    let mut group = criterion.benchmark_group("path");
+    group
+        .sample_size(10)
+        .measurement_time(Duration::from_secs(3))
+        .throughput(Throughput::Elements(nodes as u64));
+    let mut march = March::default();
+    group.bench_function(BenchmarkId::new("march", nodes), |b| {
+        b.iter(|| march.run(&paths, &costs, Passage::Open, &seeds, None));
+    });
+    // The cost changes within a brush of radius 0.5, far from the start and back.
+    let near = |t: &u32| paths.corners(*t)[0].distance(dvec2(3.0, 3.0)) < 0.5;
+    let changed: Vec<u32> = (0..paths.triangle_count() as u32).filter(near).collect();
+    let mut raised = costs.clone();
+    changed.iter().for_each(|&t| raised[t as usize] *= 2.0);
+    let (mut is_raised, mut redone) = (false, 0);
+    group.bench_function(BenchmarkId::new("march after an edit", nodes), |b| {
+        b.iter(|| {
+            is_raised = !is_raised;
+            let costs = if is_raised { &raised } else { &costs };
+            redone = march.resolve(&paths, costs, Passage::Open, &seeds, &changed);
+        });
+    });
+    eprintln!("after an edit, {redone} of {nodes} nodes are computed again");
+    let mut planner = Planner::new(paths.clone(), density).expect("the cost is positive");
+    let places = [dvec2(-6.0, -6.1), dvec2(6.2, 5.0)];
+    let mut n = 0.0;
+    group.bench_function(BenchmarkId::new("path", nodes), |b| {
+        b.iter(|| {
+            // Another start each time: the planner would keep its march.
+            n += 1e-9;
+            let places = [places[0] + dvec2(n, 0.0), places[1]];
+            black_box(planner.solve(density, &places, PathRequest::LIVE).expect("there is a path"))
+        });
+    });
+    let graph = Graph::new(mesh, density);
+    let start = place.seeds(&paths, &costs)[0].0;
+    group.bench_function(BenchmarkId::new("dijkstra on edges (pathfinding)", nodes), |b| {
+        b.iter(|| black_box(dijkstra_all(&start, |&node| graph.steps(node))));
+    });
+    group.finish();
+}
+
+/// The edges of a mesh with their costs.
+struct Graph {
+    starts: Vec<usize>,
+    steps: Vec<(u32, u64)>,
+}
+
+impl Graph {
+    fn new(mesh: &Mesh, density: &dyn CostDensity) -> Self {
+        let adjacency = mesh.adjacency();
+        let (mut starts, mut steps) = (vec![0], Vec::new());
+        for node in 0..adjacency.len() {
+            let p = mesh.world(NodeId::from_index(node));
+            for &other in adjacency.of(NodeId::from_index(node)) {
+                let q = mesh.world(other);
+                let cost = p.distance(q) * density.at(p.midpoint(q));
+                steps.push((other.index() as u32, (SCALE * cost) as u64));
+            }
+            starts.push(steps.len());
+        }
+        Self { starts, steps }
+    }
+
+    fn steps(&self, node: u32) -> impl Iterator<Item = (u32, u64)> + '_ {
+        self.steps[self.starts[node as usize]..self.starts[node as usize + 1]].iter().copied()
+    }
+}

@@ -1,0 +1,92 @@
+//! Length against risk: the best paths as the weights change.
+
+use glam::DVec2;
+
+use super::{PathError, PathMesh, PathRequest, Planner, Solution, WeightedCost, Weights};
+use crate::layers::RiskField;
+
+/// A path of the front, and the weights for which it is best.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FrontPoint {
+    /// The weights.
+    pub weights: Weights,
+    /// The path.
+    pub solution: Solution,
+}
+
+/// The front of length against risk, computed one path at a time: from the shortest path to the safest.
+///
+/// The length counts 1, and the risk from 0 up to 1,000 by equal factors. Paths that are longer than another
+/// without less risk are left out. Weights find the paths on the convex hull of the front only.
+#[derive(Clone, Debug)]
+pub struct Front {
+    mesh: PathMesh,
+    risk: RiskField,
+    places: Vec<DVec2>,
+    /// The risk weights still to do, the smallest last.
+    waiting: Vec<f64>,
+    points: Vec<FrontPoint>,
+}
+
+/// The least and the greatest risk weight, beside 0.
+const WEIGHTS: [f64; 2] = [0.1, 1000.0];
+
+/// Differences below this share count as none.
+const EQUAL: f64 = 1e-6;
+
+impl Front {
+    /// The front between places, in order, with at most `count` paths, at least three.
+    pub fn new(mesh: PathMesh, risk: RiskField, places: Vec<DVec2>, count: usize) -> Self {
+        let steps = count.max(3) - 2;
+        let [least, greatest] = WEIGHTS;
+        let weight = |n: usize| least * libm::pow(greatest / least, n as f64 / steps as f64);
+        let waiting = (0..=steps).rev().map(weight).chain([0.0]).collect();
+        Self { mesh, risk, places, waiting, points: Vec::new() }
+    }
+
+    /// How many paths are still to be found.
+    pub fn remaining(&self) -> usize {
+        self.waiting.len()
+    }
+
+    /// The front so far, from the shortest path to the safest.
+    pub fn points(&self) -> &[FrontPoint] {
+        &self.points
+    }
+
+    /// Finds the next path. Returns whether there are more.
+    ///
+    /// # Errors
+    /// As [`Planner::solve`]; nothing is left to do then.
+    pub fn advance(&mut self) -> Result<bool, PathError> {
+        let Some(risk) = self.waiting.pop() else { return Ok(false) };
+        let weights = Weights { length: 1.0, risk };
+        match self.solve(weights) {
+            Ok(solution) => self.insert(FrontPoint { weights, solution }),
+            Err(error) => {
+                self.waiting.clear();
+                return Err(error);
+            }
+        }
+        Ok(!self.waiting.is_empty())
+    }
+
+    fn solve(&self, weights: Weights) -> Result<Solution, PathError> {
+        let density = WeightedCost::new(weights, self.risk.clone())?;
+        let request = PathRequest { has_bounds: false, ..PathRequest::FULL };
+        Planner::new(self.mesh.clone(), &density)?.solve(&density, &self.places, request)
+    }
+
+    /// Adds a path, unless one in the list is as good in both; removes those that it is as good as.
+    fn insert(&mut self, point: FrontPoint) {
+        let is_covered = |a: &Solution, by: &Solution| {
+            by.length <= a.length * (1.0 + EQUAL) && by.risk <= a.risk * (1.0 + EQUAL)
+        };
+        if self.points.iter().any(|other| is_covered(&point.solution, &other.solution)) {
+            return;
+        }
+        self.points.retain(|other| !is_covered(&other.solution, &point.solution));
+        let place = self.points.partition_point(|other| other.solution.length < point.solution.length);
+        self.points.insert(place, point);
+    }
+}
