@@ -10,6 +10,7 @@ use super::background::WorkId;
 use super::dialogs::FileRequest;
 use super::explore::TreeStep;
 use super::help::HelpTopic;
+use super::paths::PathCommand;
 use super::plots::PlotsCommand;
 use super::readout::Quantity;
 use super::report::FigureCommand;
@@ -161,6 +162,9 @@ pub enum Command {
 
     /// Edits the pins, or does something with their table.
     Pins(PinsCommand),
+
+    /// Edits the paths, or sets up how they are found.
+    Path(PathCommand),
 
     /// Shows plots, or does something with them.
     Plots(PlotsCommand),

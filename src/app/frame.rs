@@ -23,6 +23,7 @@ use super::cuts::PATIENCE;
 use super::dialogs::FileFacts;
 use super::explore::Explore;
 use super::layer_pictures::LayerPictures;
+use super::paths::PathFinder;
 use super::pins::PinReader;
 use super::plots::Plots;
 use super::project::ProjectFile;
@@ -63,6 +64,8 @@ pub struct FrameState<'a> {
     pub explore: &'a Explore,
     /// How long the walks of point location are.
     pub walks: &'a WalkMeter,
+    /// The paths of the document.
+    pub paths: &'a PathFinder,
     /// The values of the pins.
     pub pins: &'a PinReader,
     /// The chosen plot, and what was measured for plots.
@@ -174,6 +177,7 @@ impl App {
         let finds = self.tools.tool.finds_boundary && self.session.find_boundary(patience, ctx);
         let measures = self.session.take_figures(patience) | self.walks.take(patience);
         let plots = self.take_plots(patience);
+        self.paths.advance(&self.session, patience, ctx);
         let bounds = self.session.document().settings().domain.bounds;
         let steps = self.advance_steps(patience, ctx);
         let plan = self.canvas.planned_stroke(ctx, self.shown_tools(), bounds);
@@ -257,6 +261,7 @@ impl App {
             stepping: self.stepping.as_ref(),
             layer_pictures: &self.layer_pictures,
             explore: &self.explore,
+            paths: &self.paths,
             pins: &self.pins,
             plots: &self.plots,
             report: self.report.and_then(|shown| shown.figure(&self.session)),

@@ -25,6 +25,11 @@ impl<K: PartialEq, T: Send + 'static> Latest<K, T> {
         self.found.as_ref().map(|(key, value)| (key, value))
     }
 
+    /// Takes the last value with its key out.
+    pub fn take_last(&mut self) -> Option<(K, T)> {
+        self.found.take()
+    }
+
     /// Drops the last value unless its key may stay.
     pub fn keep_if(&mut self, may_stay: impl FnOnce(&K) -> bool) {
         self.found.take_if(|(key, _)| !may_stay(key));

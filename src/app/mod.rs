@@ -28,9 +28,11 @@ mod layer_files;
 mod layer_pictures;
 mod notices;
 mod panels;
+mod paths;
 mod pins;
 mod plots;
 mod project;
+mod prover;
 mod explore;
 pub mod readout;
 mod report;
@@ -61,6 +63,7 @@ use explore::Explore;
 use help::HelpTopic;
 use journal::JournalKeeper;
 use layer_pictures::LayerPictures;
+use paths::PathFinder;
 use pins::PinReader;
 use plots::Plots;
 use project::ProjectFile;
@@ -98,6 +101,7 @@ pub struct App {
     layer_pictures: LayerPictures,
     explore: Explore,
     pins: PinReader,
+    paths: PathFinder,
     plots: Plots,
     /// The figure of the report that is shown.
     report: Option<ShownFigure>,
@@ -162,6 +166,7 @@ impl App {
             layer_pictures: LayerPictures::default(),
             explore: Explore::default(),
             pins: PinReader::default(),
+            paths: PathFinder::default(),
             plots: Plots::default(),
             report: None,
             walks: WalkMeter::default(),

@@ -12,6 +12,7 @@ mod menu;
 pub mod marks;
 mod overlay;
 mod paths;
+mod best_paths;
 mod pins;
 pub mod picture_corners;
 mod price;
@@ -344,6 +345,7 @@ impl Canvas {
         layer_marks::paint(state, &over, tokens(ui).accent);
         cause_marks::paint(state, &over, tokens(ui).accent);
         paths::paint(state, &over);
+        best_paths::paint(state, &over);
         (state.tools.tool.paint)(state, &over);
         pins::show(ui, rect, state, &over);
         if let Some(gesture) = &self.gesture {

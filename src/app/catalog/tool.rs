@@ -9,9 +9,10 @@ use crate::app::command::{
 use crate::app::dialogs::FileRequest;
 use crate::app::explore::TreeStep;
 use crate::app::frame::FrameState;
+use crate::app::paths::PathCommand;
 use crate::app::tools::{
-    BOUNDARY, BoundaryToolMode, BrushMode, DOMAIN, DomainToolMode, ERASER, PaintKind, QUERY, THREATS, TOOLS,
-    Tools,
+    BOUNDARY, BoundaryToolMode, BrushMode, DOMAIN, DomainToolMode, ERASER, PATH, PaintKind, QUERY, THREATS,
+    TOOLS, Tools,
 };
 
 const DIGITS: [Key; 10] = [
@@ -71,6 +72,7 @@ pub fn tool(state: &FrameState<'_>) -> Vec<CatalogItem> {
     items.extend(GESTURES.iter().filter(|gesture| !gesture.advice.is_empty()).map(gesture_item));
     items.extend(domain_tool(state));
     items.extend(threats_tool(state));
+    items.extend(path_tool(state));
     items.extend(neighbours(state));
     items.extend(trail(state));
     items.extend(pins(state));
@@ -140,7 +142,7 @@ fn pins(state: &FrameState<'_>) -> Vec<CatalogItem> {
     let delete = if state.tools.tool == &QUERY { delete.key(Key::Delete) } else { delete };
     vec![
         item("Pin the queried point", Command::Pins(PinsCommand::Pin))
-            .key(Key::P)
+            .keys(Modifiers::SHIFT, Key::P)
             .enabled(state.session.queried().is_some())
             .group(),
         delete.enabled(state.tools.pins.selected_of(pins).is_some()),
@@ -190,6 +192,21 @@ fn domain_tool(state: &FrameState<'_>) -> Vec<CatalogItem> {
         items.push(item("Close the polygon", DomainCommand::ClosePolygon).key(Key::Enter));
     }
     items
+}
+
+/// The key deletes a place of a path only while the tool is selected.
+fn path_tool(state: &FrameState<'_>) -> Vec<CatalogItem> {
+    let item = |title: &str, command| CatalogItem::new(Menu::Tool, title, Command::Path(command));
+    let plan = &state.session.document().settings().paths;
+    let has_paths = !plan.routes.is_empty();
+    let is_selected = state.tools.path.selected_in(plan).is_some();
+    let delete =
+        item("Delete the selected place of a path", PathCommand::Delete).enabled(is_selected).group();
+    vec![
+        if state.tools.tool == &PATH { delete.key(Key::Delete) } else { delete },
+        item("Swap start and goal", PathCommand::Swap).enabled(has_paths),
+        item("Delete all paths", PathCommand::DeleteAll).enabled(has_paths),
+    ]
 }
 
 /// The key deletes a threat only while the tool is selected.

@@ -5,6 +5,7 @@ mod files;
 mod layers;
 mod painting;
 mod steps;
+mod paths;
 mod pins;
 mod plots;
 mod report;
@@ -36,6 +37,7 @@ impl App {
             Some(Command::Layer(command)) => self.execute_on_layers(command, ctx),
             Some(Command::Threats(command)) => self.execute_on_threats(command),
             Some(Command::Steps(command)) => self.execute_on_steps(command, ctx),
+            Some(Command::Path(command)) => self.execute_on_paths(command),
             Some(Command::Pins(command)) => self.execute_on_pins(command, ctx),
             Some(Command::Figure(command)) => self.execute_on_report(command, ctx),
             Some(Command::Plots(command)) => self.execute_on_plots(command, ctx),
@@ -105,8 +107,10 @@ impl App {
         let in_gesture = self.session.document().is_in_gesture();
         if self.session.is_cutting() || (gesture_ended && in_gesture) {
             self.session.drop_cut();
-        } else if gesture_ended || !self.tools.domain.corners.is_empty() {
+        } else if gesture_ended || !self.tools.domain.corners.is_empty() || self.tools.path.pending.is_some()
+        {
             self.tools.domain.corners.clear();
+            self.tools.path.pending = None;
         } else if self.help.take().is_none() {
             self.ask(None);
             self.session.notices_mut().dismiss();

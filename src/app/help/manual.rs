@@ -27,7 +27,7 @@ macro_rules! picture {
 }
 
 /// All pages, in reading order.
-pub static PAGES: [Page; 12] = [
+pub static PAGES: [Page; 13] = [
     page!("First steps", "first-steps.md"),
     page!("How it works", "how-it-works.md"),
     page!("Painting", "painting.md"),
@@ -35,6 +35,7 @@ pub static PAGES: [Page; 12] = [
     page!("Domains and outlines", "domains.md"),
     page!("Boundary", "boundary.md"),
     page!("Reading the mesh", "reading-the-mesh.md"),
+    page!("Paths", "paths.md"),
     page!("Files and export", "files.md"),
     page!("Command line", "command-line.md"),
     page!("The method", "method.md"),

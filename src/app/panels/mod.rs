@@ -14,6 +14,7 @@ mod inspector;
 mod layers;
 mod levels;
 mod mesh;
+mod path;
 mod pins;
 mod plots;
 mod report;
@@ -32,6 +33,7 @@ pub use brush::BRUSH;
 pub use domain::DOMAIN;
 pub use inspector::INSPECTOR;
 pub use layers::{LAYER_KINDS, ask_name as ask_layer_name, combine_name};
+pub use path::PATH;
 pub use pins::PINS;
 pub use why::WHY;
 
@@ -53,7 +55,7 @@ pub struct Panel {
 }
 
 /// All sections of the side panel, from the top. Those of the selected tool move to the top.
-pub static PANELS: [&Panel; 15] = [
+pub static PANELS: [&Panel; 16] = [
     &BRUSH,
     &layers::LAYERS,
     &transfer::TRANSFER,
@@ -61,6 +63,7 @@ pub static PANELS: [&Panel; 15] = [
     &INSPECTOR,
     &WHY,
     &PINS,
+    &PATH,
     &mesh::MESH,
     &statistics::STATISTICS,
     &plots::PLOTS,

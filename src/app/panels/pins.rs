@@ -31,7 +31,7 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let note = if count > 0 { format::count(count as u64) } else { String::new() };
     Section::new("Pins").note(&note).show(ui, |ui| {
         if count == 0 {
-            remark(ui, "Pin a query (P) to follow its triangle and values through every edit.");
+            remark(ui, "Pin a query (Shift+P) to follow its triangle and values through every edit.");
         } else {
             if !state.pins.is_current(state.session, state.view.quantity) {
                 // They are read only while the table is shown.

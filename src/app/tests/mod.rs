@@ -25,6 +25,7 @@ mod numbers;
 mod orientation;
 mod outline;
 mod painting;
+mod path;
 mod pictures;
 mod pins;
 mod plots;
@@ -58,6 +59,7 @@ use crate::app::App;
 use crate::app::canvas::CANVAS_NAME;
 use crate::app::command::{Command, LayerCommand, Opened};
 use crate::app::explore::Explore;
+use crate::app::paths::PathFinder;
 use crate::app::plots::Plots;
 use crate::app::session::Session;
 use crate::app::stepping::Stepping;
@@ -384,6 +386,10 @@ impl App {
 
     fn view(&self) -> &View {
         &self.view
+    }
+
+    fn paths(&self) -> &PathFinder {
+        &self.paths
     }
 
     fn plots(&self) -> &Plots {

@@ -32,7 +32,7 @@ fn window_with_pins() -> Window {
     send(&mut window, Command::Use(&QUERY));
     for point in [AT, FREE] {
         click(&mut window, point, Modifiers::NONE);
-        key(&mut window, Modifiers::NONE, Key::P);
+        key(&mut window, Modifiers::SHIFT, Key::P);
     }
     window
 }
@@ -57,7 +57,7 @@ fn a_query_is_pinned_by_key_and_button_and_undone() {
     let [a, b] = pins(&window)[..] else { panic!("{:?}", pins(&window)) };
     assert!(is_near(a, AT) && is_near(b, FREE));
     assert_eq!(entries(&window), 2);
-    key(&mut window, Modifiers::NONE, Key::P);
+    key(&mut window, Modifiers::SHIFT, Key::P);
     assert_eq!(pins(&window).len(), 2, "the same point is not pinned twice");
     click(&mut window, dvec2(0.5, 0.2), Modifiers::NONE);
     window.get_by_role_and_label(Role::Button, "Pin").click();

@@ -10,6 +10,7 @@ mod domain;
 mod eraser;
 mod gesture;
 mod pan;
+mod path;
 mod pen;
 mod query;
 mod threats;
@@ -25,6 +26,7 @@ pub use domain::{DOMAIN, DomainTool, DomainToolMode};
 pub use eraser::ERASER;
 pub use gesture::{CLICK_SLACK, Gesture, Pointer, Press, SettingsDrag};
 pub use pan::{PAN, Panning};
+pub use path::{PATH, PATH_COLOR, PathPlace, PathTool, paint_place};
 pub use pen::{Pen, PenEffect};
 pub use query::{PIN_REACH_POINTS, PinsTool, QUERY};
 pub use threats::{THREATS, ThreatGrip, ThreatsTool, grip_at};
@@ -37,7 +39,7 @@ use crate::geometry::Rect;
 use crate::paint::{Brush, Mirror, PathPoint};
 
 /// All tools, in the order of the tool strip.
-pub static TOOLS: [Tool; 7] = [&BRUSH, &ERASER, &QUERY, &THREATS, &DOMAIN, &BOUNDARY, &PAN];
+pub static TOOLS: [Tool; 8] = [&BRUSH, &ERASER, &QUERY, &THREATS, &PATH, &DOMAIN, &BOUNDARY, &PAN];
 
 /// One of [`TOOLS`].
 pub type Tool = &'static ToolSpec;
@@ -177,6 +179,8 @@ pub struct Tools {
     pub threats: ThreatsTool,
     /// The pins of the query tool.
     pub pins: PinsTool,
+    /// The path tool.
+    pub path: PathTool,
     /// The middles of the triangles that were followed from neighbour to neighbour, in world units.
     pub trail: Vec<DVec2>,
     /// How often each of [`TOOLS`] was used.
@@ -205,6 +209,7 @@ impl Tools {
             boundary: BoundaryTool::default(),
             threats: ThreatsTool::default(),
             pins: PinsTool::default(),
+            path: PathTool::default(),
             trail: Vec::new(),
             uses: [0; TOOLS.len()],
         }
@@ -214,6 +219,7 @@ impl Tools {
     pub fn select(&mut self, tool: Tool) {
         self.tool = tool;
         self.domain.corners.clear();
+        self.path.pending = None;
     }
 
     /// Selects the brush.
@@ -228,6 +234,7 @@ impl Tools {
         self.boundary.selected = None;
         self.threats = ThreatsTool::default();
         self.pins = PinsTool::default();
+        self.path = PathTool::default();
         self.trail.clear();
     }
 

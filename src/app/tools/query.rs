@@ -55,7 +55,7 @@ impl PinsTool {
 
 const HINT: &[Hint] = &[
     Text("Click a triangle to inspect it"),
-    HintKey("P"),
+    HintKey("Shift+P"),
     Text("pin"),
     HintKey("1"),
     HintKey("2"),

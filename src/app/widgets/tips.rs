@@ -7,7 +7,7 @@ const EDGE: f32 = 2.0;
 
 /// The sentences of controls that have no unit or number in it, by the name of the control. The name of a
 /// choice is that of its group and its own.
-static SENTENCES: [(&str, &str); 170] = [
+static SENTENCES: [(&str, &str); 176] = [
     (
         "What the brush paints/Risk",
         "The brush paints risk, from 0 to 1, which the transfer curve turns into a diameter.",
@@ -193,6 +193,15 @@ static SENTENCES: [(&str, &str); 170] = [
     ("Copy the comparison", "Copies what the report shows, and its numbers beside those here."),
     ("Pin", "Marks the point and follows its triangle and values through every edit; P."),
     ("Pin the query", "Marks the queried point and follows its triangle and values; P."),
+    ("Prove to within", "How narrow the proved interval around the least possible cost becomes."),
+    ("Swap start and goal", "Lets the path go the other way."),
+    (
+        "Delete place",
+        "Removes the selected place in between, or the path of a selected start or goal; Delete does so too.",
+    ),
+    ("Delete all paths", "Removes all paths of the document."),
+    ("Pin", "Marks the point and follows its triangle and values through every edit; Shift+P."),
+    ("Pin the query", "Marks the queried point and follows its triangle and values; Shift+P."),
     ("Delete pin", "Removes the selected pin; Delete does so too while the query tool is selected."),
     ("Delete all pins", "Removes all pins of the document."),
     (

@@ -20,6 +20,8 @@ impl Icon {
     /// Name the boundary.
     pub const BOUNDARY: Self = Self(material::ICON_LABEL.codepoint);
     /// Move the view.
+    pub const PATH: Self = Self(material::ICON_ROUTE.codepoint);
+    /// The pan tool.
     pub const PAN: Self = Self(material::ICON_DRAG_PAN.codepoint);
     /// Show all of the domain.
     pub const FIT: Self = Self(material::ICON_FIT_SCREEN.codepoint);

@@ -1,0 +1,57 @@
+//! The paths of the document over the mesh, with their places.
+
+use eframe::egui::{Color32, Stroke};
+
+use super::marks::{paint_line, paint_line_preview};
+use crate::app::frame::FrameState;
+use crate::app::paths::FoundPath;
+use crate::app::tools::{OverMesh, PATH_COLOR, PathPlace, paint_place};
+
+/// Width of a path, in points.
+const WIDTH: f32 = 2.5;
+/// The colour of a path that is not up to date.
+const OUTDATED: Color32 = Color32::from_gray(0xb0);
+
+/// Draws all paths. Where there is none for a route as it is, the last one is grey, and the places are joined
+/// by dashed lines.
+pub fn paint(state: &FrameState<'_>, over: &OverMesh<'_>) {
+    let plan = &state.session.document().settings().paths;
+    let selected = state.tools.path.selected_in(plan);
+    for (number, route) in plan.routes.iter().enumerate() {
+        let shown = state.paths.shown().get(number);
+        let problem = shown.and_then(|shown| shown.problem.as_ref());
+        if let Some(found) = shown.and_then(|shown| shown.found.as_ref()) {
+            let points = found.solution.points.iter().map(|&point| (over.screen_from_world)(point));
+            let color = if problem.is_some() { OUTDATED } else { PATH_COLOR };
+            paint_line(over.painter, points, color, WIDTH);
+        }
+        let places: Vec<_> = route.iter().map(|&place| (over.screen_from_world)(place)).collect();
+        if problem.is_some() {
+            places.windows(2).for_each(|ends| paint_line_preview(over.painter, ends[0], ends[1]));
+        }
+        if Some(number) == state.tools.path.route_in(plan) {
+            paint_marked(state, over, shown.and_then(|shown| shown.found.as_ref()));
+        }
+        for (n, &at) in places.iter().enumerate() {
+            let place = match n {
+                0 => PathPlace::Start,
+                n if n + 1 == places.len() => PathPlace::Goal,
+                _ => PathPlace::Via,
+            };
+            paint_place(over, at, place, selected == Some((number, n)));
+        }
+    }
+}
+
+/// The place on a path that is pointed at in its profile.
+fn paint_marked(state: &FrameState<'_>, over: &OverMesh<'_>, found: Option<&FoundPath>) {
+    let (Some(found), Some(distance)) = (found, state.tools.path.shown_distance) else { return };
+    let nearest = found
+        .profile
+        .iter()
+        .min_by(|a, b| (a.distance - distance).abs().total_cmp(&(b.distance - distance).abs()));
+    if let Some(sample) = nearest {
+        let at = (over.screen_from_world)(sample.point);
+        over.painter.circle(at, 5.0, Color32::WHITE, Stroke::new(2.0, Color32::BLACK));
+    }
+}

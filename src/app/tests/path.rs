@@ -1,0 +1,140 @@
+//! Paths: set with the tool, followed through edits, certified, and read in the panel.
+
+use std::time::{Duration, Instant};
+
+use eframe::egui::accesskit::Role;
+use eframe::egui::{Key, Modifiers};
+use egui_kittest::kittest::Queryable as _;
+use glam::{DVec2, dvec2};
+
+use super::{
+    TALL, Window, click, key, move_to, press, release, send, settings, stroke, wait_until, window_of,
+};
+use crate::app::command::Command;
+use crate::app::paths::{PathCommand, ShownPath};
+use crate::app::tools::PATH;
+
+const START: DVec2 = dvec2(0.05, 0.1);
+const GOAL: DVec2 = dvec2(0.95, 0.9);
+
+fn shown(window: &Window) -> &[ShownPath] {
+    window.state().paths().shown()
+}
+
+fn is_complete(window: &Window) -> bool {
+    let paths = window.state().paths();
+    paths.is_current(window.state().session()) && !paths.is_proving()
+}
+
+fn wait_for_paths(window: &mut Window) {
+    let patience = Instant::now() + Duration::from_secs(120);
+    while !is_complete(window) {
+        assert!(Instant::now() < patience, "no path was found");
+        std::thread::sleep(Duration::from_millis(10));
+        window.run();
+    }
+}
+
+/// A window with the path tool and a complete path from [`START`] to [`GOAL`]. Its bound is that of the
+/// solver: certificates take seconds.
+fn window_with_path() -> Window {
+    let mut window = window_of(TALL);
+    send(&mut window, Command::Path(PathCommand::Width(1.0)));
+    key(&mut window, Modifiers::NONE, Key::P);
+    assert_eq!(window.state().tools().tool, &PATH);
+    click(&mut window, START, Modifiers::NONE);
+    assert!(settings(&window).paths.routes.is_empty(), "a start alone is no path");
+    click(&mut window, GOAL, Modifiers::NONE);
+    wait_for_paths(&mut window);
+    window
+}
+
+fn row(window: &Window, name: &str) -> String {
+    window.get_by_role_and_label(Role::Definition, name).value().unwrap()
+}
+
+#[test]
+fn two_clicks_make_a_path_whose_bound_is_proved() {
+    let mut window = window_with_path();
+    let places = &settings(&window).paths.routes[0];
+    assert!(places[0].distance(START) < 0.01 && places[1].distance(GOAL) < 0.01, "{places:?}");
+    let solution = &shown(&window)[0].found.as_ref().unwrap().solution;
+    assert_eq!([solution.points[0], *solution.points.last().unwrap()], [places[0], places[1]]);
+    assert!(solution.length >= places[0].distance(places[1]) && solution.cost >= solution.length);
+    let before = solution.gap();
+    assert!(before > 0.02 && before < 0.3, "{before}");
+    assert!(row(&window, "Proved").contains("of optimal"), "{}", row(&window, "Proved"));
+    assert!(window.query_by_label("Risk along the path").is_some());
+    send(&mut window, Command::Path(PathCommand::Width(before / 2.0)));
+    wait_for_paths(&mut window);
+    let after = shown(&window)[0].found.as_ref().unwrap().solution.gap();
+    assert!(after <= before / 2.0, "{before} {after}");
+}
+
+#[test]
+fn a_dragged_goal_and_painted_risk_move_the_path() {
+    let mut window = window_with_path();
+    let cost = |window: &Window| shown(window)[0].found.as_ref().unwrap().solution.cost;
+    let before = cost(&window);
+    press(&mut window, GOAL, Modifiers::NONE);
+    move_to(&mut window, dvec2(0.6, 0.5));
+    release(&mut window, dvec2(0.6, 0.5));
+    wait_for_paths(&mut window);
+    assert!(cost(&window) < before, "a nearer goal");
+    send(&mut window, Command::Undo);
+    wait_for_paths(&mut window);
+    assert_eq!(cost(&window), before, "the drag was one gesture");
+    key(&mut window, Modifiers::NONE, Key::B);
+    stroke(&mut window, START + dvec2(0.05, -0.05), START + dvec2(-0.03, 0.1));
+    wait_for_paths(&mut window);
+    assert!(cost(&window) > before, "risk was painted across the path");
+}
+
+#[test]
+fn a_place_in_between_is_visited_and_deleted_again() {
+    let mut window = window_with_path();
+    click(&mut window, dvec2(0.1, 0.9), Modifiers::COMMAND);
+    let places = settings(&window).paths.routes[0].clone();
+    assert_eq!(places.len(), 3);
+    wait_for_paths(&mut window);
+    let solution = &shown(&window)[0].found.as_ref().unwrap().solution;
+    assert_eq!(solution.points[solution.stops[1]], places[1]);
+    key(&mut window, Modifiers::NONE, Key::Delete);
+    assert_eq!(settings(&window).paths.routes[0].len(), 2);
+    send(&mut window, Command::Path(PathCommand::Swap));
+    assert_eq!(settings(&window).paths.routes[0], [places[2], places[0]]);
+}
+
+#[test]
+fn an_impossible_goal_keeps_the_last_path_and_says_why() {
+    let mut window = window_with_path();
+    let before = shown(&window)[0].found.clone().unwrap().solution;
+    press(&mut window, GOAL, Modifiers::NONE);
+    move_to(&mut window, dvec2(0.9, 1.05));
+    release(&mut window, dvec2(0.9, 1.05));
+    wait_until(&mut window, |window| window.state().paths().shown()[0].problem.is_some());
+    assert_eq!(shown(&window)[0].found.as_ref().unwrap().solution.points[0], before.points[0]);
+    let problem = shown(&window)[0].problem.clone().unwrap().to_string();
+    assert!(problem.starts_with("The goal ") && problem.contains("outside the domain"), "{problem}");
+    assert!(window.query_by_label_contains("The path that is shown is outdated.").is_some());
+}
+
+#[test]
+fn escape_forgets_a_start_without_a_goal() {
+    let mut window = window_of(TALL);
+    key(&mut window, Modifiers::NONE, Key::P);
+    click(&mut window, START, Modifiers::NONE);
+    assert!(window.state().tools().path.pending.is_some());
+    key(&mut window, Modifiers::NONE, Key::Escape);
+    assert!(window.state().tools().path.pending.is_none());
+}
+
+#[test]
+fn an_idle_window_with_a_certified_path_does_no_work() {
+    let mut window = window_with_path();
+    window.run_steps(3);
+    let revision = window.state().session().document().revision();
+    window.run();
+    assert!(is_complete(&window));
+    assert_eq!(window.state().session().document().revision(), revision);
+}
