@@ -80,7 +80,7 @@ fn figures(ui: &mut Ui, state: &FrameState<'_>, found: &FoundPath, commands: &mu
         ValueRow::new(label, &value).help(help).show(ui);
     }
     let mut width = state.paths.width();
-    if dropdown_row(ui, "Prove to within", &mut width, &WIDTHS).changed() {
+    if dropdown_row(ui, "Prove within", &mut width, &WIDTHS).changed() {
         commands.push(Command::Path(PathCommand::Width(width)));
     }
     match (state.paths.is_current(state.session), state.paths.is_proving()) {

@@ -61,7 +61,7 @@ fn what_is_saved_by_key_is_opened_with_the_same_mesh() {
     assert!(shows(&window, EDITED));
     key(&mut window, Modifiers::COMMAND, Key::S);
     assert!(shows(&window, "Save project"), "a new document has no file yet");
-    window.get_by_label("Path").type_text(file.to_str().unwrap());
+    window.get_by_role_and_label(Role::TextInput, "Path").type_text(file.to_str().unwrap());
     window.run();
     press(&mut window, "Save");
     // The ending is added.

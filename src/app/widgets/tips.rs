@@ -7,7 +7,7 @@ const EDGE: f32 = 2.0;
 
 /// The sentences of controls that have no unit or number in it, by the name of the control. The name of a
 /// choice is that of its group and its own.
-static SENTENCES: [(&str, &str); 176] = [
+static SENTENCES: [(&str, &str); 174] = [
     (
         "What the brush paints/Risk",
         "The brush paints risk, from 0 to 1, which the transfer curve turns into a diameter.",
@@ -191,9 +191,7 @@ static SENTENCES: [(&str, &str); 176] = [
     ("Cancel measuring", "Ends the measuring; what was measured so far stays."),
     ("Close the figure", "Closes the figure of the report; its document stays open."),
     ("Copy the comparison", "Copies what the report shows, and its numbers beside those here."),
-    ("Pin", "Marks the point and follows its triangle and values through every edit; P."),
-    ("Pin the query", "Marks the queried point and follows its triangle and values; P."),
-    ("Prove to within", "How narrow the proved interval around the least possible cost becomes."),
+    ("Prove within", "How narrow the proved interval around the least possible cost becomes."),
     ("Swap start and goal", "Lets the path go the other way."),
     (
         "Delete place",

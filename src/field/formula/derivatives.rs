@@ -1,7 +1,8 @@
 //! Bounds of a formula's derivatives over a rectangle: automatic differentiation with intervals.
 
+use super::functions::{self, known};
 use super::program::{Op, Program};
-use super::{function_bounds, functions, interval};
+use super::{function_bounds, interval};
 use crate::field::Bounds;
 use crate::geometry::Rect;
 
@@ -92,23 +93,22 @@ fn of_one(op: Op, a: Varying) -> Option<Varying> {
 
 /// The derivative of a function of one value, from its argument and its result.
 fn slope_of_function(function: fn(f64) -> f64, a: Bounds, result: Bounds) -> Option<Bounds> {
-    // The same code may have two addresses; then its derivative counts as unknown.
     let is = |known: fn(f64) -> f64| std::ptr::fn_addr_eq(function, known);
-    let slope = if is(libm::exp) {
+    let slope = if is(known::exp) {
         result
-    } else if is(libm::log) {
+    } else if is(known::log) {
         ONE.over(a)
-    } else if is(libm::sin) {
+    } else if is(known::sin) {
         function_bounds::cos(a)
-    } else if is(libm::cos) {
+    } else if is(known::cos) {
         function_bounds::sin(a).negated()
-    } else if is(libm::tanh) {
+    } else if is(known::tanh) {
         ONE.minus(result.squared())
-    } else if is(libm::sinh) {
+    } else if is(known::sinh) {
         function_bounds::cosh(a)
-    } else if is(libm::cosh) {
+    } else if is(known::cosh) {
         function_bounds::sinh(a)
-    } else if is(libm::atan) {
+    } else if is(known::atan) {
         ONE.over(ONE.plus(a.squared()))
     } else {
         return None;
@@ -156,7 +156,7 @@ fn slopes_of_function(
             Bounds::one(b.value.least - 1.0)
         });
         Some(a.slopes_times(times(b.value, less)))
-    } else if is(libm::hypot) {
+    } else if is(known::hypot) {
         // √(a² + b²)′ = (a a′ + b b′) / √(a² + b²), with factors from −1 to 1
         let factor = |of: Bounds| of.over(value).intersection(Bounds::new(-1.0, 1.0));
         Some(sums(a.slopes_times(factor(a.value)), b.slopes_times(factor(b.value))))

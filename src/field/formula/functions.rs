@@ -77,24 +77,24 @@ pub(super) const FUNCTIONS: &[Function] = &[
     two("step(edge, v)", (step, bounds::step), "0 where v is below the edge, else 1"),
     three("smoothstep(lo, hi, v)", (smoothstep, bounds::smoothstep), "0 up to lo, 1 from hi, an S-curve between"),
     two("gauss(d, s)", (gauss, bounds::gauss), "bell curve exp(-(d/s)^2/2): 1 at d = 0, 0.61 at d = s"),
-    two("hypot(a, b)", (libm::hypot, bounds::hypot), "sqrt(a^2 + b^2): the distance, from differences in x and y"),
+    two("hypot(a, b)", (known::hypot, bounds::hypot), "sqrt(a^2 + b^2): the distance, from differences in x and y"),
     function("sqrt(v)", Form::Fixed(1, Op::Sqrt), "square root"),
     one("cbrt(v)", (libm::cbrt, bounds::cbrt), "cube root"),
     two("pow(a, b)", (power, bounds::power), "a to the power b, as a^b"),
-    one("exp(v)", (libm::exp, bounds::exp), "e to the power v"),
-    one("ln(v)", (libm::log, bounds::ln), "logarithm to base e"),
+    one("exp(v)", (known::exp, bounds::exp), "e to the power v"),
+    one("ln(v)", (known::log, bounds::ln), "logarithm to base e"),
     one("log10(v)", (libm::log10, bounds::log10), "logarithm to base 10"),
     one("log2(v)", (libm::log2, bounds::log2), "logarithm to base 2"),
-    one("sin(v)", (libm::sin, bounds::sin), "sine of an angle in radians"),
-    one("cos(v)", (libm::cos, bounds::cos), "cosine of an angle in radians"),
+    one("sin(v)", (known::sin, bounds::sin), "sine of an angle in radians"),
+    one("cos(v)", (known::cos, bounds::cos), "cosine of an angle in radians"),
     one("tan(v)", (libm::tan, bounds::tan), "tangent of an angle in radians"),
     one("asin(v)", (libm::asin, bounds::asin), "angle whose sine is v"),
     one("acos(v)", (libm::acos, bounds::acos), "angle whose cosine is v"),
-    one("atan(v)", (libm::atan, bounds::atan), "angle whose tangent is v"),
+    one("atan(v)", (known::atan, bounds::atan), "angle whose tangent is v"),
     two("atan2(y, x)", (libm::atan2, bounds::atan2), "angle of the direction (x, y), from -pi to pi"),
-    one("sinh(v)", (libm::sinh, bounds::sinh), "hyperbolic sine"),
-    one("cosh(v)", (libm::cosh, bounds::cosh), "hyperbolic cosine"),
-    one("tanh(v)", (libm::tanh, bounds::tanh), "hyperbolic tangent"),
+    one("sinh(v)", (known::sinh, bounds::sinh), "hyperbolic sine"),
+    one("cosh(v)", (known::cosh, bounds::cosh), "hyperbolic cosine"),
+    one("tanh(v)", (known::tanh, bounds::tanh), "hyperbolic tangent"),
     one("floor(v)", (f64::floor, bounds::floor), "whole number at or below v"),
     one("ceil(v)", (f64::ceil, bounds::ceil), "whole number at or above v"),
     one("round(v)", (f64::round, bounds::round), "nearest whole number, halves away from 0"),
@@ -249,7 +249,25 @@ fn distance(a: &str, b: &str) -> usize {
     row[b.len()]
 }
 
+/// Functions whose derivatives are known: they are recognized by their address. Inlined, a function could
+/// have several.
+pub(super) mod known {
+    macro_rules! functions {
+        ($($name:ident($($value:ident),+))*) => {
+            $(
+                #[inline(never)]
+                pub fn $name($($value: f64),+) -> f64 {
+                    libm::$name($($value),+)
+                }
+            )*
+        };
+    }
+
+    functions! { exp(v) log(v) sin(v) cos(v) atan(v) sinh(v) cosh(v) tanh(v) hypot(a, b) }
+}
+
 /// `a^b`. A square is one product, which is the nearest number to it; `libm::pow` need not be.
+#[inline(never)]
 pub(super) fn power(a: f64, b: f64) -> f64 {
     if b == 2.0 { a * a } else { libm::pow(a, b) }
 }
@@ -304,6 +322,7 @@ fn smoothstep(lo: f64, hi: f64, v: f64) -> f64 {
     t * t * (3.0 - 2.0 * t)
 }
 
+#[inline(never)]
 pub(super) fn gauss(d: f64, s: f64) -> f64 {
     let t = d / s;
     libm::exp(-0.5 * (t * t))

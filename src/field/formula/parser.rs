@@ -8,7 +8,7 @@ use std::ops::Range;
 use super::error::{ParseError, quote};
 use super::function_bounds as bounds;
 use super::functions::{
-    Form, Function, Noun, coordinates, find_function, find_noun, modulo, power, suggestion,
+    Form, Function, Noun, coordinates, find_function, find_noun, known, modulo, power, suggestion,
 };
 use super::lexer::{Lexer, Token};
 use super::program::{Compare, Op, Program, run};
@@ -256,7 +256,7 @@ impl<'a> Parser<'a> {
             Noun::Number(value) => self.load(Op::Number(value)),
             Noun::Radius => {
                 let (x, y) = (self.load(Op::X), self.load(Op::Y));
-                self.join(x, y, Op::Two(libm::hypot, bounds::hypot))
+                self.join(x, y, Op::Two(known::hypot, bounds::hypot))
             }
             Noun::Angle => {
                 let (y, x) = (self.load(Op::Y), self.load(Op::X));
