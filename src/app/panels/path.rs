@@ -86,6 +86,9 @@ fn figures(ui: &mut Ui, state: &FrameState<'_>, found: &FoundPath, commands: &mu
     match (state.paths.is_current(state.session), state.paths.is_proving()) {
         (false, _) => remark(ui, "The path is being found."),
         (true, true) => remark(ui, "The bound is being improved."),
+        (true, false) if solution.gap() > state.paths.width() => {
+            remark(ui, "The certificate ended here. A finer mesh may give a better path.");
+        }
         (true, false) => remark(ui, "Path and bound are up to date."),
     }
     ui.add_space(4.0);
