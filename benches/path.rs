@@ -10,7 +10,7 @@ use meshbrush::internals::mesh::{Mesh, NodeId};
 use meshbrush::internals::path::{
     CostDensity, FormulaCost, March, Passage, PathMesh, PathRequest, Place, Planner, Waypoint,
 };
-use meshbrush::{CostFormula, RiskField};
+use meshbrush::{CostFormula, Rect, RiskField};
 use meshbrush_benches::diamond;
 use pathfinding::prelude::dijkstra_all;
 
@@ -19,17 +19,22 @@ const SCALE: f64 = 1e9;
 
 fn main() {
     let mut criterion = Criterion::default().configure_from_args();
-    let formula = CostFormula::parse("1 + 5*exp(-0.1*((x - 2)^2 + (y + 1)^2))").expect("it is a formula");
-    let density = FormulaCost { formula, risk: RiskField::default() };
+    let density = |formula: &str| {
+        let formula = CostFormula::parse(formula).expect("it is a formula");
+        FormulaCost { formula, risk: RiskField::default() }
+    };
+    let plain = "1 + 5*exp(-0.1*((x - 2)^2 + (y + 1)^2))";
+    let density = [plain, &format!("{plain} + 2*max(0, 1 - 4*((x - 3)^2 + (y - 3)^2))")].map(density);
     for level in [9, 12, 13] {
         bench(&mut criterion, &diamond::mesh(level), &density);
     }
     criterion.final_summary();
 }
 
-fn bench(criterion: &mut Criterion, mesh: &Mesh, density: &dyn CostDensity) {
+/// `density` has the costs before and after an edit within a brush of radius 0.5.
+fn bench(criterion: &mut Criterion, mesh: &Mesh, [density, edited]: &[FormulaCost; 2]) {
     let paths = PathMesh::new(mesh.view());
-    let costs = paths.costs(density).expect("the cost is positive");
+    let costs = paths.costs(density).expect("the cost is positive").mean;
     let place = Place::find(&paths, dvec2(-6.0, -6.1), Waypoint::Start).expect("it is in the square");
     let seeds = place.seeds(&paths, &costs);
     let nodes = paths.node_count();
@@ -42,11 +47,9 @@ fn bench(criterion: &mut Criterion, mesh: &Mesh, density: &dyn CostDensity) {
     group.bench_function(BenchmarkId::new("march", nodes), |b| {
         b.iter(|| march.run(&paths, &costs, Passage::Open, &seeds, None));
     });
-    // The cost changes within a brush of radius 0.5, far from the start and back.
-    let near = |t: &u32| paths.corners(*t)[0].distance(dvec2(3.0, 3.0)) < 0.5;
-    let changed: Vec<u32> = (0..paths.triangle_count() as u32).filter(near).collect();
-    let mut raised = costs.clone();
-    changed.iter().for_each(|&t| raised[t as usize] *= 2.0);
+    let raised = paths.costs(edited).expect("the cost is positive").mean;
+    let changed: Vec<u32> =
+        (0..costs.len() as u32).filter(|&t| costs[t as usize] != raised[t as usize]).collect();
     let (mut is_raised, mut redone) = (false, 0);
     group.bench_function(BenchmarkId::new("march after an edit", nodes), |b| {
         b.iter(|| {
@@ -56,7 +59,7 @@ fn bench(criterion: &mut Criterion, mesh: &Mesh, density: &dyn CostDensity) {
         });
     });
     eprintln!("after an edit, {redone} of {nodes} nodes are computed again");
-    let mut planner = Planner::new(paths.clone(), density).expect("the cost is positive");
+    let mut planner = Planner::on_mesh(paths.clone(), density).expect("the cost is positive");
     let places = [dvec2(-6.0, -6.1), dvec2(6.2, 5.0)];
     let mut n = 0.0;
     group.bench_function(BenchmarkId::new("path", nodes), |b| {
@@ -64,6 +67,16 @@ fn bench(criterion: &mut Criterion, mesh: &Mesh, density: &dyn CostDensity) {
             // Another start each time: the planner would keep its march.
             n += 1e-9;
             let places = [places[0] + dvec2(n, 0.0), places[1]];
+            black_box(planner.solve(density, &places, PathRequest::LIVE).expect("there is a path"))
+        });
+    });
+    let area = [Rect::around(dvec2(3.0, 3.0), 0.5)];
+    let mut is_edited = false;
+    group.bench_function(BenchmarkId::new("path after an edit", nodes), |b| {
+        b.iter(|| {
+            is_edited = !is_edited;
+            let density = if is_edited { edited } else { density };
+            planner.update(density, &area).expect("the cost is positive");
             black_box(planner.solve(density, &places, PathRequest::LIVE).expect("there is a path"))
         });
     });

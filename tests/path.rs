@@ -3,15 +3,19 @@
 //! `MESHBRUSH_TABLE=1` prints the table of the exact families, `MESHBRUSH_PATH_RUNS=1000` sets the number of
 //! random radial costs, fields and pairs of meshes.
 
+mod many_directions;
 mod path_referees;
 
+use std::sync::Arc;
+
 use glam::{DVec2, dvec2};
+use many_directions::directions;
 use meshbrush::internals::layers::Mask;
 use meshbrush::internals::path::{
     CostDensity, CostRange, FormulaCost, PathError, PathMesh, PathRequest, Planner, Solution, Waypoint,
 };
 use meshbrush::{CostFormula, Lattice, Limits, Mesh, Rect, RiskField};
-use path_referees::{Radial, directions};
+use path_referees::Radial;
 
 const SQUARE: Rect = Rect::new(DVec2::splat(-2.0), DVec2::splat(2.0));
 
@@ -108,21 +112,21 @@ fn families() -> Vec<Family> {
     let (p, q) = (dvec2(-1.3, -1.1), dvec2(1.2, 1.4));
     vec![
         family("1", "1", a, b, a.distance(b), [1e-9, 0.02]),
-        family("1/r", "1/max(r, 0.02)", c, d, (logarithm(c) - logarithm(d)).length(), [1e-4, 0.1]),
-        family("1/r^2", "1/max(r, 0.02)^2", e, f, power(e, -1.0).distance(power(f, -1.0)), [1e-4, 0.2]),
+        family("1/r", "1/max(r, 0.02)", c, d, (logarithm(c) - logarithm(d)).length(), [3e-5, 0.1]),
+        family("1/r^2", "1/max(r, 0.02)^2", e, f, power(e, -1.0).distance(power(f, -1.0)), [2e-5, 0.2]),
         family(
             "1/r^4",
             "1/max(r, 0.02)^4",
             e,
             f,
             power(e, -3.0).distance(power(f, -3.0)) / 3.0,
-            [2e-4, 0.35],
+            [3e-5, 0.27],
         ),
-        family("e^x", "exp(x)", a, b, exponential(a).distance(exponential(b)), [1e-4, 0.1]),
-        family("half-planes", "if(y < 0, 1, 2.5)", below, above, snell, [8e-3, 0.06]),
+        family("e^x", "exp(x)", a, b, exponential(a).distance(exponential(b)), [7e-6, 0.12]),
+        family("half-planes", "if(y < 0, 1, 2.5)", below, above, snell, [2e-3, 0.052]),
         Family {
             hole: Some([dvec2(-0.5, -0.5), dvec2(0.5, -0.5), dvec2(0.5, 0.5), dvec2(-0.5, 0.5)]),
-            ..family("1 with a square hole", "1", p, q, around(p, q), [5e-3, 0.12])
+            ..family("1 with a square hole", "1", p, q, around(p, q), [2e-4, 0.12])
         },
     ]
 }
@@ -279,7 +283,9 @@ fn the_intervals_of_two_meshes_of_one_field_overlap() {
         };
         let message = format!("{places:?} {:?}: {} {} {} {}", hills.0, a.lower, a.upper, b.lower, b.upper);
         assert!(a.lower <= b.upper && b.lower <= a.upper, "{message}");
-        assert!(a.gap() < 0.4 && b.gap() < 0.4, "{message}");
+        // Between places within one or two triangles the bound says little.
+        let is_resolved = places[0].distance(places[1]) > 0.2;
+        assert!(!is_resolved || (a.gap() < 0.4 && b.gap() < 0.4), "{message}");
         for path in [&a.points, &b.points] {
             let is_free = |p: DVec2| !keep_out.iter().any(|mask| mask.contains(p));
             let places = (0..8).map(|n| f64::from(n) / 8.0);
@@ -350,13 +356,20 @@ fn a_planner_follows_edits_as_a_new_one_does() {
     let mesh = mesh(Rect::UNIT, |x| 0.05 + 0.1 * x.y);
     let places = [dvec2(0.07, 0.1), dvec2(0.5, 0.93), dvec2(0.9, 0.2)];
     let mut hills = Hills::random(&mut random);
-    let mut planner = Planner::new(PathMesh::new(mesh.view()), &hills).unwrap();
+    let paths = Arc::new(PathMesh::new(mesh.view()));
+    let new = |hills: &Hills| Planner::on_mesh(Arc::clone(&paths), hills).unwrap();
+    let mut planner = new(&hills);
     planner.solve(&hills, &places, PathRequest::FULL).unwrap();
-    for _ in 0..10 {
+    for round in 0..10 {
         let n = random.usize(..hills.0.len());
         hills.0[n][0] = 4.0 * random.f64();
-        planner.update(&hills, &Rect::UNIT).unwrap();
-        let followed = planner.solve(&hills, &places, PathRequest::FULL).unwrap();
-        assert_eq!(followed, solve(&mesh, &hills, &places, &[]).unwrap());
+        planner.update(&hills, &[Rect::UNIT]).unwrap();
+        // Live paths pause their marches, and a dragged goal lets them go on.
+        let goal = dvec2(0.5 + 0.4 * random.f64(), 0.9 * random.f64());
+        let places = [places[0], places[1], if round % 3 == 0 { goal } else { places[2] }];
+        let request = if round % 2 == 0 { PathRequest::FULL } else { PathRequest::LIVE };
+        let followed = planner.solve(&hills, &places, request).unwrap();
+        let expected = new(&hills).solve(&hills, &places, request).unwrap();
+        assert!(followed == expected, "{round}: {} {}", followed.cost, expected.cost);
     }
 }

@@ -88,3 +88,42 @@ fn alternatives_go_through_other_gaps() {
         assert!((mean.sum::<f64>() - path.cost).abs() < 1e-3 * path.cost);
     }
 }
+
+/// Whether a point is within an odd number of closed lines.
+fn is_within(lines: &[Vec<DVec2>], p: DVec2) -> bool {
+    let crosses = |ends: &&[DVec2]| {
+        let [a, b] = [ends[0], ends[1]];
+        (a.y <= p.y) != (b.y <= p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x)
+    };
+    lines.iter().flat_map(|line| line.windows(2)).filter(crosses).count() % 2 == 1
+}
+
+#[test]
+fn the_outlines_of_a_corridor_are_closed_and_part_it_from_the_rest() {
+    let risk = threats(&[(0.5, 0.3), (0.45, 0.72)], 0.2);
+    let density = WeightedCost::new(Weights { length: 1.0, risk: 20.0 }, risk).unwrap();
+    let mut planner = Planner::new(mesh(0.05), &density).unwrap();
+    let corridor = planner.corridor(&[dvec2(0.1, 0.45), dvec2(0.95, 0.5)]).unwrap();
+    let other = planner.corridor(&[dvec2(0.1, 0.1), dvec2(0.2, 0.9)]).unwrap();
+    let mesh = planner.mesh();
+    let mut random = fastrand::Rng::with_seed(20);
+    for (corridor, share) in
+        [(&corridor, 0.03), (&corridor, 0.2), (&corridor, 5.0), (&other.joined(corridor.clone()), 0.1)]
+    {
+        let lines = corridor.outlines(mesh, share);
+        assert!(
+            !lines.is_empty() && lines.iter().all(|line| line.len() > 3 && line[0] == line[line.len() - 1])
+        );
+        let mut within = 0;
+        for _ in 0..2_000 {
+            let at = dvec2(random.f64(), random.f64());
+            let excess = corridor.excess_at(mesh, at).unwrap();
+            within += usize::from(excess <= share);
+            assert_eq!(is_within(&lines, at), excess <= share, "{at} {excess} {share}");
+        }
+        assert!(within > 20, "{share}: {within}");
+        let twice_area: f64 =
+            lines.iter().flat_map(|line| line.windows(2)).map(|p| p[0].perp_dot(p[1])).sum();
+        assert!((0.5 * twice_area - within as f64 / 2_000.0).abs() < 0.03, "the corridor is to the left");
+    }
+}

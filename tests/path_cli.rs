@@ -85,6 +85,21 @@ fn a_proof_narrows_the_interval() {
 }
 
 #[test]
+fn the_best_valley_between_threats_is_found_on_a_coarse_mesh() {
+    let folder = Folder::new("valley");
+    let threats = "x,y,range,peak,law\n27,38,19,1,radar\n45,70,22,0.9,radar\n52,22,17,1,radar\n\
+        63,47,15,0.8,radar\n78,74,17,1,radar\n84,27,14,0.9,radar\n17,78,15,0.7,radar\n";
+    fs::write(folder.0.join("threats.csv"), threats).unwrap();
+    let answer = folder.json(
+        "--domain 0,0,100,100 --spacing 5 --h-min 0.5 --h-max 20 --threats threats.csv \
+         --from 6,12 --to 94,88 --within 1%",
+    );
+    let [cost, lower, upper] = ["cost", "lower", "upper"].map(|name| answer[name].as_f64().unwrap());
+    // Another valley costs 166.5.
+    assert!(cost < 146.5 && upper - lower <= 0.01 * upper, "{cost} {lower} {upper}");
+}
+
+#[test]
 fn via_points_and_keep_out_regions_count() {
     let folder = Folder::new("around");
     let ring = "[[[0.4,-0.1],[0.6,-0.1],[0.6,0.7],[0.4,0.7],[0.4,-0.1]]]";

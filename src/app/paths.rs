@@ -267,7 +267,9 @@ impl PlannedMesh {
         bounds: &crate::geometry::Rect,
     ) -> Result<Planner, PathError> {
         match self {
-            Self::Planner(mut planner) => planner.update(&**density, bounds).map(|()| *planner),
+            Self::Planner(mut planner) => {
+                planner.update(&**density, std::slice::from_ref(bounds)).map(|()| *planner)
+            }
             Self::Mesh(mesh) => Planner::new(PathMesh::new(mesh.view()), &**density),
             Self::Extract(extract) => Planner::new(PathMesh::new(extract.view()), &**density),
         }

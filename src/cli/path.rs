@@ -17,16 +17,16 @@ use super::path_args::PathArguments;
 use super::request::MeshRequest;
 use super::terminal::Terminal;
 use super::why::point;
+use crate::document::PathCost;
 use crate::field::CostFormula;
-use crate::io::{self as files, Interruption, Meter, write_file_metered};
+use crate::io::{self as files, Interruption, Provenance};
 use crate::layers::Mask;
-use crate::mesh::Extract;
 use crate::path::{
-    Certificate, CertificateTask, CostDensity, FormulaCost, PathMesh, PathRequest, PathSample, Planner,
-    Solution, WeightedCost, Weights,
+    CertificateEnd, CertificateTask, CostDensity, PathCertificate, PathError, PathMesh, PathRequest,
+    PathSample, Planner, Solution, Weights,
 };
-use crate::render::export::ExportFormat;
-use crate::text::{Grouped, Number};
+use crate::render::path_export::{MeshOfPath, PathExport, PathFormat};
+use crate::text::{Grouped, Number, percent_above, rounded};
 
 /// Runs the command. `line` is how it was typed, and `out` is standard output.
 ///
@@ -54,33 +54,34 @@ pub fn run(
     let density = density(typed, formula, &finished)?;
     let start = Instant::now();
     let mut planner = Planner::new(PathMesh::with_keep_out(extract.view(), &keep_out), &*density)?;
-    let mut legs = planner.legs(&*density, &places, PathRequest::FULL)?;
-    if let Some(width) = within {
-        let prover = Prover { finished: &finished, density: &density, keep_out: &keep_out, width };
-        legs.iter_mut().try_for_each(|leg| prover.tighten(leg, terminal))?;
-    }
-    let solution = Solution::joined(legs);
-    let seconds = start.elapsed().as_secs_f64();
+    let mut solution = planner.solve(&*density, &places, PathRequest::FULL)?;
+    let mut end = None;
     if let Some(width) = within.filter(|&width| solution.gap() > width) {
-        let reached = percent(solution.gap());
-        terminal
-            .note(&format!("The path is proved to be within {reached} of the best, not {}.", percent(width)));
+        let mesh = Arc::clone(planner.mesh());
+        let task = task(&finished, density.clone(), &keep_out, &solution, width);
+        let certificate = PathCertificate::new(&solution, &task)?.with_search(mesh);
+        end = prove(&mut solution, certificate, terminal)?;
     }
-    let kept = match typed.simplify {
-        Some(tolerance) => solution.waypoints(tolerance)?,
-        None => (0..solution.points.len()).collect(),
-    };
-    let details = MeshDetails::of(&finished, &extract, line, &request);
-    let written =
-        Written { solution: &solution, samples: solution.samples_at(&*density, &kept), details: &details };
-    written.write_files(&outputs, (&finished, &extract), &look, terminal)?;
-    let answer = Answer::new(&solution, &written.samples, extract.triangles().len(), seconds);
+    let seconds = start.elapsed().as_secs_f64();
+    if let Some((width, end)) = within.filter(|&width| solution.gap() > width).zip(end) {
+        let reached = percent_above(solution.gap());
+        terminal.note(&format!(
+            "The path is proved to be within {reached} of the best, not {}. {end}",
+            percent_above(width)
+        ));
+    }
+    let export = PathExport::new(&solution, &*density, typed.simplify)?;
+    let provenance = MeshDetails::of(&finished, &extract, line, &request).provenance;
+    let look = look.for_mesh(finished.mesh());
+    let over = MeshOfPath { mesh: finished.mesh(), extract: &extract, look: &look };
+    outputs.iter().try_for_each(|output| output.write(&export, &over, &provenance, terminal))?;
+    let answer = Answer::new(&solution, export.samples(), extract.triangles().len(), seconds);
     match typed.json {
         true => {
             let json = serde_json::to_string(&answer).map_err(|error| Failure::Print(error.into()))?;
             writeln!(out, "{json}").and_then(|()| out.flush()).map_err(Failure::Print)
         }
-        false => writeln!(out, "{}", answer.for_people()).map_err(Failure::Print),
+        false => writeln!(out, "{}", answer.for_people(solution.gap())).map_err(Failure::Print),
     }
 }
 
@@ -114,16 +115,13 @@ fn density(
     formula: Option<CostFormula>,
     finished: &FinishedMesh,
 ) -> Result<Arc<dyn CostDensity>, Failure> {
-    let risk = finished.risk();
-    if let Some(formula) = formula {
-        return Ok(Arc::new(FormulaCost { formula, risk }));
-    }
     let usual = Weights::default();
     let weights = Weights {
         length: typed.length_weight.unwrap_or(usual.length),
         risk: typed.risk_weight.unwrap_or(usual.risk),
     };
-    Ok(Arc::new(WeightedCost::new(weights, risk)?))
+    let cost = formula.map_or(PathCost::Weighted(weights), PathCost::Formula);
+    Ok(cost.density(finished.risk())?)
 }
 
 fn mask(path: &Path) -> Result<Mask, Failure> {
@@ -131,41 +129,36 @@ fn mask(path: &Path) -> Result<Mask, Failure> {
     Mask::new(&polygons).map_err(|error| Failure::Work(format!("{}: {error}", path.display())))
 }
 
-/// Raises lower bounds.
-struct Prover<'a> {
-    finished: &'a FinishedMesh,
-    density: &'a Arc<dyn CostDensity>,
-    keep_out: &'a [Mask],
+/// What is to be proved of a path.
+fn task(
+    finished: &FinishedMesh,
+    cost: Arc<dyn CostDensity>,
+    keep_out: &[Mask],
+    solution: &Solution,
     width: f64,
+) -> CertificateTask {
+    let domain = finished.domain();
+    CertificateTask::in_rectangle(domain.bounds, cost, solution.points.clone(), solution.upper, width)
+        .expect("the bounds of a domain are a rectangle")
+        .in_domain(domain)
+        .outside_of(keep_out.to_vec())
 }
 
-impl Prover<'_> {
-    fn tighten(&self, leg: &mut Solution, terminal: &mut Terminal) -> Result<(), Failure> {
-        if leg.gap() <= self.width {
-            return Ok(());
-        }
-        let start = Instant::now();
-        let mut certificate = Certificate::new(self.task(leg))?;
-        loop {
-            let end = certificate.advance()?;
-            leg.tighten(certificate.lower());
-            match end {
-                Some(_) => break,
-                None => terminal.progress(start, || format!("within {} of the best", percent(leg.gap()))),
-            }
-        }
-        terminal.clear();
-        Ok(())
+/// Raises the lower bound, and takes better paths. Returns why that ended.
+fn prove(
+    solution: &mut Solution,
+    mut certificate: PathCertificate,
+    terminal: &mut Terminal,
+) -> Result<Option<CertificateEnd>, PathError> {
+    let start = Instant::now();
+    let mut end = certificate.end();
+    while end.is_none() {
+        terminal.progress(start, || format!("within {} of the best", percent_above(solution.gap())));
+        end = certificate.advance()?;
+        solution.take(certificate.solution());
     }
-
-    fn task(&self, leg: &Solution) -> CertificateTask {
-        let domain = self.finished.domain();
-        let (cost, path) = (self.density.clone(), leg.points.clone());
-        CertificateTask::in_rectangle(domain.bounds, cost, path, leg.upper, self.width)
-            .expect("the bounds of a domain are a rectangle")
-            .in_domain(domain)
-            .outside_of(self.keep_out.to_vec())
-    }
+    terminal.clear();
+    Ok(end)
 }
 
 /// A file of the path.
@@ -174,70 +167,29 @@ struct PathOutput {
     format: PathFormat,
 }
 
-enum PathFormat {
-    GeoJson,
-    Csv,
-    Picture(ExportFormat),
-}
-
 impl PathOutput {
     fn new(path: &Path) -> Result<Self, Failure> {
-        let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
-        let format = match ending.to_ascii_lowercase().as_str() {
-            "geojson" | "json" => PathFormat::GeoJson,
-            "csv" => PathFormat::Csv,
-            "svg" => PathFormat::Picture(ExportFormat::Svg),
-            "png" => PathFormat::Picture(ExportFormat::Png),
-            _ => {
-                let problem = format!("-o {}: the ending decides the format", path.display());
-                return Err(Failure::Usage(format!("{problem}; use .geojson, .csv, .svg or .png.")));
-            }
-        };
+        let format = PathFormat::of(path).map_err(|error| Failure::Usage(format!("-o {error}.")))?;
         Ok(Self { path: path.to_owned(), format })
     }
-}
 
-/// What files get of a path.
-struct Written<'a> {
-    solution: &'a Solution,
-    samples: Vec<PathSample>,
-    details: &'a MeshDetails,
-}
-
-impl Written<'_> {
-    fn write_files(
+    fn write(
         &self,
-        outputs: &[PathOutput],
-        (finished, extract): (&FinishedMesh, &Extract),
-        look: &RequestedLook,
+        export: &PathExport<'_>,
+        over: &MeshOfPath<'_>,
+        provenance: &Provenance,
         terminal: &mut Terminal,
     ) -> Result<(), Failure> {
+        let Self { path, format } = self;
         let interruption = Interruption::listen().map_err(|error| Failure::Work(format!("{error}.")))?;
-        let look = look.for_mesh(finished.mesh());
-        let points: Vec<DVec2> = self.samples.iter().map(|sample| sample.point).collect();
-        for PathOutput { path, format } in outputs {
-            let meter = interruption.meter();
-            let write = |out: &mut dyn Write, meter: &Meter| -> io::Result<()> {
-                let provenance = &self.details.provenance;
-                match format {
-                    PathFormat::GeoJson => {
-                        files::path::write_geojson(out, self.solution, &self.samples, provenance)
-                    }
-                    PathFormat::Csv => files::path::write_csv(out, &self.samples),
-                    PathFormat::Picture(format) => {
-                        let of = (finished.mesh(), extract);
-                        format.write_path_to(out, of, &points, &look, provenance, meter)
-                    }
-                }
-            };
-            let written = terminal.while_metered(&format!("writing {}", path.display()), &meter, || {
-                write_file_metered(path, &meter, |out| write(out, &meter))
-            });
-            interruption.end_program();
-            let failed = |error: io::Error| Failure::Write { file: path.clone(), problem: error.to_string() };
-            written.map_err(failed)?;
-            terminal.say(&format!("wrote {}", path.display()));
-        }
+        let meter = interruption.meter();
+        let written = terminal.while_metered(&format!("writing {}", path.display()), &meter, || {
+            export.write(path, *format, over, provenance, &meter)
+        });
+        interruption.end_program();
+        let failed = |error: io::Error| Failure::Write { file: path.clone(), problem: error.to_string() };
+        written.map_err(failed)?;
+        terminal.say(&format!("wrote {}", path.display()));
         Ok(())
     }
 }
@@ -270,14 +222,13 @@ impl Answer {
         Self { cost, lower, upper, length, risk, highest_risk, points, triangles, seconds }
     }
 
-    fn for_people(&self) -> String {
-        let gap = if self.upper > 0.0 { (self.upper - self.lower) / self.upper } else { 0.0 };
+    fn for_people(&self, gap: f64) -> String {
         format!(
             "cost {}, within {} of the best: no path costs less than {}\n\
              length {}, accumulated risk {}, highest risk {}\n\
              {} triangles, {:.2} s",
             short(self.cost),
-            percent(gap),
+            percent_above(gap),
             short(self.lower),
             short(self.length),
             short(self.risk),
@@ -290,12 +241,5 @@ impl Answer {
 
 /// Six significant digits.
 fn short(value: f64) -> Number {
-    Number(format!("{value:.5e}").parse().unwrap_or(value))
-}
-
-/// A share, rounded up.
-fn percent(share: f64) -> String {
-    let percent = 100.0 * share;
-    let digits = if percent < 0.1 { 1000.0 } else { 100.0 };
-    format!("{} %", (percent * digits).ceil() / digits)
+    Number(rounded(value, 6))
 }

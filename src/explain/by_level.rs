@@ -171,36 +171,14 @@ mod tests {
     use glam::{DVec2, dvec2};
 
     use super::*;
-    use crate::domain::{BoundaryTreatment, Domain};
-    use crate::field::{Formula, RefinementRule, Transfer};
-    use crate::geometry::{Lattice, Rect};
-    use crate::layers::{Layer, LayerKind, PaintLayers, SizeFieldSpec};
-    use crate::mesh::{Cleaning, Progress};
-    use crate::{BuiltMesh, MeshBuilder, MeshSpec};
+    use crate::BuiltMesh;
+    use crate::explain::fixture;
+    use crate::field::RefinementRule;
+    use crate::layers::PaintLayers;
 
     /// h̄ is fine at one place and coarse elsewhere; by the vertex rule, so that a test can say the same.
     fn built(limits: Limits) -> BuiltMesh {
-        let domain = Domain::rectangle(Rect::UNIT);
-        let target = Formula::parse("0.004 + 0.3*hypot(x - 0.3, y - 0.4)").unwrap();
-        let field = SizeFieldSpec {
-            layers: Layer::stack([LayerKind::target(target)]),
-            transfer: Transfer { h_min: 0.001, h_max: 1.0, shape: 1.0 },
-            unasked: 1.0,
-            outline: None,
-            gradation: None,
-        };
-        let spec = MeshSpec {
-            lattice: Lattice::covering(domain.bounds, 0.1, 100_000).unwrap(),
-            domain,
-            boundary: BoundaryTreatment::usual(0.1),
-            field,
-            rule: RefinementRule::Vertex,
-            cleaning: Cleaning::NONE,
-            limits,
-        };
-        let mut builder = MeshBuilder::new(spec);
-        while builder.advance(None, 10_000).unwrap() == Progress::More {}
-        builder.finish()
+        fixture::built("0.004 + 0.3*hypot(x - 0.3, y - 0.4)", RefinementRule::Vertex, limits)
     }
 
     fn figures(built: &BuiltMesh, limits: &Limits) -> Vec<LevelFigures> {

@@ -2,6 +2,8 @@
 
 mod ages;
 mod by_level;
+#[cfg(test)]
+mod fixture;
 mod node;
 mod sampled;
 mod sentences;

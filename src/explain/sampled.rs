@@ -67,38 +67,16 @@ mod tests {
     use glam::dvec2;
 
     use super::*;
-    use crate::domain::{BoundaryTreatment, Domain};
-    use crate::explain::Explanation;
-    use crate::field::{Formula, RefinementRule, Transfer};
-    use crate::geometry::Lattice;
-    use crate::layers::{Layer, LayerKind, PaintLayers, SizeFieldSpec};
-    use crate::mesh::{Cause, Cleaning, Progress};
-    use crate::{MeshBuilder, MeshSpec};
+    use crate::explain::{Explanation, fixture};
+    use crate::field::RefinementRule;
+    use crate::layers::PaintLayers;
+    use crate::mesh::Cause;
 
     #[test]
     fn forced_triangles_are_those_that_compatibility_asked_for() {
-        let domain = Domain::rectangle(Rect::UNIT);
-        let target = Formula::parse("if(hypot(x - 0.3, y - 0.4) < 0.01, 0.003, 0.3)").unwrap();
-        let field = SizeFieldSpec {
-            layers: Layer::stack([LayerKind::target(target)]),
-            transfer: Transfer { h_min: 0.001, h_max: 1.0, shape: 1.0 },
-            unasked: 1.0,
-            outline: None,
-            gradation: None,
-        };
+        let target = "if(hypot(x - 0.3, y - 0.4) < 0.01, 0.003, 0.3)";
         let limits = Limits::default();
-        let spec = MeshSpec {
-            lattice: Lattice::covering(domain.bounds, 0.1, 100_000).unwrap(),
-            domain,
-            boundary: BoundaryTreatment::usual(0.1),
-            field,
-            rule: RefinementRule::Area,
-            cleaning: Cleaning::NONE,
-            limits,
-        };
-        let mut builder = MeshBuilder::new(spec);
-        while builder.advance(None, 10_000).unwrap() == Progress::More {}
-        let built = builder.finish();
+        let built = fixture::built(target, RefinementRule::Area, limits);
         let size = [40, 40];
         let pixels = PixelTriangles::new(&built.mesh, Rect::UNIT, size);
         let criterion = RefinementCriterion::by_area(&built.domain, &built.field, PaintLayers::blank());

@@ -122,7 +122,7 @@ impl Bounds {
         self.abs().increasing(|v| v * v)
     }
 
-    pub(super) fn plus(self, other: Self) -> Self {
+    pub(crate) fn plus(self, other: Self) -> Self {
         let opposite = |a: Self, b: Self| a.least == f64::NEG_INFINITY && b.greatest == f64::INFINITY;
         let valid = self.valid && other.valid && !opposite(self, other) && !opposite(other, self);
         let (least, greatest) = (self.least + other.least, self.greatest + other.greatest);
@@ -135,7 +135,7 @@ impl Bounds {
         self.plus(other.negated())
     }
 
-    pub(super) fn times(self, other: Self) -> Self {
+    pub(crate) fn times(self, other: Self) -> Self {
         let vanishes = |a: Self, b: Self| a.has_zero() && b.has_infinity();
         let valid = self.valid && other.valid && !vanishes(self, other) && !vanishes(other, self);
         // A product 0 · ∞ is NaN. The other products bound the rest: beside it there is a product with 0 and

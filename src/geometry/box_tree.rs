@@ -219,8 +219,8 @@ fn squared_distance_to(rect: &Rect, p: DVec2) -> f64 {
     (p - p.clamp(rect.min, rect.max)).length_squared() * (1.0 - 1e-12)
 }
 
-/// The place of a point within `bounds` along a Z-order curve.
-fn z_order(p: DVec2, bounds: &Rect) -> u32 {
+/// The place of a point within `bounds` along a Z-order curve, of 65,536 × 65,536 places.
+pub fn z_order(p: DVec2, bounds: &Rect) -> u32 {
     let size = bounds.size();
     let share = |axis: usize| if size[axis] > 0.0 { (p[axis] - bounds.min[axis]) / size[axis] } else { 0.0 };
     let place = |axis: usize| (share(axis) * 65_535.0) as u32 & 0xffff;

@@ -9,7 +9,7 @@ mod predicates;
 mod rect;
 mod segment;
 
-pub use box_tree::{BoxGroup, BoxTree};
+pub use box_tree::{BoxGroup, BoxTree, z_order};
 pub use lattice::{GridError, LATTICE_BITS, Lattice, LatticePoint};
 pub use lattice_rect::LatticeRect;
 pub use octagon::Octagon;

@@ -35,7 +35,7 @@ pub enum Coverage {
 
 impl PartialEq for Mask {
     fn eq(&self, other: &Self) -> bool {
-        self.0.region == other.0.region
+        Arc::ptr_eq(&self.0, &other.0) || self.0.region == other.0.region
     }
 }
 
@@ -58,6 +58,11 @@ impl Mask {
         let boxes: Vec<Rect> = edges.iter().map(|&[a, b]| Rect::spanning(a, b)).collect();
         let tree = BoxTree::new(&boxes);
         Ok(Self(Arc::new(Indexed { region: region.clone(), edges, tree })))
+    }
+
+    /// The polygons as a region. Clones of a mask share it.
+    pub fn region(&self) -> &Arc<Region> {
+        &self.0.region
     }
 
     /// The polygons, which do not overlap.

@@ -10,6 +10,7 @@ mod least;
 mod mask;
 mod paint_layers;
 mod risk;
+mod risk_slopes;
 mod sampled;
 mod size_field;
 mod targets;

@@ -8,7 +8,7 @@ use super::engine::asked::Share;
 use super::{Combine, Coverage, Layer, LayerKind, Mask, PaintLayers, Quantity, RasterReading, Threats};
 use crate::field::{Bounds, Formula};
 use crate::geometry::Rect;
-use crate::raster::{PixelGrid, RasterPyramid, TiledRaster, ValueRange, ValueRanges, power_of_two};
+use crate::raster::{PixelGrid, RasterPyramid, TiledRaster, ValueRange, ValueRanges, exponent, power_of_two};
 
 /// The risk that a stack of layers has at each point, from 0 to 1.
 ///
@@ -21,18 +21,18 @@ use crate::raster::{PixelGrid, RasterPyramid, TiledRaster, ValueRange, ValueRang
 /// risk of the pixels counts. Clones share the data.
 #[derive(Clone, Debug, Default)]
 pub struct RiskField {
-    layers: Vec<RiskLayer>,
+    pub(super) layers: Vec<RiskLayer>,
 }
 
 #[derive(Clone, Debug)]
-struct RiskLayer {
-    combine: Combine,
-    mask: Option<Mask>,
-    source: RiskSource,
+pub(super) struct RiskLayer {
+    pub combine: Combine,
+    pub mask: Option<Mask>,
+    pub source: RiskSource,
 }
 
 #[derive(Clone, Debug)]
-enum RiskSource {
+pub(super) enum RiskSource {
     Paint(TiledRaster),
     Raster(Arc<RasterPyramid>),
     Formula(Formula),
@@ -40,9 +40,9 @@ enum RiskSource {
 }
 
 /// The risks of a layer in a rectangle, and where it has any.
-struct Risks {
-    least: f64,
-    greatest: f64,
+pub(super) struct Risks {
+    pub least: f64,
+    pub greatest: f64,
     present: Share,
 }
 
@@ -75,6 +75,22 @@ impl RiskField {
     /// Whether no layer holds a risk.
     pub fn is_empty(&self) -> bool {
         self.layers.is_empty()
+    }
+
+    /// Rectangles in world units on the closed union of which the risk can differ from that of another stack.
+    /// `None` where it can differ anywhere.
+    pub fn areas_that_differ(&self, other: &Self) -> Option<Vec<Rect>> {
+        if self.layers.len() != other.layers.len() {
+            return None;
+        }
+        let mut areas = Vec::new();
+        for (layer, before) in self.layers.iter().zip(&other.layers) {
+            if layer.combine != before.combine || layer.mask != before.mask {
+                return None;
+            }
+            areas.extend(layer.source.areas_that_differ(&before.source)?);
+        }
+        Some(areas)
     }
 
     /// The risk at a point in world units.
@@ -121,8 +137,18 @@ impl Risks {
         Self { least, greatest, present }
     }
 
+    /// Whether the layer has a risk at every point.
+    pub fn is_everywhere(&self) -> bool {
+        self.present == Share::All
+    }
+
+    /// Whether the layer has no risk at any point.
+    pub fn is_nowhere(&self) -> bool {
+        self.present == Share::None
+    }
+
     /// The bounds of the result, from those of the layers below.
-    fn over(&self, below: Bounds, combine: Combine) -> Bounds {
+    pub fn over(&self, below: Bounds, combine: Combine) -> Bounds {
         let Self { least, greatest, present } = *self;
         let own = Bounds::new(least, greatest);
         let result = match combine {
@@ -139,6 +165,18 @@ impl Risks {
 }
 
 impl RiskSource {
+    fn areas_that_differ(&self, other: &Self) -> Option<Vec<Rect>> {
+        match (self, other) {
+            (Self::Paint(new), Self::Paint(old)) => new.areas_that_differ(old),
+            (Self::Raster(new), Self::Raster(old)) if Arc::ptr_eq(new, old) => Some(Vec::new()),
+            (Self::Formula(new), Self::Formula(old)) if new == old => Some(Vec::new()),
+            (Self::Threats(new), Self::Threats(old)) => {
+                Some(Threats::changed_area(old, new).into_iter().collect())
+            }
+            _ => None,
+        }
+    }
+
     /// `None` where the layer has no risk.
     fn at(&self, point: DVec2, place: &Rect) -> Option<f64> {
         match self {
@@ -154,7 +192,7 @@ impl RiskSource {
         }
     }
 
-    fn range(&self, rectangle: &Rect) -> Risks {
+    pub fn range(&self, rectangle: &Rect) -> Risks {
         let of_bounds = |bounds: Bounds, none: f64| {
             let present = match (bounds.valid && bounds.least > none, bounds.greatest > none) {
                 (true, _) => Share::All,
@@ -262,11 +300,6 @@ impl<R: ValueRanges> Descent<'_, R> {
         let parts = rows.flat_map(|y| columns.clone().map(move |x| (x, y)));
         parts.map(|(x, y)| self.square(scale - 1, x, y)).reduce(ValueRange::union).unwrap_or(range)
     }
-}
-
-/// The exponent of a positive normal number, rounded down.
-fn exponent(v: f64) -> i32 {
-    (v.to_bits() >> 52) as i32 - 1023
 }
 
 #[cfg(test)]

@@ -131,7 +131,7 @@ impl Threat {
     }
 
     /// Bounds of the risk over a rectangle. Up to the law, every operation keeps order when it rounds.
-    fn bounds(&self, rect: &Rect) -> Bounds {
+    pub(super) fn bounds(&self, rect: &Rect) -> Bounds {
         let (low, high) = (rect.min - self.at, rect.max - self.at);
         let nearest = DVec2::ZERO.clamp(low, high);
         let farthest = low.abs().max(high.abs());
@@ -224,6 +224,15 @@ impl Threats {
         });
         risks.sort_unstable_by_key(|&(number, _)| number);
         1.0 - risks.iter().map(|(_, risk)| 1.0 - risk).product::<f64>()
+    }
+
+    /// Visits the threats whose reach meets a rectangle, in no particular order.
+    pub(super) fn visit_meeting(
+        &self,
+        rect: &Rect,
+        mut visit: impl FnMut(&Threat) -> ControlFlow<()>,
+    ) -> ControlFlow<()> {
+        self.0.tree.visit_meeting(rect, |number| visit(&self.0.threats[number as usize]))
     }
 
     /// Bounds of the combined risk over a closed rectangle in world units.

@@ -1,5 +1,7 @@
 //! The next best paths that differ substantially.
 
+use std::sync::Arc;
+
 use glam::DVec2;
 
 use super::{CostDensity, CostRange, PathError, PathMesh, PathRequest, Planner, Solution};
@@ -32,7 +34,7 @@ impl Default for Difference {
 /// is raised in corridors twice as wide. It is not proved that no path in between is better.
 #[derive(Clone, Debug)]
 pub struct Alternatives {
-    mesh: PathMesh,
+    mesh: Arc<PathMesh>,
     places: Vec<DVec2>,
     difference: Difference,
     /// The paths so far, the best first, and then in the order in which they were found.
@@ -40,6 +42,8 @@ pub struct Alternatives {
     /// How much wider than the corridors the cost is raised.
     widening: f64,
     is_done: bool,
+    /// Whether the mesh is fine enough for the cost.
+    is_adapted: bool,
 }
 
 /// How much the cost is raised on an earlier path.
@@ -51,9 +55,22 @@ const SAMPLES: usize = 200;
 
 impl Alternatives {
     /// The search for other paths than the best one, which `best` is.
-    pub fn new(mesh: PathMesh, places: Vec<DVec2>, best: Solution, difference: Difference) -> Self {
+    pub fn new(
+        mesh: impl Into<Arc<PathMesh>>,
+        places: Vec<DVec2>,
+        best: Solution,
+        difference: Difference,
+    ) -> Self {
         let is_done = best.length == 0.0;
-        Self { mesh, places, difference, paths: vec![best], widening: 1.0, is_done }
+        Self {
+            mesh: mesh.into(),
+            places,
+            difference,
+            paths: vec![best],
+            widening: 1.0,
+            is_done,
+            is_adapted: false,
+        }
     }
 
     /// The paths so far: the best, then the others in the order in which they were found.
@@ -74,6 +91,10 @@ impl Alternatives {
         if self.is_done {
             return Ok(None);
         }
+        if !self.is_adapted {
+            self.mesh = Arc::clone(Planner::new(Arc::clone(&self.mesh), density)?.mesh());
+            self.is_adapted = true;
+        }
         let width = self.difference.width * self.paths[0].length;
         let lines = self.paths.iter().map(|path| path.points.clone()).collect();
         let Ok(shapes) = Shapes::new(ShapeList { lines, ..ShapeList::default() }, false) else {
@@ -82,7 +103,7 @@ impl Alternatives {
         };
         let raised = Raised { density, shapes: &shapes, width: self.widening * width };
         let request = PathRequest { has_bounds: false, ..PathRequest::FULL };
-        let mut planner = Planner::new(self.mesh.clone(), &raised)?;
+        let mut planner = Planner::on_mesh(Arc::clone(&self.mesh), &raised)?;
         let found = planner.solve(&raised, &self.places, request)?;
         // By its true cost, a path in the same valley moves back to the earlier one.
         let path = planner.relaxed(&found, density, request.tolerance);

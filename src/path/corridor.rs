@@ -22,6 +22,12 @@ impl Corridor {
         &self.excess
     }
 
+    /// The points of either corridor, on the same mesh.
+    pub fn joined(mut self, other: Self) -> Self {
+        self.excess.iter_mut().zip(other.excess).for_each(|(excess, other)| *excess = excess.min(other));
+        self
+    }
+
     /// The open triangles with a point in the corridor of `share`, by their numbers.
     pub fn triangles<'a>(&'a self, mesh: &'a PathMesh, share: f64) -> impl Iterator<Item = u32> + 'a {
         let within = move |t: &u32| {

@@ -112,6 +112,12 @@ impl CostDensity for WeightedCost {
         CostRange { least: self.of_risk(least), greatest: self.of_risk(greatest) }
     }
 
+    fn derivatives(&self, rectangle: &Rect) -> Option<[CostRange; 2]> {
+        let weight = Bounds::one(self.weights.risk);
+        let slopes = self.risk.derivatives(rectangle)?.map(|slope| CostRange::from(slope.times(weight)));
+        slopes.iter().all(|slope| slope.greatest - slope.least < f64::INFINITY).then_some(slopes)
+    }
+
     fn risk_at(&self, point: DVec2) -> f64 {
         self.risk.at(point)
     }
@@ -136,7 +142,8 @@ impl CostDensity for FormulaCost {
     }
 
     fn derivatives(&self, rectangle: &Rect) -> Option<[CostRange; 2]> {
-        let slopes = self.formula.derivatives(rectangle, self.risk.range(rectangle))?;
+        let risk = (self.risk.range(rectangle), self.risk.derivatives(rectangle));
+        let slopes = self.formula.derivatives(rectangle, risk.0, risk.1)?;
         Some(slopes.map(CostRange::from))
     }
 

@@ -58,8 +58,13 @@ pub enum PathError {
         /// The place, in world units.
         at: DVec2,
     },
-    /// The start, the goal or a via point is in a part where no path may go.
-    #[error("The {which} {} lies in a keep-out region. Choose a place beside it.", Place(*at))]
+    /// The start, the goal or a via point is in a region where no path may go, or in a triangle that touches
+    /// one.
+    #[error(
+        "The {which} {} lies in a keep-out region, or in a triangle that one touches. Choose a place farther \
+         away, or make the mesh finer there.",
+        Place(*at)
+    )]
     KeptOut {
         /// Which place.
         which: Waypoint,

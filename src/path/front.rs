@@ -1,5 +1,7 @@
 //! Length against risk: the best paths as the weights change.
 
+use std::sync::Arc;
+
 use glam::DVec2;
 
 use super::{PathError, PathMesh, PathRequest, Planner, Solution, WeightedCost, Weights};
@@ -20,7 +22,7 @@ pub struct FrontPoint {
 /// without less risk are left out. Weights find the paths on the convex hull of the front only.
 #[derive(Clone, Debug)]
 pub struct Front {
-    mesh: PathMesh,
+    mesh: Arc<PathMesh>,
     risk: RiskField,
     places: Vec<DVec2>,
     /// The risk weights still to do, the smallest last.
@@ -36,12 +38,12 @@ const EQUAL: f64 = 1e-6;
 
 impl Front {
     /// The front between places, in order, with at most `count` paths, at least three.
-    pub fn new(mesh: PathMesh, risk: RiskField, places: Vec<DVec2>, count: usize) -> Self {
+    pub fn new(mesh: impl Into<Arc<PathMesh>>, risk: RiskField, places: Vec<DVec2>, count: usize) -> Self {
         let steps = count.max(3) - 2;
         let [least, greatest] = WEIGHTS;
         let weight = |n: usize| least * libm::pow(greatest / least, n as f64 / steps as f64);
         let waiting = (0..=steps).rev().map(weight).chain([0.0]).collect();
-        Self { mesh, risk, places, waiting, points: Vec::new() }
+        Self { mesh: mesh.into(), risk, places, waiting, points: Vec::new() }
     }
 
     /// How many paths are still to be found.

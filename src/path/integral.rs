@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::CostDensity;
+use super::{CostDensity, CostRange};
 use crate::geometry::Rect;
 
 /// The figures of a polyline.
@@ -29,9 +29,9 @@ const ROUNDING: f64 = 1e-12;
 impl PathFigures {
     /// The figures of a polyline.
     ///
-    /// The upper bound adds up length times greatest cost over pieces. A piece is halved until bounds of its
-    /// cost differ by less than `tolerance` times their mean, so that the upper bound is above the integral
-    /// by that share at most, except where the cost jumps. It is exact where the cost has one value.
+    /// The upper bound adds up bounds of the cost over pieces. A piece is halved until its bounds differ by
+    /// less than `tolerance` times their mean, so that the upper bound is above the integral by that share at
+    /// most, except where the cost jumps. It is exact where the cost has one value.
     pub fn of(points: &[DVec2], density: &dyn CostDensity, tolerance: f64) -> Self {
         let mut figures = Self::default();
         for pair in points.windows(2) {
@@ -47,7 +47,7 @@ impl PathFigures {
 
     fn add_piece(&mut self, p: DVec2, q: DVec2, density: &dyn CostDensity, tolerance: f64, halvings: u32) {
         let length = p.distance(q);
-        let range = density.range(&Rect::spanning(p, q));
+        let range = mean_range(p, q, density, tolerance);
         let spread = range.greatest - range.least;
         if spread <= tolerance * (range.greatest + range.least) || halvings == 0 {
             let mean = if spread > 0.0 { gauss(p, q, density) } else { range.greatest };
@@ -75,6 +75,34 @@ impl std::ops::AddAssign for PathFigures {
         self.risk += other.risk;
         self.highest_risk = self.highest_risk.max(other.highest_risk);
     }
+}
+
+/// Bounds of the mean of the cost over a segment.
+///
+/// With the derivative along the segment between a and b, the cost at a distance t after the middle m is
+/// between c(m) + a t and c(m) + b t, and before m the other way round. So the mean differs from c(m) by
+/// (b − a) · length / 8 at most.
+fn mean_range(p: DVec2, q: DVec2, density: &dyn CostDensity, tolerance: f64) -> CostRange {
+    let rectangle = Rect::spanning(p, q);
+    let range = density.range(&rectangle);
+    if range.greatest - range.least <= tolerance * (range.greatest + range.least) {
+        return range;
+    }
+    let Some(slopes) = density.derivatives(&rectangle) else { return range };
+    let way = (q - p).abs();
+    // The derivative times the length.
+    let spread: f64 =
+        (0..2).map(|axis: usize| way[axis] * (slopes[axis].greatest - slopes[axis].least)).sum();
+    let middle = density.at(p.midpoint(q));
+    // The middle is rounded, and so are the bounds.
+    let steepest = (0..2).map(|axis: usize| slopes[axis].greatest.abs().max(slopes[axis].least.abs()));
+    let reach = p.abs().max(q.abs()).max_element();
+    let rounding = ROUNDING * middle + 4.0 * f64::EPSILON * reach * steepest.sum::<f64>();
+    let most = 0.125 * spread + rounding;
+    if most.is_nan() {
+        return range;
+    }
+    CostRange { least: range.least.max(middle - most), greatest: range.greatest.min(middle + most) }
 }
 
 /// The mean of the cost over a segment, by Gauss's rule with two points.

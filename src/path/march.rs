@@ -19,7 +19,8 @@ use super::queue::Queue;
 ///      a---x---b
 /// ```
 ///
-/// and of the same for edges from one accepted node. Where the angle at c is at most 90°, the condition holds
+/// and of F · |a − c| from each accepted corner a; from the one accepted last only where no x between the
+/// corners is better. Where the angle at c is at most 90°, the condition holds
 /// but for rounding. It makes the result independent of the order of the work: nodes are accepted in the
 /// order of their values, then of their numbers, and the value of each follows from those before it. An
 /// obtuse angle at c is divided by the node d beyond the edge ab: c takes values from the edges ad and db as
@@ -50,7 +51,7 @@ pub type Seed = (u32, f64);
 
 impl March {
     /// Marches from the seeds through all triangles with at least this passage. `costs` has one number for
-    /// each triangle. With `until`, the march ends when these nodes are accepted; values of others may then
+    /// each triangle. With `until`, the march pauses when these nodes are accepted; values of others may then
     /// be missing or too large.
     pub fn run(
         &mut self,
@@ -68,16 +69,25 @@ impl March {
         for &(node, value) in seeds {
             self.offer(node, value, NONE);
         }
-        let mut waiting = until.map_or(NONE as usize, |nodes| nodes.len());
-        while let Some(node) = self.next() {
-            if until.is_some_and(|nodes| nodes.contains(&node)) {
-                waiting -= 1;
-                if waiting == 0 {
-                    break;
-                }
-            }
+        self.go_on(mesh, costs, least, until);
+    }
+
+    /// Goes on with a march that paused, with the same costs, until these nodes are accepted; without any, to
+    /// the end.
+    pub fn go_on(&mut self, mesh: &PathMesh, costs: &[f64], least: Passage, until: Option<[u32; 3]>) {
+        let has_more = |march: &Self| {
+            until.is_none_or(|nodes| nodes.iter().any(|&node| !march.nodes[node as usize].is_accepted))
+        };
+        let mut goes_on = has_more(self);
+        while goes_on && let Some(node) = self.next() {
             self.spread(mesh, costs, least, node);
+            goes_on = until.is_none_or(|nodes| !nodes.contains(&node)) || has_more(self);
         }
+    }
+
+    /// Whether every node that can be reached was accepted.
+    pub(super) fn is_complete(&self) -> bool {
+        self.queue.is_empty()
     }
 
     /// The value of a node: infinite where no seed leads.
@@ -144,18 +154,23 @@ impl March {
             };
             let (front_next, front_last) = (self.nodes[next as usize], self.nodes[last as usize]);
             if !front_next.is_accepted {
-                let mut value = node.value + cost * node.at.distance(front_next.at);
+                let mut value = f64::INFINITY;
                 if front_last.is_accepted {
-                    value =
-                        value.min(through_edge(&front_last, &node, [last, number], &front_next, next, cost));
+                    value = through_edge(&front_last, &node, [last, number], &front_next, next, cost);
+                }
+                // By way of the edge it is less, but for rounding.
+                if value == f64::INFINITY {
+                    value = node.value + cost * node.at.distance(front_next.at);
                 }
                 self.offer_to(next, value, t, front_next.value);
             }
             if !front_last.is_accepted {
-                let mut value = node.value + cost * node.at.distance(front_last.at);
+                let mut value = f64::INFINITY;
                 if front_next.is_accepted {
-                    value =
-                        value.min(through_edge(&node, &front_next, [number, next], &front_last, last, cost));
+                    value = through_edge(&node, &front_next, [number, next], &front_last, last, cost);
+                }
+                if value == f64::INFINITY {
+                    value = node.value + cost * node.at.distance(front_last.at);
                 }
                 self.offer_to(last, value, t, front_last.value);
             }

@@ -2,7 +2,8 @@
 //!
 //! ```text
 //!   mesh, keep-out regions → PathMesh: triangles that paths go through
-//!   CostDensity            → a lower bound of the cost in each triangle
+//!   CostDensity            → TriangleCosts: the mean and the least cost of each triangle; finer triangles
+//!                            where the cost varies much
 //!   March                  → distance to each node: fast marching on triangles
 //!   trace, refine          → a polyline, and a better one near it
 //!   PathFigures            → its cost, rounded up: no path needs to cost more
@@ -11,6 +12,7 @@
 //! ```
 
 mod alternatives;
+mod bisection;
 mod certificate;
 mod corridor;
 mod cost;
@@ -19,6 +21,7 @@ mod front;
 mod integral;
 mod lower;
 mod march;
+mod outline;
 mod path_mesh;
 mod place;
 mod planner;
@@ -27,6 +30,7 @@ mod refine;
 mod resolve;
 mod solution;
 mod trace;
+mod triangle_costs;
 mod walls;
 
 pub use alternatives::{Alternatives, Difference};
@@ -45,4 +49,5 @@ pub use place::Place;
 pub use planner::{PathRequest, Planner};
 pub use refine::Effort;
 pub use solution::{PathSample, Solution};
+pub use triangle_costs::TriangleCosts;
 pub use walls::Walls;

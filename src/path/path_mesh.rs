@@ -1,9 +1,11 @@
 //! The triangles that paths go through, as plain arrays.
 
+use std::ops::ControlFlow;
+use std::sync::OnceLock;
+
 use glam::DVec2;
 
-use super::{CostDensity, PathError, checked_range};
-use crate::geometry::Rect;
+use crate::geometry::{BoxTree, Rect, z_order};
 use crate::layers::{Coverage, Mask};
 use crate::mesh::MeshView;
 
@@ -24,7 +26,7 @@ pub enum Passage {
 
 /// The triangles of a mesh for paths: nodes in world units, who is next to whom, and where paths may go.
 ///
-/// Nodes and triangles have the numbers of the mesh or extract that they are made from.
+/// Nodes and triangles are numbered along a curve, so that neighbours mostly lie together in memory.
 #[derive(Clone, Debug, Default)]
 pub struct PathMesh {
     pub(super) nodes: Vec<DVec2>,
@@ -37,6 +39,13 @@ pub struct PathMesh {
     around: Vec<u32>,
     pub(super) has_obtuse: bool,
     pub(super) has_partly: bool,
+    tree: OnceLock<BoxTree>,
+}
+
+impl PathTriangle {
+    pub fn is_passable(&self) -> bool {
+        self.passage > Passage::Closed
+    }
 }
 
 /// A triangle for paths.
@@ -91,12 +100,36 @@ impl PathMesh {
             mesh.triangles.push(PathTriangle { corners, passage, obtuse, is_kept_out });
             mesh.across.push(across);
         }
+        mesh.sort_along_curve();
         mesh.connect();
         mesh
     }
 
+    /// Numbers the nodes along a Z-order curve, and the triangles by their first nodes.
+    fn sort_along_curve(&mut self) {
+        let Some(bounds) = self.nodes.iter().map(|&p| Rect::new(p, p)).reduce(|a, b| a.union(&b)) else {
+            return;
+        };
+        let keys: Vec<u32> = self.nodes.iter().map(|&p| z_order(p, &bounds)).collect();
+        let (node_order, new_nodes) = sorted_by(&keys);
+        self.nodes = node_order.iter().map(|&old| self.nodes[old as usize]).collect();
+        for triangle in &mut self.triangles {
+            triangle.corners = triangle.corners.map(|node| new_nodes[node as usize]);
+        }
+        let keys: Vec<u32> = self
+            .triangles
+            .iter()
+            .map(|t| t.corners.iter().fold(NONE, |least, &node| least.min(node)))
+            .collect();
+        let (order, new_triangles) = sorted_by(&keys);
+        let renumbered = |t: u32| if t == NONE { NONE } else { new_triangles[t as usize] };
+        self.across = order.iter().map(|&old| self.across[old as usize].map(renumbered)).collect();
+        self.triangles = order.iter().map(|&old| self.triangles[old as usize]).collect();
+    }
+
     /// Fills the rows of triangles around the nodes.
-    fn connect(&mut self) {
+    pub(super) fn connect(&mut self) {
+        self.tree = OnceLock::new();
         self.row_starts = vec![0; self.nodes.len() + 1];
         let open = |triangle: &&PathTriangle| triangle.passage > Passage::Closed;
         for triangle in self.triangles.iter().filter(open) {
@@ -154,53 +187,44 @@ impl PathMesh {
         (0..self.triangles.len() as u32).filter(open).map(|t| self.rectangle(t)).reduce(|a, b| a.union(&b))
     }
 
-    /// A lower bound of the cost in each triangle, in their order; infinite in closed ones.
-    ///
-    /// # Errors
-    /// When the cost is zero, negative, NaN or infinite somewhere.
-    pub fn costs(&self, density: &dyn CostDensity) -> Result<Vec<f64>, PathError> {
-        let mut costs = vec![f64::INFINITY; self.triangles.len()];
-        for (number, cost) in (0..).zip(&mut costs) {
-            *cost = self.cost(number, density)?;
-        }
-        Ok(costs)
+    /// The longest side of a triangle.
+    pub(super) fn diameter(&self, triangle: u32) -> f64 {
+        let [a, b, c] = self.corners(triangle);
+        a.distance_squared(b).max(b.distance_squared(c)).max(c.distance_squared(a)).sqrt()
     }
 
-    /// A lower bound of the cost in one triangle.
-    fn cost(&self, triangle: u32, density: &dyn CostDensity) -> Result<f64, PathError> {
-        match self.passage(triangle) {
-            Passage::Closed => Ok(f64::INFINITY),
-            _ => Ok(checked_range(density, &self.rectangle(triangle))?.least),
+    /// The triangles whose rectangles meet one of the given ones, in the order of their numbers.
+    pub(super) fn meeting(&self, areas: &[Rect]) -> Vec<u32> {
+        let mut found = Vec::new();
+        for area in areas {
+            let _ = self.tree().visit_meeting(area, |triangle| {
+                found.push(triangle);
+                ControlFlow::<()>::Continue(())
+            });
         }
+        found.sort_unstable();
+        found.dedup();
+        found
     }
 
-    /// Computes the costs again of the triangles that meet a rectangle, and returns those that changed.
-    ///
-    /// # Errors
-    /// As [`Self::costs`]; then the costs are as before.
-    pub fn update_costs(
-        &self,
-        costs: &mut [f64],
-        density: &dyn CostDensity,
-        area: &Rect,
-    ) -> Result<Vec<u32>, PathError> {
-        let mut changed = Vec::new();
-        for number in 0..self.triangles.len() as u32 {
-            if self.rectangle(number).intersection(area).is_some() {
-                let cost = self.cost(number, density)?;
-                if cost != costs[number as usize] {
-                    changed.push((number, cost));
-                }
-            }
-        }
-        changed.iter().for_each(|&(number, cost)| costs[number as usize] = cost);
-        Ok(changed.into_iter().map(|(number, _)| number).collect())
+    /// The triangles that may contain a point, but for rounding.
+    fn around_point(&self, point: DVec2) -> Vec<u32> {
+        let size = self.tree().bounds().map_or(0.0, |all| all.size().max_element());
+        self.meeting(&[Rect::new(point, point).expanded(1e-12 * size)])
+    }
+
+    /// An index of the triangles' rectangles, made when it is first needed.
+    fn tree(&self) -> &BoxTree {
+        self.tree.get_or_init(|| {
+            let rectangles: Vec<Rect> = (0..self.triangles.len() as u32).map(|t| self.rectangle(t)).collect();
+            BoxTree::new(&rectangles)
+        })
     }
 
     /// Whether a point lies in a triangle of the domain that a keep-out region closes.
     pub(super) fn is_kept_out(&self, point: DVec2) -> bool {
-        let holds = |t: u32| self.triangles[t as usize].is_kept_out && contains(&self.corners(t), point);
-        (0..self.triangles.len() as u32).any(holds)
+        let holds = |&t: &u32| self.triangles[t as usize].is_kept_out && contains(&self.corners(t), point);
+        self.around_point(point).iter().any(holds)
     }
 
     /// The triangle with the lowest number that contains a point and has at least this passage.
@@ -208,12 +232,22 @@ impl PathMesh {
         let contains = |&number: &u32| {
             self.triangles[number as usize].passage >= least && contains(&self.corners(number), point)
         };
-        (0..self.triangles.len() as u32).find(contains)
+        self.around_point(point).into_iter().find(contains)
     }
 }
 
+/// The order of numbers by their keys, and the place of each number in it.
+fn sorted_by(keys: &[u32]) -> (Vec<u32>, Vec<u32>) {
+    let mut sorted: Vec<u64> = (0..).zip(keys).map(|(n, &key): (u64, _)| u64::from(key) << 32 | n).collect();
+    sorted.sort_unstable();
+    let order: Vec<u32> = sorted.into_iter().map(|entry| entry as u32).collect();
+    let mut places = vec![0; order.len()];
+    (0..).zip(&order).for_each(|(place, &n)| places[n as usize] = place);
+    (order, places)
+}
+
 /// The corner with an angle above 90°, beyond rounding; 3 without one.
-fn obtuse_corner(corners: &[DVec2; 3]) -> u8 {
+pub(super) fn obtuse_corner(corners: &[DVec2; 3]) -> u8 {
     let is_obtuse = |&k: &usize| {
         let (p, q) = (corners[(k + 1) % 3] - corners[k], corners[(k + 2) % 3] - corners[k]);
         p.dot(q) < -1e-9 * p.length() * q.length()

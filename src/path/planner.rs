@@ -1,5 +1,7 @@
 //! Finds paths on a mesh, and keeps what it knows for the next one.
 
+use std::sync::Arc;
+
 use glam::DVec2;
 
 use super::integral::PathFigures;
@@ -9,6 +11,7 @@ use super::path_mesh::PathMesh;
 use super::place::Place;
 use super::refine::{Effort, refine};
 use super::trace::trace;
+use super::triangle_costs::TriangleCosts;
 use super::walls::Walls;
 use super::{CostDensity, Passage, PathError, Solution, Waypoint};
 use crate::geometry::Rect;
@@ -36,16 +39,19 @@ const COMPARED: f64 = 1e-3;
 
 /// Finds paths of least cost on one mesh.
 ///
+/// The mesh is bisected further where the cost varies much within a triangle. The path follows the march with
+/// the mean cost of each triangle, and bounds the marches with its least cost.
+///
 /// The marches from the waypoints are kept: another path between the same places, after the cost changed in
 /// some triangles, computes again only what the change can reach.
 #[derive(Clone, Debug)]
 pub struct Planner {
-    mesh: PathMesh,
+    mesh: Arc<PathMesh>,
     walls: Walls,
-    costs: Vec<f64>,
-    /// Through open triangles, one for each waypoint.
+    costs: TriangleCosts,
+    /// With mean costs through open triangles, one for each waypoint.
     origins: Vec<Origin>,
-    /// Through partly open ones too, where there are any.
+    /// With least costs through all triangles that are not closed.
     origins_for_bounds: Vec<Origin>,
     bound: LowerBound,
 }
@@ -56,27 +62,36 @@ pub(super) struct Origin {
     pub march: March,
     place: Option<Place>,
     seeds: Vec<Seed>,
-    is_complete: bool,
+    /// Whether the values are those of the costs as they are.
+    is_current: bool,
+    /// Whether the costs changed: then they will again, and only a march to the end can follow.
+    follows: bool,
 }
 
 impl Origin {
-    /// Marches from a place, unless that is done. `until`: only to the corners of that place's triangle.
+    /// Marches from a place, as far as that is not done. `until`: only to the corners of that place's
+    /// triangle, unless the costs change again and again.
     fn run(&mut self, mesh: &PathMesh, costs: &[f64], least: Passage, place: Place, until: Option<Place>) {
         let seeds = place.seeds(mesh, costs).to_vec();
-        if self.is_complete && self.place == Some(place) && self.seeds == seeds {
-            return;
+        let is_same_place = self.place == Some(place);
+        let to_the_end = is_same_place && self.follows;
+        let until = until.filter(|_| !to_the_end).map(|place| place.corner_nodes(mesh));
+        if self.is_current && is_same_place && self.seeds == seeds {
+            return self.march.go_on(mesh, costs, least, until);
         }
-        self.march.run(mesh, costs, least, &seeds, until.map(|place| place.corner_nodes(mesh)));
-        (self.place, self.seeds, self.is_complete) = (Some(place), seeds, until.is_none());
+        self.march.run(mesh, costs, least, &seeds, until);
+        self.follows = to_the_end;
+        (self.place, self.seeds, self.is_current) = (Some(place), seeds, true);
     }
 
     /// Follows changed costs; what cannot be followed is marched again later.
     fn follow(&mut self, mesh: &PathMesh, costs: &[f64], least: Passage, changed: &[u32]) {
         let seeds = self.place.map(|place| place.seeds(mesh, costs).to_vec());
-        if self.is_complete && seeds.as_ref() == Some(&self.seeds) {
+        self.follows = true;
+        if self.is_current && self.march.is_complete() && seeds.as_ref() == Some(&self.seeds) {
             self.march.resolve(mesh, costs, least, &self.seeds, changed);
         } else {
-            self.is_complete = false;
+            self.is_current = false;
         }
     }
 }
@@ -86,34 +101,50 @@ impl Planner {
     ///
     /// # Errors
     /// When the cost is zero, negative, NaN or infinite somewhere.
-    pub fn new(mesh: PathMesh, density: &dyn CostDensity) -> Result<Self, PathError> {
-        let costs = mesh.costs(density)?;
-        let walls = Walls::new(&mesh);
-        let (origins, origins_for_bounds) = Default::default();
-        Ok(Self { mesh, walls, costs, origins, origins_for_bounds, bound: LowerBound::default() })
+    pub fn new(mesh: impl Into<Arc<PathMesh>>, density: &dyn CostDensity) -> Result<Self, PathError> {
+        let mut mesh = mesh.into();
+        let costs = TriangleCosts::on_adapted(&mut mesh, density)?;
+        Ok(Self::with_costs(mesh, costs))
     }
 
-    /// The triangles that paths go through.
-    pub fn mesh(&self) -> &PathMesh {
+    /// As [`Self::new`], on the mesh as it is.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn on_mesh(mesh: impl Into<Arc<PathMesh>>, density: &dyn CostDensity) -> Result<Self, PathError> {
+        let mesh = mesh.into();
+        let costs = mesh.costs(density)?;
+        Ok(Self::with_costs(mesh, costs))
+    }
+
+    fn with_costs(mesh: Arc<PathMesh>, costs: TriangleCosts) -> Self {
+        let walls = Walls::new(&mesh);
+        let (origins, origins_for_bounds) = Default::default();
+        Self { mesh, walls, costs, origins, origins_for_bounds, bound: LowerBound::default() }
+    }
+
+    /// The triangles that paths go through: those of the mesh that the planner was made with, or parts of
+    /// them.
+    pub fn mesh(&self) -> &Arc<PathMesh> {
         &self.mesh
     }
 
-    /// A lower bound of the cost in each triangle.
-    pub fn costs(&self) -> &[f64] {
+    /// The cost of each triangle.
+    pub fn costs(&self) -> &TriangleCosts {
         &self.costs
     }
 
-    /// Follows a change of the cost inside a rectangle in world units.
+    /// Follows a change of the cost inside rectangles in world units.
     ///
     /// # Errors
     /// When the new cost is zero, negative, NaN or infinite somewhere; then nothing changes.
-    pub fn update(&mut self, density: &dyn CostDensity, area: &Rect) -> Result<(), PathError> {
-        let changed = self.mesh.update_costs(&mut self.costs, density, area)?;
+    pub fn update(&mut self, density: &dyn CostDensity, areas: &[Rect]) -> Result<(), PathError> {
+        let changed = self.costs.update(&self.mesh, density, areas)?;
         for origin in &mut self.origins {
-            origin.follow(&self.mesh, &self.costs, Passage::Open, &changed);
+            origin.follow(&self.mesh, &self.costs.mean, Passage::Open, &changed);
         }
         for origin in &mut self.origins_for_bounds {
-            origin.follow(&self.mesh, &self.costs, Passage::Partly, &changed);
+            origin.follow(&self.mesh, &self.costs.least, Passage::Partly, &changed);
         }
         Ok(())
     }
@@ -142,7 +173,10 @@ impl Planner {
         request: PathRequest,
     ) -> Result<Vec<Solution>, PathError> {
         let places = self.places(places)?;
-        self.march(&places, request.has_bounds);
+        self.march(&places, false);
+        if request.has_bounds {
+            self.march_for_bounds(&places);
+        }
         let leg = |(leg, pair): (usize, &[Place])| {
             let [from, to] = [leg, leg + 1].map(|index| Waypoint::of(index, places.len()));
             self.leg(density, leg, [pair[0], pair[1]], request).ok_or(PathError::Apart { from, to })
@@ -168,15 +202,17 @@ impl Planner {
                 None if !complete => {}
                 next => {
                     let until = next.filter(|_| !complete).copied();
-                    origin.run(&self.mesh, &self.costs, Passage::Open, places[n], until);
+                    origin.run(&self.mesh, &self.costs.mean, Passage::Open, places[n], until);
                 }
             }
         }
-        if complete && self.mesh.has_partly {
-            self.origins_for_bounds.resize_with(places.len(), Origin::default);
-            for (origin, &place) in self.origins_for_bounds.iter_mut().zip(places) {
-                origin.run(&self.mesh, &self.costs, Passage::Partly, place, None);
-            }
+    }
+
+    /// Marches to the end from each place with the least costs.
+    fn march_for_bounds(&mut self, places: &[Place]) {
+        self.origins_for_bounds.resize_with(places.len(), Origin::default);
+        for (origin, &place) in self.origins_for_bounds.iter_mut().zip(places) {
+            origin.run(&self.mesh, &self.costs.least, Passage::Partly, place, None);
         }
     }
 
@@ -194,12 +230,6 @@ impl Planner {
         Solution::joined(path.stops.windows(2).map(leg))
     }
 
-    /// The marches from two places, one after the other, through all triangles that bounds count.
-    pub(super) fn marches(&self, leg: usize) -> [&March; 2] {
-        let origins = if self.mesh.has_partly { &self.origins_for_bounds } else { &self.origins };
-        [&origins[leg].march, &origins[leg + 1].march]
-    }
-
     fn leg(
         &mut self,
         density: &dyn CostDensity,
@@ -210,7 +240,7 @@ impl Planner {
         if start.point == goal.point {
             return Some(Solution::of(vec![start.point, goal.point], density, request.tolerance));
         }
-        let traced = trace(&self.mesh, &self.costs, &self.origins[leg].march, start, goal)?;
+        let traced = trace(&self.mesh, &self.costs.mean, &self.origins[leg].march, start, goal)?;
         let refined = refine(&traced, density, &self.walls, request.effort);
         let mut solution = Solution::of(refined, density, request.tolerance);
         // Where the cost jumps, a refined path can cost more.
@@ -223,8 +253,8 @@ impl Planner {
         if request.has_bounds {
             let bound = &mut LowerBound::default();
             std::mem::swap(bound, &mut self.bound);
-            let marches = self.marches(leg);
-            let lower = bound.compute(&self.mesh, &self.costs, [start, goal], marches, solution.upper);
+            let marches = [leg, leg + 1].map(|place| &self.origins_for_bounds[place].march);
+            let lower = bound.compute(&self.mesh, &self.costs.least, [start, goal], marches, solution.upper);
             std::mem::swap(bound, &mut self.bound);
             solution.lower = lower.min(solution.upper);
         }

@@ -28,6 +28,10 @@ impl Queue {
         self.entries.clear();
     }
 
+    pub fn is_empty(&self) -> bool {
+        self.entries.is_empty()
+    }
+
     /// Puts a node with a value of 0 or more.
     #[inline]
     pub fn put(&mut self, value: f64, node: u32) {

@@ -126,12 +126,20 @@ impl Edit<'_> {
         let [a, b] = [1, 2].map(|step| triangle.corners[(k + step) % 3]);
         let cost = self.costs[t as usize];
         let (front_a, front_b, to) = (self.front(a), self.front(b), self.front(node));
-        for front in [front_a, front_b].iter().filter(|front| front.is_accepted) {
-            self.offer(node, front.value + cost * front.at.distance(to.at), t);
-        }
+        let is_a_first = (front_a.value, a) < (front_b.value, b);
+        let from_end = |front: &Front| front.value + cost * front.at.distance(to.at);
+        let mut value = f64::INFINITY;
         if front_a.is_accepted && front_b.is_accepted {
-            self.offer(node, through_edge(&front_a, &front_b, [a, b], &to, node, cost), t);
+            value = through_edge(&front_a, &front_b, [a, b], &to, node, cost);
         }
+        let is_through = value < f64::INFINITY;
+        // As in a march: from the end that was accepted last only where nothing leads through the edge.
+        for (front, is_first) in [(front_a, is_a_first), (front_b, !is_a_first)] {
+            if front.is_accepted && front.value < to.value && (is_first || !is_through) {
+                value = value.min(from_end(&front));
+            }
+        }
+        self.offer(node, value, t);
         if usize::from(triangle.obtuse) == k
             && let Some(kite) = Kite::of(self.mesh, t, self.least)
         {
@@ -169,11 +177,13 @@ impl Edit<'_> {
 
     /// Offers values to all nodes around an accepted one.
     fn spread(&mut self, number: u32) {
+        let value = self.front(number).value;
         for n in 0..self.mesh.around(number).len() {
             let t = self.mesh.around(number)[n];
             let triangle = self.mesh.triangles[t as usize];
             for node in triangle.corners {
-                if node != number {
+                // A lower value does not come from here.
+                if node != number && self.front(node).value > value {
                     self.offer_in(t, node);
                 }
             }

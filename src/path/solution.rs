@@ -2,6 +2,7 @@ use glam::DVec2;
 
 use super::integral::PathFigures;
 use super::{CostDensity, PathError};
+use crate::geometry::nearest_on_segment;
 
 /// A path, and how far from the best it can be.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -51,6 +52,18 @@ impl Solution {
     /// Raises the lower bound to another one, for example that of a certificate.
     pub fn tighten(&mut self, lower: f64) {
         self.lower = self.lower.max(lower).min(self.upper);
+    }
+
+    /// Takes what a certificate found out: a better path between the same stops, or a greater lower bound.
+    /// Returns whether the path is another one.
+    pub fn take(&mut self, proved: Self) -> bool {
+        let is_other = proved.upper < self.upper && proved.points != self.points;
+        let lower = self.lower.max(proved.lower);
+        if proved.upper < self.upper {
+            *self = proved;
+        }
+        self.tighten(lower);
+        is_other
     }
 
     /// The solution of a polyline. `tolerance` is that of [`PathFigures::of`].
@@ -172,7 +185,8 @@ impl Solution {
         let mut parts: Vec<[usize; 2]> = self.stops.windows(2).map(|pair| [pair[0], pair[1]]).collect();
         while let Some([first, last]) = parts.pop() {
             let [a, b] = [self.points[first], self.points[last]];
-            let distances = (first + 1..last).map(|n| (n, distance_to_segment(self.points[n], a, b)));
+            let distances = (first + 1..last)
+                .map(|n| (n, self.points[n].distance(nearest_on_segment(self.points[n], [a, b]))));
             let Some((farthest, distance)) = distances.max_by(|p, q| p.1.total_cmp(&q.1)) else { continue };
             if distance > tolerance {
                 keeps[farthest] = true;
@@ -185,10 +199,3 @@ impl Solution {
 
 /// Bounds of the cost of a piece of a profile differ by this share.
 const PROFILE_TOLERANCE: f64 = 1e-3;
-
-fn distance_to_segment(p: DVec2, a: DVec2, b: DVec2) -> f64 {
-    let (edge, arm) = (b - a, p - a);
-    let squared = edge.length_squared();
-    let share = if squared > 0.0 { (arm.dot(edge) / squared).clamp(0.0, 1.0) } else { 0.0 };
-    p.distance(a + share * edge)
-}

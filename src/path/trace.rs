@@ -43,7 +43,10 @@ pub(super) fn trace(
     start: Place,
     goal: Place,
 ) -> Option<Vec<DVec2>> {
-    let descent = Descent { mesh, costs, march, start };
+    // A march may have paused at the goal: what lies beyond does not count.
+    let corners = goal.corner_nodes(mesh);
+    let farthest = corners.iter().map(|&node| march.value(node)).fold(0.0, f64::max);
+    let descent = Descent { mesh, costs, march, start, farthest };
     let (mut stand, mut at, mut value) = (descent.stand_at(goal), goal.point, f64::INFINITY);
     let mut points = vec![goal.point];
     // Ends: each step leads to a lower value, except from an edge to an end of equal value.
@@ -69,9 +72,16 @@ struct Descent<'a> {
     costs: &'a [f64],
     march: &'a March,
     start: Place,
+    /// Values above this one count as infinite.
+    farthest: f64,
 }
 
 impl Descent<'_> {
+    fn value(&self, node: u32) -> f64 {
+        let value = self.march.value(node);
+        if value <= self.farthest { value } else { f64::INFINITY }
+    }
+
     /// Where a place stands: on a node or an edge of its triangle, or within.
     fn stand_at(&self, place: Place) -> Stand {
         let corners = self.mesh.triangles[place.triangle as usize].corners;
@@ -128,9 +138,9 @@ impl Descent<'_> {
             } else {
                 (a.lerp(b, foot), Stand::OnEdge(t, k))
             };
-            let [at_a, at_b] = ends.map(|node| self.march.value(node));
+            let [at_a, at_b] = ends.map(|node| self.value(node));
             let value = match stand {
-                Stand::OnNode(node) => self.march.value(node),
+                Stand::OnNode(node) => self.value(node),
                 _ => at_a + foot * (at_b - at_a),
             };
             (to != at).then_some(Step {
@@ -156,7 +166,7 @@ impl Descent<'_> {
 
     /// Where on an edge u(x) + F |x − p| is least, as a share of the edge.
     fn foot(&self, ends: [u32; 2], p: DVec2, cost: f64) -> Option<f64> {
-        let [at_a, at_b] = ends.map(|node| self.march.value(node));
+        let [at_a, at_b] = ends.map(|node| self.value(node));
         match [at_a.is_finite(), at_b.is_finite()] {
             [true, true] => {}
             [true, false] => return Some(0.0),
@@ -180,9 +190,9 @@ impl Descent<'_> {
         let triangles = self.triangles(stand).into_iter();
         let nodes = triangles.flat_map(|t| self.mesh.triangles[t as usize].corners.map(|node| (node, t)));
         let (node, t) = nodes
-            .filter(|&(node, _)| Some(node) != here && self.march.value(node).is_finite())
-            .min_by(|a, b| self.march.value(a.0).total_cmp(&self.march.value(b.0)))?;
-        let (to, value) = (self.mesh.nodes[node as usize], self.march.value(node));
+            .filter(|&(node, _)| Some(node) != here && self.value(node).is_finite())
+            .min_by(|a, b| self.value(a.0).total_cmp(&self.value(b.0)))?;
+        let (to, value) = (self.mesh.nodes[node as usize], self.value(node));
         let total = value + self.costs[t as usize] * at.distance(to);
         Some(Step { total, value, to, stand: Some(Stand::OnNode(node)) })
     }

@@ -12,7 +12,7 @@ use glam::DVec2;
 use crate::geometry::Rect;
 
 pub use pyramid::{RasterPyramid, SquareValues};
-pub use ranges::{PixelGrid, ValueRange, ValueRanges, power_of_two};
+pub use ranges::{PixelGrid, ValueRange, ValueRanges, exponent, power_of_two};
 pub use tiled::{TILE, Tile, TilePlace, TiledRaster};
 
 /// Most pixels along a side of a raster.

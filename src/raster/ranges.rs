@@ -38,6 +38,12 @@ pub fn power_of_two(exponent: i32) -> f64 {
     f64::from_bits(((1023 + i64::from(exponent)) as u64) << 52)
 }
 
+/// The exponent of a positive normal number: 2ᵉ ≤ x < 2ᵉ⁺¹.
+#[inline]
+pub fn exponent(x: f64) -> i32 {
+    (x.to_bits() >> 52) as i32 - 1023
+}
+
 /// The least and the greatest of some values. Where they are equal, there is one value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ValueRange {

@@ -10,6 +10,7 @@ mod draw_flags;
 pub mod export;
 #[cfg(feature = "gui")]
 pub mod gpu;
+pub mod path_export;
 pub mod software;
 
 /// Triangles of at least this size in pixels are drawn pixel by pixel from the exact lines through their

@@ -53,6 +53,13 @@ pub fn with_unit(number: &str, unit: &str) -> String {
     }
 }
 
+/// A share in percent, rounded up: what is proved to be below it stays so. `1.24 %`, `0.004 %`.
+pub fn percent_above(share: f64) -> String {
+    let percent = 100.0 * share;
+    let digits = if percent < 0.1 { 1000.0 } else { 100.0 };
+    format!("{} %", (percent * digits).ceil() / digits)
+}
+
 fn not_finite(value: f64) -> String {
     match value {
         v if v.is_nan() => "–",

@@ -9,7 +9,7 @@ mod pointer;
 mod unit;
 
 pub use bytes::Bytes;
-pub use digits::{digits, fixed, rounded, significant, with_unit};
+pub use digits::{digits, fixed, percent_above, rounded, significant, with_unit};
 pub use grouped::{Grouped, group_digits};
 pub use number::Number;
 pub use pointer::{draw_pointer, printable};

@@ -44,11 +44,21 @@ impl CostFormula {
         interval::bounds(&self.program, rect, risk)
     }
 
-    /// Bounds of the derivatives along x and y over a closed rectangle in world units, with the given risks.
-    /// `None` where the formula may jump, the risk varies, or a derivative is not known.
-    pub fn derivatives(&self, rect: &Rect, risk: Bounds) -> Option<[Bounds; 2]> {
-        let is_known = risk.is_one() || !self.program.code().iter().any(|op| matches!(op, Op::Risk));
-        if is_known { derivatives::derivatives(&self.program, rect, risk.least) } else { None }
+    /// Bounds of the derivatives along x and y over a closed rectangle in world units, with the given risks
+    /// and bounds of their derivatives. `None` where the formula may jump, or a derivative is not known.
+    pub fn derivatives(
+        &self,
+        rect: &Rect,
+        risk: Bounds,
+        risk_slopes: Option<[Bounds; 2]>,
+    ) -> Option<[Bounds; 2]> {
+        let needs_risk = self.program.code().iter().any(|op| matches!(op, Op::Risk));
+        let slopes = match risk_slopes {
+            Some(slopes) => slopes,
+            None if needs_risk && !risk.is_one() => return None,
+            None => [derivatives::ZERO; 2],
+        };
+        derivatives::derivatives(&self.program, rect, (risk, slopes))
     }
 
     /// The text as it was typed.

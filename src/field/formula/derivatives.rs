@@ -13,14 +13,18 @@ struct Varying {
     slopes: [Bounds; 2],
 }
 
-const ZERO: Bounds = Bounds::new(0.0, 0.0);
+pub(super) const ZERO: Bounds = Bounds::new(0.0, 0.0);
 const ONE: Bounds = Bounds::new(1.0, 1.0);
 
-/// Bounds of the derivatives along x and y over a rectangle, where the program has the given risk everywhere.
+/// Bounds of the derivatives along x and y over a rectangle, with the given risks and their derivatives.
 /// `None` where it may jump, or has a function whose derivative is not known here.
 ///
 /// At kinks, as of `abs` and `max`, the bounds hold the derivatives on all sides.
-pub(super) fn derivatives(program: &Program, rect: &Rect, risk: f64) -> Option<[Bounds; 2]> {
+pub(super) fn derivatives(
+    program: &Program,
+    rect: &Rect,
+    (risk, risk_slopes): (Bounds, [Bounds; 2]),
+) -> Option<[Bounds; 2]> {
     let mut stack: Vec<Varying> = Vec::with_capacity(program.slots());
     let mut acc = Varying::constant(ZERO);
     for &op in program.code() {
@@ -28,7 +32,7 @@ pub(super) fn derivatives(program: &Program, rect: &Rect, risk: f64) -> Option<[
             Op::Number(value) => Some(Varying::constant(Bounds::one(value))),
             Op::X => Some(Varying { value: Bounds::new(rect.min.x, rect.max.x), slopes: [ONE, ZERO] }),
             Op::Y => Some(Varying { value: Bounds::new(rect.min.y, rect.max.y), slopes: [ZERO, ONE] }),
-            Op::Risk => Some(Varying::constant(Bounds::one(risk))),
+            Op::Risk => Some(Varying { value: risk, slopes: risk_slopes }),
             _ => None,
         };
         if let Some(loaded) = loaded {
@@ -199,7 +203,7 @@ mod tests {
                 let corner = dvec2(random.f64(), random.f64()) * 2.0 - 1.0;
                 let size = 0.3 * dvec2(random.f64(), random.f64()) + 1e-3;
                 let rect = Rect::new(corner, corner + size);
-                let Some(slopes) = formula.derivatives(&rect, Bounds::one(0.25)) else { continue };
+                let Some(slopes) = formula.derivatives(&rect, Bounds::one(0.25), None) else { continue };
                 known += 1;
                 for _ in 0..20 {
                     let [p, q] = [(); 2].map(|()| corner + size * dvec2(random.f64(), random.f64()));
@@ -223,9 +227,9 @@ mod tests {
         for source in ["if(x > 0, 1, 2)", "floor(x)", "1 + (x > 0.5)", "1/x", "sqrt(x)", "x % 0.5"] {
             let formula = CostFormula::parse(source).unwrap();
             let rect = Rect::new(dvec2(-1.0, 0.0), dvec2(1.0, 1.0));
-            assert_eq!(formula.derivatives(&rect, Bounds::one(0.0)), None, "{source}");
+            assert_eq!(formula.derivatives(&rect, Bounds::one(0.0), None), None, "{source}");
         }
         let of_risk = CostFormula::parse("1 + risk").unwrap();
-        assert_eq!(of_risk.derivatives(&Rect::UNIT, Bounds::new(0.0, 1.0)), None);
+        assert_eq!(of_risk.derivatives(&Rect::UNIT, Bounds::new(0.0, 1.0), None), None);
     }
 }

@@ -118,6 +118,12 @@ impl Formula {
         interval::bounds(&self.program, rect, Bounds::ANYTHING)
     }
 
+    /// Bounds of the derivatives along x and y over a closed rectangle in world units. `None` where the
+    /// formula may jump, or a derivative is not known.
+    pub(crate) fn derivatives(&self, rect: &Rect) -> Option<[Bounds; 2]> {
+        derivatives::derivatives(&self.program, rect, (Bounds::ANYTHING, [derivatives::ZERO; 2]))
+    }
+
     /// The formula of a number: its shortest text.
     pub fn constant_of(value: f64) -> Self {
         let source = format!("{value}");

@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use crate::geometry::{Lattice, LatticePoint, LatticeRect, Octagon, Rect};
-use crate::raster::{PixelGrid, ValueRange, ValueRanges, power_of_two};
+use crate::raster::{PixelGrid, ValueRange, ValueRanges, exponent, power_of_two};
 
 /// A half-open rectangle of the unit cells of a lattice: cell [x, y] lies between lattice points [x, y] and
 /// [x + 1, y + 1].
@@ -248,10 +248,4 @@ fn joined_range(raster: &impl ValueRanges, scale: i32, low: [i64; 2], high: [i64
 fn floor(v: f64) -> i64 {
     let truncated = v as i64;
     truncated - i64::from((truncated as f64) > v)
-}
-
-/// The exponent of a positive number: 2ᵉ ≤ x < 2ᵉ⁺¹.
-#[inline]
-fn exponent(x: f64) -> i32 {
-    (x.to_bits() >> 52) as i32 - 1023
 }

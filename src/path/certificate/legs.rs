@@ -2,16 +2,34 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use super::{Certificate, CertificateEnd, CertificateTask};
-use crate::path::{PathError, PathFigures, Solution};
+use crate::path::{CostDensity, PathError, PathMesh, PathRequest, Planner, Solution};
 
 /// Upper bounds are above the cost by about this part of the requested width.
 const TOLERANCE: f64 = 0.05;
+/// A better path lowers the upper bound by at least this part of the requested width.
+const LEAST_GAIN: f64 = 0.02;
+/// How often a better path is sought for each leg.
+const MOST_SEARCHES: usize = 4;
 
 /// Certificates of all legs of a path, from waypoint to waypoint.
+///
+/// Where a leg ends short of the requested width, a better path may exist: it is sought on the mesh of
+/// [`Self::with_search`], made as fine as the certificate's mesh is, and the certificate goes on with it.
 #[derive(Clone)]
 pub struct PathCertificate {
-    legs: Vec<Certificate>,
+    legs: Vec<Leg>,
+    cost: Arc<dyn CostDensity>,
     width: f64,
+    mesh: Option<Arc<PathMesh>>,
+}
+
+#[derive(Clone)]
+struct Leg {
+    certificate: Certificate,
+    /// The best path that is known.
+    solution: Solution,
+    /// How often a better one may still be sought.
+    searches: usize,
 }
 
 impl PathCertificate {
@@ -23,23 +41,36 @@ impl PathCertificate {
         let stop: Arc<AtomicBool> = Arc::default();
         let leg = |ends: &[usize]| {
             let path = solution.points[ends[0]..=ends[1]].to_vec();
-            let upper = PathFigures::of(&path, &*task.cost, TOLERANCE * task.width).upper;
-            let mut leg = Certificate::new(CertificateTask { path, upper, ..task.clone() })?;
-            leg.stop = Arc::clone(&stop);
-            Ok(leg)
+            let solution = Solution::of(path.clone(), &*task.cost, TOLERANCE * task.width);
+            let upper = solution.upper;
+            let mut certificate = Certificate::new(CertificateTask { path, upper, ..task.clone() })?;
+            certificate.stop = Arc::clone(&stop);
+            Ok(Leg { certificate, solution, searches: MOST_SEARCHES })
         };
         let legs = solution.stops.windows(2).map(leg).collect::<Result<_, _>>()?;
-        Ok(Self { legs, width: task.width })
+        Ok(Self { legs, cost: Arc::clone(&task.cost), width: task.width, mesh: None })
+    }
+
+    /// The same work, which looks for better paths through the open triangles of a mesh.
+    pub fn with_search(self, mesh: Arc<PathMesh>) -> Self {
+        Self { mesh: Some(mesh), ..self }
     }
 
     /// No path by way of the waypoints costs less.
     pub fn lower(&self) -> f64 {
-        self.legs.iter().map(Certificate::lower).sum::<f64>() * (1.0 - 4.0 * f64::EPSILON)
+        self.legs.iter().map(|leg| leg.certificate.lower()).sum::<f64>() * (1.0 - 4.0 * f64::EPSILON)
     }
 
     /// What the known path costs, rounded up.
     pub fn upper(&self) -> f64 {
-        self.legs.iter().map(Certificate::upper).sum::<f64>() * (1.0 + 4.0 * f64::EPSILON)
+        self.legs.iter().map(|leg| leg.certificate.upper()).sum::<f64>() * (1.0 + 4.0 * f64::EPSILON)
+    }
+
+    /// The best path that is known, with the bound so far.
+    pub fn solution(&self) -> Solution {
+        let mut solution = Solution::joined(self.legs.iter().map(|leg| leg.solution.clone()));
+        solution.tighten(self.lower());
+        solution
     }
 
     /// By what part of its cost the known path can be improved at most.
@@ -54,44 +85,81 @@ impl PathCertificate {
         if self.width() <= self.width {
             return Some(CertificateEnd::Reached);
         }
-        if self.legs.iter().any(|leg| leg.end().is_none()) {
+        if self.widest(|leg| self.has_more(leg)).is_some() {
             return None;
         }
-        self.widest(|_| true).and_then(|leg| self.legs[leg].end())
+        self.widest(|_| true).and_then(|leg| self.legs[leg].certificate.end())
     }
 
     /// How many programmes were solved.
     pub fn programmes(&self) -> usize {
-        self.legs.iter().map(Certificate::programmes).sum()
+        self.legs.iter().map(|leg| leg.certificate.programmes()).sum()
     }
 
     /// How many nodes the meshes of the last programmes had.
     pub fn nodes(&self) -> usize {
-        self.legs.iter().map(Certificate::nodes).sum()
+        self.legs.iter().map(|leg| leg.certificate.nodes()).sum()
     }
 
     /// As [`Certificate::stop_signal`], for all legs.
     pub fn stop_signal(&self) -> Arc<AtomicBool> {
-        self.legs.first().map(Certificate::stop_signal).unwrap_or_default()
+        self.legs.first().map(|leg| leg.certificate.stop_signal()).unwrap_or_default()
     }
 
-    /// Solves one programme, for the leg with the widest interval. Returns why all ended, or `None` if it
-    /// goes on.
+    /// Solves one programme, or looks for a better path, for the leg with the widest interval. Returns why
+    /// all ended, or `None` if it goes on.
     ///
     /// # Errors
     /// As [`Certificate::advance`].
     pub fn advance(&mut self) -> Result<Option<CertificateEnd>, PathError> {
         if self.end().is_none()
-            && let Some(leg) = self.widest(|leg| leg.end().is_none())
+            && let Some(leg) = self.widest(|leg| self.has_more(leg))
         {
-            self.legs[leg].advance()?;
+            match self.legs[leg].certificate.end() {
+                None => _ = self.legs[leg].certificate.advance()?,
+                Some(_) => self.seek(leg),
+            }
         }
         Ok(self.end())
     }
 
+    /// Whether a leg can be certified further, or a better path be sought for it.
+    fn has_more(&self, leg: &Leg) -> bool {
+        match leg.certificate.end() {
+            None => true,
+            Some(CertificateEnd::Reached) => false,
+            Some(_) => self.mesh.is_some() && leg.searches > 0,
+        }
+    }
+
+    /// Looks for a better path of a leg, on a mesh that is as fine as the certificate's.
+    fn seek(&mut self, leg: usize) {
+        let Leg { certificate, solution, searches } = &mut self.legs[leg];
+        let Some(mesh) = &self.mesh else { return };
+        *searches -= 1;
+        let mut mesh = Arc::clone(mesh);
+        certificate.refine_like(Arc::make_mut(&mut mesh));
+        let tolerance = TOLERANCE * self.width;
+        let request = PathRequest { has_bounds: false, tolerance, ..PathRequest::FULL };
+        let ends = [certificate.task.start(), certificate.task.goal()];
+        let found = Planner::new(mesh, &*self.cost)
+            .and_then(|mut planner| planner.solve(&*self.cost, &ends, request));
+        match found {
+            Ok(found) if found.upper < solution.upper * (1.0 - LEAST_GAIN * self.width) => {
+                certificate.improve(found.points.clone(), found.upper);
+                *solution = found;
+            }
+            // The same search would find the same again.
+            _ => *searches = 0,
+        }
+    }
+
     /// The leg with the widest interval of those that count.
-    fn widest(&self, counts: impl Fn(&Certificate) -> bool) -> Option<usize> {
-        let width = |leg: usize| self.legs[leg].upper() - self.legs[leg].lower();
+    fn widest(&self, counts: impl Fn(&Leg) -> bool) -> Option<usize> {
+        let width = |leg: usize| {
+            let certificate = &self.legs[leg].certificate;
+            certificate.upper() - certificate.lower()
+        };
         let legs = (0..self.legs.len()).filter(|&leg| counts(&self.legs[leg]));
         legs.max_by(|&a, &b| width(a).total_cmp(&width(b)))
     }

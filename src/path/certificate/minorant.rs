@@ -316,3 +316,42 @@ impl PartialEq for Part {
     }
 }
 impl Eq for Part {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::field::CostFormula;
+    use crate::layers::RiskField;
+    use crate::path::FormulaCost;
+
+    #[test]
+    fn affine_functions_are_below_the_cost_inside_their_triangles() {
+        let formulas =
+            ["1 + x*x + y*y", "exp(2*x - y)", "2 + sin(9*x)*cos(7*y)", "if(x < 0.4, 1, 3)", "3 - x*y"];
+        let mut random = fastrand::Rng::with_seed(1412);
+        let mut sloped = 0;
+        for source in formulas {
+            let formula = CostFormula::parse(source).unwrap();
+            let cost = FormulaCost { formula, risk: RiskField::default() };
+            for _ in 0..40 {
+                let corner = dvec2(random.f64(), random.f64());
+                let side = 0.02 + 0.5 * random.f64();
+                let corners = [dvec2(0.0, 0.0), dvec2(1.0, 0.0), dvec2(0.0, 1.0)];
+                let triangle = FlatTriangle::new(corners.map(|p| corner + side * p));
+                let minorant = Minorant::new(&cost, &triangle, 0.0);
+                let [at_a, at_b, at_c] = minorant.at_corners;
+                sloped += usize::from(at_a != at_b || at_b != at_c);
+                for _ in 0..200 {
+                    let [mut b, mut c] = [random.f64(), random.f64()];
+                    if b + c > 1.0 {
+                        (b, c) = (1.0 - b, 1.0 - c);
+                    }
+                    let a = 1.0 - b - c;
+                    let (affine, real) = (a * at_a + b * at_b + c * at_c, cost.at(triangle.point([a, b, c])));
+                    assert!(affine <= real * (1.0 + 1e-12), "{source}: {affine} {real} in {corners:?}");
+                }
+            }
+        }
+        assert!(sloped > 100, "{sloped}");
+    }
+}

@@ -40,12 +40,13 @@ mod setup;
 mod task;
 mod triangle;
 
+use std::convert::Infallible;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use glam::DVec2;
 
-use super::PathError;
+use super::{PathError, PathMesh};
 use crate::mesh::{Limits, Mesh};
 use marking::{bisections, estimates};
 use minorant::Minorant;
@@ -61,6 +62,8 @@ pub use task::{CertificateEnd, CertificateTask, Placement, PlacementTest};
 const AIM: f64 = 0.65;
 /// The accuracy of a programme, as a part of the requested width.
 const ACCURACY: f64 = 0.05;
+/// So many triangles are added at most to a mesh on which a better path is sought.
+const MOST_ADDED: usize = 60_000;
 /// After so many programmes in a row that hardly raise the bound, it ends.
 const MOST_IDLE: usize = 3;
 
@@ -255,6 +258,23 @@ impl Certificate {
         if refined.is_err() {
             self.end = Some(CertificateEnd::TooLarge);
         }
+    }
+
+    /// Bisects a mesh for paths until it is as fine everywhere as the certificate's mesh, which is fine where
+    /// paths that nearly are the best may go.
+    fn refine_like(&self, mesh: &mut PathMesh) {
+        let excess = |mesh: &PathMesh, triangle: u32| {
+            let flat = FlatTriangle::new(mesh.corners(triangle));
+            let within = self.mesh.locate(flat.centroid()).triangle();
+            let enough = within.map_or(f64::INFINITY, |id| {
+                FlatTriangle::new(self.mesh.world_corners(id)).diameter() * (1.0 + 1e-9)
+            });
+            let excess = flat.diameter() - enough;
+            if excess > 0.0 { excess } else { 0.0 }
+        };
+        let all = 0..mesh.triangle_count() as u32;
+        let wanted = all.map(|t| (excess(mesh, t), t)).filter(|wanted| wanted.0 > 0.0).collect();
+        let Ok(()) = mesh.bisect(wanted, MOST_ADDED, |mesh, t| Ok::<_, Infallible>(excess(mesh, t)));
     }
 
     /// An affine function below the cost for each triangle of the space.

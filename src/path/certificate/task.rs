@@ -1,3 +1,4 @@
+use std::fmt;
 use std::sync::Arc;
 
 use glam::DVec2;
@@ -63,6 +64,19 @@ pub enum CertificateEnd {
     TooLarge,
     /// The solver failed. The bound is that of the programmes before.
     SolverFailed,
+}
+
+impl fmt::Display for CertificateEnd {
+    /// A sentence about the bounds as they are.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Reached => "The bounds are as close as asked for.",
+            Self::UpperBoundLimits => "The lower bound is as good as it gets: only a better path would help.",
+            Self::NoMoreGain => "Finer triangles no longer raise the lower bound.",
+            Self::TooLarge => "The proof needs more triangles than it may have.",
+            Self::SolverFailed => "The solver of the proof found no better bound.",
+        })
+    }
 }
 
 impl CertificateTask {

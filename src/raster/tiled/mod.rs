@@ -2,6 +2,7 @@
 //! them where something finer is painted.
 
 mod blocks;
+mod difference;
 mod summary;
 mod tile;
 

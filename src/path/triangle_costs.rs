@@ -1,0 +1,143 @@
+//! What each triangle costs per unit of length, and a mesh that is fine enough for it.
+
+use std::sync::Arc;
+
+use super::path_mesh::PathMesh;
+use super::{CostDensity, Passage, PathError, checked_range};
+use crate::geometry::Rect;
+
+/// The cost of each triangle, in their order; infinite in closed ones.
+#[derive(Clone, Debug, Default)]
+pub struct TriangleCosts {
+    /// A lower bound, for bounds of what paths cost.
+    pub least: Vec<f64>,
+    /// The mean as computed, to choose a path.
+    pub mean: Vec<f64>,
+}
+
+/// The cost of one triangle.
+#[derive(Clone, Copy)]
+struct TriangleCost {
+    least: f64,
+    greatest: f64,
+    mean: f64,
+}
+
+/// Costs that differ by less than this share have the value in the middle as their mean.
+const ALIKE: f64 = 0.2;
+/// Inner points whose mean is exact for quadratic functions, as shares of the corners.
+const GAUSS: [[f64; 3]; 3] = {
+    let [near, far] = [2.0 / 3.0, 1.0 / 6.0];
+    [[near, far, far], [far, near, far], [far, far, near]]
+};
+
+/// A triangle is bisected whose diameter, times how much its cost varies as a share of the least cost, 1 at
+/// most, is above this part of the longer side of all triangles.
+const COARSEST: f64 = 1.0 / 250.0;
+/// So many triangles are added to a mesh at most.
+const MOST_ADDED: usize = 50_000;
+
+impl TriangleCosts {
+    /// The costs, on a mesh that is bisected where the cost varies much within a triangle: the mean of such a
+    /// triangle would hide a narrow way through it.
+    ///
+    /// # Errors
+    /// When the cost is zero, negative, NaN or infinite somewhere.
+    pub(super) fn on_adapted(mesh: &mut Arc<PathMesh>, density: &dyn CostDensity) -> Result<Self, PathError> {
+        let size = mesh.bounds().map_or(0.0, |bounds| bounds.size().max_element());
+        let importance = |mesh: &PathMesh, triangle: u32, cost: TriangleCost| {
+            let excess = cost.variation().min(1.0) * mesh.diameter(triangle) - COARSEST * size;
+            if excess > 0.0 { excess } else { 0.0 }
+        };
+        let mut costs = Self::default();
+        let mut wanted = Vec::new();
+        for triangle in 0..mesh.triangle_count() as u32 {
+            let cost = mesh.cost(triangle, density)?;
+            costs.set(triangle, cost);
+            let importance = importance(mesh, triangle, cost);
+            if importance > 0.0 {
+                wanted.push((importance, triangle));
+            }
+        }
+        if !wanted.is_empty() {
+            Arc::make_mut(mesh).bisect(wanted, MOST_ADDED, |mesh, triangle| {
+                let cost = mesh.cost(triangle, density)?;
+                costs.set(triangle, cost);
+                Ok::<_, PathError>(importance(mesh, triangle, cost))
+            })?;
+        }
+        Ok(costs)
+    }
+
+    fn set(&mut self, triangle: u32, cost: TriangleCost) {
+        let count = self.least.len().max(triangle as usize + 1);
+        self.least.resize(count, f64::INFINITY);
+        self.mean.resize(count, f64::INFINITY);
+        self.least[triangle as usize] = cost.least;
+        self.mean[triangle as usize] = cost.mean;
+    }
+
+    /// Computes the costs again of the triangles that meet one of the rectangles, and returns those that
+    /// changed, in order.
+    ///
+    /// # Errors
+    /// As [`PathMesh::costs`]; then the costs are as before.
+    pub fn update(
+        &mut self,
+        mesh: &PathMesh,
+        density: &dyn CostDensity,
+        areas: &[Rect],
+    ) -> Result<Vec<u32>, PathError> {
+        let mut changed = Vec::new();
+        for triangle in mesh.meeting(areas) {
+            let cost = mesh.cost(triangle, density)?;
+            let index = triangle as usize;
+            if cost.least != self.least[index] || cost.mean != self.mean[index] {
+                changed.push((triangle, cost));
+            }
+        }
+        changed.iter().for_each(|&(triangle, cost)| self.set(triangle, cost));
+        Ok(changed.into_iter().map(|(triangle, _)| triangle).collect())
+    }
+}
+
+impl TriangleCost {
+    const CLOSED: Self = Self { least: f64::INFINITY, greatest: f64::INFINITY, mean: f64::INFINITY };
+
+    /// How much the cost varies, as a share of the least cost.
+    fn variation(&self) -> f64 {
+        if self.least < f64::INFINITY { (self.greatest - self.least) / self.least } else { 0.0 }
+    }
+}
+
+impl PathMesh {
+    /// The cost of each triangle.
+    ///
+    /// # Errors
+    /// When the cost is zero, negative, NaN or infinite somewhere.
+    pub fn costs(&self, density: &dyn CostDensity) -> Result<TriangleCosts, PathError> {
+        let mut costs = TriangleCosts::default();
+        for triangle in 0..self.triangle_count() as u32 {
+            costs.set(triangle, self.cost(triangle, density)?);
+        }
+        Ok(costs)
+    }
+
+    fn cost(&self, triangle: u32, density: &dyn CostDensity) -> Result<TriangleCost, PathError> {
+        if self.passage(triangle) == Passage::Closed {
+            return Ok(TriangleCost::CLOSED);
+        }
+        let range = checked_range(density, &self.rectangle(triangle))?;
+        let spread = range.greatest - range.least;
+        let [a, b, c] = self.corners(triangle);
+        let mean = if spread <= 0.0 {
+            range.least
+        } else if spread <= ALIKE * range.least {
+            density.at((a + b + c) / 3.0)
+        } else {
+            GAUSS.iter().map(|&[i, j, k]| density.at(i * a + j * b + k * c)).sum::<f64>() / 3.0
+        };
+        let mean = mean.clamp(range.least, range.greatest);
+        Ok(TriangleCost { least: range.least, greatest: range.greatest, mean })
+    }
+}
