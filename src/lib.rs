@@ -61,11 +61,11 @@ pub use raster::{PixelRect, Raster, RasterPyramid, TiledRaster};
 
 // Paint.
 pub use document::{
-    Background, Document, Example, Follower, MeshChange, PathCost, PathPlan, Picture, Setting, Settings,
-    SettingsError, Stage,
+    Background, Document, Example, Follower, KeepOut, MeshChange, PathCost, PathPlan, Picture, Setting,
+    Settings, SettingsError, Stage,
 };
 pub use layers::{
-    Combine, Decision, InvalidLayer, Layer, LayerId, LayerKind, LeastTarget, PaintLayers, Quantity,
+    Combine, Decision, InvalidLayer, Layer, LayerId, LayerKind, LeastTarget, Mask, PaintLayers, Quantity,
     RasterReading, RasterSource, RiskField, SizeField, SizeFieldSpec,
 };
 pub use paint::{Brush, Medium};

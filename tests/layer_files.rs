@@ -87,6 +87,12 @@ fn distance(shapes: ShapeList, range: f64) -> LayerKind {
     LayerKind::Distance { to, at_zero: 0.03, slope: 0.3, range }
 }
 
+fn corridor(line: Vec<DVec2>, range: f64) -> LayerKind {
+    let lines = Shapes::new(ShapeList { lines: vec![line], ..ShapeList::default() }, true).unwrap();
+    let to = DistanceTo::Corridor { lines, width: 0.1 };
+    LayerKind::Distance { to, at_zero: 0.04, slope: 0.5, range }
+}
+
 /// Every kind of layer, with data that a recipe holds itself and data that it needs files for.
 fn kinds() -> Vec<LayerKind> {
     let random = &mut fastrand::Rng::with_seed(12);
@@ -116,6 +122,8 @@ fn kinds() -> Vec<LayerKind> {
         distance(few, 0.5),
         distance(many, f64::INFINITY),
         LayerKind::Distance { to: DistanceTo::Outline, at_zero: 0.05, slope: 0.5, range: 0.7 },
+        corridor(vec![dvec2(0.2, 0.3), dvec2(0.7, 0.4), dvec2(1.3, 1.6)], 0.3),
+        corridor(circle(dvec2(1.0, 1.0), 0.6, 30), f64::INFINITY),
         LayerKind::Paint(Quantity::Risk),
         LayerKind::Paint(Quantity::Diameter),
         LayerKind::Paint(Quantity::Diameter),

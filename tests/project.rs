@@ -7,7 +7,9 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use glam::dvec2;
-use meshbrush::internals::document::{Document, Example, Follower, PathCost, PathPlan, Settings, Stage};
+use meshbrush::internals::document::{
+    Document, Example, Follower, KeepOut, PathCost, PathPlan, Settings, Stage,
+};
 use meshbrush::internals::domain::{
     BoundaryMarks, BoundaryPiece, BoundaryPieces, BoundaryTreatment, Domain, DomainShape,
 };
@@ -15,7 +17,7 @@ use meshbrush::internals::field::{CostFormula, Formula, RefinementRule, Transfer
 use meshbrush::internals::geometry::Rect;
 use meshbrush::internals::io::project::{self, Project};
 use meshbrush::internals::layers::{
-    Combine, Layer, LayerId, LayerKind, PaintLayers, Quantity, RasterReading, RasterSource,
+    Combine, Layer, LayerId, LayerKind, Mask, PaintLayers, Quantity, RasterReading, RasterSource,
 };
 use meshbrush::internals::paint::{Brush, DiameterChange, Medium};
 use meshbrush::internals::path::Weights;
@@ -62,7 +64,14 @@ fn paths(random: &mut fastrand::Rng) -> PathPlan {
         true => PathCost::Weighted(Weights { length: random.f64(), risk: 0.1 + random.f64() }),
         false => PathCost::Formula(CostFormula::parse("1 + x^2 + 5*risk").unwrap()),
     };
-    PathPlan { routes, cost }
+    // Random numbers of their own: the other settings, and the sizes of the meshes, stay what they were.
+    let mut of_regions = fastrand::Rng::with_seed(16);
+    let mut region = |n: usize| {
+        let name = ["coast.geojson", ""][n].to_owned();
+        KeepOut { name, mask: Mask::new(polygons(&mut of_regions).region().unwrap().polygons()).unwrap() }
+    };
+    let keep_out = (0..2).map(&mut region).collect();
+    PathPlan { routes, cost, keep_out }
 }
 
 /// Outlines with holes, crossing themselves and each other, at places where coordinates have many digits.

@@ -177,7 +177,8 @@ impl App {
         let finds = self.tools.tool.finds_boundary && self.session.find_boundary(patience, ctx);
         let measures = self.session.take_figures(patience) | self.walks.take(patience);
         let plots = self.take_plots(patience);
-        self.paths.advance(&self.session, patience, ctx);
+        let route = self.tools.path.route_in(&self.session.document().settings().paths);
+        self.paths.advance(&self.session, route, patience, ctx);
         let bounds = self.session.document().settings().domain.bounds;
         let steps = self.advance_steps(patience, ctx);
         let plan = self.canvas.planned_stroke(ctx, self.shown_tools(), bounds);

@@ -2,15 +2,14 @@
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc::{Receiver, TryRecvError, channel};
-use std::thread;
+use std::sync::mpsc::TryRecvError;
 use std::time::{Duration, Instant};
 
 use eframe::egui::Context;
 
 use super::background::{Aim, Background, exported};
 use super::latest::Latest;
+use super::sequence::{Output, Sequence};
 use super::session::Session;
 use super::statistics::MeasuredMesh;
 use crate::build::RefinementCriterion;
@@ -90,19 +89,14 @@ struct Key {
     document: u64,
 }
 
-/// An experiment in progress.
-struct Measuring {
-    meshes: Receiver<Result<ExperimentMesh, String>>,
-    is_cancelled: Arc<AtomicBool>,
-}
-
 /// Computes what plots show, and keeps it.
 pub struct Plots {
     kind: PlotKind,
     reveals: bool,
     levels: Latest<Key, Vec<LevelFigures>>,
     experiment: Experiment,
-    measuring: Option<Measuring>,
+    /// The meshes of an experiment in progress.
+    measuring: Option<Sequence<Result<ExperimentMesh, String>>>,
     /// The deepest level of the experiment that is measured next, or is being measured.
     pub last_level: u32,
     /// How often each of its meshes is made.
@@ -205,7 +199,7 @@ impl Plots {
     /// A sentence, when the experiment failed.
     pub fn take(&mut self, patience: Duration) -> Result<bool, String> {
         while let Some(measuring) = &self.measuring {
-            match measuring.meshes.try_recv() {
+            match measuring.values.try_recv() {
                 Ok(Ok(mesh)) => self.experiment.meshes.push(mesh),
                 Ok(Err(problem)) => {
                     self.measuring = None;
@@ -233,35 +227,26 @@ impl Plots {
         if self.is_measuring() {
             return;
         }
-        let (sender, meshes) = channel();
-        let is_cancelled = Arc::new(AtomicBool::new(false));
         self.experiment = Experiment::default();
-        self.measuring = Some(Measuring { meshes, is_cancelled: is_cancelled.clone() });
-        let (ctx, last_level, runs) = (ctx.clone(), self.last_level, self.runs);
-        thread::spawn(move || {
+        let (last_level, runs) = (self.last_level, self.runs);
+        let measure = move |output: &Output<_>| {
             let start = Instant::now();
             for level in 1..=last_level {
                 let clock = || start.elapsed().as_secs_f64();
-                let goes_on = || !is_cancelled.load(Ordering::Relaxed);
-                let mesh = ExperimentMesh::measure(level, runs, clock, goes_on).map_err(|e| e.to_string());
-                // The receiver is gone when the window is closed.
-                let Some(mesh) = mesh.transpose().filter(|_| goes_on()) else { break };
+                let mesh = ExperimentMesh::measure(level, runs, clock, || output.goes_on());
+                let Some(mesh) = mesh.map_err(|error| error.to_string()).transpose() else { break };
                 let failed = mesh.is_err();
-                if sender.send(mesh).is_err() || failed {
+                if !output.goes_on() || !output.send(mesh) || failed {
                     break;
                 }
-                ctx.request_repaint();
             }
-            drop(sender);
-            ctx.request_repaint();
-        });
+        };
+        self.measuring = Some(Sequence::start(measure, ctx));
     }
 
     /// Ends the experiment. What was measured stays.
     pub fn cancel(&mut self) {
-        if let Some(measuring) = self.measuring.take() {
-            measuring.is_cancelled.store(true, Ordering::Relaxed);
-        }
+        self.measuring = None;
     }
 
     /// The numbers of the chosen plot as text: a table of the experiment, or else the series.

@@ -1,42 +1,49 @@
-//! Raises the lower bounds of paths on another thread, until a requested width is reached.
+//! Raises the lower bounds of paths on another thread, and takes better paths, until a requested width is
+//! reached.
 
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
-use std::thread;
+use std::sync::mpsc::RecvTimeoutError;
 use std::time::Duration;
 
 use eframe::egui::Context;
 
+use super::paths::FoundPath;
+use super::sequence::{Output, Sequence};
 use crate::domain::Domain;
-use crate::path::{CertificateTask, CostDensity, PathCertificate, Solution};
+use crate::layers::Mask;
+use crate::path::{CertificateEnd, CertificateTask, CostDensity, PathCertificate, PathMesh, Solution};
 
 /// Certifies one path after the other.
 pub struct Prover {
-    density: Option<Arc<dyn CostDensity>>,
+    known: Option<Known>,
     /// The requested width of the interval, as a share of the cost.
     pub width: f64,
-    running: Option<Proof>,
+    /// What is known of the path that is certified, each better than the one before.
+    running: Option<Sequence<Proof>>,
     /// How many of the paths were certified, or as well as possible.
     done: usize,
 }
 
-/// A certificate in the making.
+/// What the paths were found with.
+#[derive(Clone)]
+pub struct Known {
+    /// What they cost.
+    pub density: Arc<dyn CostDensity>,
+    /// The triangles that they go through.
+    pub mesh: Arc<PathMesh>,
+    /// Where they do not go.
+    pub keep_out: Vec<Mask>,
+}
+
+/// What a certificate knows after a step.
 struct Proof {
-    /// Each bound is better than the one before.
-    lower_bounds: Receiver<f64>,
-    cancelled: Arc<AtomicBool>,
+    solution: Solution,
+    end: Option<CertificateEnd>,
 }
 
 impl Default for Prover {
     fn default() -> Self {
-        Self { density: None, width: 0.01, running: None, done: 0 }
-    }
-}
-
-impl Drop for Prover {
-    fn drop(&mut self) {
-        self.cancel();
+        Self { known: None, width: 0.01, running: None, done: 0 }
     }
 }
 
@@ -48,9 +55,7 @@ impl Prover {
 
     /// Ends the work at the next programme. What was proved stays with the paths.
     pub fn cancel(&mut self) {
-        if let Some(proof) = self.running.take() {
-            proof.cancelled.store(true, Ordering::Relaxed);
-        }
+        self.running = None;
     }
 
     /// Begins again with the same paths.
@@ -59,32 +64,37 @@ impl Prover {
         self.done = 0;
     }
 
-    /// Begins with new paths under a cost density.
-    pub fn begin(&mut self, density: Option<Arc<dyn CostDensity>>) {
+    /// Begins with new paths.
+    pub fn begin(&mut self, known: Option<Known>) {
         self.restart();
-        self.density = density;
+        self.known = known;
     }
 
-    /// Takes the bounds that were proved, waiting up to `patience` for each, and begins the next certificate.
+    /// Takes what was proved, waiting up to `patience` for each step, and begins the next certificate.
     pub fn advance(
         &mut self,
-        mut solutions: Vec<&mut Solution>,
+        mut paths: Vec<&mut FoundPath>,
         domain: &Domain,
         patience: Duration,
         ctx: &Context,
     ) {
-        while let Some(solution) = solutions.get_mut(self.done) {
+        while let Some(path) = paths.get_mut(self.done) {
             let Some(proof) = &self.running else {
-                if solution.gap() <= self.width {
+                if path.solution.gap() <= self.width {
                     self.done += 1;
                 } else {
-                    self.running = self.start(solution, domain, ctx);
+                    self.running = self.start(&path.solution, domain, ctx);
                     self.done += usize::from(self.running.is_none());
                 }
                 continue;
             };
-            match proof.lower_bounds.recv_timeout(patience) {
-                Ok(lower) => solution.tighten(lower),
+            match proof.values.recv_timeout(patience) {
+                Ok(Proof { solution, end }) => {
+                    path.end = end;
+                    if let Some(known) = &self.known {
+                        path.take(solution, &*known.density);
+                    }
+                }
                 Err(RecvTimeoutError::Timeout) => return,
                 Err(RecvTimeoutError::Disconnected) => {
                     self.running = None;
@@ -94,28 +104,22 @@ impl Prover {
         }
     }
 
-    fn start(&self, solution: &Solution, domain: &Domain, ctx: &Context) -> Option<Proof> {
-        let cost = self.density.clone()?;
+    fn start(&self, solution: &Solution, domain: &Domain, ctx: &Context) -> Option<Sequence<Proof>> {
+        let Known { density, mesh, keep_out } = self.known.clone()?;
         let (path, upper) = (solution.points.clone(), solution.upper);
-        let task = CertificateTask::in_rectangle(domain.bounds, cost, path, upper, self.width).ok()?;
-        let (domain, solution, ctx) = (domain.clone(), solution.clone(), ctx.clone());
-        let (sender, lower_bounds) = channel();
-        let cancelled = Arc::new(AtomicBool::new(false));
-        let is_cancelled = cancelled.clone();
-        thread::spawn(move || {
-            let task = task.in_domain(&domain);
-            let Ok(mut certificate) = PathCertificate::new(&solution, &task) else { return };
-            while !is_cancelled.load(Ordering::Relaxed) {
-                let ended = certificate.advance();
-                let is_heard = sender.send(certificate.lower()).is_ok();
-                ctx.request_repaint();
-                if !is_heard || !matches!(ended, Ok(None)) {
+        let task = CertificateTask::in_rectangle(domain.bounds, density, path, upper, self.width).ok()?;
+        let (domain, solution) = (domain.clone(), solution.clone());
+        let prove = move |output: &Output<Proof>| {
+            let task = task.in_domain(&domain).outside_of(keep_out);
+            let Ok(certificate) = PathCertificate::new(&solution, &task) else { return };
+            let mut certificate = certificate.with_search(mesh);
+            while output.goes_on() {
+                let Ok(end) = certificate.advance() else { break };
+                if !output.send(Proof { solution: certificate.solution(), end }) || end.is_some() {
                     break;
                 }
             }
-            drop(sender);
-            ctx.request_repaint();
-        });
-        Some(Proof { lower_bounds, cancelled })
+        };
+        Some(Sequence::start(prove, ctx))
     }
 }

@@ -2,7 +2,7 @@ use std::sync::Arc;
 
 use glam::{DVec2, dvec2};
 
-use super::{Document, Settings};
+use super::{Document, PathPlan, Settings};
 use crate::domain::{BoundaryMarks, BoundaryTreatment, Domain, NamedPolygon};
 use crate::field::{Formula, RefinementRule, Transfer};
 use crate::geometry::Rect;
@@ -29,11 +29,14 @@ pub enum Example {
     Aegean,
     /// Every kind of layer, on the terrain.
     Layers,
+    /// A path of least cost between threats.
+    Path,
 }
 
 impl Example {
     /// All examples. The window starts with the first.
-    pub const ALL: [Self; 5] = [Self::Threats, Self::Diamond, Self::Terrain, Self::Aegean, Self::Layers];
+    pub const ALL: [Self; 6] =
+        [Self::Threats, Self::Diamond, Self::Terrain, Self::Aegean, Self::Layers, Self::Path];
 
     /// Name for menus.
     pub fn name(self) -> &'static str {
@@ -43,6 +46,7 @@ impl Example {
             Self::Terrain => "Terrain slope",
             Self::Aegean => "Aegean Sea",
             Self::Layers => "Layers on a terrain",
+            Self::Path => "Threats and a path",
         }
     }
 
@@ -60,6 +64,7 @@ impl Example {
             Self::Layers => {
                 "Slope, cliffs, a road, radio masts, paint and a floor: every kind of layer, with limited gradation."
             }
+            Self::Path => "The path of least cost between seven threats. Drag its ends, or the threats.",
         }
     }
 
@@ -76,6 +81,7 @@ impl Example {
             Self::Terrain => document(terrain(slope())),
             Self::Aegean => document(aegean(&sea())),
             Self::Layers => layers(slope()),
+            Self::Path => document(path()),
         }
     }
 }
@@ -104,6 +110,33 @@ fn diamond() -> Settings {
         rule: RefinementRule::Vertex,
         max_triangles: Settings::MAX_TRIANGLES,
         max_memory: Settings::MAX_MEMORY,
+    }
+}
+
+/// Threats on a square of 100 km, and the path of an aircraft between them.
+fn path() -> Settings {
+    let threat = |x, y, range, peak| Threat { at: dvec2(x, y), range, peak, law: ThreatLaw::Radar };
+    let threats = vec![
+        threat(27.0, 38.0, 19.0, 1.0),
+        threat(45.0, 70.0, 22.0, 0.9),
+        threat(52.0, 22.0, 17.0, 1.0),
+        threat(63.0, 47.0, 15.0, 0.8),
+        threat(78.0, 74.0, 17.0, 1.0),
+        threat(84.0, 27.0, 14.0, 0.9),
+        threat(17.0, 78.0, 15.0, 0.7),
+    ];
+    let risk = LayerKind::Threats(Threats::new(threats).expect("valid threats"));
+    let routes = vec![vec![dvec2(6.0, 12.0), dvec2(94.0, 88.0)]];
+    Settings {
+        name: Example::Path.name().into(),
+        unit: LengthUnit::Kilometre,
+        domain: Domain::rectangle(Rect::new(DVec2::ZERO, dvec2(100.0, 100.0))),
+        spacing: 2.0,
+        boundary: BoundaryTreatment::usual(2.0),
+        transfer: Transfer { h_min: 0.5, h_max: 2.9, shape: 1.0 },
+        layers: Layer::usual(risk),
+        paths: Arc::new(PathPlan { routes, ..PathPlan::default() }),
+        ..Settings::default()
     }
 }
 

@@ -58,8 +58,10 @@ pub(super) fn shared_data(settings: &Settings) -> impl Iterator<Item = SharedDat
         .background
         .as_ref()
         .map(|background| (Arc::as_ptr(&background.picture).addr(), background.picture.rgba.len()));
+    let kept_out = settings.paths.keep_out.iter().map(|kept_out| kept_out.mask.region());
+    let kept_out = kept_out.map(|region| (Arc::as_ptr(region).addr(), region.bytes()));
     let domain = settings.domain.formula().map(|formula| (formula.address(), formula.bytes()));
-    layers.chain(domain).chain(outline).chain([marks, pins, paths]).chain(background)
+    layers.chain(domain).chain(outline).chain([marks, pins, paths]).chain(kept_out).chain(background)
 }
 
 /// One gesture, done or undone.

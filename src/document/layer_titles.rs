@@ -1,6 +1,6 @@
 //! Names of changes of the layers, for the history.
 
-use crate::layers::{Layer, LayerKind};
+use crate::layers::{DistanceTo, Layer, LayerKind};
 
 /// What was done to a stack of layers, in one or two words; "layers" if it was several things.
 pub(super) fn layers_title(before: &[Layer], after: &[Layer]) -> &'static str {
@@ -47,6 +47,7 @@ fn kind_title(kind: &LayerKind) -> &'static str {
         LayerKind::Formula { .. } => "formula",
         LayerKind::Raster { .. } => "raster",
         LayerKind::Threats(_) => "threats",
+        LayerKind::Distance { to: DistanceTo::Corridor { .. }, .. } => "corridor",
         LayerKind::Distance { .. } => "distance",
         LayerKind::Band { .. } => "band",
     }
@@ -57,7 +58,7 @@ mod tests {
     use glam::dvec2;
 
     use super::*;
-    use crate::layers::{Combine, DistanceTo, LayerId, Mask, Quantity, Threats};
+    use crate::layers::{Combine, LayerId, Mask, Quantity, Threats};
 
     fn title(edit: impl FnOnce(&mut Vec<Layer>)) -> &'static str {
         let before = Layer::usual(LayerKind::constant(0.2));

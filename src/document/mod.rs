@@ -32,7 +32,7 @@ pub use follower::{Follower, MeshChange};
 pub use history::History;
 pub use layers::NoPaintLayer;
 pub use outline::{OutlineError, extent};
-pub use path_plan::{PathCost, PathPlan};
+pub use path_plan::{KeepOut, PathCost, PathPlan};
 pub use pricer::{NoChange, Price, Pricer};
 pub use recording::{Edit, EditError, RecordedEdit, RecordedStroke, Recording};
 pub use replay::{Replay, ReplayedMesh};

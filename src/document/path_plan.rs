@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use crate::field::CostFormula;
-use crate::layers::RiskField;
+use crate::layers::{Mask, RiskField};
 use crate::path::{CostDensity, FormulaCost, PathError, Waypoint, WeightedCost, Weights};
 
 /// The paths of a document. They do not change the mesh.
@@ -15,6 +15,17 @@ pub struct PathPlan {
     pub routes: Vec<Vec<DVec2>>,
     /// What paths cost.
     pub cost: PathCost,
+    /// Where paths do not go.
+    pub keep_out: Arc<[KeepOut]>,
+}
+
+/// A region that paths stay out of. Clones share its polygons.
+#[derive(Clone, Debug, PartialEq)]
+pub struct KeepOut {
+    /// The name of its file, or of the layer whose mask it is, for a person.
+    pub name: String,
+    /// What it covers.
+    pub mask: Mask,
 }
 
 /// What a path costs per unit of length.
@@ -63,7 +74,19 @@ impl PathPlan {
         self.cost.density(RiskField::default()).map(|_| ())
     }
 
-    /// Bytes of memory on the heap.
+    /// All places with the number of their route and their number there, from 0.
+    pub fn places(&self) -> impl Iterator<Item = ((usize, usize), DVec2)> + '_ {
+        self.routes.iter().enumerate().flat_map(|(route, places)| {
+            places.iter().enumerate().map(move |(place, &at)| ((route, place), at))
+        })
+    }
+
+    /// What the keep-out regions cover, each alone.
+    pub fn keep_out_masks(&self) -> Vec<Mask> {
+        self.keep_out.iter().map(|region| region.mask.clone()).collect()
+    }
+
+    /// Bytes of memory on the heap, without the polygons of keep-out regions.
     pub fn bytes(&self) -> usize {
         self.routes.iter().map(|route| size_of_val(route) + size_of_val(&route[..])).sum()
     }

@@ -159,8 +159,8 @@ impl Layer {
             LayerKind::Threats(threats) => {
                 Some(threats.list().iter().map(Threat::reach).reduce(|a, b| a.union(&b)).unwrap_or(NOWHERE))
             }
-            LayerKind::Distance { to: DistanceTo::Shapes { shapes, .. }, range, .. } if range.is_finite() => {
-                Some(shapes.extent().expanded(*range))
+            LayerKind::Distance { to, range, .. } if range.is_finite() => {
+                Some(to.shapes()?.extent().expanded(to.reach() + *range))
             }
             LayerKind::Distance { .. } => None,
         }

@@ -119,6 +119,28 @@ pub enum DistanceTo {
         /// The shapes.
         shapes: Shapes,
     },
+    /// A strip along lines that were taken from paths. Within it the distance is 0.
+    Corridor {
+        /// The lines.
+        lines: Shapes,
+        /// The width of the strip, in world units.
+        width: f64,
+    },
+}
+
+impl DistanceTo {
+    /// The shapes, unless it is the outline.
+    pub fn shapes(&self) -> Option<&Shapes> {
+        match self {
+            Self::Outline => None,
+            Self::Shapes { shapes, .. } | Self::Corridor { lines: shapes, .. } => Some(shapes),
+        }
+    }
+
+    /// How far from the shapes the distance begins, in world units.
+    pub fn reach(&self) -> f64 {
+        if let Self::Corridor { width, .. } = self { 0.5 * width } else { 0.0 }
+    }
 }
 
 /// A raster, and where it comes from. Clones share the pixels.
@@ -241,6 +263,7 @@ impl LayerKind {
             Self::Formula { .. } => "Formula",
             Self::Raster { .. } => "Raster",
             Self::Threats(_) => "Threats",
+            Self::Distance { to: DistanceTo::Corridor { .. }, .. } => "Corridor",
             Self::Distance { .. } => "Distance",
             Self::Band { .. } => "Band",
         }

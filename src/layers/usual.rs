@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{DistanceTo, LayerKind, RasterReading, RasterSource, ValueCurve};
+use super::{DistanceTo, LayerKind, RasterReading, RasterSource, Shapes, ValueCurve};
 use crate::field::Transfer;
 
 impl LayerKind {
@@ -25,6 +25,11 @@ impl LayerKind {
     /// `h_min` at distance 0, growing by `slope` per unit of length without an end.
     pub fn distance_to(to: DistanceTo, transfer: &Transfer, slope: f64) -> Self {
         Self::Distance { to, at_zero: transfer.h_min, slope, range: f64::INFINITY }
+    }
+
+    /// A corridor along lines through a domain of this extent, in world units: a fiftieth of it wide.
+    pub fn corridor(lines: Shapes, extent: f64, transfer: &Transfer, slope: f64) -> Self {
+        Self::distance_to(DistanceTo::Corridor { lines, width: 0.02 * extent }, transfer, slope)
     }
 }
 

@@ -5,10 +5,13 @@ use eframe::egui::{Color32, Stroke};
 use super::marks::{paint_line, paint_line_preview};
 use crate::app::frame::FrameState;
 use crate::app::paths::FoundPath;
-use crate::app::tools::{OverMesh, PATH_COLOR, PathPlace, paint_place};
+use crate::app::tools::{ALTERNATIVE_COLOR, OverMesh, PATH_COLOR, POINTED_COLOR, PathPlace, paint_place};
+use crate::path::Solution;
 
 /// Width of a path, in points.
 const WIDTH: f32 = 2.5;
+/// Width of an alternative.
+const THIN: f32 = 1.5;
 /// The colour of a path that is not up to date.
 const OUTDATED: Color32 = Color32::from_gray(0xb0);
 
@@ -17,6 +20,7 @@ const OUTDATED: Color32 = Color32::from_gray(0xb0);
 pub fn paint(state: &FrameState<'_>, over: &OverMesh<'_>) {
     let plan = &state.session.document().settings().paths;
     let selected = state.tools.path.selected_in(plan);
+    paint_others(state, over);
     for (number, route) in plan.routes.iter().enumerate() {
         let shown = state.paths.shown().get(number);
         let problem = shown.and_then(|shown| shown.problem.as_ref());
@@ -41,6 +45,19 @@ pub fn paint(state: &FrameState<'_>, over: &OverMesh<'_>) {
             paint_place(over, at, place, selected == Some((number, n)));
         }
     }
+}
+
+/// The alternatives, and the path that is pointed at in their list or on the front.
+fn paint_others(state: &FrameState<'_>, over: &OverMesh<'_>) {
+    let line = |path: &Solution, color, width| {
+        let points = path.points.iter().map(|&point| (over.screen_from_world)(point));
+        paint_line(over.painter, points, color, width);
+    };
+    let alternatives = &state.paths.alternatives;
+    alternatives.paths().iter().for_each(|path| line(path, ALTERNATIVE_COLOR, THIN));
+    let pointed = alternatives.pointed.and_then(|number| alternatives.paths().get(number));
+    let of_front = state.paths.front.pointed().map(|point| &point.solution);
+    pointed.into_iter().chain(of_front).for_each(|path| line(path, POINTED_COLOR, WIDTH));
 }
 
 /// The place on a path that is pointed at in its profile.

@@ -6,7 +6,7 @@ use glam::DVec2;
 use super::marks;
 use crate::app::frame::FrameState;
 use crate::app::tools::OverMesh;
-use crate::layers::{DistanceTo, LayerKind, ShapeList};
+use crate::layers::{LayerKind, ShapeList};
 
 /// Width of the outline of a mask and of shapes, in points.
 const WIDTH: f32 = 1.5;
@@ -19,7 +19,9 @@ const MOST_POINTS: usize = 2_000;
 /// white. A hidden layer has neither.
 pub fn paint(state: &FrameState<'_>, over: &OverMesh<'_>, accent: Color32) {
     let Some(layer) = state.session.document().active_layer().filter(|layer| layer.visible) else { return };
-    if let LayerKind::Distance { to: DistanceTo::Shapes { shapes, .. }, .. } = &layer.kind {
+    if let LayerKind::Distance { to, .. } = &layer.kind
+        && let Some(shapes) = to.shapes()
+    {
         paint_shapes(over, shapes.list());
     }
     if let Some(mask) = &layer.mask {

@@ -2,10 +2,12 @@
 
 use eframe::egui::{Align2, Color32, Mesh, Rect, Role, Sense, Shape, Ui, Vec2, WidgetInfo, pos2, vec2};
 
+use super::corridor;
 use super::overlay::{FORCED, MOST_SLACK, OLD_AGE, age_color, risk_color, slack_color};
 use crate::app::frame::FrameState;
 use crate::app::layer_pictures::layer_color32;
 use crate::app::theme::{font, tokens};
+use crate::app::tools::ALTERNATIVE_COLOR;
 use crate::app::view::{FieldOverlay, deepest_level};
 use crate::app::widgets::{elided_text, format, paint_floating};
 
@@ -18,27 +20,29 @@ const ROW: f32 = 14.0;
 const LAYER_ROW: f32 = 18.0;
 const MARGIN: Vec2 = vec2(10.0, 7.0);
 
-/// Shows the legend of the overlay or of the contour lines in the upper right corner of `inner`. It takes no
-/// clicks.
+/// Shows the legend of the overlay or of the contour lines in the upper right corner of `inner`, and that of
+/// the paths below it. They take no clicks.
 pub fn show(ui: &Ui, inner: Rect, state: &FrameState<'_>) {
     let inner = inner.with_min_y(inner.top() + 12.0);
-    match state.view.overlay {
-        FieldOverlay::Risk => risk_legend(ui, inner),
-        FieldOverlay::Target => target_legend(ui, inner, state),
-        FieldOverlay::Layer => layer_legend(ui, inner, state),
-        FieldOverlay::Slack => slack_legend(ui, inner),
-        FieldOverlay::Forced => forced_legend(ui, inner),
-        FieldOverlay::Age => age_legend(ui, inner),
-        FieldOverlay::None if state.view.aids.contours => target_legend(ui, inner, state),
-        FieldOverlay::None => {}
-    }
+    let content = match state.view.overlay {
+        FieldOverlay::Risk => Some(risk_legend(ui, inner)),
+        FieldOverlay::Target => Some(target_legend(ui, inner, state)),
+        FieldOverlay::Layer => Some(layer_legend(ui, inner, state)),
+        FieldOverlay::Slack => Some(slack_legend(ui, inner)),
+        FieldOverlay::Forced => Some(forced_legend(ui, inner)),
+        FieldOverlay::Age => Some(age_legend(ui, inner)),
+        FieldOverlay::None if state.view.aids.contours => Some(target_legend(ui, inner, state)),
+        FieldOverlay::None => None,
+    };
+    let top = content.map_or(inner.top(), |content| content.bottom() + MARGIN.y + 8.0);
+    path_legend(ui, inner.with_min_y(top), state);
 }
 
 /// Draws the box of a legend with its title, and returns the place for its content.
 fn boxed(ui: &Ui, inner: Rect, height: f32, title: &str, spoken: &str) -> Rect {
     let size = vec2(WIDTH, TITLE + height) + 2.0 * MARGIN;
     let place = Rect::from_min_size(inner.right_top() - vec2(size.x, 0.0), size);
-    let response = ui.interact(place, ui.scope_id().with("legend"), Sense::hover());
+    let response = ui.interact(place, ui.scope_id().with(("legend", title)), Sense::hover());
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, spoken));
     paint_floating(ui, place);
     let within = place.shrink2(MARGIN);
@@ -47,7 +51,7 @@ fn boxed(ui: &Ui, inner: Rect, height: f32, title: &str, spoken: &str) -> Rect {
 }
 
 /// Risk from 0 to 1 in the colours over level 0.
-fn risk_legend(ui: &Ui, inner: Rect) {
+fn risk_legend(ui: &Ui, inner: Rect) -> Rect {
     let place = boxed(ui, inner, 30.0, "Risk", "Legend: risk 0 to 1");
     let t = tokens(ui);
     let bar = place.with_max_y(place.top() + 12.0);
@@ -72,21 +76,24 @@ fn risk_legend(ui: &Ui, inner: Rect) {
     ] {
         ui.painter().text(pos2(x, bar.bottom() + 3.0), align, text, font::axis(), t.label);
     }
+    place
 }
 
 /// How often the mesh could be halved less, in the colours over level 0.
-fn slack_legend(ui: &Ui, inner: Rect) {
+fn slack_legend(ui: &Ui, inner: Rect) -> Rect {
     let place = boxed(ui, inner, 30.0, "Slack h̄ / h", "Legend: slack 1 to 16");
     let steps = 16u16;
     let color = |step| slack_color((f32::from(step) + 0.5) / f32::from(steps) * MOST_SLACK);
     scale(ui, place, (0..steps).map(color), ["1", "4", "≥ 16"].map(str::to_owned));
+    place
 }
 
 /// From the last edit to old triangles, a cell for each edit.
-fn age_legend(ui: &Ui, inner: Rect) {
+fn age_legend(ui: &Ui, inner: Rect) -> Rect {
     let place = boxed(ui, inner, 30.0, "Edits ago", "Legend: edits ago, 0 to 10");
     let colors = (0..OLD_AGE + 1).map(|age| age_color(Some(age)));
     scale(ui, place, colors, ["0".into(), (OLD_AGE / 2).to_string(), format!("≥ {OLD_AGE}")]);
+    place
 }
 
 /// Cells of colours over level 0 side by side, with text below the left, the middle and the right.
@@ -111,7 +118,7 @@ fn scale(ui: &Ui, place: Rect, colors: impl ExactSizeIterator<Item = [u8; 4]>, t
 }
 
 /// The colour of triangles that only compatibility asked for.
-fn forced_legend(ui: &Ui, inner: Rect) {
+fn forced_legend(ui: &Ui, inner: Rect) -> Rect {
     let spoken = "Legend: triangles that only compatibility asked for";
     let place = boxed(ui, inner, LAYER_ROW, "Cause", spoken);
     let swatch = Rect::from_min_size(place.min + vec2(0.0, 3.0), vec2(SWATCH, LAYER_ROW - 6.0));
@@ -119,10 +126,11 @@ fn forced_legend(ui: &Ui, inner: Rect) {
     ui.painter().rect_filled(swatch, 2.0, Color32::from_rgb(r, g, b));
     let room = Rect::from_min_max(pos2(swatch.right() + 6.0, place.top()), place.right_bottom());
     elided_text(ui, room, "compatibility", tokens(ui).value);
+    place
 }
 
 /// The visible layers in their colours, from the top.
-fn layer_legend(ui: &Ui, inner: Rect, state: &FrameState<'_>) {
+fn layer_legend(ui: &Ui, inner: Rect, state: &FrameState<'_>) -> Rect {
     let layers = &state.session.follower().settings().layers;
     let visible: Vec<_> = layers.iter().rev().filter(|layer| layer.visible).collect();
     let rows = ((inner.height() * 0.7 - TITLE) / LAYER_ROW).max(1.0) as usize;
@@ -138,10 +146,11 @@ fn layer_legend(ui: &Ui, inner: Rect, state: &FrameState<'_>) {
         let room = Rect::from_min_max(pos2(swatch.right() + 6.0, top), pos2(place.right(), top + LAYER_ROW));
         elided_text(ui, room, &layer.name, t.value);
     }
+    place
 }
 
 /// The levels that h̄ can ask for, with the diameters of their triangles.
-fn target_legend(ui: &Ui, inner: Rect, state: &FrameState<'_>) {
+fn target_legend(ui: &Ui, inner: Rect, state: &FrameState<'_>) -> Rect {
     let settings = state.session.follower().settings();
     let levels = u32::from(deepest_level(settings)) + 1;
     let room = (inner.height() * 0.7 - TITLE - 2.0 * MARGIN.y).max(ROW);
@@ -169,5 +178,34 @@ fn target_legend(ui: &Ui, inner: Rect, state: &FrameState<'_>) {
             let diameter = format::length(state.session.mesh().diameter(level), state.unit());
             ui.painter().text(pos2(place.right(), y), Align2::RIGHT_CENTER, diameter, font::axis(), t.value);
         }
+    }
+    place
+}
+
+/// What is drawn beside the paths themselves.
+fn path_legend(ui: &Ui, inner: Rect, state: &FrameState<'_>) {
+    let paths = state.paths;
+    let mut rows = Vec::new();
+    if !paths.corridor.lines().is_empty() {
+        let percent = format::digits(100.0 * paths.corridor.share, 3);
+        rows.push((corridor::FILL, format!("within {percent} %"), LAYER_ROW - 6.0));
+    }
+    if !paths.alternatives.paths().is_empty() {
+        rows.push((ALTERNATIVE_COLOR, "alternatives".into(), 2.0));
+    }
+    if rows.is_empty() {
+        return;
+    }
+    let texts: Vec<&str> = rows.iter().map(|(_, text, _)| text.as_str()).collect();
+    let spoken = format!("Legend: paths {}", texts.join(", "));
+    let place = boxed(ui, inner, LAYER_ROW * rows.len() as f32, "Paths", &spoken);
+    let t = tokens(ui);
+    for (row, (color, text, height)) in rows.iter().enumerate() {
+        let top = place.top() + LAYER_ROW * row as f32;
+        let middle = pos2(place.left() + SWATCH / 2.0, top + LAYER_ROW / 2.0);
+        ui.painter().rect_filled(Rect::from_center_size(middle, vec2(SWATCH, *height)), 1.0, *color);
+        let left = place.left() + SWATCH + 6.0;
+        let room = Rect::from_min_max(pos2(left, top), pos2(place.right(), top + LAYER_ROW));
+        elided_text(ui, room, text, t.value);
     }
 }

@@ -10,6 +10,7 @@ use crate::app::frame::FrameState;
 /// Documents and files.
 pub fn file(state: &FrameState<'_>) -> Vec<CatalogItem> {
     use Menu::File;
+    let has_paths = !state.session.document().settings().paths.routes.is_empty();
     let mut items = vec![
         CatalogItem::new(File, "New", Command::New).ctrl(Key::N),
         CatalogItem::new(File, "Open…", Command::Ask(FileRequest::Open)).ctrl(Key::O),
@@ -24,6 +25,7 @@ pub fn file(state: &FrameState<'_>) -> Vec<CatalogItem> {
             .keys(Modifiers::COMMAND | Modifiers::SHIFT, Key::O),
         CatalogItem::new(File, "Add outline to this document…", Command::Ask(FileRequest::AddOutline)),
         CatalogItem::new(File, "Export mesh…", Command::Ask(FileRequest::Export)).ctrl(Key::E),
+        CatalogItem::new(File, "Export path…", Command::Ask(FileRequest::ExportPath)).enabled(has_paths),
         CatalogItem::new(File, "Export as test…", Command::Ask(FileRequest::ExportTest)),
     ];
     for (i, path) in state.project.recent().iter().enumerate() {

@@ -4,10 +4,13 @@ use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
 use crate::app::command::{Command, PinsCommand};
+use crate::app::keep_out::KeepOutCommand;
+use crate::app::paths::PathCommand;
 use crate::app::plots::PlotsCommand;
 use crate::io::project::ENDING;
 use crate::io::{plot, recipe, recording};
 use crate::render::export::ExportFormat;
+use crate::render::path_export::PathFormat;
 
 /// Why a path is asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,6 +43,8 @@ pub enum FileRequest {
     ReplaceShapes,
     /// To open polygons as the mask of a layer.
     OpenMask,
+    /// To open polygons as a region that paths stay out of.
+    OpenKeepOut,
     /// To open a table of threats.
     OpenThreats,
     /// To write a table of threats.
@@ -48,6 +53,8 @@ pub enum FileRequest {
     ExportPins,
     /// To write the plot.
     ExportPlot,
+    /// To write a path.
+    ExportPath,
     /// To write the mesh.
     Export,
     /// To write steps of the refinement.
@@ -72,10 +79,12 @@ impl FileRequest {
             Self::OpenShapes => "Open shapes to measure the distance to",
             Self::ReplaceShapes => "Open other shapes for this layer",
             Self::OpenMask => "Open polygons as mask",
+            Self::OpenKeepOut => "Open polygons as keep-out region",
             Self::OpenThreats => "Open table of threats",
             Self::SaveThreats => "Save table of threats",
             Self::ExportPins => "Export table of pins",
             Self::ExportPlot => "Export plot",
+            Self::ExportPath => "Export path",
             Self::Export => "Export mesh",
             Self::ExportSteps => "Export steps as SVG",
         }
@@ -94,12 +103,16 @@ impl FileRequest {
             | Self::OpenShapes
             | Self::ReplaceShapes
             | Self::OpenMask
+            | Self::OpenKeepOut
             | Self::OpenThreats => "Open",
             Self::AddOutline => "Add",
             Self::Save | Self::SaveRecipe | Self::SaveThreats => "Save",
-            Self::ExportPins | Self::ExportPlot | Self::Export | Self::ExportSteps | Self::ExportTest => {
-                "Export"
-            }
+            Self::ExportPins
+            | Self::ExportPlot
+            | Self::ExportPath
+            | Self::Export
+            | Self::ExportSteps
+            | Self::ExportTest => "Export",
         }
     }
 
@@ -113,12 +126,16 @@ impl FileRequest {
             Self::OpenImage | Self::OpenBand | Self::OpenValues => vec!["png", "asc"],
             Self::OpenDiameters => vec!["asc"],
             Self::OpenBackground => vec!["png"],
-            Self::OpenDomain | Self::AddOutline | Self::OpenShapes | Self::ReplaceShapes | Self::OpenMask => {
-                vec!["geojson", "json"]
-            }
+            Self::OpenDomain
+            | Self::AddOutline
+            | Self::OpenShapes
+            | Self::ReplaceShapes
+            | Self::OpenMask
+            | Self::OpenKeepOut => vec!["geojson", "json"],
             Self::OpenThreats | Self::SaveThreats | Self::ExportPins => vec!["csv"],
             Self::Export => ExportFormat::endings().collect(),
             Self::ExportPlot => plot::ENDINGS.to_vec(),
+            Self::ExportPath => PathFormat::ENDINGS.to_vec(),
             Self::ExportSteps => vec!["svg"],
         }
     }
@@ -133,11 +150,12 @@ impl FileRequest {
             Self::OpenImage | Self::OpenBand | Self::OpenValues => "Pictures and grids",
             Self::OpenDiameters => "Grids",
             Self::OpenBackground => "Pictures",
-            Self::OpenDomain | Self::AddOutline | Self::OpenMask => "Polygons",
+            Self::OpenDomain | Self::AddOutline | Self::OpenMask | Self::OpenKeepOut => "Polygons",
             Self::OpenShapes | Self::ReplaceShapes => "Points, lines and polygons",
             Self::OpenThreats | Self::SaveThreats => "Tables of threats",
             Self::ExportPins => "Tables",
             Self::ExportPlot => "Drawings and tables",
+            Self::ExportPath => "Lines, tables and pictures",
             Self::Export => "Meshes and pictures",
             Self::ExportSteps => "Drawings",
         }
@@ -155,12 +173,14 @@ impl FileRequest {
             Self::Open | Self::Save => "projects",
             Self::OpenImage | Self::OpenDiameters | Self::OpenBand | Self::OpenValues => "pictures",
             Self::OpenBackground => "backgrounds",
-            Self::OpenDomain | Self::AddOutline | Self::OpenMask => "domains",
+            Self::OpenDomain | Self::AddOutline | Self::OpenMask | Self::OpenKeepOut => "domains",
             Self::OpenShapes | Self::ReplaceShapes => "shapes",
             Self::SaveRecipe => "recipes",
             Self::ExportTest => "tests",
             Self::OpenThreats | Self::SaveThreats => "threats",
-            Self::ExportPins | Self::ExportPlot | Self::Export | Self::ExportSteps => "exports",
+            Self::ExportPins | Self::ExportPlot | Self::ExportPath | Self::Export | Self::ExportSteps => {
+                "exports"
+            }
         }
     }
 
@@ -174,6 +194,7 @@ impl FileRequest {
                 | Self::SaveThreats
                 | Self::ExportPins
                 | Self::ExportPlot
+                | Self::ExportPath
                 | Self::Export
                 | Self::ExportSteps
         )
@@ -190,6 +211,7 @@ impl FileRequest {
             Self::SaveThreats => format!("{name} threats.csv"),
             Self::ExportPins => format!("{name} pins.csv"),
             Self::ExportPlot => format!("{name} plot.svg"),
+            Self::ExportPath => format!("{name} path.{}", PathFormat::ENDINGS[0]),
             Self::Export => format!("{name}.{}", format.ending()),
             Self::ExportSteps => format!("{name} step.svg"),
             _ => String::new(),
@@ -213,10 +235,12 @@ impl FileRequest {
             Self::OpenShapes => Command::OpenShapes(path),
             Self::ReplaceShapes => Command::ReplaceShapes(path),
             Self::OpenMask => Command::OpenMask(path),
+            Self::OpenKeepOut => Command::Path(PathCommand::KeepOut(KeepOutCommand::Open(path))),
             Self::OpenThreats => Command::OpenThreats(path),
             Self::SaveThreats => Command::SaveThreatsAs(path),
             Self::ExportPins => Command::Pins(PinsCommand::ExportAs(path)),
             Self::ExportPlot => Command::Plots(PlotsCommand::ExportAs(path)),
+            Self::ExportPath => Command::Path(PathCommand::ExportAs(path)),
             Self::Export => Command::ExportAs(path),
             Self::ExportSteps => Command::ExportStepsAs(path),
         }
@@ -232,6 +256,7 @@ impl FileRequest {
             Self::SaveThreats => Command::SaveThreats(path),
             Self::ExportPins => Command::Pins(PinsCommand::Export(path)),
             Self::ExportPlot => Command::Plots(PlotsCommand::Export(path)),
+            Self::ExportPath if path.extension().is_some() => Command::Path(PathCommand::Export(path)),
             Self::ExportTest => Command::ExportTest(path),
             Self::Export if alone => Command::Export(path),
             _ => self.command(path),

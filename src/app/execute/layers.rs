@@ -17,6 +17,8 @@ impl App {
             LayerCommand::Select(id) => self.select_layer(id),
             LayerCommand::Add(kind) => self.add_layer(*kind),
             LayerCommand::AddBand => self.add_band(),
+            LayerCommand::AddCorridor => self.add_corridor(),
+            LayerCommand::TakePaths(id) => self.take_paths(id),
             LayerCommand::Duplicate(id) => self.duplicate_layer(id),
             LayerCommand::Delete(id) => self.delete_layer(id),
             LayerCommand::Move(id, place) => self.edit_layers_once(|layers| move_layer(layers, id, place)),

@@ -1,7 +1,9 @@
 //! What each command does. A match arm is one call into the module that owns the data.
 
+mod corridor;
 mod domain;
 mod files;
+mod keep_out;
 mod layers;
 mod painting;
 mod steps;

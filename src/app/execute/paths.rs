@@ -1,13 +1,19 @@
 //! Commands about paths.
 
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use glam::DVec2;
 
 use crate::app::App;
-use crate::app::paths::PathCommand;
+use crate::app::command::Command;
+use crate::app::path_export;
+use crate::app::paths::{AlternativesCommand, CostKind, FrontCommand, FrontFinder, PathCommand};
 use crate::app::pins::nearest_within;
-use crate::document::{PathPlan, Setting};
+use crate::document::{PathCost, PathPlan, Setting};
+use crate::field::CostFormula;
+use crate::path::Weights;
+use crate::render::path_export::PathFormat;
 
 impl App {
     pub(super) fn execute_on_paths(&mut self, command: PathCommand) {
@@ -26,8 +32,66 @@ impl App {
                 }
             }
             PathCommand::Cost(cost) => self.set_paths(|plan| plan.cost = cost),
+            PathCommand::CostBy(kind) => self.give_cost_by(kind),
             PathCommand::ShowDistance(distance) => self.tools.path.shown_distance = distance,
+            PathCommand::ShowCorridor(is_on) => self.paths.corridor.is_on = is_on,
+            PathCommand::CorridorShare(share) => self.paths.corridor.share = share,
+            PathCommand::Alternatives(command) => self.execute_on_alternatives(command),
+            PathCommand::Front(command) => self.execute_on_front(command),
             PathCommand::Width(width) => self.paths.set_width(width),
+            PathCommand::KeepOut(command) => self.execute_on_keep_out(command),
+            PathCommand::ExportTolerance(tolerance) => self.tools.path.export_tolerance = tolerance,
+            PathCommand::ExportAs(path) => self.export_path_as(path),
+            PathCommand::Export(path) => self.export_path(&path),
+        }
+    }
+
+    fn export_path_as(&mut self, path: PathBuf) {
+        let usual = PathFormat::ENDINGS[0];
+        let path = if path.extension().is_none() { path.with_extension(usual) } else { path };
+        let export = Command::Path(PathCommand::Export(path.clone()));
+        self.commands.extend(self.project.ask_to_replace(vec![path], export));
+    }
+
+    fn export_path(&mut self, path: &Path) {
+        let (view, of_paths) = (&self.view, (&self.paths, &self.tools.path));
+        let started = path_export::export(&self.session, view, of_paths, &mut self.background, path);
+        if let Err(problem) = started {
+            self.fail(problem);
+        }
+    }
+
+    fn execute_on_alternatives(&mut self, command: AlternativesCommand) {
+        let alternatives = &mut self.paths.alternatives;
+        match command {
+            AlternativesCommand::Show(is_on) => alternatives.is_on = is_on,
+            AlternativesCommand::Point(number) => alternatives.pointed = number,
+            AlternativesCommand::Cancel => alternatives.cancel(),
+            AlternativesCommand::Take(number) => {
+                let place = alternatives.place_on(number).filter(|_| self.paths.is_current(&self.session));
+                if let Some((route, (leg, at))) = self.tools.path.route_in(self.plan()).zip(place) {
+                    self.insert_place((route, leg + 1), at);
+                }
+            }
+        }
+    }
+
+    fn execute_on_front(&mut self, command: FrontCommand) {
+        let front = &mut self.paths.front;
+        let next = |front: &FrontFinder, is_safer| match &self.session.document().settings().paths.cost {
+            PathCost::Weighted(weights) => front.next(*weights, is_safer),
+            PathCost::Formula(_) => None,
+        };
+        let weights = match command {
+            FrontCommand::Show(is_on) => return front.is_on = is_on,
+            FrontCommand::Point(number) => return front.pointed = number,
+            FrontCommand::Cancel => return front.cancel(),
+            FrontCommand::Take(number) => front.points().get(number).map(|point| point.weights),
+            FrontCommand::Shorter => next(front, false),
+            FrontCommand::Safer => next(front, true),
+        };
+        if let Some(weights) = weights {
+            self.change_paths(|plan| plan.cost = PathCost::Weighted(weights));
         }
     }
 
@@ -38,16 +102,11 @@ impl App {
     /// Takes hold of the place at a point. Without one there, the point becomes a place in between, the goal
     /// of the path that was begun, or the start of another one.
     fn press_path(&mut self, at: DVec2, reach: f64, is_between: bool) {
-        let numbers = |(route, places): (usize, &Vec<DVec2>)| {
-            (0..places.len()).map(move |place| (route, place)).collect::<Vec<_>>()
-        };
-        let places: Vec<_> = self.plan().routes.iter().enumerate().flat_map(numbers).collect();
-        let point = |&(route, place): &(usize, usize)| self.plan().routes[route][place];
-        let nearest = nearest_within(places.iter().map(|place| point(place).distance(at)), reach);
-        if let Some(place) = nearest.map(|number| places[number]) {
-            let grip = point(&place) - at;
+        let distances = self.plan().places().map(|(_, point)| point.distance(at));
+        let nearest = nearest_within(distances, reach);
+        if let Some((place, point)) = nearest.and_then(|number| self.plan().places().nth(number)) {
             self.tools.path.selected = Some(place);
-            self.tools.path.grip = Some(grip);
+            self.tools.path.grip = Some(point - at);
             return;
         }
         self.tools.path.grip = Some(DVec2::ZERO);
@@ -91,7 +150,11 @@ impl App {
             from.distance(at) + at.distance(to) - from.distance(to)
         };
         let best = (0..places.len() - 1).min_by(|a, b| detour(a).total_cmp(&detour(b)));
-        let place = best.map_or(1, |leg| leg + 1);
+        self.insert_place((route, best.map_or(1, |leg| leg + 1)), at);
+    }
+
+    /// Adds a place to a route, and selects it.
+    fn insert_place(&mut self, (route, place): (usize, usize), at: DVec2) {
         self.tools.path.selected = Some((route, place));
         self.change_paths(|plan| plan.routes[route].insert(place, at));
     }
@@ -110,8 +173,18 @@ impl App {
         });
     }
 
+    /// Gives the cost in another way. The formula is that of the weights.
+    fn give_cost_by(&mut self, kind: CostKind) {
+        let cost = match (kind, &self.plan().cost) {
+            (CostKind::Weights, PathCost::Formula(_)) => PathCost::default(),
+            (CostKind::Formula, PathCost::Weighted(weights)) => PathCost::Formula(formula_of(*weights)),
+            _ => return,
+        };
+        self.change_paths(|plan| plan.cost = cost);
+    }
+
     /// Changes the plan as a gesture of its own.
-    fn change_paths(&mut self, change: impl FnOnce(&mut PathPlan)) {
+    pub(super) fn change_paths(&mut self, change: impl FnOnce(&mut PathPlan)) {
         self.session.end_gesture();
         self.set_paths(change);
         self.session.end_gesture();
@@ -122,4 +195,10 @@ impl App {
         change(&mut plan);
         self.session.set(Setting::Paths(Arc::new(plan)));
     }
+}
+
+/// The formula that is equal to weights.
+fn formula_of(Weights { length, risk }: Weights) -> CostFormula {
+    CostFormula::parse(&format!("{length} + {risk}*risk"))
+        .expect("a sum of numbers and the risk is a formula")
 }

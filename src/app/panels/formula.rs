@@ -1,10 +1,12 @@
 //! A row in which a formula is typed.
 
+use std::fmt::Display;
+use std::str::FromStr;
+
 use eframe::egui::{Id, Key, Ui};
 
 use crate::app::frame::FrameState;
 use crate::app::widgets::{TextError, TextRow};
-use crate::field::Formula;
 use crate::field::formula::ParseError;
 
 /// Seconds without a key until a formula is applied: the beginning of `0.0005` is a valid formula, too.
@@ -20,16 +22,30 @@ pub struct FormulaRow<'a> {
     pub help: &'a str,
 }
 
+/// A kind of formula: its text is what was typed.
+pub trait AnyFormula:
+    FromStr<Err = ParseError> + Display + Clone + PartialEq + Send + Sync + 'static
+{
+}
+
+impl<F: FromStr<Err = ParseError> + Display + Clone + PartialEq + Send + Sync + 'static> AnyFormula for F {}
+
 /// The text typed so far, in egui's memory. It need not be a valid formula yet.
-#[derive(Clone, Debug, Default)]
-struct Typed {
+#[derive(Clone, Debug)]
+struct Typed<F> {
     text: String,
     /// The formula of the document when the text was last equal to it.
-    of: Option<Formula>,
+    of: Option<F>,
     /// When the text last changed, in egui's time.
     changed_at: f64,
     /// The formula that was sent last: it is sent once, also if the document refuses it.
-    sent: Option<Option<Formula>>,
+    sent: Option<Option<F>>,
+}
+
+impl<F> Default for Typed<F> {
+    fn default() -> Self {
+        Self { text: String::new(), of: None, changed_at: 0.0, sent: None }
+    }
 }
 
 impl FormulaRow<'_> {
@@ -38,14 +54,14 @@ impl FormulaRow<'_> {
     ///
     /// While the text is not in effect, the row says so. A text that cannot be read keeps the focus after
     /// Enter, and so does one that the document refused.
-    pub fn show(
+    pub fn show<F: AnyFormula>(
         &self,
         ui: &mut Ui,
         state: &FrameState<'_>,
-        current: Option<&Formula>,
-    ) -> Option<Option<Formula>> {
+        current: Option<&F>,
+    ) -> Option<Option<F>> {
         let id = ui.make_persistent_id(("typed formula", self.label, state.session.opened_documents()));
-        let mut typed: Typed = ui.data(|data| data.get_temp(id)).unwrap_or_default();
+        let mut typed: Typed<F> = ui.data(|data| data.get_temp(id)).unwrap_or_default();
         let parsed = parse(&typed.text);
         let refused = typed.was_refused(parsed.as_ref().ok(), current, state);
         if typed.of.as_ref() != current {
@@ -71,33 +87,28 @@ impl FormulaRow<'_> {
     }
 }
 
-fn parse(text: &str) -> Result<Option<Formula>, ParseError> {
-    if text.trim().is_empty() { Ok(None) } else { Formula::parse(text).map(Some) }
+fn parse<F: AnyFormula>(text: &str) -> Result<Option<F>, ParseError> {
+    if text.trim().is_empty() { Ok(None) } else { text.parse().map(Some) }
 }
 
-fn store(ui: &Ui, id: Id, typed: Typed) {
+fn store<F: AnyFormula>(ui: &Ui, id: Id, typed: Typed<F>) {
     ui.data_mut(|data| data.insert_temp(id, typed));
 }
 
-impl Typed {
+impl<F: AnyFormula> Typed<F> {
     /// Whether the document refused the formula that was sent last.
-    fn was_refused(
-        &self,
-        parsed: Option<&Option<Formula>>,
-        current: Option<&Formula>,
-        state: &FrameState<'_>,
-    ) -> bool {
+    fn was_refused(&self, parsed: Option<&Option<F>>, current: Option<&F>, state: &FrameState<'_>) -> bool {
         let failed = state.session.notices().shown().is_some_and(|notice| notice.failed);
         let sent = self.sent.as_ref().filter(|sent| Some(*sent) == parsed);
         failed && sent.is_some_and(|sent| sent.as_ref() != current)
     }
 
     /// Follows the document after undo and in another document. A text that was refused stays.
-    fn follow(&mut self, current: Option<&Formula>, refused: bool) {
+    fn follow(&mut self, current: Option<&F>, refused: bool) {
         self.of = current.cloned();
         let is_own = self.sent.as_ref().is_some_and(|sent| sent.as_ref() == current);
         if !refused && !is_own {
-            self.text = current.map_or(String::new(), |formula| formula.source().to_owned());
+            self.text = current.map_or(String::new(), F::to_string);
             self.sent = None;
         }
     }
@@ -106,11 +117,11 @@ impl Typed {
     fn take_finished(
         &mut self,
         ui: &Ui,
-        parsed: Option<Option<Formula>>,
-        current: Option<&Formula>,
+        parsed: Option<Option<F>>,
+        current: Option<&F>,
         ended: bool,
         at_rest: bool,
-    ) -> Option<Option<Formula>> {
+    ) -> Option<Option<F>> {
         let new = parsed.filter(|formula| formula.as_ref() != current)?;
         if self.sent.as_ref() == Some(&new) && !ended {
             return None;

@@ -33,7 +33,7 @@ pub use brush::BRUSH;
 pub use domain::DOMAIN;
 pub use inspector::INSPECTOR;
 pub use layers::{LAYER_KINDS, ask_name as ask_layer_name, combine_name};
-pub use path::PATH;
+pub use path::{OTHER_PATHS, PATH};
 pub use pins::PINS;
 pub use why::WHY;
 
@@ -55,7 +55,7 @@ pub struct Panel {
 }
 
 /// All sections of the side panel, from the top. Those of the selected tool move to the top.
-pub static PANELS: [&Panel; 16] = [
+pub static PANELS: [&Panel; 17] = [
     &BRUSH,
     &layers::LAYERS,
     &transfer::TRANSFER,
@@ -64,6 +64,7 @@ pub static PANELS: [&Panel; 16] = [
     &WHY,
     &PINS,
     &PATH,
+    &OTHER_PATHS,
     &mesh::MESH,
     &statistics::STATISTICS,
     &plots::PLOTS,

@@ -15,7 +15,7 @@ use super::command::{BoundaryCommand, BrushCommand, Command, DomainCommand, Laye
 use super::plots::{PlotKind, PlotsCommand};
 use super::report::FigureCommand;
 use super::stepping::StepCommand;
-use super::tools::{BoundaryToolMode, DomainToolMode, PaintKind, QUERY};
+use super::tools::{BoundaryToolMode, DomainToolMode, PATH, PaintKind, QUERY};
 use super::view::FieldOverlay;
 use crate::document::{Example, ReportFigure, Setting};
 use crate::field::{Formula, RefinementRule};
@@ -35,7 +35,7 @@ struct Scene {
     act: fn(&mut OffscreenWindow),
 }
 
-const SCENES: [Scene; 17] = [
+const SCENES: [Scene; 18] = [
     scene("window", window),
     scene("query", query),
     scene("why", why),
@@ -48,6 +48,7 @@ const SCENES: [Scene; 17] = [
     scene("terrain", terrain),
     scene("aegean", aegean),
     scene("layers", layers),
+    scene("path", path),
     scene("boundary", boundary),
     scene("light", light),
     scene("deep", deep),
@@ -178,6 +179,13 @@ fn layers(window: &mut OffscreenWindow) {
     }
     window.send(Command::Use(&QUERY));
     point_at(window, dvec2(15.9, 17.2));
+}
+
+/// A path of least cost between threats, with its proved interval and the risk along it.
+fn path(window: &mut OffscreenWindow) {
+    window.send(Command::OpenExample(Example::Path));
+    window.send(Command::Use(&PATH));
+    window.send(Command::SetOverlay(FieldOverlay::Risk));
 }
 
 /// The pieces of a coast, one of them selected.

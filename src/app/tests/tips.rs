@@ -5,6 +5,7 @@ use std::sync::Arc;
 use eframe::egui::accesskit::Role;
 use eframe::egui::{Key, Modifiers, vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use glam::DVec2;
 
 use super::{FREE, TALL, Window, canvas, choose, entries, key, open_section, send, wait_until, window_of};
 use crate::app::command::{Command, LayerCommand, ThreatsCommand};
@@ -13,7 +14,7 @@ use crate::app::tools::TOOLS;
 use crate::document::{Setting, Settings};
 use crate::field::Formula;
 use crate::geometry::Rect;
-use crate::layers::{DistanceTo, LayerKind, RasterSource, Threats};
+use crate::layers::{DistanceTo, LayerKind, RasterSource, ShapeList, Shapes, Threats};
 use crate::raster::{Raster, RasterPyramid};
 
 const CONTROLS: [Role; 7] = [
@@ -63,8 +64,10 @@ fn every_control_of_the_panels_has_a_sentence() {
     let transfer = Settings::default().transfer;
     let [curve, band] = [LayerKind::curve_of(raster(), &transfer), LayerKind::band_of(raster(), &transfer)];
     let [curve, band] = [curve, band].map(|kind| kind.expect("a raster with values"));
+    let line = ShapeList { lines: vec![vec![FREE, DVec2::ZERO]], ..ShapeList::default() };
+    let corridor = LayerKind::corridor(Shapes::new(line, true).unwrap(), 1.0, &transfer, 0.2);
     let (formula, risk) = (LayerKind::constant(0.2), LayerKind::risk(Formula::constant_of(0.1)));
-    for kind in [formula, risk, distance, curve, band] {
+    for kind in [formula, risk, distance, corridor, curve, band] {
         send(&mut window, Command::Layer(LayerCommand::Add(Box::new(kind))));
         assert_eq!(unexplained(&window), [""; 0]);
     }

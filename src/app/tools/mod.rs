@@ -26,7 +26,7 @@ pub use domain::{DOMAIN, DomainTool, DomainToolMode};
 pub use eraser::ERASER;
 pub use gesture::{CLICK_SLACK, Gesture, Pointer, Press, SettingsDrag};
 pub use pan::{PAN, Panning};
-pub use path::{PATH, PATH_COLOR, PathPlace, PathTool, paint_place};
+pub use path::{ALTERNATIVE_COLOR, PATH, PATH_COLOR, POINTED_COLOR, PathPlace, PathTool, paint_place};
 pub use pen::{Pen, PenEffect};
 pub use query::{PIN_REACH_POINTS, PinsTool, QUERY};
 pub use threats::{THREATS, ThreatGrip, ThreatsTool, grip_at};

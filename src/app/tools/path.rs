@@ -15,7 +15,7 @@ use crate::document::PathPlan;
 /// Edits the places of paths.
 pub static PATH: ToolSpec = ToolSpec {
     cursor: CursorIcon::Crosshair,
-    panels: &[&panels::PATH],
+    panels: &[&panels::PATH, &panels::OTHER_PATHS],
     hint: |tools| if tools.path.pending.is_some() { GOAL_HINT } else { HINT },
     paint,
     press: |press, pointer, commands| {
@@ -60,6 +60,8 @@ pub struct PathTool {
     pub grip: Option<DVec2>,
     /// The distance from the start of the place that is marked, in world units.
     pub shown_distance: Option<f64>,
+    /// How far points that files leave out are from the path, in world units; 0 leaves out none.
+    pub export_tolerance: f64,
 }
 
 impl PathTool {
@@ -101,6 +103,10 @@ pub enum PathPlace {
 
 /// The colour of paths and their places.
 pub const PATH_COLOR: Color32 = Color32::from_rgb(0xff, 0xe0, 0x3a);
+
+/// The colours of the alternatives of a path, and of the path that is pointed at in a list or a plot.
+pub const ALTERNATIVE_COLOR: Color32 = Color32::from_rgb(0x8f, 0xe0, 0xff);
+pub const POINTED_COLOR: Color32 = Color32::from_rgb(0xff, 0x8a, 0xdb);
 
 /// Draws a place of a path.
 pub fn paint_place(over: &OverMesh<'_>, at: Pos2, place: PathPlace, is_selected: bool) {

@@ -24,5 +24,7 @@ pub use floating::*;
 /// that changed nothing, too.
 pub fn edit_done(response: &eframe::egui::Response) -> bool {
     let held = response.dragged() || response.is_pointer_button_down_on();
-    response.drag_stopped() || response.clicked() || (response.changed() && !held)
+    // A press that was held for long without a movement is neither a click nor a drag.
+    let released = response.contains_pointer() && response.ctx.input(|input| input.pointer.any_released());
+    response.drag_stopped() || response.clicked() || released || (response.changed() && !held)
 }

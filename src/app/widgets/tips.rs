@@ -7,7 +7,7 @@ const EDGE: f32 = 2.0;
 
 /// The sentences of controls that have no unit or number in it, by the name of the control. The name of a
 /// choice is that of its group and its own.
-static SENTENCES: [(&str, &str); 174] = [
+static SENTENCES: [(&str, &str); 190] = [
     (
         "What the brush paints/Risk",
         "The brush paints risk, from 0 to 1, which the transfer curve turns into a diameter.",
@@ -191,6 +191,20 @@ static SENTENCES: [(&str, &str); 174] = [
     ("Cancel measuring", "Ends the measuring; what was measured so far stays."),
     ("Close the figure", "Closes the figure of the report; its document stays open."),
     ("Copy the comparison", "Copies what the report shows, and its numbers beside those here."),
+    ("What paths cost/Weights", "A unit of length costs λ + κ · risk."),
+    ("What paths cost/Formula", "A unit of length costs what a formula of x, y and risk says."),
+    ("Corridor", "Shades all places on paths that cost little more than the best."),
+    ("Alternatives", "Lists and draws the next best paths that differ substantially from the best."),
+    ("Searching", "How many alternatives were found, and after how many the search ends."),
+    ("Cancel search", "Ends the search for alternatives; those that were found stay."),
+    (
+        "Front",
+        "Plots length against risk of the best paths, from the shortest to the safest; a click takes one.",
+    ),
+    ("Finding paths", "How many paths of the front were found."),
+    ("Cancel front", "Ends the work on the front; what was found stays."),
+    ("Shorter path", "Takes the weights of the next shorter path of the front."),
+    ("Safer path", "Takes the weights of the next safer path of the front."),
     ("Prove within", "How narrow the proved interval around the least possible cost becomes."),
     ("Swap start and goal", "Lets the path go the other way."),
     (
@@ -198,6 +212,20 @@ static SENTENCES: [(&str, &str); 174] = [
         "Removes the selected place in between, or the path of a selected start or goal; Delete does so too.",
     ),
     ("Delete all paths", "Removes all paths of the document."),
+    (
+        "Take the current path again",
+        "Moves the corridor to the paths as they are now; it never moves by itself.",
+    ),
+    (
+        "Add keep-out region…",
+        "Reads polygons from a GeoJSON file: paths stay out of them from then on, and so does the proof.",
+    ),
+    (
+        "Export path…",
+        "Writes the path as .geojson, as a table (.csv), or as a picture with the mesh (.svg, .png).",
+    ),
+    ("Use the layer's mask", "Keeps paths out of the polygons of the selected layer's mask."),
+    ("Remove keep-out region", "Lets paths through this region again."),
     ("Pin", "Marks the point and follows its triangle and values through every edit; Shift+P."),
     ("Pin the query", "Marks the queried point and follows its triangle and values; Shift+P."),
     ("Delete pin", "Removes the selected pin; Delete does so too while the query tool is selected."),

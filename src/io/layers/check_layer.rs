@@ -53,6 +53,7 @@ impl SavedLayer {
                 SavedKind::Raster => self.raster(files)?,
                 SavedKind::Threats => self.threats(files)?,
                 SavedKind::Distance => self.distance(files)?,
+                SavedKind::Corridor => self.corridor(files)?,
                 SavedKind::Band => self.band(files)?,
             },
         })
@@ -156,6 +157,27 @@ impl SavedLayer {
                 return Err(KeyFault::key(key, "a distance has one of `to`, `file` and `shapes`."));
             }
         };
+        self.growing(to)
+    }
+
+    fn corridor(&self, files: Files) -> Result<KindSpec, KeyFault> {
+        let along = match (&self.file, &self.shapes) {
+            (Some(_), None) => DistanceTo::File(self.found(files)?),
+            (None, Some(shapes)) => DistanceTo::Shapes {
+                name: String::new(),
+                shapes: each("shapes", shapes, SavedShape::checked)?,
+            },
+            (None, None) => return Err(self.missing("needs `file`, a .geojson, or `shapes`")),
+            (Some(_), Some(_)) => {
+                return Err(KeyFault::key("shapes", "a corridor has one of `file` and `shapes`."));
+            }
+        };
+        let width = self.length("width", self.width)?;
+        self.growing(DistanceTo::Corridor { along: Box::new(along), width })
+    }
+
+    /// A target diameter that grows with a distance.
+    fn growing(&self, to: DistanceTo) -> Result<KindSpec, KeyFault> {
         let at_zero = self.length("at_zero", self.at_zero)?;
         let slope = self.needed("slope", self.slope)?;
         let rule = "the growth by unit of distance must be 0 or more, and finite";

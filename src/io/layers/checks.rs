@@ -52,7 +52,10 @@ pub(super) fn points(coordinates: &[[f64; 2]], least: usize, what: &str) -> Resu
 }
 
 /// A polygon from its rings, the outer one first, with the first point repeated at the end of a ring or not.
-pub(super) fn rings(rings: &[Vec<[f64; 2]>]) -> Result<Vec<Vec<DVec2>>, String> {
+///
+/// # Errors
+/// A sentence, when there is no ring, a ring has too few points, or a coordinate is not finite.
+pub fn rings(rings: &[Vec<[f64; 2]>]) -> Result<Vec<Vec<DVec2>>, String> {
     if rings.is_empty() {
         return Err("a polygon needs its outer ring, a list of points.".into());
     }

@@ -108,6 +108,12 @@ impl LayerSpec {
     fn distance_to<D: LayerData>(&self, to: &To, data: &mut D) -> Result<DistanceTo, D::Error> {
         let (name, list) = match to {
             To::Outline => return Ok(DistanceTo::Outline),
+            To::Corridor { along, width } => {
+                return Ok(match self.distance_to(along, data)? {
+                    DistanceTo::Shapes { shapes: lines, .. } => DistanceTo::Corridor { lines, width: *width },
+                    other => other,
+                });
+            }
             To::File(file) => {
                 let name = file.file_name().unwrap_or(file.as_os_str()).to_string_lossy().into_owned();
                 (name, data.shapes(file)?)

@@ -11,6 +11,7 @@
 //! | `"raster"` | `file`, `bounds`, and `as` or `curve` |
 //! | `"threats"` | `file` or `threats` |
 //! | `"distance"` | `to`, `file` or `shapes`; `at_zero`, `slope`, `range` |
+//! | `"corridor"` | `file` or `shapes`; `width`, `at_zero`, `slope`, `range` |
 //! | `"band"` | `file`, `bounds`, `between`, `diameter` |
 
 mod check_layer;
@@ -25,11 +26,13 @@ mod tests;
 mod values;
 
 pub use check_layer::compiled;
-pub use checks::{positive_length, rect_of};
+pub use checks::{positive_length, rect_of, rings};
 pub use fault::{KeyFault, Mark, Step};
 pub use files::{GridFiles, LayerError, LayerFiles};
 pub use load::{LayerData, TextError};
-pub use saved::{SavedCombine, SavedKind, SavedLayer, SavedQuantity, SavedShape, SavedThreat};
+pub use saved::{
+    SavedCombine, SavedKind, SavedLayer, SavedPolygon, SavedQuantity, SavedShape, SavedThreat, saved_polygon,
+};
 pub use spec::{
     DistanceTo, FindFile, KindSpec, LayerSpec, MaskSpec, RasterFile, RasterFormat, RasterReading, ShapeSpec,
     ThreatsSpec,

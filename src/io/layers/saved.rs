@@ -60,6 +60,9 @@ pub struct SavedLayer {
     /// What the distance is to, in place.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shapes: Option<Vec<SavedShape>>,
+    /// The width of a corridor.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub width: Option<f64>,
     /// The target diameter at distance 0.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub at_zero: Option<f64>,
@@ -94,6 +97,8 @@ pub enum SavedKind {
     Threats,
     /// The distance to shapes.
     Distance,
+    /// The distance to a strip along lines.
+    Corridor,
     /// One diameter where a raster's value lies between two numbers.
     Band,
 }
@@ -181,6 +186,7 @@ impl SavedKind {
             Self::Raster => "raster",
             Self::Threats => "threats",
             Self::Distance => "distance",
+            Self::Corridor => "corridor",
             Self::Band => "band",
         }
     }
@@ -193,6 +199,7 @@ impl SavedKind {
             Self::Raster => &["file", "bounds", "as", "curve"],
             Self::Threats => &["file", "threats"],
             Self::Distance => &["to", "file", "shapes", "at_zero", "slope", "range"],
+            Self::Corridor => &["file", "shapes", "width", "at_zero", "slope", "range"],
             Self::Band => &["file", "bounds", "between", "diameter"],
         }
     }
@@ -219,6 +226,7 @@ impl SavedLayer {
             threats: None,
             to: None,
             shapes: None,
+            width: None,
             at_zero: None,
             slope: None,
             range: None,
@@ -256,14 +264,15 @@ impl SavedLayer {
             }
             LayerKind::Distance { to, at_zero, slope, range } => Self {
                 to: matches!(to, DistanceTo::Outline).then_some(SavedDistanceTo::Outline),
-                shapes: match to {
-                    DistanceTo::Outline => None,
-                    DistanceTo::Shapes { shapes, .. } => Some(SavedShape::of_list(shapes.list())),
-                },
+                shapes: to.shapes().map(|shapes| SavedShape::of_list(shapes.list())),
+                width: if let DistanceTo::Corridor { width, .. } = to { Some(*width) } else { None },
                 at_zero: Some(*at_zero),
                 slope: Some(*slope),
                 range: range.is_finite().then_some(*range),
-                ..Self::of_kind(SavedKind::Distance)
+                ..Self::of_kind(match to {
+                    DistanceTo::Corridor { .. } => SavedKind::Corridor,
+                    DistanceTo::Outline | DistanceTo::Shapes { .. } => SavedKind::Distance,
+                })
             },
             LayerKind::Band { between, diameter, .. } => {
                 Self { between: Some(*between), diameter: Some(*diameter), ..Self::of_kind(SavedKind::Band) }
@@ -294,6 +303,7 @@ impl SavedLayer {
             ("threats", self.threats.is_some()),
             ("to", self.to.is_some()),
             ("shapes", self.shapes.is_some()),
+            ("width", self.width.is_some()),
             ("at_zero", self.at_zero.is_some()),
             ("slope", self.slope.is_some()),
             ("range", self.range.is_some()),
@@ -324,7 +334,8 @@ impl SavedShape {
     }
 }
 
-fn saved_polygon(polygon: &Polygon) -> SavedPolygon {
+/// A polygon as a text has it.
+pub fn saved_polygon(polygon: &Polygon) -> SavedPolygon {
     polygon.iter().map(|ring| ring.iter().map(DVec2::to_array).collect()).collect()
 }
 

@@ -159,6 +159,24 @@ pub enum DistanceTo {
         /// The shapes.
         shapes: Vec<ShapeSpec>,
     },
+    /// A strip of a width around shapes.
+    Corridor {
+        /// The shapes.
+        along: Box<DistanceTo>,
+        /// Its width in world units.
+        width: f64,
+    },
+}
+
+impl DistanceTo {
+    /// The file that it names.
+    fn file(&self) -> Option<&PathBuf> {
+        match self {
+            Self::File(file) => Some(file),
+            Self::Corridor { along, .. } => along.file(),
+            Self::Outline | Self::Shapes { .. } => None,
+        }
+    }
 }
 
 /// A point, line or polygon in world units.
@@ -214,8 +232,8 @@ impl LayerSpec {
             KindSpec::Paint { from, .. } => from.as_ref().map(|(project, _)| project),
             KindSpec::Raster { raster, .. } | KindSpec::Band { raster, .. } => Some(&raster.path),
             KindSpec::Threats(ThreatsSpec::File(file)) => Some(file),
-            KindSpec::Distance { to: DistanceTo::File(file), .. } => Some(file),
-            KindSpec::Formula { .. } | KindSpec::Threats(_) | KindSpec::Distance { .. } => None,
+            KindSpec::Distance { to, .. } => to.file(),
+            KindSpec::Formula { .. } | KindSpec::Threats(_) => None,
         };
         let mask = match &self.mask {
             Some(MaskSpec::File(file)) => Some(file),
@@ -233,6 +251,7 @@ impl KindSpec {
             Self::Formula { .. } => SavedKind::Formula,
             Self::Raster { .. } => SavedKind::Raster,
             Self::Threats(_) => SavedKind::Threats,
+            Self::Distance { to: DistanceTo::Corridor { .. }, .. } => SavedKind::Corridor,
             Self::Distance { .. } => SavedKind::Distance,
             Self::Band { .. } => SavedKind::Band,
         }
@@ -247,6 +266,7 @@ pub(super) fn usual_name(kind: SavedKind) -> &'static str {
         SavedKind::Raster => "Raster",
         SavedKind::Threats => "Threats",
         SavedKind::Distance => "Distance",
+        SavedKind::Corridor => "Corridor",
         SavedKind::Band => "Band",
     }
 }

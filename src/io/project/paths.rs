@@ -5,12 +5,15 @@ use std::sync::Arc;
 use glam::DVec2;
 use serde::{Deserialize, Serialize};
 
-use crate::document::{PathCost, PathPlan};
+use crate::document::{KeepOut, PathCost, PathPlan};
 use crate::field::CostFormula;
 use crate::io::Flaw;
+use crate::io::error::shown;
+use crate::io::layers::{SavedPolygon, rings, saved_polygon};
+use crate::layers::Mask;
 use crate::path::Weights;
 
-/// Between which places, and what they cost.
+/// Between which places, what they cost, and where they do not go.
 #[derive(Debug, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct SavedPaths {
@@ -19,6 +22,15 @@ pub(super) struct SavedPaths {
     routes: Vec<Vec<[f64; 2]>>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     cost: Option<SavedCost>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    keep_out: Vec<SavedKeepOut>,
+}
+
+#[derive(Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SavedKeepOut {
+    name: String,
+    polygons: Vec<SavedPolygon>,
 }
 
 #[derive(Debug, Serialize, Deserialize)]
@@ -38,17 +50,21 @@ impl SavedPaths {
             PathCost::Formula(formula) => SavedCost::Formula(formula.source().into()),
         };
         let is_usual = paths.cost == PathCost::default();
-        Self { routes: paths.routes.iter().map(route).collect(), cost: (!is_usual).then_some(cost) }
+        Self {
+            routes: paths.routes.iter().map(route).collect(),
+            cost: (!is_usual).then_some(cost),
+            keep_out: paths.keep_out.iter().map(SavedKeepOut::of).collect(),
+        }
     }
 
     pub(super) fn is_empty(&self) -> bool {
-        self.routes.is_empty() && self.cost.is_none()
+        self.routes.is_empty() && self.cost.is_none() && self.keep_out.is_empty()
     }
 
     /// The paths; their places and weights are checked with all settings.
     ///
     /// # Errors
-    /// When the formula is not valid.
+    /// When the formula or a region is not valid.
     pub(super) fn load(self) -> Result<Arc<PathPlan>, Flaw> {
         let route = |route: Vec<[f64; 2]>| route.into_iter().map(DVec2::from_array).collect();
         let cost = match self.cost {
@@ -60,6 +76,27 @@ impl SavedPaths {
                 })?)
             }
         };
-        Ok(Arc::new(PathPlan { routes: self.routes.into_iter().map(route).collect(), cost }))
+        let keep_out = self.keep_out.into_iter().map(SavedKeepOut::load).collect::<Result<_, _>>()?;
+        Ok(Arc::new(PathPlan { routes: self.routes.into_iter().map(route).collect(), cost, keep_out }))
+    }
+}
+
+impl SavedKeepOut {
+    fn of(KeepOut { name, mask }: &KeepOut) -> Self {
+        Self { name: name.clone(), polygons: mask.polygons().iter().map(saved_polygon).collect() }
+    }
+
+    fn load(self) -> Result<KeepOut, Flaw> {
+        let Self { name, polygons } = self;
+        let polygons = polygons.iter().map(|polygon| rings(polygon)).collect::<Result<Vec<_>, _>>();
+        let mask =
+            polygons.and_then(|polygons: Vec<_>| Mask::new(&polygons).map_err(|error| error.to_string()));
+        match mask {
+            Ok(mask) => Ok(KeepOut { name, mask }),
+            Err(problem) => {
+                let name = shown(40, &name);
+                Err(Flaw::Syntax(format!("the keep-out region “{name}” is not valid: {problem}")))
+            }
+        }
     }
 }

@@ -168,9 +168,10 @@ impl Plan {
                 saved.threats = None;
                 saved.file = Some(self.add(&layer.name, "csv", Content::Threats(threats.clone())));
             }
-            LayerKind::Distance { to: DistanceTo::Shapes { shapes, .. }, .. }
-                if point_count(shapes.list()) > MOST_IN_PLACE =>
-            {
+            LayerKind::Distance {
+                to: DistanceTo::Shapes { shapes, .. } | DistanceTo::Corridor { lines: shapes, .. },
+                ..
+            } if point_count(shapes.list()) > MOST_IN_PLACE => {
                 saved.shapes = None;
                 saved.file = Some(self.add(&layer.name, GEOJSON, Content::Shapes(shapes.clone())));
             }

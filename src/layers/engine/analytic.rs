@@ -22,9 +22,10 @@ pub enum Function {
     Formula(Formula),
     /// The combined risk.
     Threats(Threats),
-    /// d₀ + s · distance up to a range, then infinity.
+    /// d₀ + s · distance up to a range, then infinity. The distance is that beyond `reach` from the shapes.
     Distance {
         shapes: Shapes,
+        reach: f64,
         at_zero: f64,
         slope: f64,
         range: f64,
@@ -71,7 +72,9 @@ impl Function {
     /// The value at a distance from the shapes.
     fn at_distance(&self, distance: f64) -> f64 {
         match self {
-            Self::Distance { at_zero, slope, range, .. } if distance <= *range => at_zero + slope * distance,
+            Self::Distance { reach, at_zero, slope, range, .. } if distance - reach <= *range => {
+                at_zero + slope * (distance - reach).max(0.0)
+            }
             _ => f64::INFINITY,
         }
     }

@@ -79,11 +79,12 @@ impl CompiledLayer {
             LayerKind::Distance { to, at_zero, slope, range } => {
                 let shapes = match to {
                     DistanceTo::Outline => outline,
-                    DistanceTo::Shapes { shapes, .. } => Some(shapes),
+                    DistanceTo::Shapes { .. } | DistanceTo::Corridor { .. } => to.shapes(),
                 };
                 let values = shapes.map_or(Values::Nothing, |shapes| {
-                    let (shapes, at_zero, slope, range) = (shapes.clone(), *at_zero, *slope, *range);
-                    let function = Function::Distance { shapes, at_zero, slope, range };
+                    let (shapes, reach) = (shapes.clone(), to.reach());
+                    let (at_zero, slope, range) = (*at_zero, *slope, *range);
+                    let function = Function::Distance { shapes, reach, at_zero, slope, range };
                     Values::Analytic(Analytic { function, quantity: Quantity::Diameter })
                 });
                 (reading(Quantity::Diameter, NO_RISK), values)

@@ -16,7 +16,7 @@ pub use file_row::FileRow;
 pub use icon::Icon;
 pub use key_row::key_row;
 pub use levels::{LevelLegend, LevelRow};
-pub use plot::plot_view;
+pub use plot::{plot_picker, plot_view};
 pub use status::StatusCell;
 pub use value_row::{ValueRow, value_row};
 

@@ -2,10 +2,10 @@
 
 use std::ops::RangeInclusive;
 
-use eframe::egui::{Color32, Rect, RichText, Role, Sense, Ui, Vec2, WidgetInfo, pos2, vec2};
+use eframe::egui::{Color32, CursorIcon, Rect, RichText, Role, Sense, Ui, Vec2, WidgetInfo, pos2, vec2};
 use egui_plot::{
-    AxisHints, Bar, BarChart, GridMark, Line, LineStyle, Plot as Chart, PlotBounds, PlotPoints, PlotUi,
-    Points, VLine,
+    AxisHints, Bar, BarChart, GridMark, Line, LineStyle, Plot as Chart, PlotBounds, PlotPoint, PlotPoints,
+    PlotResponse, PlotUi, Points, VLine,
 };
 
 use super::paint;
@@ -20,11 +20,69 @@ const LEGEND_ROW: f32 = 18.0;
 const SAMPLE: f32 = 14.0;
 const GAP: f32 = 16.0;
 
+/// A point this far from the pointer can still be picked, in points.
+const PICK_REACH: f32 = 24.0;
+
 /// Shows a plot in the full width and so many points high, with its legend above and its note below. Returns
 /// the x under the pointer.
 ///
 /// Beside the pointer are the values there. `name` names it for tests and screen readers.
 pub fn plot_view(ui: &mut Ui, name: &str, plot: &Plot, height: f32) -> Option<f64> {
+    let PlotResponse { response, transform, .. } = chart(ui, name, plot, height, Sense::hover());
+    let hovered = response.hover_pos().map(|at| plot.x.value(transform.value_from_position(at).x));
+    if let Some(x) = hovered {
+        response.on_hover_text_at_pointer(plot.readout(x).join("\n"));
+    }
+    note(ui, plot);
+    hovered
+}
+
+/// A point of a plot that the pointer is at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PickedPoint {
+    /// Its number in the first series.
+    pub point: usize,
+    /// Whether it was clicked.
+    pub is_clicked: bool,
+}
+
+/// Shows a plot as [`plot_view`] does, to choose a point of its first series. Returns the point that is the
+/// nearest to the pointer. `tip` says what is shown beside the pointer then.
+pub fn plot_picker(
+    ui: &mut Ui,
+    name: &str,
+    plot: &Plot,
+    height: f32,
+    tip: impl Fn(usize) -> String,
+) -> Option<PickedPoint> {
+    let PlotResponse { response, transform, .. } = chart(ui, name, plot, height, Sense::click());
+    let nearest = response.hover_pos().and_then(|pointer| {
+        let on_screen = |&[x, y]: &[f64; 2]| {
+            let [x, y] = [plot.x.position(x)?, plot.y.position(y)?];
+            Some(transform.position_from_point(&PlotPoint::new(x, y)))
+        };
+        let points = plot.series.first()?.points.iter().enumerate();
+        let near = points.filter_map(|(number, point)| Some((number, on_screen(point)?)));
+        near.filter(|(_, at)| at.distance(pointer) < PICK_REACH)
+            .min_by(|a, b| a.1.distance(pointer).total_cmp(&b.1.distance(pointer)))
+    });
+    let picked = nearest.map(|(point, at)| {
+        ui.painter().circle_stroke(at, 6.0, (1.5, tokens(ui).value));
+        PickedPoint { point, is_clicked: response.clicked() }
+    });
+    if let Some(picked) = picked {
+        response.on_hover_cursor(CursorIcon::PointingHand).on_hover_text_at_pointer(tip(picked.point));
+    }
+    note(ui, plot);
+    picked
+}
+
+fn note(ui: &mut Ui, plot: &Plot) {
+    ui.label(RichText::new(&plot.note).font(font::caption()).color(tokens(ui).label));
+}
+
+/// The legend and the chart.
+fn chart(ui: &mut Ui, name: &str, plot: &Plot, height: f32, sense: Sense) -> PlotResponse<()> {
     let t = *tokens(ui);
     if plot.series.len() > 1 {
         legend(ui, plot, &t);
@@ -39,7 +97,7 @@ pub fn plot_view(ui: &mut Ui, name: &str, plot: &Plot, height: f32) -> Option<f6
     let chart = Chart::new(name)
         .width(size.x)
         .height(size.y)
-        .sense(Sense::hover())
+        .sense(sense)
         .set_margin_fraction(Vec2::ZERO)
         .show_x(false)
         .show_y(false)
@@ -64,17 +122,11 @@ pub fn plot_view(ui: &mut Ui, name: &str, plot: &Plot, height: f32) -> Option<f6
         chart.show(ui, draw)
     });
     let shown = shown.inner;
-    let response = shown.response;
-    response.widget_info(|| WidgetInfo {
+    shown.response.widget_info(|| WidgetInfo {
         current_text_value: Some(plot.note.clone()),
         ..WidgetInfo::labeled(Role::Image, true, name)
     });
-    let hovered = response.hover_pos().map(|at| plot.x.value(shown.transform.value_from_position(at).x));
-    if let Some(x) = hovered {
-        response.on_hover_text_at_pointer(plot.readout(x).join("\n"));
-    }
-    ui.label(RichText::new(&plot.note).font(font::caption()).color(t.label));
-    hovered
+    shown
 }
 
 /// The marks of an axis. All have the same distance: none is fainter than the others.

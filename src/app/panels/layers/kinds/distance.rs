@@ -12,7 +12,10 @@ use crate::layers::{DistanceTo, Layer, LayerKind};
 
 /// The distance to shapes or to the outline of the domain.
 pub const DISTANCE: KindPanel = KindPanel {
-    is_of: |kind| matches!(kind, LayerKind::Distance { .. }),
+    is_of: |kind| {
+        let LayerKind::Distance { to, .. } = kind else { return false };
+        !matches!(to, DistanceTo::Corridor { .. })
+    },
     icon: Icon::DISTANCE,
     additions: &[
         Addition { title: "distance to the outline", command: add_distance_to_outline },
@@ -32,29 +35,34 @@ fn parameters(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut
         DistanceTo::Outline => "outline of the domain",
         DistanceTo::Shapes { name, .. } if name.is_empty() => "drawn shapes",
         DistanceTo::Shapes { name, .. } => name,
+        DistanceTo::Corridor { .. } => return,
     };
     ValueRow::new("Distance to", target).help("What the distance is measured to.").show(ui);
     target_buttons(ui, layer, to, commands);
     let (mut at_zero, mut slope, mut range) = (*at_zero, *slope, *range);
     let positive = f64::MIN_POSITIVE..=f64::MAX;
     let unit = state.unit().symbol();
-    let row = NumberRow::new("At distance 0", &mut at_zero).range(positive.clone()).unit(unit);
+    let row = NumberRow::new("At distance 0", &mut at_zero).range(positive).unit(unit);
     let mut changed = row.help("Target diameter at distance 0; it grows from there.").show(ui).changed();
     let row = NumberRow::new("Growth", &mut slope).range(0.0..=f64::MAX);
     let help = "How much the target diameter grows with the distance, per unit of length.";
     changed |= row.help(help).show(ui).changed();
-    let mut is_limited = range.is_finite();
-    if toggle_row(ui, "Limit the range", &mut is_limited).changed() {
-        let extent = state.session.document().settings().domain.bounds.size().max_element();
-        range = if is_limited { 0.1 * extent } else { f64::INFINITY };
-        changed = true;
-    } else if is_limited {
-        let row = NumberRow::new("Range", &mut range).range(positive).unit(unit);
-        changed |= row.help("Beyond this distance the layer asks for nothing.").show(ui).changed();
-    }
+    changed |= range_rows(ui, state, &mut range);
     if changed {
         set_kind_once(layer, LayerKind::Distance { to: to.clone(), at_zero, slope, range }, commands);
     }
+}
+
+/// The distance beyond which a layer asks for nothing. Returns whether it changed.
+pub fn range_rows(ui: &mut Ui, state: &FrameState<'_>, range: &mut f64) -> bool {
+    let mut is_limited = range.is_finite();
+    if toggle_row(ui, "Limit the range", &mut is_limited).changed() {
+        let extent = state.session.document().settings().domain.bounds.size().max_element();
+        *range = if is_limited { 0.1 * extent } else { f64::INFINITY };
+        return true;
+    }
+    let row = NumberRow::new("Range", range).range(f64::MIN_POSITIVE..=f64::MAX).unit(state.unit().symbol());
+    is_limited && row.help("Beyond this distance the layer asks for nothing.").show(ui).changed()
 }
 
 /// What chooses the target of the distance.

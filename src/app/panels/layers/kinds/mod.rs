@@ -1,6 +1,7 @@
 //! The kinds of layers: a table with a file for each.
 
 mod band;
+mod corridor;
 mod curve;
 mod distance;
 mod formula;
@@ -36,8 +37,15 @@ pub struct Addition {
 }
 
 /// All kinds, as menus list them.
-pub static LAYER_KINDS: [KindPanel; 6] =
-    [paint::PAINT, formula::FORMULA, raster::RASTER, threats::THREATS, distance::DISTANCE, band::BAND];
+pub static LAYER_KINDS: [KindPanel; 7] = [
+    paint::PAINT,
+    formula::FORMULA,
+    raster::RASTER,
+    threats::THREATS,
+    distance::DISTANCE,
+    corridor::CORRIDOR,
+    band::BAND,
+];
 
 /// The kind of a layer.
 pub fn kind_of(kind: &LayerKind) -> &'static KindPanel {

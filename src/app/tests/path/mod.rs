@@ -1,5 +1,11 @@
 //! Paths: set with the tool, followed through edits, certified, and read in the panel.
 
+mod corridor;
+mod cost;
+mod export;
+mod keep_out;
+mod others;
+
 use std::time::{Duration, Instant};
 
 use eframe::egui::accesskit::Role;
@@ -8,11 +14,12 @@ use egui_kittest::kittest::Queryable as _;
 use glam::{DVec2, dvec2};
 
 use super::{
-    TALL, Window, click, key, move_to, press, release, send, settings, stroke, wait_until, window_of,
+    TALL, Window, click, key, move_to, press, release, send, set, settings, stroke, wait_until, window_of,
 };
 use crate::app::command::Command;
 use crate::app::paths::{PathCommand, ShownPath};
 use crate::app::tools::PATH;
+use crate::document::{Example, Setting};
 
 const START: DVec2 = dvec2(0.05, 0.1);
 const GOAL: DVec2 = dvec2(0.95, 0.9);
@@ -26,7 +33,7 @@ fn is_complete(window: &Window) -> bool {
     paths.is_current(window.state().session()) && !paths.is_proving()
 }
 
-fn wait_for_paths(window: &mut Window) {
+pub(super) fn wait_for_paths(window: &mut Window) {
     let patience = Instant::now() + Duration::from_secs(120);
     while !is_complete(window) {
         assert!(Instant::now() < patience, "no path was found");
@@ -35,10 +42,11 @@ fn wait_for_paths(window: &mut Window) {
     }
 }
 
-/// A window with the path tool and a complete path from [`START`] to [`GOAL`]. Its bound is that of the
-/// solver: certificates take seconds.
+/// A window with the path tool and a complete path from [`START`] to [`GOAL`], on a coarse mesh. Its bound is
+/// that of the solver: certificates take seconds.
 fn window_with_path() -> Window {
     let mut window = window_of(TALL);
+    set(&mut window, Setting::SmallestDiameter(0.03));
     send(&mut window, Command::Path(PathCommand::Width(1.0)));
     key(&mut window, Modifiers::NONE, Key::P);
     assert_eq!(window.state().tools().tool, &PATH);
@@ -137,4 +145,15 @@ fn an_idle_window_with_a_certified_path_does_no_work() {
     window.run();
     assert!(is_complete(&window));
     assert_eq!(window.state().session().document().revision(), revision);
+}
+
+#[test]
+fn the_example_opens_with_its_path() {
+    let mut window = window_of(TALL);
+    send(&mut window, Command::Path(PathCommand::Width(1.0)));
+    send(&mut window, Command::OpenExample(Example::Path));
+    wait_for_paths(&mut window);
+    let solution = &shown(&window)[0].found.as_ref().unwrap().solution;
+    assert!((146.0..147.5).contains(&solution.cost) && solution.highest_risk < 0.1, "{}", solution.cost);
+    assert!(window.query_by_label("Risk along the path").is_some());
 }

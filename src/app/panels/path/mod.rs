@@ -1,22 +1,30 @@
 //! The paths: what they cost, how far from the best they can be, and the risk along them.
 
+mod cost;
+mod export;
+mod keep_out;
+mod others;
+
 use eframe::egui::{RichText, Ui};
 
-use super::{Panel, button_rows, end_gesture_when_released, remark};
+use super::{Panel, button_rows, remark};
 use crate::app::command::Command;
 use crate::app::frame::FrameState;
 use crate::app::paths::{FoundPath, PathCommand};
 use crate::app::theme::{font, tokens};
-use crate::app::widgets::{Icon, NumberRow, Section, ValueRow, dropdown_row, empty_state, format, plot_view};
-use crate::document::PathCost;
-use crate::path::Weights;
+use crate::app::widgets::{Icon, Section, ValueRow, dropdown_row, empty_state, format, plot_view};
 use crate::plot::{Axis, Mark, Plot, Scale, Series};
+use crate::text::percent_above;
+
+pub use others::OTHER_PATHS;
 
 /// The path of the selected place, or else the first; with the tool for it, and as long as there are paths.
 pub static PATH: Panel = Panel { name: "path", only_with_tool: false, show };
 
 /// Height of the profile, in points.
 const HEIGHT: f32 = 150.0;
+/// Where the certificate has no triangle for the path.
+const NO_PROOF: &str = "There is no proof for this path.";
 /// Widths of the interval that can be asked for, with their names.
 const WIDTHS: [(f64, &str); 5] =
     [(1.0, "As it is"), (0.05, "5 %"), (0.01, "1 %"), (0.001, "0.1 %"), (0.0001, "0.01 %")];
@@ -25,7 +33,7 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let plan = &state.session.document().settings().paths;
     let route = state.tools.path.route_in(plan);
     let is_tool = state.tools.tool.panels.iter().any(|panel| panel.name == PATH.name);
-    if route.is_none() && !is_tool {
+    if route.is_none() && plan.keep_out.is_empty() && !is_tool {
         return;
     }
     let note = match plan.routes.len() {
@@ -35,7 +43,8 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     Section::new("Path").note(&note).show(ui, |ui| {
         let Some(route) = route else {
             let text = "Click the start and then the goal with the path tool (P).";
-            return empty_state(ui, Icon::PATH, "No path", text);
+            empty_state(ui, Icon::PATH, "No path", text);
+            return keep_out::rows(ui, state, commands);
         };
         let shown = state.paths.shown().get(route);
         if let Some(problem) = shown.and_then(|shown| shown.problem.as_ref()) {
@@ -47,7 +56,8 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
             Some(found) => figures(ui, state, found, commands),
             None => remark(ui, "The path is being found."),
         }
-        cost_rows(ui, &plan.cost, commands);
+        cost::rows(ui, state, &plan.cost, commands);
+        keep_out::rows(ui, state, commands);
         let is_selected = state.tools.path.selected_in(plan).is_some();
         let path = |command| Command::Path(command);
         let rows = [[
@@ -56,6 +66,7 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
         ]];
         button_rows(ui, rows, commands);
         button_rows(ui, [[("Delete all paths", true, path(PathCommand::DeleteAll))]], commands);
+        export::rows(ui, state, commands);
     });
 }
 
@@ -64,7 +75,7 @@ fn figures(ui: &mut Ui, state: &FrameState<'_>, found: &FoundPath, commands: &mu
     let number = |value: f64| format::significant(value, 4);
     let has_bound = solution.lower > 0.0;
     let gap = match has_bound {
-        true => format!("within {} of optimal", percent(solution.gap())),
+        true => format!("within {} of optimal", percent_above(solution.gap())),
         false => "…".to_owned(),
     };
     let optimum = format!("{} … {}", number(solution.lower), number(solution.upper));
@@ -87,15 +98,14 @@ fn figures(ui: &mut Ui, state: &FrameState<'_>, found: &FoundPath, commands: &mu
         (false, _) => remark(ui, "The path is being found."),
         (true, true) => remark(ui, "The bound is being improved."),
         (true, false) if solution.gap() > state.paths.width() => {
-            remark(ui, "The certificate ended here. A finer mesh may give a better path.");
+            remark(ui, &found.end.map_or_else(|| NO_PROOF.to_owned(), |end| end.to_string()));
         }
         (true, false) => remark(ui, "Path and bound are up to date."),
     }
     ui.add_space(4.0);
-    if let Some(distance) = plot_view(ui, "Risk along the path", &profile(state, found), HEIGHT) {
-        commands.push(Command::Path(PathCommand::ShowDistance(Some(distance))));
-    } else if state.tools.path.shown_distance.is_some() {
-        commands.push(Command::Path(PathCommand::ShowDistance(None)));
+    let distance = plot_view(ui, "Risk along the path", &profile(state, found), HEIGHT);
+    if distance != state.tools.path.shown_distance {
+        commands.push(Command::Path(PathCommand::ShowDistance(distance)));
     }
     ui.add_space(4.0);
 }
@@ -110,34 +120,4 @@ fn profile(state: &FrameState<'_>, found: &FoundPath) -> Plot {
         series: vec![Series { name: "Risk".into(), mark: Mark::Line, points }],
         note: String::new(),
     }
-}
-
-/// What a path costs: the weights, or the formula.
-fn cost_rows(ui: &mut Ui, cost: &PathCost, commands: &mut Vec<Command>) {
-    match cost {
-        PathCost::Weighted(weights) => {
-            let Weights { mut length, mut risk } = *weights;
-            let row = NumberRow::new("Weight of length", &mut length).range(0.0..=1e6);
-            let by_length = row.help("λ: what a unit of length costs without risk.").show(ui);
-            let row = NumberRow::new("Weight of risk", &mut risk).range(0.0..=1e6);
-            let by_risk = row.help("κ: what a unit of length costs more at risk 1.").show(ui);
-            if by_length.changed() || by_risk.changed() {
-                let cost = PathCost::Weighted(Weights { length, risk });
-                commands.push(Command::Path(PathCommand::Cost(cost)));
-            }
-            end_gesture_when_released(&by_length, commands);
-            end_gesture_when_released(&by_risk, commands);
-        }
-        PathCost::Formula(formula) => {
-            ValueRow::new("Cost per length", formula.source()).help("The formula of x, y and risk.").show(ui);
-        }
-    }
-    ui.add_space(4.0);
-}
-
-/// A share in percent, rounded up.
-fn percent(share: f64) -> String {
-    let percent = 100.0 * share;
-    let digits = if percent < 0.1 { 1000.0 } else { 100.0 };
-    format!("{} %", (percent * digits).ceil() / digits)
 }

@@ -1,0 +1,45 @@
+//! Layers that ask for finer triangles along paths.
+
+use eframe::egui::Ui;
+
+use super::distance::range_rows;
+use super::{Addition, KindPanel, set_kind_once};
+use crate::app::command::{Command, LayerCommand};
+use crate::app::frame::FrameState;
+use crate::app::panels::{button_rows, remark};
+use crate::app::widgets::{Icon, NumberRow};
+use crate::layers::{DistanceTo, Layer, LayerKind};
+
+/// A strip along the paths as they were when they were taken.
+pub const CORRIDOR: KindPanel = KindPanel {
+    is_of: |kind| matches!(kind, LayerKind::Distance { to: DistanceTo::Corridor { .. }, .. }),
+    icon: Icon::PATH,
+    additions: &[Addition {
+        title: "corridor along the paths",
+        command: |_| Command::Layer(LayerCommand::AddCorridor),
+    }],
+    parameters,
+};
+
+fn parameters(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut Vec<Command>) {
+    let LayerKind::Distance { to, at_zero, slope, range } = &layer.kind else { return };
+    let DistanceTo::Corridor { lines, width } = to else { return };
+    let (mut at_zero, mut slope, mut range, mut width) = (*at_zero, *slope, *range, *width);
+    let (positive, unit) = (f64::MIN_POSITIVE..=f64::MAX, state.unit().symbol());
+    let row = NumberRow::new("Diameter at the path", &mut at_zero).range(positive.clone()).unit(unit);
+    let mut changed =
+        row.help("Target diameter within the corridor; it grows from its edge.").show(ui).changed();
+    let row = NumberRow::new("Corridor width", &mut width).range(positive).unit(unit);
+    changed |= row.help("The whole width of the corridor, half of it on each side.").show(ui).changed();
+    let row = NumberRow::new("Growth", &mut slope).range(0.0..=f64::MAX);
+    let help = "How much the target diameter grows with the distance, per unit of length.";
+    changed |= row.help(help).show(ui).changed();
+    changed |= range_rows(ui, state, &mut range);
+    if changed {
+        let to = DistanceTo::Corridor { lines: lines.clone(), width };
+        set_kind_once(layer, LayerKind::Distance { to, at_zero, slope, range }, commands);
+    }
+    remark(ui, "The corridor stays where the paths were when it was made.");
+    let take = Command::Layer(LayerCommand::TakePaths(layer.id));
+    button_rows(ui, [[("Take the current path again", true, take)]], commands);
+}

@@ -1,0 +1,65 @@
+//! What paths cost: weights of length and risk, or a formula.
+
+use std::ops::RangeInclusive;
+
+use eframe::egui::Ui;
+
+use crate::app::command::Command;
+use crate::app::frame::FrameState;
+use crate::app::panels::end_gesture_when_released;
+use crate::app::panels::formula::FormulaRow;
+use crate::app::paths::{CostKind, PathCommand};
+use crate::app::widgets::{NumberRow, SliderRow, segmented};
+use crate::document::PathCost;
+use crate::path::Weights;
+
+/// The track of the slider from the shortest path to the safest, and what can be typed there.
+const CAUTION: RangeInclusive<f64> = 0.1..=1000.0;
+const MOST_WEIGHT: f64 = 1e6;
+
+/// Shows the rows of the cost.
+pub(super) fn rows(ui: &mut Ui, state: &FrameState<'_>, cost: &PathCost, commands: &mut Vec<Command>) {
+    ui.add_space(2.0);
+    let mut kind = CostKind::of(cost);
+    let kinds = [(CostKind::Weights, "Weights"), (CostKind::Formula, "Formula")];
+    if segmented(ui, "What paths cost", &mut kind, &kinds).changed() {
+        commands.push(Command::Path(PathCommand::CostBy(kind)));
+    }
+    ui.add_space(4.0);
+    match cost {
+        PathCost::Weighted(weights) => weight_rows(ui, *weights, commands),
+        PathCost::Formula(formula) => {
+            let help =
+                "What a unit of length costs, as a formula of x, y and risk; it must be positive everywhere.";
+            let row = FormulaRow { label: "Cost per length", hint: "1 + 10*risk", help };
+            if let Some(Some(formula)) = row.show(ui, state, Some(formula)) {
+                let cost = PathCommand::Cost(PathCost::Formula(formula));
+                commands.extend([Command::Path(cost), Command::EndGesture]);
+            }
+        }
+    }
+    ui.add_space(4.0);
+}
+
+fn weight_rows(ui: &mut Ui, weights: Weights, commands: &mut Vec<Command>) {
+    let mut new = weights;
+    let mut caution = (weights.risk / weights.length).min(MOST_WEIGHT);
+    let row = SliderRow::new("Caution", &mut caution, CAUTION).logarithmic();
+    let row = row.typed_range(0.0..=MOST_WEIGHT).default(Weights::default().risk);
+    let help = "From the shortest path at the left to the safest at the right: the weight of risk, where length has \
+                the weight 1.";
+    let by_caution = row.help(help).show(ui);
+    if by_caution.changed() {
+        new = Weights { length: 1.0, risk: caution };
+    }
+    let row = NumberRow::new("Weight of length", &mut new.length).range(0.0..=MOST_WEIGHT);
+    let by_length = row.help("λ: what a unit of length costs without risk.").show(ui);
+    let row = NumberRow::new("Weight of risk", &mut new.risk).range(0.0..=MOST_WEIGHT);
+    let by_risk = row.help("κ: what a unit of length costs more at risk 1.").show(ui);
+    if new != weights {
+        commands.push(Command::Path(PathCommand::Cost(PathCost::Weighted(new))));
+    }
+    [by_caution, by_length, by_risk]
+        .iter()
+        .for_each(|response| end_gesture_when_released(response, commands));
+}

@@ -1,0 +1,41 @@
+//! The regions that paths stay out of, in the panel of the paths.
+
+use eframe::egui::Ui;
+
+use crate::app::command::Command;
+use crate::app::dialogs::FileRequest;
+use crate::app::frame::FrameState;
+use crate::app::keep_out::KeepOutCommand;
+use crate::app::panels::button_rows;
+use crate::app::paths::PathCommand;
+use crate::app::theme::metrics;
+use crate::app::widgets::{Icon, ToolButton, ValueRow, format};
+
+/// The regions with their areas, and what adds and removes them.
+pub fn rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
+    let command = |command| Command::Path(PathCommand::KeepOut(command));
+    let symbol = state.unit().symbol();
+    let square = if symbol.is_empty() { String::new() } else { format!("{symbol}²") };
+    for (number, region) in state.session.document().settings().paths.keep_out.iter().enumerate() {
+        let area = format::with_unit(&format::digits(region.mask.area(), 4), &square);
+        ui.push_id(number, |ui| {
+            ui.horizontal(|ui| {
+                let width = ui.available_width() - metrics::ROW - ui.spacing().item_spacing.x;
+                ui.vertical(|ui| {
+                    ui.set_width(width);
+                    let name = format!("Keep out: {}", region.name);
+                    ValueRow::new(&name, &area).help("Paths stay out of this region; its area.").show(ui);
+                });
+                if ToolButton::small(Icon::DELETE, "Remove keep-out region").show(ui).clicked() {
+                    commands.push(command(KeepOutCommand::Remove(number)));
+                }
+            });
+        });
+    }
+    let can_take_mask = KeepOutCommand::mask_to_add(state.session).is_some();
+    let rows = [
+        [("Add keep-out region…", true, Command::Ask(FileRequest::OpenKeepOut))],
+        [("Use the layer's mask", can_take_mask, command(KeepOutCommand::AddMask))],
+    ];
+    button_rows(ui, rows, commands);
+}

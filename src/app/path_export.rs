@@ -1,0 +1,78 @@
+//! Writing a path of the document to a file.
+
+use std::path::Path;
+
+use super::background::{Aim, Background, Outcome, not_exported};
+use super::derivation::Derived;
+use super::paths::{NO_PATH, PathFinder};
+use super::session::Session;
+use super::tools::PathTool;
+use super::view::View;
+use super::widgets::format;
+use crate::io::{self, MeshSource, Provenance};
+use crate::layers::RiskField;
+use crate::path::Solution;
+use crate::render::path_export::{MeshOfPath, PathExport, PathFormat};
+
+/// Writes the path of the panel: as GeoJSON, as a table, or as a picture over the mesh, as the ending says.
+///
+/// # Errors
+/// A sentence, when the path is not that of the document as it is, or when it is clear at once that nothing
+/// can be written there.
+pub fn export(
+    session: &Session,
+    view: &View,
+    (paths, tool): (&PathFinder, &PathTool),
+    background: &mut Background,
+    path: &Path,
+) -> Result<(), String> {
+    let format = PathFormat::of(path).map_err(|error| format!("{error}."))?;
+    let solution = current_path(session, paths, tool)?.clone();
+    if let Some(obstacle) = io::obstacle(path) {
+        return Err(format!("{} could not be written: {obstacle}.", path.display()));
+    }
+    let settings = session.document().settings().clone();
+    let risk = RiskField::new(&settings.layers, session.document().paint());
+    let (mesh, derived) = (session.follower().shared_mesh(), session.derived().map(Derived::shared_extract));
+    let tolerance = Some(tool.export_tolerance).filter(|&tolerance| tolerance > 0.0);
+    let (look, file) = (view.picture(&settings), path.to_owned());
+    background.start(Aim::Export, path, move |meter| {
+        let write = || -> std::io::Result<usize> {
+            let density = settings.paths.cost.density(risk).map_err(std::io::Error::other)?;
+            let export = PathExport::new(&solution, &*density, tolerance).map_err(std::io::Error::other)?;
+            let whole = derived.is_none().then(|| mesh.extract());
+            let extract = whole.as_ref().or(derived.as_deref()).expect("one of the two");
+            let source = MeshSource::Document(&settings.name);
+            let provenance = Provenance::new(source, mesh.fingerprint(), "x, y").with_unit(settings.unit);
+            let over = MeshOfPath { mesh: &mesh, extract, look: &look };
+            export.write(&file, format, &over, &provenance, meter)?;
+            Ok(export.samples().len())
+        };
+        match write() {
+            Ok(points) => {
+                let points = format::count(points as u64);
+                Outcome::Exported(format!("The path was written to {} with {points} points.", file.display()))
+            }
+            Err(error) => not_exported(&error, meter, &file),
+        }
+    });
+    Ok(())
+}
+
+/// The path of the panel, if it is that of the document as it is.
+fn current_path<'a>(
+    session: &Session,
+    paths: &'a PathFinder,
+    tool: &PathTool,
+) -> Result<&'a Solution, String> {
+    let route = tool.route_in(&session.document().settings().paths).ok_or(NO_PATH)?;
+    if !paths.is_current(session) {
+        return Err("The path is being found for the last edit. Export it again when that is done.".into());
+    }
+    let shown = paths.shown().get(route);
+    if let Some(problem) = shown.and_then(|shown| shown.problem.as_ref()) {
+        return Err(format!("{problem} The path that is shown is outdated, so it is not exported."));
+    }
+    let found = shown.and_then(|shown| shown.found.as_ref());
+    found.map(|found| &found.solution).ok_or_else(|| "There is no path to export yet.".into())
+}

@@ -1,0 +1,140 @@
+//! The next best paths that differ substantially, found on another thread.
+
+use std::sync::mpsc::RecvTimeoutError;
+use std::time::Duration;
+
+use eframe::egui::Context;
+use glam::DVec2;
+
+use super::Key;
+use crate::app::prover::Known;
+use crate::app::sequence::{Output, Sequence};
+use crate::geometry::nearest_on_segment;
+use crate::path::{Alternatives, Difference, Solution};
+
+/// Alternatives of a path, at most.
+pub const MOST_ALTERNATIVES: usize = 5;
+
+/// One thing to do with alternatives.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum AlternativesCommand {
+    /// Shows them, or does not.
+    Show(bool),
+    /// Highlights one of them.
+    Point(Option<usize>),
+    /// Leads the path along one of them.
+    Take(usize),
+    /// Ends the search.
+    Cancel,
+}
+
+/// Finds the alternatives of one path while they are shown.
+#[derive(Default)]
+pub struct AlternativesFinder {
+    /// Whether they are shown.
+    pub is_on: bool,
+    /// The number of the one that is pointed at.
+    pub pointed: Option<usize>,
+    best: Option<Solution>,
+    paths: Vec<Solution>,
+    running: Option<Sequence<Solution>>,
+    /// The paths and the route that they belong to.
+    of: Option<(Key, usize)>,
+}
+
+impl AlternativesFinder {
+    /// The alternatives so far, the cheapest first.
+    pub fn paths(&self) -> &[Solution] {
+        &self.paths
+    }
+
+    /// How much more than the best path an alternative costs, as a share.
+    pub fn excess(&self, path: &Solution) -> f64 {
+        self.best.as_ref().map_or(0.0, |best| path.cost / best.cost - 1.0)
+    }
+
+    /// Whether the search goes on.
+    pub fn is_running(&self) -> bool {
+        self.running.is_some()
+    }
+
+    /// A place that leads the path along an alternative: where that is farthest from the best path. With it
+    /// is the number of the leg, from 0.
+    pub fn place_on(&self, number: usize) -> Option<(usize, DVec2)> {
+        let (best, path) = (self.best.as_ref()?, self.paths.get(number)?);
+        let distance = |&point: &DVec2| {
+            let pieces = best.points.windows(2);
+            let distances =
+                pieces.map(|ends| nearest_on_segment(point, [ends[0], ends[1]]).distance_squared(point));
+            distances.fold(f64::INFINITY, f64::min)
+        };
+        let points = path.points.iter().enumerate();
+        let (place, point) = points.max_by(|a, b| distance(a.1).total_cmp(&distance(b.1)))?;
+        let leg = path.stops.windows(2).position(|ends| place < ends[1])?;
+        Some((leg, *point))
+    }
+
+    /// Ends the search. What was found stays.
+    pub fn cancel(&mut self) {
+        self.running = None;
+    }
+
+    /// Forgets all: there is no path.
+    pub(super) fn clear(&mut self) {
+        *self = Self { is_on: self.is_on, ..Self::default() };
+    }
+
+    /// Ends the search until the paths are complete again.
+    pub(super) fn pause(&mut self) {
+        if self.running.take().is_some() {
+            self.of = None;
+        }
+    }
+
+    /// Takes what was found, waiting up to `patience` for each path, and begins the search for those of
+    /// another path.
+    pub(super) fn advance(
+        &mut self,
+        of: (Key, usize),
+        (best, places): (&Solution, &[DVec2]),
+        basis: &Known,
+        patience: Duration,
+        ctx: &Context,
+    ) {
+        if !self.is_on {
+            *self = Self::default();
+            return;
+        }
+        if self.of != Some(of) {
+            self.of = Some(of);
+            self.start(best, places.to_vec(), basis, ctx);
+        }
+        while let Some(running) = &self.running {
+            match running.values.recv_timeout(patience) {
+                Ok(path) => {
+                    let place = self.paths.partition_point(|other| other.cost < path.cost);
+                    self.paths.insert(place, path);
+                    self.pointed = None;
+                }
+                Err(RecvTimeoutError::Timeout) => return,
+                Err(RecvTimeoutError::Disconnected) => self.running = None,
+            }
+        }
+    }
+
+    fn start(&mut self, best: &Solution, places: Vec<DVec2>, basis: &Known, ctx: &Context) {
+        (self.paths, self.pointed, self.best) = (Vec::new(), None, Some(best.clone()));
+        let (mesh, best, density) = (basis.mesh.clone(), best.clone(), basis.density.clone());
+        let find = move |output: &Output<Solution>| {
+            let mut search = Alternatives::new(mesh, places, best, Difference::default());
+            while output.goes_on() && !search.is_done() && search.paths().len() <= MOST_ALTERNATIVES {
+                match search.advance(&*density) {
+                    Ok(Some(path)) if !output.send(path.clone()) => break,
+                    Ok(_) => {}
+                    Err(_) => break,
+                }
+            }
+        };
+        self.running = Some(Sequence::start(find, ctx));
+    }
+}

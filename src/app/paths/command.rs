@@ -1,0 +1,85 @@
+//! What can be done with paths.
+
+use std::path::PathBuf;
+
+use glam::DVec2;
+
+use super::{AlternativesCommand, FrontCommand};
+use crate::app::keep_out::KeepOutCommand;
+use crate::document::PathCost;
+
+/// Why nothing can be done with a path of a document without one.
+pub const NO_PATH: &str = "There is no path: set its start and goal with the path tool (P).";
+
+/// One thing to do with paths. Points and lengths are in world units.
+#[derive(Clone, Debug, PartialEq)]
+pub enum PathCommand {
+    /// Takes hold of the place at a point, at most `reach` away, or adds a place there.
+    Press {
+        /// Where.
+        at: DVec2,
+        /// How far from a place still counts.
+        reach: f64,
+        /// Whether a place that is added lies between start and goal.
+        is_between: bool,
+    },
+    /// Moves the place that was taken hold of. Further moves join this gesture until [`Command::EndGesture`].
+    ///
+    /// [`Command::EndGesture`]: crate::app::command::Command::EndGesture
+    DragTo(DVec2),
+    /// Begins a path.
+    StartAt(DVec2),
+    /// Ends the path that was begun.
+    GoalAt(DVec2),
+    /// Adds a place in between to the path that is shown.
+    ViaAt(DVec2),
+    /// Removes the selected place in between, or the path of a selected start or goal.
+    Delete,
+    /// Removes all paths.
+    DeleteAll,
+    /// Makes the start the goal of the path that is shown.
+    Swap,
+    /// Sets what paths cost. Further changes join this gesture.
+    Cost(PathCost),
+    /// Lets paths cost what weights say, or a formula: the one that is equal to the weights at first.
+    CostBy(CostKind),
+    /// Sets the width of the interval that is proved, as a share of the cost.
+    Width(f64),
+    /// Shows the corridor of nearly best paths, or does not.
+    ShowCorridor(bool),
+    /// Sets how much more than the best path those in the corridor cost at most, as a share.
+    CorridorShare(f64),
+    /// Concerns alternatives of the path that is shown.
+    Alternatives(AlternativesCommand),
+    /// Concerns the front of length against risk.
+    Front(FrontCommand),
+    /// Marks the place at a distance from the start of the path that is shown.
+    ShowDistance(Option<f64>),
+    /// Edits the keep-out regions.
+    KeepOut(KeepOutCommand),
+    /// Sets how far points that files leave out are from the path; 0 leaves out none.
+    ExportTolerance(f64),
+    /// Writes the path that is shown, and asks before another file is replaced.
+    ExportAs(PathBuf),
+    /// Writes the path that is shown.
+    Export(PathBuf),
+}
+
+/// How the cost of paths is given.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CostKind {
+    /// By the weights of length and risk.
+    Weights,
+    /// By a formula.
+    Formula,
+}
+
+impl CostKind {
+    /// How a cost is given.
+    pub fn of(cost: &PathCost) -> Self {
+        match cost {
+            PathCost::Weighted(_) => Self::Weights,
+            PathCost::Formula(_) => Self::Formula,
+        }
+    }
+}

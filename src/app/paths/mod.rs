@@ -1,0 +1,259 @@
+//! The paths of the document: found on another thread while the document changes, and then certified.
+//!
+//! ```text
+//!   edit ─→ PathFinder ─→ thread: Planner      live paths while a gesture goes on
+//!                            │
+//!                            ▼ mesh complete
+//!                         thread: Planner      the mesh as it is; paths with both bounds
+//!                            │
+//!                            ▼
+//!           Prover      ─→ thread: Certificate the lower bound rises until the width is reached
+//!           ShownCorridor, AlternativesFinder, FrontFinder: other paths, while they are shown
+//! ```
+
+mod alternatives;
+mod command;
+mod corridor;
+mod front;
+mod work;
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use eframe::egui::Context;
+
+pub use alternatives::{AlternativesCommand, AlternativesFinder, MOST_ALTERNATIVES};
+pub use command::{CostKind, NO_PATH, PathCommand};
+pub use corridor::ShownCorridor;
+pub use front::{FRONT_PATHS, FrontCommand, FrontFinder};
+pub use work::{FoundPath, ShownPath};
+use work::{KnownPlanner, PlannedMesh, Work, WorkResult, find, find_corridor};
+
+use super::latest::Latest;
+use super::prover::{Known, Prover};
+use super::session::Session;
+use super::statistics::MeasuredMesh;
+use crate::domain::DomainShape;
+use crate::layers::RiskField;
+use crate::path::PathError;
+
+/// A mesh of one of the documents that were opened.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct MeshKey {
+    opened_documents: u64,
+    mesh: MeasuredMesh,
+}
+
+/// What paths were computed from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Key {
+    document: u64,
+    mesh: MeshKey,
+    /// Whether the document is being changed.
+    is_live: bool,
+}
+
+/// Finds the paths of the document, and keeps the last ones.
+#[derive(Default)]
+pub struct PathFinder {
+    work: Latest<Key, Option<Work>>,
+    /// A planner, and the mesh that it knows.
+    planner: Option<(KnownPlanner, MeshKey)>,
+    key: Option<Key>,
+    shown: Vec<ShownPath>,
+    /// What the paths that are shown were found with.
+    basis: Option<Known>,
+    prover: Prover,
+    /// The corridor of nearly best paths.
+    pub corridor: ShownCorridor,
+    /// The next best paths that differ from the one that is shown.
+    pub alternatives: AlternativesFinder,
+    /// The front of length against risk.
+    pub front: FrontFinder,
+}
+
+impl PathFinder {
+    /// What is known of each route of the document, in order.
+    pub fn shown(&self) -> &[ShownPath] {
+        &self.shown
+    }
+
+    /// The requested width of the interval, as a share of the cost.
+    pub fn width(&self) -> f64 {
+        self.prover.width
+    }
+
+    /// Sets the requested width.
+    pub fn set_width(&mut self, width: f64) {
+        self.prover.width = width;
+        // The bounds that are known stay; certificates begin again.
+        self.prover.restart();
+    }
+
+    /// Whether the lower bounds are still rising.
+    pub fn is_proving(&self) -> bool {
+        self.prover.is_running()
+    }
+
+    /// Whether the paths are those of the document as it is.
+    pub fn is_current(&self, session: &Session) -> bool {
+        self.key.as_ref().is_some_and(|key| key.document == session.document().revision() && !key.is_live)
+    }
+
+    /// Takes what was found, waiting for it up to `patience`, and begins what is to be found next. The
+    /// threads wake the window: no frame needs to wait for them. Alternatives and the front are those of
+    /// `route`.
+    pub fn advance(&mut self, session: &Session, route: Option<usize>, patience: Duration, ctx: &Context) {
+        if self.work.is_running() {
+            if self.work.take(patience) {
+                return;
+            }
+            self.take_work(session);
+        }
+        let Some(route) = route else { return self.forget() };
+        let Some(key) = self.wanted(session) else { return };
+        if self.key.as_ref() != Some(&key) {
+            self.prover.cancel();
+            self.alternatives.pause();
+            self.front.pause();
+            self.start(key, session, ctx);
+            return;
+        }
+        if key.is_live {
+            return;
+        }
+        if self.corridor.is_due(key) {
+            self.start_corridor(key, session, ctx);
+        }
+        self.find_others(session, (key, route), patience, ctx);
+        self.prove(session, patience, ctx);
+    }
+
+    /// Forgets all paths: the document has none.
+    fn forget(&mut self) {
+        let former = std::mem::take(self);
+        self.prover.width = former.prover.width;
+        (self.corridor.is_on, self.corridor.share) = (former.corridor.is_on, former.corridor.share);
+        self.alternatives.is_on = former.alternatives.is_on;
+        self.front.is_on = former.front.is_on;
+    }
+
+    /// What the paths should be those of; `None` while the first mesh is not complete.
+    fn wanted(&self, session: &Session) -> Option<Key> {
+        let (document, follower) = (session.document(), session.follower());
+        let derivation = session.derivation();
+        let is_settled =
+            follower.is_in_step(document) && MeasuredMesh::is_settled(document, follower, derivation);
+        let opened_documents = session.opened_documents();
+        let mesh = match is_settled {
+            true => MeshKey { opened_documents, mesh: MeasuredMesh::now(follower, derivation) },
+            // Other regions need another planner.
+            false => {
+                let plan = &document.settings().paths;
+                self.planner.as_ref().filter(|(known, _)| known.avoids_those_of(plan))?.1
+            }
+        };
+        let is_of_document = mesh.opened_documents == opened_documents;
+        is_of_document.then_some(Key { document: document.revision(), mesh, is_live: !is_settled })
+    }
+
+    fn start(&mut self, key: Key, session: &Session, ctx: &Context) {
+        let document = session.document();
+        let risk = RiskField::new(&document.settings().layers, document.paint());
+        let (plan, is_live) = (document.settings().paths.clone(), key.is_live);
+        let planner = self.planner.take();
+        let planner = planner.filter(|(known, mesh)| *mesh == key.mesh && known.avoids_those_of(&plan));
+        let mesh = match planner {
+            Some((planner, _)) => PlannedMesh::Planner(Box::new(planner)),
+            None => match session.derived() {
+                Some(derived) => PlannedMesh::Extract(derived.shared_extract()),
+                None => PlannedMesh::Mesh(session.follower().shared_mesh()),
+            },
+        };
+        let bounds = document.settings().domain.bounds;
+        self.work.start(
+            key,
+            move || {
+                let density = plan.cost.density(risk.clone()).ok()?;
+                let planner = mesh.planner(&density, (plan.clone(), risk), bounds);
+                Some(find(planner, density, &plan.routes, is_live))
+            },
+            ctx,
+        );
+    }
+
+    /// Finds the corridor with the planner of the paths.
+    fn start_corridor(&mut self, key: Key, session: &Session, ctx: &Context) {
+        let share = self.corridor.share;
+        self.corridor.of = Some((key, share));
+        let Some((planner, _)) = self.planner.take() else { return self.corridor.lines = Arc::default() };
+        let plan = session.document().settings().paths.clone();
+        self.work.start(key, move || Some(find_corridor(planner, &plan.routes, share)), ctx);
+    }
+
+    /// Takes the work that has ended.
+    fn take_work(&mut self, session: &Session) {
+        let Some((key, work)) = self.work.take_last() else { return };
+        let Some(work) = work else {
+            // The settings are checked: weights that make no cost are refused there.
+            self.key = Some(key);
+            return;
+        };
+        let known = work.planner.as_ref().map(|known| {
+            let (mesh, keep_out) = (Arc::clone(known.planner.mesh()), known.plan.keep_out_masks());
+            (mesh, keep_out)
+        });
+        self.planner = work.planner.map(|planner| (planner, key.mesh));
+        if key.mesh.opened_documents != session.opened_documents() {
+            return;
+        }
+        match work.result {
+            WorkResult::Corridor(lines) => self.corridor.lines = lines.into(),
+            WorkResult::Paths { density, routes } => {
+                self.take_paths(session, routes);
+                self.basis =
+                    known.zip(density).map(|((mesh, keep_out), density)| Known { density, mesh, keep_out });
+                self.prover.begin(self.basis.clone());
+                self.key = Some(key);
+            }
+        }
+    }
+
+    fn take_paths(&mut self, session: &Session, routes: Vec<Result<FoundPath, PathError>>) {
+        let bounds_hold = session.document().settings().domain.shape == DomainShape::Whole;
+        self.shown.resize_with(routes.len(), ShownPath::default);
+        for (shown, found) in self.shown.iter_mut().zip(routes) {
+            match found {
+                Ok(mut found) => {
+                    if !bounds_hold {
+                        // It knows no path between the outline and the mesh: a certificate does.
+                        found.solution.lower = 0.0;
+                    }
+                    *shown = ShownPath { found: Some(found), problem: None };
+                }
+                Err(problem) => shown.problem = Some(problem),
+            }
+        }
+    }
+
+    /// Looks for the front and the alternatives of a complete path.
+    fn find_others(&mut self, session: &Session, of: (Key, usize), patience: Duration, ctx: &Context) {
+        let Some(basis) = &self.basis else { return self.alternatives.clear() };
+        self.front.advance(session, of, &basis.mesh, patience, ctx);
+        let shown = self.shown.get(of.1).filter(|shown| shown.problem.is_none());
+        match shown.and_then(|shown| shown.found.as_ref()) {
+            Some(found) => {
+                let places = &session.document().settings().paths.routes[of.1];
+                self.alternatives.advance(of, (&found.solution, places), basis, patience, ctx);
+            }
+            None => self.alternatives.clear(),
+        }
+    }
+
+    /// Raises the lower bounds of complete paths.
+    fn prove(&mut self, session: &Session, patience: Duration, ctx: &Context) {
+        let found = self.shown.iter_mut().filter(|shown| shown.problem.is_none());
+        let found = found.filter_map(|shown| shown.found.as_mut()).collect();
+        self.prover.advance(found, &session.document().settings().domain, patience, ctx);
+    }
+}

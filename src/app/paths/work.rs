@@ -1,0 +1,148 @@
+//! What a thread does with the planner.
+
+use std::sync::Arc;
+
+use glam::DVec2;
+
+use crate::document::PathPlan;
+use crate::geometry::Rect;
+use crate::layers::RiskField;
+use crate::mesh::{Extract, Mesh};
+use crate::path::{
+    CertificateEnd, Corridor, CostDensity, PathError, PathMesh, PathRequest, PathSample, Planner, Solution,
+};
+
+/// Places on a path at which its profile is known.
+const PROFILE_SAMPLES: usize = 200;
+
+/// What a thread returns: the planner goes back and forth.
+pub(super) struct Work {
+    pub planner: Option<KnownPlanner>,
+    pub result: WorkResult,
+}
+
+/// What it found.
+pub(super) enum WorkResult {
+    /// The paths, and what they cost.
+    Paths { density: Option<Arc<dyn CostDensity>>, routes: Vec<Result<FoundPath, PathError>> },
+    /// The lines around the corridor.
+    Corridor(Vec<Vec<DVec2>>),
+}
+
+/// A planner, what its costs and its triangles were computed from, and the corridor of its paths.
+pub(super) struct KnownPlanner {
+    pub planner: Planner,
+    pub plan: Arc<PathPlan>,
+    risk: RiskField,
+    corridor: Option<Corridor>,
+}
+
+impl KnownPlanner {
+    /// Whether its paths stay out of the regions of a plan, and of no others.
+    pub fn avoids_those_of(&self, plan: &PathPlan) -> bool {
+        Arc::ptr_eq(&self.plan.keep_out, &plan.keep_out)
+    }
+}
+
+/// A path with its profile.
+#[derive(Clone, Debug)]
+pub struct FoundPath {
+    /// The path and its bounds.
+    pub solution: Solution,
+    /// Cost and risk along it.
+    pub profile: Vec<PathSample>,
+    /// Why its certificate ended.
+    pub end: Option<CertificateEnd>,
+}
+
+impl FoundPath {
+    fn new(solution: Solution, density: &dyn CostDensity) -> Self {
+        let profile = solution.profile(density, PROFILE_SAMPLES);
+        Self { solution, profile, end: None }
+    }
+
+    /// Takes what a certificate found out.
+    pub fn take(&mut self, proved: Solution, density: &dyn CostDensity) {
+        if self.solution.take(proved) {
+            self.profile = self.solution.profile(density, PROFILE_SAMPLES);
+        }
+    }
+}
+
+/// What is known of a route.
+#[derive(Clone, Debug, Default)]
+pub struct ShownPath {
+    /// The last path that was found.
+    pub found: Option<FoundPath>,
+    /// Why there is none for the route as it is: the one that is shown is outdated.
+    pub problem: Option<PathError>,
+}
+
+/// Where a planner comes from.
+pub(super) enum PlannedMesh {
+    /// The one for this mesh.
+    Planner(Box<KnownPlanner>),
+    Mesh(Arc<Mesh>),
+    Extract(Arc<Extract<'static>>),
+}
+
+impl PlannedMesh {
+    /// A planner that knows the costs.
+    pub fn planner(
+        self,
+        density: &Arc<dyn CostDensity>,
+        (plan, risk): (Arc<PathPlan>, RiskField),
+        bounds: Rect,
+    ) -> Result<KnownPlanner, PathError> {
+        let around = |view| PathMesh::with_keep_out(view, &plan.keep_out_masks());
+        let planner = match self {
+            Self::Planner(mut known) => {
+                let same_cost = plan.cost == known.plan.cost;
+                let areas = if same_cost { risk.areas_that_differ(&known.risk) } else { None };
+                known.planner.update(&**density, &areas.unwrap_or_else(|| vec![bounds]))?;
+                known.planner
+            }
+            Self::Mesh(mesh) => Planner::new(around(mesh.view()), &**density)?,
+            Self::Extract(extract) => Planner::new(around(extract.view()), &**density)?,
+        };
+        Ok(KnownPlanner { planner, plan, risk, corridor: None })
+    }
+}
+
+/// Finds the paths of all routes.
+pub(super) fn find(
+    planner: Result<KnownPlanner, PathError>,
+    density: Arc<dyn CostDensity>,
+    routes: &[Vec<DVec2>],
+    is_live: bool,
+) -> Work {
+    let mut known = match planner {
+        Ok(known) => known,
+        Err(problem) => {
+            let routes = routes.iter().map(|_| Err(problem.clone())).collect();
+            return Work { planner: None, result: WorkResult::Paths { density: None, routes } };
+        }
+    };
+    let request = if is_live { PathRequest::LIVE } else { PathRequest::FULL };
+    let routes = routes.iter().map(|places| {
+        let solution = known.planner.solve(&*density, places, request)?;
+        Ok(FoundPath::new(solution, &*density))
+    });
+    let routes = routes.collect();
+    Work { planner: Some(known), result: WorkResult::Paths { density: Some(density), routes } }
+}
+
+/// Finds the lines around the corridor of all routes: the places on paths that cost more than the best of
+/// their route by at most `share`. Routes without a path have none.
+pub(super) fn find_corridor(mut known: KnownPlanner, routes: &[Vec<DVec2>], share: f64) -> Work {
+    let KnownPlanner { planner, corridor, .. } = &mut known;
+    let corridor = corridor.get_or_insert_with(|| {
+        let corridors = routes.iter().filter_map(|places| planner.corridor(places).ok());
+        corridors.reduce(Corridor::joined).unwrap_or_default()
+    });
+    let lines = match corridor.excess().is_empty() {
+        true => Vec::new(),
+        false => corridor.outlines(planner.mesh(), share),
+    };
+    Work { planner: Some(known), result: WorkResult::Corridor(lines) }
+}

@@ -1,0 +1,69 @@
+//! Corridors: layers along the paths as they were when they were taken.
+
+use eframe::egui::Modifiers;
+use egui_kittest::kittest::Queryable as _;
+use glam::{DVec2, dvec2};
+
+use super::super::layers::{active, click_button};
+use super::super::{choose, entries, move_to, notice, press, release, send, settings, triangles};
+use super::{GOAL, Window, shown, wait_for_paths, window_with_path};
+use crate::app::command::{Command, LayerCommand};
+use crate::app::paths::PathCommand;
+use crate::layers::{DistanceTo, LayerKind};
+
+const ADD: &str = "Add layer: corridor along the paths";
+
+fn points(window: &Window) -> Vec<DVec2> {
+    shown(window)[0].found.as_ref().unwrap().solution.points.clone()
+}
+
+/// The line and the width of the selected corridor.
+fn corridor(window: &Window) -> (Vec<DVec2>, f64) {
+    let LayerKind::Distance { to: DistanceTo::Corridor { lines, width }, .. } = &active(window).kind else {
+        panic!("{:?} is no corridor", active(window).kind)
+    };
+    (lines.list().lines[0].clone(), *width)
+}
+
+#[test]
+fn a_corridor_refines_along_the_path_stays_there_and_takes_it_again() {
+    let mut window = window_with_path();
+    let (path, before, edits) = (points(&window), triangles(&window), entries(&window));
+    choose(&mut window, "Layer", ADD);
+    wait_for_paths(&mut window);
+    assert_eq!((active(&window).name.as_str(), entries(&window)), ("Corridor", edits + 1));
+    assert_eq!(corridor(&window).0, path);
+    assert!(triangles(&window) > before);
+    let h_min = settings(&window).transfer.h_min;
+    for &point in &path {
+        let session = window.state().session();
+        let triangle = session.locate(point).triangle().unwrap();
+        assert!(session.view().diameter(triangle) <= h_min, "at {point}");
+    }
+    let with_corridor = triangles(&window);
+    press(&mut window, GOAL, Modifiers::NONE);
+    move_to(&mut window, dvec2(0.9, 0.4));
+    release(&mut window, dvec2(0.9, 0.4));
+    wait_for_paths(&mut window);
+    assert_eq!(corridor(&window).0, path, "it does not move by itself");
+    assert_eq!(triangles(&window), with_corridor);
+    click_button(&mut window, "Take the current path again");
+    wait_for_paths(&mut window);
+    assert_eq!(corridor(&window).0.last(), Some(&settings(&window).paths.routes[0][1]));
+    send(&mut window, Command::Undo);
+    assert_eq!(corridor(&window).0, path);
+    send(&mut window, Command::Undo);
+    send(&mut window, Command::Undo);
+    assert_eq!(triangles(&window), before);
+}
+
+#[test]
+fn without_a_current_path_there_is_no_corridor_and_a_sentence() {
+    let mut window = window_with_path();
+    let edits = entries(&window);
+    send(&mut window, Command::Path(PathCommand::DeleteAll));
+    send(&mut window, Command::Layer(LayerCommand::AddCorridor));
+    assert!(notice(&window).contains("There is no path"), "{}", notice(&window));
+    assert_eq!(entries(&window), edits + 1);
+    assert!(window.query_by_label("Take the current path again").is_none());
+}

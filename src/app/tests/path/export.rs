@@ -1,0 +1,151 @@
+//! Paths written to files from the window.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use eframe::egui::accesskit::Role;
+use eframe::egui::{Key, Modifiers};
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use glam::{DVec2, dvec2};
+
+use super::super::layers::click_button;
+use super::super::tips::unexplained;
+use super::super::{
+    TALL, Window, folder, key, move_to, notice, open_menu, press, release, send, settings, type_into,
+    wait_for_notice, wait_until, window_of,
+};
+use super::{GOAL, shown, wait_for_paths, window_with_path};
+use crate::app::command::Command;
+use crate::app::paths::PathCommand;
+use crate::document::PathCost;
+use crate::path::{Solution, Weights};
+
+fn solution(window: &Window) -> Solution {
+    shown(window)[0].found.as_ref().unwrap().solution.clone()
+}
+
+/// Exports the path, and returns what the file contains.
+fn exported(window: &mut Window, file: &Path) -> Vec<u8> {
+    send(window, Command::Path(PathCommand::ExportAs(file.to_owned())));
+    let notice = wait_for_notice(window);
+    assert!(notice.starts_with("The path was written to "), "{notice}");
+    send(window, Command::DismissNotice);
+    fs::read(file).unwrap()
+}
+
+fn text(bytes: Vec<u8>) -> String {
+    String::from_utf8(bytes).unwrap()
+}
+
+fn refused(window: &mut Window, file: &Path) -> String {
+    send(window, Command::Path(PathCommand::Export(file.to_owned())));
+    let sentence = wait_for_notice(window);
+    assert!(!file.exists(), "{sentence}");
+    send(window, Command::DismissNotice);
+    sentence
+}
+
+#[test]
+fn each_format_is_written() {
+    let (mut window, folder) = (window_with_path(), folder("app-path-export", "formats"));
+    let solution = solution(&window);
+    let feature: serde_json::Value =
+        serde_json::from_slice(&exported(&mut window, &folder.join("a.geojson"))).unwrap();
+    let points = feature["geometry"]["coordinates"].as_array().unwrap();
+    let points: Vec<DVec2> =
+        points.iter().map(|p| dvec2(p[0].as_f64().unwrap(), p[1].as_f64().unwrap())).collect();
+    assert_eq!(points, solution.points);
+    let properties = &feature["properties"];
+    assert_eq!(properties["cost"], solution.cost);
+    assert_eq!(properties["document"], settings(&window).name.as_str());
+    assert!(
+        text(exported(&mut window, &folder.join("a.csv"))).starts_with("x,y,distance,cost,risk,density\n")
+    );
+    let drawing = text(exported(&mut window, &folder.join("a.svg")));
+    assert!(drawing.starts_with("<svg ") && drawing.contains("<polyline"));
+    assert_eq!(&exported(&mut window, &folder.join("a.png"))[1..4], b"PNG");
+}
+
+#[test]
+fn the_table_is_that_of_the_command_line() {
+    let (mut window, folder) = (window_with_path(), folder("app-path-export", "table"));
+    let [project, here, there] = ["a.meshbrush", "here.csv", "there.csv"].map(|name| folder.join(name));
+    send(&mut window, Command::SaveTo(project.clone()));
+    assert!(wait_for_notice(&mut window).starts_with("Saved to "));
+    send(&mut window, Command::DismissNotice);
+    send(&mut window, Command::Path(PathCommand::ExportTolerance(0.01)));
+    let places = settings(&window).paths.routes[0].clone();
+    let [from, to] = [places[0], places[1]].map(|place| format!("{},{}", place.x, place.y));
+    let [project, written] = [&project, &there].map(|file| file.to_str().unwrap());
+    let files = ["--project", project, "-o", written];
+    let typed = [&["meshbrush", "path", "--simplify", "0.01", "--from", &from, "--to", &to][..], &files[..]];
+    assert_eq!(crate::cli::run(typed.concat().into_iter().map(Into::into), None), ExitCode::SUCCESS);
+    let table = text(exported(&mut window, &here));
+    assert_eq!(table, fs::read_to_string(there).unwrap());
+    assert!(table.lines().count() - 1 < solution(&window).points.len(), "points were left out");
+    let cost: f64 = table.lines().last().unwrap().split(',').nth(3).unwrap().parse().unwrap();
+    assert!((cost - solution(&window).cost).abs() < 1e-3 * cost, "{cost}");
+}
+
+#[test]
+fn the_panel_asks_for_file_and_tolerance() {
+    let (mut window, folder) = (window_with_path(), folder("app-path-export", "panel"));
+    let file = folder.join("path.geojson");
+    let lines = |file: &PathBuf| fs::read_to_string(file).unwrap().lines().count();
+    exported(&mut window, &file);
+    let all = lines(&file);
+    type_into(&mut window, "Export tolerance", "0.02");
+    assert_eq!(window.state().tools().path.export_tolerance, 0.02);
+    assert_eq!(unexplained(&window), [""; 0]);
+    click_button(&mut window, "Export path…");
+    // The ending is added.
+    type_into(&mut window, "Path", file.with_extension("").to_str().unwrap());
+    wait_until(&mut window, |window| window.query_by_role_and_label(Role::Button, "Replace").is_some());
+    window.get_by_role_and_label(Role::Button, "Replace").click();
+    wait_until(&mut window, |window| notice(window).starts_with("The path was written to "));
+    assert!(lines(&file) < all);
+}
+
+#[test]
+fn an_outdated_path_is_not_exported() {
+    let (mut window, folder) = (window_with_path(), folder("app-path-export", "outdated"));
+    let file = folder.join("path.csv");
+    let cost = PathCost::Weighted(Weights { length: 1.0, risk: 3.0 });
+    // Both in one frame.
+    window.state_mut().send(Command::Path(PathCommand::Cost(cost)));
+    window.state_mut().send(Command::EndGesture);
+    let sentence = refused(&mut window, &file);
+    assert_eq!(sentence, "The path is being found for the last edit. Export it again when that is done.");
+    wait_for_paths(&mut window);
+    exported(&mut window, &file);
+    fs::remove_file(&file).unwrap();
+    press(&mut window, GOAL, Modifiers::NONE);
+    move_to(&mut window, dvec2(0.9, 1.05));
+    release(&mut window, dvec2(0.9, 1.05));
+    wait_until(&mut window, |window| shown(window)[0].problem.is_some());
+    wait_for_paths(&mut window);
+    let sentence = refused(&mut window, &file);
+    assert!(sentence.starts_with("The goal ") && sentence.ends_with("so it is not exported."), "{sentence}");
+}
+
+#[test]
+fn a_file_of_another_kind_is_refused_and_a_document_without_path_has_nothing_to_export() {
+    let (mut window, folder) = (window_with_path(), folder("app-path-export", "kinds"));
+    let sentence = refused(&mut window, &folder.join("path.vtu"));
+    assert!(sentence.ends_with("use .geojson, .csv, .svg or .png."), "{sentence}");
+    let sentence = refused(&mut window, &folder.join("no such folder/path.csv"));
+    assert!(sentence.contains("could not be written: there is no folder"), "{sentence}");
+    open_menu(&mut window, "File");
+    // The panel has one as well, farther down.
+    let entries = window.get_all_by_role_and_label(Role::Button, "Export path…");
+    entries.min_by(|a, b| a.rect().top().total_cmp(&b.rect().top())).unwrap().click();
+    window.run();
+    assert!(window.query_by_role_and_label(Role::TextInput, "Path").is_some());
+    let mut empty = window_of(TALL);
+    open_menu(&mut empty, "File");
+    assert!(empty.get_by_role_and_label(Role::Button, "Export path…").accesskit_node().is_disabled());
+    key(&mut empty, Modifiers::NONE, Key::Escape);
+    let sentence = refused(&mut empty, &folder.join("path.csv"));
+    assert!(sentence.starts_with("There is no path: "), "{sentence}");
+}
