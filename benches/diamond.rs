@@ -25,6 +25,13 @@ pub fn rule(mesh: &Mesh, level: u32) -> impl Fn(&Element) -> Result<bool, Invali
     }
 }
 
+/// The same rule by corners and level, for refinement in blocks.
+pub fn rule_at(mesh: &Mesh, finest: u32) -> impl Fn([LatticePoint; 3], u32) -> bool + use<> {
+    let steps = mesh.lattice().cell_steps();
+    let inside = move |p: LatticePoint| p.x.abs_diff(10 * steps) + p.y.abs_diff(10 * steps) < 8 * steps;
+    move |corners, level| level < finest && corners.into_iter().any(inside)
+}
+
 /// The diamond refined to `level`.
 pub fn mesh(level: u32) -> Mesh {
     let mut mesh = coarse();

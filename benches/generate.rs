@@ -1,29 +1,23 @@
 //! Mesh generation: the report's series, extended to 33 million triangles.
 //!
+//! - *in order*: Algorithm 12, one triangle after the other.
+//! - *blocks*: on one and on two threads, in blocks that fit into the cache.
+//! - *field*: in blocks by the area rule on the pixels of a raster, as the window works.
+//! - *writes*: 40 bytes for each triangle and nothing else: what the memory of this machine permits.
+//!
 //! *fresh* builds in newly allocated memory, as a first mesh does; mapping its pages takes a third of the
-//! time or more. *reused* builds into the arrays of the previous mesh, as an edit under the vertex rule does.
-//! The time to drop a mesh is not counted.
+//! time or more. *reused* builds into the arrays of the previous mesh. The time to drop a mesh is not
+//! counted.
 
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
-use criterion::{BenchmarkId, Criterion, SamplingMode, Throughput};
-use meshbrush::internals::mesh::{Limits, Mesh, Refiner};
-use meshbrush_benches::diamond;
-
-fn fresh(level: u32) -> (Duration, Mesh) {
-    let start = Instant::now();
-    let mesh = diamond::mesh(level);
-    (start.elapsed(), mesh)
-}
-
-fn reused(coarse: &Mesh, mesh: &mut Mesh, refiner: &mut Refiner, level: u32) -> Duration {
-    let start = Instant::now();
-    mesh.clone_from(coarse);
-    refiner.restart(mesh);
-    refiner.advance(mesh, diamond::rule(coarse, level), usize::MAX).expect("within the default limits");
-    start.elapsed()
-}
+use criterion::measurement::WallTime;
+use criterion::{BenchmarkGroup, BenchmarkId, Criterion, SamplingMode, Throughput};
+use meshbrush::internals::mesh::{Limits, Mesh, Refiner, SharedRule, bisection_edge_length};
+use meshbrush_benches::{diamond, field};
+use rayon::ThreadPool;
+use rayon::prelude::*;
 
 /// Level, and the number of triangles there.
 const SERIES: [(u32, u64); 7] = [
@@ -35,35 +29,108 @@ const SERIES: [(u32, u64); 7] = [
     (15, 8_421_800),
     (17, 33_620_408),
 ];
+/// Bytes of a triangle and its share of the nodes.
+const BYTES: u64 = 40;
+
+/// Measures `make` in new memory and in the memory of the mesh before.
+fn measure(
+    group: &mut BenchmarkGroup<WallTime>,
+    name: &str,
+    triangles: u64,
+    mut make: impl FnMut(&mut Mesh),
+) {
+    let coarse = diamond::coarse();
+    group.bench_function(BenchmarkId::new(format!("{name}, fresh"), triangles), |b| {
+        b.iter_custom(|rounds| {
+            let fresh = |_| {
+                let start = Instant::now();
+                let mut mesh = coarse.clone();
+                make(&mut mesh);
+                let time = start.elapsed();
+                black_box(mesh);
+                time
+            };
+            (0..rounds).map(fresh).sum()
+        });
+    });
+    let mut mesh = coarse.clone();
+    make(&mut mesh);
+    group.bench_function(BenchmarkId::new(format!("{name}, reused"), triangles), |b| {
+        b.iter_custom(|rounds| {
+            let reused = |_| {
+                let start = Instant::now();
+                mesh.clone_from(&coarse);
+                make(&mut mesh);
+                start.elapsed()
+            };
+            (0..rounds).map(reused).sum()
+        });
+    });
+}
+
+fn in_blocks(mesh: &mut Mesh, pool: &ThreadPool, rule: &impl SharedRule) {
+    pool.install(|| mesh.refine_in_blocks(&Limits::default(), rule)).expect("within the default limits");
+}
+
+/// First writes to memory, and writes to memory that is mapped, each by all threads of the pool.
+fn writes(group: &mut BenchmarkGroup<WallTime>, pool: &ThreadPool, triangles: u64) {
+    let threads = pool.current_num_threads();
+    let words = (triangles * BYTES / 8) as usize;
+    let write = |memory: &mut Vec<u64>| {
+        let part = words.div_ceil(threads);
+        pool.install(|| memory.par_chunks_mut(part).for_each(|part| part.fill(black_box(7))));
+    };
+    group.bench_function(BenchmarkId::new(format!("writes, {threads} threads, reused"), triangles), |b| {
+        let mut memory = vec![0; words];
+        write(&mut memory);
+        b.iter(|| write(&mut memory));
+    });
+    group.bench_function(BenchmarkId::new(format!("writes, {threads} threads, fresh"), triangles), |b| {
+        b.iter_custom(|rounds| {
+            let fresh = |_| {
+                let start = Instant::now();
+                // Zeros are mapped when they are written.
+                let mut memory = vec![0; words];
+                write(&mut memory);
+                let time = start.elapsed();
+                black_box(memory);
+                time
+            };
+            (0..rounds).map(fresh).sum()
+        });
+    });
+}
 
 fn main() {
     let mut criterion = Criterion::default().configure_from_args();
     let mut group = criterion.benchmark_group("generate");
     group.sample_size(10).sampling_mode(SamplingMode::Flat).warm_up_time(Duration::from_millis(500));
+    let pools =
+        [1, 2].map(|n| rayon::ThreadPoolBuilder::new().num_threads(n).build().expect("a pool of threads"));
     for (level, triangles) in SERIES {
         group.measurement_time(Duration::from_millis(if level < 15 { 1500 } else { 100 }));
         group.throughput(Throughput::Elements(triangles));
-        group.bench_function(BenchmarkId::new("fresh", triangles), |b| {
-            b.iter_custom(|rounds| {
-                (0..rounds)
-                    .map(|_| {
-                        let (time, mesh) = fresh(level);
-                        assert_eq!(mesh.raw_triangle_count() as u64, triangles);
-                        black_box(mesh);
-                        time
-                    })
-                    .sum()
-            });
+        let coarse = diamond::coarse();
+        let rule = diamond::rule(&coarse, level);
+        let mut refiner = Refiner::new(&coarse, Limits::default());
+        measure(&mut group, "in order", triangles, |mesh| {
+            refiner.restart(mesh);
+            refiner.advance(mesh, &rule, usize::MAX).expect("within the default limits");
+            assert_eq!(mesh.raw_triangle_count() as u64, triangles);
         });
-        group.bench_function(BenchmarkId::new("reused", triangles), |b| {
-            let coarse = diamond::coarse();
-            let mut mesh = coarse.clone();
-            let mut refiner = Refiner::new(&mesh, Limits::default());
-            reused(&coarse, &mut mesh, &mut refiner, level);
-            b.iter_custom(|rounds| {
-                (0..rounds).map(|_| reused(&coarse, &mut mesh, &mut refiner, level)).sum()
+        let rule = diamond::rule_at(&coarse, level);
+        let field = field::diamond(bisection_edge_length(1.0, level));
+        for pool in &pools {
+            let threads = pool.current_num_threads();
+            measure(&mut group, &format!("blocks, {threads} threads"), triangles, |mesh| {
+                in_blocks(mesh, pool, &|| &rule);
+                assert_eq!(mesh.raw_triangle_count() as u64, triangles);
             });
-        });
+            measure(&mut group, &format!("field, {threads} threads"), triangles, |mesh| {
+                in_blocks(mesh, pool, &field::rule(&field));
+            });
+            writes(&mut group, pool, triangles);
+        }
     }
     group.finish();
     criterion.final_summary();

@@ -1,3 +1,4 @@
 //! What several benches share.
 
 pub mod diamond;
+pub mod field;

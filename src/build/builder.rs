@@ -5,7 +5,9 @@ use crate::domain::{DomainOnLattice, DomainOnLatticeBuilder};
 use crate::field::{RefinementRule, VertexRule};
 use crate::geometry::GridError;
 use crate::layers::{InvalidLayer, LayerCheck, PaintLayers, SizeField};
-use crate::mesh::{CoarseError, Element, InvalidTarget, Mesh, Progress, RefineError, Refiner, TriangleId};
+use crate::mesh::{
+    BlockRefiner, CoarseError, Element, InvalidTarget, Mesh, Progress, RefineError, Refiner, TriangleId,
+};
 
 /// Makes the mesh of a [`MeshSpec`] in slices.
 ///
@@ -52,8 +54,14 @@ enum Step {
 #[derive(Clone, Debug)]
 struct Refinement {
     built: BuiltMesh,
-    refiner: Refiner,
-    vertex_rule: VertexRule,
+    refiner: RefinerByRule,
+}
+
+#[derive(Clone, Debug)]
+enum RefinerByRule {
+    Area(BlockRefiner),
+    /// The vertex rule is not monotone, so that blocks would not fit together.
+    Vertex(Refiner, VertexRule),
 }
 
 /// A mesh, and what decided it.
@@ -198,7 +206,7 @@ impl MeshBuilder {
             Step::Refine(mut refinement) => match refinement.advance(paint, budget)? {
                 Progress::More => Step::Refine(refinement),
                 Progress::Done => {
-                    self.capped = refinement.refiner.capped();
+                    self.capped = refinement.capped();
                     self.begin_classification(refinement.built)
                 }
             },
@@ -244,10 +252,15 @@ impl MeshBuilder {
     }
 
     fn begin_refinement(&self, domain: DomainOnLattice, field: Arc<SizeField>, mesh: Mesh) -> Step {
-        let refiner = Refiner::new(&mesh, self.spec.limits);
-        let rule = self.spec.rule;
+        let MeshSpec { limits, rule, .. } = self.spec;
+        let refiner = match rule {
+            RefinementRule::Area => RefinerByRule::Area(BlockRefiner::new(&mesh, limits)),
+            RefinementRule::Vertex => {
+                RefinerByRule::Vertex(Refiner::new(&mesh, limits), VertexRule::default())
+            }
+        };
         let built = BuiltMesh { domain, field, rule, mesh };
-        Step::Refine(Box::new(Refinement { built, refiner, vertex_rule: VertexRule::default() }))
+        Step::Refine(Box::new(Refinement { built, refiner }))
     }
 }
 
@@ -269,11 +282,23 @@ impl MeshBuilder {
 impl Refinement {
     fn advance(&mut self, paint: Option<&PaintLayers>, budget: usize) -> Result<Progress, RefineError> {
         let BuiltMesh { domain, field, rule, mesh, .. } = &mut self.built;
-        let known = std::mem::take(&mut self.vertex_rule);
-        let mut criterion = RefinementCriterion::new(domain, field, *rule, paint).resumed(known);
-        let progress = self.refiner.advance(mesh, |element| criterion.exceeds(element), budget);
-        self.vertex_rule = criterion.into_vertex_rule();
-        progress
+        let criterion = RefinementCriterion::new(domain, field, *rule, paint);
+        match &mut self.refiner {
+            RefinerByRule::Area(refiner) => refiner.advance(mesh, &criterion.shared(), budget),
+            RefinerByRule::Vertex(refiner, vertex_rule) => {
+                let mut criterion = criterion.resumed(std::mem::take(vertex_rule));
+                let progress = refiner.advance(mesh, |element| criterion.exceeds(element), budget);
+                *vertex_rule = criterion.into_vertex_rule();
+                progress
+            }
+        }
+    }
+
+    fn capped(&self) -> usize {
+        match &self.refiner {
+            RefinerByRule::Area(refiner) => refiner.capped(),
+            RefinerByRule::Vertex(refiner, _) => refiner.capped(),
+        }
     }
 }
 

@@ -1,8 +1,10 @@
+use std::convert::Infallible;
+
 use crate::domain::DomainOnLattice;
 use crate::field::{RefinementRule, VertexRule};
 use crate::geometry::LatticePoint;
-use crate::layers::{LeastTarget, PaintLayers, SizeField};
-use crate::mesh::{Element, InvalidTarget, bisection_edge_length};
+use crate::layers::{LeastTarget, PaintLayers, SettledSquares, SizeField};
+use crate::mesh::{Element, InvalidTarget, SharedRule, bisection_edge_length};
 
 /// The local refinement condition (Eq. 13 of \[Report\]) of a whole mesh: h̄ by a refinement rule, joined
 /// with what the boundary of the domain asks for.
@@ -15,6 +17,8 @@ pub struct RefinementCriterion<'a> {
     rule: RefinementRule,
     paint: &'a PaintLayers,
     vertex_rule: VertexRule,
+    /// What the field has answered by the area rule.
+    squares: Option<SettledSquares>,
 }
 
 impl<'a> RefinementCriterion<'a> {
@@ -26,7 +30,7 @@ impl<'a> RefinementCriterion<'a> {
         paint: Option<&'a PaintLayers>,
     ) -> Self {
         let paint = paint.unwrap_or(PaintLayers::blank());
-        Self { domain, field, rule, paint, vertex_rule: VertexRule::default() }
+        Self { domain, field, rule, paint, vertex_rule: VertexRule::default(), squares: None }
     }
 
     /// As [`Self::new`] by the area rule.
@@ -51,13 +55,31 @@ impl<'a> RefinementCriterion<'a> {
     /// By the vertex rule, where h̄ is not a positive, finite length.
     #[inline]
     pub fn exceeds(&mut self, element: &Element) -> Result<bool, InvalidTarget> {
-        let Self { domain, field, rule, paint, vertex_rule } = self;
+        let Self { domain, field, rule, paint, vertex_rule, squares } = self;
         domain.exceeds(element, |element| match rule {
-            RefinementRule::Area => Ok(field.exceeds(paint, element)),
+            RefinementRule::Area => {
+                let (corners, level) = (element.corners, element.triangle.level());
+                let squares = squares.get_or_insert_default();
+                Ok(field.asks_for_more_nearby(squares, paint, corners, level))
+            }
             RefinementRule::Vertex => {
                 vertex_rule.exceeds(element, |point| field.target_at_node(paint, point))
             }
         })
+    }
+
+    /// The area rule, for several threads.
+    pub fn shared(&self) -> impl SharedRule {
+        move || {
+            let mut squares = SettledSquares::default();
+            move |corners, level| {
+                let by_field =
+                    || Ok(self.field.asks_for_more_nearby(&mut squares, self.paint, corners, level));
+                self.domain
+                    .exceeds_at(corners, level, by_field)
+                    .unwrap_or_else(|never: Infallible| match never {})
+            }
+        }
     }
 
     /// Whether a triangle, by its corners and level, exceeds its target by the area rule.

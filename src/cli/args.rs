@@ -1,5 +1,6 @@
 //! Arguments as typed. [`MeshRequest`](super::request::MeshRequest) interprets and checks them.
 
+use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -20,6 +21,11 @@ pub struct Arguments {
     /// File to open in the window: a project (.meshbrush), a domain (.geojson), or a greyscale picture as
     /// risk (.png)
     pub file: Option<PathBuf>,
+
+    /// Most threads that refine a mesh [default: one for each core]; the mesh is the same with any number
+    #[arg(long, value_name = "N", global = true)]
+    pub threads: Option<NonZeroUsize>,
+
     #[command(subcommand)]
     pub command: Option<Command>,
 }

@@ -28,6 +28,7 @@ mod why;
 
 use std::ffi::OsString;
 use std::io::{self, Write};
+use std::num::NonZeroUsize;
 #[cfg(feature = "gui")]
 use std::path::Path;
 use std::path::PathBuf;
@@ -66,6 +67,9 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>, window: Option<Window>
             return ExitCode::from(answer.exit_code() as u8);
         }
     };
+    if let Some(threads) = arguments.threads {
+        limit_threads(threads);
+    }
     let mut terminal = Terminal::new();
     match run_command(arguments, &command_line(&typed), window, &mut terminal) {
         Ok(()) => ExitCode::SUCCESS,
@@ -75,6 +79,13 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>, window: Option<Window>
             ExitCode::from(failure.exit_status())
         }
     }
+}
+
+/// Limits the threads that refine meshes, for the whole process.
+fn limit_threads(threads: NonZeroUsize) {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.get());
+    // It fails where threads were started before: only tests run two commands in one process.
+    let _ = pool.build_global();
 }
 
 /// Runs a command; `line` is how it was typed.

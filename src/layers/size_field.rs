@@ -4,7 +4,7 @@ use super::engine::cells::{Cells, Cut};
 use super::engine::reading::{Answer, lengths};
 use super::engine::search::any_cell;
 use super::engine::{CompiledLayer, LEVELS, gradation};
-use super::{Combine, Layer, PaintLayers, Shapes};
+use super::{Combine, Layer, PaintLayers, Shapes, settled};
 use crate::field::Transfer;
 use crate::geometry::{Lattice, LatticePoint, Octagon};
 use crate::mesh::Element;
@@ -40,6 +40,8 @@ pub struct SizeField {
     lattice: Lattice,
     /// ℓ_b of each level in world units, Eq. (1).
     lengths: Box<[f64; LEVELS]>,
+    /// See [`settled::square_bits`].
+    square_bits: Box<[u8; LEVELS]>,
     /// Visible layers, from the bottom to the top.
     layers: Vec<CompiledLayer>,
     /// Whether h̄ is the minimum over the layers, so that each can be asked alone.
@@ -54,7 +56,8 @@ impl SizeField {
             .map(|layer| CompiledLayer::new(layer, &spec.transfer, lattice, spec.outline.as_ref()))
             .collect();
         let is_minimum = layers.iter().all(CompiledLayer::is_plain);
-        Self { lattice: *lattice, lengths: lengths(lattice.spacing()), layers, is_minimum, spec }
+        let (lengths, square_bits) = (lengths(lattice.spacing()), Box::new(settled::square_bits(lattice)));
+        Self { lattice: *lattice, lengths, square_bits, layers, is_minimum, spec }
     }
 
     /// What the field is made from.
@@ -107,6 +110,22 @@ impl SizeField {
                     || gradation::any_below(self, paint, corners, slope, length)
             }
         }
+    }
+
+    /// ℓ_b of each level in world units, Eq. (1).
+    pub(super) fn lengths(&self) -> &[f64; LEVELS] {
+        &self.lengths
+    }
+
+    /// See [`settled::square_bits`].
+    pub(super) fn square_bits(&self) -> &[u8; LEVELS] {
+        &self.square_bits
+    }
+
+    /// Where some cells ask for more than a level, before gradation, as far as it is known without dividing
+    /// them.
+    pub(super) fn asks_in(&self, paint: &PaintLayers, cells: &Cells, level: usize) -> Share {
+        self.asks(self.layers.len(), paint, cells, level).0
     }
 
     /// Whether a cell that touches the triangle asks for more than the level, before gradation.

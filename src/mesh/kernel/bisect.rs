@@ -29,10 +29,6 @@ struct Facing {
     new: Neighbour,
 }
 
-impl Facing {
-    const BOUNDARY: Self = Self { kept: Neighbour::BOUNDARY, new: Neighbour::BOUNDARY };
-}
-
 impl Mesh {
     /// Bisects two triangles of the same level that share their bisection edge (Algorithm 8).
     ///
@@ -68,7 +64,9 @@ impl Mesh {
     pub(in crate::mesh) fn bisect_at_boundary(&mut self, id: TriangleId) {
         let midpoint = self.push_midpoint(id);
         self.counts.bisected(self.triangle(id).kind());
-        self.bisect_side(id, midpoint, Facing::BOUNDARY);
+        // Both halves of a seam are of that seam.
+        let [boundary, ..] = self.triangle(id).raw_neighbours;
+        self.bisect_side(id, midpoint, Facing { kept: boundary, new: boundary });
     }
 
     #[inline(always)]

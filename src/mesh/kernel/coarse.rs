@@ -29,7 +29,7 @@ pub enum CoarseError {
 ///
 /// Coarse triangles are numbered as in Figure 2 of the report, from zero: row by row from the lower left, in
 /// each cell first the one below the diagonal.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(in crate::mesh) struct CoarseIndex {
     /// Id by coarse number, `Neighbour::BOUNDARY` where the coarse triangle is not in the domain; `None` when
     /// all are, and each number is its own id.

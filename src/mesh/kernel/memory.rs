@@ -1,5 +1,7 @@
 //! Room for large arrays: reserved once, taken as it is touched, in large pages.
 
+use std::mem::MaybeUninit;
+
 use super::Mesh;
 
 /// A large page, in bytes. Arrays that fit one grow by doubling, in memory that the allocator has at hand.
@@ -81,3 +83,54 @@ fn advise_large_pages<T>(array: &mut Vec<T>) {
 
 #[cfg(not(any(target_os = "linux", target_os = "android")))]
 fn advise_large_pages<T>(_array: &mut Vec<T>) {}
+
+/// A part of the room behind an array, to be filled from its beginning.
+pub(super) struct Piece<'a, T> {
+    slots: &'a mut [MaybeUninit<T>],
+    filled: usize,
+}
+
+impl<T: Copy> Piece<'_, T> {
+    /// Fills the next places.
+    ///
+    /// # Panics
+    /// When the piece has less room.
+    pub(super) fn extend(&mut self, values: impl ExactSizeIterator<Item = T>) {
+        let count = values.len();
+        let places = &mut self.slots[self.filled..self.filled + count];
+        let written = places.iter_mut().zip(values).map(|(place, value)| place.write(value)).count();
+        assert_eq!(written, count, "the iterator has as many values as it says");
+        self.filled += count;
+    }
+}
+
+/// Appends pieces of the given lengths to an array. `fill` must fill all of them, in any order and on any
+/// threads: memory that was not touched before is then mapped by all of them.
+///
+/// # Panics
+/// When a piece is not full in the end.
+pub(super) fn append_pieces<T: Copy>(
+    array: &mut Vec<T>,
+    lengths: impl Iterator<Item = usize> + Clone,
+    fill: impl FnOnce(&mut [Piece<T>]),
+) {
+    let total = lengths.clone().sum();
+    array.reserve(total);
+    let mut room = &mut array.spare_capacity_mut()[..total];
+    let mut pieces = Vec::new();
+    for length in lengths {
+        let (slots, rest) = room.split_at_mut(length);
+        pieces.push(Piece { slots, filled: 0 });
+        room = rest;
+    }
+    assert!(room.is_empty(), "the lengths are the same each time");
+    fill(&mut pieces);
+    assert!(pieces.iter().all(|piece| piece.filled == piece.slots.len()), "all pieces are full");
+    let length = array.len() + total;
+    // SAFETY: the pieces were the first `total` places of the room behind the array, without gaps, and each
+    // is full: `filled` counts places that were written, in order. The room is at least so long.
+    #[allow(unsafe_code, reason = "a safe append would write all of it twice, on one thread")]
+    unsafe {
+        array.set_len(length);
+    }
+}

@@ -2,6 +2,7 @@
 
 mod bisect;
 mod bitset;
+mod blocks;
 mod changes;
 mod classify;
 mod coarse;
@@ -24,6 +25,7 @@ use glam::DVec2;
 
 use crate::geometry::{LATTICE_BITS, Lattice, LatticePoint};
 
+pub use blocks::{BlockRefiner, SharedRule};
 pub use changes::Changes;
 pub use coarse::CoarseError;
 pub use copy::MeshCopy;
@@ -34,6 +36,8 @@ pub use limits::{Limits, MOST_TRIANGLES, MemoryLimit};
 pub use refine::Refiner;
 pub use triangle::{Orientation, Triangle};
 pub use update::Updater;
+
+use coarse::CoarseIndex;
 
 pub(in crate::mesh) use bitset::Bitset;
 pub(in crate::mesh) use coarsen::is_parents_apex;
@@ -73,7 +77,7 @@ pub struct Mesh {
     /// For each node one of the triangles around it.
     pub(in crate::mesh) triangle_at: Vec<TriangleId>,
     pub(in crate::mesh) counts: KindCounts,
-    pub(in crate::mesh) coarse: coarse::CoarseIndex,
+    pub(in crate::mesh) coarse: CoarseIndex,
 }
 
 impl Mesh {
@@ -218,10 +222,29 @@ impl KindCounts {
         self.0[Kind::COUNT / 2..].iter().copied()
     }
 
+    /// A triangle of this kind is there, too.
+    fn add(&mut self, kind: Kind) {
+        self.0[kind.index()] += 1;
+    }
+
+    /// Some triangles have given way to others.
+    fn replace(&mut self, before: &Self, after: &Self) {
+        for ((count, before), after) in self.0.iter_mut().zip(before.0).zip(after.0) {
+            *count = *count + after - before;
+        }
+    }
+
     /// A triangle has changed its class.
     fn moved(&mut self, from: Kind, to: Kind) {
         self.0[from.index()] -= 1;
         self.0[to.index()] += 1;
+    }
+}
+
+impl Default for KindCounts {
+    /// Of no triangles.
+    fn default() -> Self {
+        Self([0; Kind::COUNT])
     }
 }
 

@@ -48,6 +48,12 @@ impl Refiner {
     /// Together with `clone_from` of the coarse mesh this builds a mesh again at the speed of the cache; new
     /// memory costs about as much time as the work.
     pub fn restart(&mut self, mesh: &Mesh) {
+        self.restart_with(mesh, self.limits);
+    }
+
+    /// As [`Self::restart`], within other limits.
+    pub(super) fn restart_with(&mut self, mesh: &Mesh, limits: Limits) {
+        self.limits = limits;
         self.work.restart(mesh.triangles.len());
         self.capped = 0;
     }
@@ -91,7 +97,7 @@ impl Refiner {
             if mesh.triangles.len() + most_new > room {
                 room = self.room_for(mesh, id, most_new)?;
             }
-            mesh.refine_triangle_with(id, &mut self.chain, |parent| self.work.bisected(parent));
+            mesh.refine_triangle_with(id, &mut self.chain, |_, parent| self.work.bisected(parent));
         }
         Ok(if self.work.current().is_none() { Progress::Done } else { Progress::More })
     }
@@ -211,7 +217,7 @@ impl Mesh {
     #[doc(alias = "completion")]
     pub fn refine_triangle(&mut self, id: TriangleId) {
         assert!(self.triangle(id).level() < self.lattice.deepest_level(), "nodes would leave the lattice");
-        self.refine_triangle_with(id, &mut Vec::new(), |_| {});
+        self.refine_triangle_with(id, &mut Vec::new(), |_, _| {});
     }
 
     /// As [`Self::refine_triangle`], with a stack to reuse; calls `bisected` with every entry that it
@@ -222,7 +228,7 @@ impl Mesh {
         &mut self,
         id: TriangleId,
         chain: &mut Vec<TriangleId>,
-        mut bisected: impl FnMut(TriangleId),
+        mut bisected: impl FnMut(&mut Self, TriangleId),
     ) {
         debug_assert!(chain.is_empty());
         let mut current = id;
@@ -231,12 +237,12 @@ impl Mesh {
             match self.triangle(current).raw_neighbours[0].triangle() {
                 None => {
                     self.bisect_at_boundary(current);
-                    bisected(current);
+                    bisected(self, current);
                 }
                 Some(across) if self.triangle(across).level() == level => {
                     self.bisect_pair(current, across);
-                    bisected(current);
-                    bisected(across);
+                    bisected(self, current);
+                    bisected(self, across);
                 }
                 Some(across) => {
                     chain.push(current);

@@ -294,7 +294,7 @@ impl Updater {
         let (first_node, first_new) = (mesh.raw_nodes().len(), mesh.raw_triangle_count());
         let mut new = first_new;
         let Self { chain, exceeding, log, .. } = self;
-        mesh.refine_triangle_with(id, chain, |parent| {
+        mesh.refine_triangle_with(id, chain, |_, parent| {
             if exceeding.contains(parent.index()) {
                 exceeding.insert(new);
             }
