@@ -134,8 +134,10 @@ fn limits_count_in_blocks_as_well() {
 #[test]
 fn what_is_settled_for_squares_is_what_each_triangle_is_told() {
     let mut random = fastrand::Rng::with_seed(5);
-    let lattice = Lattice::covering(Rect::UNIT, 0.25, 1_000_000).unwrap();
-    for run in 0..runs(5) {
+    for run in 0..runs(6) {
+        // Also a lattice of one cell, which has the most halvings.
+        let spacing = [0.25, 1.0][(run % 2) as usize];
+        let lattice = Lattice::covering(Rect::UNIT, spacing, 1_000_000).unwrap();
         let field = random_field(&mut random, &lattice);
         let mut squares = SettledSquares::default();
         let paint = PaintLayers::blank();

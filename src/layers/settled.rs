@@ -4,7 +4,6 @@ use super::engine::LEVELS;
 use super::engine::asked::Share;
 use super::engine::cells::Cells;
 use super::{PaintLayers, SizeField};
-use crate::field::Transfer;
 use crate::geometry::{Lattice, LatticePoint};
 
 /// What a size field asks for in squares of the lattice, as far as it was asked.
@@ -130,13 +129,8 @@ impl SizeField {
 
     /// Where some cells ask for more than a level, with gradation.
     fn share_below(&self, paint: &PaintLayers, cells: &Cells, level: u32) -> Share {
-        let Some(&length) = self.lengths().get(level as usize) else { return Share::None };
-        let Transfer { h_min, h_max, .. } = self.spec().transfer;
-        if length <= h_min {
-            return Share::None;
-        }
-        if length > h_max {
-            return Share::All;
+        if let Some(asks) = self.limits_decide(level) {
+            return if asks { Share::All } else { Share::None };
         }
         match self.asks_in(paint, cells, level as usize) {
             // What is near can ask for more by gradation.
@@ -146,14 +140,15 @@ impl SizeField {
     }
 }
 
-/// The logarithm of the side of the squares for triangles of each level. 0 for triangles of few lattice
-/// steps, and for levels that no triangle has.
+/// The logarithm of the side of the squares for triangles of each level. 0 where triangles are asked about
+/// one by one: those of few lattice steps, and those whose square would be wider than 2³¹ steps.
 ///
 /// A triangle of level l lies in a dyadic square of δ / 2^⌊l/2⌋. There are few sizes, so that triangles of
 /// several levels share squares.
 pub(super) fn square_bits(lattice: &Lattice) -> [u8; LEVELS] {
     std::array::from_fn(|level| {
         let side = lattice.halvings().checked_sub(level as u32 / 2);
-        side.filter(|&side| side >= LEAST_BITS).map_or(0, |side| ((side / 2 + 1) * 2 + 1) as u8)
+        let bits = side.filter(|&side| side >= LEAST_BITS).map_or(0, |side| (side / 2 + 1) * 2 + 1);
+        if bits < u32::BITS { bits as u8 } else { 0 }
     })
 }

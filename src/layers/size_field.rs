@@ -91,16 +91,10 @@ impl SizeField {
     /// [`Self::exceeds`] of a triangle by its corners and its level.
     #[inline]
     pub fn asks_for_more(&self, paint: &PaintLayers, corners: [LatticePoint; 3], level: u32) -> bool {
-        let level = level as usize;
-        let Some(&length) = self.lengths.get(level) else { return false };
-        let Transfer { h_min, h_max, .. } = self.spec.transfer;
-        // No point asks for less than h_min or for more than h_max.
-        if length <= h_min {
-            return false;
+        if let Some(asks) = self.limits_decide(level) {
+            return asks;
         }
-        if length > h_max {
-            return true;
-        }
+        let (level, length) = (level as usize, self.lengths[level as usize]);
         let triangle = Octagon::triangle(corners);
         let around = Cells::around(&triangle, self.lattice.extent());
         match self.spec.gradation {
@@ -112,9 +106,16 @@ impl SizeField {
         }
     }
 
-    /// ℓ_b of each level in world units, Eq. (1).
-    pub(super) fn lengths(&self) -> &[f64; LEVELS] {
-        &self.lengths
+    /// The answer for all triangles of a level that no layer can change: no point asks for less than h_min
+    /// or for more than h_max.
+    #[inline]
+    pub(super) fn limits_decide(&self, level: u32) -> Option<bool> {
+        let Some(&length) = self.lengths.get(level as usize) else { return Some(false) };
+        let Transfer { h_min, h_max, .. } = self.spec.transfer;
+        if length <= h_min {
+            return Some(false);
+        }
+        (length > h_max).then_some(true)
     }
 
     /// See [`settled::square_bits`].
