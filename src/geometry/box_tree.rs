@@ -4,7 +4,7 @@ use std::ops::{ControlFlow, Range};
 
 use glam::DVec2;
 
-use super::Rect;
+use super::{Rect, z_order};
 
 /// Children of a node.
 const FANOUT: usize = 8;
@@ -217,22 +217,6 @@ fn union(boxes: &[Rect]) -> Option<Rect> {
 /// The squared distance from a point to a rectangle, less a margin for rounding errors.
 fn squared_distance_to(rect: &Rect, p: DVec2) -> f64 {
     (p - p.clamp(rect.min, rect.max)).length_squared() * (1.0 - 1e-12)
-}
-
-/// The place of a point within `bounds` along a Z-order curve, of 65,536 × 65,536 places.
-pub fn z_order(p: DVec2, bounds: &Rect) -> u32 {
-    let size = bounds.size();
-    let share = |axis: usize| if size[axis] > 0.0 { (p[axis] - bounds.min[axis]) / size[axis] } else { 0.0 };
-    let place = |axis: usize| (share(axis) * 65_535.0) as u32 & 0xffff;
-    spread(place(0)) | spread(place(1)) << 1
-}
-
-/// The 16 low bits with a zero between each two.
-fn spread(bits: u32) -> u32 {
-    let bits = (bits | bits << 8) & 0x00ff_00ff;
-    let bits = (bits | bits << 4) & 0x0f0f_0f0f;
-    let bits = (bits | bits << 2) & 0x3333_3333;
-    (bits | bits << 1) & 0x5555_5555
 }
 
 #[cfg(test)]

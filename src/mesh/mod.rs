@@ -31,12 +31,12 @@ pub use extract::{
 };
 pub use kernel::{
     BlockRefiner, Changes, CoarseError, Element, InvalidTarget, Limits, MOST_TRIANGLES, MemoryLimit, Mesh,
-    MeshCopy, Neighbour, NodeId, Orientation, Progress, RefineError, Refiner, SharedRule, Triangle,
-    TriangleId, Updater, bisection_edge_length, level_for_diameter,
+    MeshCopy, Neighbour, NodeId, Orientation, Progress, RefineError, Refiner, SharedRule, TreeTriangle,
+    Triangle, TriangleId, Updater, bisection_edge_length, level_for_diameter,
 };
 pub use query::{
     Adjacency, Cause, Cleaning, Fingerprint, Forecast, KeptParts, Location, Locator, PatchedLocator, Removed,
-    RemovedPart, Topology, TreeTriangle, Violation, barycentric, fingerprint_of, interpolate,
+    RemovedPart, Topology, Violation, barycentric, fingerprint_of, interpolate,
 };
 pub use steps::{
     Algorithm, BOUNDARY, NeighbourCase, Recording, ReportRow, RowChange, Step, StepAction, StepPart,

@@ -106,7 +106,7 @@ impl Star {
 /// Whether `end`, an end of a triangle's bisection edge, is the apex of the parent, by the table at the head
 /// of this file. The triangle has the vertices `end`, `newest` and the other end; its `level` is not 0.
 #[inline]
-pub(in crate::mesh) fn is_parents_apex(
+pub(super) fn is_parents_apex(
     end: LatticePoint,
     newest: LatticePoint,
     level: u32,

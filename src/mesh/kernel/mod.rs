@@ -15,6 +15,7 @@ mod limits;
 mod memory;
 mod refine;
 mod search;
+mod tree;
 mod triangle;
 mod update;
 mod walk;
@@ -34,13 +35,13 @@ pub use errors::{InvalidTarget, RefineError};
 pub use ids::{Neighbour, NodeId, TriangleId};
 pub use limits::{Limits, MOST_TRIANGLES, MemoryLimit};
 pub use refine::Refiner;
+pub use tree::TreeTriangle;
 pub use triangle::{Orientation, Triangle};
 pub use update::Updater;
 
 use coarse::CoarseIndex;
 
 pub(in crate::mesh) use bitset::Bitset;
-pub(in crate::mesh) use coarsen::is_parents_apex;
 pub(in crate::mesh) use element::Diameters;
 pub(in crate::mesh) use memory::make_room;
 pub(in crate::mesh) use search::Search;

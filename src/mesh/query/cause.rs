@@ -17,9 +17,8 @@
 
 use std::collections::HashSet;
 
-use super::tree::TreeTriangle;
 use crate::geometry::LatticePoint;
-use crate::mesh::kernel::Mesh;
+use crate::mesh::kernel::{Mesh, TreeTriangle};
 
 /// Why a triangle is in a mesh.
 #[derive(Clone, Debug, PartialEq)]

@@ -17,9 +17,10 @@
 
 use std::collections::HashMap;
 
-use super::tree::TreeTriangle;
 use crate::geometry::{LatticePoint, LatticeRect};
-use crate::mesh::kernel::{Bitset, Limits, Mesh, Progress, RefineError, Search, TriangleId, WalkEnd};
+use crate::mesh::kernel::{
+    Bitset, Limits, Mesh, Progress, RefineError, Search, TreeTriangle, TriangleId, WalkEnd,
+};
 
 /// Counts what [`Updater`](crate::mesh::Updater) would do after a change of the rule, in slices, and leaves
 /// the mesh alone.

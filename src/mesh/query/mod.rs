@@ -27,4 +27,3 @@ pub use locate::Location;
 pub use locator::Locator;
 pub use patched_locator::PatchedLocator;
 pub use topology::Topology;
-pub use tree::TreeTriangle;

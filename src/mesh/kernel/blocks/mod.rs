@@ -22,7 +22,7 @@ mod seams;
 
 use rayon::prelude::*;
 
-use super::{Element, Limits, Mesh, Progress, RefineError, Refiner, TriangleId};
+use super::{Element, Limits, Mesh, Progress, RefineError, Refiner};
 use crate::geometry::LatticePoint;
 use block::Block;
 use plan::{Plan, Planner};
@@ -233,17 +233,4 @@ impl Mesh {
             block.count(&mut self.counts);
         }
     }
-}
-
-/// A triangle by its corners, the apex first, and what a bisection makes of it.
-fn bisected([apex, from, to]: [LatticePoint; 3]) -> [[LatticePoint; 3]; 2] {
-    let midpoint = from.midpoint(to);
-    [[midpoint, apex, from], [midpoint, apex, to]]
-}
-
-/// The corners of a triangle of a mesh, the apex first.
-fn corners_from_apex(mesh: &Mesh, id: TriangleId) -> [LatticePoint; 3] {
-    let triangle = mesh.triangle(id);
-    let [from, to] = triangle.bisection_edge();
-    [triangle.apex(), from, to].map(|node| mesh.node(node))
 }

@@ -2,9 +2,9 @@
 
 use std::ops::Range;
 
-use super::{SharedRule, bisected, corners_from_apex};
-use crate::geometry::LatticePoint;
-use crate::mesh::kernel::{Element, Limits, Mesh, Progress, RefineError, Refiner, TriangleId};
+use super::SharedRule;
+use crate::geometry::{LatticePoint, interleaved};
+use crate::mesh::kernel::{Element, Limits, Mesh, Progress, RefineError, Refiner, TreeTriangle, TriangleId};
 
 /// About the number of triangles that a block has at least, and half of the number that it has at most:
 /// 0.7 to 1.4 MB, for caches of 2 MB and more.
@@ -62,7 +62,8 @@ impl Planner {
         let is_too_large = |element: &Element| {
             let second = element.triangle.bisection_end();
             let corners = [3 - second, 0, second].map(|place| element.corners[place]);
-            let triangles = estimate.triangles(corners, element.triangle.level());
+            let triangle = TreeTriangle::from_corners(corners, element.triangle.level());
+            let triangles = estimate.triangles(&triangle);
             estimates.push((corners, triangles));
             Ok(triangles > BLOCK_TRIANGLES && estimate.too_fine.is_none())
         };
@@ -84,7 +85,7 @@ impl Planner {
         let ids = (0..mesh.raw_triangle_count()).map(TriangleId::from_index);
         let mut keyed: Vec<_> = ids
             .map(|id| {
-                let corners = corners_from_apex(mesh, id);
+                let corners = TreeTriangle::of(mesh, id).corners();
                 (z_order(corners), id, estimate(corners))
             })
             .collect();
@@ -118,32 +119,32 @@ struct Estimate<E> {
 }
 
 impl<E: FnMut([LatticePoint; 3], u32) -> bool> Estimate<E> {
-    fn triangles(&mut self, corners: [LatticePoint; 3], level: u32) -> f64 {
-        if !self.is_bisected(corners, level) {
+    fn triangles(&mut self, triangle: &TreeTriangle) -> f64 {
+        if !self.is_bisected(triangle) {
             return 1.0;
         }
-        (0..PATHS).map(|path| self.along(path, corners, level)).sum::<f64>() / PATHS as f64
+        (0..PATHS).map(|path| self.along(path, *triangle)).sum::<f64>() / PATHS as f64
     }
 
     /// Whether a triangle exceeds its target and may be bisected.
-    fn is_bisected(&mut self, corners: [LatticePoint; 3], level: u32) -> bool {
-        if level >= self.cap || !(self.exceeds)(corners, level) {
+    fn is_bisected(&mut self, triangle: &TreeTriangle) -> bool {
+        let level = triangle.level();
+        if level >= self.cap || !(self.exceeds)(triangle.corners(), level) {
             return false;
         }
         if level >= self.deepest {
-            self.too_fine = Some(corners[0]);
+            self.too_fine = Some(triangle.apex());
         }
         level < self.deepest
     }
 
     /// The estimate of one path, for a triangle that exceeds its target.
-    fn along(&mut self, path: u64, mut corners: [LatticePoint; 3], mut level: u32) -> f64 {
+    fn along(&mut self, path: u64, mut triangle: TreeTriangle) -> f64 {
         let (mut triangles, mut weight) = (0.0, 1.0);
         loop {
-            let children = bisected(corners);
-            level += 1;
-            let exceed = children.map(|child| self.is_bisected(child, level));
-            corners = match exceed {
+            let children = triangle.children();
+            let exceed = children.map(|child| self.is_bisected(&child));
+            triangle = match exceed {
                 [false, false] => return triangles + 2.0 * weight,
                 [true, false] | [false, true] => {
                     triangles += weight;
@@ -151,7 +152,7 @@ impl<E: FnMut([LatticePoint; 3], u32) -> bool> Estimate<E> {
                 }
                 [true, true] => {
                     weight *= 2.0;
-                    children[usize::from(is_second(path, corners[0]))]
+                    children[usize::from(is_second(path, triangle.apex()))]
                 }
             };
         }
@@ -164,24 +165,10 @@ fn is_second(path: u64, apex: LatticePoint) -> bool {
     (word.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 60).is_multiple_of(2)
 }
 
-/// The place of a triangle along a Z-curve: the bits of its coordinates, interleaved.
+/// The place of a triangle along a Z-curve.
 fn z_order(corners: [LatticePoint; 3]) -> u64 {
-    let sum = |of: fn(&LatticePoint) -> u32| corners.iter().map(of).map(u64::from).sum::<u64>() / 3;
-    spread(sum(|p| p.x)) | spread(sum(|p| p.y)) << 1
-}
-
-/// Moves bit n to bit 2n.
-fn spread(mut bits: u64) -> u64 {
-    for (shift, mask) in [
-        (16, 0x0000_ffff_0000_ffff),
-        (8, 0x00ff_00ff_00ff_00ff),
-        (4, 0x0f0f_0f0f_0f0f_0f0f),
-        (2, 0x3333_3333_3333_3333),
-        (1, 0x5555_5555_5555_5555),
-    ] {
-        bits = (bits | bits << shift) & mask;
-    }
-    bits
+    let mean = |of: fn(&LatticePoint) -> u32| corners.iter().map(of).map(u64::from).sum::<u64>() / 3;
+    interleaved(mean(|p| p.x) as u32, mean(|p| p.y) as u32)
 }
 
 impl Plan {
