@@ -42,12 +42,6 @@ pub struct PathMesh {
     tree: OnceLock<BoxTree>,
 }
 
-impl PathTriangle {
-    pub fn is_passable(&self) -> bool {
-        self.passage > Passage::Closed
-    }
-}
-
 /// A triangle for paths.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PathTriangle {
@@ -58,6 +52,12 @@ pub(super) struct PathTriangle {
     pub obtuse: u8,
     /// Whether it belongs to the domain and is closed by a keep-out region.
     pub is_kept_out: bool,
+}
+
+impl PathTriangle {
+    pub fn is_passable(&self) -> bool {
+        self.passage > Passage::Closed
+    }
 }
 
 impl PathMesh {
@@ -131,8 +131,7 @@ impl PathMesh {
     pub(super) fn connect(&mut self) {
         self.tree = OnceLock::new();
         self.row_starts = vec![0; self.nodes.len() + 1];
-        let open = |triangle: &&PathTriangle| triangle.passage > Passage::Closed;
-        for triangle in self.triangles.iter().filter(open) {
+        for triangle in self.triangles.iter().filter(|triangle| triangle.is_passable()) {
             triangle.corners.iter().for_each(|&node| self.row_starts[node as usize + 1] += 1);
         }
         for n in 1..self.row_starts.len() {
@@ -140,7 +139,7 @@ impl PathMesh {
         }
         let mut next = self.row_starts.clone();
         self.around = vec![0; self.row_starts.last().map_or(0, |&end| end as usize)];
-        for (number, triangle) in self.triangles.iter().enumerate().filter(|(_, t)| open(t)) {
+        for (number, triangle) in self.triangles.iter().enumerate().filter(|(_, t)| t.is_passable()) {
             for &node in &triangle.corners {
                 self.around[next[node as usize] as usize] = number as u32;
                 next[node as usize] += 1;
@@ -183,8 +182,8 @@ impl PathMesh {
 
     /// The rectangle around all triangles that are not closed.
     pub fn bounds(&self) -> Option<Rect> {
-        let open = |t: &u32| self.passage(*t) > Passage::Closed;
-        (0..self.triangles.len() as u32).filter(open).map(|t| self.rectangle(t)).reduce(|a, b| a.union(&b))
+        let passable = (0..).zip(&self.triangles).filter(|(_, triangle)| triangle.is_passable());
+        passable.map(|(number, _)| self.rectangle(number)).reduce(|a, b| a.union(&b))
     }
 
     /// The longest side of a triangle.

@@ -264,12 +264,12 @@ impl Certificate {
     /// paths that nearly are the best may go.
     fn refine_like(&self, mesh: &mut PathMesh) {
         let excess = |mesh: &PathMesh, triangle: u32| {
-            let flat = FlatTriangle::new(mesh.corners(triangle));
-            let within = self.mesh.locate(flat.centroid()).triangle();
+            let centroid = FlatTriangle::new(mesh.corners(triangle)).centroid();
+            let within = self.mesh.locate(centroid).triangle();
             let enough = within.map_or(f64::INFINITY, |id| {
                 FlatTriangle::new(self.mesh.world_corners(id)).diameter() * (1.0 + 1e-9)
             });
-            let excess = flat.diameter() - enough;
+            let excess = mesh.diameter(triangle) - enough;
             if excess > 0.0 { excess } else { 0.0 }
         };
         let all = 0..mesh.triangle_count() as u32;
