@@ -2,13 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-use super::background::{Aim, Background, Outcome, name_of};
+use super::background::{Background, name_of};
 use super::command::Command;
+use super::layer_files::with_mask;
 use super::paths::PathCommand;
 use super::session::Session;
 use crate::document::KeepOut;
-use crate::io;
-use crate::layers::Mask;
 
 /// One thing to do with keep-out regions.
 #[derive(Clone, Debug, PartialEq)]
@@ -38,20 +37,8 @@ impl KeepOutCommand {
 
 /// Reads polygons, and adds them as one region.
 pub fn load(background: &mut Background, path: &Path) {
-    let file = path.to_owned();
-    background.start(Aim::Read, path, move |meter| {
-        let named = match io::geojson::read_named_metered(&file, meter) {
-            Ok(named) => named,
-            Err(error) => return Outcome::not_read(error),
-        };
-        let polygons: Vec<_> = named.into_iter().map(|named| named.polygon).collect();
-        match Mask::new(&polygons) {
-            Ok(mask) => {
-                let region = KeepOut { name: name_of(&file), mask };
-                let add = PathCommand::KeepOut(KeepOutCommand::Add(region));
-                Outcome::PartRead(vec![Command::Path(add)])
-            }
-            Err(error) => Outcome::NotRead(format!("{}: {error}", file.display())),
-        }
+    let name = name_of(path);
+    with_mask(background, path, move |mask| {
+        Command::Path(PathCommand::KeepOut(KeepOutCommand::Add(KeepOut { name, mask })))
     });
 }

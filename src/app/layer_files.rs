@@ -92,6 +92,15 @@ fn load_layer(
 /// Reads polygons as the mask of the selected layer.
 pub fn load_mask(session: &Session, background: &mut Background, path: &Path) {
     let Some(layer) = session.document().active_layer().map(|layer| layer.id) else { return };
+    with_mask(background, path, move |mask| Command::Layer(LayerCommand::Mask(layer, Some(mask))));
+}
+
+/// Reads polygons as one mask, and sends a command with it.
+pub fn with_mask(
+    background: &mut Background,
+    path: &Path,
+    command: impl FnOnce(Mask) -> Command + Send + 'static,
+) {
     let file = path.to_owned();
     background.start(Aim::Read, path, move |meter| {
         let named = match io::geojson::read_named_metered(&file, meter) {
@@ -100,7 +109,7 @@ pub fn load_mask(session: &Session, background: &mut Background, path: &Path) {
         };
         let polygons: Vec<Polygon> = named.into_iter().map(|named| named.polygon).collect();
         match Mask::new(&polygons) {
-            Ok(mask) => Outcome::PartRead(vec![Command::Layer(LayerCommand::Mask(layer, Some(mask)))]),
+            Ok(mask) => Outcome::PartRead(vec![command(mask)]),
             Err(error) => Outcome::NotRead(format!("{}: {error}", file.display())),
         }
     });

@@ -153,9 +153,9 @@ fn sections(tool: Tool) -> impl Iterator<Item = &'static Panel> {
 }
 
 /// Rows of buttons: name, whether it is enabled, and the command that it sends.
-fn button_rows<Row>(ui: &mut Ui, rows: impl IntoIterator<Item = Row>, commands: &mut Vec<Command>)
+fn button_rows<Row, C>(ui: &mut Ui, rows: impl IntoIterator<Item = Row>, commands: &mut Vec<C>)
 where
-    Row: IntoIterator<Item = (&'static str, bool, Command)>,
+    Row: IntoIterator<Item = (&'static str, bool, C)>,
 {
     for row in rows {
         ui.horizontal(|ui| {

@@ -139,16 +139,11 @@ fn front(ui: &mut Ui, state: &FrameState<'_>, found: &FoundPath, commands: &mut 
         PathCost::Weighted(weights) => finder.next(*weights, is_safer).is_some(),
         PathCost::Formula(_) => false,
     };
-    let mut taken = Vec::new();
     let row = [
-        ("Shorter path", can(false), Command::Path(PathCommand::Front(FrontCommand::Shorter))),
-        ("Safer path", can(true), Command::Path(PathCommand::Front(FrontCommand::Safer))),
+        ("Shorter path", can(false), PathCommand::Front(FrontCommand::Shorter)),
+        ("Safer path", can(true), PathCommand::Front(FrontCommand::Safer)),
     ];
-    button_rows(ui, [row], &mut taken);
-    commands.extend(taken.into_iter().filter_map(|command| match command {
-        Command::Path(command) => Some(command),
-        _ => None,
-    }));
+    button_rows(ui, [row], commands);
 }
 
 fn tip_of(point: &FrontPoint, state: &FrameState<'_>) -> String {
