@@ -1,7 +1,7 @@
 use std::time::{Duration, Instant};
 
 /// Work shorter than this shows no progress: it would only flicker.
-const MOMENT: Duration = Duration::from_millis(250);
+pub const MOMENT: Duration = Duration::from_millis(250);
 
 /// Tells long work from work of a moment.
 #[derive(Clone, Copy, Debug, Default)]

@@ -199,7 +199,9 @@ fn chosen_steps_are_written_as_numbered_drawings() {
     send(&mut window, Command::ExportStepsAs(path.clone()));
     assert!(window.query_by_label("Replace 4 files?").is_some());
     press_button(&mut window, "Replace");
-    wait_until(&mut window, |window| notice(window).contains("4 steps written"));
+    // The message of the first export is still shown.
+    wait_until(&mut window, |window| window.state().background.rows(true).is_empty());
+    assert!(notice(&window).contains("4 steps written"));
     send(&mut window, Command::Steps(StepCommand::ExportRange(0, 100_000)));
     if player(&window).len() > MOST_FILES {
         send(&mut window, Command::ExportStepsAs(path));
