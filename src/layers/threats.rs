@@ -140,6 +140,9 @@ impl Threat {
     }
 }
 
+/// Up to this risk p, 1 − p is rounded to 1: the threat changes no combined risk.
+const NEGLIGIBLE: f64 = f64::EPSILON / 4.0;
+
 /// Threats and their combined risk 1 − Π(1 − pᵢ): each is survived or not, independently of the others.
 ///
 /// Clones share their data. The risk at a point depends on the list alone, to the last bit, and not on the
@@ -255,8 +258,11 @@ impl Threats {
                 !within && reach.intersection(rect).is_some()
             },
             |number, reach| {
-                if reach.intersection(rect).is_some() {
-                    let risk = indexed.threats[number as usize].bounds(rect);
+                if reach.intersection(rect).is_none() {
+                    return ControlFlow::Continue(());
+                }
+                let risk = indexed.threats[number as usize].bounds(rect);
+                if risk.greatest > NEGLIGIBLE {
                     least *= 1.0 - risk.greatest;
                     most *= 1.0 - risk.least;
                     count += 1;
@@ -264,6 +270,9 @@ impl Threats {
                 ControlFlow::Continue(())
             },
         );
+        if count + count_in_groups == 0 {
+            return Bounds::one(0.0);
+        }
         // Each factor and each product is off by half an ulp at most, here and in the risk at a point.
         let margin = f64::EPSILON * (4.0 * (count + count_in_groups) as f64 + 8.0);
         let bounds = Bounds::new(1.0 - most * (1.0 + margin), 1.0 - least * least_of_groups * (1.0 - margin))
@@ -402,6 +411,26 @@ mod tests {
             }
         }
         assert!(points == 120_000 && informative > 1_000, "{informative}");
+    }
+
+    #[test]
+    fn beyond_all_threats_the_bounds_are_zero() {
+        let mut random = fastrand::Rng::with_seed(55);
+        let mut beside_a_rim = 0;
+        for _ in 0..300 {
+            let list: Vec<Threat> = (0..5).map(|_| threat(&mut random)).collect();
+            let threats = Threats::new(list.clone()).unwrap();
+            for _ in 0..50 {
+                let min = place(&mut random);
+                let rect = Rect::new(min, min + 0.1 * dvec2(random.f64(), random.f64()));
+                let is_beyond = |t: &Threat| t.at.distance(t.at.clamp(rect.min, rect.max)) > 1.001 * t.range;
+                if list.iter().all(is_beyond) {
+                    assert_eq!(threats.bounds(&rect), Bounds::one(0.0), "{rect:?}");
+                    beside_a_rim += usize::from(list.iter().any(|t| t.reach().intersection(&rect).is_some()));
+                }
+            }
+        }
+        assert!(beside_a_rim > 20, "{beside_a_rim}");
     }
 
     #[test]
