@@ -9,7 +9,8 @@ use meshbrush::internals::colormap::{Colormap, Ground, LevelColors};
 use meshbrush::internals::domain::MeshBoundary;
 use meshbrush::internals::geometry::{Lattice, Rect};
 use meshbrush::internals::io::{
-    MeshData, MeshSource, NodeValues, Provenance, csv, msh, node, obj, png, sms, stl, svg, vtu,
+    MeshData, MeshFormat, MeshSource, Meter, NodeValues, Provenance, csv, msh, node, obj, png, sms, stl, svg,
+    vtu,
 };
 use meshbrush::internals::mesh::{Extract, Limits, Mesh, NodeId};
 
@@ -780,6 +781,24 @@ fn obj_reads_back() {
             }
         }
         sample.assert_same(&found);
+    }
+}
+
+#[test]
+fn files_are_the_same_for_any_number_of_threads() {
+    let sample = Sample::fine();
+    let (extract, data, meter) = (sample.mesh.extract(), sample.data(), Meter::default());
+    for format in MeshFormat::all().flat_map(|format| [Some(format), format.binary()]).flatten() {
+        let on_threads = |threads: usize| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            let mut bytes = Vec::new();
+            pool.install(|| format.write_to(&mut bytes, &extract, &data, &meter).map(Result::unwrap));
+            bytes
+        };
+        let expected = on_threads(1);
+        for threads in [2, 3, 8] {
+            assert!(on_threads(threads) == expected, "{format:?}, {threads} threads");
+        }
     }
 }
 

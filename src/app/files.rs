@@ -17,9 +17,7 @@ use crate::geometry::Rect;
 use crate::io::png::{Behind, decode};
 use crate::io::project::Project;
 use crate::io::recipe::{self, RecipeFiles};
-use crate::io::{self, Cancelled, MeshData, MeshSource, Meter, Provenance, recording};
-use crate::layers::TargetsInOrder;
-use crate::mesh::Extract;
+use crate::io::{self, MeshData, MeshSource, Meter, Provenance, recording};
 use crate::outline::DerivedMesh;
 use crate::raster::Raster;
 use crate::render::export::ExportFormat;
@@ -31,9 +29,6 @@ const TERRAIN_KM: DVec2 = DVec2::new(30.0, 31.8);
 
 /// The sea between Greece and Turkey, as a file.
 pub const AEGEAN_SEA: &[u8] = include_bytes!("../../assets/aegean_sea.geojson");
-
-/// Nodes whose h̄ is computed between two checks of the meter: some milliseconds of work.
-const NODES_BETWEEN_CHECKS: usize = 1 << 16;
 
 /// The slope of a real terrain as risk.
 pub fn terrain_slope() -> Raster {
@@ -136,8 +131,7 @@ pub fn export(
         let write = || -> std::io::Result<(Vec<PathBuf>, usize)> {
             let extract = DerivedMesh::new(&mesh, &domain, &settings.derived_cleaning()).extract(&mesh);
             let target_diameter = if format.wants_node_data() {
-                let mut targets = TargetsInOrder::new(&field, &paint, rule);
-                at_nodes(&extract, meter, |node| targets.at(node))?
+                field.targets_at_nodes(rule, &paint, &extract, || meter.check())?
             } else {
                 Vec::new()
             };
@@ -228,22 +222,6 @@ fn domain_of(path: &Path, meter: &Meter) -> Result<Document, String> {
     let (unit, boundary_marks) = (outline.unit, Arc::new(marks));
     let settings = Settings { unit, boundary_marks, ..Settings::for_domain(name, domain) };
     Document::new(settings, None).map_err(|error| format!("{}: {error}", path.display()))
-}
-
-/// A value at each node, unless it is cancelled.
-fn at_nodes(
-    extract: &Extract,
-    meter: &Meter,
-    mut value: impl FnMut(DVec2) -> f64,
-) -> Result<Vec<f64>, Cancelled> {
-    let mut values = Vec::with_capacity(extract.nodes().len());
-    for (n, node) in extract.world_nodes().enumerate() {
-        if n.is_multiple_of(NODES_BETWEEN_CHECKS) {
-            meter.check()?;
-        }
-        values.push(value(node));
-    }
-    Ok(values)
 }
 
 /// Names of files, one after the other; of many only the first and the last one.

@@ -1,5 +1,6 @@
 //! Builds the mesh of a request, with progress on the terminal.
 
+use std::convert::Infallible;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -14,7 +15,7 @@ use crate::domain::{BoundaryMarks, Domain, MeshBoundary, Region};
 use crate::explain::Explanation;
 use crate::field::RefinementRule;
 use crate::io::{self, Meter};
-use crate::layers::{Layer, PaintLayers, RiskField, TargetsInOrder};
+use crate::layers::{Layer, PaintLayers, RiskField};
 use crate::mesh::{CoarseError, Extract, InvalidTarget, Limits, Mesh, Progress, TreeTriangle, TriangleId};
 use crate::outline::DerivedMesh;
 use crate::text::{Grouped, LengthUnit};
@@ -74,8 +75,9 @@ impl FinishedMesh {
 
     /// h̄ at every node, in world units.
     pub fn target_at_nodes(&self, extract: &Extract) -> Vec<f64> {
-        let mut targets = TargetsInOrder::new(&self.built.field, &self.paint, self.built.rule);
-        extract.world_nodes().map(|point| targets.at(point)).collect()
+        let BuiltMesh { field, rule, .. } = &self.built;
+        let targets = field.targets_at_nodes(*rule, &self.paint, extract, || Ok::<_, Infallible>(()));
+        targets.unwrap_or_else(|never| match never {})
     }
 
     /// The risk of the layers.

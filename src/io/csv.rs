@@ -9,8 +9,8 @@
 
 use std::io::{self, Write};
 
-use super::{FormatSpec, MeshData, NodeValues, Number, TypicalSize};
-use crate::mesh::{Extract, NodeId};
+use super::{FormatSpec, MeshData, NodeValues, Number, TypicalSize, write_rows};
+use crate::mesh::{Extract, NodeId, TriangleId};
 
 /// A table with a row for each triangle.
 pub static FORMAT: FormatSpec = FormatSpec {
@@ -35,36 +35,50 @@ pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Resul
         write!(out, ",{name}1,{name}2,{name}3")?;
     }
     writeln!(out)?;
-    let mut pieces = data.boundary.piece_of_edge().iter();
-    for (id, cell) in mesh.cells().enumerate() {
-        let [a, b, c] = cell.corners;
-        write!(out, "{id},{},{a},{b},{c}", cell.level)?;
-        let [second, third, bisection] = cell.opposite;
-        let across = [bisection, second, third];
-        for neighbour in across {
-            match neighbour {
-                Some(across) => write!(out, ",{across}")?,
-                None => write!(out, ",")?,
-            }
+    // The edges of the boundary are in the order of their triangles.
+    let edges: Vec<usize> = mesh.boundary_edges().map(|edge| edge.triangle).collect();
+    let pieces = data.boundary.piece_of_edge();
+    write_rows(out, mesh.triangles().len(), |out, id| {
+        let first = edges.partition_point(|&triangle| triangle < id);
+        write_row(out, mesh, data, (id, &pieces[first..]))
+    })
+}
+
+/// The row of a triangle; `pieces` has those of its edges on the boundary first.
+fn write_row(
+    out: &mut impl Write,
+    mesh: &Extract,
+    data: &MeshData,
+    (id, pieces): (usize, &[u32]),
+) -> io::Result<()> {
+    let mut pieces = pieces.iter();
+    let cell = mesh.cell(TriangleId::from_index(id));
+    let [a, b, c] = cell.corners;
+    write!(out, "{id},{},{a},{b},{c}", cell.level)?;
+    let [second, third, bisection] = cell.opposite;
+    let across = [bisection, second, third];
+    for neighbour in across {
+        match neighbour {
+            Some(across) => write!(out, ",{across}")?,
+            None => write!(out, ",")?,
         }
-        for node in cell.corners {
-            let p = mesh.world(NodeId::from_index(node));
-            write!(out, ",{},{}", Number(p.x), Number(p.y))?;
-        }
-        for node in cell.corners {
-            write!(out, ",{}", Number(data.target_diameter[node]))?;
-        }
-        write!(out, ",{}", data.parts[id])?;
-        for neighbour in across {
-            let piece = if neighbour.is_none() { pieces.next() } else { None };
-            write!(out, ",{}", piece.map_or(0, |piece| piece + 1))?;
-        }
-        for NodeValues { values, .. } in data.quantities {
-            for node in cell.corners {
-                write!(out, ",{}", Number(values[node]))?;
-            }
-        }
-        writeln!(out)?;
     }
-    Ok(())
+    for node in cell.corners {
+        let p = mesh.world(NodeId::from_index(node));
+        write!(out, ",{},{}", Number(p.x), Number(p.y))?;
+    }
+    for node in cell.corners {
+        write!(out, ",{}", Number(data.target_diameter[node]))?;
+    }
+    write!(out, ",{}", data.parts[id])?;
+    for neighbour in across {
+        let piece = if neighbour.is_none() { pieces.next() } else { None };
+        write!(out, ",{}", piece.map_or(0, |piece| piece + 1))?;
+    }
+    for NodeValues { values, .. } in data.quantities {
+        for node in cell.corners {
+            write!(out, ",{}", Number(values[node]))?;
+        }
+    }
+    writeln!(out)
 }

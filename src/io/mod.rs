@@ -29,6 +29,7 @@ pub mod located;
 pub mod msh;
 pub mod node;
 pub mod obj;
+mod parallel_rows;
 pub mod path;
 pub mod png;
 pub mod points;
@@ -60,6 +61,7 @@ pub use folder::{FolderEntry, FolderListing, MOST_ENTRIES, is_folder, list_folde
 pub use interrupt::Interruption;
 pub use mesh_file::{FormatSpec, MeshFormat, TypicalSize};
 pub use meter::{Cancelled, Counted, Meter};
+use parallel_rows::write_rows;
 pub use provenance::{MeshSource, Provenance};
 
 /// The formats of meshes. A new one is a module and an entry here.

@@ -10,9 +10,9 @@
 
 use std::io::{self, Write};
 
-use super::{FormatSpec, MeshData, Number, TypicalSize};
+use super::{FormatSpec, MeshData, Number, TypicalSize, write_rows};
 use crate::geometry::Rect;
-use crate::mesh::{BoundaryEdge, Extract, NodeId};
+use crate::mesh::{BoundaryEdge, Extract, NodeId, TriangleId};
 
 /// Gmsh 4.1.
 pub static FORMAT: FormatSpec = FormatSpec {
@@ -70,18 +70,18 @@ impl<W: Write> Writer<'_, W> {
         self.write_nodes(mesh)?;
         self.write_elements(mesh, &curves)?;
         for (name, values) in data.node_values() {
-            self.write_values("NodeData", name, values.iter().copied())?;
+            self.write_values("NodeData", name, values.len(), |node| values[node])?;
         }
         // meshio requires element data for all elements or none: a boundary edge gets that of its triangle.
-        let lines = || curves.iter().flat_map(|curve| &curve.edges);
-        let levels = mesh.triangles().iter().map(|triangle| triangle.level());
-        self.write_values(
-            "ElementData",
-            "level",
-            levels.chain(lines().map(|edge| edge.level)).map(f64::from),
-        )?;
-        let parts = data.parts.iter().copied().chain(lines().map(|edge| data.parts[edge.triangle]));
-        self.write_values("ElementData", "part", parts.map(f64::from))
+        let lines: Vec<usize> =
+            curves.iter().flat_map(|curve| &curve.edges).map(|edge| edge.triangle).collect();
+        let triangles = mesh.triangles().len();
+        let triangle_of =
+            |element: usize| if element < triangles { element } else { lines[element - triangles] };
+        let level = |element| f64::from(mesh.triangles()[triangle_of(element)].level());
+        self.write_values("ElementData", "level", triangles + lines.len(), level)?;
+        let part = |element| f64::from(data.parts[triangle_of(element)]);
+        self.write_values("ElementData", "part", triangles + lines.len(), part)
     }
 
     fn write_head(&mut self, data: &MeshData) -> io::Result<()> {
@@ -125,12 +125,11 @@ impl<W: Write> Writer<'_, W> {
         writeln!(self.out, "$Nodes")?;
         self.row(&[Size(1), Size(count), Size(1), Size(count)])?;
         self.row(&[Int(2), Int(SURFACE), Int(0), Size(count)])?;
-        for tag in 1..=count {
-            self.row(&[Size(tag)])?;
-        }
-        for p in mesh.world_nodes() {
-            self.row(&[Real(p.x), Real(p.y), Real(0.0)])?;
-        }
+        self.rows(count, |node| [Size(node + 1)])?;
+        self.rows(count, |node| {
+            let p = mesh.world(NodeId::from_index(node));
+            [Real(p.x), Real(p.y), Real(0.0)]
+        })?;
         self.end("Nodes")
     }
 
@@ -140,10 +139,10 @@ impl<W: Write> Writer<'_, W> {
         writeln!(self.out, "$Elements")?;
         self.row(&[Size(curves.len() + 1), Size(all), Size(1), Size(all)])?;
         self.row(&[Int(2), Int(SURFACE), Int(TRIANGLE), Size(triangles)])?;
-        for (tag, cell) in (1..).zip(mesh.cells()) {
-            let [a, b, c] = cell.corners.map(|node| Size(node + 1));
-            self.row(&[Size(tag), a, b, c])?;
-        }
+        self.rows(triangles, |id| {
+            let [a, b, c] = mesh.cell(TriangleId::from_index(id)).corners.map(|node| Size(node + 1));
+            [Size(id + 1), a, b, c]
+        })?;
         let mut tag = triangles;
         for curve in curves {
             self.row(&[Int(1), Int(curve.tag()), Int(LINE), Size(curve.edges.len())])?;
@@ -161,41 +160,54 @@ impl<W: Write> Writer<'_, W> {
         &mut self,
         section: &str,
         name: &str,
-        values: impl Iterator<Item = f64> + Clone,
+        count: usize,
+        value: impl Fn(usize) -> f64 + Sync,
     ) -> io::Result<()> {
         // One string (the name), one real number (the time), three whole numbers (step, components, count).
         // They are text in both forms.
-        writeln!(self.out, "${section}\n1\n\"{name}\"\n1\n0\n3\n0\n1\n{}", values.clone().count())?;
-        for (tag, value) in (1..).zip(values) {
-            self.row(&[Int(tag), Real(value)])?;
-        }
+        writeln!(self.out, "${section}\n1\n\"{name}\"\n1\n0\n3\n0\n1\n{count}")?;
+        self.rows(count, |number| [Int(number as i32 + 1), Real(value(number))])?;
         self.end(section)
     }
 
-    /// A line of text, or the bytes of the numbers.
     fn row(&mut self, values: &[Value]) -> io::Result<()> {
-        if self.is_binary {
-            return values.iter().try_for_each(|value| match value {
-                Int(n) => self.out.write_all(&n.to_le_bytes()),
-                Size(n) => self.out.write_all(&(*n as u64).to_le_bytes()),
-                Real(x) => self.out.write_all(&x.to_le_bytes()),
-            });
-        }
-        for (n, value) in values.iter().enumerate() {
-            let blank = if n == 0 { "" } else { " " };
-            match value {
-                Int(n) => write!(self.out, "{blank}{n}")?,
-                Size(n) => write!(self.out, "{blank}{n}")?,
-                Real(x) => write!(self.out, "{blank}{}", Number(*x))?,
-            }
-        }
-        writeln!(self.out)
+        write_row(self.out, values, self.is_binary)
+    }
+
+    /// Many rows, by their numbers from 0.
+    fn rows<const N: usize>(
+        &mut self,
+        count: usize,
+        values: impl Fn(usize) -> [Value; N] + Sync,
+    ) -> io::Result<()> {
+        let is_binary = self.is_binary;
+        write_rows(self.out, count, |out, number| write_row(out, &values(number), is_binary))
     }
 
     fn end(&mut self, section: &str) -> io::Result<()> {
         let line_break = if self.is_binary { "\n" } else { "" };
         writeln!(self.out, "{line_break}$End{section}")
     }
+}
+
+/// A line of text, or the bytes of the numbers.
+fn write_row(out: &mut impl Write, values: &[Value], is_binary: bool) -> io::Result<()> {
+    if is_binary {
+        return values.iter().try_for_each(|value| match value {
+            Int(n) => out.write_all(&n.to_le_bytes()),
+            Size(n) => out.write_all(&(*n as u64).to_le_bytes()),
+            Real(x) => out.write_all(&x.to_le_bytes()),
+        });
+    }
+    for (n, value) in values.iter().enumerate() {
+        let blank = if n == 0 { "" } else { " " };
+        match value {
+            Int(n) => write!(out, "{blank}{n}")?,
+            Size(n) => write!(out, "{blank}{n}")?,
+            Real(x) => write!(out, "{blank}{}", Number(*x))?,
+        }
+    }
+    writeln!(out)
 }
 
 /// The edges of a piece of the boundary.

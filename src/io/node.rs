@@ -10,8 +10,8 @@
 
 use std::io::{self, Write};
 
-use super::{FormatSpec, MeshData, Number, TypicalSize};
-use crate::mesh::Extract;
+use super::{FormatSpec, MeshData, Number, TypicalSize, write_rows};
+use crate::mesh::{Extract, NodeId, TriangleId};
 
 /// Triangle's four files: nodes, elements, neighbours and edges.
 pub static FORMAT: FormatSpec = FormatSpec {
@@ -34,13 +34,14 @@ pub static FORMAT: FormatSpec = FormatSpec {
 pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Result<()> {
     let markers = data.boundary.node_markers(mesh);
     writeln!(out, "{} 2 {} 1", mesh.nodes().len(), data.node_values().count())?;
-    for (id, p) in mesh.world_nodes().enumerate() {
+    write_rows(out, mesh.nodes().len(), |out, id| {
+        let p = mesh.world(NodeId::from_index(id));
         write!(out, "{id} {} {}", Number(p.x), Number(p.y))?;
         for (_, values) in data.node_values() {
             write!(out, " {}", Number(values[id]))?;
         }
-        writeln!(out, " {}", markers[id])?;
-    }
+        writeln!(out, " {}", markers[id])
+    })?;
     data.write_comments(out)
 }
 
@@ -50,10 +51,11 @@ pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Resul
 /// Errors of `out`.
 pub fn write_elements(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Result<()> {
     writeln!(out, "{} 3 1", mesh.triangles().len())?;
-    for (id, cell) in mesh.cells().enumerate() {
+    write_rows(out, mesh.triangles().len(), |out, id| {
+        let cell = mesh.cell(TriangleId::from_index(id));
         let [a, b, c] = cell.corners;
-        writeln!(out, "{id} {a} {b} {c} {}", cell.level)?;
-    }
+        writeln!(out, "{id} {a} {b} {c} {}", cell.level)
+    })?;
     data.write_comments(out)
 }
 
@@ -63,10 +65,11 @@ pub fn write_elements(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> 
 /// Errors of `out`.
 pub fn write_neighbours(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Result<()> {
     writeln!(out, "{} 3", mesh.triangles().len())?;
-    for (id, cell) in mesh.cells().enumerate() {
-        let [a, b, c] = cell.opposite.map(|across| across.map_or(-1, |t| t as i64));
-        writeln!(out, "{id} {a} {b} {c}")?;
-    }
+    write_rows(out, mesh.triangles().len(), |out, id| {
+        let across = mesh.cell(TriangleId::from_index(id)).opposite;
+        let [a, b, c] = across.map(|across| across.map_or(-1, |t| t as i64));
+        writeln!(out, "{id} {a} {b} {c}")
+    })?;
     data.write_comments(out)
 }
 

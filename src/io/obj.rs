@@ -5,8 +5,8 @@
 
 use std::io::{self, Write};
 
-use super::{FormatSpec, MeshData, Number, TypicalSize};
-use crate::mesh::Extract;
+use super::{FormatSpec, MeshData, Number, TypicalSize, write_rows};
+use crate::mesh::{Extract, NodeId, TriangleId};
 
 /// Wavefront.
 pub static FORMAT: FormatSpec = FormatSpec {
@@ -26,19 +26,23 @@ pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Resul
     data.write_comments(out)?;
     writeln!(out, "# {} nodes, {} triangles", mesh.nodes().len(), mesh.triangles().len())?;
     writeln!(out, "# texture coordinate u: target diameter; groups: level")?;
-    for p in mesh.world_nodes() {
-        writeln!(out, "v {} {} 0", Number(p.x), Number(p.y))?;
-    }
-    for &target in data.target_diameter {
-        writeln!(out, "vt {} 0", Number(target))?;
-    }
+    write_rows(out, mesh.nodes().len(), |out, node| {
+        let p = mesh.world(NodeId::from_index(node));
+        writeln!(out, "v {} {} 0", Number(p.x), Number(p.y))
+    })?;
+    write_rows(out, data.target_diameter.len(), |out, node| {
+        writeln!(out, "vt {} 0", Number(data.target_diameter[node]))
+    })?;
     // One pass over the mesh for each level: lists by level would be a second copy of it.
     for (level, _) in mesh.level_counts().into_iter().enumerate().filter(|(_, count)| *count > 0) {
         writeln!(out, "g level_{level}")?;
-        for cell in mesh.cells().filter(|cell| cell.level as usize == level) {
-            let [a, b, c] = cell.corners.map(|node| node + 1);
-            writeln!(out, "f {a}/{a} {b}/{b} {c}/{c}")?;
-        }
+        write_rows(out, mesh.triangles().len(), |out, id| {
+            if mesh.triangles()[id].level() as usize != level {
+                return Ok(());
+            }
+            let [a, b, c] = mesh.cell(TriangleId::from_index(id)).corners.map(|node| node + 1);
+            writeln!(out, "f {a}/{a} {b}/{b} {c}/{c}")
+        })?;
     }
     Ok(())
 }

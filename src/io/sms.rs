@@ -9,8 +9,8 @@
 
 use std::io::{self, Write};
 
-use super::{FormatSpec, MeshData, Number, TypicalSize};
-use crate::mesh::Extract;
+use super::{FormatSpec, MeshData, Number, TypicalSize, write_rows};
+use crate::mesh::{Extract, NodeId, TriangleId};
 
 /// SMS.
 pub static FORMAT: FormatSpec = FormatSpec {
@@ -32,14 +32,15 @@ const NODES_A_LINE: usize = 10;
 pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Result<()> {
     writeln!(out, "MESH2D\nMESHNAME \"Meshbrush\"\nNUM_MATERIALS_PER_ELEM 1")?;
     data.write_comments(out)?;
-    for (id, cell) in (1..).zip(mesh.cells()) {
-        let [a, b, c] = cell.corners.map(|node| node + 1);
-        writeln!(out, "E3T {id} {a} {b} {c} 1")?;
-    }
-    for (node, p) in mesh.world_nodes().enumerate() {
+    write_rows(out, mesh.triangles().len(), |out, id| {
+        let [a, b, c] = mesh.cell(TriangleId::from_index(id)).corners.map(|node| node + 1);
+        writeln!(out, "E3T {} {a} {b} {c} 1", id + 1)
+    })?;
+    write_rows(out, mesh.nodes().len(), |out, node| {
+        let p = mesh.world(NodeId::from_index(node));
         let z = data.quantities.first().map_or(0.0, |quantity| quantity.values[node]);
-        writeln!(out, "ND {} {} {} {}", node + 1, Number(p.x), Number(p.y), Number(z))?;
-    }
+        writeln!(out, "ND {} {} {} {}", node + 1, Number(p.x), Number(p.y), Number(z))
+    })?;
     let runs = data.boundary.runs(mesh);
     for (id, run) in (1..).zip(&runs) {
         writeln!(out, "# nodestring {id}: {}", data.boundary.pieces().list()[run.piece].name)?;

@@ -6,8 +6,10 @@
 
 use std::io::{self, Write};
 
-use super::{FormatSpec, MeshData, TypicalSize};
-use crate::mesh::{Extract, NodeId};
+use glam::Vec2;
+
+use super::{FormatSpec, MeshData, TypicalSize, write_rows};
+use crate::mesh::{Extract, NodeId, TriangleId};
 
 /// Triangles without shared nodes.
 pub static FORMAT: FormatSpec = FormatSpec {
@@ -40,25 +42,26 @@ pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Resul
     let count = u32::try_from(mesh.triangles().len()).map_err(io::Error::other)?;
     out.write_all(&title(data))?;
     out.write_all(&count.to_le_bytes())?;
-    for cell in mesh.cells() {
-        let corners = cell.corners.map(|node| mesh.world(NodeId::from_index(node)).as_vec2());
-        let [a, b, c] = corners.map(|corner| corner.as_dvec2());
-        if (b - a).perp_dot(c - a) <= 0.0 {
-            let problem = format!(
-                "the numbers of .stl have seven digits, and the triangle near x = {}, y = {}",
-                a.x, a.y
-            );
-            return Err(io::Error::other(
-                problem + " would vanish; choose another format, or move the domain to the origin",
-            ));
-        }
-        out.write_all(bytemuck::bytes_of(&[0.0, 0.0, 1.0].map(f32::to_le_bytes)))?;
-        for corner in corners {
-            out.write_all(bytemuck::bytes_of(&[corner.x, corner.y, 0.0].map(f32::to_le_bytes)))?;
-        }
-        out.write_all(&[0, 0])?; // no attributes
+    write_rows(out, mesh.triangles().len(), |out, id| {
+        let corners = mesh.cell(TriangleId::from_index(id)).corners;
+        write_triangle(out, corners.map(|node| mesh.world(NodeId::from_index(node)).as_vec2()))
+    })
+}
+
+fn write_triangle(out: &mut impl Write, corners: [Vec2; 3]) -> io::Result<()> {
+    let [a, b, c] = corners.map(|corner| corner.as_dvec2());
+    if (b - a).perp_dot(c - a) <= 0.0 {
+        let problem =
+            format!("the numbers of .stl have seven digits, and the triangle near x = {}, y = {}", a.x, a.y);
+        return Err(io::Error::other(
+            problem + " would vanish; choose another format, or move the domain to the origin",
+        ));
     }
-    Ok(())
+    out.write_all(bytemuck::bytes_of(&[0.0, 0.0, 1.0].map(f32::to_le_bytes)))?;
+    for corner in corners {
+        out.write_all(bytemuck::bytes_of(&[corner.x, corner.y, 0.0].map(f32::to_le_bytes)))?;
+    }
+    out.write_all(&[0, 0]) // no attributes
 }
 
 /// Program and fingerprint: there is no room for more.

@@ -30,5 +30,4 @@ pub use risk::RiskField;
 pub use settled::SettledSquares;
 pub use size_field::{SizeField, SizeFieldSpec};
 pub use targets::Decision;
-pub use targets_in_order::TargetsInOrder;
 pub use threats::{Threat, ThreatError, ThreatLaw, Threats};

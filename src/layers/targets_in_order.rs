@@ -1,14 +1,16 @@
 use glam::DVec2;
+use rayon::prelude::*;
 
 use super::engine::gradation;
 use super::{PaintLayers, SizeField};
 use crate::field::RefinementRule;
+use crate::mesh::Extract;
 
 /// h̄ at many points, each near the one before, as the nodes of a mesh are.
 ///
 /// With gradation, h̄ at a point is at most h̄ at the point before plus g times their distance. So the search
 /// begins close to its result, and most rectangles are skipped at once.
-pub struct TargetsInOrder<'a> {
+struct TargetsInOrder<'a> {
     field: &'a SizeField,
     paint: &'a PaintLayers,
     rule: RefinementRule,
@@ -20,13 +22,12 @@ pub struct TargetsInOrder<'a> {
 const SLACK: f64 = 1.0 + 1e-9;
 
 impl<'a> TargetsInOrder<'a> {
-    /// h̄ as `rule` sees it.
-    pub fn new(field: &'a SizeField, paint: &'a PaintLayers, rule: RefinementRule) -> Self {
+    fn new(field: &'a SizeField, paint: &'a PaintLayers, rule: RefinementRule) -> Self {
         Self { field, paint, rule, last: None }
     }
 
     /// [`SizeField::target_by_rule`] at a point in world units.
-    pub fn at(&mut self, point: DVec2) -> f64 {
+    fn at(&mut self, point: DVec2) -> f64 {
         let target = match (self.field.spec().gradation, self.last) {
             (Some(slope), Some((before, target))) if self.rule == RefinementRule::Area => {
                 let bound = (target + slope * point.distance(before)) * SLACK;
@@ -40,6 +41,36 @@ impl<'a> TargetsInOrder<'a> {
     }
 }
 
+/// Nodes that one thread computes at a time.
+const NODES: usize = 4096;
+
+impl SizeField {
+    /// h̄ at every node of a mesh, in world units, as `rule` sees it. All threads compute, and ask `check`
+    /// now and then whether to go on.
+    ///
+    /// # Errors
+    /// Those of `check`.
+    pub fn targets_at_nodes<E: Send>(
+        &self,
+        rule: RefinementRule,
+        paint: &PaintLayers,
+        mesh: &Extract,
+        check: impl Fn() -> Result<(), E> + Sync,
+    ) -> Result<Vec<f64>, E> {
+        let mut values = vec![0.0; mesh.nodes().len()];
+        let chunks = values.par_chunks_mut(NODES).zip(mesh.nodes().par_chunks(NODES));
+        chunks.try_for_each(|(values, nodes)| {
+            check()?;
+            let mut targets = TargetsInOrder::new(self, paint, rule);
+            for (value, &node) in values.iter_mut().zip(nodes) {
+                *value = targets.at(mesh.lattice().world_from_lattice(node));
+            }
+            Ok(())
+        })?;
+        Ok(values)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use glam::dvec2;
@@ -48,6 +79,7 @@ mod tests {
     use crate::field::{Formula, Transfer};
     use crate::geometry::{Lattice, Rect};
     use crate::layers::{Layer, LayerKind, SizeFieldSpec};
+    use crate::mesh::{Limits, Mesh};
 
     #[test]
     fn in_any_order_the_targets_are_those_of_single_points() {
@@ -68,5 +100,11 @@ mod tests {
             limited += usize::from(single < 0.3);
         }
         assert!(limited > 100, "{limited}");
+        let mesh = Mesh::coarse_grid(&lattice, |_| true, &Limits::default()).unwrap();
+        let extract = mesh.extract();
+        let of_nodes = field.targets_at_nodes(RefinementRule::Area, paint, &extract, || Ok::<_, ()>(()));
+        let single = |point| field.target_by_rule(RefinementRule::Area, paint, point);
+        assert_eq!(of_nodes.unwrap(), extract.world_nodes().map(single).collect::<Vec<_>>());
+        assert_eq!(field.targets_at_nodes(RefinementRule::Area, paint, &extract, || Err(1)), Err(1));
     }
 }
