@@ -424,3 +424,25 @@ fn the_adjacency_rows_are_the_sets_of_algorithm_13() {
         }
     }
 }
+
+#[test]
+fn a_large_locator_is_the_same_for_any_number_of_threads() {
+    let lattice = Lattice::covering(Rect::UNIT, 0.25, 1_000_000).unwrap();
+    let limits = Limits::default();
+    for has_hole in [false, true] {
+        let contains = |p: DVec2| !has_hole || p.distance(dvec2(0.5, 0.5)) > 0.2;
+        let mut mesh = Mesh::coarse_grid(&lattice, contains, &limits).unwrap();
+        let target = |p: DVec2| 2e-4 + 0.008 * p.distance(dvec2(0.4, 0.3));
+        mesh.refine(&limits, |e| Ok(e.world_corners().iter().any(|&p| e.diameter() > target(p)))).unwrap();
+        assert!(mesh.raw_triangle_count() > 150_000, "{}", mesh.raw_triangle_count());
+        for threads in [1, 2, 3, 8] {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            let locator = pool.install(|| Locator::new(&mesh));
+            let mut random = Rng::with_seed(12);
+            for _ in 0..20_000 {
+                let point = 1.1 * dvec2(random.f64(), random.f64());
+                assert_eq!(locator.locate(point), mesh.locate(point), "{point}, {threads} threads");
+            }
+        }
+    }
+}

@@ -1,8 +1,10 @@
+mod build;
+
 use glam::DVec2;
 
 use super::Location;
-use crate::geometry::LatticePoint;
-use crate::mesh::kernel::{Mesh, TriangleId, WalkEnd, make_room};
+use crate::geometry::{Lattice, LatticePoint};
+use crate::mesh::kernel::{Mesh, TriangleId, WalkEnd};
 
 /// A search tree over a mesh, for many queries: the report's virtual buckets (Section 7.1), carried on until
 /// no walk is left.
@@ -17,12 +19,17 @@ use crate::mesh::kernel::{Mesh, TriangleId, WalkEnd, make_room};
 /// plain walk.
 pub struct Locator<'m> {
     mesh: &'m Mesh,
-    /// Squares along a row of the table.
-    columns: usize,
-    /// Binary logarithm of the side of a table's square, in lattice steps.
-    side_bits: u32,
-    table: Vec<Square>,
+    table: Table,
     quarters: Vec<[Square; 4]>,
+}
+
+/// Squares of one size that cover the grid, row by row from the lower left.
+struct Table {
+    /// Squares along a row.
+    columns: usize,
+    /// Binary logarithm of the side of a square, in lattice steps.
+    side_bits: u32,
+    squares: Vec<Square>,
 }
 
 /// A square of the lattice, with a triangle on either side of a diagonal; or the place of its quarters.
@@ -76,6 +83,13 @@ impl Square {
         }
     }
 
+    /// Notes that the quarters of a divided square were moved on by `places`.
+    fn move_quarters(&mut self, places: usize) {
+        if let Some(place) = self.place_of_quarters() {
+            *self = Self::divided(place + places);
+        }
+    }
+
     fn cover(&mut self, half: &Half, id: TriangleId) {
         if half.above {
             self.above = id.0;
@@ -96,32 +110,16 @@ impl Square {
     }
 }
 
-impl<'m> Locator<'m> {
-    /// Builds the tree in time proportional to the mesh.
-    pub fn new(mesh: &'m Mesh) -> Self {
-        let [columns, rows] = mesh.lattice.cells().map(|n| n as usize);
-        let (table, mut quarters) = (vec![Square::EMPTY; columns * rows], Vec::new());
-        make_room(&mut quarters, mesh.triangles.len() / 4, mesh.triangles.len());
-        let mut locator = Self { mesh, columns, side_bits: mesh.lattice.halvings(), table, quarters };
-        let by_level = ids_by_level(mesh);
-        // The larger triangles first: a square is divided only for a smaller one, and hands on what it has.
-        for (depth, levels) in by_level.chunks(2).enumerate() {
-            if depth > 0 && locator.quarters.is_empty() && 8 * locator.table.len() <= mesh.triangles.len() {
-                locator.divide_table();
-            }
-            let bits = mesh.lattice.halvings() - depth as u32;
-            for &id in levels.iter().flatten() {
-                for half in halves(mesh, id) {
-                    locator.square_mut(half.origin, bits).cover(&half, id);
-                }
-            }
-        }
-        locator
+impl Table {
+    fn of_coarse_cells(lattice: &Lattice) -> Self {
+        let [columns, rows] = lattice.cells().map(|n| n as usize);
+        Self { columns, side_bits: lattice.halvings(), squares: vec![Square::EMPTY; columns * rows] }
     }
 
-    fn divide_table(&mut self) {
-        let mut finer = vec![Square::EMPTY; 4 * self.table.len()];
-        for (n, square) in self.table.iter().enumerate() {
+    /// Divides all squares into quarters.
+    fn divide(&mut self) {
+        let mut finer = vec![Square::EMPTY; 4 * self.squares.len()];
+        for (n, square) in self.squares.iter().enumerate() {
             let lower_left = 4 * self.columns * (n / self.columns) + 2 * (n % self.columns);
             let upper_left = lower_left + 2 * self.columns;
             let quarters = square.quarters();
@@ -130,31 +128,17 @@ impl<'m> Locator<'m> {
         }
         self.columns *= 2;
         self.side_bits -= 1;
-        self.table = finer;
+        self.squares = finer;
     }
 
-    /// The square of side 2^`bits` with the given corner, after the divisions that this takes.
-    fn square_mut(&mut self, origin: LatticePoint, bits: u32) -> &mut Square {
-        let n = self.number(origin.x, origin.y);
-        if bits >= self.side_bits {
-            return &mut self.table[n];
-        }
-        let (mut place, mut side_bits) = (divide(&mut self.table[n], &mut self.quarters), self.side_bits - 1);
-        while side_bits > bits {
-            let q = quarter(origin.x, origin.y, side_bits);
-            let mut square = self.quarters[place][q];
-            let finer = divide(&mut square, &mut self.quarters);
-            self.quarters[place][q] = square;
-            (place, side_bits) = (finer, side_bits - 1);
-        }
-        &mut self.quarters[place][quarter(origin.x, origin.y, bits)]
-    }
-
+    /// The number of the square with a point, in lattice steps.
     #[inline]
     fn number(&self, x: u32, y: u32) -> usize {
         (y >> self.side_bits) as usize * self.columns + (x >> self.side_bits) as usize
     }
+}
 
+impl Locator<'_> {
     /// Finds the triangle that contains a point in world coordinates. Same answers as [`Mesh::locate`].
     #[inline]
     pub fn locate(&self, point: DVec2) -> Location {
@@ -180,7 +164,7 @@ impl<'m> Locator<'m> {
             return None;
         }
         let (x, y) = (p.x as u32, p.y as u32);
-        let (mut square, mut bits) = (self.table[self.number(x, y)], self.side_bits);
+        let (mut square, mut bits) = (self.table.squares[self.table.number(x, y)], self.table.side_bits);
         // Ends: each turn goes down the tree, which is no deeper than the lattice.
         while let Some(place) = square.place_of_quarters() {
             bits -= 1;
@@ -205,51 +189,4 @@ impl<'m> Locator<'m> {
 #[inline]
 fn quarter(x: u32, y: u32, bits: u32) -> usize {
     (((y >> bits) & 1) << 1 | ((x >> bits) & 1)) as usize
-}
-
-fn divide(square: &mut Square, quarters: &mut Vec<[Square; 4]>) -> usize {
-    square.place_of_quarters().unwrap_or_else(|| {
-        quarters.push(square.quarters());
-        *square = Square::divided(quarters.len() - 1);
-        quarters.len() - 1
-    })
-}
-
-/// The triangles with bisection edges too long for a square of depth 1, 2, and so on: levels 0; 1 and 2; 3
-/// and 4, … padded to pairs, so that pair d lives in squares halved d times.
-fn ids_by_level(mesh: &Mesh) -> Vec<Vec<TriangleId>> {
-    let counts = mesh.level_counts();
-    let mut by_level = vec![Vec::new()];
-    by_level.extend(counts.into_iter().map(Vec::with_capacity));
-    // Squares without a triangle are looked at once more, by a walk: that says what lies outside.
-    for (index, triangle) in mesh.triangles.iter().enumerate().filter(|(_, t)| !t.is_outside()) {
-        by_level[triangle.level() as usize + 1].push(TriangleId::from_index(index));
-    }
-    by_level
-}
-
-/// The half squares that a triangle is made of: one at even levels, two at odd levels.
-///
-/// ```text
-///     o                    apex
-///     | \                  / | \       the right angle of each half is at the apex, or in the middle of the
-///     |   \              /   |   \     bisection edge
-///   apex---o            o----m----o
-/// ```
-fn halves(mesh: &Mesh, id: TriangleId) -> impl Iterator<Item = Half> {
-    let triangle = mesh.triangle(id);
-    let [a, b] = triangle.bisection_edge().map(|v| mesh.node(v));
-    let apex = mesh.node(triangle.apex());
-    let even = triangle.level().is_multiple_of(2);
-    let halves = if even {
-        [Some([apex, a, b]), None]
-    } else {
-        let middle = a.midpoint(b);
-        [Some([middle, a, apex]), Some([middle, b, apex])]
-    };
-    halves.into_iter().flatten().map(|[corner, p, q]| {
-        let origin = LatticePoint::new(corner.x.min(p.x).min(q.x), corner.y.min(p.y).min(q.y));
-        let (right, above) = (corner.x > origin.x, corner.y > origin.y);
-        Half { origin, rising: right != above, above }
-    })
 }
