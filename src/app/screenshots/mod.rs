@@ -12,6 +12,7 @@ use glam::{DVec2, dvec2};
 use super::SMALLEST_SIZE;
 use super::WINDOW_SIZE;
 use super::command::{BoundaryCommand, BrushCommand, Command, DomainCommand, LayerCommand, PinsCommand};
+use super::paths::{AlternativesCommand, FrontCommand, PathCommand};
 use super::plots::{PlotKind, PlotsCommand};
 use super::report::FigureCommand;
 use super::stepping::StepCommand;
@@ -35,7 +36,7 @@ struct Scene {
     act: fn(&mut OffscreenWindow),
 }
 
-const SCENES: [Scene; 18] = [
+const SCENES: [Scene; 19] = [
     scene("window", window),
     scene("query", query),
     scene("why", why),
@@ -49,6 +50,7 @@ const SCENES: [Scene; 18] = [
     scene("aegean", aegean),
     scene("layers", layers),
     scene("path", path),
+    Scene { name: "front", size: [1280.0, 1360.0], px_per_point: 1.0, act: front },
     scene("boundary", boundary),
     scene("light", light),
     scene("deep", deep),
@@ -186,6 +188,20 @@ fn path(window: &mut OffscreenWindow) {
     window.send(Command::OpenExample(Example::Path));
     window.send(Command::Use(&PATH));
     window.send(Command::SetOverlay(FieldOverlay::Risk));
+}
+
+/// What other paths there are: the corridor around the best, alternatives, and the front of length against
+/// risk.
+fn front(window: &mut OffscreenWindow) {
+    path(window);
+    for command in [
+        PathCommand::ShowCorridor(true),
+        PathCommand::CorridorShare(0.05),
+        PathCommand::Alternatives(AlternativesCommand::Show(true)),
+        PathCommand::Front(FrontCommand::Show(true)),
+    ] {
+        window.send(Command::Path(command));
+    }
 }
 
 /// The pieces of a coast, one of them selected.

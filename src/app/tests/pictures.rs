@@ -187,6 +187,6 @@ fn the_screenshots_are_the_same_every_time() {
         let second = scope.spawn(|| take("screenshots-2"));
         (take("screenshots-1"), second.join().unwrap())
     });
-    assert_eq!(first.len(), 18);
+    assert_eq!(first.len(), 19);
     assert!(first == second, "the same commands, another picture");
 }
