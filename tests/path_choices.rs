@@ -59,6 +59,14 @@ fn the_front_goes_from_the_shortest_path_to_the_safest() {
 }
 
 #[test]
+fn a_path_that_is_best_for_many_weights_is_in_the_front_once() {
+    let risk = threats(&[(0.5, 0.1)], 0.1);
+    let mut front = Front::new(mesh(0.1), risk, vec![dvec2(0.1, 0.8), dvec2(0.9, 0.8)], 8);
+    while front.advance().unwrap() {}
+    assert_eq!(front.points().len(), 1);
+}
+
+#[test]
 fn alternatives_go_through_other_gaps() {
     // Discs with gaps of different widths between them, and around them.
     let risk = threats(&[(0.5, 0.28), (0.5, 0.72)], 0.2);

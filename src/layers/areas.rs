@@ -172,8 +172,33 @@ mod tests {
     use glam::dvec2;
 
     use super::*;
-    use crate::field::Transfer;
+    use crate::field::{RefinementRule, Transfer};
     use crate::geometry::Lattice;
+    use crate::layers::{ShapeList, Shapes};
+
+    #[test]
+    fn a_corridor_asks_for_nothing_beyond_its_extent() {
+        let lines = vec![vec![dvec2(0.3, 0.4), dvec2(0.6, 0.5)]];
+        let lines = Shapes::new(ShapeList { lines, ..ShapeList::default() }, false).unwrap();
+        let to = DistanceTo::Corridor { lines, width: 0.1 };
+        let layer =
+            Layer::stack([LayerKind::Distance { to, at_zero: 0.01, slope: 0.1, range: 0.15 }]).remove(0);
+        let paint = PaintLayers::default();
+        let extent = layer.extent(&paint).unwrap();
+        let spec = SizeFieldSpec {
+            layers: vec![layer],
+            transfer: Transfer { h_min: 0.01, h_max: 1.0, shape: 1.0 },
+            unasked: 1.0,
+            outline: None,
+            gradation: None,
+        };
+        let field = SizeField::new(spec, &Lattice::covering(Rect::UNIT, 0.05, 1000).unwrap());
+        let points = (0..10_000).map(|n| dvec2(f64::from(n % 100), f64::from(n / 100)) / 99.0);
+        let asked: Vec<_> =
+            points.filter(|&p| field.target_by_rule(RefinementRule::Area, &paint, p) < 1.0).collect();
+        assert!(asked.iter().all(|&p| extent.contains(p)), "{extent:?}");
+        assert!(asked.len() > 1000 && extent.size().x < 0.9, "{} in {extent:?}", asked.len());
+    }
 
     #[test]
     fn gradation_carries_an_edit_as_far_as_the_diameters_around_it_let_it() {
