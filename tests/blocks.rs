@@ -109,6 +109,27 @@ fn the_arrays_do_not_depend_on_threads_or_slices() {
 }
 
 #[test]
+fn small_meshes_have_the_order_of_the_report() {
+    let coarse = coarse(|_| true);
+    let (mut small, mut large) = (0, 0);
+    for seed in 0..40 {
+        let mut random = fastrand::Rng::with_seed(seed);
+        let most = 10f64.powf(-2.0 + 0.8 * random.f64());
+        let spots = Spots::random(&mut random, most);
+        let (mesh, expected) = (in_blocks(&coarse, &spots, 2, 1_000), one_by_one(&coarse, &spots));
+        assert_eq!(mesh.fingerprint(), expected.fingerprint(), "seed {seed}");
+        if expected.raw_triangle_count() < 16_000 {
+            assert!(mesh.raw_triangles() == expected.raw_triangles(), "seed {seed}");
+            assert!(mesh.raw_nodes() == expected.raw_nodes(), "seed {seed}");
+            small += 1;
+        } else {
+            large += usize::from(mesh.raw_triangles() != expected.raw_triangles());
+        }
+    }
+    assert!(small > 5 && large > 5, "{small} {large}");
+}
+
+#[test]
 fn limits_count_in_blocks_as_well() {
     let coarse = coarse(|_| true);
     let lattice = *coarse.lattice();

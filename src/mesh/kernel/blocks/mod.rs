@@ -1,6 +1,7 @@
 //! Refinement on all threads, in blocks that fit into the cache of a core.
 //!
 //! ```text
+//!   small    refine in the order of Algorithm 12, unless the mesh becomes large      one thread
 //!   plan     refine until each triangle stands for the work of a block at most       one thread
 //!   refine   each block alone; edges between blocks count as boundary: seams         all threads
 //!   join     number the nodes that blocks share; append the blocks to the mesh       all threads
@@ -45,6 +46,10 @@ where
     }
 }
 
+/// Meshes with fewer triangles than this are refined without a plan, which would cost them more than it
+/// saves. For larger ones this much work is done twice.
+const SMALL: usize = 16_384;
+
 /// Refinement of a mesh in blocks, on the threads of the current pool of rayon, in slices.
 ///
 /// The mesh does not conform between slices. Small meshes have one block, and arrays in the order of
@@ -58,6 +63,8 @@ pub struct BlockRefiner {
 
 #[derive(Clone, Debug)]
 enum Stage {
+    /// As long as the mesh is small; with the mesh to begin with again.
+    Small(Box<Mesh>, Refiner),
     Plan(Planner),
     /// There is only one block.
     Whole(Refiner),
@@ -80,7 +87,13 @@ struct Blocks {
 impl BlockRefiner {
     /// Work that visits every triangle of `mesh` and all their descendants.
     pub fn new(mesh: &Mesh, limits: Limits) -> Self {
-        Self { limits, stage: Stage::Plan(Planner::new(mesh, limits)), capped: 0 }
+        let stage = if mesh.raw_triangle_count() < SMALL {
+            let max_triangles = limits.max_triangles.min(SMALL);
+            Stage::Small(Box::new(mesh.clone()), Refiner::new(mesh, Limits { max_triangles, ..limits }))
+        } else {
+            Stage::Plan(Planner::new(mesh, limits))
+        };
+        Self { limits, stage, capped: 0 }
     }
 
     /// Refines until done or until about `visits` triangles were asked about; at least one block for each
@@ -95,6 +108,18 @@ impl BlockRefiner {
         visits: usize,
     ) -> Result<Progress, RefineError> {
         match &mut self.stage {
+            Stage::Small(coarse, refiner) => match refine_in_order(refiner, mesh, rule, visits) {
+                Ok(Progress::More) => {}
+                Ok(Progress::Done) => {
+                    self.capped = refiner.capped();
+                    self.stage = Stage::Done;
+                }
+                Err(error) if error.is_over_budget() && self.limits.most_triangles() > SMALL => {
+                    mesh.clone_from(coarse);
+                    self.stage = Stage::Plan(Planner::new(mesh, self.limits));
+                }
+                Err(error) => return Err(error),
+            },
             Stage::Plan(planner) => {
                 if let Some(plan) = planner.advance(mesh, rule, visits)? {
                     self.stage = if plan.blocks() == 1 {
@@ -105,10 +130,7 @@ impl BlockRefiner {
                 }
             }
             Stage::Whole(refiner) => {
-                let mut exceeds = rule.exceeds();
-                let by_element = |element: &Element| Ok(exceeds(element.corners, element.triangle.level()));
-                let progress = refiner.advance(mesh, by_element, visits)?;
-                if progress == Progress::Done {
+                if refine_in_order(refiner, mesh, rule, visits)? == Progress::Done {
                     self.capped = refiner.capped();
                     self.stage = Stage::Done;
                 }
@@ -133,6 +155,17 @@ impl BlockRefiner {
     pub fn capped(&self) -> usize {
         self.capped
     }
+}
+
+/// Asks about `visits` triangles in the order of Algorithm 12.
+fn refine_in_order(
+    refiner: &mut Refiner,
+    mesh: &mut Mesh,
+    rule: &impl SharedRule,
+    visits: usize,
+) -> Result<Progress, RefineError> {
+    let mut exceeds = rule.exceeds();
+    refiner.advance(mesh, |element: &Element| Ok(exceeds(element.corners, element.triangle.level())), visits)
 }
 
 impl Mesh {
