@@ -169,11 +169,11 @@ fn refine_in_order(
 }
 
 impl Mesh {
-    /// Refines in one go; [`BlockRefiner`] does it in slices. Returns how many triangles the level cap left
+    /// Refines on all threads, in one go. Returns how many triangles the level cap left
     /// coarser than their target.
     ///
     /// # Errors
-    /// As [`BlockRefiner::advance`].
+    /// When a limit is reached. The mesh is then of no use.
     pub fn refine_in_blocks(
         &mut self,
         limits: &Limits,
