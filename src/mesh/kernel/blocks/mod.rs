@@ -26,7 +26,7 @@ use rayon::prelude::*;
 use super::{Element, Limits, Mesh, Progress, RefineError, Refiner};
 use crate::geometry::LatticePoint;
 use block::Block;
-use plan::{Plan, Planner};
+use plan::{BLOCK_TRIANGLES, Plan, Planner};
 use seams::Seams;
 
 /// A refinement rule that several threads can ask. It must be monotone.
@@ -48,12 +48,11 @@ where
 
 /// Meshes with fewer triangles than this are refined without a plan, which would cost them more than it
 /// saves. For larger ones this much work is done twice.
-const SMALL: usize = 16_384;
+const SMALL: usize = BLOCK_TRIANGLES as usize;
 
 /// Refinement of a mesh in blocks, on the threads of the current pool of rayon, in slices.
 ///
-/// The mesh does not conform between slices. Small meshes have one block, and arrays in the order of
-/// [`Refiner`].
+/// The mesh does not conform between slices. The arrays of small meshes have the order of [`Refiner`].
 #[derive(Clone, Debug)]
 pub struct BlockRefiner {
     limits: Limits,

@@ -8,7 +8,7 @@ use crate::mesh::kernel::{Element, Limits, Mesh, Progress, RefineError, Refiner,
 
 /// About the number of triangles that a block has at least, and half of the number that it has at most:
 /// 0.7 to 1.4 MB, for caches of 2 MB and more.
-const BLOCK_TRIANGLES: f64 = 16_384.0;
+pub(super) const BLOCK_TRIANGLES: f64 = 16_384.0;
 
 /// Paths down the bisection tree from which the number of triangles is estimated.
 const PATHS: u64 = 2;
