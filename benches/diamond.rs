@@ -2,7 +2,9 @@
 
 use glam::DVec2;
 use meshbrush::internals::geometry::{Lattice, LatticePoint, Rect};
-use meshbrush::internals::mesh::{Element, InvalidTarget, Limits, Mesh, bisection_edge_length};
+use meshbrush::internals::mesh::{
+    Element, InvalidTarget, LevelsWithin, Limits, Mesh, RuleAnswers, SharedRule, bisection_edge_length,
+};
 
 /// The coarse grid of 20 × 20 cells.
 pub fn coarse() -> Mesh {
@@ -17,19 +19,43 @@ pub fn coarse() -> Mesh {
 /// benches measure the mesh, not a formula.
 pub fn rule(mesh: &Mesh, level: u32) -> impl Fn(&Element) -> Result<bool, InvalidTarget> + use<> {
     let target = bisection_edge_length(1.0, level) * (1.0 + 1e-12);
-    let steps = mesh.lattice().cell_steps();
-    let inside = move |p: LatticePoint| p.x.abs_diff(10 * steps) + p.y.abs_diff(10 * steps) < 8 * steps;
+    let is_inside = is_inside(mesh);
     move |element| {
-        let target = if element.corners.into_iter().any(inside) { target } else { 20.0 };
+        let target = if element.corners.into_iter().any(is_inside) { target } else { 20.0 };
         Ok(element.diameter() > target)
     }
 }
 
 /// The same rule by corners and level, for refinement in blocks.
 pub fn rule_at(mesh: &Mesh, finest: u32) -> impl Fn([LatticePoint; 3], u32) -> bool + use<> {
+    let is_inside = is_inside(mesh);
+    move |corners, level| level < finest && corners.into_iter().any(&is_inside)
+}
+
+/// The same rule, which also knows that a triangle with three vertices in the diamond lies in it.
+pub fn rule_within(mesh: &Mesh, finest: u32) -> impl SharedRule + use<> {
+    let is_inside = is_inside(mesh);
+    move || Diamond { is_inside, finest }
+}
+
+struct Diamond<F> {
+    is_inside: F,
+    finest: u32,
+}
+
+impl<F: Fn(LatticePoint) -> bool> RuleAnswers for Diamond<F> {
+    fn levels_within(&mut self, corners: [LatticePoint; 3], level: u32) -> LevelsWithin {
+        match corners.map(&self.is_inside) {
+            [true, true, true] => LevelsWithin { exceed_below: self.finest, satisfied_from: self.finest },
+            inside => LevelsWithin::of_one(level, level < self.finest && inside.contains(&true)),
+        }
+    }
+}
+
+/// Whether a lattice point lies in the diamond.
+fn is_inside(mesh: &Mesh) -> impl Fn(LatticePoint) -> bool + Copy + Sync + use<> {
     let steps = mesh.lattice().cell_steps();
-    let inside = move |p: LatticePoint| p.x.abs_diff(10 * steps) + p.y.abs_diff(10 * steps) < 8 * steps;
-    move |corners, level| level < finest && corners.into_iter().any(inside)
+    move |p| p.x.abs_diff(10 * steps) + p.y.abs_diff(10 * steps) < 8 * steps
 }
 
 /// The diamond refined to `level`.

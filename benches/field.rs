@@ -3,11 +3,11 @@
 use std::sync::Arc;
 
 use meshbrush::internals::field::Transfer;
-use meshbrush::internals::geometry::Rect;
+use meshbrush::internals::geometry::{LatticePoint, Rect};
 use meshbrush::internals::layers::{
     Layer, LayerKind, PaintLayers, RasterReading, RasterSource, SettledSquares, SizeField, SizeFieldSpec,
 };
-use meshbrush::internals::mesh::SharedRule;
+use meshbrush::internals::mesh::{LevelsWithin, RuleAnswers, SharedRule};
 use meshbrush::internals::raster::{Raster, RasterPyramid};
 
 use crate::diamond;
@@ -17,12 +17,21 @@ const SIDE: u32 = 2048;
 
 /// h̄ is `target` in the diamond ‖x‖₁ < 8, and 20 elsewhere.
 pub fn diamond(target: f64) -> SizeField {
-    let coarse = diamond::coarse();
+    let target = target * (1.0 + 1e-6);
+    of_pixels(|distance| if distance < 0.0 { target } else { 20.0 })
+}
+
+/// h̄ is `target` on the boundary of the diamond, and grows by a tenth of the distance from it.
+pub fn graded(target: f64) -> SizeField {
+    of_pixels(|distance| target + 0.1 * distance.abs())
+}
+
+/// A raster of h̄ at the distance ‖x‖₁ − 8 from the diamond.
+fn of_pixels(target_diameter: impl Fn(f64) -> f64) -> SizeField {
     let bounds = Rect::around(glam::DVec2::ZERO, 10.0);
     let at = |n: u32| (f64::from(n) + 0.5) / f64::from(SIDE) * 20.0 - 10.0;
-    let is_inside = |n: u32| at(n % SIDE).abs() + at(n / SIDE).abs() < 8.0;
-    let target_f32 = (target * (1.0 + 1e-6)) as f32;
-    let values = (0..SIDE * SIDE).map(|n| if is_inside(n) { target_f32 } else { 20.0 }).collect();
+    let distance = |n: u32| at(n % SIDE).abs() + at(n / SIDE).abs() - 8.0;
+    let values = (0..SIDE * SIDE).map(|n| target_diameter(distance(n)) as f32).collect();
     let raster = Raster::from_values(bounds, [SIDE; 2], values);
     let source = RasterSource { name: "diamond".into(), raster: Arc::new(RasterPyramid::new(raster)) };
     let spec = SizeFieldSpec {
@@ -32,13 +41,21 @@ pub fn diamond(target: f64) -> SizeField {
         outline: None,
         gradation: None,
     };
-    SizeField::new(spec, coarse.lattice())
+    SizeField::new(spec, diamond::coarse().lattice())
 }
 
 /// The area rule.
 pub fn rule(field: &SizeField) -> impl SharedRule {
-    move || {
-        let mut squares = SettledSquares::default();
-        move |corners, level| field.asks_for_more_nearby(&mut squares, PaintLayers::blank(), corners, level)
+    || Answers { field, squares: SettledSquares::default() }
+}
+
+struct Answers<'a> {
+    field: &'a SizeField,
+    squares: SettledSquares,
+}
+
+impl RuleAnswers for Answers<'_> {
+    fn levels_within(&mut self, corners: [LatticePoint; 3], level: u32) -> LevelsWithin {
+        self.field.levels_within(&mut self.squares, PaintLayers::blank(), corners, level)
     }
 }

@@ -1,8 +1,10 @@
 //! Mesh generation: the report's series, extended to 33 million triangles.
 //!
 //! - *in order*: Algorithm 12, one triangle after the other.
-//! - *blocks*: on one and on two threads, in blocks that fit into the cache.
+//! - *blocks*: on one and on two threads, in blocks; the rule answers for all triangles within a triangle.
+//! - *asked*: as *blocks*, but the rule is asked about each triangle.
 //! - *field*: in blocks by the area rule on the pixels of a raster, as the window works.
+//! - *graded*: as *field*, where the target diameter changes everywhere; the number of triangles is another.
 //! - *writes*: 40 bytes for each triangle and nothing else: what the memory of this machine permits.
 //!
 //! *fresh* builds in newly allocated memory, as a first mesh does; mapping its pages takes a third of the
@@ -14,6 +16,7 @@ use std::time::{Duration, Instant};
 
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, BenchmarkId, Criterion, SamplingMode, Throughput};
+use meshbrush::internals::layers::SizeField;
 use meshbrush::internals::mesh::{Limits, Mesh, Refiner, SharedRule, bisection_edge_length};
 use meshbrush_benches::{diamond, field};
 use rayon::ThreadPool;
@@ -72,6 +75,12 @@ fn in_blocks(mesh: &mut Mesh, pool: &ThreadPool, rule: &impl SharedRule) {
     pool.install(|| mesh.refine_in_blocks(&Limits::default(), rule)).expect("within the default limits");
 }
 
+fn graded_triangles(field: &SizeField) -> u64 {
+    let mut mesh = diamond::coarse();
+    mesh.refine_in_blocks(&Limits::default(), &field::rule(field)).expect("within the default limits");
+    mesh.raw_triangle_count() as u64
+}
+
 /// First writes to memory, and writes to memory that is mapped, each by all threads of the pool.
 fn writes(group: &mut BenchmarkGroup<WallTime>, pool: &ThreadPool, triangles: u64) {
     let threads = pool.current_num_threads();
@@ -118,17 +127,28 @@ fn main() {
             refiner.advance(mesh, &rule, usize::MAX).expect("within the default limits");
             assert_eq!(mesh.raw_triangle_count() as u64, triangles);
         });
-        let rule = diamond::rule_at(&coarse, level);
-        let field = field::diamond(bisection_edge_length(1.0, level));
+        let (within, rule) = (diamond::rule_within(&coarse, level), diamond::rule_at(&coarse, level));
+        let length = bisection_edge_length(1.0, level);
+        let (field, graded) = (field::diamond(length), field::graded(length));
         for pool in &pools {
             let threads = pool.current_num_threads();
             measure(&mut group, &format!("blocks, {threads} threads"), triangles, |mesh| {
+                in_blocks(mesh, pool, &within);
+                assert_eq!(mesh.raw_triangle_count() as u64, triangles);
+            });
+            measure(&mut group, &format!("asked, {threads} threads"), triangles, |mesh| {
                 in_blocks(mesh, pool, &|| &rule);
                 assert_eq!(mesh.raw_triangle_count() as u64, triangles);
             });
             measure(&mut group, &format!("field, {threads} threads"), triangles, |mesh| {
                 in_blocks(mesh, pool, &field::rule(&field));
             });
+            let made = graded_triangles(&graded);
+            group.throughput(Throughput::Elements(made));
+            measure(&mut group, &format!("graded, {threads} threads"), made, |mesh| {
+                in_blocks(mesh, pool, &field::rule(&graded));
+            });
+            group.throughput(Throughput::Elements(triangles));
             writes(&mut group, pool, triangles);
         }
     }

@@ -490,11 +490,11 @@ fn a_dab_too_dear_to_count_is_said_to_be() {
 }
 
 #[test]
-fn the_memory_budget_holds_while_one_paints_and_while_the_mesh_is_made_anew() {
+fn the_memory_budget_holds_while_one_paints_and_while_another_mesh_is_made() {
     let settings = Settings { max_memory: 2_000_000, ..Settings::default() };
     let mut document = Document::new(settings, None).unwrap();
     let mut follower = Follower::new(&mut document).unwrap();
-    let room = 2_000_000 / 86;
+    let room = 2_000_000 / 98;
     let brush = Brush { medium: Medium::Risk(1.0), radius: 0.1, hardness: 1.0, strength: 1.0 };
     let stroke = |document: &mut Document, y: f64| {
         document.begin_stroke(brush);

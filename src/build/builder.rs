@@ -170,7 +170,7 @@ impl MeshBuilder {
         let mesh = match &self.step {
             None | Some(Step::Index(_) | Step::Grid(_)) => return 0,
             Some(Step::Check { mesh, .. }) => mesh,
-            Some(Step::Refine(refinement)) => &refinement.built.mesh,
+            Some(Step::Refine(refinement)) => return refinement.triangles(),
             Some(Step::Classify { built, .. } | Step::Done(built)) => &built.mesh,
         };
         mesh.raw_triangle_count()
@@ -291,6 +291,15 @@ impl Refinement {
                 *vertex_rule = criterion.into_vertex_rule();
                 progress
             }
+        }
+    }
+
+    /// How many triangles the mesh has or will have, as far as that is known.
+    fn triangles(&self) -> usize {
+        let so_far = self.built.mesh.raw_triangle_count();
+        match &self.refiner {
+            RefinerByRule::Area(refiner) => refiner.triangles().max(so_far),
+            RefinerByRule::Vertex(..) => so_far,
         }
     }
 

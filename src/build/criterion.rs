@@ -1,10 +1,8 @@
-use std::convert::Infallible;
-
 use crate::domain::DomainOnLattice;
 use crate::field::{RefinementRule, VertexRule};
 use crate::geometry::LatticePoint;
 use crate::layers::{LeastTarget, PaintLayers, SettledSquares, SizeField};
-use crate::mesh::{Element, InvalidTarget, SharedRule, bisection_edge_length};
+use crate::mesh::{Element, InvalidTarget, LevelsWithin, RuleAnswers, SharedRule, bisection_edge_length};
 
 /// The local refinement condition (Eq. 13 of \[Report\]) of a whole mesh: h̄ by a refinement rule, joined
 /// with what the boundary of the domain asks for.
@@ -70,16 +68,7 @@ impl<'a> RefinementCriterion<'a> {
 
     /// The area rule, for several threads.
     pub fn shared(&self) -> impl SharedRule {
-        move || {
-            let mut squares = SettledSquares::default();
-            move |corners, level| {
-                let by_field =
-                    || Ok(self.field.asks_for_more_nearby(&mut squares, self.paint, corners, level));
-                self.domain
-                    .exceeds_at(corners, level, by_field)
-                    .unwrap_or_else(|never: Infallible| match never {})
-            }
-        }
+        || AreaAnswers { criterion: self, squares: SettledSquares::default() }
     }
 
     /// Whether a triangle, by its corners and level, exceeds its target by the area rule.
@@ -127,5 +116,19 @@ impl<'a> RefinementCriterion<'a> {
         let [first, ..] = decided;
         let less = |a: LeastTarget, b: LeastTarget| if b.target < a.target { b } else { a };
         decided.into_iter().fold(first, less)
+    }
+}
+
+/// Answers of the area rule for one thread.
+struct AreaAnswers<'a> {
+    criterion: &'a RefinementCriterion<'a>,
+    squares: SettledSquares,
+}
+
+impl RuleAnswers for AreaAnswers<'_> {
+    fn levels_within(&mut self, corners: [LatticePoint; 3], level: u32) -> LevelsWithin {
+        let RefinementCriterion { domain, field, paint, .. } = self.criterion;
+        let by_field = || field.levels_within(&mut self.squares, paint, corners, level);
+        domain.levels_within(corners, level, by_field)
     }
 }

@@ -1,5 +1,6 @@
 //! How a mesh meets the boundary of its domain.
 
+use std::convert::Infallible;
 use std::sync::Arc;
 
 use glam::DVec2;
@@ -8,7 +9,7 @@ use super::region_builder::RegionOnLatticeBuilder;
 use super::{Domain, RegionOnLattice};
 use crate::field::Formula;
 use crate::geometry::{Lattice, LatticePoint, Rect};
-use crate::mesh::{Element, Progress, bisection_edge_length, level_for_diameter};
+use crate::mesh::{Element, LevelsWithin, Progress, bisection_edge_length, level_for_diameter};
 
 /// How the mesh meets the boundary of a region.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -223,6 +224,25 @@ impl DomainOnLattice {
             return Ok(true);
         }
         Ok(by_field()? && !region.lies_outside(corners, level))
+    }
+
+    /// As [`Self::exceeds_at`], with what is known of all triangles within.
+    pub(crate) fn levels_within(
+        &self,
+        corners: [LatticePoint; 3],
+        level: u32,
+        by_field: impl FnOnce() -> LevelsWithin,
+    ) -> LevelsWithin {
+        let Some(region) = self.region.as_ref().filter(|_| self.is_fitted()) else { return by_field() };
+        match region.side_of(corners, level) {
+            Some(true) => by_field(),
+            Some(false) => LevelsWithin::of_one(level, false),
+            None => {
+                let by_field = || Ok::<_, Infallible>(by_field().exceeds(level) == Some(true));
+                let Ok(exceeds) = self.exceeds_at(corners, level, by_field);
+                LevelsWithin::of_one(level, exceeds)
+            }
+        }
     }
 
     /// As [`Self::excludes`], for a triangle by its corners.

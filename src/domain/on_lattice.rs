@@ -93,9 +93,15 @@ impl RegionOnLattice {
 
     /// Whether a triangle of the mesh, given by its corners and level, does not touch the region.
     pub fn lies_outside(&self, corners: [LatticePoint; 3], level: u32) -> bool {
+        self.side_of(corners, level) == Some(false)
+    }
+
+    /// Whether a triangle of the mesh, given by its corners and level, lies in the region; `None` where the
+    /// outline touches it.
+    pub fn side_of(&self, corners: [LatticePoint; 3], level: u32) -> Option<bool> {
         match self.relation_to(corners, level, &|_| true) {
-            Relation::Crossed => false,
-            Relation::Uncrossed(inside) => !inside,
+            Relation::Crossed => None,
+            Relation::Uncrossed(inside) => Some(inside),
         }
     }
 

@@ -1,17 +1,18 @@
 //! Answers of the area rule for whole squares of triangles.
 
 use super::engine::LEVELS;
-use super::engine::asked::Share;
 use super::engine::cells::Cells;
 use super::{PaintLayers, SizeField};
+use crate::field::Transfer;
 use crate::geometry::{Lattice, LatticePoint};
+use crate::mesh::LevelsWithin;
 
 /// What a size field asks for in squares of the lattice, as far as it was asked.
 ///
 /// ```text
-///   +-------------------+     a triangle and the dyadic square around it, four or eight times as wide:
-///   |                   |     where all cells of the square and beside it ask for more than a level, or none
-///   |      +----+       |     do, the same is true of every triangle of that level in the square
+///   +-------------------+     a triangle and the dyadic square around it, up to eight times as wide: the
+///   |                   |     range of what the square and the cells beside it ask for says for most levels
+///   |      +----+       |     whether all triangles of that level in the square exceed their target, or none
 ///   |      | \  |       |
 ///   |      +----+-------|
 ///   +-------------------+
@@ -28,23 +29,19 @@ pub struct SettledSquares {
 #[derive(Clone, Copy, Debug)]
 struct Square {
     key: u64,
-    /// Levels that were asked about, or follow from those.
-    asked: u64,
-    /// Levels than which all cells ask for more.
-    all: u64,
-    /// Levels than which no cell asks for more.
-    none: u64,
+    /// What is known of all triangles within.
+    levels: LevelsWithin,
 }
 
-/// The number of squares that are kept: 16 KB.
+/// The number of squares that are kept: 8 KB.
 const KEPT_BITS: u32 = 9;
 /// Triangles are asked about themselves where the least dyadic square around them has fewer than 2³ steps.
 const LEAST_BITS: u32 = 3;
-const EMPTY: Square = Square { key: u64::MAX, asked: 0, all: 0, none: 0 };
 
 impl Default for SettledSquares {
     fn default() -> Self {
-        Self { squares: vec![EMPTY; 1 << KEPT_BITS] }
+        let empty = Square { key: u64::MAX, levels: LevelsWithin::UNKNOWN };
+        Self { squares: vec![empty; 1 << KEPT_BITS] }
     }
 }
 
@@ -59,15 +56,25 @@ impl SizeField {
         corners: [LatticePoint; 3],
         level: u32,
     ) -> bool {
-        match self.settled(squares, paint, corners, level) {
-            Share::All => true,
-            Share::None => false,
-            Share::Some => self.asks_for_more(paint, corners, level),
-        }
+        let settled = self.settled(squares, paint, corners, level).exceeds(level);
+        settled.unwrap_or_else(|| self.asks_for_more(paint, corners, level))
     }
 
-    /// Whether all or no triangles of the level around this one ask for more; [`Share::Some`] if that is not
-    /// known.
+    /// What the area rule says of a triangle and of all triangles within. `squares` must have been used for
+    /// this field and these pixels only.
+    #[inline]
+    pub fn levels_within(
+        &self,
+        squares: &mut SettledSquares,
+        paint: &PaintLayers,
+        corners: [LatticePoint; 3],
+        level: u32,
+    ) -> LevelsWithin {
+        let settled = self.settled(squares, paint, corners, level);
+        settled.decided_at(level, || self.asks_for_more(paint, corners, level))
+    }
+
+    /// What is known of all triangles in the square around one of this level.
     #[inline]
     fn settled(
         &self,
@@ -75,10 +82,10 @@ impl SizeField {
         paint: &PaintLayers,
         corners: [LatticePoint; 3],
         level: u32,
-    ) -> Share {
+    ) -> LevelsWithin {
         let bits = self.square_bits().get(level as usize).map_or(0, |&bits| u32::from(bits));
         if bits == 0 {
-            return Share::Some;
+            return LevelsWithin::UNKNOWN;
         }
         let [a, b, c] = corners;
         let [x, y] = [a.x.min(b.x).min(c.x) >> bits, a.y.min(b.y).min(c.y) >> bits];
@@ -86,29 +93,14 @@ impl SizeField {
         let place = key.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> (64 - KEPT_BITS);
         let square = &mut squares.squares[place as usize];
         if square.key != key {
-            *square = Square { key, ..EMPTY };
+            *square = Square { key, levels: self.levels_in_square(paint, bits, [x, y]) };
         }
-        let of_level = 1 << level;
-        if square.asked & of_level == 0 {
-            self.ask_about(square, paint, (bits, [x, y]), level);
-        }
-        if square.all & of_level != 0 {
-            Share::All
-        } else if square.none & of_level != 0 {
-            Share::None
-        } else {
-            Share::Some
-        }
+        square.levels
     }
 
+    /// What is known of all triangles in a dyadic square of 2^bits steps.
     #[cold]
-    fn ask_about(
-        &self,
-        square: &mut Square,
-        paint: &PaintLayers,
-        (bits, [x, y]): (u32, [u32; 2]),
-        level: u32,
-    ) {
+    fn levels_in_square(&self, paint: &PaintLayers, bits: u32, [x, y]: [u32; 2]) -> LevelsWithin {
         let extent = self.lattice().extent();
         let (min, limit) =
             ([i64::from(x) << bits, i64::from(y) << bits], [extent.x, extent.y].map(i64::from));
@@ -117,26 +109,19 @@ impl SizeField {
             min: min.map(|v| (v - 1).max(0)),
             max: [0, 1].map(|axis: usize| (min[axis] + (1 << bits) + 1).min(limit[axis])),
         };
-        let (up_to, from) = ((2 << level) - 1, u64::MAX << level);
-        square.asked |= 1 << level;
-        match self.share_below(paint, &cells, level) {
-            // Coarser levels are longer, finer ones shorter.
-            Share::All => (square.all, square.asked) = (square.all | up_to, square.asked | up_to),
-            Share::None => (square.none, square.asked) = (square.none | from, square.asked | from),
-            Share::Some => {}
+        let ([least, greatest], _) = self.asked_diameters(paint, &cells);
+        let Transfer { h_min, h_max, .. } = self.spec().transfer;
+        // What is near can ask for more by gradation.
+        let least = if self.spec().gradation.is_some() { h_min } else { least.clamp(h_min, h_max) };
+        LevelsWithin {
+            exceed_below: self.first_level_within(greatest.clamp(h_min, h_max)),
+            satisfied_from: self.first_level_within(least),
         }
     }
 
-    /// Where some cells ask for more than a level, with gradation.
-    fn share_below(&self, paint: &PaintLayers, cells: &Cells, level: u32) -> Share {
-        if let Some(asks) = self.limits_decide(level) {
-            return if asks { Share::All } else { Share::None };
-        }
-        match self.asks_in(paint, cells, level as usize) {
-            // What is near can ask for more by gradation.
-            Share::None if self.spec().gradation.is_some() => Share::Some,
-            share => share,
-        }
+    /// The first level whose triangles are no longer than a diameter in world units.
+    fn first_level_within(&self, diameter: f64) -> u32 {
+        self.lengths().partition_point(|&length| length > diameter) as u32
     }
 }
 

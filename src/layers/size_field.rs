@@ -118,15 +118,14 @@ impl SizeField {
         (length > h_max).then_some(true)
     }
 
+    /// ℓ_b of each level in world units.
+    pub(super) fn lengths(&self) -> &[f64; LEVELS] {
+        &self.lengths
+    }
+
     /// See [`settled::square_bits`].
     pub(super) fn square_bits(&self) -> &[u8; LEVELS] {
         &self.square_bits
-    }
-
-    /// Where some cells ask for more than a level, before gradation, as far as it is known without dividing
-    /// them.
-    pub(super) fn asks_in(&self, paint: &PaintLayers, cells: &Cells, level: usize) -> Share {
-        self.asks(self.layers.len(), paint, cells, level).0
     }
 
     /// Whether a cell that touches the triangle asks for more than the level, before gradation.

@@ -115,6 +115,19 @@ impl SizeField {
 
     /// The least and the greatest h̄ of some cells before gradation, and where to divide them to know more.
     pub(super) fn diameters(&self, paint: &PaintLayers, cells: &Cells) -> ([f64; 2], Option<Cut>) {
+        let ([least, greatest], cut) = self.asked_diameters(paint, cells);
+        let (mut low, mut high) = (self.limited(least), self.limited(greatest));
+        if greatest == f64::INFINITY && least < f64::INFINITY {
+            // Somewhere perhaps nothing is asked for, and there h̄ may be less or more than what is asked.
+            let unasked = self.spec().unasked;
+            (low, high) = (low.min(unasked), self.spec().transfer.h_max.max(unasked));
+        }
+        ([low, high], cut.filter(|_| low < high))
+    }
+
+    /// The least and the greatest diameter that the layers ask for in some cells, infinite where nothing is
+    /// asked for, and where to divide them to know more.
+    pub(super) fn asked_diameters(&self, paint: &PaintLayers, cells: &Cells) -> ([f64; 2], Option<Cut>) {
         let (mut least, mut greatest, mut cut) = (f64::INFINITY, f64::INFINITY, None);
         for layer in self.compiled() {
             let (diameters, layer_cut) = layer.diameters(paint, cells, self.lattice());
@@ -131,12 +144,6 @@ impl SizeField {
             }
             cut = layer_cut.or(cut);
         }
-        let (mut low, mut high) = (self.limited(least), self.limited(greatest));
-        if greatest == f64::INFINITY && least < f64::INFINITY {
-            // Somewhere perhaps nothing is asked for, and there h̄ may be less or more than what is asked.
-            let unasked = self.spec().unasked;
-            (low, high) = (low.min(unasked), self.spec().transfer.h_max.max(unasked));
-        }
-        ([low, high], cut.filter(|_| low < high))
+        ([least, greatest], cut)
     }
 }

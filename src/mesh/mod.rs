@@ -30,9 +30,9 @@ pub use extract::{
     BoundaryEdge, Cell, Extract, MeshEdge, MeshPatch, MeshStatistics, MeshView, PatchPieces, PatchTriangle,
 };
 pub use kernel::{
-    BlockRefiner, Changes, CoarseError, Element, InvalidTarget, Limits, MOST_TRIANGLES, MemoryLimit, Mesh,
-    MeshCopy, Neighbour, NodeId, Orientation, Progress, RefineError, Refiner, SharedRule, TreeTriangle,
-    Triangle, TriangleId, Updater, bisection_edge_length, level_for_diameter,
+    BlockRefiner, Changes, CoarseError, Element, InvalidTarget, LevelsWithin, Limits, MOST_TRIANGLES,
+    MemoryLimit, Mesh, MeshCopy, Neighbour, NodeId, Orientation, Progress, RefineError, Refiner, RuleAnswers,
+    SharedRule, TreeTriangle, Triangle, TriangleId, Updater, bisection_edge_length, level_for_diameter,
 };
 pub use query::{
     Adjacency, Cause, Cleaning, Fingerprint, Forecast, KeptParts, Location, Locator, PatchedLocator, Removed,

@@ -22,6 +22,14 @@ use std::hint::select_unpredictable;
 
 use super::{Mesh, Neighbour, NodeId, Triangle, TriangleId};
 
+/// The vertices of the kept and of the new child (Algorithm 1), as ids or as points.
+#[inline(always)]
+pub(super) fn children_vertices<V: Copy>([a, b, c]: [V; 3], midpoint: V, odd: bool) -> [[V; 3]; 2] {
+    let by_level = |odd_level, even_level| select_unpredictable(odd, odd_level, even_level);
+    let (second, third) = (by_level(midpoint, c), by_level(c, midpoint));
+    [[a, by_level(midpoint, b), third], [b, second, third]]
+}
+
 /// What the two children of one parent see across the two halves of the cut edge.
 #[derive(Clone, Copy)]
 struct Facing {
@@ -94,12 +102,9 @@ impl Mesh {
         let new_sees = [by_match(n3, n2), by_match(facing.new, kept), by_match(kept, facing.new)];
         let moved = by_match(n3, n2);
 
-        // Algorithm 1: at odd levels the second child is the mirror image of its parent.
-        let [a, b, c] = t.vertices;
         let odd = t.bisection_end() == 1;
-        let by_level = |odd_level, even_level| select_unpredictable(odd, odd_level, even_level);
-        let kept_vertices = [a, by_level(midpoint, b), by_level(c, midpoint)];
-        let new_vertices = [b, by_level(midpoint, c), by_level(c, midpoint)];
+        let [kept_vertices, new_vertices] = children_vertices(t.vertices, midpoint, odd);
+        // Algorithm 1: at odd levels the second child is the mirror image of its parent.
         let new_orientation = if odd { t.orientation().reversed() } else { t.orientation() };
         let kind = t.kind().finer();
         self.triangles[parent.index()] = Triangle::new(kept_vertices, kept_sees, t.orientation(), kind);

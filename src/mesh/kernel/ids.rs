@@ -57,9 +57,6 @@ impl TriangleId {
 }
 
 /// What lies across an edge: a triangle, or the boundary of the domain (β of the report).
-///
-/// While a mesh is refined in blocks, a block has marks of seams where other blocks lie. No finished mesh has
-/// them.
 #[repr(transparent)]
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Pod, Zeroable)]
 pub struct Neighbour(u32);
@@ -68,31 +65,16 @@ impl Neighbour {
     /// Nothing lies across the edge.
     pub const BOUNDARY: Self = Self(u32::MAX);
 
-    /// The first of the numbers that are no triangle.
-    const MARKS: u32 = MOST_TRIANGLES as u32 + 1;
-
     /// The triangle across the edge, or `None` at the boundary.
     #[inline]
     pub const fn triangle(self) -> Option<TriangleId> {
-        if self.0 >= Self::MARKS { None } else { Some(TriangleId(self.0)) }
+        if self.0 == Self::BOUNDARY.0 { None } else { Some(TriangleId(self.0)) }
     }
 
-    /// Whether one of them is no triangle.
+    /// The entry so many places behind; only of triangles.
     #[inline]
-    pub(super) fn has_mark(neighbours: [Self; 3]) -> bool {
-        neighbours.iter().fold(0, |bits, across| bits | across.0) >= Self::MARKS
-    }
-
-    /// The mark of a seam.
-    pub(super) const fn seam(number: u32) -> Self {
-        assert!(number < u32::MAX - Self::MARKS, "there are fewer seams than triangles");
-        Self(Self::MARKS + number)
-    }
-
-    /// The number of the seam that the edge lies on, if any.
-    #[inline]
-    pub(super) const fn as_seam(self) -> Option<u32> {
-        if self.0 >= Self::MARKS && self.0 != u32::MAX { Some(self.0 - Self::MARKS) } else { None }
+    pub(super) const fn behind(self, places: u32) -> Self {
+        Self(self.0.wrapping_add(places))
     }
 }
 

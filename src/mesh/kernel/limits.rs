@@ -13,7 +13,7 @@ pub const MOST_TRIANGLES: usize = (1 << 31) - 1;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
     /// Most triangles; refinement that would pass it stops with an error. A triangle and its share of the
-    /// nodes take 38 bytes, and 4 more while the mesh is refined from scratch.
+    /// nodes take 38 bytes, and about 20 more while the mesh is refined from scratch.
     pub max_triangles: usize,
     /// Deepest level, or `None` for as deep as the lattice goes. Triangles at this level count as satisfied.
     pub max_level: Option<u32>,
@@ -63,8 +63,10 @@ pub struct MemoryLimit {
 
 /// A triangle and its share of the nodes, in bytes ([`Mesh::bytes`](crate::mesh::Mesh::bytes)).
 const IN_THE_MESH: usize = 38;
-/// While it is refined from scratch: the order of visits, and the vertex rule's values at nodes.
-const WHILE_MADE: usize = 8;
+/// While it is refined from scratch: the mesh of the blocks, which has about a third of the triangles where
+/// the target diameter changes everywhere; or by the vertex rule, the order of visits and the values
+/// at nodes.
+const WHILE_MADE: usize = 20;
 /// While it is updated in place: the marks, with room to double
 /// ([`Updater::bytes`](crate::mesh::Updater::bytes)).
 const WHILE_UPDATED: usize = 2;

@@ -26,7 +26,7 @@ use glam::DVec2;
 
 use crate::geometry::{LATTICE_BITS, Lattice, LatticePoint};
 
-pub use blocks::{BlockRefiner, SharedRule};
+pub use blocks::{BlockRefiner, LevelsWithin, RuleAnswers, SharedRule};
 pub use changes::Changes;
 pub use coarse::CoarseError;
 pub use copy::MeshCopy;
@@ -228,11 +228,9 @@ impl KindCounts {
         self.0[kind.index()] += 1;
     }
 
-    /// Some triangles have given way to others.
-    fn replace(&mut self, before: &Self, after: &Self) {
-        for ((count, before), after) in self.0.iter_mut().zip(before.0).zip(after.0) {
-            *count = *count + after - before;
-        }
+    /// So many triangles of this kind are there, too.
+    fn add_many(&mut self, kind: Kind, count: u32) {
+        self.0[kind.index()] += count;
     }
 
     /// A triangle has changed its class.

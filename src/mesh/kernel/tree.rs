@@ -34,12 +34,6 @@ impl TreeTriangle {
         Self { apex: mesh.node(triangle.apex()), ends, level: triangle.level() }
     }
 
-    /// A triangle of the tree by its corners from the apex, as in [`Self::corners`].
-    #[inline]
-    pub(in crate::mesh) fn from_corners([apex, from, to]: [LatticePoint; 3], level: u32) -> Self {
-        Self { apex, ends: [from, to], level }
-    }
-
     /// The corners: the apex, where the right angle is, and the ends of the bisection edge.
     #[inline]
     pub fn corners(&self) -> [LatticePoint; 3] {

@@ -64,6 +64,12 @@ impl Kind {
         Self(self.0 + 1)
     }
 
+    /// The kind of descendants so many levels down.
+    #[inline]
+    pub(in crate::mesh) const fn finer_by(self, levels: u32) -> Self {
+        Self(self.0 + levels)
+    }
+
     /// The kind of the parent.
     #[inline]
     pub(in crate::mesh) const fn coarser(self) -> Self {
@@ -106,6 +112,17 @@ impl Triangle {
         kind: Kind,
     ) -> Self {
         Self { vertices, raw_neighbours: neighbours, orientation: orientation as u32, kind }
+    }
+
+    /// The same triangle in another mesh.
+    #[inline]
+    pub(in crate::mesh) fn renumbered(
+        &self,
+        vertices: [NodeId; 3],
+        neighbours: [Neighbour; 3],
+        kind: Kind,
+    ) -> Self {
+        Self { vertices, raw_neighbours: neighbours, kind, ..*self }
     }
 
     /// How many bisections made this triangle from a coarse one, L(t).

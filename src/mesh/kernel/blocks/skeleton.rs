@@ -1,0 +1,125 @@
+//! The mesh of the blocks: each of its triangles is refined to one depth everywhere.
+//!
+//! ```text
+//!        /|\                 /|\         Where blocks halve a common edge a different number of times, the
+//!       / | \               / | \        one that halves it less is bisected: its children are blocks of one
+//!      /  |  \     =>      /  | /\       level less, or single triangles. Only what lies along the edge is
+//!     / 4 | 6 \           / 3 |/ 6\      bisected again and again.
+//!    -----------         -----------
+//! ```
+
+use super::survey::{Slots, Wanted};
+use super::template::halvings;
+use crate::mesh::kernel::{Limits, Mesh, Progress, RefineError, TriangleId};
+
+/// The mesh of the blocks, in slices.
+#[derive(Clone, Debug)]
+pub(super) struct Skeleton {
+    mesh: Mesh,
+    /// What is to become of each triangle.
+    wanted: Vec<Wanted>,
+    slots: Slots,
+    /// Triangles to look at.
+    waiting: Vec<TriangleId>,
+    chain: Vec<TriangleId>,
+}
+
+/// A mesh of blocks that match at their edges.
+#[derive(Clone, Debug)]
+pub(super) struct Blocks {
+    pub mesh: Mesh,
+    /// By how many levels each triangle is refined.
+    pub depths: Vec<u8>,
+}
+
+impl Skeleton {
+    /// The slots say what is to become of the triangles of `mesh`.
+    pub fn new(mesh: &Mesh, slots: Slots) -> Self {
+        let count = mesh.raw_triangle_count();
+        let waiting = (0..count).rev().map(TriangleId::from_index).collect();
+        Self { mesh: mesh.clone(), wanted: slots[..count].to_vec(), slots, waiting, chain: Vec::new() }
+    }
+
+    /// Looks at about `visits` triangles.
+    ///
+    /// # Errors
+    /// When there are more blocks than the limits allow triangles.
+    pub fn advance(&mut self, limits: &Limits, visits: usize) -> Result<Progress, RefineError> {
+        // Ends: all bisections belong to the smallest mesh.
+        for _ in 0..visits {
+            let Some(id) = self.waiting.pop() else { return Ok(Progress::Done) };
+            if let Some(bisected) = self.unsettled(id) {
+                if bisected != id {
+                    self.waiting.push(id);
+                }
+                self.bisect(bisected, limits)?;
+            }
+        }
+        Ok(Progress::More)
+    }
+
+    /// The triangle to be bisected: this one, or a neighbour that halves a common edge less.
+    #[inline]
+    fn unsettled(&self, id: TriangleId) -> Option<TriangleId> {
+        let Wanted::Uniform(depth) = self.wanted[id.index()] else { return Some(id) };
+        let neighbours = self.mesh.triangle(id).raw_neighbours;
+        let across = neighbours.into_iter().enumerate().filter_map(|(edge, n)| Some((edge, n.triangle()?)));
+        for (edge, across) in across {
+            // One that is bisected anyway waits, too.
+            let Wanted::Uniform(depth_across) = self.wanted[across.index()] else { continue };
+            let edge_across = edge_shared_with(&self.mesh, across, id);
+            let (here, there) = (halvings(depth, edge), halvings(depth_across, edge_across));
+            if here != there {
+                return Some(if here < there { id } else { across });
+            }
+        }
+        None
+    }
+
+    /// Bisects a triangle and what must be bisected with it.
+    fn bisect(&mut self, id: TriangleId, limits: &Limits) -> Result<(), RefineError> {
+        let Self { mesh, wanted, slots, waiting, chain } = self;
+        mesh.room_for(id, Mesh::most_new_triangles(mesh.triangle(id).level()), limits)?;
+        mesh.refine_triangle_with(id, chain, |_, parent| {
+            let new = TriangleId::from_index(wanted.len());
+            let [of_kept, of_new] = match wanted[parent.index()] {
+                Wanted::Bisected(first) => [slots[first as usize], slots[first as usize + 1]],
+                Wanted::Uniform(depth) => [Wanted::Uniform(depth.saturating_sub(1)); 2],
+                Wanted::Open => unreachable!("the survey has asked about all triangles"),
+            };
+            wanted[parent.index()] = of_kept;
+            wanted.push(of_new);
+            waiting.extend([new, parent]);
+        });
+        Ok(())
+    }
+
+    /// The blocks, once all are settled.
+    pub fn finish(self) -> Blocks {
+        let depth = |wanted| match wanted {
+            Wanted::Uniform(depth) => depth as u8,
+            Wanted::Open | Wanted::Bisected(_) => unreachable!("all triangles are settled"),
+        };
+        Blocks { depths: self.wanted.into_iter().map(depth).collect(), mesh: self.mesh }
+    }
+}
+
+impl Blocks {
+    /// How many triangles all blocks have.
+    pub fn triangles(&self) -> usize {
+        self.depths.iter().map(|&depth| 1 << depth).sum()
+    }
+}
+
+/// Which edge of a triangle is shared with this neighbour.
+#[inline]
+pub(super) fn edge_shared_with(mesh: &Mesh, id: TriangleId, neighbour: TriangleId) -> usize {
+    let [first, second, _] = mesh.triangle(id).raw_neighbours.map(|n| n == neighbour.into());
+    if first {
+        0
+    } else if second {
+        1
+    } else {
+        2
+    }
+}

@@ -1,0 +1,293 @@
+//! Which triangles of the bisection tree exceed their target.
+//!
+//! ```text
+//!            exceeds                        slots:   0: bisected, children at 1 and 2
+//!           /       \                                1: uniform, 0 levels
+//!     satisfied    exceeds                           2: uniform, 1 level
+//!                 /       \
+//!          satisfied     satisfied
+//! ```
+//!
+//! Tasks go down the tree depth first. Each asks a limited number of questions; what it leaves open are the
+//! tasks of the next round. So tasks are small, and few levels of the tree are enough to keep all threads
+//! busy.
+
+use rayon::prelude::*;
+
+use super::template::MOST_DEPTH;
+use super::{LevelsWithin, RuleAnswers, SharedRule};
+use crate::geometry::LatticePoint;
+use crate::mesh::kernel::bisect::children_vertices;
+use crate::mesh::kernel::{Limits, Mesh, Progress, RefineError, TriangleId};
+
+/// The most triangles whose children a task asks about.
+const TASK_VISITS: usize = 2048;
+/// About so many tasks a round is divided into, where it has enough subtrees.
+const TASKS: usize = 64;
+/// The most subtrees of a task.
+const MOST_SUBTREES: usize = 64;
+/// The most tasks between two looks at the limits.
+const MOST_TASKS: usize = 1024;
+
+/// What is to become of a triangle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Wanted {
+    /// Nobody has asked yet.
+    Open,
+    /// It is refined by so many levels, everywhere.
+    Uniform(u32),
+    /// It is bisected; its children have two slots from this one on, the one that keeps the parent's entry
+    /// first.
+    Bisected(u32),
+}
+
+/// What is to become of the triangles of a mesh: those have the first slots, in the order of their ids.
+pub(super) type Slots = Vec<Wanted>;
+
+/// The survey of a mesh, in slices.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Survey {
+    slots: Slots,
+    /// The subtrees of this round.
+    round: Vec<Subtree>,
+    /// The first of them that was not asked about.
+    next: usize,
+    /// The subtrees of the next round.
+    open: Vec<Subtree>,
+    triangles: usize,
+    capped: usize,
+}
+
+/// A triangle of the tree, and its slot.
+#[derive(Clone, Copy, Debug)]
+struct Subtree {
+    slot: u32,
+    level: u32,
+    /// In the order of [`Triangle::vertices`](crate::mesh::Triangle::vertices).
+    corners: [LatticePoint; 3],
+}
+
+impl Survey {
+    pub fn new(mesh: &Mesh) -> Self {
+        let subtree = |index| {
+            let id = TriangleId::from_index(index);
+            Subtree { slot: id.0, level: mesh.triangle(id).level(), corners: mesh.corners(id) }
+        };
+        let count = mesh.raw_triangle_count();
+        Self { slots: vec![Wanted::Open; count], round: (0..count).map(subtree).collect(), ..Self::default() }
+    }
+
+    /// Asks about `visits` triangles, or some more.
+    ///
+    /// # Errors
+    /// When there are more triangles than the limits allow, or too fine ones.
+    pub fn advance(
+        &mut self,
+        mesh: &Mesh,
+        limits: &Limits,
+        rule: &impl SharedRule,
+        visits: usize,
+    ) -> Result<Progress, RefineError> {
+        if self.next == self.round.len() {
+            (self.round, self.next) = (std::mem::take(&mut self.open), 0);
+        }
+        let tasks = (visits / TASK_VISITS).clamp(rayon::current_num_threads(), MOST_TASKS);
+        let size = (self.round.len() / TASKS).clamp(1, MOST_SUBTREES);
+        let end = (self.next + tasks * size).min(self.round.len());
+        let subtrees = self.round[self.next..end].par_chunks(size).with_max_len(1);
+        let found: Vec<_> =
+            subtrees.map(|subtrees| Task::new(mesh, limits, rule.answers()).survey(subtrees)).collect();
+        let firsts = (self.next..).step_by(size);
+        for (found, first) in found.into_iter().zip(firsts) {
+            if let Some(at) = found.too_fine {
+                return Err(RefineError::too_fine(mesh.lattice(), at));
+            }
+            self.take(found, first);
+        }
+        self.next = end;
+        if self.triangles > limits.most_triangles() {
+            return Err(limits.passed());
+        }
+        let is_done = self.next == self.round.len() && self.open.is_empty();
+        Ok(if is_done { Progress::Done } else { Progress::More })
+    }
+
+    /// Takes what the task has found whose first subtree is this one of the round.
+    fn take(&mut self, found: Found, first: usize) {
+        let Found { slots, open, subtrees, triangles, capped, .. } = found;
+        self.triangles += triangles;
+        self.capped += capped;
+        let behind = self.slots.len() - subtrees;
+        let moved = |wanted| match wanted {
+            Wanted::Bisected(first) => Wanted::Bisected(first + behind as u32),
+            other => other,
+        };
+        let round = &self.round[first..first + subtrees];
+        for (subtree, &wanted) in round.iter().zip(&slots) {
+            self.slots[subtree.slot as usize] = moved(wanted);
+        }
+        self.slots.extend(slots[subtrees..].iter().copied().map(moved));
+        self.open.extend(open.into_iter().map(|subtree| {
+            let slot = match round.get(subtree.slot as usize) {
+                Some(of_round) => of_round.slot,
+                None => subtree.slot + behind as u32,
+            };
+            Subtree { slot, ..subtree }
+        }));
+    }
+
+    /// How many triangles of the tree need not be bisected, as far as was asked.
+    pub fn triangles(&self) -> usize {
+        self.triangles
+    }
+
+    /// How many triangles exceed their target at the level cap.
+    pub fn capped(&self) -> usize {
+        self.capped
+    }
+
+    /// The slots, once all questions are answered.
+    pub fn finish(mut self) -> Slots {
+        // Parents come before their children; tasks could not join what other tasks have found.
+        for slot in (0..self.slots.len()).rev() {
+            if let Wanted::Bisected(first) = self.slots[slot] {
+                self.slots[slot] = joined(&self.slots, first);
+            }
+        }
+        self.slots
+    }
+}
+
+/// What is to become of a triangle that is bisected, by what is to become of its children.
+#[inline]
+fn joined(slots: &[Wanted], first: u32) -> Wanted {
+    match slots[first as usize..first as usize + 2] {
+        [Wanted::Uniform(a), Wanted::Uniform(b)] if a == b && a < MOST_DEPTH => Wanted::Uniform(a + 1),
+        _ => Wanted::Bisected(first),
+    }
+}
+
+/// Questions about some subtrees.
+struct Task<A> {
+    answers: A,
+    /// The level of the limits, and the deepest one of the lattice.
+    cap: u32,
+    deepest: u32,
+    /// How many triangles may still be visited.
+    visits: usize,
+    found: Found,
+}
+
+/// What a task has found. Slots are those of the task: the subtrees have the first ones.
+#[derive(Default)]
+struct Found {
+    subtrees: usize,
+    slots: Slots,
+    open: Vec<Subtree>,
+    triangles: usize,
+    capped: usize,
+    /// A corner of a triangle that exceeds its target at the deepest level of the lattice: there is no mesh.
+    too_fine: Option<LatticePoint>,
+}
+
+impl<A: RuleAnswers> Task<A> {
+    fn new(mesh: &Mesh, limits: &Limits, answers: A) -> Self {
+        let (cap, deepest) = (limits.level_cap(), mesh.lattice().deepest_level());
+        Self { answers, cap, deepest, visits: TASK_VISITS, found: Found::default() }
+    }
+
+    fn survey(mut self, subtrees: &[Subtree]) -> Found {
+        self.found.subtrees = subtrees.len();
+        self.found.slots = vec![Wanted::Open; subtrees.len()];
+        for (slot, &subtree) in subtrees.iter().enumerate() {
+            let subtree = Subtree { slot: slot as u32, ..subtree };
+            let levels = self.ask(&subtree, LevelsWithin::UNKNOWN);
+            self.found.slots[slot] = self.wanted(&subtree, levels);
+        }
+        self.found
+    }
+
+    /// What is to become of a triangle, by what is known of it and of all triangles within.
+    #[inline]
+    fn wanted(&mut self, triangle: &Subtree, levels: LevelsWithin) -> Wanted {
+        if self.is_bisected(triangle, levels) {
+            return self.bisected(triangle, levels);
+        }
+        self.found.triangles += 1;
+        Wanted::Uniform(0)
+    }
+
+    /// Asks about the descendants of a triangle that is bisected.
+    fn bisected(&mut self, triangle: &Subtree, levels: LevelsWithin) -> Wanted {
+        if let Some(depth) = self.uniform_depth(triangle.level, levels) {
+            self.found.triangles += 1 << depth;
+            return Wanted::Uniform(depth);
+        }
+        if self.visits == 0 {
+            self.found.open.push(*triangle);
+            return Wanted::Open;
+        }
+        self.visits -= 1;
+        let first = self.found.slots.len() as u32;
+        self.found.slots.extend([Wanted::Open; 2]);
+        for child in triangle.children(first) {
+            let levels = self.ask(&child, levels);
+            self.found.slots[child.slot as usize] = self.wanted(&child, levels);
+        }
+        let joined = joined(&self.found.slots, first);
+        if let Wanted::Uniform(_) = joined {
+            // No slot is behind those of the children.
+            self.found.slots.truncate(first as usize);
+        }
+        joined
+    }
+
+    /// What is known of a triangle and of all triangles within, where so much was known before.
+    #[inline]
+    fn ask(&mut self, triangle: &Subtree, known: LevelsWithin) -> LevelsWithin {
+        match known.exceeds(triangle.level) {
+            Some(_) => known,
+            None => known.and(self.answers.levels_within(triangle.corners, triangle.level)),
+        }
+    }
+
+    /// Whether a triangle exceeds its target and may be bisected.
+    #[inline]
+    fn is_bisected(&mut self, triangle: &Subtree, levels: LevelsWithin) -> bool {
+        let exceeds = triangle.level < levels.exceed_below;
+        exceeds && (triangle.level < self.cap.min(self.deepest) || self.stop(triangle))
+    }
+
+    /// Notes a triangle that exceeds its target but must not be bisected.
+    #[cold]
+    fn stop(&mut self, triangle: &Subtree) -> bool {
+        if triangle.level >= self.cap {
+            self.found.capped += 1;
+        } else {
+            self.found.too_fine.get_or_insert(triangle.corners[0]);
+        }
+        false
+    }
+
+    /// By how many levels a triangle is refined everywhere, if that is known.
+    #[inline]
+    fn uniform_depth(&self, level: u32, levels: LevelsWithin) -> Option<u32> {
+        let depth = levels.one_level()?.checked_sub(level)?;
+        (depth <= MOST_DEPTH && level + depth <= self.cap.min(self.deepest)).then_some(depth)
+    }
+}
+
+impl Subtree {
+    /// Its children, with slots from this one on.
+    #[inline]
+    fn children(&self, first_slot: u32) -> [Self; 2] {
+        let is_odd = self.level % 2 == 1;
+        let midpoint = self.corners[0].midpoint(self.corners[if is_odd { 1 } else { 2 }]);
+        let [a, b] = children_vertices(self.corners, midpoint, is_odd);
+        [(first_slot, a), (first_slot + 1, b)].map(|(slot, corners)| Self {
+            slot,
+            level: self.level + 1,
+            corners,
+        })
+    }
+}
