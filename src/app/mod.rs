@@ -19,6 +19,7 @@ mod dialogs;
 mod execute;
 mod files;
 mod frame;
+mod frame_log;
 mod help;
 mod inspection;
 mod journal;
@@ -63,6 +64,7 @@ use canvas::{Canvas, CanvasGpu};
 use command::Command;
 use dialogs::Dialogs;
 use explore::Explore;
+use frame_log::FrameLog;
 use help::HelpTopic;
 use journal::JournalKeeper;
 use layer_pictures::LayerPictures;
@@ -123,6 +125,7 @@ pub struct App {
     input_time: Option<f64>,
     /// Whether to leave out what differs from run to run: pictures must be the same every time.
     reproducible: bool,
+    frame_log: FrameLog,
 }
 
 impl App {
@@ -181,6 +184,7 @@ impl App {
             starts_with_file: false,
             input_time: None,
             reproducible: false,
+            frame_log: FrameLog::from_environment(),
         })
     }
 
@@ -221,6 +225,7 @@ impl eframe::App for App {
 
     fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
         self.draw(ui);
+        self.frame_log.note(&self.session);
     }
 
     fn save(&mut self, storage: &mut dyn eframe::Storage) {
