@@ -222,6 +222,8 @@ impl App {
         let shows_step = self.stepping.as_ref().is_some_and(|stepping| stepping.player().is_some());
         if !self.starts_with_file && !shows_step {
             self.canvas.draw_mesh(ui, &mut self.session, &self.view, commands);
+        } else {
+            self.canvas.draw_ground(ui);
         }
         let files = self.background.rows(self.project.is_leaving());
         let state = self.state(readout);

@@ -42,6 +42,7 @@ mod report;
 mod screenshots;
 mod sequence;
 pub mod session;
+mod software_window;
 mod statistics;
 mod stepping;
 #[cfg(test)]
@@ -276,6 +277,9 @@ pub fn run(file: Option<PathBuf>) -> Result<(), String> {
             Some(file) => App::with_file(ctx, render_state, file)?,
             None => App::new(ctx, render_state)?,
         };
+        if let Some(window) = app.canvas.software_window() {
+            ctx.add_plugin(window);
+        }
         app.dialogs.use_system();
         app.keep_in(cc);
         Ok(Box::new(app))

@@ -50,7 +50,8 @@ impl Image {
         bytemuck::cast_slice(&self.rgba)
     }
 
-    fn pixels_mut(&mut self) -> &mut [[u8; 4]] {
+    /// All pixels, to be drawn on.
+    pub(crate) fn pixels_mut(&mut self) -> &mut [[u8; 4]] {
         bytemuck::cast_slice_mut(&mut self.rgba)
     }
 }

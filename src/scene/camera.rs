@@ -96,6 +96,15 @@ impl Camera {
         self.screen(p.as_dvec2() - self.center)
     }
 
+    /// [`Self::screen_from_lattice`] for many nodes: faster, and equal to the last bit.
+    pub fn lattice_map(&self) -> impl Fn(LatticePoint) -> DVec2 + use<> {
+        let (center, scale, middle) = (self.center, self.px_per_step(), self.half_size_px());
+        move |p| {
+            let px = (p.as_dvec2() - center) * scale;
+            middle + dvec2(px.x, -px.y)
+        }
+    }
+
     /// Position of a point of the world on the screen, in pixels.
     pub fn screen_from_world(&self, p: DVec2) -> DVec2 {
         self.screen(self.lattice.lattice_from_world(p) - self.center)

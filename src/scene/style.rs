@@ -86,7 +86,12 @@ impl Style {
     /// may be drawn below the mesh.
     pub fn clear_color(&self) -> [f32; 4] {
         let [r, g, b] = self.ground_color();
-        if self.fill_opacity < 1.0 { [0.0; 4] } else { [r, g, b, 1.0] }
+        if self.is_opaque() { [r, g, b, 1.0] } else { [0.0; 4] }
+    }
+
+    /// Whether nothing below the picture can be seen.
+    pub fn is_opaque(&self) -> bool {
+        self.fill_opacity >= 1.0
     }
 
     /// The colour of the ground, channels from 0 to 1.

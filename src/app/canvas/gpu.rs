@@ -8,6 +8,7 @@ use eframe::wgpu;
 
 use crate::app::derivation::PiecesChange;
 use crate::app::session::{Session, ShownChange};
+use crate::app::software_window::CanvasImage;
 use crate::document::MeshChange;
 use crate::mesh::Progress;
 use crate::render::gpu::{GpuError, GpuRenderer, MeshMirror, emulates_gpu};
@@ -32,6 +33,8 @@ pub struct CanvasGpu {
     state: RenderState,
     /// The driver only emulates a GPU: drawing in software and showing the picture is several times as fast.
     in_software: bool,
+    /// The whole window is drawn in software, and takes the picture of the mesh from here.
+    in_software_window: bool,
     sending: Sending,
 }
 
@@ -57,12 +60,18 @@ impl CanvasGpu {
             _ => emulates_gpu(&state.adapter),
         };
         let sending = Sending { behind: true, refused: None };
-        Ok(Self { state: state.clone(), in_software, sending })
+        Ok(Self { state: state.clone(), in_software, in_software_window: false, sending })
     }
 
     /// Draws in software from now on, with any driver.
     pub fn draw_in_software(&mut self) {
         self.in_software = true;
+    }
+
+    /// Leaves the picture to a window that is drawn in software, if it is drawn in software itself.
+    pub fn leave_to_software_window(&mut self) -> Option<&RenderState> {
+        self.in_software_window = self.in_software;
+        self.in_software.then_some(&self.state)
     }
 
     /// Sends changes of mesh and overlay to the GPU. The former mesh stays on the screen until the new one is
@@ -83,9 +92,17 @@ impl CanvasGpu {
             return Ok(Progress::Done);
         };
         // Before anything can fail: each change is reported once.
-        let sent = match self.in_software {
-            true => Ok(Progress::Done),
-            false => self.sending.send(renderer.mirror_mut(), session, change),
+        let sent = if self.in_software {
+            match &change.mesh {
+                Some(MeshChange::Within(changes)) => {
+                    renderer.picture_in_software_mut().note_changes(changes, session.mesh());
+                }
+                Some(MeshChange::Replaced) => renderer.picture_in_software_mut().forget_mesh(),
+                None => {}
+            }
+            Ok(Progress::Done)
+        } else {
+            self.sending.send(renderer.mirror_mut(), session, change)
         };
         if let Some(failure) = failed.take() {
             return Err(failure);
@@ -96,7 +113,11 @@ impl CanvasGpu {
             let (follower, derivation) = (session.follower(), session.derivation());
             let shown = ShownMesh { mesh: follower.mesh(), pieces: Some(derivation.pieces()) };
             let revision = ShownRevision { mesh: follower.revision(), pieces: derivation.pieces_revision() };
-            renderer.prepare_in_software(device, queue, shown, revision, camera, style)?;
+            if self.in_software_window && overlay.is_none() {
+                renderer.draw_image(shown, revision, camera, style);
+            } else {
+                renderer.prepare_in_software(device, queue, shown, revision, camera, style)?;
+            }
         }
         sent
     }
@@ -106,6 +127,14 @@ impl CanvasGpu {
         let callback = CanvasCallback { camera, style: Arc::new(style), in_software: self.in_software };
         egui_wgpu::Callback::new_paint_callback(rect, callback).into()
     }
+}
+
+/// The picture of the mesh for a window that is drawn in software; `None` while the driver must draw an
+/// overlay over it.
+pub fn canvas_image(resources: &mut CallbackResources) -> Option<CanvasImage<'_>> {
+    let canvas: &mut CanvasResources = resources.get_mut()?;
+    let (image, changed, is_opaque) = canvas.renderer.take_image()?;
+    Some(CanvasImage { image, changed, is_opaque })
 }
 
 impl Sending {

@@ -26,7 +26,7 @@ use eframe::egui::{
 use glam::DVec2;
 
 use background::BackgroundTexture;
-pub use gpu::CanvasGpu;
+pub use gpu::{CanvasGpu, canvas_image};
 use overlay::OverlayColors;
 
 use super::busy::Busy;
@@ -34,6 +34,7 @@ use super::command::{BrushCommand, Command};
 use super::contours::ContourFinder;
 use super::frame::FrameState;
 use super::session::Session;
+use super::software_window::SoftwareWindow;
 use super::theme::tokens;
 use super::tools::{Gesture, OverMesh, PAN, Panning, Pointer, Press, Tools, picks};
 use super::view::View;
@@ -88,6 +89,11 @@ impl Canvas {
         if let Some(gpu) = &mut self.gpu {
             gpu.draw_in_software();
         }
+    }
+
+    /// Readies a window that is drawn in software, where the mesh is.
+    pub fn software_window(&mut self) -> Option<SoftwareWindow> {
+        self.gpu.as_mut()?.leave_to_software_window().map(SoftwareWindow::new)
     }
 
     /// Where the pointer is, in world units, while it is on the canvas or in a gesture.
@@ -287,7 +293,6 @@ impl Canvas {
     pub fn layout(&mut self, ui: &mut Ui, view: &mut View, lattice: &Lattice) -> Option<Response> {
         let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
         response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, CANVAS_NAME));
-        ui.painter().rect_filled(rect, 0.0, tokens(ui).canvas);
         if rect.width() < 1.0 || rect.height() < 1.0 {
             return None;
         }
@@ -301,12 +306,18 @@ impl Canvas {
         Some(response)
     }
 
+    /// Fills the canvas with its ground.
+    pub fn draw_ground(&self, ui: &Ui) {
+        let Some((_, rect)) = self.shown else { return };
+        ui.painter().rect_filled(rect, 0.0, tokens(ui).canvas);
+    }
+
     /// Sends the changes of the mesh to the GPU, and draws it.
     pub fn draw_mesh(&mut self, ui: &Ui, session: &mut Session, view: &View, commands: &mut Vec<Command>) {
         self.follow_contours(ui.ctx(), session, view);
         let change = session.take_shown_change();
         let (Some(gpu), Some(camera), Some((_, rect))) = (&mut self.gpu, view.camera, self.shown) else {
-            return;
+            return self.draw_ground(ui);
         };
         let settings = session.follower().settings();
         let colors = view.level_colors(settings);
@@ -316,6 +327,9 @@ impl Canvas {
             Ok(Progress::Done) => {}
             Ok(Progress::More) => ui.ctx().request_repaint(),
             Err(error) => commands.push(Command::Report(error.to_string())),
+        }
+        if !style.is_opaque() {
+            ui.painter().rect_filled(rect, 0.0, tokens(ui).canvas);
         }
         let background = session.document().settings().background.as_ref();
         self.background.paint(&ui.painter_at(rect), rect, &camera, background);

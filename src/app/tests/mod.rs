@@ -34,6 +34,7 @@ mod project;
 mod query;
 mod report;
 mod settings;
+mod software_window;
 mod statistics;
 mod steps;
 mod threats;

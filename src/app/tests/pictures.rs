@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use eframe::egui::{Key, Modifiers, Pos2, ThemePreference, vec2};
+use eframe::egui::{Context, Key, Modifiers, Pos2, ThemePreference, vec2};
 use egui_kittest::Harness;
 use glam::dvec2;
 
@@ -17,6 +17,11 @@ use crate::layers::{DistanceTo, LayerId, LayerKind, Mask, ShapeList, Shapes};
 
 /// A window whose canvas is drawn, on the software driver. Slower: only for what is judged by its picture.
 pub fn drawn_window() -> Window {
+    window_drawn_by(|_, _| {})
+}
+
+/// As [`drawn_window`], after the app was readied for drawing.
+pub fn window_drawn_by(ready: fn(&mut App, &Context)) -> Window {
     let mut setup = egui_kittest::wgpu::default_wgpu_setup();
     if let eframe::egui_wgpu::WgpuSetup::CreateNew(create) = &mut setup {
         create.device_descriptor = Arc::new(crate::render::gpu::device_descriptor);
@@ -26,18 +31,22 @@ pub fn drawn_window() -> Window {
         .with_max_steps(4000)
         .with_render_cursor(false)
         .wgpu_setup(setup)
-        .build_eframe(|cc| App::new(&cc.egui_ctx, cc.wgpu_render_state.as_ref()).unwrap());
+        .build_eframe(move |cc| {
+            let mut app = App::new(&cc.egui_ctx, cc.wgpu_render_state.as_ref()).unwrap();
+            ready(&mut app, &cc.egui_ctx);
+            app
+        });
     window.run();
     window
 }
 
 /// What the window looks like: rows from the top, four bytes a pixel.
-struct Picture {
-    width: usize,
-    rgba: Vec<u8>,
+pub struct Picture {
+    pub width: usize,
+    pub rgba: Vec<u8>,
 }
 
-fn picture(window: &mut Window) -> Picture {
+pub fn picture(window: &mut Window) -> Picture {
     let image = window.render().unwrap();
     Picture { width: image.width() as usize, rgba: image.into_raw() }
 }

@@ -13,13 +13,17 @@ mod mirror;
 mod offscreen;
 mod overlay_pass;
 mod picture;
+mod shown_image;
 
 pub use chunks::{ChunkLimits, NODE_BUFFERS};
 pub use mirror::MeshMirror;
 pub use offscreen::{Offscreen, offscreen, read_back};
+pub use shown_image::ShownImage;
 
 use self::overlay_pass::OverlayPass;
 use self::picture::MeshPicture;
+use crate::render::Image;
+use crate::render::software::{KeptPicture, PxRect};
 use crate::scene::{Camera, Overlay, ShownMesh, ShownRevision, Style};
 use crate::text::Bytes;
 use crate::text::Grouped;
@@ -195,7 +199,8 @@ impl GpuRenderer {
     }
 
     /// As [`Self::prepare`], but the [software renderer](crate::render::software) draws the picture. This is
-    /// several times as fast where the driver emulates a GPU. It needs no mirror.
+    /// several times as fast where the driver emulates a GPU. It needs no mirror. After an edit of which
+    /// [`Self::picture_in_software_mut`] was told, only the part that changed is drawn.
     ///
     /// # Errors
     /// As [`Self::prepare`].
@@ -211,6 +216,22 @@ impl GpuRenderer {
         self.picture.prepare_in_software(device, queue, shown, revision, camera, style)?;
         self.overlay.prepare(queue, camera);
         Ok(())
+    }
+
+    /// Draws the picture in software for whoever draws the whole window: see [`Self::take_image`].
+    pub fn draw_image(&mut self, shown: ShownMesh, revision: ShownRevision, camera: &Camera, style: &Style) {
+        self.picture.draw_image(shown, revision, camera, style);
+    }
+
+    /// The picture of [`Self::draw_image`], the part that is new since the last call, and whether nothing
+    /// below can be seen. `None` if another function drew last.
+    pub fn take_image(&mut self) -> Option<(&Image, Option<PxRect>, bool)> {
+        self.picture.take_image()
+    }
+
+    /// The picture that the software renderer draws, to be told of every edit of the mesh.
+    pub fn picture_in_software_mut(&mut self) -> &mut KeptPicture {
+        self.picture.kept_mut()
     }
 
     /// Draws the picture and the overlay on the canvas. The viewport of `pass` must be the canvas.

@@ -1,30 +1,25 @@
 //! The picture of the mesh, kept as a texture.
 
 use super::GpuError;
-use super::mesh_pass::{MeshPass, new_texture, render_pipeline, texel_entry};
+use super::mesh_pass::MeshPass;
 use super::mirror::MeshMirror;
-use crate::render::{Image, software};
+use super::shown_image::{FORMAT, ShownImage};
+use crate::render::Image;
+use crate::render::software::{KeptPicture, PxRect};
 use crate::scene::{Camera, ShownMesh, ShownRevision, Style};
-
-/// Independent of the canvas, so that a picture drawn in software needs no conversion.
-const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 
 /// Draws the mesh into a texture when something changed, and otherwise only copies the texture to the canvas.
 ///
 /// A window repaints whenever the pointer moves in a panel; that must not redraw a large mesh.
 pub(super) struct MeshPicture {
     mesh_pass: MeshPass,
-    blit: wgpu::RenderPipeline,
-    blit_layout: wgpu::BindGroupLayout,
-    target: Option<Target>,
+    texture: ShownImage,
     drawn: Option<Drawn>,
+    /// The picture that is drawn in software.
+    kept: KeptPicture,
+    /// What of it was drawn since it was last taken.
+    taken_from: Option<PxRect>,
     redraws: u64,
-}
-
-struct Target {
-    texture: wgpu::Texture,
-    view: wgpu::TextureView,
-    group: wgpu::BindGroup,
 }
 
 /// What the picture shows. When any of it changes, the picture is redrawn.
@@ -41,22 +36,18 @@ enum Source {
     Mirror(u64),
     /// The mesh and the pieces of this revision, drawn in software.
     Software(ShownRevision),
+    /// As `Software`, but the texture was not written: whoever draws the window takes the picture.
+    Image(ShownRevision),
 }
 
 impl MeshPicture {
     pub(super) fn new(device: &wgpu::Device, format: wgpu::TextureFormat, mirror: &MeshMirror) -> Self {
-        let blit_layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-            label: Some("picture"),
-            entries: &[texel_entry(0)],
-        });
-        let shader = device.create_shader_module(wgpu::include_wgsl!("blit.wgsl"));
-        let blend = wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING;
         Self {
             mesh_pass: MeshPass::new(device, FORMAT, mirror),
-            blit: render_pipeline(device, &shader, &[&blit_layout], format, Some(blend)),
-            blit_layout,
-            target: None,
+            texture: ShownImage::new(device, format),
             drawn: None,
+            kept: KeptPicture::default(),
+            taken_from: None,
             redraws: 0,
         }
     }
@@ -73,11 +64,13 @@ impl MeshPicture {
     ) -> Result<(), GpuError> {
         let source = Source::Mirror(mirror.generation());
         let Some(wanted) = self.if_not_drawn(source, camera, style) else { return Ok(()) };
-        let target = self.target_with_size(device, camera.size_px())?;
-        let mut pass = begin_pass(encoder, &target.view, style.clear_color());
-        self.mesh_pass.draw(queue, &mut pass, mirror, camera, style);
-        drop(pass);
-        self.keep(target, wanted);
+        self.drawn = None;
+        self.texture.fit(device, camera.size_px())?;
+        if let Some(view) = self.texture.view() {
+            let mut pass = begin_pass(encoder, view, style.clear_color());
+            self.mesh_pass.draw(queue, &mut pass, mirror, camera, style);
+        }
+        self.keep(wanted);
         Ok(())
     }
 
@@ -91,12 +84,50 @@ impl MeshPicture {
         camera: &Camera,
         style: &Style,
     ) -> Result<(), GpuError> {
-        let source = Source::Software(revision);
-        let Some(wanted) = self.if_not_drawn(source, camera, style) else { return Ok(()) };
-        let target = self.target_with_size(device, camera.size_px())?;
-        write_image(queue, &target.texture, &software::draw(shown, camera, style, None, &[]));
-        self.keep(target, wanted);
+        let Some(wanted) = self.if_not_drawn(Source::Software(revision), camera, style) else {
+            return Ok(());
+        };
+        let follows = self.drawn.take().is_some_and(|drawn| matches!(drawn.source, Source::Software(_)));
+        let is_other = self.texture.fit(device, camera.size_px())?;
+        let changed = self.kept.update(shown, revision, camera, style);
+        let image = self.kept.image();
+        // A texture that shows something else is written whole.
+        let part = if follows && !is_other { changed } else { Some(PxRect::whole(image.size)) };
+        if let Some(part) = part {
+            self.texture.write(queue, image, &part);
+        }
+        self.keep(wanted);
         Ok(())
+    }
+
+    /// [`GpuRenderer::draw_image`](super::GpuRenderer::draw_image).
+    pub(super) fn draw_image(
+        &mut self,
+        shown: ShownMesh,
+        revision: ShownRevision,
+        camera: &Camera,
+        style: &Style,
+    ) {
+        let Some(wanted) = self.if_not_drawn(Source::Image(revision), camera, style) else { return };
+        if !self.drawn.as_ref().is_some_and(|drawn| matches!(drawn.source, Source::Image(_))) {
+            self.taken_from = Some(PxRect::whole(camera.size_px()));
+        }
+        if let Some(part) = self.kept.update(shown, revision, camera, style) {
+            self.taken_from =
+                Some(self.taken_from.take().map_or(part.clone(), |earlier| earlier.with(&part)));
+        }
+        self.keep(wanted);
+    }
+
+    /// [`GpuRenderer::take_image`](super::GpuRenderer::take_image).
+    pub(super) fn take_image(&mut self) -> Option<(&Image, Option<PxRect>, bool)> {
+        let drawn = self.drawn.as_ref().filter(|drawn| matches!(drawn.source, Source::Image(_)))?;
+        Some((self.kept.image(), self.taken_from.take(), drawn.style.is_opaque()))
+    }
+
+    /// The picture that is drawn in software, to be told of edits.
+    pub(super) fn kept_mut(&mut self) -> &mut KeptPicture {
+        &mut self.kept
     }
 
     /// What to draw, unless the picture already shows it.
@@ -105,58 +136,19 @@ impl MeshPicture {
         (self.drawn.as_ref() != Some(&wanted)).then_some(wanted)
     }
 
-    fn keep(&mut self, target: Target, drawn: Drawn) {
-        self.target = Some(target);
+    fn keep(&mut self, drawn: Drawn) {
         self.drawn = Some(drawn);
         self.redraws += 1;
     }
 
     pub(super) fn paint(&self, pass: &mut wgpu::RenderPass<'_>) {
-        let Some(target) = &self.target else { return };
-        pass.set_pipeline(&self.blit);
-        pass.set_bind_group(0, &target.group, &[]);
-        pass.draw(0..3, 0..1);
+        let is_opaque = self.drawn.as_ref().is_some_and(|drawn| drawn.style.is_opaque());
+        self.texture.paint(pass, is_opaque);
     }
 
     pub(super) fn redraws(&self) -> u64 {
         self.redraws
     }
-
-    /// The current texture if it has the right size, otherwise a new one.
-    fn target_with_size(&mut self, device: &wgpu::Device, size: [u32; 2]) -> Result<Target, GpuError> {
-        if let Some(target) =
-            self.target.take_if(|target| [target.texture.width(), target.texture.height()] == size)
-        {
-            return Ok(target);
-        }
-        let limit = device.limits().max_texture_dimension_2d;
-        if size[0] > limit || size[1] > limit {
-            return Err(GpuError::TooLarge { what: "A canvas", size, limit });
-        }
-        let usage = wgpu::TextureUsages::RENDER_ATTACHMENT
-            | wgpu::TextureUsages::TEXTURE_BINDING
-            | wgpu::TextureUsages::COPY_DST;
-        let texture = new_texture(device, "mesh picture", size, FORMAT, usage);
-        let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
-        let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("picture"),
-            layout: &self.blit_layout,
-            entries: &[wgpu::BindGroupEntry {
-                binding: 0,
-                resource: wgpu::BindingResource::TextureView(&view),
-            }],
-        });
-        Ok(Target { texture, view, group })
-    }
-}
-
-fn write_image(queue: &wgpu::Queue, texture: &wgpu::Texture, image: &Image) {
-    let layout = wgpu::TexelCopyBufferLayout {
-        offset: 0,
-        bytes_per_row: Some(4 * image.size[0]),
-        rows_per_image: None,
-    };
-    queue.write_texture(texture.as_image_copy(), &image.rgba, layout, texture.size());
 }
 
 /// Begins a render pass onto one texture, which is first cleared to `color`, premultiplied.

@@ -1,22 +1,32 @@
 //! The renderer that needs no graphics driver. It draws pictures for the command line and is the reference
 //! for the GPU.
 
+mod corners;
+mod damage;
+mod groups;
+mod kept;
+mod painter;
 mod rasterizer;
+mod threads;
 
-use glam::{DVec2, I64Vec2, Vec2, Vec2Swizzles};
+use glam::Vec2;
 
-use self::rasterizer::{LevelShader, Rasterizer};
+pub use self::damage::{BAND_ROWS, Damage, PxRect};
+pub use self::kept::KeptPicture;
+pub use self::threads::on_drawing_threads;
+
+use self::corners::Corners;
+use self::groups::TriangleGroups;
+use self::painter::{Painter, TriangleArrays, ground};
 use super::Image;
 use super::draw_flags::DrawFlags;
-use crate::colormap::LEVELS;
-use crate::geometry::LatticePoint;
-use crate::mesh::{Extract, Orientation, Triangle};
-use crate::scene::{Camera, LevelPaint, Outline, Overlay, ShownMesh, Style};
+use crate::mesh::Extract;
+use crate::scene::{Camera, Outline, Overlay, ShownMesh, ShownRevision, Style};
 
 /// Draws a mesh as `camera` sees it, the overlay above it, and outlines on top.
 ///
 /// Outlines come from [`highlight_outlines`](crate::scene::highlight_outlines). The time is proportional to
-/// the mesh and to the pixels: about 50 ns per triangle.
+/// the mesh and to the pixels: about 50 ns per triangle, shared by all cores.
 pub fn draw<'a>(
     shown: impl Into<ShownMesh<'a>>,
     camera: &Camera,
@@ -24,18 +34,9 @@ pub fn draw<'a>(
     overlay: Option<&Overlay>,
     outlines: &[Outline],
 ) -> Image {
-    let ShownMesh { mesh, pieces } = shown.into();
-    let flags = pieces.map(|pieces| DrawFlags::of_pieces(pieces, mesh.raw_triangle_count()));
-    let mut image = ground(camera, style);
-    let mut painter = Painter::new(&mut image, camera.on_lattice(mesh.lattice()), style);
-    painter.draw(&TriangleArrays {
-        nodes: mesh.raw_nodes(),
-        triangles: mesh.raw_triangles(),
-        flags: flags.unwrap_or_default(),
-    });
-    if let Some(pieces) = pieces {
-        painter.draw(&TriangleArrays::new(pieces.nodes(), pieces.triangles()));
-    }
+    let mut kept = KeptPicture::default();
+    kept.update(shown.into(), ShownRevision { mesh: 0, pieces: 0 }, camera, style);
+    let mut image = kept.into_image();
     if let Some(overlay) = overlay {
         blend_overlay(&mut image, camera, overlay);
     }
@@ -45,121 +46,15 @@ pub fn draw<'a>(
 
 /// Draws what files get of a mesh.
 pub fn draw_extract(extract: &Extract, camera: &Camera, style: &Style) -> Image {
-    let mut image = ground(camera, style);
-    Painter::new(&mut image, camera.on_lattice(extract.lattice()), style)
-        .draw(&TriangleArrays::new(extract.nodes(), extract.triangles()));
+    let mut image = Image::filled(camera.size_px(), ground(style));
+    let camera = camera.on_lattice(extract.lattice());
+    let (nodes, triangles) = (extract.nodes(), extract.triangles());
+    let (groups, flags) = (TriangleGroups::of(nodes, triangles), DrawFlags::default());
+    let corners = Corners::of(nodes, &camera);
+    let arrays = TriangleArrays { nodes, corners: &corners, triangles, groups: &groups, flags: &flags };
+    let everything = Damage::everything(camera.size_px());
+    on_drawing_threads(|| Painter::new(camera, style).draw(&mut image, &everything, &[arrays]));
     image
-}
-
-fn ground(camera: &Camera, style: &Style) -> Image {
-    Image::filled(camera.size_px(), style.clear_color().map(|c| (255.0 * c).round() as u8))
-}
-
-/// Triangles and their nodes. A neighbour that is one of `triangles` shares an edge.
-struct TriangleArrays<'a> {
-    nodes: &'a [LatticePoint],
-    triangles: &'a [Triangle],
-    /// The triangles that are replaced by others.
-    flags: DrawFlags,
-}
-
-impl<'a> TriangleArrays<'a> {
-    fn new(nodes: &'a [LatticePoint], triangles: &'a [Triangle]) -> Self {
-        Self { nodes, triangles, flags: DrawFlags::default() }
-    }
-
-    /// For each vertex whether the opposite edge is on the boundary: nothing is drawn across it.
-    fn boundary_opposite(&self, triangle: &Triangle) -> [bool; 3] {
-        let mut boundary = [false; 3];
-        for ((from, to), across) in triangle.edges().into_iter().zip(triangle.raw_neighbours) {
-            boundary[3 - from - to] = across.triangle().is_none_or(|id| self.is_vacant(id.index()));
-        }
-        boundary
-    }
-
-    fn is_vacant(&self, index: usize) -> bool {
-        self.flags.is_vacant(index) || self.flags.is_drawn(index) && self.triangles[index].is_outside()
-    }
-}
-
-/// Draws triangles as one camera sees them, in one style.
-struct Painter<'a> {
-    rasterizer: Rasterizer<'a>,
-    camera: Camera,
-    shaders: [LevelShader; LEVELS],
-}
-
-impl<'a> Painter<'a> {
-    fn new(image: &'a mut Image, camera: Camera, style: &Style) -> Self {
-        let shaders = LevelPaint::all(&camera, style).map(|paint| LevelShader::new(&paint, style));
-        Self { rasterizer: Rasterizer::new(image), camera, shaders }
-    }
-
-    fn draw(&mut self, arrays: &TriangleArrays) {
-        let snap = |&p: &LatticePoint| rasterizer::snapped(self.camera.screen_from_lattice(p));
-        let snapped: Vec<[i32; 2]> = arrays.nodes.iter().map(snap).collect();
-        for (index, triangle) in arrays.triangles.iter().enumerate() {
-            if triangle.is_outside() || !arrays.flags.is_drawn(index) {
-                continue;
-            }
-            let shader = &self.shaders[triangle.level() as usize];
-            let at_boundary = || arrays.boundary_opposite(triangle);
-            let corners = triangle.vertices.map(|v| snapped[v.index()]);
-            if rasterizer::is_huge(corners) {
-                let half_planes = half_planes(triangle, arrays.nodes, &self.camera);
-                self.rasterizer.fill_half_planes(&half_planes, at_boundary, shader);
-            } else {
-                self.rasterizer.fill_snapped(corners, at_boundary, shader);
-            }
-        }
-    }
-}
-
-/// One side of a line. The signed distance of the pixel position p from the line is `normal · p + offset` in
-/// pixels, with |normal| = 1; it is positive inside.
-pub(super) struct HalfPlane {
-    normal: DVec2,
-    offset: f64,
-}
-
-impl HalfPlane {
-    #[inline]
-    fn distance_px(&self, px: DVec2) -> f64 {
-        self.normal.dot(px) + self.offset
-    }
-
-    /// The half-plane to the left of the line from one node to another.
-    ///
-    /// The part of the cross product that consists of lattice coordinates is calculated in integers. They
-    /// have 30 bits, so the sum of two products has 61. The remainder, of the camera's place within a lattice
-    /// step, is as large as the length of the edge at most, so its rounding errors are below 2⁻⁵⁰ steps.
-    fn left_of(from: LatticePoint, to: LatticePoint, camera: &Camera) -> Self {
-        let steps = |p: LatticePoint| I64Vec2::new(i64::from(p.x), i64::from(p.y));
-        let (anchor, fraction) = camera.anchor();
-        let along = steps(to) - steps(from);
-        let to_anchor = anchor.as_i64vec2() - steps(from);
-        let whole = along.perp_dot(to_anchor);
-        let cross = whole as f64 + along.as_dvec2().perp_dot(fraction);
-        let scale = camera.px_per_step();
-        let along_px = along.as_dvec2() * scale;
-        let length_px = along_px.length();
-        // The y axis points up on the lattice and down on the screen.
-        let normal = -along_px.yx() / length_px;
-        let at_middle = cross * scale.element_product() / length_px;
-        Self { normal, offset: at_middle - normal.dot(camera.half_size_px()) }
-    }
-}
-
-/// The half-planes that intersect in a triangle. Each is that of the edge opposite the vertex.
-fn half_planes(triangle: &Triangle, nodes: &[LatticePoint], camera: &Camera) -> [HalfPlane; 3] {
-    let corners = triangle.vertices.map(|v| nodes[v.index()]);
-    std::array::from_fn(|i| {
-        let [from, to] = [corners[(i + 1) % 3], corners[(i + 2) % 3]];
-        match triangle.orientation() {
-            Orientation::Anticlockwise => HalfPlane::left_of(from, to, camera),
-            Orientation::Clockwise => HalfPlane::left_of(to, from, camera),
-        }
-    })
 }
 
 fn blend_overlay(image: &mut Image, camera: &Camera, overlay: &Overlay) {

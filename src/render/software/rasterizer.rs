@@ -1,9 +1,11 @@
 //! Fills triangles pixel by pixel.
 
+use std::ops::Range;
+
 use glam::{DVec2, dvec2};
 
-use super::HalfPlane;
-use crate::render::{HUGE_PX, Image, SEAM_SLACK_PX};
+use super::painter::HalfPlane;
+use crate::render::{HUGE_PX, SEAM_SLACK_PX};
 use crate::scene::{LevelPaint, Style};
 
 /// Corners are rounded to a grid of 1/256 px, as on most GPUs. Triangles that share a corner share it
@@ -16,8 +18,22 @@ const HALF_PIXEL: i32 = PIXEL / 2;
 /// triangle with such a corner reaches the picture.
 pub(super) fn snapped(px: DVec2) -> [i32; 2] {
     const FAR: f64 = (1 << 30) as f64;
-    // Clamped so that the cast is exact.
-    [px.x, px.y].map(|c| (c * f64::from(PIXEL)).round_ties_even().clamp(-FAR, FAR) as i32)
+    // The sum has no bits for a fraction and is rounded to an even number where that is half; its lowest bits
+    // are the integer. This is several times as fast as rounding on processors without an instruction for it.
+    const NO_FRACTION: f64 = 1.5 * (1_u64 << 52) as f64;
+    [px.x, px.y].map(|c| ((c * f64::from(PIXEL)).clamp(-FAR, FAR) + NO_FRACTION).to_bits() as i32)
+}
+
+/// Columns and rows of the pixels that a triangle with these [`snapped`] corners can colour, and `margin_px`
+/// more on every side.
+pub(super) fn pixels_around(corners: &[[i32; 2]], margin_px: i32) -> [Range<i32>; 2] {
+    [0, 1].map(|axis| {
+        let along = corners.iter().map(|corner| corner[axis]);
+        let low = along.clone().min().unwrap_or(0) >> SUBPIXEL_BITS;
+        let high = along.max().unwrap_or(0) >> SUBPIXEL_BITS;
+        // One more, since a huge triangle is drawn a little beyond its edges.
+        low - 1 - margin_px..high + 2 + margin_px
+    })
 }
 
 /// Whether a triangle with [`snapped`] corners extends over at least [`HUGE_PX`] along an axis.
@@ -75,10 +91,12 @@ impl LevelShader {
     }
 }
 
-/// Fills triangles in a picture.
+/// Fills triangles in some columns of consecutive rows of a picture.
 pub(super) struct Rasterizer<'a> {
     width: i32,
-    height: i32,
+    columns: Range<i32>,
+    rows: Range<i32>,
+    /// Those of the rows, in full width.
     pixels: &'a mut [[u8; 4]],
 }
 
@@ -115,9 +133,23 @@ impl EdgeFunction {
 }
 
 impl<'a> Rasterizer<'a> {
-    pub(super) fn new(image: &'a mut Image) -> Self {
-        let [width, height] = image.size.map(|n| n as i32);
-        Self { width, height, pixels: image.pixels_mut() }
+    /// A rasterizer for these columns of the rows from `first_row` on, whose `pixels` are given.
+    pub(super) fn new(pixels: &'a mut [[u8; 4]], width: u32, columns: Range<u32>, first_row: usize) -> Self {
+        let rows = first_row as i32..(first_row + pixels.len() / width as usize) as i32;
+        let columns = columns.start as i32..columns.end as i32;
+        Self { width: width as i32, columns, rows, pixels }
+    }
+
+    /// Gives all pixels one colour.
+    pub(super) fn fill(&mut self, color: [u8; 4]) {
+        for row in self.rows.clone() {
+            self.pixels_of(row, self.columns.clone()).fill(color);
+        }
+    }
+
+    fn pixels_of(&mut self, row: i32, columns: Range<i32>) -> &mut [[u8; 4]] {
+        let start = (row - self.rows.start) * self.width;
+        &mut self.pixels[(start + columns.start) as usize..(start + columns.end) as usize]
     }
 
     /// Fills the pixels whose centres lie in a triangle with [`snapped`] corners that is not [huge](is_huge).
@@ -129,8 +161,8 @@ impl<'a> Rasterizer<'a> {
         at_boundary: impl FnOnce() -> [bool; 3],
         shader: &LevelShader,
     ) {
-        let columns = pixels_between(a[0].min(b[0]).min(c[0]), a[0].max(b[0]).max(c[0]), self.width);
-        let rows = pixels_between(a[1].min(b[1]).min(c[1]), a[1].max(b[1]).max(c[1]), self.height);
+        let columns = pixels_between(a[0].min(b[0]).min(c[0]), a[0].max(b[0]).max(c[0]), &self.columns);
+        let rows = pixels_between(a[1].min(b[1]).min(c[1]), a[1].max(b[1]).max(c[1]), &self.rows);
         if columns.is_empty() || rows.is_empty() {
             return;
         }
@@ -146,9 +178,7 @@ impl<'a> Rasterizer<'a> {
         let mut edges =
             [(a, b), (b, c), (c, a)].map(|(p, q)| EdgeFunction::new(p, q, columns.start, rows.start));
         for row in rows {
-            let start = (row * self.width) as usize;
-            let pixels = &mut self.pixels[start..start + self.width as usize];
-            fill_row(&mut pixels[columns.start as usize..columns.end as usize], edges, rims, shader);
+            fill_row(self.pixels_of(row, columns.clone()), edges, rims, shader);
             edges.iter_mut().for_each(|edge| edge.value += edge.per_row);
         }
     }
@@ -161,22 +191,24 @@ impl<'a> Rasterizer<'a> {
         shader: &LevelShader,
     ) {
         let least = -f64::from(SEAM_SLACK_PX);
-        let corner = dvec2(f64::from(self.width), f64::from(self.height));
-        for half_plane in half_planes {
-            // The distance of the corner of the picture that lies deepest inside.
-            let largest = half_plane.normal.max(DVec2::ZERO).dot(corner) + half_plane.offset;
+        let corner = |column, row| dvec2(f64::from(column), f64::from(row));
+        let first = corner(self.columns.start, self.rows.start);
+        let last = corner(self.columns.end, self.rows.end);
+        for HalfPlane { normal, offset } in half_planes {
+            // The distance of the corner of these pixels that lies deepest inside.
+            let largest = normal.max(DVec2::ZERO).dot(last) + normal.min(DVec2::ZERO).dot(first) + offset;
             if largest < least {
                 return;
             }
         }
         let rims = shader.rims(at_boundary);
-        for row in 0..self.height {
-            for column in 0..self.width {
+        for row in self.rows.clone() {
+            for column in self.columns.clone() {
                 let px = dvec2(f64::from(column) + 0.5, f64::from(row) + 0.5);
                 let distances = half_planes.each_ref().map(|half_plane| half_plane.distance_px(px));
                 if distances.iter().all(|&distance| distance >= least) {
                     let color = shader.color(nearest(distances.map(|d| d as f32), rims));
-                    self.pixels[(row * self.width + column) as usize] = color;
+                    self.pixels_of(row, column..column + 1)[0] = color;
                 }
             }
         }
@@ -189,13 +221,13 @@ fn nearest(distances: [f32; 3], rims: [f32; 3]) -> f32 {
     (distances[0] - rims[0]).min(distances[1] - rims[1]).min(distances[2] - rims[2])
 }
 
-/// The pixels in `0..limit` whose centres lie between `low` and `high`, which are in units of the grid of
+/// The pixels within `limits` whose centres lie between `low` and `high`, which are in units of the grid of
 /// corners.
 #[inline]
-fn pixels_between(low: i32, high: i32, limit: i32) -> std::ops::Range<i32> {
+fn pixels_between(low: i32, high: i32, limits: &Range<i32>) -> Range<i32> {
     let first = (low - HALF_PIXEL + PIXEL - 1) >> SUBPIXEL_BITS;
     let last = (high - HALF_PIXEL) >> SUBPIXEL_BITS;
-    first.max(0)..(last + 1).min(limit)
+    first.max(limits.start)..(last + 1).min(limits.end)
 }
 
 #[inline]
