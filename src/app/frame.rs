@@ -37,12 +37,14 @@ use super::{help, journal, keys, panels, project};
 use crate::document::ReportFigure;
 use crate::text::LengthUnit;
 
-/// The least time of a frame that goes into updating the mesh.
+/// The least time of a frame that goes into updating the mesh, and the most into the price of a stroke.
 const FRAME_BUDGET: Duration = Duration::from_millis(7);
-/// The most, and the share of a frame's time, where drawing is slow, as without a GPU: 7 ms of a frame of
-/// 100 ms would leave the mesh far behind.
-const SLOW_FRAME_BUDGET: Duration = Duration::from_millis(40);
-const SLOW_FRAME_SHARE: f32 = 1.0 / 3.0;
+/// The share of a frame's time, and the most, that goes into the mesh where drawing is slow, as without a
+/// GPU: 7 ms of a frame of 100 ms would leave the mesh far behind.
+const SLOW_FRAME_SHARE: (f32, Duration) = (1.0 / 3.0, Duration::from_millis(40));
+/// The same while nothing is drawn with the pointer: the mesh should be complete soon, and nobody waits for
+/// the next frame.
+const SLOW_FRAME_SHARE_AT_REST: (f32, Duration) = (0.6, Duration::from_millis(60));
 /// As much time as the work takes, for pictures that must be the same every time.
 pub const NO_LIMIT: Duration = Duration::from_secs(3600);
 
@@ -166,11 +168,10 @@ impl App {
     /// Brings the mesh and the price of a stroke closer to the document, until the frame's time is spent.
     fn follow(&mut self, ctx: &Context) {
         // With a time limit, what is shown on the way would depend on the machine's speed.
-        let frame_time = ctx.input(|input| input.stable_dt);
-        let budget = Duration::from_secs_f32(SLOW_FRAME_SHARE * frame_time.clamp(0.0, 1.0))
-            .clamp(FRAME_BUDGET, SLOW_FRAME_BUDGET);
-        let [budget, patience] = if self.reproducible { [NO_LIMIT; 2] } else { [budget, PATIENCE] };
-        let deadline = Instant::now() + budget;
+        let [budget, price_budget, patience] =
+            if self.reproducible { [NO_LIMIT; 3] } else { [self.mesh_budget(ctx), FRAME_BUDGET, PATIENCE] };
+        let start = Instant::now();
+        let deadline = start + budget;
         let cuts = self.session.advance_cuts(patience, ctx);
         let follows = self.session.follow(deadline);
         let derives = self.session.advance_derivation(patience, ctx);
@@ -183,7 +184,7 @@ impl App {
         let steps = self.advance_steps(patience, ctx);
         let plan = self.canvas.planned_stroke(ctx, self.shown_tools(), bounds);
         let plan = plan.filter(|_| !self.asks_something());
-        let prices = self.session.price_stroke(plan, deadline);
+        let prices = self.session.price_stroke(plan, start + price_budget);
         if self.tools.tool.explains {
             self.explore.advance(&self.session);
         }
@@ -191,6 +192,14 @@ impl App {
         if cuts || follows || derives || finds || measures || plots || prices || steps {
             ctx.request_repaint();
         }
+    }
+
+    /// How much time of this frame goes into the mesh.
+    fn mesh_budget(&self, ctx: &Context) -> Duration {
+        let draws = ctx.input(|input| input.pointer.any_down());
+        let (share, most) = if draws { SLOW_FRAME_SHARE } else { SLOW_FRAME_SHARE_AT_REST };
+        let frame_time = ctx.input(|input| input.stable_dt);
+        Duration::from_secs_f32(share * frame_time.clamp(0.0, 1.0)).clamp(FRAME_BUDGET, most)
     }
 
     /// The second half of a frame: everything that is drawn.
