@@ -55,7 +55,7 @@ pub use field::{
 pub use geometry::{GridError, Lattice, LatticePoint, LatticeRect, Rect};
 pub use mesh::{
     Changes, CoarseError, Element, Fingerprint, Forecast, InvalidTarget, Limits, MOST_TRIANGLES, MemoryLimit,
-    Mesh, Progress, RefineError, Refiner, Updater, Violation, bisection_edge_length,
+    Mesh, Progress, RefineError, Refiner, TargetChange, Updater, Violation, bisection_edge_length,
 };
 pub use raster::{PixelRect, Raster, RasterPyramid, TiledRaster};
 

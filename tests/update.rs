@@ -2,6 +2,7 @@
 //!
 //! `MESHBRUSH_EDITS` sets how many edits are tried; ten thousand without it.
 
+use std::cell::Cell;
 use std::collections::HashMap;
 use std::ops::Range;
 
@@ -9,7 +10,8 @@ use fastrand::Rng;
 use glam::{DVec2, dvec2};
 use meshbrush::internals::geometry::{Lattice, LatticePoint, LatticeRect, Rect};
 use meshbrush::internals::mesh::{
-    Changes, Element, Forecast, InvalidTarget, Limits, Mesh, Orientation, Progress, RefineError, Updater,
+    Changes, Element, Forecast, InvalidTarget, Limits, Mesh, Orientation, Progress, RefineError,
+    TargetChange, Updater,
 };
 
 type Answer = Result<bool, InvalidTarget>;
@@ -119,26 +121,34 @@ fn any_spot(random: &mut Rng, mesh: &Mesh) -> Spot {
     Spot { at, radius, level: random.u32(1..=finest) }
 }
 
-/// Adds, removes, moves or changes a spot; returns the rectangles in which that says something else.
-fn edit(random: &mut Rng, spots: &mut Vec<Spot>, mesh: &Mesh) -> Vec<LatticeRect> {
+/// Adds, removes, moves or changes a spot; returns the rectangles in which that says something else, and how
+/// the targets change there.
+fn edit(random: &mut Rng, spots: &mut Vec<Spot>, mesh: &Mesh) -> Vec<(LatticeRect, TargetChange)> {
+    use TargetChange::{Coarser, Finer};
     let pick = (!spots.is_empty()).then(|| random.usize(..spots.len()));
     match (random.u8(..6), pick) {
-        (0..3, Some(i)) if spots.len() > random.usize(..6) => vec![spots.swap_remove(i).area(mesh)],
+        (0..3, Some(i)) if spots.len() > random.usize(..6) => {
+            vec![(spots.swap_remove(i).area(mesh), Coarser)]
+        }
         (3, Some(i)) => {
             let before = spots[i];
             spots[i].level = any_spot(random, mesh).level.min(before.level + 2);
-            vec![before.area(mesh)]
+            vec![(before.area(mesh), if spots[i].level < before.level { Coarser } else { Finer })]
         }
         (4, Some(i)) => {
             let before = spots[i];
             spots[i] = Spot { at: any_spot(random, mesh).at, ..before };
-            vec![before.area(mesh), spots[i].area(mesh)]
+            vec![(before.area(mesh), Coarser), (spots[i].area(mesh), Finer)]
         }
         _ => {
             spots.push(any_spot(random, mesh));
-            spots.last().map(|spot| spot.area(mesh)).into_iter().collect()
+            spots.last().map(|spot| (spot.area(mesh), Finer)).into_iter().collect()
         }
     }
+}
+
+fn areas_of(changes: Vec<(LatticeRect, TargetChange)>) -> Vec<LatticeRect> {
+    changes.into_iter().map(|(area, _)| area).collect()
 }
 
 fn from_scratch(coarse: &Mesh, spots: &[Spot]) -> Mesh {
@@ -204,7 +214,9 @@ fn after_any_edits_cut_anywhere_the_mesh_is_the_one_made_from_scratch() {
         let mut updater = Updater::new(Limits::default());
         let mut spots = Vec::new();
         for count in 0..edits / 9 {
-            edit(&mut random, &mut spots, &mesh).into_iter().for_each(|area| updater.add(area));
+            for (area, change) in edit(&mut random, &mut spots, &mesh) {
+                if random.u8(..4) == 0 { updater.add(area) } else { updater.add_change(area, change) }
+            }
             // Half the time the next edit comes before the work is done.
             let slice = 1 << random.u32(..8);
             let mut progress = Progress::More;
@@ -266,7 +278,7 @@ fn a_forecast_is_what_the_update_then_does() {
         let mut updater = Updater::new(Limits::default());
         let mut spots = Vec::new();
         for count in 0..edits / 9 {
-            let areas = edit(&mut random, &mut spots, &mesh);
+            let areas = areas_of(edit(&mut random, &mut spots, &mesh));
             let before = mesh.raw_triangle_count();
             let mut forecast = Forecast::new(&mesh, hull(&areas), &Limits::default());
             let asks = |corners, level| spots.iter().any(|spot| level < spot.level && spot.meets(corners));
@@ -347,6 +359,33 @@ fn the_work_goes_with_the_change_and_not_with_the_mesh() {
 }
 
 #[test]
+fn erasing_asks_no_more_than_painting_where_the_direction_is_known() {
+    let questions = |[painting, erasing]: [TargetChange; 2]| {
+        let (mut mesh, corner, dab) = with_a_far_corner(7);
+        let before = mesh.fingerprint();
+        let mut updater = Updater::new(Limits::default());
+        let counts = [(painting, vec![corner, dab]), (erasing, vec![corner])].map(|(change, spots)| {
+            let (asked, answer) = (Cell::new(0), rule(&spots));
+            updater.add_change(dab.area(&mesh), change);
+            let count = |element: &Element| {
+                asked.set(asked.get() + 1);
+                answer(element)
+            };
+            assert_eq!(updater.advance(&mut mesh, count, usize::MAX), Ok(Progress::Done));
+            asked.get()
+        });
+        assert_eq!(mesh.fingerprint(), before);
+        counts
+    };
+    let [painting, erasing] = questions([TargetChange::Finer, TargetChange::Coarser]);
+    let [painting_blindly, erasing_blindly] = questions([TargetChange::Any; 2]);
+    eprintln!(
+        "{painting} and {erasing} questions; {painting_blindly} and {erasing_blindly} in any direction"
+    );
+    assert!(erasing <= painting && painting <= painting_blindly && 3 * erasing < 2 * erasing_blindly);
+}
+
+#[test]
 fn at_the_budget_the_mesh_is_conforming_and_the_work_can_go_on() {
     let (mut mesh, corner, dab) = with_a_far_corner(6);
     let before = (mesh.fingerprint(), mesh.raw_triangle_count());
@@ -417,7 +456,7 @@ fn the_level_cap_holds_for_updates_too() {
     let mut random = Rng::with_seed(22);
     let (mut mesh, mut updater, mut spots) = (coarse.clone(), Updater::new(limits), Vec::new());
     for _ in 0..300 {
-        edit(&mut random, &mut spots, &mesh).into_iter().for_each(|area| updater.add(area));
+        areas_of(edit(&mut random, &mut spots, &mesh)).into_iter().for_each(|area| updater.add(area));
         settle(&mut updater, &mut mesh, &spots);
         let mut rebuilt = coarse.clone();
         rebuilt.refine(&limits, rule(&spots)).unwrap();

@@ -43,6 +43,7 @@ pub use stage::Stage;
 
 use crate::geometry::Rect;
 use crate::layers::{LayerId, PaintLayers};
+use crate::mesh::TargetChange;
 use crate::paint::Patch;
 use history::{Entry, EntryData};
 use strokes::LayerStroke;
@@ -78,10 +79,19 @@ pub struct Document {
 /// Where the paint changed since [`Document::take_repainted`] was last called.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Repainted {
-    /// Within these rectangles in world units, which may overlap; the list may be empty.
-    Within(Vec<Rect>),
+    /// Within these rectangles, which may overlap; the list may be empty.
+    Within(Vec<RepaintedArea>),
     /// The document was replaced: everything may differ.
     Everything,
+}
+
+/// Where and how painted target diameters changed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RepaintedArea {
+    /// In world units.
+    pub rect: Rect,
+    /// What happened to h̄.
+    pub change: TargetChange,
 }
 
 impl Document {
@@ -180,7 +190,7 @@ impl Document {
             let mut patch = Patch::clearing(raster);
             if !patch.is_empty() {
                 let areas = patch.exchange(raster);
-                self.note_repainted(layer, areas);
+                self.note_repainted(layer, areas, TargetChange::Any);
                 patches.push((layer, patch));
             }
         }
@@ -305,7 +315,7 @@ impl Document {
                 for (layer, patch) in patches {
                     let Some(raster) = self.paint.get_mut(*layer) else { continue };
                     let areas = patch.exchange(raster);
-                    self.note_repainted(*layer, areas);
+                    self.note_repainted(*layer, areas, TargetChange::Any);
                 }
             }
             EntryData::Settings(settings) => {
@@ -332,11 +342,16 @@ impl Document {
         self.history.last_done().map(|entry| &entry.data)
     }
 
-    fn note_repainted(&mut self, layer: LayerId, areas: impl IntoIterator<Item = Rect>) {
-        for area in areas {
+    fn note_repainted(
+        &mut self,
+        layer: LayerId,
+        areas: impl IntoIterator<Item = Rect>,
+        change: TargetChange,
+    ) {
+        for rect in areas {
             self.edits.layers.insert(layer);
             if let Repainted::Within(earlier) = &mut self.repainted {
-                earlier.push(area);
+                earlier.push(RepaintedArea { rect, change });
             }
         }
         self.revision += 1;

@@ -1,7 +1,7 @@
 //! Another mesh, built beside the shown one.
 
 use super::shown::Shown;
-use super::{Document, Settings, Stage};
+use super::{Document, RepaintedArea, Settings, Stage};
 use crate::build::{BuildError, BuildStage, MeshBuilder, MeshSpec, Parts};
 use crate::geometry::Rect;
 use crate::layers::PaintLayers;
@@ -30,8 +30,8 @@ impl Rebuild {
     }
 
     /// Notes what was painted meanwhile.
-    pub(super) fn repaint(&mut self, areas: &[Rect]) {
-        self.repainted.extend(areas);
+    pub(super) fn repaint(&mut self, areas: &[RepaintedArea]) {
+        self.repainted.extend(areas.iter().map(|area| area.rect));
     }
 
     pub(super) fn is_for(&self, settings: &Settings) -> bool {

@@ -2,16 +2,16 @@
 
 use std::sync::Arc;
 
-use super::Settings;
 use super::layers_update::LayersUpdate;
 use super::outline_update::OutlineUpdate;
 use super::rebuild::Rebuild;
+use super::{RepaintedArea, Settings};
 use crate::build::{BuildError, BuiltMesh, Parts, RefinementCriterion};
 use crate::domain::DomainOnLattice;
 use crate::field::RefinementRule;
 use crate::geometry::Rect;
 use crate::layers::{PaintLayers, SizeField};
-use crate::mesh::{Changes, Mesh, MeshCopy, Progress, RefineError, Updater};
+use crate::mesh::{Changes, Mesh, MeshCopy, Progress, RefineError, TargetChange, Updater};
 
 /// The field and the mesh that are shown, with the updates that they still need.
 #[derive(Clone, Debug)]
@@ -44,19 +44,25 @@ impl Shown {
         let updater = Updater::new(settings.limits());
         let upkeep = Upkeep::InPlace;
         let mut shown = Self { settings, domain, field, mesh: Arc::new(mesh), updater, upkeep };
-        shown.repaint(repainted, paint);
+        // Pixels may have been read before or after they changed.
+        let areas: Vec<_> =
+            repainted.iter().map(|&rect| RepaintedArea { rect, change: TargetChange::Any }).collect();
+        shown.repaint(&areas, paint);
         shown
     }
 
-    /// Notes where the paint changed, in world units. `paint` is the paint as it is now.
-    pub(super) fn repaint(&mut self, areas: &[Rect], paint: &PaintLayers) {
+    /// Notes where the paint changed. `paint` is the paint as it is now.
+    pub(super) fn repaint(&mut self, areas: &[RepaintedArea], paint: &PaintLayers) {
         if areas.is_empty() {
             return;
         }
         match self.settings.rule {
             RefinementRule::Area => {
-                let changed = areas.iter().filter_map(|area| self.field.area_affected_by(area, paint));
-                changed.for_each(|area| self.updater.add(area));
+                for RepaintedArea { rect, change } in areas {
+                    if let Some(area) = self.field.area_affected_by(rect, paint) {
+                        self.updater.add_change(area, *change);
+                    }
+                }
             }
             RefinementRule::Vertex => self.upkeep = Upkeep::NewMesh,
         }
@@ -116,8 +122,9 @@ impl Shown {
     /// Takes over other layers: the mesh is updated where h̄ can differ.
     pub(super) fn take_layers(&mut self, update: LayersUpdate, paint: &PaintLayers) {
         let (settings, field) = update.finish();
+        let change = settings.change_since(&self.settings);
         for area in field.areas_that_differ(&self.field, paint) {
-            self.updater.add(area);
+            self.updater.add_change(area, change);
         }
         self.updater.set_limits(settings.limits());
         self.domain = self.domain.with_boundary(settings.boundary);

@@ -2,6 +2,7 @@ use glam::{DVec2, dvec2};
 
 use crate::field::f32_not_below;
 use crate::geometry::nearest_share;
+use crate::mesh::TargetChange;
 
 /// What a brush does to the pixels under it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -13,6 +14,20 @@ pub enum Medium {
     Diameter(f64, DiameterChange),
     /// Removes risk and target diameter.
     Eraser,
+}
+
+impl Medium {
+    /// What it does to h̄, if a layer of paint counts where it is the finest.
+    pub fn change(&self, h_max: f64) -> TargetChange {
+        match *self {
+            Self::Risk(aim) if aim >= 1.0 => TargetChange::Finer,
+            // Towards the rim the new diameter grows to the largest, and beyond it where that is smaller.
+            Self::Diameter(target, DiameterChange::Finer) if target <= h_max => TargetChange::Finer,
+            Self::Risk(aim) if aim <= 0.0 => TargetChange::Coarser,
+            Self::Diameter(_, DiameterChange::Coarser) | Self::Eraser => TargetChange::Coarser,
+            Self::Risk(_) | Self::Diameter(..) => TargetChange::Any,
+        }
+    }
 }
 
 /// The changes of a painted target diameter that a brush makes.
