@@ -172,6 +172,34 @@ fn layers_transfer_and_gradation_change_the_mesh_where_it_is() {
 }
 
 #[test]
+fn limits_that_change_most_of_a_large_mesh_make_another_one() {
+    let formula = Formula::parse("0.0045 + 0.001 * x").unwrap();
+    let layers = Layer::usual(LayerKind::target(formula));
+    let settings = Settings { layers, ..Settings::default() };
+    let mut document = Document::new(settings, None).unwrap();
+    document.set(Setting::SmallestDiameter(0.003)).unwrap();
+    let mut follower = Follower::new(&mut document).unwrap();
+    paint(&mut document);
+    settle(&mut follower, &mut document);
+    let count = follower.mesh().raw_triangle_count();
+    assert!(count > 250_000, "{count}");
+    follower.take_change();
+    for (h_min, is_replaced) in [(0.012, true), (0.003, false), (0.0028, true)] {
+        document.set(Setting::SmallestDiameter(h_min)).unwrap();
+        document.end_gesture();
+        let before = follower.mesh().fingerprint();
+        // The shown mesh stays until the other one is complete.
+        while follower.advance(&mut document, SLICE).unwrap() != Stage::InStep {
+            let is_kept = follower.mesh().raw_triangle_count() == count;
+            assert!(!is_replaced || !is_kept || follower.mesh().fingerprint() == before);
+        }
+        let change = follower.take_change();
+        assert_eq!(matches!(change, Some(MeshChange::Replaced)), is_replaced, "{h_min}");
+        assert_as_from_scratch(&follower, &document);
+    }
+}
+
+#[test]
 fn another_document_is_not_kept_waiting_by_a_rebuild() {
     let (mut document, mut follower) = large();
     document.set(Setting::SmallestDiameter(0.0015)).unwrap();

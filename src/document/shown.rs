@@ -9,7 +9,7 @@ use super::{RepaintedArea, Settings};
 use crate::build::{BuildError, BuiltMesh, Parts, RefinementCriterion};
 use crate::domain::DomainOnLattice;
 use crate::field::RefinementRule;
-use crate::geometry::Rect;
+use crate::geometry::{Lattice, LatticePoint, LatticeRect, Rect};
 use crate::layers::{PaintLayers, SizeField};
 use crate::mesh::{Changes, Mesh, MeshCopy, Progress, RefineError, TargetChange, Updater};
 
@@ -32,9 +32,20 @@ pub(super) struct Shown {
 enum Upkeep {
     /// Updates in place.
     InPlace,
-    /// A rebuild: updates were cancelled, something was painted under the vertex rule, or the document was
-    /// replaced.
+    /// A rebuild: updates were cancelled, something was painted under the vertex rule, the document was
+    /// replaced, or most of a large mesh would have to be updated.
     NewMesh,
+}
+
+/// From this many triangles on a mesh is made again on all cores rather than updated for the most part, which
+/// one core does. Before, both take a few frames, and an update keeps the numbers of triangles.
+const LARGE: usize = 250_000;
+
+/// Whether some areas cover more than half of a lattice.
+fn cover_most(areas: &[LatticeRect], lattice: &Lattice) -> bool {
+    let area = |min: LatticePoint, max: LatticePoint| f64::from(max.x - min.x) * f64::from(max.y - min.y);
+    let covered: f64 = areas.iter().map(|rect| area(rect.min, rect.max)).sum();
+    2.0 * covered > area(LatticePoint::new(0, 0), lattice.extent())
 }
 
 impl Shown {
@@ -119,12 +130,16 @@ impl Shown {
             && LayersUpdate::is_possible(&self.settings, wanted)
     }
 
-    /// Takes over other layers: the mesh is updated where h̄ can differ.
+    /// Takes over other layers: the mesh is updated where h̄ can differ, or made again where that is most of
+    /// a large mesh.
     pub(super) fn take_layers(&mut self, update: LayersUpdate, paint: &PaintLayers) {
         let (settings, field) = update.finish();
-        let change = settings.change_since(&self.settings);
-        for area in field.areas_that_differ(&self.field, paint) {
-            self.updater.add_change(area, change);
+        let areas = field.areas_that_differ(&self.field, paint);
+        if self.mesh.raw_triangle_count() >= LARGE && cover_most(&areas, self.mesh.lattice()) {
+            self.upkeep = Upkeep::NewMesh;
+        } else {
+            let change = settings.change_since(&self.settings);
+            areas.into_iter().for_each(|area| self.updater.add_change(area, change));
         }
         self.updater.set_limits(settings.limits());
         self.domain = self.domain.with_boundary(settings.boundary);

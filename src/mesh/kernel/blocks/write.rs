@@ -20,6 +20,8 @@ use crate::mesh::kernel::{KindCounts, Limits, Mesh, Neighbour, NodeId, Progress,
 
 /// About so many triangles are a chunk, which is written by one thread.
 const CHUNK_TRIANGLES: usize = 1 << 14;
+/// Entries of the skeleton that are copied in the time of a visit.
+const COPIES_PER_VISIT: usize = 8;
 
 /// Writes blocks to the arrays of a mesh, in slices.
 #[derive(Clone, Debug)]
@@ -30,6 +32,8 @@ pub(super) struct Writer {
     /// The next numbers that are free.
     free: Free,
     counts: KindCounts,
+    /// How many entries of the skeleton are in the mesh.
+    copied: usize,
     chunks: Vec<Chunk>,
     /// The first chunk that is not written.
     next: usize,
@@ -68,17 +72,18 @@ impl Writer {
         let skeleton = &blocks.mesh;
         let free = Free { triangle: skeleton.triangles.len() as u32, node: skeleton.nodes.len() as u32 };
         let (numbers, counts, chunks) = Default::default();
-        Self { numbers, free, counts, chunks, next: 0, blocks }
+        Self { numbers, free, counts, copied: 0, chunks, next: 0, blocks }
     }
 
-    /// Numbers about `visits` blocks, or writes about as many triangles; a chunk on each thread at least.
+    /// Numbers about `visits` blocks, or writes about as many triangles: a chunk on each thread at least.
     pub fn advance(&mut self, mesh: &mut Mesh, limits: &Limits, visits: usize) -> Progress {
         if self.numbers.len() < self.blocks.depths.len() {
             self.number(visits);
             return Progress::More;
         }
-        if self.next == 0 {
-            self.begin(mesh, limits);
+        if self.copied < self.blocks.mesh.triangles.len().max(self.blocks.mesh.nodes.len()) {
+            self.copy_skeleton(mesh, limits, visits);
+            return Progress::More;
         }
         let count = (visits / CHUNK_TRIANGLES).max(rayon::current_num_threads());
         let chunks = &self.chunks[self.next..];
@@ -87,18 +92,24 @@ impl Writer {
         if self.next == self.chunks.len() { Progress::Done } else { Progress::More }
     }
 
-    /// Puts the blocks in place of the contents of `mesh`, and makes room for their triangles.
-    fn begin(&self, mesh: &mut Mesh, limits: &Limits) {
+    /// Puts the skeleton in place of the contents of `mesh`, and makes room for the triangles of all blocks.
+    fn copy_skeleton(&mut self, mesh: &mut Mesh, limits: &Limits, visits: usize) {
         let skeleton = &self.blocks.mesh;
-        mesh.triangles.clear();
-        mesh.nodes.clear();
-        mesh.triangle_at.clear();
-        mesh.make_room(self.free.triangle as usize, limits.most_triangles());
-        mesh.triangles.extend_from_slice(&skeleton.triangles);
-        mesh.nodes.extend_from_slice(&skeleton.nodes);
-        let nodes = (0..skeleton.nodes.len()).into_par_iter().map(NodeId::from_index);
+        if self.copied == 0 {
+            mesh.triangles.clear();
+            mesh.nodes.clear();
+            mesh.triangle_at.clear();
+            mesh.make_room(self.free.triangle as usize, limits.most_triangles());
+            mesh.counts = self.counts;
+        }
+        let end = visits.max(1).saturating_mul(COPIES_PER_VISIT).saturating_add(self.copied);
+        let part = |length: usize| self.copied.min(length)..end.min(length);
+        let nodes = part(skeleton.nodes.len());
+        mesh.triangles.extend_from_slice(&skeleton.triangles[part(skeleton.triangles.len())]);
+        mesh.nodes.extend_from_slice(&skeleton.nodes[nodes.clone()]);
+        let nodes = nodes.into_par_iter().map(NodeId::from_index);
         mesh.triangle_at.par_extend(nodes.map(|node| self.triangle_at_corner(node)));
-        mesh.counts = self.counts;
+        self.copied = end;
     }
 
     fn write(&self, mesh: &mut Mesh, chunks: &[Chunk]) {
