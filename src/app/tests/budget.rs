@@ -108,7 +108,7 @@ fn the_budgets_are_typed_in_the_panel_and_what_is_too_small_is_told() {
     type_into(&mut window, "Memory budget", "0.001");
     assert!(notice(&window).contains("1 MB of memory"), "{}", notice(&window));
     assert_eq!((settings(&window).max_memory, triangles(&window)), (500_000_000, count));
-    set(&mut window, Setting::MaxMemory(86 * (count + 100)));
+    set(&mut window, Setting::MaxMemory(98 * (count + 100)));
     let tag = hover(&mut window, FREE).unwrap();
     assert!(tag.ends_with("over the budget"), "{tag}");
 }

@@ -72,8 +72,7 @@ impl Mesh {
     pub(in crate::mesh) fn bisect_at_boundary(&mut self, id: TriangleId) {
         let midpoint = self.push_midpoint(id);
         self.counts.bisected(self.triangle(id).kind());
-        // Both halves of a seam are of that seam.
-        let [boundary, ..] = self.triangle(id).raw_neighbours;
+        let boundary = Neighbour::BOUNDARY;
         self.bisect_side(id, midpoint, Facing { kept: boundary, new: boundary });
     }
 

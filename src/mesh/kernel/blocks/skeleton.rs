@@ -1,12 +1,13 @@
 //! The mesh of the blocks: each of its triangles is refined to one depth everywhere.
 //!
 //! ```text
-//!        /|\                 /|\         Where blocks halve a common edge a different number of times, the
-//!       / | \               / | \        one that halves it less is bisected: its children are blocks of one
-//!      /  |  \     =>      /  | /\       level less, or single triangles. Only what lies along the edge is
-//!     / 4 | 6 \           / 3 |/ 6\      bisected again and again.
-//!    -----------         -----------
+//!   depth 2     o-----------o-----------o     halves a leg once
+//!   depth 4     o-----o-----o-----o-----o     halves it twice
 //! ```
+//!
+//! Where two blocks halve their common edge a different number of times, the one that halves it less is
+//! bisected. Its children are blocks of one level less, or single triangles, and so on along the edge: what
+//! does not border on it stays in large blocks.
 
 use super::survey::{Slots, Wanted};
 use super::template::halvings;
