@@ -4,6 +4,8 @@ mod coast;
 mod formula_mesh;
 mod kept_picture;
 
+use std::collections::HashMap;
+
 use glam::{DVec2, dvec2};
 use kept_picture::keep;
 use meshbrush::internals::geometry::LatticePoint;
@@ -169,4 +171,45 @@ fn the_edges_of_a_removed_triangle_are_boundary_edges() {
     let image = software::draw(ShownMesh { mesh, pieces: Some(&pieces) }, &camera, &style, None, &[]);
     assert!(image == software::draw_extract(&extract, &camera, &style));
     assert!(image != software::draw(mesh, &camera, &style, None, &[]));
+}
+
+#[test]
+fn an_extract_is_the_same_for_any_number_of_threads_and_its_neighbours_share_edges() {
+    let built = coast::coast(0.002);
+    let (mesh, derived) = (&built.mesh, coast::derived(&built.mesh, &built));
+    let extract = on_threads(1, || derived.extract(mesh));
+    assert!(extract.triangles().len() > 30_000, "{} triangles: all of one thread", extract.triangles().len());
+    assert!(derived.patch().changed.len() > 1000);
+    for threads in [2, 3, 8] {
+        let other = on_threads(threads, || derived.extract(mesh));
+        assert!(extract.triangles() == other.triangles() && extract.nodes() == other.nodes());
+    }
+
+    let mut across = HashMap::new();
+    let edges = |[a, b, c]: [usize; 3]| [[b, c], [c, a], [a, b]];
+    for (index, cell) in extract.cells().enumerate() {
+        for edge in edges(cell.corners) {
+            assert_eq!(across.insert(edge, index), None, "two triangles left of {edge:?}");
+        }
+    }
+    for cell in extract.cells() {
+        let expected = edges(cell.corners).map(|[from, to]| across.get(&[to, from]).copied());
+        assert_eq!(cell.opposite, expected);
+    }
+    let mut used = vec![false; extract.nodes().len()];
+    extract.cells().flat_map(|cell| cell.corners).for_each(|node| used[node] = true);
+    assert!(used.iter().all(|&used| used), "nodes of no triangle");
+    let moved: HashMap<_, _> = derived.patch().moved.iter().copied().collect();
+    for index in 0..mesh.raw_triangle_count() {
+        let id = TriangleId::from_index(index);
+        if let Some(place) = extract.place_of(id) {
+            let corners = extract.cell(place).corners.map(|node| extract.nodes()[node]);
+            let nodes = mesh.triangle(id).edge_nodes().map(|(from, _)| from);
+            assert_eq!(corners, nodes.map(|node| *moved.get(&node).unwrap_or(&mesh.node(node))));
+        }
+    }
+}
+
+fn on_threads<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> T {
+    rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap().install(work)
 }

@@ -9,6 +9,7 @@
 
 use std::io::{self, Write};
 
+use super::triangle_pieces::TrianglePieces;
 use super::{FormatSpec, MeshData, NodeValues, Number, TypicalSize, write_rows};
 use crate::mesh::{Extract, NodeId, TriangleId};
 
@@ -35,23 +36,18 @@ pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Resul
         write!(out, ",{name}1,{name}2,{name}3")?;
     }
     writeln!(out)?;
-    // The edges of the boundary are in the order of their triangles.
-    let edges: Vec<usize> = mesh.boundary_edges().map(|edge| edge.triangle).collect();
-    let pieces = data.boundary.piece_of_edge();
-    write_rows(out, mesh.triangles().len(), |out, id| {
-        let first = edges.partition_point(|&triangle| triangle < id);
-        write_row(out, mesh, data, (id, &pieces[first..]))
-    })
+    let pieces = TrianglePieces::new(mesh, data.boundary);
+    write_rows(out, mesh.triangles().len(), |out, id| write_row(out, mesh, data, &pieces, id))
 }
 
-/// The row of a triangle; `pieces` has those of its edges on the boundary first.
 fn write_row(
     out: &mut impl Write,
     mesh: &Extract,
     data: &MeshData,
-    (id, pieces): (usize, &[u32]),
+    pieces: &TrianglePieces,
+    id: usize,
 ) -> io::Result<()> {
-    let mut pieces = pieces.iter();
+    let mut pieces = pieces.of(id);
     let cell = mesh.cell(TriangleId::from_index(id));
     let [a, b, c] = cell.corners;
     write!(out, "{id},{},{a},{b},{c}", cell.level)?;

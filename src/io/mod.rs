@@ -47,6 +47,7 @@ pub mod stl;
 pub mod svg;
 mod table;
 pub mod threats;
+mod triangle_pieces;
 pub mod vtu;
 mod words;
 pub mod world_file;

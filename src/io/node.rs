@@ -10,6 +10,7 @@
 
 use std::io::{self, Write};
 
+use super::triangle_pieces::TrianglePieces;
 use super::{FormatSpec, MeshData, Number, TypicalSize, write_rows};
 use crate::mesh::{Extract, NodeId, TriangleId};
 
@@ -78,13 +79,24 @@ pub fn write_neighbours(out: &mut impl Write, mesh: &Extract, data: &MeshData) -
 /// # Errors
 /// Errors of `out`.
 pub fn write_edges(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Result<()> {
-    // Edges on the boundary are in the order of the boundary edges.
-    let mut pieces = data.boundary.piece_of_edge().iter();
-    writeln!(out, "{} 1", mesh.edges().count())?;
-    for (id, edge) in mesh.edges().enumerate() {
-        let [from, to] = edge.ends;
-        let piece = if edge.on_boundary { pieces.next() } else { None };
-        writeln!(out, "{id} {from} {to} {}", piece.map_or(0, |piece| piece + 1))?;
-    }
+    let mut count = 0;
+    let first_ids = (0..mesh.triangles().len()).map(|triangle| {
+        let first = count;
+        count += mesh.first_edges_of(TriangleId::from_index(triangle)).count();
+        first
+    });
+    let first_ids: Vec<usize> = first_ids.collect();
+    let pieces = TrianglePieces::new(mesh, data.boundary);
+    writeln!(out, "{count} 1")?;
+    write_rows(out, first_ids.len(), |out, triangle| {
+        let mut pieces = pieces.of(triangle);
+        let edges = mesh.first_edges_of(TriangleId::from_index(triangle));
+        for (id, edge) in (first_ids[triangle]..).zip(edges) {
+            let [from, to] = edge.ends;
+            let piece = if edge.on_boundary { pieces.next() } else { None };
+            writeln!(out, "{id} {from} {to} {}", piece.map_or(0, |piece| piece + 1))?;
+        }
+        Ok(())
+    })?;
     data.write_comments(out)
 }

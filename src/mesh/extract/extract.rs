@@ -173,13 +173,20 @@ impl Extract<'_> {
 
     /// Every edge once, in the order of the triangles.
     pub fn edges(&self) -> impl Iterator<Item = MeshEdge> + Clone + '_ {
-        self.triangles.iter().enumerate().flat_map(|(index, triangle)| {
-            let edges = triangle.edge_nodes().into_iter().zip(triangle.raw_neighbours);
-            let mine = edges.filter(move |(_, across)| across.triangle().is_none_or(|t| index < t.index()));
-            mine.map(|((from, to), across)| MeshEdge {
-                ends: [from.index(), to.index()],
-                on_boundary: across.triangle().is_none(),
-            })
+        (0..self.triangles.len()).flat_map(|index| self.first_edges_of(TriangleId::from_index(index)))
+    }
+
+    /// The edges of a triangle that are not those of a triangle before it.
+    ///
+    /// # Panics
+    /// When there is no such triangle.
+    pub fn first_edges_of(&self, id: TriangleId) -> impl Iterator<Item = MeshEdge> + Clone + '_ {
+        let triangle = &self.triangles[id.index()];
+        let edges = triangle.edge_nodes().into_iter().zip(triangle.raw_neighbours);
+        let mine = edges.filter(move |(_, across)| across.triangle().is_none_or(|other| id < other));
+        mine.map(|((from, to), across)| MeshEdge {
+            ends: [from.index(), to.index()],
+            on_boundary: across.triangle().is_none(),
         })
     }
 

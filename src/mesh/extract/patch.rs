@@ -3,10 +3,13 @@
 use std::borrow::Cow;
 use std::collections::HashMap;
 use std::ops::Range;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use rayon::prelude::*;
 
 use super::Extract;
 use crate::geometry::LatticePoint;
-use crate::mesh::kernel::{Kind, Mesh, Neighbour, NodeId, Orientation, Triangle, TriangleId};
+use crate::mesh::kernel::{Kind, Mesh, Neighbour, NodeId, Orientation, Triangle, TriangleId, append_pieces};
 
 /// What is changed in a mesh before it leaves the program. All ids are those of the mesh's own arrays
 /// ([`Mesh::raw_nodes`], [`Mesh::raw_triangles`]); added nodes follow the mesh's.
@@ -62,25 +65,18 @@ impl PatchTriangle {
 
 impl Mesh {
     /// The part of the mesh that belongs to the domain, with the changes of a patch. Pieces are at the
-    /// place of the triangles that they replace.
+    /// place of the triangles that they replace. All threads work on it.
     ///
     /// # Panics
     /// When the patch is of another mesh.
     pub fn extract_with(&self, patch: &MeshPatch) -> Extract<'_> {
-        let mut assembly = Assembly::new(self, patch);
-        let mut changed = patch.changed.iter().peekable();
-        for (index, triangle) in self.triangles.iter().enumerate() {
-            if let Some((_, pieces)) = changed.next_if(|(id, _)| id.index() == index) {
-                patch.pieces[pieces.clone()].iter().for_each(|piece| assembly.push_piece(piece));
-            } else if !triangle.is_outside() {
-                assembly.push_unchanged(triangle);
-            }
-        }
-        let Assembly { places, mut triangles, .. } = assembly;
+        let chunks = chunks(self, patch);
+        let places = places(self, &chunks);
+        let mut triangles = assemble(self, patch, &chunks, &places);
         let (nodes, numbers) = used_nodes(self, patch, &triangles);
-        for triangle in &mut triangles {
+        triangles.par_iter_mut().for_each(|triangle| {
             triangle.vertices = triangle.vertices.map(|v| numbers[v.index()]);
-        }
+        });
         Extract {
             lattice: self.lattice,
             nodes: Cow::Owned(nodes),
@@ -91,63 +87,155 @@ impl Mesh {
     }
 }
 
+/// Entries of an array that one thread handles at a time.
+const CHUNK: usize = 1 << 13;
+
+/// Triangles of the mesh, one after the other.
+struct Chunk<'a> {
+    /// The number of the first one in the mesh.
+    first: usize,
+    triangles: &'a [Triangle],
+    changed: &'a [(TriangleId, Range<usize>)],
+    /// Triangles of the extract before those of the chunk.
+    before: usize,
+    /// Triangles of the extract that take their place.
+    count: usize,
+}
+
+/// What becomes of a triangle.
+enum Fate<'a> {
+    Kept(&'a Triangle),
+    /// It is replaced by these pieces.
+    Changed(Range<usize>),
+    /// It is not in the domain.
+    LeftOut,
+}
+
+impl Fate<'_> {
+    fn count(&self) -> usize {
+        match self {
+            Self::Kept(_) => 1,
+            Self::Changed(pieces) => pieces.len(),
+            Self::LeftOut => 0,
+        }
+    }
+}
+
+impl<'a> Chunk<'a> {
+    /// What becomes of each triangle.
+    fn fates(&self) -> impl Iterator<Item = Fate<'a>> {
+        let mut changed = self.changed.iter().peekable();
+        let numbered = (self.first..).zip(self.triangles);
+        numbered.map(move |(index, triangle)| match changed.next_if(|(id, _)| id.index() == index) {
+            Some((_, pieces)) => Fate::Changed(pieces.clone()),
+            None if triangle.is_outside() => Fate::LeftOut,
+            None => Fate::Kept(triangle),
+        })
+    }
+}
+
+/// The whole mesh in chunks.
+fn chunks<'a>(mesh: &'a Mesh, patch: &'a MeshPatch) -> Vec<Chunk<'a>> {
+    let mut chunks = Vec::new();
+    let chunk = |(n, triangles): (usize, &'a [Triangle])| {
+        let first = CHUNK * n;
+        let [begin, end] = [first, first + triangles.len()]
+            .map(|index| patch.changed.partition_point(|(id, _)| id.index() < index));
+        let mut chunk = Chunk { first, triangles, changed: &patch.changed[begin..end], before: 0, count: 0 };
+        chunk.count = chunk.fates().map(|fate| fate.count()).sum();
+        chunk
+    };
+    mesh.triangles.par_chunks(CHUNK).enumerate().map(chunk).collect_into_vec(&mut chunks);
+    let mut before = 0;
+    for chunk in &mut chunks {
+        chunk.before = before;
+        before += chunk.count;
+    }
+    chunks
+}
+
+/// For each triangle of the mesh its number in the extract, if it is in the domain and unchanged.
+fn places(mesh: &Mesh, chunks: &[Chunk]) -> Vec<Neighbour> {
+    let mut places = vec![Neighbour::BOUNDARY; mesh.triangles.len()];
+    places.par_chunks_mut(CHUNK).zip(chunks).for_each(|(places, chunk)| {
+        let mut next = chunk.before;
+        for (place, fate) in places.iter_mut().zip(chunk.fates()) {
+            if matches!(fate, Fate::Kept(_)) {
+                *place = TriangleId::from_index(next).into();
+            }
+            next += fate.count();
+        }
+    });
+    places
+}
+
 /// Triangles with their neighbours by their numbers in the extract, and nodes by their ids in the mesh.
+fn assemble(mesh: &Mesh, patch: &MeshPatch, chunks: &[Chunk], places: &[Neighbour]) -> Vec<Triangle> {
+    let mut is_changed = vec![false; mesh.triangles.len()];
+    patch.changed.iter().for_each(|(id, _)| is_changed[id.index()] = true);
+    let (mut triangles, mut unjoined) = (Vec::new(), Vec::new());
+    append_pieces(&mut triangles, chunks.iter().map(|chunk| chunk.count), |parts| {
+        let parts = parts.par_iter_mut().zip(chunks);
+        let assembled = parts.map(|(part, chunk)| {
+            let assembly = Assembly::of(chunk, patch, places, &is_changed);
+            part.extend(assembly.triangles.into_iter());
+            assembly.unjoined
+        });
+        assembled.collect_into_vec(&mut unjoined);
+    });
+    join(&mut triangles, unjoined.into_iter().flatten());
+    triangles
+}
+
+/// The triangles of a chunk.
 struct Assembly {
-    /// For each triangle of the mesh its number, if it is in the domain and unchanged.
-    places: Vec<Neighbour>,
-    /// For each triangle of the mesh whether it is changed.
-    is_changed: Vec<bool>,
     triangles: Vec<Triangle>,
-    /// Edges of which one triangle is known, each with that triangle and its edge.
-    open: HashMap<(NodeId, NodeId), (usize, usize)>,
+    /// Edges at which pieces lie: the number of a triangle in the extract, and its edge.
+    unjoined: Vec<(usize, usize)>,
 }
 
 impl Assembly {
-    fn new(mesh: &Mesh, patch: &MeshPatch) -> Self {
-        let mut is_changed = vec![false; mesh.triangles.len()];
-        patch.changed.iter().for_each(|(id, _)| is_changed[id.index()] = true);
-        let mut places = vec![Neighbour::BOUNDARY; mesh.triangles.len()];
-        let (mut changed, mut count) = (patch.changed.iter().peekable(), 0);
-        for (index, triangle) in mesh.triangles.iter().enumerate() {
-            if let Some((_, pieces)) = changed.next_if(|(id, _)| id.index() == index) {
-                count += pieces.len();
-            } else if !triangle.is_outside() {
-                places[index] = TriangleId::from_index(count).into();
-                count += 1;
+    fn of(chunk: &Chunk, patch: &MeshPatch, places: &[Neighbour], is_changed: &[bool]) -> Self {
+        let (mut triangles, mut unjoined) = (Vec::with_capacity(chunk.count), Vec::new());
+        for fate in chunk.fates() {
+            match fate {
+                Fate::LeftOut => {}
+                Fate::Kept(triangle) => {
+                    let mut renumbered = *triangle;
+                    for (j, across) in renumbered.raw_neighbours.iter_mut().enumerate() {
+                        let Some(id) = across.triangle() else { continue };
+                        *across = places[id.index()];
+                        if is_changed[id.index()] {
+                            unjoined.push((chunk.before + triangles.len(), j));
+                        }
+                    }
+                    triangles.push(renumbered);
+                }
+                Fate::Changed(pieces) => {
+                    for piece in &patch.pieces[pieces] {
+                        unjoined.extend((0..3).map(|j| (chunk.before + triangles.len(), j)));
+                        triangles.push(piece.triangle());
+                    }
+                }
             }
         }
-        Self { places, is_changed, triangles: Vec::with_capacity(count), open: HashMap::new() }
+        Self { triangles, unjoined }
     }
+}
 
-    fn push_unchanged(&mut self, triangle: &Triangle) {
-        let mut renumbered = *triangle;
-        renumbered.raw_neighbours =
-            triangle.raw_neighbours.map(|n| n.triangle().map_or(n, |id| self.places[id.index()]));
-        self.triangles.push(renumbered);
-        for (j, across) in triangle.raw_neighbours.into_iter().enumerate() {
-            if across.triangle().is_some_and(|id| self.is_changed[id.index()]) {
-                self.join(j);
-            }
-        }
-    }
-
-    fn push_piece(&mut self, piece: &PatchTriangle) {
-        self.triangles.push(piece.triangle());
-        (0..3).for_each(|j| self.join(j));
-    }
-
-    /// Joins the last triangle to the one that has its edge `j` in the other direction, once that one is
-    /// known.
-    fn join(&mut self, j: usize) {
-        let index = self.triangles.len() - 1;
-        let (from, to) = self.triangles[index].edge_nodes()[j];
-        match self.open.remove(&(to, from)) {
+/// Makes neighbours of triangles that have an edge in common, in opposite directions.
+fn join(triangles: &mut [Triangle], edges: impl Iterator<Item = (usize, usize)>) {
+    // Edges of which one triangle is known.
+    let mut open: HashMap<(NodeId, NodeId), (usize, usize)> = HashMap::new();
+    for (index, j) in edges {
+        let (from, to) = triangles[index].edge_nodes()[j];
+        match open.remove(&(to, from)) {
             Some((other, k)) => {
-                self.triangles[index].raw_neighbours[j] = TriangleId::from_index(other).into();
-                self.triangles[other].raw_neighbours[k] = TriangleId::from_index(index).into();
+                triangles[index].raw_neighbours[j] = TriangleId::from_index(other).into();
+                triangles[other].raw_neighbours[k] = TriangleId::from_index(index).into();
             }
             None => {
-                self.open.insert((from, to), (index, j));
+                open.insert((from, to), (index, j));
             }
         }
     }
@@ -157,14 +245,16 @@ impl Assembly {
 fn used_nodes(mesh: &Mesh, patch: &MeshPatch, triangles: &[Triangle]) -> (Vec<LatticePoint>, Vec<NodeId>) {
     let mut points: Vec<LatticePoint> = mesh.nodes.iter().chain(&patch.added).copied().collect();
     patch.moved.iter().for_each(|&(id, point)| points[id.index()] = point);
-    let mut used = vec![false; points.len()];
-    for vertex in triangles.iter().flat_map(|triangle| triangle.vertices) {
-        used[vertex.index()] = true;
-    }
+    let mut used = Vec::new();
+    used.resize_with(points.len(), AtomicBool::default);
+    triangles.par_iter().flat_map_iter(|triangle| triangle.vertices).for_each(|vertex| {
+        // Only ever set, and read after all threads have joined.
+        used[vertex.index()].store(true, Ordering::Relaxed);
+    });
     let (mut nodes, mut numbers) = (Vec::new(), Vec::with_capacity(points.len()));
     for (point, used) in points.into_iter().zip(used) {
         numbers.push(NodeId::from_index(nodes.len()));
-        nodes.extend(used.then_some(point));
+        nodes.extend(used.into_inner().then_some(point));
     }
     (nodes, numbers)
 }

@@ -85,7 +85,7 @@ fn advise_large_pages<T>(array: &mut Vec<T>) {
 fn advise_large_pages<T>(_array: &mut Vec<T>) {}
 
 /// A part of the room behind an array, to be filled from its beginning.
-pub(super) struct Piece<'a, T> {
+pub(in crate::mesh) struct Piece<'a, T> {
     slots: &'a mut [MaybeUninit<T>],
     filled: usize,
 }
@@ -95,7 +95,7 @@ impl<T: Copy> Piece<'_, T> {
     ///
     /// # Panics
     /// When the piece has less room.
-    pub(super) fn extend(&mut self, values: impl ExactSizeIterator<Item = T>) {
+    pub(in crate::mesh) fn extend(&mut self, values: impl ExactSizeIterator<Item = T>) {
         let count = values.len();
         let places = &mut self.slots[self.filled..self.filled + count];
         let written = places.iter_mut().zip(values).map(|(place, value)| place.write(value)).count();
@@ -109,7 +109,7 @@ impl<T: Copy> Piece<'_, T> {
 ///
 /// # Panics
 /// When a piece is not full in the end.
-pub(super) fn append_pieces<T: Copy>(
+pub(in crate::mesh) fn append_pieces<T: Copy>(
     array: &mut Vec<T>,
     lengths: impl Iterator<Item = usize> + Clone,
     fill: impl FnOnce(&mut [Piece<T>]),
