@@ -9,7 +9,7 @@ use super::{RepaintedArea, Settings};
 use crate::build::{BuildError, BuiltMesh, Parts, RefinementCriterion};
 use crate::domain::DomainOnLattice;
 use crate::field::RefinementRule;
-use crate::geometry::{Lattice, LatticePoint, LatticeRect, Rect};
+use crate::geometry::{LatticeRect, Rect};
 use crate::layers::{PaintLayers, SizeField};
 use crate::mesh::{Changes, Mesh, MeshCopy, Progress, RefineError, TargetChange, Updater};
 
@@ -41,11 +41,19 @@ enum Upkeep {
 /// one core does. Before, both take a few frames, and an update keeps the numbers of triangles.
 const LARGE: usize = 250_000;
 
-/// Whether some areas cover more than half of a lattice.
-fn cover_most(areas: &[LatticeRect], lattice: &Lattice) -> bool {
-    let area = |min: LatticePoint, max: LatticePoint| f64::from(max.x - min.x) * f64::from(max.y - min.y);
-    let covered: f64 = areas.iter().map(|rect| area(rect.min, rect.max)).sum();
-    2.0 * covered > area(LatticePoint::new(0, 0), lattice.extent())
+/// Triangles that are looked up to estimate a share of them.
+const SAMPLE: usize = 4096;
+
+/// Whether more than half of the triangles of a mesh lie in some areas, by a sample at equal steps.
+fn hold_most(areas: &[LatticeRect], mesh: &Mesh) -> bool {
+    let triangles = mesh.raw_triangles();
+    let sampled = triangles.iter().step_by(triangles.len().div_ceil(SAMPLE).max(1));
+    let count = sampled.len();
+    let inside = sampled.filter(|triangle| {
+        let corners = triangle.edge_nodes().map(|(from, _)| mesh.node(from));
+        areas.iter().any(|area| area.touches(corners))
+    });
+    2 * inside.count() > count
 }
 
 impl Shown {
@@ -135,7 +143,7 @@ impl Shown {
     pub(super) fn take_layers(&mut self, update: LayersUpdate, paint: &PaintLayers) {
         let (settings, field) = update.finish();
         let areas = field.areas_that_differ(&self.field, paint);
-        if self.mesh.raw_triangle_count() >= LARGE && cover_most(&areas, self.mesh.lattice()) {
+        if self.mesh.raw_triangle_count() >= LARGE && hold_most(&areas, &self.mesh) {
             self.upkeep = Upkeep::NewMesh;
         } else {
             let change = settings.change_since(&self.settings);
