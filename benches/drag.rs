@@ -13,7 +13,7 @@ use meshbrush::internals::document::{Document, Follower, MeshChange, Setting, Se
 use meshbrush::internals::field::Formula;
 use meshbrush::internals::layers::{Layer, LayerKind};
 
-/// The window's own values: `FRAME_BUDGET` in `app/frame.rs` and `SLICE` in `app/session.rs`.
+/// The window's own values: `FRAME_BUDGET` in `app/frame.rs` and `SLICE` in `app/slices.rs`.
 const FRAME_BUDGET: Duration = Duration::from_millis(7);
 const SLICE: usize = 2048;
 const SECONDS: usize = 2;

@@ -30,7 +30,7 @@ use meshbrush::internals::outline::DerivedMesh;
 use meshbrush::internals::paint::{Brush, Medium};
 use meshbrush::internals::render::gpu::Offscreen;
 
-/// The window's own values: `FRAME_BUDGET` in `app/frame.rs` and `SLICE` in `app/session.rs`.
+/// The window's own values: `FRAME_BUDGET` in `app/frame.rs` and `SLICE` in `app/slices.rs`.
 const FRAME_BUDGET: Duration = Duration::from_millis(7);
 const SLICE: usize = 2048;
 

@@ -25,7 +25,7 @@ use meshbrush::internals::layers::{
 use meshbrush::internals::paint::{Brush, Medium};
 use meshbrush::internals::raster::{Raster, RasterPyramid};
 
-/// The window's own values: `FRAME_BUDGET` in `app/frame.rs` and `SLICE` in `app/session.rs`.
+/// The window's own values: `FRAME_BUDGET` in `app/frame.rs` and `SLICE` in `app/slices.rs`.
 const FRAME_BUDGET: Duration = Duration::from_millis(7);
 const SLICE: usize = 2048;
 

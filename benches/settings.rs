@@ -12,7 +12,7 @@ use meshbrush::internals::geometry::Rect;
 use meshbrush::internals::layers::{Layer, LayerKind, RasterReading, RasterSource};
 use meshbrush::internals::raster::{Raster, RasterPyramid};
 
-/// The window's own values: `FRAME_BUDGET` in `app/frame.rs` and `SLICE` in `app/session.rs`.
+/// The window's own values: `FRAME_BUDGET` in `app/frame.rs` and `SLICE` in `app/slices.rs`.
 const FRAME_BUDGET: Duration = Duration::from_millis(7);
 const SLICE: usize = 2048;
 /// How often each change is repeated; medians are printed.

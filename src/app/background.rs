@@ -1,5 +1,6 @@
 //! Files being read and written off the window's thread: how far each is, and how it is cancelled.
 
+use std::num::NonZeroUsize;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, Sender, channel};
@@ -10,6 +11,7 @@ use eframe::egui::Context;
 
 use super::busy::Busy;
 use super::command::Command;
+use super::threads::Threads;
 use crate::io::{self, Meter};
 
 /// How often an otherwise idle window shows the progress of work.
@@ -106,13 +108,20 @@ pub struct Background {
     receiver: Receiver<(WorkId, Outcome)>,
     works: Vec<Work>,
     started: u64,
+    /// Most threads of each.
+    threads: NonZeroUsize,
 }
 
 impl Background {
     /// Nothing yet, in the window of `ctx`.
     pub fn new(ctx: &Context) -> Self {
         let (sender, receiver) = channel();
-        Self { ctx: ctx.clone(), sender, receiver, works: Vec::new(), started: 0 }
+        Self { ctx: ctx.clone(), sender, receiver, works: Vec::new(), started: 0, threads: Threads::most() }
+    }
+
+    /// Limits the threads of what is started from now on.
+    pub fn limit_threads(&mut self, count: NonZeroUsize) {
+        self.threads = count;
     }
 
     /// Starts work on a file. It checks its meter often; its outcome is applied, unless it only read and was
@@ -121,15 +130,16 @@ impl Background {
         self.started += 1;
         let (id, meter, name) = (WorkId(self.started), Meter::default(), name_of(path));
         let (sender, ctx, watched) = (self.sender.clone(), self.ctx.clone(), meter.clone());
-        let what = format!("{} {name}", aim.doing());
+        let (what, threads) = (format!("{} {name}", aim.doing()), self.threads);
         self.works.push(Work { id, aim, name, meter, busy: Busy::now() });
         thread::spawn(move || {
             // A panic must not leave the window waiting for ever.
-            let outcome = catch_unwind(AssertUnwindSafe(|| work(&watched))).unwrap_or_else(|_| {
-                let problem =
-                    format!("{what} failed because of a bug in Meshbrush. The document is unchanged.");
-                Outcome::NotWritten(problem)
-            });
+            let outcome = catch_unwind(AssertUnwindSafe(|| Threads::new(threads).run(|| work(&watched))))
+                .unwrap_or_else(|_| {
+                    let problem =
+                        format!("{what} failed because of a bug in Meshbrush. The document is unchanged.");
+                    Outcome::NotWritten(problem)
+                });
             // The window may have closed in the meantime.
             let _ = sender.send((id, outcome));
             ctx.request_repaint();

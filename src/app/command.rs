@@ -1,5 +1,6 @@
 //! Everything that can be done, as data: menus, keys, panels, the palette and tests send the same commands.
 
+use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -212,6 +213,8 @@ pub enum Command {
     HighlightNeighbour(Option<TriangleId>),
     /// Dark, light, or as the desktop has it.
     Theme(ThemePreference),
+    /// Limits the threads on which the window computes.
+    LimitThreads(NonZeroUsize),
     /// Shows or hides the panels.
     TogglePanels,
 

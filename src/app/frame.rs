@@ -30,6 +30,7 @@ use super::project::ProjectFile;
 use super::readout::Readout;
 use super::session::Session;
 use super::stepping::{self, Stepping};
+use super::threads::Threads;
 use super::tools::Tools;
 use super::view::View;
 use super::walks::WalkMeter;
@@ -74,6 +75,8 @@ pub struct FrameState<'a> {
     pub plots: &'a Plots,
     /// The figure of the report that is shown.
     pub report: Option<ReportFigure>,
+    /// The threads on which the window computes.
+    pub threads: &'a Threads,
     /// Where the pointer is on the canvas, in world units.
     pub pointer: Option<DVec2>,
     /// The queried point and the triangle around it.
@@ -173,7 +176,7 @@ impl App {
         let start = Instant::now();
         let deadline = start + budget;
         let cuts = self.session.advance_cuts(patience, ctx);
-        let follows = self.session.follow(deadline);
+        let follows = self.session.follow(&self.threads, deadline);
         let derives = self.session.advance_derivation(patience, ctx);
         let finds = self.tools.tool.finds_boundary && self.session.find_boundary(patience, ctx);
         let measures = self.session.take_figures(patience) | self.walks.take(patience);
@@ -278,6 +281,7 @@ impl App {
             plots: &self.plots,
             report: self.report.and_then(|shown| shown.figure(&self.session)),
             walks: &self.walks,
+            threads: &self.threads,
             pointer: self.canvas.pointer(),
             readout,
             reproducible: self.reproducible,

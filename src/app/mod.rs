@@ -42,17 +42,20 @@ mod report;
 mod screenshots;
 mod sequence;
 pub mod session;
+mod slices;
 mod software_window;
 mod statistics;
 mod stepping;
 #[cfg(test)]
 mod tests;
 pub mod theme;
+mod threads;
 pub mod tools;
 pub mod view;
 mod walks;
 pub mod widgets;
 
+use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Instant;
@@ -77,6 +80,7 @@ use report::ShownFigure;
 pub use screenshots::{write as write_screenshots, write_manual as write_manual_pictures, write_tour};
 use session::Session;
 use stepping::Stepping;
+use threads::Threads;
 use tools::Tools;
 use view::View;
 use walks::WalkMeter;
@@ -88,6 +92,8 @@ use crate::render::gpu::device_descriptor;
 const APP_ID: &str = "meshbrush";
 /// Key of the theme in the window's own storage.
 const THEME_KEY: &str = "theme";
+/// Key of the number of threads in the window's own storage, where they are limited.
+const THREADS_KEY: &str = "threads";
 /// What "the report" is, wherever a person meets it.
 const REPORT: &str = "Mesh Generation via Local Bisection Refinement of Triangulated Grids";
 /// Initial size of the window, in points.
@@ -112,6 +118,7 @@ pub struct App {
     /// The figure of the report that is shown.
     report: Option<ShownFigure>,
     walks: WalkMeter,
+    threads: Threads,
     dialogs: Dialogs,
     /// What the help window shows, while it is open.
     help: Option<HelpTopic>,
@@ -177,6 +184,7 @@ impl App {
             plots: Plots::default(),
             report: None,
             walks: WalkMeter::default(),
+            threads: Threads::default(),
             dialogs: Dialogs::default(),
             help: None,
             background: Background::new(ctx),
@@ -196,6 +204,9 @@ impl App {
             self.dialogs.load(storage);
             let theme = eframe::get_value(storage, THEME_KEY).unwrap_or(self.view.theme);
             self.view.set_theme(theme, &cc.egui_ctx);
+            if let Some(Some(count)) = eframe::get_value(storage, THREADS_KEY) {
+                self.limit_threads(count);
+            }
         }
         if let Some(folder) = eframe::storage_dir(APP_ID) {
             self.keep_journal_in(folder.join("journals"), &cc.egui_ctx);
@@ -205,6 +216,12 @@ impl App {
     /// Keeps unsaved work in a folder from now on, and offers what earlier runs left there.
     fn keep_journal_in(&mut self, folder: PathBuf, ctx: &Context) {
         self.journal = Some(JournalKeeper::new(folder, ctx));
+    }
+
+    /// Computes on so many threads from now on, or on as many as there may be.
+    fn limit_threads(&mut self, count: NonZeroUsize) {
+        self.threads = Threads::new(count);
+        self.background.limit_threads(count);
     }
 
     /// Shows the same on every machine from now on: no times, and the mesh drawn in software.
@@ -233,6 +250,7 @@ impl eframe::App for App {
         self.project.store(storage);
         self.dialogs.store(storage);
         eframe::set_value(storage, THEME_KEY, &self.view.theme);
+        eframe::set_value(storage, THREADS_KEY, &self.threads.limit());
     }
 
     fn on_exit(&mut self) {

@@ -11,7 +11,9 @@ use super::cuts::CutQueue;
 use super::derivation::{Derivation, Derived, PiecesChange};
 use super::notices::{self, Notices};
 use super::readout::{Quantity, Readout};
+use super::slices::{SLICE, follow_document};
 use super::statistics::{Measured, Statistician};
+use super::threads::Threads;
 use crate::build::BuildError;
 use crate::document::{Document, Follower, MeshChange, Pricer, Setting, Stage};
 use crate::domain::{BoundaryMarks, BoundaryPieces, CutShape};
@@ -19,9 +21,6 @@ use crate::explain::AgesNow;
 use crate::geometry::Rect;
 use crate::mesh::{Location, Mesh, MeshView, Progress, TriangleId};
 use crate::paint::StrokePlan;
-
-/// Pixels or triangles in one slice of work: well below a millisecond.
-const SLICE: usize = 2048;
 
 /// What changed on the screen.
 #[derive(Clone, Debug, Default)]
@@ -363,29 +362,20 @@ impl Session {
         self.queried.map(|point| Readout::at(point, self, quantity))
     }
 
-    /// Draws the current stroke, and brings field and mesh closer to the document, until `deadline`. Returns
-    /// whether work is left.
+    /// Draws the current stroke, and brings field and mesh closer to the document, on `threads` and until
+    /// `deadline`. Returns whether work is left.
     ///
     /// Reports what turns out to be impossible. A setting that caused it is taken back; paint stays, for the
     /// user to undo or erase.
-    pub fn follow(&mut self, deadline: Instant) -> bool {
+    pub fn follow(&mut self, threads: &Threads, deadline: Instant) -> bool {
         let began = self.update_began.unwrap_or_else(Instant::now);
         self.ages.look_at(&self.document);
         let revision = self.follower.revision();
-        let left = loop {
-            if self.document.advance_stroke(SLICE) == Progress::More && Instant::now() < deadline {
-                continue;
-            }
-            match self.follower.advance(&mut self.document, SLICE) {
-                Ok(stage) if stage.is_settled() => break false,
-                Ok(_) if Instant::now() >= deadline => break true,
-                Ok(_) => {}
-                Err(error) => {
-                    self.take_back(&error);
-                    break true;
-                }
-            }
-        };
+        let (document, follower) = (&mut self.document, &mut self.follower);
+        let left = threads.run(|| follow_document(document, follower, deadline)).unwrap_or_else(|error| {
+            self.take_back(&error);
+            true
+        });
         if self.follower.stopped().is_none() && self.stage() != Stage::GaveUp(None) {
             self.notices.end_standing();
         }

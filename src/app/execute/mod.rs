@@ -63,6 +63,7 @@ impl App {
             Command::Tell(news) => self.session.notices_mut().tell(news),
             Command::ShowHelp(topic) => self.help = Some(topic),
             Command::CloseHelp => self.help = None,
+            Command::LimitThreads(count) => self.limit_threads(count),
             Command::Measure => self.session.measure(ctx),
             Command::Copy(text) => self.copy(text, ctx),
             Command::Query(point) => self.query(point),

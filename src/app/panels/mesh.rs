@@ -1,5 +1,6 @@
-//! The mesh: coarse spacing, refinement rule and budgets.
+//! The mesh: coarse spacing, refinement rule, budgets and threads.
 
+use std::num::NonZeroUsize;
 use std::ops::RangeInclusive;
 
 use eframe::egui::Ui;
@@ -7,6 +8,7 @@ use eframe::egui::Ui;
 use super::{Panel, end_gesture_when_released, remark, set_once};
 use crate::app::command::Command;
 use crate::app::frame::FrameState;
+use crate::app::threads::Threads;
 use crate::app::widgets::{NumberRow, Section, SliderRow, format, segmented, value_row};
 use crate::document::{LEAST_MEMORY, Setting, Settings};
 use crate::field::RefinementRule;
@@ -20,7 +22,7 @@ const TRIANGLE_BUDGETS: RangeInclusive<f64> = 1000.0..=1e8;
 /// The most memory that a budget can allow, in gigabytes.
 const MOST_MEMORY: f64 = 1000.0;
 
-/// Coarse spacing, refinement rule and budgets.
+/// Coarse spacing, refinement rule, budgets and threads.
 pub static MESH: Panel = Panel { name: "mesh", only_with_tool: false, show };
 
 fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
@@ -28,6 +30,9 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
         spacing_rows(ui, state, commands);
         rule_row(ui, state, commands);
         budget_rows(ui, state, commands);
+        if !state.reproducible {
+            threads_row(ui, state, commands);
+        }
     });
 }
 
@@ -75,7 +80,7 @@ fn budget_rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>)
         set_once(Setting::MaxTriangles(triangles as usize), commands);
     }
     let mut gigabytes = settings.max_memory as f64 / GIGABYTE;
-    let help = "Most memory, in gigabytes, for the mesh and for the next one while that is built: 86 bytes a triangle. \
+    let help = "Most memory, in gigabytes, for the mesh and for the next one while that is built: 98 bytes a triangle. \
                 The smaller of the two budgets counts.";
     let range = LEAST_MEMORY as f64 / GIGABYTE..=MOST_MEMORY;
     let row = NumberRow::new("Memory budget", &mut gigabytes).range(range).unit("GB").help(help);
@@ -85,4 +90,15 @@ fn budget_rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>)
     }
     let bytes = state.session.mesh().bytes() as f64;
     value_row(ui, "Memory in use", &format!("{} MB", format::fixed(bytes / MEGABYTE, 1)));
+}
+
+fn threads_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
+    let mut count = state.threads.count().get() as f64;
+    let most = Threads::most().get() as f64;
+    let help = "Most threads that compute the mesh, and each file. Fewer leave cores to other programs; the mesh is the \
+                same. The picture is drawn on threads of its own.";
+    let row = NumberRow::new("Threads", &mut count).integer().range(1.0..=most).default(most).help(help);
+    if row.show(ui).changed() {
+        commands.extend(NonZeroUsize::new(count as usize).map(Command::LimitThreads));
+    }
 }

@@ -183,10 +183,11 @@ fn a_cancelled_export_leaves_the_former_files() {
     let mut window = window();
     send(&mut window, Command::Export(folder.join("mesh.node")));
     wait(&mut window, "the bar", |window| has_bar(window, "Writing mesh.node"));
-    // Three of the four files are written, or being so.
+    // This waits until the last of the four files is being written.
+    let mut last = File::open(&last).unwrap();
     cancel(&mut window, "Writing mesh.node");
-    assert!(has_bar(&window, "Cancelling mesh.node"), "the pipe is not closed yet");
-    read_all(&last);
+    assert!(has_bar(&window, "Cancelling mesh.node"), "the pipe is full");
+    last.read_to_end(&mut Vec::new()).unwrap();
     wait(&mut window, "the notice", |window| !message(window).is_empty());
     assert_eq!(message(&window), "Writing mesh.node was cancelled. The file that was there is unchanged.");
     assert!(!has_bar(&window, "Cancelling mesh.node"));

@@ -37,6 +37,7 @@ mod settings;
 mod software_window;
 mod statistics;
 mod steps;
+mod threads;
 mod threats;
 mod unit;
 mod tips;

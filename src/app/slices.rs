@@ -1,0 +1,29 @@
+//! Work on the mesh in slices, until a frame's time is spent.
+
+use std::time::Instant;
+
+use crate::build::BuildError;
+use crate::document::{Document, Follower};
+use crate::mesh::Progress;
+
+/// Pixels or triangles in one slice of work: well below a millisecond.
+pub const SLICE: usize = 2048;
+
+/// Draws the current stroke and brings the follower closer to the document. Returns whether work is left.
+pub fn follow_document(
+    document: &mut Document,
+    follower: &mut Follower,
+    deadline: Instant,
+) -> Result<bool, BuildError> {
+    loop {
+        if document.advance_stroke(SLICE) == Progress::More && Instant::now() < deadline {
+            continue;
+        }
+        if follower.advance(document, SLICE)?.is_settled() {
+            return Ok(false);
+        }
+        if Instant::now() >= deadline {
+            return Ok(true);
+        }
+    }
+}
