@@ -10,12 +10,12 @@ use crate::mesh::LevelsWithin;
 /// What a size field asks for in squares of the lattice, as far as it was asked.
 ///
 /// ```text
-///   +-------------------+     a triangle and the dyadic square around it, up to eight times as wide: the
-///   |                   |     range of what the square and the cells beside it ask for says for most levels
-///   |      +----+       |     whether all triangles of that level in the square exceed their target, or none
-///   |      | \  |       |
-///   |      +----+-------|
-///   +-------------------+
+///   +-----------+     A triangle and the dyadic square around it, in which its sibling and its descendants
+///   | \         |     lie too. The range of what the square and the cells beside it ask for says for most
+///   |   \       |     levels whether all triangles of that level in the square exceed their target, or none.
+///   |     \     |     Of two triangles below each other one has a new square: larger ones would serve more
+///   |       \   |     triangles, and leave more of them undecided.
+///   +-----------+
 /// ```
 ///
 /// Triangles are asked about in the order of the bisection tree, so that one answer serves many of them. The
@@ -35,7 +35,7 @@ struct Square {
 
 /// The number of squares that are kept: 8 KB.
 const KEPT_BITS: u32 = 9;
-/// Triangles are asked about themselves where the least dyadic square around them has fewer than 2³ steps.
+/// Triangles are asked about themselves where the dyadic square around them has fewer than 2³ steps.
 const LEAST_BITS: u32 = 3;
 
 impl Default for SettledSquares {
@@ -126,14 +126,12 @@ impl SizeField {
 }
 
 /// The logarithm of the side of the squares for triangles of each level. 0 where triangles are asked about
-/// one by one: those of few lattice steps, and those whose square would be wider than 2³¹ steps.
+/// one by one, because they have few lattice steps.
 ///
-/// A triangle of level l lies in a dyadic square of δ / 2^⌊l/2⌋. There are few sizes, so that triangles of
-/// several levels share squares.
+/// A triangle of level l lies in a dyadic square of δ / 2^⌊l/2⌋.
 pub(super) fn square_bits(lattice: &Lattice) -> [u8; LEVELS] {
     std::array::from_fn(|level| {
         let side = lattice.halvings().checked_sub(level as u32 / 2);
-        let bits = side.filter(|&side| side >= LEAST_BITS).map_or(0, |side| (side / 2 + 1) * 2 + 1);
-        if bits < u32::BITS { bits as u8 } else { 0 }
+        side.filter(|&side| side >= LEAST_BITS).map_or(0, |side| side as u8)
     })
 }

@@ -32,6 +32,8 @@ pub struct SquareValues {
 struct Squares {
     /// [columns, rows].
     size: [u32; 2],
+    /// Columns and rows of squares that do not reach beyond the raster.
+    inside: [u32; 2],
     /// [`NO_VALUES`] where no pixel has a value.
     ranges: Vec<ValueRange>,
     /// For each square a bit, whether a pixel has no value; without bits if all have one.
@@ -103,6 +105,18 @@ impl RasterPyramid {
         }
     }
 
+    /// The range of the values in such a square, with `gap` where there is none.
+    #[inline]
+    pub fn range_with_gaps(&self, scale: i32, x: i32, y: i32, gap: f32) -> ValueRange {
+        let known = match scale {
+            0 => self.value(x as u32, y as u32).map(ValueRange::one),
+            _ => {
+                self.scales.get(scale.wrapping_sub(FINEST) as usize).and_then(|s| s.whole(x as u32, y as u32))
+            }
+        };
+        known.unwrap_or_else(|| self.square(scale, x, y).with_gaps(gap))
+    }
+
     /// The values in all pixels.
     pub fn whole(&self) -> SquareValues {
         self.scales.last().map_or(SquareValues::NONE, |top| top.get(0, 0))
@@ -142,15 +156,15 @@ impl RasterPyramid {
     }
 
     fn pixel(&self, x: u32, y: u32) -> SquareValues {
-        let [columns, rows] = self.raster.size();
-        if x >= columns || y >= rows {
-            return SquareValues::NONE;
-        }
-        let value = self.raster.get(x, y);
-        if value.is_nan() {
-            return SquareValues::NONE;
-        }
+        let Some(value) = self.value(x, y) else { return SquareValues::NONE };
         SquareValues { range: Some(ValueRange::one(value)), has_gaps: false }
+    }
+
+    /// The value of a pixel, `None` beyond the raster and where it has none.
+    #[inline]
+    fn value(&self, x: u32, y: u32) -> Option<f32> {
+        let [columns, rows] = self.raster.size();
+        (x < columns && y < rows).then(|| self.raster.get(x, y)).filter(|value| !value.is_nan())
     }
 }
 
@@ -167,7 +181,7 @@ impl ValueRanges for RasterPyramid {
     }
 
     fn range(&self, scale: i32, x: i32, y: i32) -> ValueRange {
-        self.square(scale, x, y).with_gaps(f32::INFINITY)
+        self.range_with_gaps(scale, x, y, f32::INFINITY)
     }
 
     fn whole_range(&self) -> ValueRange {
@@ -221,7 +235,8 @@ impl Squares {
             }
         }
         let gaps = if has_gap { gaps_of_pixels(raster, size) } else { Vec::new() };
-        Self { size, ranges, gaps }
+        let inside = raster.size().map(|pixels| pixels >> FINEST);
+        Self { size, inside, ranges, gaps }
     }
 
     /// The squares of twice the side.
@@ -237,11 +252,19 @@ impl Squares {
                 gaps[above / 64] |= 1 << (above % 64);
             }
         }
-        Self { size, ranges, gaps }
+        Self { size, inside: finer.inside.map(|squares| squares / 2), ranges, gaps }
     }
 
     fn is_gap(&self, place: usize) -> bool {
         self.gaps.get(place / 64).is_some_and(|word| word >> (place % 64) & 1 == 1)
+    }
+
+    /// The range of a square without gaps, where no square has any.
+    #[inline]
+    fn whole(&self, x: u32, y: u32) -> Option<ValueRange> {
+        let [columns, rows] = self.inside;
+        let is_whole = x < columns && y < rows && self.gaps.is_empty();
+        is_whole.then(|| self.ranges[y as usize * self.size[0] as usize + x as usize])
     }
 
     fn get(&self, x: u32, y: u32) -> SquareValues {

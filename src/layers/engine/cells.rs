@@ -59,6 +59,16 @@ impl Cells {
         [low, high]
     }
 
+    /// The part on one side of lines along both axes; `upper` says for each axis whether it is the upper one.
+    #[inline]
+    pub fn quarter(self, lines: [i64; 2], upper: [bool; 2]) -> Self {
+        let mut quarter = self;
+        for axis in 0..2 {
+            *(if upper[axis] { &mut quarter.min[axis] } else { &mut quarter.max[axis] }) = lines[axis];
+        }
+        quarter
+    }
+
     /// Whether a cut has cells on both sides.
     #[inline]
     pub fn admits(&self, cut: Cut) -> bool {
@@ -140,6 +150,8 @@ pub struct GridOnLattice {
     origin: DVec2,
     /// Lattice steps per pixel.
     steps: DVec2,
+    /// The inverse of that, rounded.
+    pixels_per_step: DVec2,
     /// Binary logarithm of the shorter side of a pixel in lattice steps, rounded down.
     log_steps: i32,
 }
@@ -151,7 +163,7 @@ impl GridOnLattice {
     pub fn new(grid: &PixelGrid, lattice: &Lattice) -> Self {
         let steps = grid.pixel / lattice.step();
         let origin = (grid.origin - lattice.bounds().min) / lattice.step();
-        Self { origin, steps, log_steps: exponent(steps.min_element()) }
+        Self { origin, steps, pixels_per_step: 1.0 / steps, log_steps: exponent(steps.min_element()) }
     }
 
     /// The lattice coordinate of line `n` between squares at a scale, along an axis.
@@ -170,27 +182,47 @@ impl GridOnLattice {
         }
     }
 
+    /// The lattice lines, one along each axis, between the quarters of the square [x, y] at a scale.
+    #[inline]
+    pub fn middle(&self, scale: i32, [x, y]: [i64; 2]) -> [i64; 2] {
+        [self.line(scale - 1, 0, 2 * x + 1), self.line(scale - 1, 1, 2 * y + 1)]
+    }
+
     /// The first and the last column (axis 0) or row (axis 1) of the squares at a scale that have cells from
     /// `first` to `last`.
     #[inline]
     fn columns(&self, scale: i32, axis: usize, [first, last]: [i64; 2]) -> [i64; 2] {
-        [self.column(scale, axis, first), self.column(scale, axis, last)]
+        let (column, end) = self.column_and_end(scale, axis, first);
+        if end > last {
+            return [column; 2];
+        }
+        // Mostly the last is the next one.
+        let is_next = self.line(scale, axis, column + 2) > last;
+        [column, if is_next { column + 1 } else { self.column(scale, axis, last) }]
     }
 
     /// The column (axis 0) or row (axis 1) of the square at a scale that has the cells in a lattice column
     /// or row.
+    fn column(&self, scale: i32, axis: usize, cell: i64) -> i64 {
+        self.column_and_end(scale, axis, cell).0
+    }
+
+    /// As [`Self::column`], and the line where that column ends.
     #[inline]
-    pub fn column(&self, scale: i32, axis: usize, cell: i64) -> i64 {
-        let side = self.steps[axis] * power_of_two(scale);
-        let mut n = floor((cell as f64 - self.origin[axis]) / side);
-        // The quotient is rounded, and so are the lines.
-        while self.line(scale, axis, n + 1) <= cell {
+    fn column_and_end(&self, scale: i32, axis: usize, cell: i64) -> (i64, i64) {
+        let per_step = self.pixels_per_step[axis] * power_of_two(-scale);
+        let mut n = floor((cell as f64 - self.origin[axis]) * per_step);
+        let mut end = self.line(scale, axis, n + 1);
+        // The product is rounded, and so are the lines.
+        while end <= cell {
             n += 1;
+            end = self.line(scale, axis, n + 1);
         }
         while self.line(scale, axis, n) > cell {
+            end = self.line(scale, axis, n);
             n -= 1;
         }
-        n
+        (n, end)
     }
 
     /// The scale at which a rectangle of cells spans about one square, no coarser than `coarsest`.

@@ -290,7 +290,7 @@ impl ValueRanges for WithGaps<'_> {
 
     #[inline]
     fn range(&self, scale: i32, x: i32, y: i32) -> ValueRange {
-        self.raster.square(scale, x, y).with_gaps(self.gap)
+        self.raster.range_with_gaps(scale, x, y, self.gap)
     }
 
     fn whole_range(&self) -> ValueRange {

@@ -100,22 +100,23 @@ impl Reading {
     #[inline]
     pub fn answer(&self, range: ValueRange, level: usize) -> Answer {
         let ValueRange { least, greatest } = range;
+        let present = match self {
+            Self::Risk { nothing, .. } => share(greatest > *nothing, least > *nothing),
+            Self::Diameter { .. } => share(least < f32::INFINITY, greatest < f32::INFINITY),
+            Self::Curve { .. } | Self::Band { .. } => self.diameters(range).present,
+        };
+        Answer { asks: self.asks(range, level), present }
+    }
+
+    /// Where the values of a range ask for more than a level.
+    #[inline]
+    pub fn asks(&self, ValueRange { least, greatest }: ValueRange, level: usize) -> Share {
         match self {
-            Self::Risk { least: limits, nothing, .. } => {
-                let limit = limits[level];
-                let asks = share(greatest >= limit, least >= limit);
-                Answer { asks, present: share(greatest > *nothing, least > *nothing) }
-            }
-            Self::Diameter { most } => {
-                let limit = most[level];
-                let asks = share(least <= limit, greatest <= limit);
-                Answer { asks, present: share(least < f32::INFINITY, greatest < f32::INFINITY) }
-            }
+            Self::Risk { least: limits, .. } => share(greatest >= limits[level], least >= limits[level]),
+            Self::Diameter { most } => share(least <= most[level], greatest <= most[level]),
             Self::Curve { lengths, .. } | Self::Band { lengths, .. } => {
-                let diameters = self.diameters(range);
-                let length = lengths[level];
-                let asks = share(diameters.least < length, diameters.greatest < length);
-                Answer { asks, present: diameters.present }
+                let diameters = self.diameters(ValueRange { least, greatest });
+                share(diameters.least < lengths[level], diameters.greatest < lengths[level])
             }
         }
     }

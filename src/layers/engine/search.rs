@@ -46,31 +46,48 @@ impl<R: ValueRanges> RasterSearch<'_, R> {
     /// whose values do not ask or that do not touch the triangle, and ends at a square that asks.
     #[inline]
     pub fn any(&self, triangle: &Octagon, cells: &Cells) -> bool {
-        if self.reading.answer(self.raster.whole_range(), self.level).asks == Share::None {
+        if self.reading.asks(self.raster.whole_range(), self.level) == Share::None {
             return false;
         }
         let scale = self.grid.scale_of(cells, self.raster.coarsest());
         let [low, high] = self.grid.squares(scale, cells);
-        (low[1]..=high[1]).any(|y| (low[0]..=high[0]).any(|x| self.square(triangle, scale, x, y)))
+        (low[1]..=high[1]).any(|y| {
+            (low[0]..=high[0]).any(|x| self.square(triangle, scale, [x, y], || self.grid.square(scale, x, y)))
+        })
     }
 
-    fn square(&self, triangle: &Octagon, scale: i32, x: i64, y: i64) -> bool {
-        let asks = self.reading.answer(self.raster.range(scale, x as i32, y as i32), self.level).asks;
+    /// The same for the square [x, y] at a scale, which has these cells.
+    #[inline]
+    fn square(
+        &self,
+        triangle: &Octagon,
+        scale: i32,
+        [x, y]: [i64; 2],
+        cells: impl FnOnce() -> Cells,
+    ) -> bool {
+        // Most squares are decided by their values.
+        let asks = self.reading.asks(self.raster.range(scale, x as i32, y as i32), self.level);
         if asks == Share::None {
             return false;
         }
-        let cells = self.grid.square(scale, x, y);
+        let cells = cells();
         let octagon = cells.octagon();
         // A square between two lattice lines has no cell.
         let is_empty = cells.min[0] >= cells.max[0] || cells.min[1] >= cells.max[1];
         if is_empty || !triangle.meets(&octagon) {
             return false;
         }
-        if asks == Share::All || (self.reading.is_monotone() && triangle.contains(&octagon)) {
-            return true;
-        }
-        [0, 1]
-            .into_iter()
-            .any(|j| [0, 1].into_iter().any(|i| self.square(triangle, scale - 1, 2 * x + i, 2 * y + j)))
+        asks == Share::All
+            || (self.reading.is_monotone() && triangle.contains(&octagon))
+            || self.any_quarter(triangle, scale, [x, y], &cells)
+    }
+
+    /// The same for the quarters of a square.
+    fn any_quarter(&self, triangle: &Octagon, scale: i32, [x, y]: [i64; 2], cells: &Cells) -> bool {
+        let middle = self.grid.middle(scale, [x, y]);
+        [[0, 0], [1, 0], [0, 1], [1, 1]].into_iter().any(|[i, j]| {
+            let quarter = || cells.quarter(middle, [i == 1, j == 1]);
+            self.square(triangle, scale - 1, [2 * x + i, 2 * y + j], quarter)
+        })
     }
 }
