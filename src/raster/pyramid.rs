@@ -107,7 +107,7 @@ impl RasterPyramid {
 
     /// The range of the values in such a square, with `gap` where there is none.
     #[inline]
-    pub fn range_with_gaps(&self, scale: i32, x: i32, y: i32, gap: f32) -> ValueRange {
+    pub(crate) fn range_with_gaps(&self, scale: i32, x: i32, y: i32, gap: f32) -> ValueRange {
         let known = match scale {
             0 => self.value(x as u32, y as u32).map(ValueRange::one),
             _ => {
