@@ -269,6 +269,34 @@ fn a_triangle_asks_for_more_where_the_definition_has_a_finer_point() {
 }
 
 #[test]
+fn one_pixel_in_a_plane_of_millions_squared_is_found_at_once() {
+    let lattice = Lattice::covering(Rect::UNIT, SPACING, 1000).unwrap();
+    let corner = dvec2(0.3, 0.4);
+    let bounds = Rect::new(corner, corner + 4.0 * lattice.step());
+    let grid = PixelGrid::filling(&bounds, [1, 1]);
+    assert!(grid.pixel.max_element() < 1e-6, "{}", grid.pixel);
+    let raster = Arc::new(RasterPyramid::new(Raster::from_values(bounds, [1, 1], vec![0.01])));
+    let source = RasterSource { name: "raster.asc".into(), raster };
+    let mut painted = TiledRaster::new(grid, f32::INFINITY);
+    painted.exchange(TilePlace { depth: 0, x: 0, y: 0 }, Some(Arc::new(Tile::filled(0.01))));
+    let kinds = [
+        LayerKind::Raster { source, reading: RasterReading::Diameter },
+        LayerKind::Paint(Quantity::Diameter),
+    ];
+    let [columns, rows] = lattice.cells().map(i64::from);
+    let coarse = closure::coarse(columns, rows, lattice.cell_steps().into(), |_, _| true);
+    for kind in kinds {
+        let mut case = Case::random(0, 0.005);
+        case.spec.layers = Layer::stack([kind]);
+        case.spec.gradation = None;
+        case.paint.insert(case.spec.layers[0].id, painted.clone());
+        let field = SizeField::new(case.spec.clone(), &lattice);
+        let asking = coarse.iter().filter(|triangle| field.asks_for_more(&case.paint, corners(triangle), 5));
+        assert_eq!(asking.count(), 1);
+    }
+}
+
+#[test]
 fn h_at_a_point_is_that_of_the_definition() {
     let mut decided = 0;
     for seed in 0..150 {

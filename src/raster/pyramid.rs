@@ -110,6 +110,7 @@ impl RasterPyramid {
     pub(crate) fn range_with_gaps(&self, scale: i32, x: i32, y: i32, gap: f32) -> ValueRange {
         let known = match scale {
             0 => self.value(x as u32, y as u32).map(ValueRange::one),
+            1 => self.four_pixels(x as u32, y as u32),
             _ => {
                 self.scales.get(scale.wrapping_sub(FINEST) as usize).and_then(|s| s.whole(x as u32, y as u32))
             }
@@ -158,6 +159,20 @@ impl RasterPyramid {
     fn pixel(&self, x: u32, y: u32) -> SquareValues {
         let Some(value) = self.value(x, y) else { return SquareValues::NONE };
         SquareValues { range: Some(ValueRange::one(value)), has_gaps: false }
+    }
+
+    /// The range of the values in a square of 2 × 2 pixels, `None` if one of them has no value.
+    #[inline]
+    fn four_pixels(&self, x: u32, y: u32) -> Option<ValueRange> {
+        let [columns, rows] = self.raster.size();
+        let [x, y] = [x, y].map(|place| place.saturating_mul(2));
+        let [right, upper] = [x, y].map(|place| place.saturating_add(1));
+        if right >= columns || upper >= rows {
+            return None;
+        }
+        let pixels = [[x, y], [right, y], [x, upper], [right, upper]].map(|[x, y]| self.raster.get(x, y));
+        let range = pixels.map(ValueRange::one).into_iter().reduce(ValueRange::union);
+        range.filter(|_| !pixels.iter().any(|value| value.is_nan()))
     }
 
     /// The value of a pixel, `None` beyond the raster and where it has none.

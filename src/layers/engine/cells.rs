@@ -225,11 +225,11 @@ impl GridOnLattice {
         (n, end)
     }
 
-    /// The scale at which a rectangle of cells spans about one square, no coarser than `coarsest`.
+    /// The scale at which a rectangle of cells spans about one square. The whole raster can be smaller.
     #[inline]
-    pub fn scale_of(&self, cells: &Cells, coarsest: i32) -> i32 {
+    pub fn scale_of(&self, cells: &Cells) -> i32 {
         let longer = (cells.max[0] - cells.min[0]).max(cells.max[1] - cells.min[1]).max(1);
-        (longer.ilog2() as i32 + 1 - self.log_steps).min(coarsest)
+        longer.ilog2() as i32 + 1 - self.log_steps
     }
 
     /// The squares at a scale that have cells of a rectangle: [first column, first row], [last column, last
@@ -244,7 +244,7 @@ impl GridOnLattice {
     /// The range of the values of a raster in a rectangle of cells, and where to divide the rectangle to know
     /// more: at a line between squares. There is no such line when the range is exact.
     pub fn range(&self, raster: &impl ValueRanges, cells: &Cells) -> (ValueRange, Option<Cut>) {
-        let mut scale = self.scale_of(cells, raster.coarsest());
+        let mut scale = self.scale_of(cells);
         loop {
             let [low, high] = self.squares(scale, cells);
             let range = joined_range(raster, scale, low, high);

@@ -49,7 +49,7 @@ impl<R: ValueRanges> RasterSearch<'_, R> {
         if self.reading.asks(self.raster.whole_range(), self.level) == Share::None {
             return false;
         }
-        let scale = self.grid.scale_of(cells, self.raster.coarsest());
+        let scale = self.grid.scale_of(cells);
         let [low, high] = self.grid.squares(scale, cells);
         (low[1]..=high[1]).any(|y| {
             (low[0]..=high[0]).any(|x| self.square(triangle, scale, [x, y], || self.grid.square(scale, x, y)))

@@ -259,11 +259,12 @@ impl TiledRaster {
         let coarsest = self.coarsest();
         let up = (scale - coarsest).min(31);
         let squares = self.extent.iter().flat_map(|extent| extent.squares(coarsest));
-        let within: Vec<_> = squares.filter(|square| square.map(|n| n >> up) == [x, y]).collect();
-        let ranges = within.iter().map(|square| self.range(coarsest, square[0], square[1]));
-        let range = ranges.reduce(ValueRange::union);
+        let within = squares.filter(|square| square.map(|n| n >> up) == [x, y]);
+        let ranges = within.map(|[x, y]| (self.range(coarsest, x, y), 1));
+        let found = ranges.reduce(|(a, m), (b, n)| (a.union(b), m + n));
         // At most 2 × 2 squares have pixels: they fill a square of the next scale, or none.
-        let is_filled = up == 1 && within.len() == 4;
+        let is_filled = up == 1 && found.is_some_and(|(_, count)| count == 4);
+        let range = found.map(|(range, _)| range);
         let blank = (!is_filled).then_some(ValueRange::one(self.blank));
         range.into_iter().chain(blank).reduce(ValueRange::union).expect("a filled square has a range")
     }
