@@ -37,6 +37,8 @@ struct Square {
 const KEPT_BITS: u32 = 9;
 /// Triangles are asked about themselves where the dyadic square around them has fewer than 2³ steps.
 const LEAST_BITS: u32 = 3;
+/// Triangles that are asked about one by one first look at squares 2⁴ times as wide.
+const WIDER_BITS: u32 = 4;
 
 impl Default for SettledSquares {
     fn default() -> Self {
@@ -56,7 +58,11 @@ impl SizeField {
         corners: [LatticePoint; 3],
         level: u32,
     ) -> bool {
-        let settled = self.settled(squares, paint, corners, level).exceeds(level);
+        // Most triangles of a mesh are far from any change of h̄: one answer serves hundreds of them.
+        let settled = [WIDER_BITS, 0].into_iter().find_map(|wider| {
+            let levels = self.settled(squares, paint, corners, level, wider);
+            levels.exceeds(level)
+        });
         settled.unwrap_or_else(|| self.asks_for_more(paint, corners, level))
     }
 
@@ -70,11 +76,12 @@ impl SizeField {
         corners: [LatticePoint; 3],
         level: u32,
     ) -> LevelsWithin {
-        let settled = self.settled(squares, paint, corners, level);
+        let settled = self.settled(squares, paint, corners, level, 0);
         settled.decided_at(level, || self.asks_for_more(paint, corners, level))
     }
 
-    /// What is known of all triangles in the square around one of this level.
+    /// What is known of all triangles in the square around one of this level, or in one that is 2^wider times
+    /// as wide.
     #[inline]
     fn settled(
         &self,
@@ -82,11 +89,13 @@ impl SizeField {
         paint: &PaintLayers,
         corners: [LatticePoint; 3],
         level: u32,
+        wider: u32,
     ) -> LevelsWithin {
         let bits = self.square_bits().get(level as usize).map_or(0, |&bits| u32::from(bits));
         if bits == 0 {
             return LevelsWithin::UNKNOWN;
         }
+        let bits = (bits + wider).min(u32::BITS - 1);
         let [a, b, c] = corners;
         let [x, y] = [a.x.min(b.x).min(c.x) >> bits, a.y.min(b.y).min(c.y) >> bits];
         let key = u64::from(bits) << 58 | u64::from(x) << 29 | u64::from(y);

@@ -1,0 +1,77 @@
+//! Fast strokes across a mesh over a formula: how long until the mesh is that of the paint.
+//!
+//! The mesh is fine below a wave. A stroke above it adds triangles, one along it changes some, and one below
+//! it none: there the mesh is finer already, and all triangles around the stroke must be looked at. Drawing
+//! the pixels counts, too. *undone* is the time to take the stroke back.
+
+use std::time::{Duration, Instant};
+
+use glam::dvec2;
+use meshbrush::internals::document::{Document, Follower, Settings};
+use meshbrush::internals::field::Formula;
+use meshbrush::internals::layers::{Layer, LayerKind};
+use meshbrush::internals::mesh::Progress;
+use meshbrush::internals::paint::{Brush, Medium};
+
+/// The window's own value in `app/slices.rs`.
+const SLICE: usize = 2048;
+/// How often each stroke is repeated; medians are printed.
+const ROUNDS: usize = 5;
+/// Height of a stroke at its left end.
+const STROKES: [(&str, f64); 3] = [("above the wave", 0.8), ("along the wave", 0.5), ("below the wave", 0.2)];
+const BRUSH: Brush = Brush { medium: Medium::Risk(1.0), radius: 0.06, hardness: 0.35, strength: 0.8 };
+
+/// Fine below a wave, coarse above it.
+fn document(fine: f64) -> Document {
+    let mut settings = Settings::default();
+    (settings.transfer.h_min, settings.transfer.h_max) = (0.7 * fine, 0.2);
+    let formula = format!("if(y < 0.45 + 0.1 * sin(7 * x), {fine}, 0.2)");
+    settings.layers = Layer::usual(LayerKind::target(Formula::parse(&formula).expect("a valid formula")));
+    Document::new(settings, None).expect("valid settings")
+}
+
+fn paint(document: &mut Document, height: f64) {
+    document.begin_stroke(BRUSH);
+    for i in 0..=20 {
+        let along = f64::from(i) / 20.0;
+        document.extend_stroke(dvec2(0.02 + 0.96 * along, height + 0.1 * along));
+    }
+    document.finish_stroke();
+}
+
+/// The time until the mesh is in step with the document.
+fn settle(document: &mut Document, follower: &mut Follower) -> Duration {
+    let start = Instant::now();
+    loop {
+        if document.advance_stroke(SLICE) == Progress::Done
+            && follower.advance(document, SLICE).expect("the budget is far").is_settled()
+        {
+            return start.elapsed();
+        }
+    }
+}
+
+fn median_ms(mut times: Vec<Duration>) -> f64 {
+    times.sort();
+    1e3 * times[times.len() / 2].as_secs_f64()
+}
+
+fn main() {
+    for fine in [0.0025, 0.00125] {
+        let mut document = document(fine);
+        let mut follower = Follower::new(&mut document).expect("it has a mesh");
+        eprintln!("A mesh of {} triangles", follower.mesh().triangle_count());
+        for (name, height) in STROKES {
+            let (mut painted, mut undone, mut triangles) = (Vec::new(), Vec::new(), 0);
+            for _ in 0..ROUNDS {
+                paint(&mut document, height);
+                painted.push(settle(&mut document, &mut follower));
+                triangles = follower.mesh().triangle_count();
+                document.undo();
+                undone.push(settle(&mut document, &mut follower));
+            }
+            let [painted, undone] = [painted, undone].map(median_ms);
+            eprintln!("  {name}: {painted:6.1} ms to {triangles} triangles, undone {undone:6.1} ms");
+        }
+    }
+}
