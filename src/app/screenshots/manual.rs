@@ -47,12 +47,13 @@ fn window() -> Result<Image, String> {
     window.picture()
 }
 
-/// The side panel of the first example.
+/// The transfer curve and the levels in the side panel of the first example.
 fn panel() -> Result<Image, String> {
-    let mut window = OffscreenWindow::open(WINDOW, 1.0)?;
+    let (top, height) = (804.0, 420.0);
+    let mut window = OffscreenWindow::open(vec2(WINDOW.x, top + height + 40.0), 1.0)?;
     let picture = window.picture()?;
-    let left = WINDOW.x - PANEL_WIDTH;
-    Ok(cropped(&picture, Rect::from_min_size(vec2(left, 40.0).to_pos2(), vec2(PANEL_WIDTH, 480.0))))
+    let corner = vec2(WINDOW.x - PANEL_WIDTH, top).to_pos2();
+    Ok(cropped(&picture, Rect::from_min_size(corner, vec2(PANEL_WIDTH, height))))
 }
 
 /// A queried triangle with its neighbours.
