@@ -49,7 +49,7 @@ fn window() -> Result<Image, String> {
 
 /// The transfer curve and the levels in the side panel of the first example.
 fn panel() -> Result<Image, String> {
-    let (top, height) = (804.0, 420.0);
+    let (top, height) = (804.0, 436.0);
     let mut window = OffscreenWindow::open(vec2(WINDOW.x, top + height + 40.0), 1.0)?;
     let picture = window.picture()?;
     let corner = vec2(WINDOW.x - PANEL_WIDTH, top).to_pos2();
