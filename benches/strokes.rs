@@ -1,8 +1,8 @@
-//! Fast strokes across a mesh over a formula: how long until the mesh is that of the paint.
+//! Fast strokes on a mesh whose base layer is a formula: the time until the mesh matches the paint.
 //!
-//! The mesh is fine below a wave. A stroke above it adds triangles, one along it changes some, and one below
-//! it none: there the mesh is finer already, and all triangles around the stroke must be looked at. Drawing
-//! the pixels counts, too. *undone* is the time to take the stroke back.
+//! The mesh is fine below a wave. A stroke above the wave adds many triangles, and one along it fewer. Below
+//! it the mesh is already finer than the stroke asks for: no triangle changes, but all around the stroke are
+//! looked at. The times include drawing the pixels. *undone* is the time to undo the stroke.
 
 use std::time::{Duration, Instant};
 

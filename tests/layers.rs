@@ -269,7 +269,7 @@ fn a_triangle_asks_for_more_where_the_definition_has_a_finer_point() {
 }
 
 #[test]
-fn one_pixel_in_a_plane_of_millions_squared_is_found_at_once() {
+fn a_tiny_raster_in_a_huge_domain_needs_no_long_search() {
     let lattice = Lattice::covering(Rect::UNIT, SPACING, 1000).unwrap();
     let corner = dvec2(0.3, 0.4);
     let bounds = Rect::new(corner, corner + 4.0 * lattice.step());

@@ -13,13 +13,15 @@ use crate::mesh::LevelsWithin;
 ///   +-----------+     A triangle and the dyadic square around it, in which its sibling and its descendants
 ///   | \         |     lie too. The range of what the square and the cells beside it ask for says for most
 ///   |   \       |     levels whether all triangles of that level in the square exceed their target, or none.
-///   |     \     |     Of two triangles below each other one has a new square: larger ones would serve more
-///   |       \   |     triangles, and leave more of them undecided.
+///   |     \     |
+///   |       \   |
 ///   +-----------+
 /// ```
 ///
-/// Triangles are asked about in the order of the bisection tree, so that one answer serves many of them. The
-/// answers are those of one field and of paint that does not change.
+/// A mesh is made from the top of the bisection tree down. There, wider squares would leave more triangles
+/// undecided. An update asks about the triangles of a finished mesh, and wide squares decide most of them.
+///
+/// The answers are those of one field and of paint that does not change.
 #[derive(Clone, Debug)]
 pub struct SettledSquares {
     /// At the place that a hash of the key says; another square there is forgotten.

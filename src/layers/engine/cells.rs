@@ -62,11 +62,11 @@ impl Cells {
     /// The part on one side of lines along both axes; `upper` says for each axis whether it is the upper one.
     #[inline]
     pub fn quarter(self, lines: [i64; 2], upper: [bool; 2]) -> Self {
-        let mut quarter = self;
-        for axis in 0..2 {
-            *(if upper[axis] { &mut quarter.min[axis] } else { &mut quarter.max[axis] }) = lines[axis];
-        }
-        quarter
+        let part = |cells: Self, axis: usize| {
+            let halves = cells.divided(Cut { axis, at: lines[axis] });
+            halves[usize::from(upper[axis])]
+        };
+        part(part(self, 0), 1)
     }
 
     /// Whether a cut has cells on both sides.
@@ -196,18 +196,13 @@ impl GridOnLattice {
         if end > last {
             return [column; 2];
         }
-        // Mostly the last is the next one.
+        // Usually the last column is the next one.
         let is_next = self.line(scale, axis, column + 2) > last;
-        [column, if is_next { column + 1 } else { self.column(scale, axis, last) }]
+        [column, if is_next { column + 1 } else { self.column_and_end(scale, axis, last).0 }]
     }
 
     /// The column (axis 0) or row (axis 1) of the square at a scale that has the cells in a lattice column
-    /// or row.
-    fn column(&self, scale: i32, axis: usize, cell: i64) -> i64 {
-        self.column_and_end(scale, axis, cell).0
-    }
-
-    /// As [`Self::column`], and the line where that column ends.
+    /// or row, and the line where that column ends.
     #[inline]
     fn column_and_end(&self, scale: i32, axis: usize, cell: i64) -> (i64, i64) {
         let per_step = self.pixels_per_step[axis] * power_of_two(-scale);

@@ -73,6 +73,11 @@ pub struct Diameters {
 impl Diameters {
     /// Nothing is asked for.
     pub const NOTHING: Self = Self { least: f64::INFINITY, greatest: f64::INFINITY, present: Share::None };
+
+    /// Where less than a diameter is asked for.
+    fn share_below(self, diameter: f64) -> Share {
+        share(self.least < diameter, self.greatest < diameter)
+    }
 }
 
 /// ℓ_b of each level, Eq. (1), in world units.
@@ -100,23 +105,31 @@ impl Reading {
     #[inline]
     pub fn answer(&self, range: ValueRange, level: usize) -> Answer {
         let ValueRange { least, greatest } = range;
-        let present = match self {
-            Self::Risk { nothing, .. } => share(greatest > *nothing, least > *nothing),
-            Self::Diameter { .. } => share(least < f32::INFINITY, greatest < f32::INFINITY),
-            Self::Curve { .. } | Self::Band { .. } => self.diameters(range).present,
-        };
-        Answer { asks: self.asks(range, level), present }
+        match self {
+            Self::Risk { nothing, .. } => {
+                let present = share(greatest > *nothing, least > *nothing);
+                Answer { asks: self.asks(range, level), present }
+            }
+            Self::Diameter { .. } => {
+                let present = share(least < f32::INFINITY, greatest < f32::INFINITY);
+                Answer { asks: self.asks(range, level), present }
+            }
+            Self::Curve { lengths, .. } | Self::Band { lengths, .. } => {
+                let diameters = self.diameters(range);
+                Answer { asks: diameters.share_below(lengths[level]), present: diameters.present }
+            }
+        }
     }
 
     /// Where the values of a range ask for more than a level.
     #[inline]
-    pub fn asks(&self, ValueRange { least, greatest }: ValueRange, level: usize) -> Share {
+    pub fn asks(&self, range: ValueRange, level: usize) -> Share {
+        let ValueRange { least, greatest } = range;
         match self {
             Self::Risk { least: limits, .. } => share(greatest >= limits[level], least >= limits[level]),
             Self::Diameter { most } => share(least <= most[level], greatest <= most[level]),
             Self::Curve { lengths, .. } | Self::Band { lengths, .. } => {
-                let diameters = self.diameters(ValueRange { least, greatest });
-                share(diameters.least < lengths[level], diameters.greatest < lengths[level])
+                self.diameters(range).share_below(lengths[level])
             }
         }
     }
