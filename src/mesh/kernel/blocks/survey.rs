@@ -26,8 +26,11 @@ const TASK_VISITS: usize = 2048;
 const TASKS: usize = 64;
 /// The most subtrees of a task.
 const MOST_SUBTREES: usize = 64;
-/// The most tasks between two looks at the limits.
+/// The most tasks between two looks at the limits, where that is enough for all threads.
 const MOST_TASKS: usize = 1024;
+/// A slice has so many tasks for each thread, however few visits it may make: with one task for each, most
+/// threads wait for the slowest.
+const TASKS_PER_THREAD: usize = 4;
 
 /// What is to become of a triangle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -91,7 +94,8 @@ impl Survey {
         if self.next == self.round.len() {
             (self.round, self.next) = (std::mem::take(&mut self.open), 0);
         }
-        let tasks = (visits / TASK_VISITS).clamp(rayon::current_num_threads(), MOST_TASKS);
+        let at_least = TASKS_PER_THREAD * rayon::current_num_threads();
+        let tasks = (visits / TASK_VISITS).min(MOST_TASKS).max(at_least);
         let size = (self.round.len() / TASKS).clamp(1, MOST_SUBTREES);
         let end = (self.next + tasks * size).min(self.round.len());
         let subtrees = self.round[self.next..end].par_chunks(size).with_max_len(1);

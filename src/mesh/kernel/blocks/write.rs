@@ -20,6 +20,8 @@ use crate::mesh::kernel::{KindCounts, Limits, Mesh, Neighbour, NodeId, Progress,
 
 /// About so many triangles are a chunk, which is written by one thread.
 const CHUNK_TRIANGLES: usize = 1 << 14;
+/// A slice has so many chunks for each thread, however few visits it may make.
+const CHUNKS_PER_THREAD: usize = 2;
 /// Entries of the skeleton that are copied in the time of a visit.
 const COPIES_PER_VISIT: usize = 8;
 
@@ -75,7 +77,7 @@ impl Writer {
         Self { numbers, free, counts, copied: 0, chunks, next: 0, blocks }
     }
 
-    /// Numbers about `visits` blocks, or writes about as many triangles: a chunk on each thread at least.
+    /// Numbers about `visits` blocks, or writes about as many triangles.
     pub fn advance(&mut self, mesh: &mut Mesh, limits: &Limits, visits: usize) -> Progress {
         if self.numbers.len() < self.blocks.depths.len() {
             self.number(visits);
@@ -85,7 +87,7 @@ impl Writer {
             self.copy_skeleton(mesh, limits, visits);
             return Progress::More;
         }
-        let count = (visits / CHUNK_TRIANGLES).max(rayon::current_num_threads());
+        let count = (visits / CHUNK_TRIANGLES).max(CHUNKS_PER_THREAD * rayon::current_num_threads());
         let chunks = &self.chunks[self.next..];
         self.write(mesh, &chunks[..count.min(chunks.len())]);
         self.next += count.min(chunks.len());
