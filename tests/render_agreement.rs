@@ -14,11 +14,17 @@ use meshbrush::internals::build::BuiltMesh;
 use meshbrush::internals::colormap::{LEVELS, LevelColors};
 use meshbrush::internals::geometry::{Lattice, LatticePoint, LatticeRect, Rect};
 use meshbrush::internals::mesh::{Changes, Element, Limits, Mesh, PatchPieces, Progress, Updater};
-use meshbrush::internals::render::gpu::{ChunkLimits, GpuError, GpuRenderer, Offscreen};
+use meshbrush::internals::render::gpu::{
+    ChunkLimits, GpuError, GpuRenderer, Offscreen, ShownImage, read_back,
+};
+use meshbrush::internals::render::software::PxRect;
 use meshbrush::internals::render::{Image, software};
 use meshbrush::internals::scene::{Camera, Overlay, ShownMesh, ShownRevision, Style};
 
 const SIZE: [u32; 2] = [400, 300];
+/// Windows have one or the other.
+const CANVAS_FORMATS: [wgpu::TextureFormat; 2] =
+    [wgpu::TextureFormat::Rgba8Unorm, wgpu::TextureFormat::Bgra8Unorm];
 
 /// A device, or `None` where there is none and that is allowed.
 fn gpu() -> Option<Offscreen> {
@@ -434,14 +440,72 @@ fn windows_with_blue_first_show_the_same_colors() {
 
 #[test]
 fn a_picture_drawn_in_software_reaches_the_canvas_unchanged() {
-    let Some(mut gpu) = gpu() else { return };
-    let mesh = graded();
-    let (camera, style) = (whole(&mesh), Style::dark(colors()));
-    let expected = software::draw(&mesh, &camera, &style, None, &[]);
-    let (shown, revision) = (ShownMesh::from(&mesh), ShownRevision { mesh: 1, pieces: 0 });
-    assert_eq!(gpu.picture_in_software(shown, revision, &camera, &style).unwrap(), expected);
-    assert_eq!(gpu.picture_in_software(shown, revision, &camera, &style).unwrap(), expected);
-    assert_eq!(gpu.renderer().redraws(), 1, "nothing changed");
+    for format in CANVAS_FORMATS {
+        let Some(gpu) = gpu() else { return };
+        let mut gpu = gpu.with_format(format).unwrap();
+        let mesh = graded();
+        let (camera, style) = (whole(&mesh), Style::dark(colors()));
+        let expected = software::draw(&mesh, &camera, &style, None, &[]);
+        let (shown, revision) = (ShownMesh::from(&mesh), ShownRevision { mesh: 1, pieces: 0 });
+        assert_eq!(gpu.picture_in_software(shown, revision, &camera, &style).unwrap(), expected);
+        assert_eq!(gpu.picture_in_software(shown, revision, &camera, &style).unwrap(), expected);
+        assert_eq!(gpu.renderer().redraws(), 1, "nothing changed");
+    }
+}
+
+#[test]
+fn a_part_of_a_picture_is_written_to_its_place() {
+    let size = [70, 50];
+    let mut image = Image::filled(size, [0; 4]);
+    for (index, byte) in image.rgba.iter_mut().enumerate() {
+        *byte = (index * 31 % 251) as u8;
+    }
+    let part = PxRect { columns: 13..60, rows: 7..41 };
+    for format in CANVAS_FORMATS {
+        let Some(gpu) = gpu() else { return };
+        let (device, queue) = (gpu.device(), gpu.queue());
+        let mut shown = ShownImage::new(device, format);
+        shown.fit(device, size).unwrap();
+        shown.write(queue, &Image::filled(size, [10, 20, 30, 255]), &PxRect::whole(size));
+        shown.write(queue, &image, &part);
+        let canvas = canvas(device, size, format);
+        let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        shown.paint(&mut pass_onto(&mut encoder, &canvas), true);
+        let read = read_back(device, queue, encoder, &canvas).unwrap();
+        for (column, row) in (0..size[1]).flat_map(|row| (0..size[0]).map(move |column| (column, row))) {
+            let is_within = part.columns.contains(&column) && part.rows.contains(&row);
+            let expected = if is_within { image.pixel(column, row) } else { [10, 20, 30, 255] };
+            assert_eq!(read.pixel(column, row), expected, "{format:?}, column {column}, row {row}");
+        }
+    }
+}
+
+/// A canvas that can be read back.
+fn canvas(device: &wgpu::Device, [width, height]: [u32; 2], format: wgpu::TextureFormat) -> wgpu::Texture {
+    device.create_texture(&wgpu::TextureDescriptor {
+        label: None,
+        size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format,
+        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
+        view_formats: &[],
+    })
+}
+
+/// Begins a render pass onto a canvas.
+fn pass_onto<'e>(encoder: &'e mut wgpu::CommandEncoder, canvas: &wgpu::Texture) -> wgpu::RenderPass<'e> {
+    let view = canvas.create_view(&wgpu::TextureViewDescriptor::default());
+    encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+        color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+            view: &view,
+            depth_slice: None,
+            resolve_target: None,
+            ops: wgpu::Operations::default(),
+        })],
+        ..wgpu::RenderPassDescriptor::default()
+    })
 }
 
 #[test]

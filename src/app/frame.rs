@@ -40,6 +40,9 @@ use crate::text::LengthUnit;
 
 /// The least time of a frame that goes into updating the mesh, and the most into the price of a stroke.
 const FRAME_BUDGET: Duration = Duration::from_millis(7);
+/// The most for the price while the pointer moves and no GPU draws: it must not hold up the pointer, and the
+/// price is counted to its end as soon as the pointer rests.
+const PRICE_BUDGET_IN_MOTION: Duration = Duration::from_millis(2);
 /// The share of a frame's time, and the most, that goes into the mesh where drawing is slow, as without a
 /// GPU: 7 ms of a frame of 100 ms would leave the mesh far behind.
 const SLOW_FRAME_SHARE: (f32, Duration) = (1.0 / 3.0, Duration::from_millis(40));
@@ -171,8 +174,11 @@ impl App {
     /// Brings the mesh and the price of a stroke closer to the document, until the frame's time is spent.
     fn follow(&mut self, ctx: &Context) {
         // With a time limit, what is shown on the way would depend on the machine's speed.
-        let [budget, price_budget, patience] =
-            if self.reproducible { [NO_LIMIT; 3] } else { [self.mesh_budget(ctx), FRAME_BUDGET, PATIENCE] };
+        let [budget, price_budget, patience] = if self.reproducible {
+            [NO_LIMIT; 3]
+        } else {
+            [self.mesh_budget(ctx), self.price_budget(ctx), PATIENCE]
+        };
         let start = Instant::now();
         let deadline = start + budget;
         let cuts = self.session.advance_cuts(patience, ctx);
@@ -203,6 +209,12 @@ impl App {
         let (share, most) = if draws { SLOW_FRAME_SHARE } else { SLOW_FRAME_SHARE_AT_REST };
         let frame_time = ctx.input(|input| input.stable_dt);
         Duration::from_secs_f32(share * frame_time.clamp(0.0, 1.0)).clamp(FRAME_BUDGET, most)
+    }
+
+    /// How much time of this frame goes into the price of a stroke.
+    fn price_budget(&self, ctx: &Context) -> Duration {
+        let is_moving = ctx.input(|input| input.pointer.is_moving());
+        if is_moving && self.canvas.draws_in_software() { PRICE_BUDGET_IN_MOTION } else { FRAME_BUDGET }
     }
 
     /// The second half of a frame: everything that is drawn.

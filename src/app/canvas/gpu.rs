@@ -68,6 +68,11 @@ impl CanvasGpu {
         self.in_software = true;
     }
 
+    /// Whether no GPU draws the mesh.
+    pub fn draws_in_software(&self) -> bool {
+        self.in_software
+    }
+
     /// Leaves the picture to a window that is drawn in software, if it is drawn in software itself.
     pub fn leave_to_software_window(&mut self) -> Option<&RenderState> {
         self.in_software_window = self.in_software;

@@ -91,6 +91,11 @@ impl Canvas {
         }
     }
 
+    /// Whether no GPU draws the mesh, so that drawing and everything else share the cores.
+    pub fn draws_in_software(&self) -> bool {
+        self.gpu.as_ref().is_some_and(CanvasGpu::draws_in_software)
+    }
+
     /// Readies a window that is drawn in software, where the mesh is.
     pub fn software_window(&mut self) -> Option<SoftwareWindow> {
         self.gpu.as_mut()?.leave_to_software_window().map(SoftwareWindow::new)

@@ -3,7 +3,7 @@
 use super::GpuError;
 use super::mesh_pass::MeshPass;
 use super::mirror::MeshMirror;
-use super::shown_image::{FORMAT, ShownImage};
+use super::shown_image::ShownImage;
 use crate::render::Image;
 use crate::render::software::{KeptPicture, PxRect};
 use crate::scene::{Camera, ShownMesh, ShownRevision, Style};
@@ -43,7 +43,7 @@ enum Source {
 impl MeshPicture {
     pub(super) fn new(device: &wgpu::Device, format: wgpu::TextureFormat, mirror: &MeshMirror) -> Self {
         Self {
-            mesh_pass: MeshPass::new(device, FORMAT, mirror),
+            mesh_pass: MeshPass::new(device, format, mirror),
             texture: ShownImage::new(device, format),
             drawn: None,
             kept: KeptPicture::default(),

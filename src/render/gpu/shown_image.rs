@@ -5,9 +5,6 @@ use super::mesh_pass::{new_texture, render_pipeline, texel_entry};
 use crate::render::Image;
 use crate::render::software::PxRect;
 
-/// Independent of the canvas, so that a picture drawn in software needs no conversion.
-pub(super) const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
-
 /// A picture that is drawn on or written to, and copied to the canvas.
 pub struct ShownImage {
     /// Copies the picture.
@@ -15,6 +12,9 @@ pub struct ShownImage {
     /// Draws a picture that is transparent in part over what is on the canvas.
     blend: wgpu::RenderPipeline,
     layout: wgpu::BindGroupLayout,
+    sampler: wgpu::Sampler,
+    /// That of the canvas.
+    format: wgpu::TextureFormat,
     target: Option<Target>,
 }
 
@@ -25,16 +25,17 @@ struct Target {
 }
 
 impl ShownImage {
-    /// Nothing yet, to be shown on canvases of `format`.
+    /// Nothing yet, to be shown on canvases of `format`, which must have four bytes per pixel.
     pub fn new(device: &wgpu::Device, format: wgpu::TextureFormat) -> Self {
         let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some("picture"),
-            entries: &[texel_entry(0)],
+            entries: &[texel_entry(0), sampler_entry(1)],
         });
         let shader = device.create_shader_module(wgpu::include_wgsl!("blit.wgsl"));
         let pipeline = |blend| render_pipeline(device, &shader, &[&layout], format, blend);
         let (copy, blend) = (pipeline(None), pipeline(Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING)));
-        Self { copy, blend, layout, target: None }
+        let sampler = device.create_sampler(&wgpu::SamplerDescriptor::default());
+        Self { copy, blend, layout, sampler, format, target: None }
     }
 
     /// Makes the texture as large as a picture. Returns whether it is another one, which shows nothing yet.
@@ -54,15 +55,15 @@ impl ShownImage {
         let usage = wgpu::TextureUsages::RENDER_ATTACHMENT
             | wgpu::TextureUsages::TEXTURE_BINDING
             | wgpu::TextureUsages::COPY_DST;
-        let texture = new_texture(device, "picture", size, FORMAT, usage);
+        let texture = new_texture(device, "picture", size, self.format, usage);
         let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
         let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("picture"),
             layout: &self.layout,
-            entries: &[wgpu::BindGroupEntry {
-                binding: 0,
-                resource: wgpu::BindingResource::TextureView(&view),
-            }],
+            entries: &[
+                wgpu::BindGroupEntry { binding: 0, resource: wgpu::BindingResource::TextureView(&view) },
+                wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::Sampler(&self.sampler) },
+            ],
         });
         self.target = Some(Target { texture, view, group });
         Ok(true)
@@ -76,10 +77,10 @@ impl ShownImage {
     /// Writes a part of a picture to the same place of the texture, which must have its size.
     pub fn write(&self, queue: &wgpu::Queue, image: &Image, part: &PxRect) {
         let Some(Target { texture, .. }) = &self.target else { return };
-        let (x, y) = (part.columns.start, part.rows.start);
+        let origin = wgpu::Origin3d { x: part.columns.start, y: part.rows.start, z: 0 };
         let layout = wgpu::TexelCopyBufferLayout {
-            offset: 4 * (u64::from(y) * u64::from(image.size[0]) + u64::from(x)),
-            bytes_per_row: Some(4 * image.size[0]),
+            offset: 0,
+            bytes_per_row: Some(4 * part.columns.len() as u32),
             rows_per_image: None,
         };
         let size = wgpu::Extent3d {
@@ -87,9 +88,9 @@ impl ShownImage {
             height: part.rows.len() as u32,
             depth_or_array_layers: 1,
         };
-        let to =
-            wgpu::TexelCopyTextureInfo { origin: wgpu::Origin3d { x, y, z: 0 }, ..texture.as_image_copy() };
-        queue.write_texture(to, &image.rgba, layout, size);
+        let to = wgpu::TexelCopyTextureInfo { origin, ..texture.as_image_copy() };
+        let pixels = pixels_of(image, part, self.format);
+        queue.write_texture(to, bytemuck::cast_slice(&pixels), layout, size);
     }
 
     /// Copies the picture to the canvas, or draws it over the canvas unless it is opaque. The viewport of
@@ -100,5 +101,30 @@ impl ShownImage {
         pass.set_pipeline(if is_opaque { &self.copy } else { &self.blend });
         pass.set_bind_group(0, &target.group, &[]);
         pass.draw(0..3, 0..1);
+    }
+}
+
+/// The pixels of a part of a picture, with their bytes in the order of a format.
+fn pixels_of(image: &Image, part: &PxRect, format: wgpu::TextureFormat) -> Vec<[u8; 4]> {
+    let columns = part.columns.start as usize..part.columns.end as usize;
+    let rows = part.rows.start as usize..part.rows.end as usize;
+    let mut pixels = Vec::with_capacity(columns.len() * rows.len());
+    for row in image.pixels().chunks_exact(image.size[0] as usize).take(rows.end).skip(rows.start) {
+        let row = &row[columns.clone()];
+        match format {
+            wgpu::TextureFormat::Bgra8Unorm => pixels.extend(row.iter().map(|&[r, g, b, a]| [b, g, r, a])),
+            _ => pixels.extend_from_slice(row),
+        }
+    }
+    pixels
+}
+
+/// Layout entry of a sampler that takes the nearest pixel.
+fn sampler_entry(binding: u32) -> wgpu::BindGroupLayoutEntry {
+    wgpu::BindGroupLayoutEntry {
+        binding,
+        visibility: wgpu::ShaderStages::FRAGMENT,
+        ty: wgpu::BindingType::Sampler(wgpu::SamplerBindingType::NonFiltering),
+        count: None,
     }
 }
