@@ -115,7 +115,13 @@ impl RasterPyramid {
                 self.scales.get(scale.wrapping_sub(FINEST) as usize).and_then(|s| s.whole(x as u32, y as u32))
             }
         };
-        known.unwrap_or_else(|| self.square(scale, x, y).with_gaps(gap))
+        known.unwrap_or_else(|| self.range_of_rare_square(scale, x, y, gap))
+    }
+
+    /// The same at the border of the raster, and where pixels have no value.
+    #[cold]
+    fn range_of_rare_square(&self, scale: i32, x: i32, y: i32, gap: f32) -> ValueRange {
+        self.square(scale, x, y).with_gaps(gap)
     }
 
     /// The values in all pixels.
@@ -161,18 +167,28 @@ impl RasterPyramid {
         SquareValues { range: Some(ValueRange::one(value)), has_gaps: false }
     }
 
-    /// The range of the values in a square of 2 × 2 pixels, `None` if one of them has no value.
+    /// The range of the values in a square of 2 × 2 pixels; `None` if one of them has no value, and perhaps
+    /// if one is infinite.
     #[inline]
     fn four_pixels(&self, x: u32, y: u32) -> Option<ValueRange> {
-        let [columns, rows] = self.raster.size();
-        let [x, y] = [x, y].map(|place| place.saturating_mul(2));
-        let [right, upper] = [x, y].map(|place| place.saturating_add(1));
-        if right >= columns || upper >= rows {
+        let [columns, rows] = self.raster.size().map(|side| side / 2);
+        if x >= columns || y >= rows {
             return None;
         }
-        let pixels = [[x, y], [right, y], [x, upper], [right, upper]].map(|[x, y]| self.raster.get(x, y));
-        let range = pixels.map(ValueRange::one).into_iter().reduce(ValueRange::union);
-        range.filter(|_| !pixels.iter().any(|value| value.is_nan()))
+        let stride = self.raster.size()[0] as usize;
+        let place = 2 * (y as usize * stride + x as usize);
+        let values = self.raster.values();
+        let ([a, b], [c, d]) = (pair(&values[place..]), pair(&values[place + stride..]));
+        // NaN if a value is; plain comparisons are then meaningless.
+        if (a + b + c + d).is_nan() {
+            return None;
+        }
+        let least = |p: f32, q: f32| if p < q { p } else { q };
+        let greatest = |p: f32, q: f32| if p > q { p } else { q };
+        Some(ValueRange {
+            least: least(least(a, b), least(c, d)),
+            greatest: greatest(greatest(a, b), greatest(c, d)),
+        })
     }
 
     /// The value of a pixel, `None` beyond the raster and where it has none.
@@ -306,6 +322,11 @@ impl ValueRange {
     }
 }
 
+#[inline]
+fn pair(values: &[f32]) -> [f32; 2] {
+    [values[0], values[1]]
+}
+
 /// A bit for each of [columns, rows] squares.
 fn bits(size: [u32; 2]) -> Vec<u64> {
     vec![0; (size[0] as usize * size[1] as usize).div_ceil(64)]
@@ -334,7 +355,11 @@ mod tests {
     fn raster(random: &mut fastrand::Rng) -> Raster {
         let size = [0, 0].map(|_| random.u32(1..40));
         let gaps = [0.0, 0.02, 0.9, 1.0][random.usize(..4)];
-        let value = |_| if random.f64() < gaps { f32::NAN } else { 10.0 * random.f32() };
+        let value = |_| match random.f64() {
+            chance if chance < gaps => f32::NAN,
+            chance if chance > 0.99 => [f32::INFINITY, f32::NEG_INFINITY][random.usize(..2)],
+            _ => 10.0 * random.f32(),
+        };
         let values = (0..size[0] * size[1]).map(value).collect();
         Raster::from_values(Rect::new(dvec2(-1.0, 2.0), dvec2(2.0, 3.0)), size, values)
     }
@@ -376,9 +401,10 @@ mod tests {
                     );
                     filled += usize::from(range.is_some());
                     with_gaps += usize::from(range.is_some() && gaps);
-                    let infinite = pyramid.range(scale, x as i32, y as i32);
-                    assert_eq!(infinite.greatest == f32::INFINITY, gaps);
-                    assert_eq!(infinite.least, range.map_or(f32::INFINITY, |range| range.0));
+                    let filled_in = pyramid.range(scale, x as i32, y as i32);
+                    let (least, greatest) = range.unwrap_or((f32::INFINITY, f32::INFINITY));
+                    assert_eq!(filled_in.least, least);
+                    assert_eq!(filled_in.greatest, if gaps { f32::INFINITY } else { greatest });
                 }
             }
             let coarsest = pyramid.coarsest();

@@ -34,6 +34,7 @@ impl PixelGrid {
 }
 
 /// 2ⁿ, exactly. `exponent` must be that of a normal number.
+#[inline]
 pub fn power_of_two(exponent: i32) -> f64 {
     f64::from_bits(((1023 + i64::from(exponent)) as u64) << 52)
 }

@@ -61,12 +61,11 @@ impl Cells {
 
     /// The part on one side of lines along both axes; `upper` says for each axis whether it is the upper one.
     #[inline]
-    pub fn quarter(self, lines: [i64; 2], upper: [bool; 2]) -> Self {
-        let part = |cells: Self, axis: usize| {
-            let halves = cells.divided(Cut { axis, at: lines[axis] });
-            halves[usize::from(upper[axis])]
-        };
-        part(part(self, 0), 1)
+    pub fn quarter(&self, lines: [i64; 2], upper: [bool; 2]) -> Self {
+        Self {
+            min: [0, 1].map(|axis: usize| if upper[axis] { lines[axis] } else { self.min[axis] }),
+            max: [0, 1].map(|axis: usize| if upper[axis] { self.max[axis] } else { lines[axis] }),
+        }
     }
 
     /// Whether a cut has cells on both sides.
@@ -166,11 +165,20 @@ impl GridOnLattice {
         Self { origin, steps, pixels_per_step: 1.0 / steps, log_steps: exponent(steps.min_element()) }
     }
 
+    /// The lines between squares at a scale, across an axis.
+    #[inline]
+    fn lines(&self, scale: i32, axis: usize) -> Lines {
+        Lines {
+            origin: self.origin[axis],
+            spacing: self.steps[axis] * power_of_two(scale),
+            per_step: self.pixels_per_step[axis] * power_of_two(-scale),
+        }
+    }
+
     /// The lattice coordinate of line `n` between squares at a scale, along an axis.
     #[inline]
     fn line(&self, scale: i32, axis: usize, n: i64) -> i64 {
-        let side = self.steps[axis] * power_of_two(scale);
-        floor(self.origin[axis] + n as f64 * side + ROUNDING)
+        self.lines(scale, axis).line(n)
     }
 
     /// The square [x, y] at a scale, see [`ValueRanges`].
@@ -188,38 +196,6 @@ impl GridOnLattice {
         [self.line(scale - 1, 0, 2 * x + 1), self.line(scale - 1, 1, 2 * y + 1)]
     }
 
-    /// The first and the last column (axis 0) or row (axis 1) of the squares at a scale that have cells from
-    /// `first` to `last`.
-    #[inline]
-    fn columns(&self, scale: i32, axis: usize, [first, last]: [i64; 2]) -> [i64; 2] {
-        let (column, end) = self.column_and_end(scale, axis, first);
-        if end > last {
-            return [column; 2];
-        }
-        // Usually the last column is the next one.
-        let is_next = self.line(scale, axis, column + 2) > last;
-        [column, if is_next { column + 1 } else { self.column_and_end(scale, axis, last).0 }]
-    }
-
-    /// The column (axis 0) or row (axis 1) of the square at a scale that has the cells in a lattice column
-    /// or row, and the line where that column ends.
-    #[inline]
-    fn column_and_end(&self, scale: i32, axis: usize, cell: i64) -> (i64, i64) {
-        let per_step = self.pixels_per_step[axis] * power_of_two(-scale);
-        let mut n = floor((cell as f64 - self.origin[axis]) * per_step);
-        let mut end = self.line(scale, axis, n + 1);
-        // The product is rounded, and so are the lines.
-        while end <= cell {
-            n += 1;
-            end = self.line(scale, axis, n + 1);
-        }
-        while self.line(scale, axis, n) > cell {
-            end = self.line(scale, axis, n);
-            n -= 1;
-        }
-        (n, end)
-    }
-
     /// The scale at which a rectangle of cells spans about one square. The whole raster can be smaller.
     #[inline]
     pub fn scale_of(&self, cells: &Cells) -> i32 {
@@ -231,8 +207,8 @@ impl GridOnLattice {
     /// row].
     #[inline]
     pub fn squares(&self, scale: i32, cells: &Cells) -> [[i64; 2]; 2] {
-        let [x0, x1] = self.columns(scale, 0, [cells.min[0], cells.max[0] - 1]);
-        let [y0, y1] = self.columns(scale, 1, [cells.min[1], cells.max[1] - 1]);
+        let [x0, x1] = self.lines(scale, 0).between([cells.min[0], cells.max[0] - 1]);
+        let [y0, y1] = self.lines(scale, 1).between([cells.min[1], cells.max[1] - 1]);
         [[x0, y0], [x1, y1]]
     }
 
@@ -256,6 +232,53 @@ impl GridOnLattice {
             // The cells lie within one square: its quarters tell more.
             scale -= 1;
         }
+    }
+}
+
+/// Parallel lines at equal distances, rounded down to the lattice.
+struct Lines {
+    /// The lattice coordinate of line 0, not rounded.
+    origin: f64,
+    /// Lattice steps from line to line.
+    spacing: f64,
+    /// The inverse of that, rounded.
+    per_step: f64,
+}
+
+impl Lines {
+    /// The lattice coordinate of line `n`.
+    #[inline]
+    fn line(&self, n: i64) -> i64 {
+        floor(self.origin + n as f64 * self.spacing + ROUNDING)
+    }
+
+    /// The first and the last gap between lines that have cells from `first` to `last`. Gap n follows line n.
+    #[inline]
+    fn between(&self, [first, last]: [i64; 2]) -> [i64; 2] {
+        let (gap, end) = self.gap_and_end(first);
+        if end > last {
+            return [gap; 2];
+        }
+        // Usually the last gap is the next one.
+        let is_next = self.line(gap + 2) > last;
+        [gap, if is_next { gap + 1 } else { self.gap_and_end(last).0 }]
+    }
+
+    /// The gap that has a cell, and the line where that gap ends.
+    #[inline]
+    fn gap_and_end(&self, cell: i64) -> (i64, i64) {
+        let mut n = floor((cell as f64 - self.origin) * self.per_step);
+        let mut end = self.line(n + 1);
+        // The product is rounded, and so are the lines.
+        while end <= cell {
+            n += 1;
+            end = self.line(n + 1);
+        }
+        while self.line(n) > cell {
+            end = self.line(n);
+            n -= 1;
+        }
+        (n, end)
     }
 }
 

@@ -134,12 +134,12 @@ impl CompiledLayer {
             Values::Nothing => false,
             Values::Paint => paint.get(self.id).is_some_and(|raster| {
                 let grid = GridOnLattice::new(raster.grid(), lattice);
-                let search = RasterSearch { raster, grid: &grid, reading: &self.reading, level };
+                let search = RasterSearch { raster, grid: &grid, question: self.reading.question(level) };
                 search.any(triangle, &around)
             }),
             Values::Raster { raster, gap, grid } => {
                 let raster = &WithGaps { raster, gap: *gap };
-                RasterSearch { raster, grid, reading: &self.reading, level }.any(triangle, &around)
+                RasterSearch { raster, grid, question: self.reading.question(level) }.any(triangle, &around)
             }
             Values::Analytic(_) => self.any_below_in_mask(paint, triangle, around, level, lattice),
         }

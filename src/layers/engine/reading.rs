@@ -124,21 +124,19 @@ impl Reading {
     /// Where the values of a range ask for more than a level.
     #[inline]
     pub fn asks(&self, range: ValueRange, level: usize) -> Share {
-        let ValueRange { least, greatest } = range;
-        match self {
-            Self::Risk { least: limits, .. } => share(greatest >= limits[level], least >= limits[level]),
-            Self::Diameter { most } => share(least <= most[level], greatest <= most[level]),
-            Self::Curve { lengths, .. } | Self::Band { lengths, .. } => {
-                self.diameters(range).share_below(lengths[level])
-            }
-        }
+        self.question(level).asks(range)
     }
 
-    /// Whether a greater or a lower value always asks for more: then a range with [`Share::Some`] has a value
-    /// that asks.
+    /// The question whether values ask for more than a level, to be put to many ranges.
     #[inline]
-    pub fn is_monotone(&self) -> bool {
-        matches!(self, Self::Risk { .. } | Self::Diameter { .. })
+    pub fn question(&self, level: usize) -> Question<'_> {
+        match self {
+            Self::Risk { least, .. } => Question::AtLeast(least[level]),
+            Self::Diameter { most } => Question::AtMost(most[level]),
+            Self::Curve { lengths, .. } | Self::Band { lengths, .. } => {
+                Question::Below { reading: self, diameter: lengths[level] }
+            }
+        }
     }
 
     /// The diameter that a number asks for, not rounded; infinite where it asks for nothing, and NaN, zero or
@@ -190,6 +188,37 @@ impl Reading {
                 Diameters { least, greatest, present }
             }
         }
+    }
+}
+
+/// Whether values ask for more than one level.
+#[derive(Clone, Copy, Debug)]
+pub enum Question<'a> {
+    /// Values from this one on do.
+    AtLeast(f32),
+    /// Values up to this one do.
+    AtMost(f32),
+    /// Values that ask for less than this diameter do.
+    Below { reading: &'a Reading, diameter: f64 },
+}
+
+impl Question<'_> {
+    /// Which of the values of a range do.
+    #[inline]
+    pub fn asks(self, range: ValueRange) -> Share {
+        let ValueRange { least, greatest } = range;
+        match self {
+            Self::AtLeast(limit) => share(greatest >= limit, least >= limit),
+            Self::AtMost(limit) => share(least <= limit, greatest <= limit),
+            Self::Below { reading, diameter } => reading.diameters(range).share_below(diameter),
+        }
+    }
+
+    /// Whether a greater or a lower value always asks for more: then a range with [`Share::Some`] has a value
+    /// that asks.
+    #[inline]
+    pub fn is_monotone(self) -> bool {
+        matches!(self, Self::AtLeast(_) | Self::AtMost(_))
     }
 }
 

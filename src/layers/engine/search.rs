@@ -5,7 +5,7 @@ use crate::raster::ValueRanges;
 
 use super::asked::Share;
 use super::cells::{Cells, Cut, GridOnLattice};
-use super::reading::Reading;
+use super::reading::Question;
 
 /// Whether a cell of `cells` that touches the closed triangle asks, by dividing the rectangle where `ask`
 /// says so.
@@ -34,26 +34,30 @@ pub fn any_cell(
 pub struct RasterSearch<'a, R> {
     pub raster: &'a R,
     pub grid: &'a GridOnLattice,
-    pub reading: &'a Reading,
-    pub level: usize,
+    pub question: Question<'a>,
 }
 
 impl<R: ValueRanges> RasterSearch<'_, R> {
-    /// Whether a pixel that touches the closed triangle asks for more than the level. `cells` are those
-    /// around the triangle.
+    /// Whether a pixel that touches the closed triangle asks for more than the level in question. `cells`
+    /// are those around the triangle.
     ///
     /// It starts at the scale where the triangle spans at most two squares along both axes, skips squares
     /// whose values do not ask or that do not touch the triangle, and ends at a square that asks.
     #[inline]
     pub fn any(&self, triangle: &Octagon, cells: &Cells) -> bool {
-        if self.reading.asks(self.raster.whole_range(), self.level) == Share::None {
+        if self.question.asks(self.raster.whole_range()) == Share::None {
             return false;
         }
         let scale = self.grid.scale_of(cells);
         let [low, high] = self.grid.squares(scale, cells);
-        (low[1]..=high[1]).any(|y| {
-            (low[0]..=high[0]).any(|x| self.square(triangle, scale, [x, y], || self.grid.square(scale, x, y)))
-        })
+        for y in low[1]..=high[1] {
+            for x in low[0]..=high[0] {
+                if self.square(triangle, scale, [x, y], || self.grid.square(scale, x, y)) {
+                    return true;
+                }
+            }
+        }
+        false
     }
 
     /// The same for the square [x, y] at a scale, which has these cells.
@@ -66,7 +70,7 @@ impl<R: ValueRanges> RasterSearch<'_, R> {
         cells: impl FnOnce() -> Cells,
     ) -> bool {
         // Most squares are decided by their values.
-        let asks = self.reading.asks(self.raster.range(scale, x as i32, y as i32), self.level);
+        let asks = self.question.asks(self.raster.range(scale, x as i32, y as i32));
         if asks == Share::None {
             return false;
         }
@@ -78,16 +82,19 @@ impl<R: ValueRanges> RasterSearch<'_, R> {
             return false;
         }
         asks == Share::All
-            || (self.reading.is_monotone() && triangle.contains(&octagon))
+            || (self.question.is_monotone() && triangle.contains(&octagon))
             || self.any_quarter(triangle, scale, [x, y], &cells)
     }
 
     /// The same for the quarters of a square.
     fn any_quarter(&self, triangle: &Octagon, scale: i32, [x, y]: [i64; 2], cells: &Cells) -> bool {
         let middle = self.grid.middle(scale, [x, y]);
-        [[0, 0], [1, 0], [0, 1], [1, 1]].into_iter().any(|[i, j]| {
+        for [i, j] in [[0, 0], [1, 0], [0, 1], [1, 1]] {
             let quarter = || cells.quarter(middle, [i == 1, j == 1]);
-            self.square(triangle, scale - 1, [2 * x + i, 2 * y + j], quarter)
-        })
+            if self.square(triangle, scale - 1, [2 * x + i, 2 * y + j], quarter) {
+                return true;
+            }
+        }
+        false
     }
 }
