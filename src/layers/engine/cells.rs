@@ -299,3 +299,44 @@ fn floor(v: f64) -> i64 {
     let truncated = v as i64;
     truncated - i64::from((truncated as f64) > v)
 }
+
+#[cfg(test)]
+mod tests {
+    use glam::dvec2;
+
+    use super::*;
+
+    /// The square of each cell along an axis, by looking at the lines one by one.
+    fn squares_by_lines(origin: f64, spacing: f64, cells: std::ops::Range<i64>) -> Vec<i64> {
+        let line = |n: i64| (origin + n as f64 * spacing + 1.0 / 65536.0).floor() as i64;
+        let of_cell = |cell: i64| (-200..200).find(|&n| line(n) <= cell && cell < line(n + 1)).unwrap();
+        cells.map(of_cell).collect()
+    }
+
+    #[test]
+    fn squares_of_cells_are_those_between_their_lines() {
+        let mut random = fastrand::Rng::with_seed(8);
+        let (mut next, mut behind_an_empty_one) = (0, 0);
+        for _ in 0..20_000 {
+            let origin = dvec2(random.f64() - 0.5, random.f64() - 0.5) * 4.0;
+            // Also pixels that are finer than the lattice: some have no cell.
+            let steps = dvec2(0.6 + 3.0 * random.f64(), 0.6 + 3.0 * random.f64());
+            let log_steps = exponent(steps.min_element());
+            let grid = GridOnLattice { origin, steps, pixels_per_step: 1.0 / steps, log_steps };
+            let scale = random.i32(0..3);
+            let min = [0, 0].map(|_| random.i64(0..20));
+            let cells = Cells { min, max: min.map(|v| v + random.i64(1..6)) };
+            let [low, high] = grid.squares(scale, &cells);
+            for axis in 0..2 {
+                let spacing = steps[axis] * f64::from(1 << scale);
+                let expected = squares_by_lines(origin[axis], spacing, cells.min[axis]..cells.max[axis]);
+                assert_eq!(Some(&low[axis]), expected.first(), "{origin} {steps} {cells:?}");
+                assert_eq!(Some(&high[axis]), expected.last(), "{origin} {steps} {cells:?}");
+                next += usize::from(high[axis] == low[axis] + 1);
+                let jump = expected.windows(2).any(|pair| pair[1] == pair[0] + 2);
+                behind_an_empty_one += usize::from(expected.len() == 2 && jump);
+            }
+        }
+        assert!(next > 5_000 && behind_an_empty_one > 50, "{next} {behind_an_empty_one}");
+    }
+}
