@@ -7,15 +7,12 @@
 //! Three settings are dragged (the shape of the transfer curve, the smallest diameter, the coarse spacing),
 //! on a mesh of 34 thousand triangles and on one of two million.
 
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use meshbrush::internals::document::{Document, Follower, MeshChange, Setting, Settings};
-use meshbrush::internals::field::Formula;
-use meshbrush::internals::layers::{Layer, LayerKind};
+use meshbrush::internals::layers::Layer;
+use meshbrush_benches::window::{FRAME_BUDGET, SLICE, wave};
 
-/// The window's own values: `FRAME_BUDGET` in `app/frame.rs` and `SLICE` in `app/slices.rs`.
-const FRAME_BUDGET: Duration = Duration::from_millis(7);
-const SLICE: usize = 2048;
 const SECONDS: usize = 2;
 const MOVES: usize = 60 * SECONDS;
 
@@ -23,8 +20,7 @@ const MOVES: usize = 60 * SECONDS;
 fn document(h_min: f64) -> Document {
     let mut settings = Settings::default();
     settings.transfer.h_min = h_min;
-    let formula = "if(y < 0.45 + 0.1 * sin(7 * x), 0.0001, 0.2)";
-    settings.layers = Layer::usual(LayerKind::target(Formula::parse(formula).expect("a valid formula")));
+    settings.layers = Layer::usual(wave(0.45, 0.0001));
     Document::new(settings, None).expect("valid settings")
 }
 

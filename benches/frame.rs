@@ -23,16 +23,12 @@ use std::time::{Duration, Instant};
 use glam::{DVec2, dvec2};
 use meshbrush::internals::document::{Document, Follower, MeshChange, Settings, Stage};
 use meshbrush::internals::domain::{BoundaryTreatment, Domain};
-use meshbrush::internals::field::Formula;
-use meshbrush::internals::layers::{Layer, LayerKind};
+use meshbrush::internals::layers::Layer;
 use meshbrush::internals::mesh::{PatchPieces, TriangleId};
 use meshbrush::internals::outline::DerivedMesh;
 use meshbrush::internals::paint::{Brush, Medium};
 use meshbrush::internals::render::gpu::Offscreen;
-
-/// The window's own values: `FRAME_BUDGET` in `app/frame.rs` and `SLICE` in `app/slices.rs`.
-const FRAME_BUDGET: Duration = Duration::from_millis(7);
-const SLICE: usize = 2048;
+use meshbrush_benches::window::{BRUSH, FRAME_BUDGET, SLICE, wave};
 
 const FRAMES: usize = 120;
 /// What a mouse reports in a frame, at 120 a second.
@@ -40,8 +36,6 @@ const POINTS_PER_FRAME: usize = 2;
 /// How often each stroke is repeated.
 const ROUNDS: usize = 5;
 
-/// The window's default brush on the unit square.
-const BRUSH: Brush = Brush { medium: Medium::Risk(1.0), radius: 0.06, hardness: 0.35, strength: 0.8 };
 const ERASER: Brush = Brush { medium: Medium::Eraser, strength: 1.0, ..BRUSH };
 
 /// Position of the mouse after a share of the stroke: most of a figure eight, 2.4 units long, slow in the
@@ -57,12 +51,11 @@ fn points_of(frame: usize) -> impl Iterator<Item = DVec2> {
     (0..POINTS_PER_FRAME).map(move |i| recorded((frame * POINTS_PER_FRAME + i) as f64 / last))
 }
 
-/// A field that is fine below a wave at this height, so that the stroke crosses fine and coarse parts.
-fn settings(wave: f64) -> Settings {
+/// Fine below a wave at this height.
+fn settings(height: f64) -> Settings {
     let mut settings = Settings::default();
     settings.transfer.h_min = 0.0011;
-    let formula = format!("if(y < {wave} + 0.1 * sin(7 * x), 0.0011, 0.2)");
-    settings.layers = Layer::usual(LayerKind::target(Formula::parse(&formula).expect("a valid formula")));
+    settings.layers = Layer::usual(wave(height, 0.0011));
     settings
 }
 

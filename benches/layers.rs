@@ -16,24 +16,17 @@ use std::time::{Duration, Instant};
 
 use glam::{DVec2, dvec2};
 use meshbrush::internals::document::{Document, Follower, Setting, Settings, Stage};
-use meshbrush::internals::field::Formula;
 use meshbrush::internals::geometry::Rect;
 use meshbrush::internals::layers::{
     Combine, DistanceTo, Layer, LayerId, LayerKind, Mask, Quantity, RasterReading, RasterSource, ShapeList,
     Shapes, Threat, ThreatLaw, Threats, ValueCurve,
 };
-use meshbrush::internals::paint::{Brush, Medium};
 use meshbrush::internals::raster::{Raster, RasterPyramid};
-
-/// The window's own values: `FRAME_BUDGET` in `app/frame.rs` and `SLICE` in `app/slices.rs`.
-const FRAME_BUDGET: Duration = Duration::from_millis(7);
-const SLICE: usize = 2048;
+use meshbrush_benches::window::{BRUSH, FRAME_BUDGET, SLICE, wave};
 
 const FRAMES: usize = 120;
 /// How often each edit is repeated.
 const ROUNDS: usize = 5;
-/// The window's default brush on the unit square.
-const BRUSH: Brush = Brush { medium: Medium::Risk(1.0), radius: 0.06, hardness: 0.35, strength: 0.8 };
 /// The layer of threats.
 const THREATS: LayerId = LayerId(4);
 /// Pixels along a side of the raster.
@@ -41,7 +34,6 @@ const RASTER_SIDE: u32 = 2048;
 
 /// Eight layers, of which the first determines the size of the mesh.
 fn layers() -> Vec<Layer> {
-    let wave = "if(y < 0.45 + 0.1 * sin(7 * x), 0.0011, 0.2)";
     let source = RasterSource { name: "hills".into(), raster: Arc::new(RasterPyramid::new(hills())) };
     let curve = ValueCurve::new(vec![[0.5, 0.2], [1.0, 0.01]]).expect("values that increase");
     let line = [dvec2(0.05, 0.9), dvec2(0.4, 0.7), dvec2(0.95, 0.85)];
@@ -49,7 +41,7 @@ fn layers() -> Vec<Layer> {
     let shapes = Shapes::new(lines, false).expect("a line");
     let to = DistanceTo::Shapes { name: "road".into(), shapes };
     let mut layers = Layer::stack([
-        LayerKind::target(Formula::parse(wave).expect("a valid formula")),
+        wave(0.45, 0.0011),
         LayerKind::Raster { source: source.clone(), reading: RasterReading::Curve(Arc::new(curve)) },
         LayerKind::Band { source, between: [0.9, 0.95], diameter: 0.02 },
         LayerKind::Distance { to, at_zero: 0.005, slope: 0.3, range: 0.2 },

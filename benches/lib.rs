@@ -2,3 +2,4 @@
 
 pub mod diamond;
 pub mod field;
+pub mod window;

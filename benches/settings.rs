@@ -11,10 +11,8 @@ use meshbrush::internals::document::{Document, Follower, Setting, Settings, Stag
 use meshbrush::internals::geometry::Rect;
 use meshbrush::internals::layers::{Layer, LayerKind, RasterReading, RasterSource};
 use meshbrush::internals::raster::{Raster, RasterPyramid};
+use meshbrush_benches::window::{FRAME_BUDGET, SLICE};
 
-/// The window's own values: `FRAME_BUDGET` in `app/frame.rs` and `SLICE` in `app/slices.rs`.
-const FRAME_BUDGET: Duration = Duration::from_millis(7);
-const SLICE: usize = 2048;
 /// How often each change is repeated; medians are printed.
 const ROUNDS: usize = 3;
 

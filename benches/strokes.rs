@@ -8,25 +8,20 @@ use std::time::{Duration, Instant};
 
 use glam::dvec2;
 use meshbrush::internals::document::{Document, Follower, Settings};
-use meshbrush::internals::field::Formula;
-use meshbrush::internals::layers::{Layer, LayerKind};
+use meshbrush::internals::layers::Layer;
 use meshbrush::internals::mesh::Progress;
-use meshbrush::internals::paint::{Brush, Medium};
+use meshbrush_benches::window::{BRUSH, SLICE, wave};
 
-/// The window's own value in `app/slices.rs`.
-const SLICE: usize = 2048;
 /// How often each stroke is repeated; medians are printed.
 const ROUNDS: usize = 5;
 /// Height of a stroke at its left end.
 const STROKES: [(&str, f64); 3] = [("above the wave", 0.8), ("along the wave", 0.5), ("below the wave", 0.2)];
-const BRUSH: Brush = Brush { medium: Medium::Risk(1.0), radius: 0.06, hardness: 0.35, strength: 0.8 };
 
 /// Fine below a wave, coarse above it.
 fn document(fine: f64) -> Document {
     let mut settings = Settings::default();
     (settings.transfer.h_min, settings.transfer.h_max) = (0.7 * fine, 0.2);
-    let formula = format!("if(y < 0.45 + 0.1 * sin(7 * x), {fine}, 0.2)");
-    settings.layers = Layer::usual(LayerKind::target(Formula::parse(&formula).expect("a valid formula")));
+    settings.layers = Layer::usual(wave(0.45, fine));
     Document::new(settings, None).expect("valid settings")
 }
 
