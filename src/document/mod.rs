@@ -44,7 +44,7 @@ pub use stage::Stage;
 use crate::geometry::Rect;
 use crate::layers::{LayerId, PaintLayers};
 use crate::mesh::TargetChange;
-use crate::paint::Patch;
+use crate::paint::{Medium, Patch};
 use history::{Entry, EntryData};
 use strokes::LayerStroke;
 
@@ -190,7 +190,8 @@ impl Document {
             let mut patch = Patch::clearing(raster);
             if !patch.is_empty() {
                 let areas = patch.exchange(raster);
-                self.note_repainted(layer, areas, TargetChange::Any);
+                let change = self.settings.change_by(&Medium::Eraser, layer);
+                self.note_repainted(layer, areas, change);
                 patches.push((layer, patch));
             }
         }

@@ -10,7 +10,7 @@ use crate::field::{RefinementRule, Transfer, TransferError, checked_target};
 use crate::geometry::{GridError, Lattice, Rect};
 use crate::layers::{Combine, Layer, LayerId, LayerKind, Quantity, Shapes, SizeFieldSpec};
 use crate::mesh::{Cleaning, KeptParts, Limits, MemoryLimit, TargetChange};
-use crate::paint::Brush;
+use crate::paint::Medium;
 use crate::path::PathError;
 use crate::text::{Bytes, LengthUnit, Number};
 
@@ -242,12 +242,12 @@ impl Settings {
         Self { unit, background, pins, paths, ..derived } == *other
     }
 
-    /// What a brush does to h̄ where it paints on a layer.
-    pub(super) fn change_by(&self, brush: &Brush, layer: LayerId) -> TargetChange {
+    /// What paint of a medium does to h̄ on a layer.
+    pub(super) fn change_by(&self, medium: &Medium, layer: LayerId) -> TargetChange {
         // A floor that is erased lets h̄ become smaller.
         let is_finest = |painted: &Layer| painted.id == layer && painted.combine == Combine::Finest;
         match self.layers.iter().any(is_finest) {
-            true => brush.medium.change(self.transfer.h_max),
+            true => medium.change(self.transfer.h_max),
             false => TargetChange::Any,
         }
     }

@@ -43,7 +43,7 @@ impl Document {
         let settings = &self.settings;
         let is_first = self.paint.get(layer).is_none();
         self.paint.get_or_insert(layer, || settings.blank_raster(layer));
-        let change = settings.change_by(&brush, layer);
+        let change = settings.change_by(&brush.medium, layer);
         let stroke = Stroke::new(brush, settings.transfer.h_max, settings.domain.bounds).mirrored(mirror);
         let recorded =
             self.recording.is_some().then(|| RecordedStroke { layer, brush, mirror, path: Vec::new() });

@@ -13,6 +13,8 @@ use crate::app::widgets::{NumberRow, Section, SliderRow, format, segmented, valu
 use crate::document::{LEAST_MEMORY, Setting, Settings};
 use crate::field::RefinementRule;
 
+/// The widest name of a row with a number.
+const TRIANGLE_BUDGET: &str = "Triangle budget";
 /// Bytes in a megabyte.
 const MEGABYTE: f64 = 1e6;
 /// Bytes in a gigabyte.
@@ -75,7 +77,7 @@ fn budget_rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>)
     let mut triangles = settings.max_triangles as f64;
     let help =
         "Most triangles of the mesh. A stroke that would need more stops there; a setting is taken back.";
-    let row = NumberRow::new("Triangle budget", &mut triangles).integer().range(TRIANGLE_BUDGETS);
+    let row = NumberRow::new(TRIANGLE_BUDGET, &mut triangles).integer().range(TRIANGLE_BUDGETS);
     if row.default(usual.max_triangles as f64).help(help).show(ui).changed() {
         set_once(Setting::MaxTriangles(triangles as usize), commands);
     }
@@ -83,7 +85,11 @@ fn budget_rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>)
     let help = "Most memory, in gigabytes, for the mesh and for the next one while that is built: 98 bytes a triangle. \
                 The smaller of the two budgets counts.";
     let range = LEAST_MEMORY as f64 / GIGABYTE..=MOST_MEMORY;
-    let row = NumberRow::new("Memory budget", &mut gigabytes).range(range).unit("GB").help(help);
+    let row = NumberRow::new("Memory budget", &mut gigabytes)
+        .below(TRIANGLE_BUDGET)
+        .range(range)
+        .unit("GB")
+        .help(help);
     if row.default(usual.max_memory as f64 / GIGABYTE).show(ui).changed() {
         let max_memory = (gigabytes * GIGABYTE).round() as usize;
         set_once(Setting::MaxMemory(max_memory), commands);
@@ -97,8 +103,8 @@ fn threads_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>)
     let most = Threads::most().get() as f64;
     let help = "Most threads that compute the mesh, and each file. Fewer leave cores to other programs; the mesh is the \
                 same. The picture is drawn on threads of its own.";
-    let row = NumberRow::new("Threads", &mut count).integer().range(1.0..=most).default(most).help(help);
-    if row.show(ui).changed() {
+    let row = NumberRow::new("Threads", &mut count).below(TRIANGLE_BUDGET);
+    if row.integer().range(1.0..=most).default(most).help(help).show(ui).changed() {
         commands.extend(NonZeroUsize::new(count as usize).map(Command::LimitThreads));
     }
 }
