@@ -301,8 +301,8 @@ impl Canvas {
         if rect.width() < 1.0 || rect.height() < 1.0 {
             return None;
         }
-        if self.shown.is_none() {
-            // The pointer can act on the canvas from the next frame on.
+        if self.shown.is_none_or(|(_, former)| former != rect) {
+            // The pointer acts on the canvas where it was in the last frame.
             ui.ctx().request_repaint();
         }
         self.shown = Some((response.id, rect));

@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 
 use eframe::egui::accesskit::Role;
-use eframe::egui::{Key, Modifiers, vec2};
+use eframe::egui::{Event, Key, Modifiers, vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use glam::dvec2;
 
@@ -123,6 +123,20 @@ fn the_view_is_fitted_to_the_window_until_it_is_moved() {
     window.set_size(vec2(1440.0, 900.0));
     window.run();
     assert_eq!(scale(&window), at_first, "after Home it follows again");
+}
+
+#[test]
+fn after_a_change_of_size_the_pointer_is_where_it_is_seen() {
+    let mut window = window();
+    let at = super::canvas(&window).center();
+    window.event(Event::PointerMoved(at));
+    window.run();
+    window.set_size(vec2(1000.0, 640.0));
+    window.run();
+    let pointer = window.state().canvas.pointer().unwrap();
+    window.event(Event::PointerMoved(at));
+    window.run();
+    assert_eq!(window.state().canvas.pointer(), Some(pointer));
 }
 
 /// What the legend on the canvas says.
