@@ -40,8 +40,8 @@ use crate::text::LengthUnit;
 
 /// The least time of a frame that goes into updating the mesh, and the most into the price of a stroke.
 const FRAME_BUDGET: Duration = Duration::from_millis(7);
-/// The most for the price while the pointer moves and no GPU draws: it must not hold up the pointer, and the
-/// price is counted to its end as soon as the pointer rests.
+/// The most for the price while the pointer moves and no GPU draws: frames should be short then. The price is
+/// completed once the pointer rests.
 const PRICE_BUDGET_IN_MOTION: Duration = Duration::from_millis(2);
 /// The share of a frame's time, and the most, that goes into the mesh where drawing is slow, as without a
 /// GPU: 7 ms of a frame of 100 ms would leave the mesh far behind.

@@ -167,7 +167,7 @@ impl RasterPyramid {
         SquareValues { range: Some(ValueRange::one(value)), has_gaps: false }
     }
 
-    /// The range of the values in a square of 2 × 2 pixels; `None` if one of them has no value, and perhaps
+    /// The range of the values in a square of 2 × 2 pixels; `None` if one of them has no value, and possibly
     /// if one is infinite.
     #[inline]
     fn four_pixels(&self, x: u32, y: u32) -> Option<ValueRange> {
@@ -179,7 +179,7 @@ impl RasterPyramid {
         let place = 2 * (y as usize * stride + x as usize);
         let values = self.raster.values();
         let ([a, b], [c, d]) = (pair(&values[place..]), pair(&values[place + stride..]));
-        // NaN if a value is; plain comparisons are then meaningless.
+        // The sum is NaN if a value is, and comparisons with NaN would pass over it.
         if (a + b + c + d).is_nan() {
             return None;
         }

@@ -302,7 +302,7 @@ impl Canvas {
             return None;
         }
         if self.shown.is_none_or(|(_, former)| former != rect) {
-            // The pointer acts on the canvas where it was in the last frame.
+            // The pointer acts on the canvas where it was in the last frame: only the next frame is right.
             ui.ctx().request_repaint();
         }
         self.shown = Some((response.id, rect));

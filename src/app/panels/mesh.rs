@@ -13,7 +13,7 @@ use crate::app::widgets::{NumberRow, Section, SliderRow, format, segmented, valu
 use crate::document::{LEAST_MEMORY, Setting, Settings};
 use crate::field::RefinementRule;
 
-/// The widest name of a row with a number.
+/// The longest label of a number; the fields of the others are aligned with it.
 const TRIANGLE_BUDGET: &str = "Triangle budget";
 /// Bytes in a megabyte.
 const MEGABYTE: f64 = 1e6;
@@ -86,7 +86,7 @@ fn budget_rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>)
                 The smaller of the two budgets counts.";
     let range = LEAST_MEMORY as f64 / GIGABYTE..=MOST_MEMORY;
     let row = NumberRow::new("Memory budget", &mut gigabytes)
-        .below(TRIANGLE_BUDGET)
+        .aligned_with(TRIANGLE_BUDGET)
         .range(range)
         .unit("GB")
         .help(help);
@@ -103,7 +103,7 @@ fn threads_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>)
     let most = Threads::most().get() as f64;
     let help = "Most threads that compute the mesh, and each file. Fewer leave cores to other programs; the mesh is the \
                 same. The picture is drawn on threads of its own.";
-    let row = NumberRow::new("Threads", &mut count).below(TRIANGLE_BUDGET);
+    let row = NumberRow::new("Threads", &mut count).aligned_with(TRIANGLE_BUDGET);
     if row.integer().range(1.0..=most).default(most).help(help).show(ui).changed() {
         commands.extend(NonZeroUsize::new(count as usize).map(Command::LimitThreads));
     }

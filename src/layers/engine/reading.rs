@@ -105,26 +105,19 @@ impl Reading {
     #[inline]
     pub fn answer(&self, range: ValueRange, level: usize) -> Answer {
         let ValueRange { least, greatest } = range;
+        let asks = || self.question(level).asks(range);
         match self {
             Self::Risk { nothing, .. } => {
-                let present = share(greatest > *nothing, least > *nothing);
-                Answer { asks: self.asks(range, level), present }
+                Answer { asks: asks(), present: share(greatest > *nothing, least > *nothing) }
             }
             Self::Diameter { .. } => {
-                let present = share(least < f32::INFINITY, greatest < f32::INFINITY);
-                Answer { asks: self.asks(range, level), present }
+                Answer { asks: asks(), present: share(least < f32::INFINITY, greatest < f32::INFINITY) }
             }
             Self::Curve { lengths, .. } | Self::Band { lengths, .. } => {
                 let diameters = self.diameters(range);
                 Answer { asks: diameters.share_below(lengths[level]), present: diameters.present }
             }
         }
-    }
-
-    /// Where the values of a range ask for more than a level.
-    #[inline]
-    pub fn asks(&self, range: ValueRange, level: usize) -> Share {
-        self.question(level).asks(range)
     }
 
     /// The question whether values ask for more than a level, to be put to many ranges.
@@ -191,19 +184,19 @@ impl Reading {
     }
 }
 
-/// Whether values ask for more than one level.
+/// Which values ask for more than a certain level.
 #[derive(Clone, Copy, Debug)]
 pub enum Question<'a> {
-    /// Values from this one on do.
+    /// Those that are at least this one.
     AtLeast(f32),
-    /// Values up to this one do.
+    /// Those that are at most this one.
     AtMost(f32),
-    /// Values that ask for less than this diameter do.
+    /// Those that the reading gives a smaller diameter than this one.
     Below { reading: &'a Reading, diameter: f64 },
 }
 
 impl Question<'_> {
-    /// Which of the values of a range do.
+    /// How many of the values of a range ask for more.
     #[inline]
     pub fn asks(self, range: ValueRange) -> Share {
         let ValueRange { least, greatest } = range;

@@ -1,7 +1,7 @@
 // Copies a picture to a canvas of the same size, pixel by pixel.
 //
-// A driver that emulates a GPU (llvmpipe) copies whole rows, several times as fast as pixel by pixel, where
-//   - the fragment shader does nothing but read a texture at two components of one input with more of them,
+// Mesa's llvmpipe, which emulates a GPU, copies whole rows instead of shading each pixel if
+//   - the fragment shader only reads a texture, at two components of an input that has more than two,
 //   - the picture and the canvas have the same format.
 
 @group(0) @binding(0) var picture: texture_2d<f32>;

@@ -16,8 +16,8 @@ use crate::app::widgets::tips;
 #[must_use = "call `show`"]
 pub struct NumberRow<'a> {
     label: &'a str,
-    /// Of the names in the column, that of the widest.
-    widest_label: &'a str,
+    /// The longest label of the column, which decides where the fields begin.
+    longest_label: &'a str,
     value: &'a mut f64,
     range: RangeInclusive<f64>,
     unit: &'a str,
@@ -30,12 +30,12 @@ impl<'a> NumberRow<'a> {
     /// A row named `label`; any finite number is allowed.
     pub fn new(label: &'a str, value: &'a mut f64) -> Self {
         let range = f64::MIN..=f64::MAX;
-        Self { label, widest_label: label, value, range, unit: "", integer: false, default: None, help: "" }
+        Self { label, longest_label: label, value, range, unit: "", integer: false, default: None, help: "" }
     }
 
-    /// The field begins where that of a row with another name does, so that they form a column.
-    pub fn below(mut self, other_label: &'a str) -> Self {
-        self.widest_label = other_label;
+    /// Aligns the field with that of the row that has this label.
+    pub fn aligned_with(mut self, other_label: &'a str) -> Self {
+        self.longest_label = other_label;
         self
     }
 
@@ -72,7 +72,7 @@ impl<'a> NumberRow<'a> {
     /// Shows the row.
     pub fn show(self, ui: &mut Ui) -> Response {
         let row = paint::row(ui);
-        let columns = paint::Columns::of(row).widened_for(ui, self.widest_label);
+        let columns = paint::Columns::of(row).widened_for(ui, self.longest_label);
         paint::label(ui, columns.label, self.label, self.help);
         let show = |value| format::with_unit(&self.text(value), self.unit);
         let id = ui.make_persistent_id(("number", self.label));

@@ -26,10 +26,10 @@ const TASK_VISITS: usize = 2048;
 const TASKS: usize = 64;
 /// The most subtrees of a task.
 const MOST_SUBTREES: usize = 64;
-/// The most tasks between two looks at the limits, where that is enough for all threads.
+/// The most tasks between two looks at the limits, unless the threads need more.
 const MOST_TASKS: usize = 1024;
-/// A slice has so many tasks for each thread, however few visits it may make: with one task for each, most
-/// threads wait for the slowest.
+/// The fewest tasks of a slice for each thread: with one task for each, all threads would wait for the
+/// slowest one.
 const TASKS_PER_THREAD: usize = 4;
 
 /// What is to become of a triangle.
@@ -80,7 +80,7 @@ impl Survey {
         Self { slots: vec![Wanted::Open; count], round: (0..count).map(subtree).collect(), ..Self::default() }
     }
 
-    /// Asks about `visits` triangles, or some more.
+    /// Asks about `visits` triangles, or more where that occupies all threads.
     ///
     /// # Errors
     /// When there are more triangles than the limits allow, or too fine ones.

@@ -20,7 +20,7 @@ use crate::mesh::kernel::{KindCounts, Limits, Mesh, Neighbour, NodeId, Progress,
 
 /// About so many triangles are a chunk, which is written by one thread.
 const CHUNK_TRIANGLES: usize = 1 << 14;
-/// A slice has so many chunks for each thread, however few visits it may make.
+/// The fewest chunks of a slice for each thread.
 const CHUNKS_PER_THREAD: usize = 2;
 /// Entries of the skeleton that are copied in the time of a visit.
 const COPIES_PER_VISIT: usize = 8;
@@ -77,7 +77,7 @@ impl Writer {
         Self { numbers, free, counts, copied: 0, chunks, next: 0, blocks }
     }
 
-    /// Numbers about `visits` blocks, or writes about as many triangles.
+    /// Numbers about `visits` blocks, or writes about as many triangles, or more to occupy all threads.
     pub fn advance(&mut self, mesh: &mut Mesh, limits: &Limits, visits: usize) -> Progress {
         if self.numbers.len() < self.blocks.depths.len() {
             self.number(visits);
