@@ -120,6 +120,8 @@ const WINDOW: Option<cli::Window> = Some(cli::Window {
 #[cfg(not(feature = "gui"))]
 const WINDOW: Option<cli::Window> = None;
 
+pub use mesh::ProgramAllocator;
+
 /// Runs the program: the command line or, with the feature `gui`, the window. The first argument is the
 /// program's name.
 pub fn run_program(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {

@@ -2,6 +2,11 @@
 
 use std::process::ExitCode;
 
+use meshbrush::ProgramAllocator;
+
+#[global_allocator]
+static ALLOCATOR: ProgramAllocator = ProgramAllocator;
+
 fn main() -> ExitCode {
     meshbrush::run_program(std::env::args_os())
 }

@@ -595,7 +595,7 @@ fn impossible_targets_fail_with_their_place() {
         ("--target 0.001 --max-triangles 1000", "more than 1,000 triangles, which is the limit"),
         (
             "--target 0.001 --max-memory 1MB",
-            "more than 17,241 triangles, and 1 MB of memory, which is the limit",
+            "more than 10,416 triangles, and 1 MB of memory, which is the limit",
         ),
         (
             "--target 0.001 --max-memory 1MB --max-triangles 900",

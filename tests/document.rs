@@ -15,7 +15,7 @@ use meshbrush::internals::domain::{
 use meshbrush::internals::field::{Formula, RefinementRule};
 use meshbrush::internals::geometry::Rect;
 use meshbrush::internals::layers::{Layer, LayerId, LayerKind, RasterReading, RasterSource};
-use meshbrush::internals::mesh::Progress;
+use meshbrush::internals::mesh::{MemoryLimit, Progress};
 use meshbrush::internals::paint::{Brush, DiameterChange, Medium, Mirror, StrokePlan};
 use meshbrush::internals::raster::{Raster, RasterPyramid};
 use meshbrush::internals::text::Grouped;
@@ -494,7 +494,7 @@ fn the_memory_budget_holds_while_one_paints_and_while_another_mesh_is_made() {
     let settings = Settings { max_memory: 2_000_000, ..Settings::default() };
     let mut document = Document::new(settings, None).unwrap();
     let mut follower = Follower::new(&mut document).unwrap();
-    let room = 2_000_000 / 98;
+    let room = 2_000_000 / MemoryLimit::TWO_MESHES;
     let brush = Brush { medium: Medium::Risk(1.0), radius: 0.1, hardness: 1.0, strength: 1.0 };
     let stroke = |document: &mut Document, y: f64| {
         document.begin_stroke(brush);

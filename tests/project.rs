@@ -582,6 +582,29 @@ fn paint_of_all_layers_together_is_limited_by_the_size_of_the_file() {
 }
 
 #[test]
+fn rasters_of_all_layers_together_are_limited_before_they_are_unpacked() {
+    let mut settings = small().settings;
+    let raster = || Raster::filled(Rect::UNIT, [2, 2], 0.0);
+    settings.layers = Layer::stack([0, 1, 2].map(|n| raster_layer(&format!("{n}.asc"), raster())));
+    let bytes = bytes_of(&Project { settings, paint: PaintLayers::default() });
+    opened(&bytes).unwrap();
+    // 200 million pixels each, which take a gigabyte for a few bytes of zeros.
+    let with_large = |count: usize| {
+        packed(unpacked(&bytes).into_iter().map(|(name, content)| match name.as_str() {
+            "settings.json" => {
+                let text = String::from_utf8(content).unwrap();
+                assert_eq!(text.matches("\"columns\": 2,").count(), 3);
+                let text = text.replacen("\"columns\": 2,", "\"columns\": 10000,", count);
+                (name, text.replacen("\"rows\": 2", "\"rows\": 20000", count).into_bytes())
+            }
+            _ => (name, content),
+        }))
+    };
+    refused(&with_large(2), &["damaged"]);
+    refused(&with_large(3), &["600 000 000 pixels"]);
+}
+
+#[test]
 fn files_that_are_not_projects_are_refused() {
     refused(b"", &["empty"]);
     refused(b"PK", &["not a Meshbrush project"]);

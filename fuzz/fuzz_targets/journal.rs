@@ -7,10 +7,10 @@ mod packing;
 
 use std::fs;
 
-use meshbrush::internals::io::journal;
+use meshbrush::internals::io::journal::{self, Left};
 use packing::{SAMPLE, change, hold, packed};
 
-const MAGIC: &[u8] = b"MBJOUR01";
+const MAGIC: &[u8] = b"MBJOUR02";
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
     let Some((&way, bytes)) = bytes.split_first() else { return };
@@ -22,9 +22,14 @@ libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
     fs::create_dir_all(&folder).unwrap();
     let file = folder.join("1-0.journal");
     fs::write(&file, &content).unwrap();
-    let found = journal::abandoned(&folder);
+    let found: Vec<Left> = journal::left(&folder).collect();
     assert!(found.len() <= 1);
-    found.into_iter().for_each(|abandoned| hold(abandoned.project));
+    for left in found {
+        match left {
+            Left::Work(abandoned) => hold(abandoned.project),
+            Left::Unreadable { problem, .. } => assert!(problem.len() < 1000 && !problem.ends_with('.')),
+        }
+    }
     let _ = fs::remove_file(&file); // a journal without unsaved work is deleted already
 });
 

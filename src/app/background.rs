@@ -10,7 +10,9 @@ use std::time::{Duration, Instant};
 use eframe::egui::Context;
 
 use super::busy::Busy;
-use super::command::Command;
+use super::command::{Command, Opened};
+use super::home::Home;
+use super::session::DocumentId;
 use super::threads::Threads;
 use crate::io::{self, Meter};
 
@@ -19,16 +21,23 @@ const PACE: Duration = Duration::from_millis(150);
 /// How long a window that is being closed waits for files that are being written.
 const LAST_WAIT: Duration = Duration::from_secs(5);
 
-/// What a piece of work came to. `execute::finish` applies it to the window.
+/// What a piece of work came to. `execute::files` applies it to the window.
 pub enum Outcome {
-    /// A file was read.
+    /// A file was read that becomes a document of its own.
+    Opened {
+        /// Where it is.
+        path: PathBuf,
+        /// The document.
+        opened: Opened,
+    },
+    /// A file was read that becomes a part of the document.
     Read {
         /// Where it is.
         path: PathBuf,
         /// What to do with its content.
         commands: Vec<Command>,
     },
-    /// A file that is only a part of a document was read: it is no recent file. What to do with its content.
+    /// As [`Self::Read`], but it is no recent file. What to do with its content.
     PartRead(Vec<Command>),
     /// A file was not read.
     NotRead(String),
@@ -39,10 +48,12 @@ pub enum Outcome {
     /// This version of the document was saved.
     Saved {
         /// Where to.
-        path: PathBuf,
+        home: Home,
         /// The version.
         version: u64,
     },
+    /// The document was not saved to this file, because somebody else changed it.
+    ChangedOnDisk(PathBuf),
     /// Saving was cancelled: a sentence about it.
     SavingCancelled(String),
     /// The document was not saved: a sentence about it.
@@ -81,9 +92,21 @@ impl Aim {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct WorkId(u64);
 
+/// Work that ended.
+pub struct Finished {
+    /// The document that was open when it began.
+    pub document: DocumentId,
+    /// The name of its file.
+    pub name: String,
+    /// What it came to.
+    pub outcome: Outcome,
+}
+
 /// A file being read or written.
 struct Work {
     id: WorkId,
+    /// The document that was open when it began.
+    document: DocumentId,
     aim: Aim,
     /// Of the file.
     name: String,
@@ -107,6 +130,8 @@ pub struct Background {
     sender: Sender<(WorkId, Outcome)>,
     receiver: Receiver<(WorkId, Outcome)>,
     works: Vec<Work>,
+    /// The document that is open.
+    document: DocumentId,
     started: u64,
     /// Most threads of each.
     threads: NonZeroUsize,
@@ -116,7 +141,13 @@ impl Background {
     /// Nothing yet, in the window of `ctx`.
     pub fn new(ctx: &Context) -> Self {
         let (sender, receiver) = channel();
-        Self { ctx: ctx.clone(), sender, receiver, works: Vec::new(), started: 0, threads: Threads::most() }
+        let (works, document) = (Vec::new(), DocumentId::default());
+        Self { ctx: ctx.clone(), sender, receiver, works, document, started: 0, threads: Threads::most() }
+    }
+
+    /// Another document was opened: what is started from now on is for that one.
+    pub fn work_for(&mut self, document: DocumentId) {
+        self.document = document;
     }
 
     /// Limits the threads of what is started from now on.
@@ -131,7 +162,7 @@ impl Background {
         let (id, meter, name) = (WorkId(self.started), Meter::default(), name_of(path));
         let (sender, ctx, watched) = (self.sender.clone(), self.ctx.clone(), meter.clone());
         let (what, threads) = (format!("{} {name}", aim.doing()), self.threads);
-        self.works.push(Work { id, aim, name, meter, busy: Busy::now() });
+        self.works.push(Work { id, document: self.document, aim, name, meter, busy: Busy::now() });
         thread::spawn(move || {
             // A panic must not leave the window waiting for ever.
             let outcome = catch_unwind(AssertUnwindSafe(|| Threads::new(threads).run(|| work(&watched))))
@@ -146,13 +177,13 @@ impl Background {
         });
     }
 
-    /// Removes one finished piece of work from the list, and returns its outcome.
-    pub fn take_finished(&mut self) -> Option<Outcome> {
+    /// Removes one finished piece of work from the list, and returns it.
+    pub fn take_finished(&mut self) -> Option<Finished> {
         loop {
             let (id, outcome) = self.receiver.try_recv().ok()?;
             if let Some(at) = self.works.iter().position(|work| work.id == id) {
-                self.works.remove(at);
-                return Some(outcome);
+                let Work { document, name, .. } = self.works.remove(at);
+                return Some(Finished { document, name, outcome });
             }
         }
     }
@@ -185,9 +216,10 @@ impl Background {
         self.works.iter().any(|work| matches!(work.aim, Aim::Save(_)))
     }
 
-    /// Whether this version of the document is being saved.
+    /// Whether this version of the document that is open is being saved.
     pub fn saves_version(&self, version: u64) -> bool {
-        self.works.iter().any(|work| work.aim == Aim::Save(version) && !work.meter.is_cancelled())
+        let saves = |work: &Work| work.aim == Aim::Save(version) && work.document == self.document;
+        self.works.iter().any(|work| saves(work) && !work.meter.is_cancelled())
     }
 
     /// The progress of work that takes longer than a moment, or of all work.

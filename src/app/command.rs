@@ -11,6 +11,7 @@ use super::background::WorkId;
 use super::dialogs::FileRequest;
 use super::explore::TreeStep;
 use super::help::HelpTopic;
+use super::home::Home;
 use super::paths::PathCommand;
 use super::plots::PlotsCommand;
 use super::readout::Quantity;
@@ -79,6 +80,8 @@ pub enum Command {
     SaveAs(PathBuf),
     /// Saves it to a file.
     SaveTo(PathBuf),
+    /// Saves to a path, whatever is there.
+    SaveOver(PathBuf),
     /// Writes the document as a recipe, and asks before other files are replaced.
     SaveRecipeAs(PathBuf),
     /// Writes the document as a recipe, with the files that it names beside it.
@@ -248,7 +251,7 @@ pub struct Opened {
     /// What was read.
     pub document: Arc<Document>,
     /// The project file that it belongs to, if it is from one.
-    pub home: Option<PathBuf>,
+    pub home: Option<Home>,
 }
 
 impl PartialEq for Opened {

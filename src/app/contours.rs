@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use eframe::egui::Context;
 
-use super::latest::Latest;
+use super::latest::{Latest, Wanted};
 use crate::document::Follower;
 use crate::field::{Contour, contours};
 use crate::geometry::Rect;
@@ -40,9 +40,9 @@ impl ContourFinder {
         self.0.last().map_or(&[], |(_, lines)| lines)
     }
 
-    /// Drops the lines.
+    /// Drops the lines, and ends the work on others.
     pub fn clear(&mut self) {
-        *self = Self::default();
+        self.0.stop();
     }
 
     /// Takes the lines that are ready, and computes those of a field at `revision`.
@@ -56,11 +56,12 @@ impl ContourFinder {
         }
         let (field, paint, mesh) = (follower.shared_field(), paint.clone(), follower.mesh());
         let diameters: Vec<f64> = (0..LEVELS).map(|level| mesh.diameter(level)).collect();
-        let find = move || {
-            let target = field.sampled(&paint, state.bounds, pixels_over(&state.bounds));
-            contours(&target, &diameters).into_iter().map(placed).collect()
+        let find = move |wanted: &Wanted| {
+            let (bounds, size) = (state.bounds, pixels_over(&state.bounds));
+            let (target, _) = field.sampled_while(&paint, bounds, size, &|| wanted.goes_on())?;
+            Some(contours(&target, &diameters).into_iter().map(placed).collect())
         };
-        self.0.start(state, find, ctx);
+        self.0.start_wanted(state, find, ctx);
     }
 }
 

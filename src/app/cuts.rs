@@ -8,6 +8,7 @@ use std::time::{Duration, Instant};
 
 use eframe::egui::Context;
 
+use super::failures::caught;
 use crate::document::{Document, Setting, SettingsError};
 use crate::domain::{CutShape, Domain};
 use crate::geometry::Rect;
@@ -155,7 +156,7 @@ impl CutQueue {
         let (edit_there, before, ctx) = (edit.clone(), domain.clone(), ctx.clone());
         thread::spawn(move || {
             // The receiver is gone where the edit was discarded.
-            let _ = sender.send(edit_there.apply(&before));
+            let _ = sender.send(caught(&ctx, || edit_there.apply(&before)).flatten());
             ctx.request_repaint();
         });
         self.running = Some(Running { edit, domain: domain.clone(), result });

@@ -20,6 +20,7 @@ use std::time::{Duration, Instant};
 use eframe::egui::Context;
 use glam::DVec2;
 
+use super::failures::caught;
 use crate::document::{Follower, MeshChange};
 use crate::domain::{DomainOnLattice, FitQuality, Region};
 use crate::mesh::{
@@ -104,10 +105,13 @@ pub struct Derivation {
     pieces_revision: u64,
     pieces_change: Option<PiecesChange>,
     running: Option<Running>,
+    /// What no mesh could be derived for: it is not tried again.
+    failed: Option<Key>,
 }
 
 /// A mesh that is being derived.
 struct Running {
+    key: Key,
     results: Receiver<Outcome>,
     /// What became of the follower's mesh since.
     since: Option<MeshChange>,
@@ -188,7 +192,7 @@ impl Derivation {
                 let left = deadline.saturating_duration_since(Instant::now());
                 match running.results.recv_timeout(left) {
                     Err(RecvTimeoutError::Timeout) => return true,
-                    Err(RecvTimeoutError::Disconnected) => self.running = None,
+                    Err(RecvTimeoutError::Disconnected) => self.end(),
                     Ok(outcome) => self.take(outcome, follower),
                 }
                 continue;
@@ -210,7 +214,13 @@ impl Derivation {
     }
 
     fn is_new(&self, key: &Key) -> bool {
-        self.latest.as_ref().is_none_or(|derived| derived.key != *key)
+        self.latest.as_ref().is_none_or(|derived| derived.key != *key) && self.failed.as_ref() != Some(key)
+    }
+
+    /// The thread has ended: with a mesh, or because it failed.
+    fn end(&mut self) {
+        let Some(Running { key, .. }) = self.running.take() else { return };
+        self.failed = Some(key).filter(|key| self.is_new(key));
     }
 
     fn forget(&mut self) {
@@ -242,11 +252,14 @@ impl Derivation {
     fn start(&mut self, key: Key, follower: &Follower, ctx: &Context) {
         let (sender, results) = channel();
         let (mesh, domain, ctx) = (follower.shared_mesh(), follower.domain().clone(), ctx.clone());
+        let key_there = key.clone();
         thread::spawn(move || {
-            derive(key, mesh, &domain, &sender);
+            caught(&ctx, || derive(key_there, mesh, &domain, &sender));
+            // The window then finds that the thread has ended.
+            drop(sender);
             ctx.request_repaint();
         });
-        self.running = Some(Running { results, since: None });
+        self.running = Some(Running { key, results, since: None });
     }
 }
 

@@ -82,7 +82,7 @@ pub fn load_domain(background: &mut Background, path: &Path) {
     background.start(Aim::Read, path, move |meter| match domain_of(&file, meter) {
         Ok(document) => {
             let opened = Opened { document: Arc::new(document), home: None };
-            Outcome::Read { path: file, commands: vec![Command::Show(opened)] }
+            Outcome::Opened { path: file, opened }
         }
         Err(problem) => Outcome::NotRead(problem),
     });

@@ -22,6 +22,7 @@ use super::command::Command;
 use super::cuts::PATIENCE;
 use super::dialogs::FileFacts;
 use super::explore::Explore;
+use super::journal::JournalKeeper;
 use super::layer_pictures::LayerPictures;
 use super::paths::PathFinder;
 use super::pins::PinReader;
@@ -34,7 +35,7 @@ use super::threads::Threads;
 use super::tools::Tools;
 use super::view::View;
 use super::walks::WalkMeter;
-use super::{help, journal, keys, panels, project};
+use super::{failures, help, journal, keys, panels, replacing};
 use crate::document::ReportFigure;
 use crate::text::LengthUnit;
 
@@ -98,13 +99,19 @@ impl FrameState<'_> {
 impl App {
     /// The first half of a frame: everything that changes.
     pub(super) fn advance(&mut self, ctx: &Context) {
-        self.finish_work();
-        if let Some(keeper) = &mut self.journal {
-            keeper.offer_next();
+        // Commands of the last frame come first: they may open another document. What a file becomes is done
+        // before the next file is looked at, for the same reason.
+        self.run_commands(ctx);
+        while self.finish_next_work() {
+            self.run_commands(ctx);
+        }
+        failures::take(ctx).into_iter().for_each(|problem| self.session.report(problem));
+        if let Some(problem) = self.journal.as_mut().and_then(JournalKeeper::offer_next) {
+            self.session.report(problem);
         }
         let close = self.project.handle_close_request(&mut self.session, &self.background, ctx);
         self.commands.extend(close);
-        self.commands.extend(self.dialogs.take_answer(ctx));
+        self.take_chosen_file(ctx);
         self.take_input(ctx);
         self.run_commands(ctx);
         self.project.forget_saving(&self.background, self.dialogs.asks_for_file());
@@ -270,7 +277,7 @@ impl App {
         if let Some(keeper) = &self.journal {
             journal::question(ctx, keeper, &self.project, commands);
         }
-        project::questions(ctx, &state, self.dialogs.asks_for_file(), commands);
+        replacing::questions(ctx, &state, self.dialogs.asks_for_file(), commands);
         if let Some(topic) = self.help {
             help::show(ctx, topic, &catalog(&state), commands);
         }

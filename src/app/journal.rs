@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc::{Receiver, Sender, channel};
+use std::sync::mpsc::{Receiver, Sender, channel, sync_channel};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
@@ -14,7 +14,7 @@ use super::project::ProjectFile;
 use super::session::Session;
 use super::widgets::{Answer, ConfirmDialog};
 use crate::document::{Edits, Settings};
-use crate::io::journal::{self, Abandoned};
+use crate::io::journal::{self, Abandoned, Left};
 use crate::io::project::Project;
 use crate::layers::PaintLayers;
 
@@ -38,7 +38,9 @@ enum Entry {
 pub struct JournalKeeper {
     sender: Sender<Entry>,
     thread: Option<JoinHandle<()>>,
-    found: Receiver<Abandoned>,
+    found: Receiver<Left>,
+    /// Journals of earlier runs that cannot be read.
+    unreadable: Vec<String>,
     problems: Receiver<String>,
     /// The journal is so long that it should start again with the whole document.
     wants_whole: Arc<AtomicBool>,
@@ -54,15 +56,18 @@ impl JournalKeeper {
     pub fn new(folder: PathBuf, ctx: &Context) -> Self {
         let (sender, entries) = channel();
         let (problem_sender, problems) = channel();
-        let (found_sender, found) = channel();
+        // A journal can be large: the next one is read when the one before it is looked at.
+        let (found_sender, found) = sync_channel(1);
         let wants_whole = Arc::new(AtomicBool::new(false));
         let (wants, place, window) = (wants_whole.clone(), folder.clone(), ctx.clone());
         thread::spawn(move || {
-            for left in journal::abandoned(&place) {
-                // The window may have closed in the meantime.
-                let _ = found_sender.send(left);
+            for left in journal::left(&place) {
+                if found_sender.send(left).is_err() {
+                    // The window has closed in the meantime.
+                    return;
+                }
+                window.request_repaint();
             }
-            window.request_repaint();
         });
         let window = ctx.clone();
         let report = move |result: std::io::Result<()>| {
@@ -85,6 +90,7 @@ impl JournalKeeper {
             problems,
             wants_whole,
             offered: None,
+            unreadable: Vec::new(),
             recorded: PaintLayers::default(),
             broken: false,
         }
@@ -95,11 +101,23 @@ impl JournalKeeper {
         self.offered.is_some()
     }
 
-    /// Offers the next work that an earlier run left behind.
-    pub fn offer_next(&mut self) {
-        if self.offered.is_none() {
-            self.offered = self.found.try_recv().ok();
+    /// Offers the next work that an earlier run left behind. Returns a sentence about work that cannot be
+    /// read.
+    pub fn offer_next(&mut self) -> Option<String> {
+        while self.offered.is_none() {
+            match self.found.try_recv().ok()? {
+                Left::Work(work) => self.offered = Some(*work),
+                Left::Unreadable { path, problem } => {
+                    self.unreadable.push(format!("{}: {problem}", path.display()));
+                    return Some(format!(
+                        "Unsaved work of an earlier run cannot be read, and is kept. {}. Delete the file if you do not need \
+                         it.",
+                        self.unreadable.join("; ")
+                    ));
+                }
+            }
         }
+        None
     }
 
     /// Takes the answer about the work of an earlier run, and returns the command to run now.

@@ -6,7 +6,7 @@ use std::time::Duration;
 use eframe::egui::{Color32, ColorImage, Context, TextureHandle, TextureOptions};
 
 use super::latest::Latest;
-use super::session::Session;
+use super::session::{DocumentId, Session};
 use super::view::View;
 use crate::colormap::{LevelColors, category_color};
 use crate::document::Document;
@@ -30,7 +30,7 @@ struct PictureKey {
     kind: LayerKind,
     /// The state of the document for painted layers, otherwise 0.
     painted: u64,
-    document: u64,
+    document: DocumentId,
     bounds: Rect,
     transfer: Transfer,
     colors: LevelColors,
@@ -47,7 +47,7 @@ struct LayerPicture {
 pub struct LayerPictures {
     pictures: BTreeMap<LayerId, LayerPicture>,
     /// The state of document and colours for which all pictures are up to date.
-    current: Option<(u64, u64, LevelColors)>,
+    current: Option<(DocumentId, u64, LevelColors)>,
 }
 
 impl LayerPictures {
@@ -61,7 +61,7 @@ impl LayerPictures {
     pub fn advance(&mut self, session: &Session, view: &View, patience: Duration, ctx: &Context) {
         let document = session.document();
         let colors = view.level_colors(document.settings());
-        let state = (session.opened_documents(), document.revision(), colors);
+        let state = (session.document_id(), document.revision(), colors);
         if self.current.as_ref() == Some(&state) || document.stroke().is_some() {
             return;
         }
@@ -69,7 +69,7 @@ impl LayerPictures {
         self.pictures.retain(|id, _| layers.iter().any(|layer| layer.id == *id));
         let mut all_current = true;
         for layer in layers {
-            let key = key(layer, session.opened_documents(), document, &state.2);
+            let key = key(layer, session.document_id(), document, &state.2);
             all_current &=
                 self.pictures.entry(layer.id).or_default().advance(key, layer, document, patience, ctx);
         }
@@ -77,7 +77,7 @@ impl LayerPictures {
     }
 }
 
-fn key(layer: &Layer, opened: u64, document: &Document, colors: &LevelColors) -> PictureKey {
+fn key(layer: &Layer, opened: DocumentId, document: &Document, colors: &LevelColors) -> PictureKey {
     let settings = document.settings();
     PictureKey {
         kind: layer.kind.clone(),

@@ -21,6 +21,7 @@ mod files;
 mod frame;
 mod frame_log;
 mod help;
+mod home;
 mod inspection;
 mod journal;
 mod keep_out;
@@ -37,7 +38,9 @@ mod plots;
 mod project;
 mod prover;
 mod explore;
+mod failures;
 pub mod readout;
+mod replacing;
 mod report;
 mod screenshots;
 mod sequence;
@@ -210,6 +213,7 @@ impl App {
         }
         if let Some(folder) = eframe::storage_dir(APP_ID) {
             self.keep_journal_in(folder.join("journals"), &cc.egui_ctx);
+            self.project.keep_claims_in(folder.join("open"));
         }
     }
 
@@ -256,7 +260,7 @@ impl eframe::App for App {
     fn on_exit(&mut self) {
         let start = Instant::now();
         while self.background.wait_for_writing(start) {
-            self.finish_work();
+            while self.finish_next_work() {}
         }
         // Where the desktop closes the window, the user was not asked.
         let remove = self.project.may_leave(&self.session);

@@ -123,6 +123,7 @@ pub fn advice(error: &BuildError) -> &'static str {
         BuildError::Refine(RefineError::TooFine { .. }) => {
             " Raise the smallest diameter, or mesh a smaller domain."
         }
+        BuildError::Refine(RefineError::OutOfMemory { .. }) => "",
         BuildError::Refine(error) if error.is_over_budget() => {
             " Raise the smallest diameter, paint less, or raise the limit."
         }

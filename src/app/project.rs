@@ -1,18 +1,16 @@
 //! The file that the document belongs to: opening it, saving it, and asking before edits would be lost.
 
-use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
 use eframe::egui::{Context, ViewportCommand};
 
-use super::background::{Aim, Background, Outcome, cancelled};
-use super::command::{Command, Opened};
-use super::files::listed;
-use super::frame::FrameState;
+use super::background::Background;
+use super::command::Command;
+use super::home::{self, Claims, Expected, Home};
+use super::replacing::{Loss, Replacing};
 use super::report::FigureCommand;
 use super::session::Session;
-use super::widgets::{Answer, ConfirmDialog};
+use super::widgets::Answer;
 use crate::io;
 use crate::io::project::{ENDING, Project};
 use crate::io::recipe::RecipeFiles;
@@ -26,18 +24,19 @@ const RECENT_KEY: &str = "recent files";
 
 /// The document's file, and what of the document is saved.
 pub struct ProjectFile {
-    path: Option<PathBuf>,
+    home: Option<Home>,
+    claims: Claims,
     /// The version of the document that was opened or saved last; `None` if no file has it.
     saved_version: Option<u64>,
     recent: Vec<PathBuf>,
     /// The command that would lose edits, while the user is asked about them.
-    leaving: Option<Command>,
+    pub(super) leaving: Option<Command>,
     /// The command that waits until the document is saved.
     after_saving: Option<Command>,
     /// The version whose edits the user agreed to lose.
     given_up: Option<u64>,
-    /// Existing files, while the user is asked whether to replace them, and the command that replaces them.
-    replacing: Option<(Vec<PathBuf>, Command)>,
+    /// Existing files, while the user is asked whether to replace them.
+    pub(super) replacing: Option<Replacing>,
     /// Where to save again after the current save.
     save_again: Option<PathBuf>,
     /// The window closes once everything is written.
@@ -50,7 +49,8 @@ impl ProjectFile {
     /// No file; `version` of the document was opened.
     pub fn new(version: u64) -> Self {
         Self {
-            path: None,
+            home: None,
+            claims: Claims::default(),
             saved_version: Some(version),
             recent: Vec::new(),
             leaving: None,
@@ -65,7 +65,12 @@ impl ProjectFile {
 
     /// The file that the document was opened from or saved to.
     pub fn path(&self) -> Option<&Path> {
-        self.path.as_deref()
+        self.home.as_ref().map(|home| &*home.path)
+    }
+
+    /// Tells other windows which project is open, with locks in a folder.
+    pub fn keep_claims_in(&mut self, folder: PathBuf) {
+        self.claims.keep_in(folder);
     }
 
     /// Files of every kind that were opened or saved, the last first.
@@ -98,14 +103,23 @@ impl ProjectFile {
         self.recent.truncate(MOST_RECENT);
     }
 
-    /// Notes that the document is another one, or belongs to another file; `saved` if the file has this
-    /// version.
-    pub fn belongs_to(&mut self, path: Option<PathBuf>, version: u64, saved: bool) {
+    /// Another document was opened: from a file, if it has one, which has this version if it is `saved`. What
+    /// was to be done with the former document is forgotten. Returns whether another window has the file open.
+    pub fn open(&mut self, home: Option<Home>, version: u64, saved: bool) -> bool {
+        (self.leaving, self.after_saving, self.given_up) = (None, None, None);
+        (self.replacing, self.save_again) = (None, None);
+        self.belongs_to(home, version, saved)
+    }
+
+    /// Notes that the document belongs to a file, which has this version if it is `saved`. Returns whether
+    /// another window has the file open.
+    pub fn belongs_to(&mut self, home: Option<Home>, version: u64, saved: bool) -> bool {
         self.saved_version = saved.then_some(version);
-        if let Some(path) = &path {
-            self.note_recent(path.clone());
+        if let Some(home) = &home {
+            self.note_recent(home.path.clone());
         }
-        self.path = path;
+        self.home = home;
+        self.claims.hold(self.home.as_ref().map(|home| &*home.path))
     }
 
     /// Whether the window or the document closes once something is written.
@@ -237,15 +251,15 @@ impl ProjectFile {
 
     /// Takes the answer about existing files, and returns the command to run now.
     pub fn answer_replacing(&mut self, answer: Answer) -> Option<Command> {
-        let (_, command) = self.replacing.take()?;
-        (answer == Answer::Confirmed).then_some(command)
+        let replacing = self.replacing.take()?;
+        (answer == Answer::Confirmed).then_some(replacing.command)
     }
 
     /// The command that saves to a path that was typed. Asks before it replaces another file.
     pub fn save_as(&mut self, path: PathBuf) -> Option<Command> {
         let path = with_ending(path);
         if io::exists(&path) && self.path() != Some(&path) {
-            self.replacing = Some((vec![path.clone()], Command::SaveTo(path)));
+            self.ask(vec![path.clone()], Loss::Contents, Command::SaveTo(path));
             return None;
         }
         Some(Command::SaveTo(path))
@@ -263,7 +277,7 @@ impl ProjectFile {
         if existing.is_empty() || existing.iter().any(|file| io::obstacle(file).is_some()) {
             return Some(command);
         }
-        self.replacing = Some((existing, command));
+        self.ask(existing, Loss::Contents, command);
         None
     }
 
@@ -273,7 +287,7 @@ impl ProjectFile {
         if !io::exists(&path) || io::obstacle(&path).is_some() {
             return Some(save(path));
         }
-        self.replacing = Some((vec![path.clone()], save(path)));
+        self.ask(vec![path.clone()], Loss::Contents, save(path));
         None
     }
 
@@ -283,7 +297,7 @@ impl ProjectFile {
         if !io::exists(&path) || io::obstacle(&path).is_some() {
             return Some(Command::ExportTest(path));
         }
-        self.replacing = Some((vec![path.clone()], Command::ExportTest(path)));
+        self.ask(vec![path.clone()], Loss::Contents, Command::ExportTest(path));
         None
     }
 
@@ -292,9 +306,41 @@ impl ProjectFile {
         self.ask_to_replace(recipe.paths().map(Path::to_owned).collect(), Command::SaveRecipe(path))
     }
 
-    /// Saves the document as it is now, on another thread.
+    fn ask(&mut self, files: Vec<PathBuf>, loss: Loss, command: Command) {
+        self.replacing = Some(Replacing { files, loss, command });
+    }
+
+    /// Asks whether to replace the document's own file, which somebody else changed.
+    pub fn ask_about_other_version(&mut self, path: PathBuf) {
+        self.save_again = None;
+        self.ask(vec![path.clone()], Loss::OtherVersion, Command::SaveOver(path));
+    }
+
+    /// Saves the document, unless somebody else saved to the same file, or may do so: then the user is asked.
     pub fn save_to(&mut self, path: PathBuf, session: &mut Session, background: &mut Background) {
         let path = with_ending(path);
+        if self.claims.is_open_elsewhere(&path) {
+            return self.ask(vec![path.clone()], Loss::OtherWindow, Command::SaveOver(path));
+        }
+        let own = self.home.as_ref().filter(|home| home.path == path);
+        let expected = own.map_or(Expected::Anything, |home| Expected::Contents(home.stamp));
+        self.save(path, expected, session, background);
+    }
+
+    /// Saves the document, whatever is in the file.
+    pub fn save_over(&mut self, path: PathBuf, session: &mut Session, background: &mut Background) {
+        self.claims.share(&path);
+        self.save(path, Expected::Anything, session, background);
+    }
+
+    /// Saves the document as it is now, on another thread.
+    fn save(
+        &mut self,
+        path: PathBuf,
+        expected: Expected,
+        session: &mut Session,
+        background: &mut Background,
+    ) {
         if background.saves() {
             self.save_again = Some(path);
             return;
@@ -303,15 +349,7 @@ impl ProjectFile {
         document.end_stroke();
         document.end_gesture();
         let (project, version) = (Project::of(document), document.version());
-        let (aim, file) = (Aim::Save(version), path.clone());
-        background.start(aim, &path, move |meter| {
-            let write = |out: &mut dyn Write| io::project::write_metered(out, &project, meter);
-            match io::write_file_metered(&file, meter, write) {
-                Ok(()) => Outcome::Saved { path: file, version },
-                Err(_) if meter.is_cancelled() => Outcome::SavingCancelled(cancelled(aim, &file)),
-                Err(error) => Outcome::NotSaved(format!("{} could not be saved: {error}.", file.display())),
-            }
-        });
+        home::write(path, project, version, expected, background);
     }
 
     /// Starts the save that was asked for during the last one.
@@ -346,39 +384,6 @@ fn announce_closing(command: &Command, session: &mut Session, background: &Backg
         let names = background.being_written().collect::<Vec<_>>().join(", ");
         session.tell(format!("Meshbrush closes as soon as this is written: {names}."));
     }
-}
-
-/// Asks about unsaved edits and existing files.
-pub fn questions(ctx: &Context, state: &FrameState<'_>, asks_for_file: bool, commands: &mut Vec<Command>) {
-    let project = state.project;
-    if project.leaving.is_some() && project.replacing.is_none() && !asks_for_file {
-        let question = format!("Save changes to “{}”?", project.document_name(state.session));
-        let dialog = ConfirmDialog::new(&question, "Unsaved changes will be lost.", "Save");
-        commands.extend(dialog.alternative("Do not save").show(ctx).map(Command::AnswerLeaving));
-    }
-    if let Some((files, _)) = &project.replacing {
-        let (question, body) = match &files[..] {
-            [file] => (format!("Replace {}?", file.display()), "Its present contents will be lost.".into()),
-            _ => (
-                format!("Replace {} files?", files.len()),
-                format!("The present contents of {} will be lost.", listed(files)),
-            ),
-        };
-        let dialog = ConfirmDialog::new(&question, &body, "Replace").danger();
-        commands.extend(dialog.show(ctx).map(Command::AnswerReplacing));
-    }
-}
-
-/// Reads a project, which is shown once it is read.
-pub fn open_project(background: &mut Background, path: &Path) {
-    let file = path.to_owned();
-    background.start(Aim::Read, path, move |meter| match io::project::read_metered(&file, meter) {
-        Ok(document) => {
-            let opened = Opened { document: Arc::new(document), home: Some(file.clone()) };
-            Outcome::Read { path: file, commands: vec![Command::Show(opened)] }
-        }
-        Err(error) => Outcome::not_read(error),
-    });
 }
 
 /// What opening a file means, by its ending.

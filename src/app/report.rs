@@ -1,7 +1,7 @@
 //! A figure of the report that is shown, and its numbers beside ours.
 
 use super::frame::FrameState;
-use super::session::Session;
+use super::session::{DocumentId, Session};
 use super::stepping::Stepping;
 use super::widgets::format;
 use crate::document::{Comparison, Experiment, ReportFigure};
@@ -21,18 +21,18 @@ pub enum FigureCommand {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ShownFigure {
     figure: ReportFigure,
-    opened_documents: u64,
+    document: DocumentId,
 }
 
 impl ShownFigure {
     /// A figure whose document was just opened.
     pub fn new(figure: ReportFigure, session: &Session) -> Self {
-        Self { figure, opened_documents: session.opened_documents() }
+        Self { figure, document: session.document_id() }
     }
 
     /// The figure, while its document is open.
     pub fn figure(self, session: &Session) -> Option<ReportFigure> {
-        (self.opened_documents == session.opened_documents()).then_some(self.figure)
+        (self.document == session.document_id()).then_some(self.figure)
     }
 }
 

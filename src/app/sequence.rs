@@ -7,6 +7,8 @@ use std::thread;
 
 use eframe::egui::Context;
 
+use super::failures::caught;
+
 /// The values of a thread. Dropped, it tells the thread to end.
 pub struct Sequence<T> {
     /// The values that were computed; disconnected when there are no more.
@@ -28,7 +30,7 @@ impl<T: Send + 'static> Sequence<T> {
         let is_cancelled = Arc::new(AtomicBool::new(false));
         let output = Output { sender, is_cancelled: is_cancelled.clone(), ctx: ctx.clone() };
         thread::spawn(move || {
-            work(&output);
+            caught(&output.ctx, || work(&output));
             let ctx = output.ctx.clone();
             // The window then finds that there are no more values.
             drop(output);

@@ -31,10 +31,21 @@ pub struct ShownChange {
     pub pieces: Option<PiecesChange>,
 }
 
+/// Tells the documents apart that are opened in a window one after the other. Whatever is computed, read or
+/// written beside the window carries the identity of the document that it is for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct DocumentId(u64);
+
+impl DocumentId {
+    fn next(self) -> Self {
+        Self(self.0 + 1)
+    }
+}
+
 /// A document and its mesh in the window.
 pub struct Session {
     document: Document,
-    opened_documents: u64,
+    document_id: DocumentId,
     follower: Follower,
     pricer: Pricer,
     cuts: CutQueue,
@@ -62,7 +73,7 @@ impl Session {
         let follower = Follower::new(&mut document)?;
         Ok(Self {
             document,
-            opened_documents: 0,
+            document_id: DocumentId::default(),
             follower,
             pricer: Pricer::default(),
             cuts: CutQueue::default(),
@@ -83,9 +94,9 @@ impl Session {
         &self.document
     }
 
-    /// How many documents were opened in place of the first one: tells documents apart.
-    pub fn opened_documents(&self) -> u64 {
-        self.opened_documents
+    /// Which document is open.
+    pub fn document_id(&self) -> DocumentId {
+        self.document_id
     }
 
     /// The document, to be edited.
@@ -331,7 +342,7 @@ impl Session {
     pub fn replace_document(&mut self, document: Document) {
         self.cuts.discard(&mut self.document);
         self.document.replace_with(document);
-        self.opened_documents += 1;
+        self.document_id = self.document_id.next();
         self.queried = None;
         self.notices.dismiss();
     }

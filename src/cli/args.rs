@@ -269,7 +269,7 @@ pub struct InputArguments {
     #[arg(long, value_name = "N")]
     pub max_triangles: Option<usize>,
 
-    /// Most memory allowed for the mesh, as in 500MB or 2GB: 46 bytes a triangle [default: what
+    /// Most memory allowed for the mesh, as in 500MB or 2GB: 96 bytes a triangle [default: what
     /// --max-triangles take]
     #[arg(long, value_name = "SIZE", allow_hyphen_values = true)]
     pub max_memory: Option<String>,

@@ -73,7 +73,7 @@ fn advice(error: &BuildError) -> &'static str {
         BuildError::Refine(RefineError::TooFine { .. }) => {
             " Raise the smallest diameter, or mesh a smaller domain."
         }
-        BuildError::Refine(RefineError::InvalidTarget(_))
+        BuildError::Refine(RefineError::OutOfMemory { .. } | RefineError::InvalidTarget(_))
         | BuildError::Coarse(_)
         | BuildError::InvalidLayer(_)
         | BuildError::InvalidTarget(_) => "",

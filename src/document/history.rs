@@ -4,7 +4,7 @@ use std::collections::{BTreeSet, HashMap, VecDeque};
 use std::sync::Arc;
 
 use super::Settings;
-use crate::layers::{LayerId, LayerKind};
+use crate::layers::{DistanceTo, Layer, LayerId, LayerKind, Mask, RasterReading, RasterSource, Shapes};
 use crate::paint::Patch;
 
 /// The data of one gesture that the document does not have now: before undo the old data, after it the new
@@ -35,8 +35,21 @@ impl EntryData {
 }
 
 pub(super) fn own_bytes(settings: &Settings) -> usize {
-    let layers: usize = settings.layers.iter().map(|layer| size_of_val(layer) + layer.name.capacity()).sum();
+    let layers: usize = settings.layers.iter().map(|layer| size_of_val(layer) + name_bytes(layer)).sum();
     size_of::<Settings>() + settings.name.capacity() + layers
+}
+
+/// Bytes of the names of a layer and of the file that its data come from.
+fn name_bytes(layer: &Layer) -> usize {
+    let file = match &layer.kind {
+        LayerKind::Raster { source, .. } | LayerKind::Band { source, .. } => source.name.capacity(),
+        LayerKind::Distance { to: DistanceTo::Shapes { name, .. }, .. } => name.capacity(),
+        LayerKind::Distance { .. }
+        | LayerKind::Paint(_)
+        | LayerKind::Formula { .. }
+        | LayerKind::Threats(_) => 0,
+    };
+    layer.name.capacity() + file
 }
 
 /// Data behind an `Arc`, which other settings may share: its address and its size in bytes.
@@ -47,21 +60,32 @@ pub(super) fn shared_data(settings: &Settings) -> impl Iterator<Item = SharedDat
     let marks = (Arc::as_ptr(&settings.boundary_marks).addr(), settings.boundary_marks.bytes());
     let pins = (Arc::as_ptr(&settings.pins).addr(), size_of_val(&settings.pins[..]));
     let paths = (Arc::as_ptr(&settings.paths).addr(), settings.paths.bytes());
-    let layers = settings.layers.iter().filter_map(|layer| match &layer.kind {
-        LayerKind::Paint(_) | LayerKind::Threats(_) | LayerKind::Distance { .. } => None,
-        LayerKind::Formula { formula, .. } => Some((formula.address(), formula.bytes())),
-        LayerKind::Raster { source, .. } | LayerKind::Band { source, .. } => {
-            Some((Arc::as_ptr(&source.raster).addr(), source.raster.bytes()))
-        }
-    });
+    let layers = settings.layers.iter().flat_map(shared_by_layer);
     let background = settings
         .background
         .as_ref()
         .map(|background| (Arc::as_ptr(&background.picture).addr(), background.picture.rgba.len()));
-    let kept_out = settings.paths.keep_out.iter().map(|kept_out| kept_out.mask.region());
-    let kept_out = kept_out.map(|region| (Arc::as_ptr(region).addr(), region.bytes()));
+    let kept_out = settings.paths.keep_out.iter().map(|kept_out| kept_out.mask.shared_data());
     let domain = settings.domain.formula().map(|formula| (formula.address(), formula.bytes()));
     layers.chain(domain).chain(outline).chain([marks, pins, paths]).chain(kept_out).chain(background)
+}
+
+/// What a layer shares: its mask, its data, and the curve through which its data are read.
+fn shared_by_layer(layer: &Layer) -> impl Iterator<Item = SharedData> + use<> {
+    let curve = |reading: &RasterReading| match reading {
+        RasterReading::Curve(curve) => Some((Arc::as_ptr(curve).addr(), size_of_val(curve.knots()))),
+        RasterReading::Risk | RasterReading::Diameter => None,
+    };
+    let raster = |source: &RasterSource| Some((Arc::as_ptr(&source.raster).addr(), source.raster.bytes()));
+    let [data, curve] = match &layer.kind {
+        LayerKind::Paint(_) => [None; 2],
+        LayerKind::Formula { formula, .. } => [Some((formula.address(), formula.bytes())), None],
+        LayerKind::Raster { source, reading } => [raster(source), curve(reading)],
+        LayerKind::Band { source, .. } => [raster(source), None],
+        LayerKind::Threats(threats) => [Some(threats.shared_data()), None],
+        LayerKind::Distance { to, .. } => [to.shapes().map(Shapes::shared_data), None],
+    };
+    [layer.mask.as_ref().map(Mask::shared_data), data, curve].into_iter().flatten()
 }
 
 /// One gesture, done or undone.
@@ -223,7 +247,7 @@ mod tests {
     use crate::domain::{Domain, DomainShape, Region, corners};
     use crate::field::Formula;
     use crate::geometry::Rect;
-    use crate::layers::{Layer, LayerId, LayerKind, RasterReading, RasterSource};
+    use crate::layers::{Quantity, ShapeList, Threat, ThreatLaw, Threats};
     use crate::raster::{Raster, RasterPyramid};
 
     /// An outline of 4 corners.
@@ -306,5 +330,64 @@ mod tests {
             assert_eq!(bytes(&document), counted(&document));
         }
         assert_eq!(document.history().len(), 4, "no gesture is dropped");
+    }
+
+    fn ring(corners: usize) -> Vec<glam::DVec2> {
+        let angle = |n| std::f64::consts::TAU * n as f64 / corners as f64;
+        (0..corners).map(|n| 0.5 + 0.4 * dvec2(angle(n).cos(), angle(n).sin())).collect()
+    }
+
+    /// Sets layers, with data of 20,000 corners or threats, and undoes them. Returns the bytes that undo keeps.
+    fn kept_by_undo(layer: Layer) -> usize {
+        let mut document = Document::new(Settings::default(), None).unwrap();
+        document.record();
+        for layers in [vec![layer], Vec::new()] {
+            document.set(Setting::Layers(layers)).unwrap();
+            document.end_gesture();
+            assert_eq!(bytes(&document), counted(&document));
+        }
+        let recorded = document.recording().unwrap().bytes();
+        assert!(recorded > bytes(&document), "the recording keeps the layer too: {recorded}");
+        bytes(&document)
+    }
+
+    #[test]
+    fn masks_threats_and_shapes_count() {
+        const COUNT: usize = 20_000;
+        let paint = || LayerKind::Paint(Quantity::Risk);
+        let mut masked = Layer::new(LayerId(7), "", paint());
+        let least = kept_by_undo(masked.clone());
+        masked.mask = Some(Mask::new(&[vec![ring(COUNT)]]).unwrap());
+        let threat =
+            |n: usize| Threat { at: dvec2(n as f64, 0.5), range: 0.1, peak: 0.5, law: ThreatLaw::ALL[0].0 };
+        let threats = LayerKind::Threats(Threats::new((0..COUNT).map(threat).collect()).unwrap());
+        let lines = ShapeList { lines: vec![ring(COUNT)], ..ShapeList::default() };
+        let shapes = Shapes::new(lines, false).unwrap();
+        let to = DistanceTo::Shapes { name: String::new(), shapes };
+        let distance = LayerKind::Distance { to, at_zero: 0.01, slope: 0.1, range: 1.0 };
+        let layers = [masked, Layer::new(LayerId(7), "", threats), Layer::new(LayerId(7), "", distance)];
+        for layer in layers {
+            let label = layer.kind.label();
+            let kept = kept_by_undo(layer) - least;
+            assert!((COUNT * 60..COUNT * 200).contains(&kept), "{label}: {kept}");
+        }
+    }
+
+    #[test]
+    fn undo_of_large_masks_is_bounded() {
+        let mut document = Document::new(Settings::default(), None).unwrap();
+        let mut layer = Layer::new(LayerId(7), "", LayerKind::Paint(Quantity::Risk));
+        let mut kept = Vec::new();
+        for n in 0..60 {
+            let mask = Mask::new(&[vec![ring(60_000 + n)]]).unwrap();
+            kept.push(Arc::downgrade(mask.region()));
+            layer.mask = Some(mask);
+            document.set(Setting::Layers(vec![layer.clone()])).unwrap();
+            document.end_gesture();
+        }
+        let each = layer.mask.as_ref().unwrap().shared_data().1;
+        let alive = kept.iter().filter(|mask| mask.strong_count() > 0).count();
+        assert!(60 * each > History::MAX_BYTES && alive * each <= History::MAX_BYTES + 2 * each, "{alive}");
+        assert_eq!(document.history().len(), alive - 1);
     }
 }

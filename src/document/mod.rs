@@ -38,7 +38,7 @@ pub use recording::{Edit, EditError, RecordedEdit, RecordedStroke, Recording};
 pub use replay::{Replay, ReplayedMesh};
 pub use report_figures::{Comparison, ReportFigure};
 pub use setting::{Setting, SettingKind};
-pub use settings::{LEAST_MEMORY, MAX_COARSE_TRIANGLES, Settings, SettingsError};
+pub use settings::{LEAST_MEMORY, MAX_COARSE_TRIANGLES, MOST_RASTER_PIXELS, Settings, SettingsError};
 pub use stage::Stage;
 
 use crate::geometry::Rect;

@@ -88,6 +88,10 @@ impl PathPlan {
 
     /// Bytes of memory on the heap, without the polygons of keep-out regions.
     pub fn bytes(&self) -> usize {
-        self.routes.iter().map(|route| size_of_val(route) + size_of_val(&route[..])).sum()
+        let routes: usize =
+            self.routes.iter().map(|route| size_of_val(route) + size_of_val(&route[..])).sum();
+        let names: usize =
+            self.keep_out.iter().map(|region| size_of_val(region) + region.name.capacity()).sum();
+        routes + names
     }
 }

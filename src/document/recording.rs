@@ -82,6 +82,8 @@ pub struct Recording {
     edits: Vec<RecordedEdit>,
     /// Memory of the edits, about.
     bytes: usize,
+    /// How much of it the last edit takes.
+    last_bytes: usize,
     is_full: bool,
 }
 
@@ -91,7 +93,7 @@ impl Recording {
 
     fn new(settings: Settings, paint: PaintLayers) -> Self {
         let settings = Settings { background: None, ..settings };
-        Self { settings, paint, edits: Vec::new(), bytes: 0, is_full: false }
+        Self { settings, paint, edits: Vec::new(), bytes: 0, last_bytes: 0, is_full: false }
     }
 
     /// The settings before the first edit, without the background picture.
@@ -109,18 +111,26 @@ impl Recording {
         &self.edits
     }
 
+    /// Memory of the edits, about.
+    #[cfg(test)]
+    pub(super) fn bytes(&self) -> usize {
+        self.bytes
+    }
+
     /// Whether there were more edits than [`Self::MAX_BYTES`] can hold.
     pub fn is_full(&self) -> bool {
         self.is_full
     }
 
     fn add(&mut self, title: &'static str, edit: Edit) {
-        self.bytes += size_of::<RecordedEdit>()
+        self.last_bytes = size_of::<RecordedEdit>()
             + match &edit {
                 Edit::Stroke(stroke) => size_of_val(&**stroke) + size_of_val(&stroke.path[..]),
                 Edit::Settings(settings) => self.new_bytes(settings),
-                Edit::Clear(_) | Edit::CopyPaint { .. } | Edit::Undo | Edit::Redo => 0,
+                Edit::Clear(layers) => size_of_val(&layers[..]),
+                Edit::CopyPaint { .. } | Edit::Undo | Edit::Redo => 0,
             };
+        self.bytes += self.last_bytes;
         self.is_full |= self.bytes > Self::MAX_BYTES;
         if self.is_full {
             self.edits = Vec::new();
@@ -131,8 +141,11 @@ impl Recording {
 
     /// Replaces the last settings by those that joined the gesture.
     fn join(&mut self, settings: &Settings) {
-        match self.edits.last_mut() {
-            Some(RecordedEdit { edit: Edit::Settings(last), .. }) => *last = recorded(settings),
+        match self.edits.pop() {
+            Some(RecordedEdit { title, edit: Edit::Settings(_) }) => {
+                self.bytes -= self.last_bytes;
+                self.add(title, Edit::Settings(recorded(settings)));
+            }
             // The recording is full.
             _ => debug_assert!(self.is_full, "settings join settings"),
         }

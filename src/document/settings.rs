@@ -1,4 +1,4 @@
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use glam::DVec2;
@@ -12,7 +12,7 @@ use crate::layers::{Combine, Layer, LayerId, LayerKind, Quantity, Shapes, SizeFi
 use crate::mesh::{Cleaning, KeptParts, Limits, MemoryLimit, TargetChange};
 use crate::paint::Medium;
 use crate::path::PathError;
-use crate::text::{Bytes, LengthUnit, Number};
+use crate::text::{Bytes, Grouped, LengthUnit, Number};
 
 /// Everything about a document that is not paint.
 #[derive(Clone, Debug, PartialEq)]
@@ -103,6 +103,16 @@ pub enum SettingsError {
         /// What they would be read as.
         read_as: &'static str,
     },
+    /// The rasters of all layers are too large together.
+    #[error(
+        "The rasters of all layers have {} pixels, and {} are possible in a document. Remove a layer with a raster, or \
+         make the rasters coarser.",
+        Grouped(*pixels as usize), Grouped(MOST_RASTER_PIXELS as usize)
+    )]
+    RasterPixels {
+        /// The pixels of all rasters, each counted once.
+        pixels: u64,
+    },
     /// The memory budget is too small for any mesh.
     #[error("A memory budget of {} cannot be kept: choose {} at least.", Bytes(*bytes), Bytes(LEAST_MEMORY))]
     Memory {
@@ -113,6 +123,10 @@ pub enum SettingsError {
 
 /// Most coarse triangles of a document: the coarse grid is made in one go, and must not delay a frame.
 pub const MAX_COARSE_TRIANGLES: usize = 130_000;
+
+/// Most pixels of the rasters of all layers, each raster counted once. A project with more is not read: pixels
+/// without a value pack to a thousandth, so that a small file could fill the memory.
+pub const MOST_RASTER_PIXELS: u64 = 500_000_000;
 
 /// Least memory budget, in bytes: the program without a mesh takes a hundred times as much.
 pub const LEAST_MEMORY: usize = 1_000_000;
@@ -173,7 +187,17 @@ impl Settings {
                 return Err(SettingsError::Constant(value));
             }
         }
-        Ok(())
+        let pixels = self.raster_pixels();
+        if pixels > MOST_RASTER_PIXELS { Err(SettingsError::RasterPixels { pixels }) } else { Ok(()) }
+    }
+
+    /// The pixels of the rasters of all layers. A raster that two layers read counts once.
+    fn raster_pixels(&self) -> u64 {
+        let rasters = self.layers.iter().filter_map(|layer| layer.kind.raster_source());
+        let sizes: BTreeMap<usize, u64> = rasters
+            .map(|source| (Arc::as_ptr(&source.raster).addr(), source.raster.raster().values().len() as u64))
+            .collect();
+        sizes.values().sum()
     }
 
     /// The coarse grid and its lattice.
@@ -279,7 +303,7 @@ impl Settings {
     pub const MAX_TRIANGLES: usize = 20_000_000;
     /// Most memory for meshes unless the user says otherwise, in bytes: enough for a little more than
     /// [`Self::MAX_TRIANGLES`].
-    pub const MAX_MEMORY: usize = 2_000_000_000;
+    pub const MAX_MEMORY: usize = 2_600_000_000;
 
     /// The usual settings for a domain: lengths in proportion to its longer side.
     pub fn for_domain(name: String, domain: Domain) -> Self {

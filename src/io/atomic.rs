@@ -1,9 +1,15 @@
-use std::fs::{self, File};
+use std::ffi::{OsStr, OsString};
+use std::fs::{self, File, TryLockError};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::Meter;
+
+/// The end of the names of temporary files.
+const PART: &str = ".part";
+/// Most links from one to the next.
+const MOST_LINKS: usize = 40;
 
 /// Creates a folder and its parents, as far as they do not exist.
 ///
@@ -13,6 +19,13 @@ pub fn make_folder(path: &Path) -> io::Result<()> {
     fs::create_dir_all(path)
 }
 
+/// Removes files that this run has made, when they are of no use without others. What cannot be removed stays.
+pub fn remove_new(files: &[PathBuf]) {
+    for file in files {
+        let _ = fs::remove_file(file); // the failure that made them useless is the one to report
+    }
+}
+
 /// Whether a file or folder exists at a path.
 pub fn exists(path: &Path) -> bool {
     path.exists()
@@ -20,11 +33,34 @@ pub fn exists(path: &Path) -> bool {
 
 /// Why no file can be written at a path, as the end of a sentence; `None` if nothing is known against it.
 pub fn obstacle(path: &Path) -> Option<String> {
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let target = match behind_links(path) {
+        Ok(target) => target,
+        Err(problem) => return Some(problem),
+    };
+    let folder = folder_of(&target);
     if !folder.is_dir() {
-        return Some(format!("there is no folder {}", folder.display()));
+        let link = if path.is_symlink() { "it is a link to a missing folder: " } else { "" };
+        return Some(format!("{link}there is no folder {}", folder.display()));
     }
-    path.is_dir().then(|| "a folder has this name".to_owned())
+    target.is_dir().then(|| "a folder has this name".to_owned())
+}
+
+fn folder_of(path: &Path) -> &Path {
+    path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}
+
+/// The file that a path stands for: a link stays a link, and the file that it points to is written, whether it
+/// exists or not.
+fn behind_links(path: &Path) -> Result<PathBuf, String> {
+    if let Ok(existing) = fs::canonicalize(path) {
+        return Ok(existing);
+    }
+    let mut target = path.to_owned();
+    for _ in 0..MOST_LINKS {
+        let Ok(link) = fs::read_link(&target) else { return Ok(target) };
+        target = folder_of(&target).join(link);
+    }
+    Err("its links point to each other in a circle".into())
 }
 
 /// Writes a file completely or not at all.
@@ -68,6 +104,9 @@ pub(super) struct Draft {
     target: PathBuf,
     /// `None` if the target is not a regular file and was written directly.
     temporary: Option<PathBuf>,
+    /// The temporary file. It is locked until it is in its place, so that other runs can tell that somebody
+    /// works on it.
+    _lock: Option<File>,
 }
 
 impl Draft {
@@ -83,17 +122,16 @@ impl Draft {
         if let Some(obstacle) = obstacle(path) {
             return Err(io::Error::other(obstacle));
         }
-        // A link stays a link: the file that it points to is replaced.
-        let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+        let target = behind_links(path).map_err(io::Error::other)?;
         let before = fs::metadata(&target).ok();
         if before.as_ref().is_some_and(|m| !m.is_file() && !m.is_dir()) {
             filled(File::options().write(true).open(&target)?, write)?;
-            return Ok(Self { target, temporary: None });
+            return Ok(Self { target, temporary: None, _lock: None });
         }
-        let temporary = beside(&target)?;
-        let file = File::options().write(true).create_new(true).open(&temporary)?;
+        remove_abandoned(&target);
+        let (file, temporary) = new_part(&target)?;
         // From here on dropping the draft removes the temporary file.
-        let draft = Self { target, temporary: Some(temporary) };
+        let draft = Self { target, temporary: Some(temporary), _lock: Some(file.try_clone()?) };
         let file = filled(file, write)?;
         if let Some(before) = before {
             file.set_permissions(before.permissions())?;
@@ -128,16 +166,61 @@ fn filled(file: File, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> i
     out.into_inner().map_err(io::IntoInnerError::into_error)
 }
 
-/// A name in the same folder that is unique among all runs of the program and all writes of each run.
-fn beside(target: &Path) -> io::Result<PathBuf> {
+/// Creates and locks a temporary file in the same folder, `.NAME.RUN-WRITE.part`. Its name is unique among all
+/// runs of the program and all writes of each run.
+fn new_part(target: &Path) -> io::Result<(File, PathBuf)> {
     static WRITES: AtomicU64 = AtomicU64::new(0);
     let name =
         target.file_name().ok_or_else(|| io::Error::other("the path does not end in the name of a file"))?;
-    let (run, write) = (std::process::id(), WRITES.fetch_add(1, Ordering::Relaxed));
-    let mut hidden = std::ffi::OsString::from(".");
-    hidden.push(name);
-    hidden.push(format!(".{run}-{write}.part"));
-    Ok(target.with_file_name(hidden))
+    loop {
+        let (run, write) = (std::process::id(), WRITES.fetch_add(1, Ordering::Relaxed));
+        let mut hidden = part_prefix(name);
+        hidden.push(format!("{run}-{write}{PART}"));
+        let path = target.with_file_name(hidden);
+        let file = match File::options().write(true).create_new(true).open(&path) {
+            // Left by an earlier run with the same number, on a disk without locks.
+            Err(error) if error.kind() == io::ErrorKind::AlreadyExists => continue,
+            opened => opened?,
+        };
+        // Another run can take the file for an abandoned one before it is locked, and remove it. On a disk
+        // without locks nobody removes it.
+        let taken = matches!(file.try_lock(), Err(TryLockError::WouldBlock)) || !path.exists();
+        if !taken {
+            return Ok((file, path));
+        }
+    }
+}
+
+/// Removes the temporary files that runs which were killed have left of writes to `target`: nobody has locked
+/// them. What cannot be removed stays, and the write goes on.
+fn remove_abandoned(target: &Path) {
+    let Some(name) = target.file_name() else { return };
+    let prefix = part_prefix(name);
+    for entry in fs::read_dir(folder_of(target)).into_iter().flatten().flatten() {
+        if !is_part(&entry.file_name(), &prefix) {
+            continue;
+        }
+        // Some network disks lock only what is open for writing.
+        let file = File::options().write(true).open(entry.path());
+        if file.is_ok_and(|file| file.try_lock().is_ok()) {
+            let _ = fs::remove_file(entry.path()); // the next write tries again
+        }
+    }
+}
+
+/// The beginning of the names of temporary files of writes to a file.
+fn part_prefix(name: &OsStr) -> OsString {
+    [OsStr::new("."), name, OsStr::new(".")].into_iter().collect()
+}
+
+/// Whether a file has the name of a temporary file with this beginning.
+fn is_part(name: &OsStr, prefix: &OsStr) -> bool {
+    let numbers = name.as_encoded_bytes().strip_prefix(prefix.as_encoded_bytes());
+    let numbers = numbers.and_then(|rest| rest.strip_suffix(PART.as_bytes())).unwrap_or_default();
+    let mut parts = numbers.split(|&byte| byte == b'-');
+    let is_number = |part: &[u8]| !part.is_empty() && part.iter().all(u8::is_ascii_digit);
+    let [run, write, more] = [parts.next(), parts.next(), parts.next()];
+    run.is_some_and(is_number) && write.is_some_and(is_number) && more.is_none()
 }
 
 #[cfg(test)]
@@ -231,6 +314,49 @@ mod tests {
         write_file(&folder.join("link"), |out| out.write_all(b"new")).unwrap();
         assert!(folder.join("link").is_symlink());
         assert_eq!(fs::read_to_string(folder.join("real")).unwrap(), "new");
+        fs::remove_dir_all(folder).unwrap();
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_link_to_a_file_that_does_not_exist_yet_is_written_through() {
+        let folder = folder("dangling");
+        std::os::unix::fs::symlink("further", folder.join("link")).unwrap();
+        std::os::unix::fs::symlink("real", folder.join("further")).unwrap();
+        write_file(&folder.join("link"), |out| out.write_all(b"new")).unwrap();
+        assert!(folder.join("link").is_symlink() && folder.join("further").is_symlink());
+        assert_eq!(fs::read_to_string(folder.join("real")).unwrap(), "new");
+        std::os::unix::fs::symlink("missing/file", folder.join("lost")).unwrap();
+        let lost = write_file(&folder.join("lost"), |out| out.write_all(b"new")).unwrap_err().to_string();
+        assert!(lost.starts_with("it is a link to a missing folder: there is no folder "), "{lost}");
+        assert!(lost.ends_with("/missing") && folder.join("lost").is_symlink(), "{lost}");
+        std::os::unix::fs::symlink("circle", folder.join("circle")).unwrap();
+        let circle = write_file(&folder.join("circle"), |out| out.write_all(b"new")).unwrap_err();
+        assert_eq!(circle.to_string(), "its links point to each other in a circle");
+        fs::remove_dir_all(folder).unwrap();
+    }
+
+    #[test]
+    fn a_write_removes_what_killed_writes_to_the_same_file_left() {
+        let folder = folder("killed");
+        let path = folder.join("mesh.msh");
+        let left = [".mesh.msh.12-0.part", ".mesh.msh.4000000000-17.part"];
+        let others =
+            [".mesh.msh.12.part", ".mesh.msh.12-0-1.part", ".other.msh.12-0.part", "mesh.msh.12-0.part"];
+        left.iter().chain(&others).for_each(|name| fs::write(folder.join(name), "half").unwrap());
+        let beside = folder.join(".mesh.msh.13-0.part");
+        let in_use = File::create(&beside).unwrap();
+        in_use.try_lock().unwrap();
+        write_file(&path, |out| {
+            // Two writes of this run at the same time do not disturb each other.
+            write_file(&path, |out| out.write_all(b"inner"))?;
+            out.write_all(b"outer")
+        })
+        .unwrap();
+        assert_eq!(fs::read_to_string(&path).unwrap(), "outer");
+        assert!(left.iter().all(|name| !folder.join(name).exists()));
+        assert!(others.iter().all(|name| folder.join(name).exists()) && beside.exists());
+        assert_eq!(names(&folder).len(), others.len() + 2);
         fs::remove_dir_all(folder).unwrap();
     }
 }

@@ -13,7 +13,7 @@
 //! The program that writes a journal holds a lock on it, which the operating system releases when the program
 //! ends in any way. So a journal without a lock was left behind.
 
-use std::fs::{self, File};
+use std::fs::{self, File, TryLockError};
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 
@@ -25,6 +25,8 @@ use crate::layers::PaintLayers;
 const MAGIC: &[u8; 8] = b"MBJOUR02";
 const HEAD: usize = 17;
 const ENDING: &str = "journal";
+/// The ending of a journal whose first record is not complete.
+const PART: &str = "part";
 /// Largest journal read: a little more than the largest project and its growth.
 const MOST_BYTES: u64 = 5 << 30;
 /// Growth after which a new journal would be smaller.
@@ -55,9 +57,8 @@ impl Journal {
     /// Errors of the file system.
     pub fn begin(folder: &Path, project: &Project, home: Option<&Path>, time: u64) -> io::Result<Self> {
         fs::create_dir_all(folder)?;
-        let (file, part) = new_file(folder)?;
         // Locked before it gets the name by which journals are found.
-        file.try_lock().map_err(io::Error::other)?;
+        let (file, part) = new_file(folder)?;
         let path = part.with_extension(ENDING);
         let mut journal = Self { file, path, grown: 0, names: PartNames::default() };
         let mut begin = || -> io::Result<()> {
@@ -153,18 +154,29 @@ impl Syncing {
     }
 }
 
-/// Creates a file under a name that no other process uses.
+/// Creates and locks a file under a name that no other process uses.
 fn new_file(folder: &Path) -> io::Result<(File, PathBuf)> {
     let mut n = 0;
     loop {
-        let path = folder.join(format!("{}-{n}.part", std::process::id()));
+        let path = folder.join(format!("{}-{n}.{PART}", std::process::id()));
         n += 1;
         if path.with_extension(ENDING).exists() {
             continue;
         }
         match File::options().write(true).create_new(true).open(&path) {
             Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
-            opened => return Ok((opened?, path)),
+            opened => {
+                let file = opened?;
+                match file.try_lock() {
+                    // Another window can take it for an abandoned one before it is locked, and remove it.
+                    Ok(()) if path.exists() => return Ok((file, path)),
+                    Ok(()) | Err(TryLockError::WouldBlock) => {}
+                    Err(TryLockError::Error(error)) => {
+                        let _ = fs::remove_file(&path); // the first error is the one to report
+                        return Err(error);
+                    }
+                }
+            }
         }
     }
 }
@@ -205,28 +217,62 @@ impl Abandoned {
     }
 }
 
-/// The unsaved work of the journals in a folder that no running program has locked. Journals without unsaved
-/// work are deleted, and journals that cannot be read are left there.
-pub fn abandoned(folder: &Path) -> Vec<Abandoned> {
-    let Ok(entries) = fs::read_dir(folder) else { return Vec::new() };
-    let mut paths: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
-    paths.retain(|path| path.extension().is_some_and(|ending| ending == ENDING));
-    paths.sort();
-    paths.into_iter().filter_map(taken_over).collect()
+/// What an earlier run left in a journal.
+#[derive(Debug)]
+pub enum Left {
+    /// Unsaved work.
+    Work(Box<Abandoned>),
+    /// Work that cannot be read. The journal stays there.
+    Unreadable {
+        /// The journal.
+        path: PathBuf,
+        /// Why, as a sentence without its full stop.
+        problem: String,
+    },
 }
 
-fn taken_over(path: PathBuf) -> Option<Abandoned> {
-    let file = File::open(&path).ok()?;
-    file.try_lock().ok()?;
+/// What earlier runs left in the journals in a folder, one journal at a time: those that no running program has
+/// locked. Journals without unsaved work are deleted.
+pub fn left(folder: &Path) -> impl Iterator<Item = Left> + use<> {
+    let mut paths: Vec<PathBuf> =
+        fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path()).collect();
+    paths.sort();
+    let has_ending = |path: &Path, wanted: &str| path.extension().is_some_and(|ending| ending == wanted);
+    for part in paths.iter().filter(|path| has_ending(path, PART)) {
+        if let Ok(Some(_lock)) = locked(part) {
+            let _ = fs::remove_file(part); // the next start tries again
+        }
+    }
+    paths.retain(|path| has_ending(path, ENDING));
+    paths.into_iter().filter_map(|path| {
+        let taken_over = taken_over(&path).transpose()?;
+        Some(taken_over.map_or_else(|problem| Left::Unreadable { path, problem }, Left::Work))
+    })
+}
+
+/// Opens a file and locks it; `None` if another program has locked it.
+fn locked(path: &Path) -> io::Result<Option<File>> {
+    // Some network disks lock only what is open for writing.
+    let file = File::options().read(true).write(true).open(path)?;
+    match file.try_lock() {
+        Ok(()) => Ok(Some(file)),
+        Err(TryLockError::WouldBlock) => Ok(None),
+        Err(TryLockError::Error(error)) => Err(error),
+    }
+}
+
+/// The unsaved work of a journal, if it has any.
+fn taken_over(path: &Path) -> Result<Option<Box<Abandoned>>, String> {
+    let Some(file) = locked(path).map_err(|error| error.to_string())? else { return Ok(None) };
     let mut bytes = Vec::new();
-    (&file).take(MOST_BYTES).read_to_end(&mut bytes).ok()?;
+    (&file).take(MOST_BYTES).read_to_end(&mut bytes).map_err(|error| error.to_string())?;
     let kept = Kept::parse(&bytes)?;
     if kept.clean {
-        let _ = fs::remove_file(&path); // the next start tries again
-        return None;
+        let _ = fs::remove_file(path); // the next start tries again
+        return Ok(None);
     }
     let Kept { project, home, time, .. } = kept;
-    Some(Abandoned { project, home, time, path, _lock: file })
+    Ok(Some(Box::new(Abandoned { project, home, time, path: path.to_owned(), _lock: file })))
 }
 
 /// The content of a journal.
@@ -238,27 +284,32 @@ struct Kept {
 }
 
 impl Kept {
-    /// `None` if the first record is incomplete.
-    fn parse(bytes: &[u8]) -> Option<Self> {
-        let mut rest = bytes.strip_prefix(MAGIC)?;
-        let (kind, time, content) = next_record(&mut rest)?;
-        let (home, content) = split_home(content).filter(|_| kind == WHOLE)?;
+    /// What all records up to the first incomplete one come to.
+    ///
+    /// # Errors
+    /// Why the first record cannot be read, as a sentence without its full stop.
+    fn parse(bytes: &[u8]) -> Result<Self, String> {
+        let mut rest = bytes.strip_prefix(MAGIC).ok_or("another version of Meshbrush wrote it")?;
+        let damaged = "its first record is damaged";
+        let (kind, time, content) = next_record(&mut rest).ok_or(damaged)?;
+        let (home, content) = split_home(content).filter(|_| kind == WHOLE).ok_or(damaged)?;
         let (mut names, meter) = (PartNames::default(), Meter::default());
-        let project = project::parse_named(content, &mut names, &meter).ok()?;
+        let project = project::parse_named(content, &mut names, &meter)
+            .map_err(|flaw| flaw.flaw.to_string().trim_end_matches('.').to_owned())?;
         let mut kept = Self { project, home, time, clean: false };
         while let Some((kind, time, content)) = next_record(&mut rest) {
+            // Also where the record cannot be read: something was unsaved then.
+            kept.clean = false;
             match kind {
                 PAINT => {
                     let Project { settings, paint } = &mut kept.project;
                     if project::read_paint_changes(content, settings, paint).is_err() {
                         break;
                     }
-                    kept.clean = false;
                 }
                 SETTINGS => {
                     let Ok(new) = project::parse_named(content, &mut names, &meter) else { break };
                     kept.project.settings = new.settings;
-                    kept.clean = false;
                 }
                 CLEAN => {
                     let Some((home, _)) = split_home(content) else { break };
@@ -269,7 +320,7 @@ impl Kept {
             }
             kept.time = time;
         }
-        Some(kept)
+        Ok(kept)
     }
 }
 
@@ -296,155 +347,4 @@ fn split_home(content: &[u8]) -> Option<(Option<PathBuf>, &[u8])> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::document::{Document, Edits, Example, Setting, Settings};
-    use crate::layers::{Layer, LayerKind, RasterReading, RasterSource};
-    use crate::paint::{Brush, DiameterChange, Medium};
-    use crate::raster::{Raster, RasterPyramid};
-    use glam::dvec2;
-    use std::sync::Arc;
-
-    fn folder(name: &str) -> PathBuf {
-        let folder = std::env::temp_dir().join(format!("meshbrush-journal-{}-{name}", std::process::id()));
-        let _ = fs::remove_dir_all(&folder);
-        folder
-    }
-
-    fn example() -> Document {
-        let mut document = Example::Threats.document(|| unreachable!(), || unreachable!());
-        document.take_edits();
-        document
-    }
-
-    /// Paints or erases, and returns the paint before and after.
-    fn gesture(document: &mut Document, n: u32) -> [PaintLayers; 2] {
-        let before = document.paint().clone();
-        let medium = if n % 3 == 2 { Medium::Eraser } else { Medium::Diameter(0.01, DiameterChange::Finer) };
-        document.begin_stroke(Brush { medium, radius: 0.05, hardness: 0.5, strength: 0.7 });
-        let at = f64::from(n) * 0.618 % 1.0;
-        document.draw_to(dvec2(at, 0.3));
-        document.draw_to(dvec2(0.5, at));
-        document.end_stroke();
-        let Edits { settings, all_paint, layers } = document.take_edits();
-        assert!(!settings && !all_paint && layers.len() == 1, "strokes change paint alone");
-        [before, document.paint().clone()]
-    }
-
-    fn add_gesture(journal: &mut Journal, document: &mut Document, n: u32, time: u64) {
-        let [before, after] = gesture(document, n);
-        journal.add_paint(&before, &after, time).unwrap();
-    }
-
-    #[test]
-    fn a_journal_cut_anywhere_has_all_complete_records() {
-        let folder = folder("cuts");
-        let mut document = example();
-        let mut journal = Journal::begin(&folder, &Project::of(&document), None, 100).unwrap();
-        let mut versions =
-            vec![(fs::metadata(&journal.path).unwrap().len() as usize, document.paint().clone())];
-        for n in 0..12 {
-            add_gesture(&mut journal, &mut document, n, 101 + u64::from(n));
-            versions.push((fs::metadata(&journal.path).unwrap().len() as usize, document.paint().clone()));
-        }
-        let bytes = fs::read(&journal.path).unwrap();
-        for cut in (0..bytes.len())
-            .step_by(bytes.len() / 23)
-            .chain(versions.iter().flat_map(|&(end, _)| [end - 1, end]))
-        {
-            let whole = versions.partition_point(|&(end, _)| end <= cut);
-            match Kept::parse(&bytes[..cut]) {
-                None => assert_eq!(whole, 0, "cut at {cut}"),
-                Some(kept) => {
-                    assert_eq!((kept.time, kept.clean), (99 + whole as u64, false));
-                    let kept = kept.project.into_document().unwrap();
-                    assert!(*kept.paint() == versions[whole - 1].1, "cut at {cut}");
-                }
-            }
-        }
-        let mut damaged = bytes.clone();
-        damaged[versions[4].0 + 40] ^= 4;
-        assert_eq!(Kept::parse(&damaged).unwrap().time, 104);
-        fs::remove_dir_all(folder).unwrap();
-    }
-
-    #[test]
-    fn settings_are_kept_beside_the_paint() {
-        let folder = folder("settings");
-        let mut document = example();
-        let mut journal = Journal::begin(&folder, &Project::of(&document), None, 1).unwrap();
-        add_gesture(&mut journal, &mut document, 0, 2);
-        document.set(Setting::SmallestDiameter(0.0123)).unwrap();
-        let Edits { settings, all_paint, layers } = document.take_edits();
-        assert!(settings && !all_paint && layers.is_empty());
-        journal.add_settings(document.settings().clone(), 3).unwrap();
-        drop(journal);
-        let kept = abandoned(&folder).pop().unwrap().project.into_document().unwrap();
-        assert_eq!(kept.settings(), document.settings());
-        assert!(kept.paint() == document.paint());
-        fs::remove_dir_all(folder).unwrap();
-    }
-
-    #[test]
-    fn rasters_and_pictures_are_written_once() {
-        let folder = folder("once");
-        let mut random = fastrand::Rng::with_seed(3);
-        let mut raster = |name: &str| {
-            let values = (0..100 * 100).map(|_| random.f32()).collect();
-            let raster = Raster::from_values(crate::geometry::Rect::UNIT, [100, 100], values);
-            let source = RasterSource { name: name.into(), raster: Arc::new(RasterPyramid::new(raster)) };
-            LayerKind::Raster { source, reading: RasterReading::Risk }
-        };
-        let rgba = (0..4 * 100 * 100).map(|n: u32| (n * n % 251) as u8 | (n % 4 / 3 * 255) as u8).collect();
-        let mut settings = Settings { layers: Layer::stack([raster("first")]), ..Settings::default() };
-        settings.background = Some(crate::document::Background {
-            name: "map".into(),
-            picture: Arc::new(crate::document::Picture { size: [100, 100], rgba }),
-            bounds: crate::geometry::Rect::UNIT,
-            opacity: 0.5,
-        });
-        let project = Project { settings: settings.clone(), paint: PaintLayers::default() };
-        let mut journal = Journal::begin(&folder, &project, None, 1).unwrap();
-        let length = |journal: &Journal| fs::metadata(&journal.path).unwrap().len();
-        let mut before = length(&journal);
-        for n in 0..5 {
-            let is_new = n == 2;
-            if is_new {
-                settings.layers = Layer::stack([settings.layers[0].kind.clone(), raster("second")]);
-            }
-            settings.layers[0].name = format!("Slope {n}");
-            journal.add_settings(settings.clone(), 2).unwrap();
-            let grown = length(&journal) - std::mem::replace(&mut before, length(&journal));
-            assert_eq!(grown > 20_000, is_new, "{grown} bytes in record {n}");
-            assert!(is_new || grown < 3_000, "{grown} bytes in record {n}");
-        }
-        drop(journal);
-        assert_eq!(abandoned(&folder).pop().unwrap().project.settings, settings);
-        fs::remove_dir_all(folder).unwrap();
-    }
-
-    #[test]
-    fn only_unlocked_journals_with_unsaved_work_are_offered() {
-        let folder = folder("offered");
-        let mut document = example();
-        let home = Path::new("/tmp/threats.meshbrush");
-        let mut journal = Journal::begin(&folder, &Project::of(&document), None, 1).unwrap();
-        assert!(abandoned(&folder).is_empty(), "it is held");
-        journal.mark_clean(Some(home), 2).unwrap();
-        add_gesture(&mut journal, &mut document, 0, 3);
-        drop(journal);
-        let found = abandoned(&folder);
-        assert_eq!((found.len(), found[0].time, found[0].home.as_deref()), (1, 3, Some(home)));
-        assert!(abandoned(&folder).is_empty(), "another window was offered it");
-        drop(found);
-        assert_eq!(abandoned(&folder).len(), 1, "and may be again");
-        abandoned(&folder).pop().unwrap().remove().unwrap();
-
-        let mut journal = Journal::begin(&folder, &Project::of(&document), None, 1).unwrap();
-        journal.mark_clean(None, 2).unwrap();
-        drop(journal);
-        assert!(abandoned(&folder).is_empty());
-        assert_eq!(fs::read_dir(&folder).unwrap().count(), 0, "nothing unsaved: it is removed");
-        fs::remove_dir_all(folder).unwrap();
-    }
-}
+mod tests;

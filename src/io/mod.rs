@@ -14,6 +14,7 @@
 pub mod asc;
 mod atomic;
 mod blocks;
+mod claim;
 mod coordinates;
 pub mod csv;
 mod error;
@@ -42,6 +43,7 @@ pub mod recording;
 mod rows;
 pub mod shapes;
 pub mod sms;
+mod stamp;
 pub mod steps;
 pub mod stl;
 pub mod svg;
@@ -56,7 +58,8 @@ use std::io::{self, Write};
 
 use crate::domain::MeshBoundary;
 pub use crate::text::Number;
-pub use atomic::{exists, make_folder, obstacle, write_file, write_file_metered};
+pub use atomic::{exists, make_folder, obstacle, remove_new, write_file, write_file_metered};
+pub use claim::Claim;
 pub use error::{Flaw, Place, ReadError};
 pub use folder::{FolderEntry, FolderListing, MOST_ENTRIES, is_folder, list_folder, resolve};
 pub use interrupt::Interruption;
@@ -64,6 +67,7 @@ pub use mesh_file::{FormatSpec, MeshFormat, TypicalSize};
 pub use meter::{Cancelled, Counted, Meter};
 use parallel_rows::write_rows;
 pub use provenance::{MeshSource, Provenance};
+pub use stamp::{FileStamp, Stamping};
 
 /// The formats of meshes. A new one is a module and an entry here.
 static MESH_FORMATS: [&FormatSpec; 7] =

@@ -26,6 +26,14 @@ impl ShapeList {
         self.segments().next().is_none()
     }
 
+    /// Memory, in bytes.
+    fn bytes(&self) -> usize {
+        let points = |points: &Vec<DVec2>| size_of_val(points) + size_of_val(&**points);
+        let rings = |polygon: &Polygon| size_of_val(polygon) + polygon.iter().map(points).sum::<usize>();
+        let lines: usize = self.lines.iter().map(points).sum();
+        points(&self.points) + lines + self.polygons.iter().map(rings).sum::<usize>()
+    }
+
     /// Points as segments of length 0, then the edges of lines and rings.
     fn segments(&self) -> impl Iterator<Item = [DVec2; 2]> {
         let points = self.points.iter().map(|&p| [p, p]);
@@ -112,6 +120,13 @@ impl Shapes {
     /// The shapes as they were given.
     pub fn list(&self) -> &ShapeList {
         &self.0.list
+    }
+
+    /// The address of the data that clones share, and their memory in bytes.
+    pub fn shared_data(&self) -> (usize, usize) {
+        let Indexed { list, segments, tree, filled } = &*self.0;
+        let filled = filled.as_ref().map_or(0, |mask| mask.shared_data().1);
+        (Arc::as_ptr(&self.0).addr(), list.bytes() + size_of_val(&**segments) + tree.bytes() + filled)
     }
 
     /// The smallest rectangle that holds all shapes.

@@ -70,6 +70,12 @@ impl Mask {
         self.0.region.polygons()
     }
 
+    /// The address of the data that clones share, and their memory in bytes.
+    pub fn shared_data(&self) -> (usize, usize) {
+        let Indexed { region, edges, tree } = &*self.0;
+        (Arc::as_ptr(&self.0).addr(), region.bytes() + size_of_val(&**edges) + tree.bytes())
+    }
+
     /// The area covered, in square world units.
     pub fn area(&self) -> f64 {
         self.0.region.area()

@@ -12,31 +12,27 @@ impl SizeField {
     /// Gradation is computed on the grid, by sweeps over the eikonal equation |∇h̄| = g: exact enough to be
     /// shown, and much faster than a search for each pixel.
     pub fn sampled(&self, paint: &PaintLayers, bounds: Rect, size: [u32; 2]) -> Raster {
-        self.sampled_with_layers(paint, bounds, size).0
+        self.sampled_while(paint, bounds, size, &|| true)
+            .map_or_else(|| Raster::filled(bounds, size, 0.0), |(h, _)| h)
     }
 
-    /// The layers that decide h̄ at the centres of such pixels, row by row from the lowest; `None` where no
-    /// layer asks for anything. Gradation is computed as for [`Self::sampled`]: it carries the layer along
-    /// with its diameter.
-    pub fn sampled_decisions(
+    /// As [`Self::sampled`], with the layers that decide h̄ at the pixels, row by row from the lowest: `None`
+    /// where no layer asks for anything. Gradation carries the layer along with its diameter. The work ends
+    /// without a result once it no longer `goes_on`.
+    pub fn sampled_while(
         &self,
         paint: &PaintLayers,
         bounds: Rect,
         size: [u32; 2],
-    ) -> Vec<Option<LayerId>> {
-        self.sampled_with_layers(paint, bounds, size).1
-    }
-
-    fn sampled_with_layers(
-        &self,
-        paint: &PaintLayers,
-        bounds: Rect,
-        size: [u32; 2],
-    ) -> (Raster, Vec<Option<LayerId>>) {
+        goes_on: &dyn Fn() -> bool,
+    ) -> Option<(Raster, Vec<Option<LayerId>>)> {
         let mut raster = Raster::filled(bounds, size, 0.0);
         let mut layers = Vec::with_capacity(raster.values().len());
         let centers = raster.pixel_centers();
         for (x, y) in raster.all().pixels() {
+            if x == 0 && !goes_on() {
+                return None;
+            }
             let (target, layer) = self.ungraded_at(paint, centers(x, y));
             raster.set(x, y, target as f32);
             layers.push(layer);
@@ -44,7 +40,7 @@ impl SizeField {
         if let Some(slope) = self.spec().gradation {
             limit_slope(&mut raster, &mut layers, slope);
         }
-        (raster, layers)
+        Some((raster, layers))
     }
 }
 

@@ -195,6 +195,13 @@ impl Threats {
         &self.0.threats
     }
 
+    /// The address of the data that clones share, and their memory in bytes.
+    pub fn shared_data(&self) -> (usize, usize) {
+        let Indexed { threats, tree, survival } = &*self.0;
+        let survival: usize = survival.iter().map(|level| size_of_val(&**level)).sum();
+        (Arc::as_ptr(&self.0).addr(), size_of_val(&**threats) + tree.bytes() + survival)
+    }
+
     /// Replaces one threat. This keeps most of the index, so that a threat can be dragged among many. Data
     /// that clones share are copied first.
     ///

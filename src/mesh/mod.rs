@@ -31,9 +31,9 @@ pub use extract::{
 };
 pub use kernel::{
     BlockRefiner, Changes, CoarseError, Element, InvalidTarget, LevelsWithin, Limits, MOST_TRIANGLES,
-    MemoryLimit, Mesh, MeshCopy, Neighbour, NodeId, Orientation, Progress, RefineError, Refiner, RuleAnswers,
-    SharedRule, TargetChange, TreeTriangle, Triangle, TriangleId, Updater, bisection_edge_length,
-    level_for_diameter,
+    MemoryLimit, Mesh, MeshCopy, Neighbour, NodeId, Orientation, ProgramAllocator, Progress, RefineError,
+    Refiner, RuleAnswers, SharedRule, TargetChange, TreeTriangle, Triangle, TriangleId, Updater,
+    bisection_edge_length, level_for_diameter,
 };
 pub use query::{
     Adjacency, Cause, Cleaning, Fingerprint, Forecast, KeptParts, Location, Locator, PatchedLocator, Removed,

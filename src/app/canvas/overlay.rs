@@ -7,7 +7,7 @@ use eframe::egui::Context;
 
 use super::super::contours::pixels_over;
 use super::super::frame::NO_LIMIT;
-use super::super::latest::Latest;
+use super::super::latest::{Latest, Wanted};
 use super::super::layer_pictures::layer_color32;
 use super::super::session::Session;
 use super::super::view::FieldOverlay;
@@ -16,6 +16,7 @@ use crate::colormap::LevelColors;
 use crate::explain::PixelTriangles;
 use crate::geometry::Rect;
 use crate::layers::{Layer, LayerId, PaintLayers, SizeField};
+use crate::raster::Raster;
 use crate::scene::Overlay;
 
 /// How strongly h̄ covers the mesh, 0 to 1.
@@ -68,7 +69,7 @@ impl OverlayColors {
         ctx: &Context,
     ) -> Option<Overlay<'a>> {
         if kind == FieldOverlay::None {
-            self.latest = Latest::default();
+            self.latest.stop();
             return None;
         }
         let (document, follower) = (session.document(), session.follower());
@@ -80,7 +81,7 @@ impl OverlayColors {
         self.latest.keep_if(|found| found.kind == kind && found.bounds == bounds);
         if !self.latest.has(&state) {
             let compute = colors_of(state.clone(), session);
-            self.latest.start(state, compute, ctx);
+            self.latest.start_wanted(state, compute, ctx);
             self.take(if self.waits { NO_LIMIT } else { PATIENCE });
         }
         let (_, Pixels { rgba, size: [columns, rows] }) = self.latest.last()?;
@@ -102,7 +103,10 @@ impl OverlayColors {
     }
 }
 
-fn colors_of(state: OverlayState, session: &Session) -> impl FnOnce() -> Pixels + Send + 'static {
+fn colors_of(
+    state: OverlayState,
+    session: &Session,
+) -> impl FnOnce(&Wanted) -> Option<Pixels> + Send + 'static {
     let (document, follower) = (session.document(), session.follower());
     let (paint, layers) = (document.paint().clone(), document.settings().layers.clone());
     let field = follower.shared_field();
@@ -111,18 +115,19 @@ fn colors_of(state: OverlayState, session: &Session) -> impl FnOnce() -> Pixels 
     let ages = (state.kind == FieldOverlay::Age).then(|| session.ages());
     let rule = (state.kind == FieldOverlay::Forced)
         .then(|| (follower.domain().clone(), follower.settings().rule, follower.settings().limits()));
-    move || {
+    move |wanted| {
         let size = pixels_over(&state.bounds);
+        let goes_on = &|| wanted.goes_on();
         let rgba = match state.kind {
             FieldOverlay::Risk => risk_colors(&layers, &paint, state.bounds, size),
-            FieldOverlay::Layer => layer_colors(&field, &paint, state.bounds, size),
+            FieldOverlay::Layer => layer_colors(&field.sampled_while(&paint, state.bounds, size, goes_on)?.1),
             FieldOverlay::Slack | FieldOverlay::Forced | FieldOverlay::Age => {
                 let mesh = mesh.expect("the mesh is shared for these overlays");
                 let pixels = PixelTriangles::new(&mesh, state.bounds, size);
                 if let Some(ages) = ages {
                     pixels.ages(&ages).into_iter().map(age_color).collect()
                 } else if state.kind == FieldOverlay::Slack {
-                    let target = field.sampled(&paint, state.bounds, size);
+                    let (target, _) = field.sampled_while(&paint, state.bounds, size, goes_on)?;
                     pixels.slack(&target).into_iter().map(slack_color).collect()
                 } else {
                     let (domain, rule, limits) = rule.expect("the rule is taken along for this overlay");
@@ -131,15 +136,15 @@ fn colors_of(state: OverlayState, session: &Session) -> impl FnOnce() -> Pixels 
                     forced.into_iter().map(|forced| if forced { FORCED } else { [0; 4] }).collect()
                 }
             }
-            _ => target_colors(&field, &paint, &state, size),
+            _ => target_colors(&field, &field.sampled_while(&paint, state.bounds, size, goes_on)?.0, &state),
         };
-        Pixels { rgba, size }
+        Some(Pixels { rgba, size })
     }
 }
 
 fn risk_colors(layers: &[Layer], paint: &PaintLayers, bounds: Rect, size: [u32; 2]) -> Vec<[u8; 4]> {
     let table: [[u8; 4]; 256] = std::array::from_fn(|i| risk_color(i as u8));
-    let grid = crate::raster::Raster::filled(bounds, size, 0u8);
+    let grid = Raster::filled(bounds, size, 0u8);
     let centers = grid.pixel_centers();
     let risk = |point| {
         let visible = layers.iter().filter(|layer| layer.visible);
@@ -149,20 +154,13 @@ fn risk_colors(layers: &[Layer], paint: &PaintLayers, bounds: Rect, size: [u32; 
 }
 
 /// The colours of the layers that decide h̄; transparent where none asks for anything.
-fn layer_colors(field: &SizeField, paint: &PaintLayers, bounds: Rect, size: [u32; 2]) -> Vec<[u8; 4]> {
-    let decisions = field.sampled_decisions(paint, bounds, size);
-    let color = |layer: Option<LayerId>| layer.map_or([0; 4], |id| layer_color32(id).to_array());
-    decisions.into_iter().map(color).collect()
+fn layer_colors(decisions: &[Option<LayerId>]) -> Vec<[u8; 4]> {
+    let color = |layer: &Option<LayerId>| layer.map_or([0; 4], |id| layer_color32(id).to_array());
+    decisions.iter().map(color).collect()
 }
 
-fn target_colors(
-    field: &SizeField,
-    paint: &PaintLayers,
-    state: &OverlayState,
-    size: [u32; 2],
-) -> Vec<[u8; 4]> {
+fn target_colors(field: &SizeField, target: &Raster, state: &OverlayState) -> Vec<[u8; 4]> {
     let level = |target: f32| field.level_of_diameter(f64::from(target)).unwrap_or(63).min(63) as u8;
-    let target = field.sampled(paint, state.bounds, size);
     target.values().iter().map(|&target| state.colors.of(level(target))).collect()
 }
 

@@ -14,6 +14,7 @@ use super::REPORT;
 use super::catalog::{CatalogItem, catalog};
 use super::command::Command;
 use super::frame::FrameState;
+use super::session::DocumentId;
 use super::widgets::{self, ActionButton, PaletteAnswer, PaletteItem, dialog, dialog_title};
 pub use file::FileFacts;
 use file::{FileAnswer, FileDialog};
@@ -83,10 +84,17 @@ impl Dialogs {
         self.folders.store(storage);
     }
 
-    /// Asks for a file: beside the file `beside`, where no folder for such files is known. `name` is the name
-    /// of the document without an ending.
-    pub fn ask(&mut self, request: FileRequest, beside: Option<&Path>, name: &str, ctx: &Context) {
-        let question = Question { request, folder: self.folders.of(request, beside), name: name.to_owned() };
+    /// Asks for a file for a document with a name without an ending: beside the file `beside`, where no folder
+    /// for such files is known.
+    pub fn ask(
+        &mut self,
+        request: FileRequest,
+        (document, name): (DocumentId, &str),
+        beside: Option<&Path>,
+        ctx: &Context,
+    ) {
+        let folder = self.folders.of(request, beside);
+        let question = Question { request, document, folder, name: name.to_owned() };
         if self.uses_system {
             self.system.ask(question, ctx);
         } else {
@@ -101,18 +109,29 @@ impl Dialogs {
 
     /// Takes the answer of the desktop's own dialog, and returns the command to run. Where there is no such
     /// dialog, the one in the window opens, now and from then on.
-    pub fn take_answer(&mut self, ctx: &Context) -> Option<Command> {
-        let (question, answer) = self.system.take()?;
+    ///
+    /// # Errors
+    /// The title of the dialog, if it was about another document than the one that is open.
+    pub fn take_answer(
+        &mut self,
+        document: DocumentId,
+        ctx: &Context,
+    ) -> Result<Option<Command>, &'static str> {
+        let Some((question, answer)) = self.system.take() else { return Ok(None) };
+        let request = question.request;
         match answer {
             Answer::Chosen(path) => {
-                self.folders.note(question.request, path.parent());
-                Some(question.request.command_after_browsing(path))
+                self.folders.note(request, path.parent());
+                if question.document != document && !request.opens_document() {
+                    return Err(request.title());
+                }
+                Ok(Some(request.command_after_browsing(path)))
             }
-            Answer::Cancelled => None,
+            Answer::Cancelled => Ok(None),
             Answer::NoDialog => {
                 self.uses_system = false;
                 self.open_file_dialog(&question, ctx);
-                None
+                Ok(None)
             }
         }
     }

@@ -90,6 +90,11 @@ impl FileRequest {
         }
     }
 
+    /// Whether the file can become a document of its own.
+    pub fn opens_document(self) -> bool {
+        matches!(self, Self::Open | Self::OpenDomain)
+    }
+
     /// The word on the button.
     pub fn verb(self) -> &'static str {
         match self {

@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use eframe::egui::Context;
 
-use super::FileRequest;
+use super::{DocumentId, FileRequest};
 
 /// A dialog that is answered faster than this has not opened.
 const FASTEST_CANCEL: Duration = Duration::from_millis(150);
@@ -17,6 +17,8 @@ const FASTEST_CANCEL: Duration = Duration::from_millis(150);
 pub struct Question {
     /// What the file is for.
     pub request: FileRequest,
+    /// The document that was open then.
+    pub document: DocumentId,
     /// Where the dialog begins.
     pub folder: PathBuf,
     /// The proposed name, with its ending.

@@ -6,9 +6,10 @@ use std::sync::Arc;
 use eframe::egui::{Context, ViewportCommand};
 
 use crate::app::App;
-use crate::app::background::{Aim, Outcome, WorkId};
+use crate::app::background::{Aim, Finished, Outcome, WorkId, name_of};
 use crate::app::command::{Command, Opened, OutlineChange};
 use crate::app::dialogs::{Dialog, FileRequest};
+use crate::app::home::{self, Home};
 use crate::app::journal::JournalKeeper;
 use crate::app::{files, journal, layer_files, project};
 use crate::document::Document;
@@ -28,7 +29,7 @@ impl App {
                 Ok(command) => self.send(command),
                 Err(problem) => self.fail(problem),
             },
-            Command::OpenProject(path) => project::open_project(&mut self.background, &path),
+            Command::OpenProject(path) => home::open(&mut self.background, &path),
             Command::OpenBackground(path) => {
                 files::load_background(&self.session, &mut self.background, &path);
             }
@@ -96,6 +97,9 @@ impl App {
             Command::SaveTo(path) => {
                 self.project.save_to(path, &mut self.session, &mut self.background);
             }
+            Command::SaveOver(path) => {
+                self.project.save_over(path, &mut self.session, &mut self.background);
+            }
             Command::SaveRecipeAs(path) => self.save_recipe_as(path),
             Command::SaveRecipe(path) => files::save_recipe(&self.session, &mut self.background, &path),
             Command::ExportTestAs(path) => self.commands.extend(self.project.export_test_as(path)),
@@ -118,7 +122,7 @@ impl App {
         let name = self.project.document_name(&self.session);
         // A document that was not saved yet is often made from the last file that was opened.
         let beside = self.project.path().or(self.project.recent().first().map(PathBuf::as_path));
-        self.dialogs.ask(request, beside, &name, ctx);
+        self.dialogs.ask(request, (self.session.document_id(), &name), beside, ctx);
     }
 
     /// Says that a file was not read or written: in the dialog that asked for it, or else on the canvas.
@@ -131,7 +135,7 @@ impl App {
 
     pub(super) fn open(&mut self, document: Document) {
         self.show_document(document);
-        self.project.belongs_to(None, self.session.document().version(), true);
+        self.project.open(None, self.session.document().version(), true);
     }
 
     fn set_outline(&mut self, change: OutlineChange) {
@@ -155,13 +159,25 @@ impl App {
 
     fn show_opened(&mut self, opened: Opened) {
         self.show_document(Arc::unwrap_or_clone(opened.document));
-        self.project.belongs_to(opened.home, self.session.document().version(), true);
+        self.open_project_of(opened.home, true);
+    }
+
+    /// Notes the file of the document that was just opened, and says so if another window has it open.
+    fn open_project_of(&mut self, home: Option<Home>, saved: bool) {
+        if self.project.open(home, self.session.document().version(), saved) {
+            let name = self.project.path().map(name_of).unwrap_or_default();
+            self.session.report(format!(
+                "{name} is open in another window of Meshbrush, too. Save this document under another name if you edit it \
+                 in both."
+            ));
+        }
     }
 
     /// Opens another document in place of the current one, and fits brush and view to it. This cannot be
     /// undone: [`super::project::ProjectFile::ask_before_leaving`] asks before edits are lost.
     fn show_document(&mut self, document: Document) {
         self.session.replace_document(document);
+        self.background.work_for(self.session.document_id());
         let settings = self.session.document().settings();
         let extent = settings.domain.bounds.size().max_element();
         self.tools.fit_to(extent, settings.transfer.h_min);
@@ -189,8 +205,9 @@ impl App {
             Err(problem) => return self.session.report(problem),
         };
         self.show_document(document);
-        let version = self.session.document().version();
-        self.project.belongs_to(left.home.clone(), version, false);
+        // What was in the file at that time is not known: saving asks first.
+        let home = left.home.clone().map(|path| Home { path, stamp: None });
+        self.open_project_of(home, false);
         self.record_edits();
         if let Some(keeper) = &self.journal {
             keeper.forget(left);
@@ -204,22 +221,21 @@ impl App {
         }
     }
 
-    /// Applies the outcomes of work on other threads.
-    pub(in crate::app) fn finish_work(&mut self) {
-        while let Some(outcome) = self.background.take_finished() {
-            self.finish(outcome);
+    /// Applies the outcome of the next work that ended on another thread. Returns whether there was any.
+    pub(in crate::app) fn finish_next_work(&mut self) -> bool {
+        let Some(finished) = self.background.take_finished() else { return false };
+        if finished.document == self.session.document_id() {
+            self.finish(finished.outcome);
+        } else {
+            self.finish_for_former_document(finished);
         }
+        true
     }
 
     fn finish(&mut self, outcome: Outcome) {
         match outcome {
-            Outcome::Read { path, commands } => {
-                self.project.note_recent(path);
-                self.dialogs.succeed(true);
-                self.session.notices_mut().dismiss();
-                self.starts_with_file = false;
-                self.commands.extend(commands);
-            }
+            Outcome::Opened { path, opened } => self.finish_reading(path, vec![Command::Show(opened)]),
+            Outcome::Read { path, commands } => self.finish_reading(path, commands),
             Outcome::PartRead(commands) => {
                 self.dialogs.succeed(true);
                 self.commands.extend(commands);
@@ -233,11 +249,15 @@ impl App {
                 self.project.stay();
                 self.fail(problem);
             }
-            Outcome::Saved { path, version } => {
+            Outcome::Saved { home, version } => {
                 self.dialogs.succeed(false);
-                self.session.tell(format!("Saved to {}.", path.display()));
-                self.project.belongs_to(Some(path), version, true);
+                self.session.tell(format!("Saved to {}.", home.path.display()));
+                self.project.belongs_to(Some(home), version, true);
                 self.finish_saving();
+            }
+            Outcome::ChangedOnDisk(path) => {
+                self.dialogs.succeed(false);
+                self.project.ask_about_other_version(path);
             }
             Outcome::SavingCancelled(text) => {
                 self.dialogs.succeed(false);
@@ -248,6 +268,53 @@ impl App {
                 self.project.cancel_saving();
                 self.fail(problem);
             }
+        }
+    }
+
+    fn finish_reading(&mut self, path: PathBuf, commands: Vec<Command>) {
+        self.project.note_recent(path);
+        self.dialogs.succeed(true);
+        self.session.notices_mut().dismiss();
+        self.starts_with_file = false;
+        self.commands.extend(commands);
+    }
+
+    /// Says what became of work for a document that is no longer open, and keeps it away from the one that is.
+    fn finish_for_former_document(&mut self, Finished { name, outcome, .. }: Finished) {
+        match outcome {
+            // It is a document of its own.
+            Outcome::Opened { .. } => return self.finish(outcome),
+            Outcome::Read { .. } | Outcome::PartRead(_) => self.session.report(format!(
+                "{name} was read for the document that was open before, so nothing was done with it. Open it again if it \
+                 belongs here."
+            )),
+            Outcome::NotWritten(problem) => {
+                self.project.stay();
+                self.session.report(problem);
+            }
+            Outcome::NotRead(problem) | Outcome::NotSaved(problem) => self.session.report(problem),
+            Outcome::Exported(text) | Outcome::SavingCancelled(text) => self.session.tell(text),
+            Outcome::Saved { home, .. } => {
+                let file = home.path.display().to_string();
+                self.session.tell(format!("The document that was open before was saved to {file}."));
+                self.project.note_recent(home.path);
+            }
+            Outcome::ChangedOnDisk(path) => self.session.report(format!(
+                "The document that was open before was not saved to {}: somebody else changed that file.",
+                path.display()
+            )),
+        }
+        self.project.save_again(&mut self.session, &mut self.background);
+    }
+
+    /// Takes the answer of the desktop's own file dialog. It is about the document that was open when it was
+    /// asked for.
+    pub(in crate::app) fn take_chosen_file(&mut self, ctx: &Context) {
+        match self.dialogs.take_answer(self.session.document_id(), ctx) {
+            Ok(command) => self.commands.extend(command),
+            Err(question) => self.session.report(format!(
+                "“{question}” was asked for the document that was open before, so nothing was done."
+            )),
         }
     }
 

@@ -60,7 +60,7 @@ impl FormulaRow<'_> {
         state: &FrameState<'_>,
         current: Option<&F>,
     ) -> Option<Option<F>> {
-        let id = ui.make_persistent_id(("typed formula", self.label, state.session.opened_documents()));
+        let id = ui.make_persistent_id(("typed formula", self.label, state.session.document_id()));
         let mut typed: Typed<F> = ui.data(|data| data.get_temp(id)).unwrap_or_default();
         let parsed = parse(&typed.text);
         let refused = typed.was_refused(parsed.as_ref().ok(), current, state);

@@ -31,7 +31,7 @@ use work::{KnownPlanner, PlannedMesh, Work, WorkResult, find, find_corridor};
 
 use super::latest::Latest;
 use super::prover::{Known, Prover};
-use super::session::Session;
+use super::session::{DocumentId, Session};
 use super::statistics::MeasuredMesh;
 use crate::domain::DomainShape;
 use crate::layers::RiskField;
@@ -40,7 +40,7 @@ use crate::path::PathError;
 /// A mesh of one of the documents that were opened.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct MeshKey {
-    opened_documents: u64,
+    document_id: DocumentId,
     mesh: MeasuredMesh,
 }
 
@@ -144,16 +144,16 @@ impl PathFinder {
         let derivation = session.derivation();
         let is_settled =
             follower.is_in_step(document) && MeasuredMesh::is_settled(document, follower, derivation);
-        let opened_documents = session.opened_documents();
+        let document_id = session.document_id();
         let mesh = match is_settled {
-            true => MeshKey { opened_documents, mesh: MeasuredMesh::now(follower, derivation) },
+            true => MeshKey { document_id, mesh: MeasuredMesh::now(follower, derivation) },
             // Other regions need another planner.
             false => {
                 let plan = &document.settings().paths;
                 self.planner.as_ref().filter(|(known, _)| known.avoids_those_of(plan))?.1
             }
         };
-        let is_of_document = mesh.opened_documents == opened_documents;
+        let is_of_document = mesh.document_id == document_id;
         is_of_document.then_some(Key { document: document.revision(), mesh, is_live: !is_settled })
     }
 
@@ -204,7 +204,7 @@ impl PathFinder {
             (mesh, keep_out)
         });
         self.planner = work.planner.map(|planner| (planner, key.mesh));
-        if key.mesh.opened_documents != session.opened_documents() {
+        if key.mesh.document_id != session.document_id() {
             return;
         }
         match work.result {

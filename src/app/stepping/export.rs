@@ -80,19 +80,46 @@ impl Stepping {
                 text: if ground == Ground::Dark { ON_DARK } else { ON_LIGHT },
                 parts: [waiting, relinked, across],
             };
+            let mut written = Written::default();
             for (position, file) in range.zip(&files) {
                 player.go_to(position);
-                let mut drawing = Vec::new();
-                let written = steps::write(&mut drawing, &player, &colors)
+                let (mut drawing, is_new) = (Vec::new(), !io::exists(file));
+                let drawn = steps::write(&mut drawing, &player, &colors)
                     .and_then(|()| io::write_file_metered(file, meter, |out| out.write_all(&drawing)));
-                match written {
+                match drawn {
                     Ok(()) => _ = meter.add(drawing.len() as u64),
-                    Err(error) => return not_exported(&error, meter, file),
+                    Err(error) => return written.take_back(not_exported(&error, meter, file)),
                 }
+                if is_new { &mut written.new } else { &mut written.replaced }.push(file.clone());
             }
             let count = format::count(files.len() as u64);
             Outcome::Exported(format!("{count} steps written to {}.", listed(&files)))
         });
         Ok(())
+    }
+}
+
+/// The drawings that are written so far.
+#[derive(Default)]
+struct Written {
+    new: Vec<PathBuf>,
+    /// Those in place of other files.
+    replaced: Vec<PathBuf>,
+}
+
+impl Written {
+    /// Removes the new ones, because the export did not come to its end, and says what cannot be taken back.
+    fn take_back(self, outcome: Outcome) -> Outcome {
+        io::remove_new(&self.new);
+        let remains = match &self.replaced[..] {
+            [] => return outcome,
+            [file] => format!("{} was replaced before that.", file.display()),
+            files => format!("{} files were replaced before that: {}.", files.len(), listed(files)),
+        };
+        match outcome {
+            Outcome::NotWritten(problem) => Outcome::NotWritten(format!("{problem} {remains}")),
+            Outcome::Exported(_) => Outcome::Exported(format!("Writing the steps was cancelled. {remains}")),
+            other => other,
+        }
     }
 }

@@ -17,7 +17,7 @@ pub use export::MOST_FILES;
 pub use picture::paint;
 
 use super::latest::Latest;
-use super::session::Session;
+use super::session::{DocumentId, Session};
 use super::tools::Tools;
 use crate::build::RefinementCriterion;
 use crate::document::ReportFigure;
@@ -70,13 +70,13 @@ pub struct Stepping {
 /// Identifies a document and its state.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct DocumentState {
-    opened_documents: u64,
+    document: DocumentId,
     revision: u64,
 }
 
 impl DocumentState {
     fn of(session: &Session) -> Self {
-        Self { opened_documents: session.opened_documents(), revision: session.document().revision() }
+        Self { document: session.document_id(), revision: session.document().revision() }
     }
 }
 

@@ -15,6 +15,7 @@ use crate::app::command::{BrushCommand, Command};
 use crate::app::tools::{BRUSH, DOMAIN, ERASER, PAN, QUERY};
 use crate::document::{Setting, Settings};
 use crate::field::RefinementRule;
+use crate::mesh::MemoryLimit;
 
 /// The number on the tag for a dab at a place, and what a click there then does to the number of triangles.
 fn shown_and_actual(window: &mut Window, world: DVec2) -> (String, i64) {
@@ -108,7 +109,7 @@ fn the_budgets_are_typed_in_the_panel_and_what_is_too_small_is_told() {
     type_into(&mut window, "Memory budget", "0.001");
     assert!(notice(&window).contains("1 MB of memory"), "{}", notice(&window));
     assert_eq!((settings(&window).max_memory, triangles(&window)), (500_000_000, count));
-    set(&mut window, Setting::MaxMemory(98 * (count + 100)));
+    set(&mut window, Setting::MaxMemory(MemoryLimit::TWO_MESHES * (count + 100)));
     let tag = hover(&mut window, FREE).unwrap();
     assert!(tag.ends_with("over the budget"), "{tag}");
 }

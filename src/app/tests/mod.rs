@@ -14,6 +14,8 @@ mod file_dialog;
 mod files;
 mod gallery;
 mod help;
+#[cfg(unix)]
+mod identity;
 mod inspection;
 mod keys;
 mod layer_data;
@@ -23,6 +25,7 @@ mod menus;
 mod messages;
 mod numbers;
 mod orientation;
+mod other_window;
 mod outline;
 mod painting;
 mod path;

@@ -11,9 +11,9 @@ use egui_kittest::kittest::Queryable as _;
 use glam::dvec2;
 
 use super::{Window, document, paint, send, show, window};
-use crate::app::command::Command;
+use crate::app::command::{Command, LayerCommand};
 use crate::document::{Example, Setting, Settings, Stage};
-use crate::io::journal::Journal;
+use crate::io::journal::{self, Journal, Left};
 use crate::io::project::{self, Project};
 use crate::io::{Meter, recipe, recording};
 use crate::mesh::Fingerprint;
@@ -160,6 +160,49 @@ fn edits_are_asked_about_before_unsaved_work_is_restored() {
     assert!(!shows(&window, offer) && !shows(&window, question));
     assert_eq!(document(&window).settings(), left.settings());
     assert!(document(&window).history().is_empty() && shows(&window, "The report's diamond — edited"));
+}
+
+#[test]
+fn a_journal_that_cannot_be_read_is_named() {
+    let folder = folder("unreadable");
+    let file = folder.join("1-0.journal");
+    fs::write(&file, "MBJOUR01 of an older program").unwrap();
+    let mut window = window();
+    let ctx = window.ctx.clone();
+    window.state_mut().keep_journal_in(folder, &ctx);
+    let told = |window: &Window| window.state().session().notices().shown().map(|shown| shown.text.clone());
+    wait(&mut window, "the message", |window| told(window).is_some());
+    let text = told(&window).unwrap();
+    assert!(text.contains(file.to_str().unwrap()) && text.contains("another version"), "{text}");
+    assert!(file.exists());
+}
+
+#[test]
+fn the_journal_keeps_edits_while_the_painted_layer_is_hidden() {
+    let (live, copied) = (folder("hidden"), folder("hidden-copy"));
+    let mut window = window();
+    let ctx = window.ctx.clone();
+    window.state_mut().keep_journal_in(live.clone(), &ctx);
+    send(&mut window, Command::New);
+    paint(&mut window, 0.9);
+    let painted = document(&window).active_layer().unwrap().id;
+    send(&mut window, Command::Layer(LayerCommand::Show(painted, false)));
+    paint(&mut window, 0.4);
+    let hidden = |settings: &Settings| settings.layer(painted).is_some_and(|layer| !layer.visible);
+    assert!(hidden(document(&window).settings()));
+    // As after a kill: the journal of a window that is open is locked, a copy of it is not.
+    let start = Instant::now();
+    let kept = loop {
+        assert!(start.elapsed() < Duration::from_secs(30), "nothing was kept");
+        for entry in fs::read_dir(&live).unwrap().flatten() {
+            fs::copy(entry.path(), copied.join(entry.file_name())).unwrap();
+        }
+        match journal::left(&copied).next() {
+            Some(Left::Work(work)) if hidden(&work.project.settings) => break work.project,
+            _ => _ = window.run(),
+        }
+    };
+    assert!(kept.paint == *document(&window).paint() && kept.settings == *document(&window).settings());
 }
 
 #[test]

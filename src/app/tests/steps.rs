@@ -208,3 +208,26 @@ fn chosen_steps_are_written_as_numbered_drawings() {
         assert!(notice(&window).contains("at most 500"), "{}", notice(&window));
     }
 }
+
+#[cfg(unix)]
+#[test]
+fn a_cancelled_export_of_steps_removes_what_it_wrote_and_says_what_it_replaced() {
+    let folder = super::folder("app-steps", "cancelled");
+    let [first, second, last] = [3, 4, 5].map(|step| folder.join(format!("lesson-000{step}.svg")));
+    std::fs::write(&second, "former").unwrap();
+    assert!(std::process::Command::new("mkfifo").arg(&last).status().unwrap().success());
+    let mut window = window();
+    coarse(&mut window);
+    begin(&mut window);
+    send(&mut window, Command::Steps(StepCommand::ExportRange(3, 5)));
+    send(&mut window, Command::ExportSteps(folder.join("lesson.svg")));
+    let replaced = || std::fs::read_to_string(&second).unwrap().starts_with("<svg");
+    wait_until(&mut window, |_| replaced());
+    // The last drawing waits for somebody who reads it.
+    let work = window.state().background.rows(true)[0].id;
+    send(&mut window, Command::CancelWork(work));
+    std::fs::read(&last).unwrap();
+    wait_until(&mut window, |window| notice(window).contains("lesson-0004.svg"));
+    assert!(notice(&window).contains("was replaced before that"), "{}", notice(&window));
+    assert!(!first.exists() && replaced());
+}

@@ -44,7 +44,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::error::{Flaw, PlacedFlaw, ReadError, shown};
-use super::{Meter, geojson, png};
+use super::{FileStamp, Meter, geojson, png};
 use crate::document::{Document, Picture, Settings};
 use crate::domain::Polygon;
 use crate::geometry::Rect;
@@ -124,6 +124,14 @@ pub fn read(path: &Path) -> Result<Document, ReadError> {
 /// # Errors
 /// As [`read`], and when the work was cancelled.
 pub fn read_metered(path: &Path, meter: &Meter) -> Result<Document, ReadError> {
+    read_stamped(path, meter).map(|(document, _)| document)
+}
+
+/// As [`read_metered`], with the stamp of the file's bytes.
+///
+/// # Errors
+/// As [`read_metered`].
+pub fn read_stamped(path: &Path, meter: &Meter) -> Result<(Document, FileStamp), ReadError> {
     let bytes = || -> Result<Vec<u8>, PlacedFlaw> {
         let mut bytes = Vec::new();
         let file = File::open(path)?;
@@ -141,10 +149,12 @@ pub fn read_metered(path: &Path, meter: &Meter) -> Result<Document, ReadError> {
     let project = bytes().and_then(|bytes| {
         let project = parse(&bytes, meter)?;
         meter.check()?;
-        Ok(project)
+        Ok((project, FileStamp::of(&bytes)))
     });
-    let project = project.map_err(|flaw| flaw.in_file(path))?;
-    project.into_document().map_err(|problem| PlacedFlaw::from(Flaw::Syntax(problem)).in_file(path))
+    let (project, stamp) = project.map_err(|flaw| flaw.in_file(path))?;
+    let document = project.into_document();
+    let document = document.map_err(|problem| PlacedFlaw::from(Flaw::Syntax(problem)).in_file(path))?;
+    Ok((document, stamp))
 }
 
 /// Reads a project from bytes. Errors call the file `name`.

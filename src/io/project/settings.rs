@@ -12,7 +12,7 @@ use super::old_version::SavedBase;
 use super::part_names::PartNames;
 use super::paths::SavedPaths;
 use super::saved_background::SavedBackground;
-use super::stored_layers::StoredLayer;
+use super::stored_layers::{StoredLayer, check_raster_sizes};
 use super::{FORMAT, VERSION};
 use crate::document::{Picture, Settings};
 use crate::domain::{BoundaryMarks, BoundaryTreatment, Domain, DomainShape, Polygon};
@@ -280,7 +280,10 @@ impl Saved {
             }
         };
         let layers = match (self.layers, self.base) {
-            (Some(layers), _) => layers.into_iter().map(|layer| layer.into_layer(parts)).collect(),
+            (Some(layers), _) => {
+                check_raster_sizes(&layers)?;
+                layers.into_iter().map(|layer| layer.into_layer(parts)).collect()
+            }
             (None, Some(base)) => base.into_layers(parts),
             (None, None) => Err(sentence("the settings are not valid: there are no layers.")),
         }?;

@@ -1,5 +1,6 @@
 //! The layers of a document in `settings.json`, in the vocabulary of recipes.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -10,9 +11,11 @@ use super::super::error::PlacedFlaw;
 use super::super::layers::{KindSpec, LayerData, LayerSpec, RasterFile, SavedLayer, TextError, check_values};
 use super::part_names::PartNames;
 use super::settings::{Parts, checked_size, corners, rect};
+use crate::document::MOST_RASTER_PIXELS;
 use crate::domain::Polygon;
 use crate::layers::{DistanceTo, Layer, LayerId, LayerKind, RasterSource, ShapeList, Threat};
 use crate::raster::RasterPyramid;
+use crate::text::Grouped;
 
 /// A layer with its identifier, and the place of its pixels if it reads a raster.
 ///
@@ -37,6 +40,22 @@ struct StoredRaster {
     bounds: [f64; 4],
     columns: u32,
     rows: u32,
+}
+
+/// Checks the sizes that are declared for all rasters together, before any of them is unpacked.
+pub(super) fn check_raster_sizes(layers: &[StoredLayer]) -> Result<(), Flaw> {
+    let rasters = layers.iter().filter_map(|layer| layer.raster.as_ref());
+    let size = |raster: &StoredRaster| u64::from(raster.columns) * u64::from(raster.rows);
+    let pixels: BTreeMap<&str, u64> = rasters.map(|raster| (&raster.part[..], size(raster))).collect();
+    let pixels: u64 = pixels.values().fold(0, |sum, pixels| sum.saturating_add(*pixels));
+    if pixels > MOST_RASTER_PIXELS {
+        return Err(Flaw::Syntax(format!(
+            "the rasters of all layers would have {} pixels, and {} are possible in a project. Use another copy.",
+            Grouped(pixels as usize),
+            Grouped(MOST_RASTER_PIXELS as usize)
+        )));
+    }
+    Ok(())
 }
 
 impl StoredLayer {

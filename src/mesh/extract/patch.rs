@@ -70,6 +70,9 @@ impl Mesh {
     /// # Panics
     /// When the patch is of another mesh.
     pub fn extract_with(&self, patch: &MeshPatch) -> Extract<'_> {
+        if patch.is_empty() && self.outside_count() == 0 {
+            return self.extract();
+        }
         let chunks = chunks(self, patch);
         let places = places(self, &chunks);
         let mut triangles = assemble(self, patch, &chunks, &places);

@@ -46,6 +46,16 @@ pub enum RefineError {
         /// [`Limits::max_memory`](crate::Limits::max_memory).
         memory: MemoryLimit,
     },
+    /// The system has no more memory.
+    #[error(
+        "Memory ran out: the mesh needs an array of {}, which the system does not have. Close other programs, or make the \
+         mesh coarser.",
+        Bytes(*bytes)
+    )]
+    OutOfMemory {
+        /// The size of the array.
+        bytes: usize,
+    },
     /// The target is smaller than the lattice can resolve.
     #[error(
         "The target diameter near x = {}, y = {} is too small: below {smallest:.3e} (level {level}) nodes would leave the \
@@ -70,8 +80,8 @@ impl RefineError {
         Self::TooFine { at: lattice.world_from_lattice(at), smallest, level }
     }
 
-    /// Whether the mesh would be too large: a larger budget helps.
+    /// Whether the mesh would be too large for its limits or for the memory of the system.
     pub fn is_over_budget(&self) -> bool {
-        matches!(self, Self::TooManyTriangles { .. } | Self::TooMuchMemory { .. })
+        matches!(self, Self::TooManyTriangles { .. } | Self::TooMuchMemory { .. } | Self::OutOfMemory { .. })
     }
 }

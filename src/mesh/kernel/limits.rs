@@ -13,7 +13,7 @@ pub const MOST_TRIANGLES: usize = (1 << 31) - 1;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
     /// Most triangles; refinement that would pass it stops with an error. A triangle and its share of the
-    /// nodes take 38 bytes, and about 20 more while the mesh is refined from scratch.
+    /// nodes take 38 bytes, and up to 48 more while the mesh is refined from scratch.
     pub max_triangles: usize,
     /// Deepest level, or `None` for as deep as the lattice goes. Triangles at this level count as satisfied.
     pub max_level: Option<u32>,
@@ -63,27 +63,57 @@ pub struct MemoryLimit {
 
 /// A triangle and its share of the nodes, in bytes ([`Mesh::bytes`](crate::mesh::Mesh::bytes)).
 const IN_THE_MESH: usize = 38;
-/// While it is refined from scratch: the mesh of the blocks, which has about a third of the triangles where
-/// the target diameter changes everywhere; or by the vertex rule, the order of visits and the values
-/// at nodes.
-const WHILE_MADE: usize = 20;
+/// While it is refined from scratch: the mesh of the blocks with their depths and numbers, where every triangle
+/// is a block because the target diameter changes everywhere. The vertex rule takes less: the order of visits
+/// and the values at nodes.
+const WHILE_MADE: usize = 48;
+/// Afterwards, for files and summaries: what lies in the domain, without gaps, and the numbers of its parts.
+const WHILE_WRITTEN: usize = 58;
 /// While it is updated in place: the marks, with room to double
 /// ([`Updater::bytes`](crate::mesh::Updater::bytes)).
 const WHILE_UPDATED: usize = 2;
 
 impl MemoryLimit {
+    /// The most bytes that a triangle of a mesh takes that is made once and written.
+    pub const ONE_MESH: usize = IN_THE_MESH + WHILE_WRITTEN;
+
+    /// The most bytes that a triangle takes of a mesh that is updated in place, or made again beside the one
+    /// that is shown.
+    pub const TWO_MESHES: usize = 2 * IN_THE_MESH + WHILE_MADE + WHILE_UPDATED;
+
     /// For a mesh that is made once.
     pub fn for_one_mesh(bytes: usize) -> Self {
-        Self { bytes, per_triangle: IN_THE_MESH + WHILE_MADE }
+        Self { bytes, per_triangle: Self::ONE_MESH }
     }
 
     /// For a mesh that is updated in place, or made again beside the one that is shown.
     pub fn for_two_meshes(bytes: usize) -> Self {
-        Self { bytes, per_triangle: 2 * IN_THE_MESH + WHILE_MADE + WHILE_UPDATED }
+        Self { bytes, per_triangle: Self::TWO_MESHES }
     }
 
     /// How many triangles there is room for.
     pub fn triangles(&self) -> usize {
         self.bytes / self.per_triangle.max(1)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::MemoryLimit;
+
+    #[test]
+    fn the_help_and_the_documentation_name_the_bytes_of_a_triangle() {
+        let [one, two] = [MemoryLimit::ONE_MESH, MemoryLimit::TWO_MESHES];
+        for (text, words) in [
+            (include_str!("../../cli/args.rs"), format!(": {one} bytes a triangle")),
+            (include_str!("../../../docs/manual/limits.md"), format!("; {two} bytes a triangle")),
+            (
+                include_str!("../../../ARCHITECTURE.md"),
+                format!("{two} bytes each in the window, and {one} on the command line"),
+            ),
+        ] {
+            let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
+            assert!(text.contains(&words), "{words}");
+        }
     }
 }

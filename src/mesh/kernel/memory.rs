@@ -1,8 +1,12 @@
-//! Room for large arrays: reserved once, taken as it is touched, in large pages.
+//! Room for large arrays: reserved once, taken as it is touched, in large pages. What happens when the system
+//! has no more memory.
 
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::cell::Cell;
+use std::io::Write;
 use std::mem::MaybeUninit;
 
-use super::Mesh;
+use super::{Mesh, RefineError};
 
 /// A large page, in bytes. Arrays that fit one grow by doubling, in memory that the allocator has at hand.
 const PAGE: usize = 2 << 20;
@@ -12,16 +16,19 @@ impl Mesh {
     /// triangles unless `more` asks for it. Returns how many triangles there can be before this must be
     /// called again.
     ///
+    /// # Errors
+    /// When the system has no more memory.
+    ///
     /// A large mesh reserves all it may ever need in one step: untouched memory costs nothing, and the arrays
     /// never move again. With large pages this takes a third off the time to build two million triangles.
     #[cold]
-    pub(in crate::mesh) fn make_room(&mut self, more: usize, most: usize) -> usize {
-        make_room(&mut self.triangles, more, most);
+    pub(in crate::mesh) fn make_room(&mut self, more: usize, most: usize) -> Result<usize, RefineError> {
+        try_make_room(&mut self.triangles, more, most)?;
         // A bisection makes one node, and one or two triangles.
-        make_room(&mut self.nodes, more, most);
-        make_room(&mut self.triangle_at, more, most);
+        try_make_room(&mut self.nodes, more, most)?;
+        try_make_room(&mut self.triangle_at, more, most)?;
         let room_for_nodes = self.nodes.capacity().min(self.triangle_at.capacity()) - self.nodes.len();
-        self.triangles.capacity().min(self.triangles.len() + room_for_nodes)
+        Ok(self.triangles.capacity().min(self.triangles.len() + room_for_nodes))
     }
 }
 
@@ -41,27 +48,102 @@ impl Mesh {
     }
 }
 
-/// Makes room for `more` further entries, and where the array is large at once for `most` in all.
+/// Makes room as [`try_make_room`] does, and ends the program where the system has no more memory.
 pub(in crate::mesh) fn make_room<T>(array: &mut Vec<T>, more: usize, most: usize) {
+    if try_make_room(array, more, most).is_err() {
+        array.reserve(more);
+    }
+}
+
+/// Makes room for `more` further entries, and where the array is large at once for `most` in all.
+///
+/// # Errors
+/// When the system has no more memory.
+pub(in crate::mesh) fn try_make_room<T>(
+    array: &mut Vec<T>,
+    more: usize,
+    most: usize,
+) -> Result<(), RefineError> {
     if array.capacity() - array.len() >= more {
-        return;
+        return Ok(());
     }
     let (size, most) = (size_of::<T>(), most.max(array.len() + more));
     // Windows charges for a reservation as if it were used.
-    if cfg!(windows) || size * 2 * (array.len() + more) <= PAGE {
-        array.reserve(more);
-        return;
-    }
-    // The system may refuse to promise so much: ask for less, down to doubling.
-    let mut wanted = most;
-    while wanted > 2 * array.len() + more {
-        if array.try_reserve_exact(wanted - array.len()).is_ok() {
-            advise_large_pages(array);
-            return;
+    if !cfg!(windows) && size * 2 * (array.len() + more) > PAGE {
+        // The system may refuse to promise so much: ask for less, down to doubling.
+        let mut wanted = most;
+        while wanted > 2 * array.len() + more {
+            if may_fail(|| array.try_reserve_exact(wanted - array.len())).is_ok() {
+                advise_large_pages(array);
+                return Ok(());
+            }
+            wanted /= 4;
         }
-        wanted /= 4;
     }
-    array.reserve(more);
+    let bytes = size * (array.len() + more);
+    may_fail(|| array.try_reserve(more)).map_err(|_| RefineError::OutOfMemory { bytes })
+}
+
+thread_local! {
+    /// Whether the caller handles a lack of memory itself.
+    static MAY_FAIL: Cell<bool> = const { Cell::new(false) };
+}
+
+/// Runs `reserve`, which handles a lack of memory itself.
+fn may_fail<T>(reserve: impl FnOnce() -> T) -> T {
+    MAY_FAIL.set(true);
+    let result = reserve();
+    MAY_FAIL.set(false);
+    result
+}
+
+/// The allocator of the program: that of the system. When the system has no more memory, it ends the program
+/// with a sentence and exit status 1, where Rust's usual way is to abort.
+#[derive(Debug)]
+pub struct ProgramAllocator;
+
+// SAFETY: all calls are passed on to the allocator of the system unchanged, and so are its results.
+#[allow(unsafe_code, reason = "an allocator has no safe interface")]
+unsafe impl GlobalAlloc for ProgramAllocator {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        // SAFETY: the caller keeps the rules of this function, which are those of the system's.
+        given(unsafe { System.alloc(layout) }, layout.size())
+    }
+
+    unsafe fn alloc_zeroed(&self, layout: Layout) -> *mut u8 {
+        // SAFETY: as above.
+        given(unsafe { System.alloc_zeroed(layout) }, layout.size())
+    }
+
+    unsafe fn realloc(&self, place: *mut u8, layout: Layout, size: usize) -> *mut u8 {
+        // SAFETY: as above.
+        given(unsafe { System.realloc(place, layout, size) }, size)
+    }
+
+    unsafe fn dealloc(&self, place: *mut u8, layout: Layout) {
+        // SAFETY: as above.
+        unsafe { System.dealloc(place, layout) }
+    }
+}
+
+/// What the system gave, unless that is nothing and nobody handles it.
+#[inline]
+fn given(place: *mut u8, bytes: usize) -> *mut u8 {
+    if place.is_null() && !MAY_FAIL.get() {
+        end_without_memory(bytes);
+    }
+    place
+}
+
+/// Ends the program. Nothing here allocates.
+#[cold]
+fn end_without_memory(bytes: usize) -> ! {
+    let _ = writeln!(
+        std::io::stderr(),
+        "meshbrush: Memory ran out: the system has no {bytes} bytes more. Make the mesh coarser, allow fewer triangles or less \
+         memory for it, or close other programs. Files that were being written are unchanged."
+    );
+    std::process::exit(1)
 }
 
 /// Asks the system to back the array with pages of 2 MiB: five hundred times fewer page faults and misses of

@@ -34,6 +34,7 @@ pub use element::{Element, Progress};
 pub use errors::{InvalidTarget, RefineError};
 pub use ids::{Neighbour, NodeId, TriangleId};
 pub use limits::{Limits, MOST_TRIANGLES, MemoryLimit};
+pub use memory::ProgramAllocator;
 pub use refine::Refiner;
 pub use tree::TreeTriangle;
 pub use triangle::{Orientation, Triangle};

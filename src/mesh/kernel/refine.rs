@@ -15,7 +15,8 @@
 //! ends at a coarse triangle at the latest. All calls together add at most a constant times as many triangles
 //! as exceed their target [BDD2004].
 
-use super::{Diameters, Element, InvalidTarget, Limits, Mesh, Progress, RefineError, TriangleId, make_room};
+use super::memory::try_make_room;
+use super::{Diameters, Element, InvalidTarget, Limits, Mesh, Progress, RefineError, TriangleId};
 
 /// Refinement of a mesh in slices (Algorithm 12).
 ///
@@ -108,7 +109,7 @@ impl Refiner {
     fn room_for(&mut self, mesh: &mut Mesh, id: TriangleId, most_new: usize) -> Result<usize, RefineError> {
         let room = mesh.room_for(id, most_new, &self.limits)?;
         let limit = self.limits.most_triangles();
-        make_room(&mut self.work.after, most_new, limit);
+        try_make_room(&mut self.work.after, most_new, limit)?;
         Ok(room.min(self.work.after.capacity()))
     }
 
@@ -261,7 +262,7 @@ impl Mesh {
     /// how many triangles there can be before this must be asked again.
     ///
     /// # Errors
-    /// When the call would pass the triangle budget.
+    /// When the call would pass the triangle budget, or the system has no more memory.
     #[cold]
     pub(super) fn room_for(
         &mut self,
@@ -274,7 +275,7 @@ impl Mesh {
         if count + most_new > limit && count + self.closure_size(id) > limit {
             return Err(limits.passed());
         }
-        Ok(self.make_room(most_new, limit).min(limit))
+        Ok(self.make_room(most_new, limit)?.min(limit))
     }
 
     /// The most triangles that [`Self::refine_triangle`] appends for one of this level: the closure bisects

@@ -80,7 +80,7 @@ impl BlockRefiner {
                 Progress::More => Stage::Skeleton(skeleton),
                 Progress::Done => self.begin_writing(skeleton.finish())?,
             },
-            Stage::Write(mut writer) => match writer.advance(mesh, &self.limits, visits) {
+            Stage::Write(mut writer) => match writer.advance(mesh, &self.limits, visits)? {
                 Progress::More => Stage::Write(writer),
                 Progress::Done => Stage::Done,
             },

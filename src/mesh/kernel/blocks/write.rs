@@ -16,7 +16,9 @@ use super::skeleton::{Blocks, edge_shared_with};
 use super::template::{Side, Template, nodes_within};
 use crate::geometry::LatticePoint;
 use crate::mesh::kernel::memory::{Piece, append_pieces};
-use crate::mesh::kernel::{KindCounts, Limits, Mesh, Neighbour, NodeId, Progress, Triangle, TriangleId};
+use crate::mesh::kernel::{
+    KindCounts, Limits, Mesh, Neighbour, NodeId, Progress, RefineError, Triangle, TriangleId,
+};
 
 /// About so many triangles are a chunk, which is written by one thread.
 const CHUNK_TRIANGLES: usize = 1 << 14;
@@ -53,10 +55,9 @@ struct Free {
 struct Numbers {
     /// Where its triangles but the first would begin if that one were among them.
     triangles: u32,
-    /// Where the nodes within each edge begin.
-    nodes_within: [u32; 3],
-    /// Where the nodes inside begin.
-    inner_nodes: u32,
+    /// Where its own nodes begin: those within the edges that belong to it, in the order of the edges, and then
+    /// those inside.
+    nodes: u32,
 }
 
 /// Consecutive blocks.
@@ -78,30 +79,38 @@ impl Writer {
     }
 
     /// Numbers about `visits` blocks, or writes about as many triangles, or more to occupy all threads.
-    pub fn advance(&mut self, mesh: &mut Mesh, limits: &Limits, visits: usize) -> Progress {
+    ///
+    /// # Errors
+    /// When the system has no more memory.
+    pub fn advance(
+        &mut self,
+        mesh: &mut Mesh,
+        limits: &Limits,
+        visits: usize,
+    ) -> Result<Progress, RefineError> {
         if self.numbers.len() < self.blocks.depths.len() {
             self.number(visits);
-            return Progress::More;
+            return Ok(Progress::More);
         }
         if self.copied < self.blocks.mesh.triangles.len().max(self.blocks.mesh.nodes.len()) {
-            self.copy_skeleton(mesh, limits, visits);
-            return Progress::More;
+            self.copy_skeleton(mesh, limits, visits)?;
+            return Ok(Progress::More);
         }
         let count = (visits / CHUNK_TRIANGLES).max(CHUNKS_PER_THREAD * rayon::current_num_threads());
         let chunks = &self.chunks[self.next..];
         self.write(mesh, &chunks[..count.min(chunks.len())]);
         self.next += count.min(chunks.len());
-        if self.next == self.chunks.len() { Progress::Done } else { Progress::More }
+        Ok(if self.next == self.chunks.len() { Progress::Done } else { Progress::More })
     }
 
     /// Puts the skeleton in place of the contents of `mesh`, and makes room for the triangles of all blocks.
-    fn copy_skeleton(&mut self, mesh: &mut Mesh, limits: &Limits, visits: usize) {
+    fn copy_skeleton(&mut self, mesh: &mut Mesh, limits: &Limits, visits: usize) -> Result<(), RefineError> {
         let skeleton = &self.blocks.mesh;
         if self.copied == 0 {
             mesh.triangles.clear();
             mesh.nodes.clear();
             mesh.triangle_at.clear();
-            mesh.make_room(self.free.triangle as usize, limits.most_triangles());
+            mesh.make_room(self.free.triangle as usize, limits.most_triangles())?;
             mesh.counts = self.counts;
         }
         let end = visits.max(1).saturating_mul(COPIES_PER_VISIT).saturating_add(self.copied);
@@ -112,6 +121,7 @@ impl Writer {
         let nodes = nodes.into_par_iter().map(NodeId::from_index);
         mesh.triangle_at.par_extend(nodes.map(|node| self.triangle_at_corner(node)));
         self.copied = end;
+        Ok(())
     }
 
     fn write(&self, mesh: &mut Mesh, chunks: &[Chunk]) {
@@ -152,14 +162,17 @@ impl Writer {
         let depth = u32::from(self.blocks.depths[block]);
         let kind = self.blocks.mesh.triangles[block].kind();
         self.counts.add_many(kind.finer_by(depth), 1 << depth);
-        let triangles = self.free.triangle - 1;
+        self.numbers.push(Numbers { triangles: self.free.triangle - 1, nodes: self.free.node });
         self.free.triangle += (1 << depth) - 1;
-        let nodes_within = [0, 1, 2].map(|edge| match self.owner(block, edge) {
-            Some((owner, edge)) => self.numbers[owner.index()].nodes_within[edge],
-            None => self.free.take_nodes(nodes_within(depth, edge)),
-        });
-        let inner_nodes = self.free.take_nodes(self.template(block).inner_slots().len() as u32);
-        self.numbers.push(Numbers { triangles, nodes_within, inner_nodes });
+        let own: usize = self.own_slots(block).map(|slots| slots.len()).sum();
+        self.free.node += own as u32;
+    }
+
+    /// Where the nodes within the first edges of a block, up to this one, begin that belong to it.
+    fn own_nodes_within(&self, block: usize, edge: usize) -> u32 {
+        let depth = u32::from(self.blocks.depths[block]);
+        let before = (0..edge).filter(|&edge| self.owner(block, edge).is_none());
+        self.numbers[block].nodes + before.map(|edge| nodes_within(depth, edge)).sum::<u32>()
     }
 
     /// The other block that the nodes within an edge belong to, and its number of the edge; `None` where they
@@ -237,19 +250,26 @@ impl Writer {
 
     /// The nodes of all slots of a block.
     fn node_ids(&self, block: usize, ids: &mut Vec<NodeId>) {
-        let (numbers, template) = (self.numbers[block], self.template(block));
+        let template = self.template(block);
+        let mut own = self.numbers[block].nodes;
         ids.clear();
         ids.extend(self.blocks.mesh.triangles[block].vertices);
-        for (edge, first) in numbers.nodes_within.into_iter().enumerate() {
-            let on_edge = (first..first + template.nodes_within(edge)).map(NodeId);
-            if self.owner(block, edge).is_none() {
-                ids.extend(on_edge);
-            } else {
-                // The other block passes along the edge in the other direction.
-                ids.extend(on_edge.rev());
+        for edge in 0..3 {
+            let count = template.nodes_within(edge);
+            match self.owner(block, edge) {
+                None => {
+                    ids.extend((own..own + count).map(NodeId));
+                    own += count;
+                }
+                Some(_) if count == 0 => {}
+                Some((owner, edge)) => {
+                    // The other block passes along the edge in the other direction.
+                    let first = self.own_nodes_within(owner.index(), edge);
+                    ids.extend((first..first + count).rev().map(NodeId));
+                }
             }
         }
-        ids.extend((numbers.inner_nodes..).take(template.inner_slots().len()).map(NodeId));
+        ids.extend((own..).take(template.inner_slots().len()).map(NodeId));
     }
 
     /// The triangles of a block with these nodes.
@@ -285,14 +305,6 @@ impl Writer {
         for (side, other) in here.zip(there.iter().rev()) {
             set(side, self.triangle(across, other.triangle).into());
         }
-    }
-}
-
-impl Free {
-    /// The first of the next `count` numbers of nodes.
-    fn take_nodes(&mut self, count: u32) -> u32 {
-        self.node += count;
-        self.node - count
     }
 }
 

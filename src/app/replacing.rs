@@ -1,0 +1,71 @@
+//! The questions before something would be lost: edits of the document, or what is in a file.
+
+use std::path::PathBuf;
+
+use eframe::egui::Context;
+
+use super::command::Command;
+use super::files::listed;
+use super::frame::FrameState;
+use super::widgets::ConfirmDialog;
+
+/// Files that would be replaced.
+pub struct Replacing {
+    /// The files, which exist.
+    pub files: Vec<PathBuf>,
+    /// What would be lost.
+    pub loss: Loss,
+    /// The command that replaces them.
+    pub command: Command,
+}
+
+/// What would be lost with a file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Loss {
+    /// What is in it.
+    Contents,
+    /// What somebody else saved to the document's own file since it was read.
+    OtherVersion,
+    /// What another window saves to it.
+    OtherWindow,
+}
+
+/// Asks about unsaved edits and existing files.
+pub fn questions(ctx: &Context, state: &FrameState<'_>, asks_for_file: bool, commands: &mut Vec<Command>) {
+    let project = state.project;
+    if project.leaving.is_some() && project.replacing.is_none() && !asks_for_file {
+        let question = format!("Save changes to “{}”?", project.document_name(state.session));
+        let dialog = ConfirmDialog::new(&question, "Unsaved changes will be lost.", "Save");
+        commands.extend(dialog.alternative("Do not save").show(ctx).map(Command::AnswerLeaving));
+    }
+    if let Some(replacing) = &project.replacing {
+        let (question, body) = replacing.question();
+        let dialog = ConfirmDialog::new(&question, &body, "Replace").danger();
+        commands.extend(dialog.show(ctx).map(Command::AnswerReplacing));
+    }
+}
+
+impl Replacing {
+    /// The question, and what would be lost.
+    fn question(&self) -> (String, String) {
+        let one = match &self.files[..] {
+            [file] => file,
+            files => {
+                let body = format!("The present contents of {} will be lost.", listed(files));
+                return (format!("Replace {} files?", files.len()), body);
+            }
+        };
+        let body = match self.loss {
+            Loss::Contents => "Its present contents will be lost.",
+            Loss::OtherVersion => {
+                "It is not as it was when this document was opened or saved: somebody else changed it. What they saved \
+                 will be lost. Cancel, and save this document under another name to keep both."
+            }
+            Loss::OtherWindow => {
+                "It is open in another window of Meshbrush, too. What that window saved, or saves later, and what you save \
+                 here replace each other. Cancel, and save this document under another name to keep both."
+            }
+        };
+        (format!("Replace {}?", one.display()), body.into())
+    }
+}
