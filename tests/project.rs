@@ -601,7 +601,7 @@ fn rasters_of_all_layers_together_are_limited_before_they_are_unpacked() {
         }))
     };
     refused(&with_large(2), &["damaged"]);
-    refused(&with_large(3), &["600 000 000 pixels"]);
+    refused(&with_large(3), &["600,000,000 pixels"]);
 }
 
 #[test]

@@ -85,8 +85,8 @@ pub fn write(path: PathBuf, project: Project, version: u64, expected: Expected, 
     });
 }
 
-/// Writes a project, and returns the stamp of its file; `None` if the file has other contents than are expected,
-/// and stays as it is.
+/// Writes a project, and returns the stamp of its file; `None` if the file has other contents than are
+/// expected, and stays as it is.
 fn write_expected(
     file: &Path,
     project: &Project,

@@ -104,7 +104,8 @@ impl ProjectFile {
     }
 
     /// Another document was opened: from a file, if it has one, which has this version if it is `saved`. What
-    /// was to be done with the former document is forgotten. Returns whether another window has the file open.
+    /// was to be done with the former document is forgotten. Returns whether another window has the file
+    /// open.
     pub fn open(&mut self, home: Option<Home>, version: u64, saved: bool) -> bool {
         (self.leaving, self.after_saving, self.given_up) = (None, None, None);
         (self.replacing, self.save_again) = (None, None);

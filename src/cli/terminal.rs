@@ -49,7 +49,8 @@ impl Terminal {
     pub fn while_metered<T>(&mut self, what: &str, meter: &Meter, work: impl FnOnce() -> T) -> T {
         let (start, done) = (Instant::now(), AtomicBool::new(false));
         thread::scope(|scope| {
-            let watcher = scope.spawn(|| {
+            // Where memory is so short that there is no thread, nothing is shown.
+            let watcher = thread::Builder::new().spawn_scoped(scope, || {
                 while !done.load(Ordering::Relaxed) {
                     self.progress(start, || format!("{what}, {}", share(meter)));
                     thread::park_timeout(PACE);
@@ -58,7 +59,9 @@ impl Terminal {
             });
             let result = work();
             done.store(true, Ordering::Relaxed);
-            watcher.thread().unpark();
+            if let Ok(watcher) = watcher {
+                watcher.thread().unpark();
+            }
             result
         })
     }

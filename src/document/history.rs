@@ -337,7 +337,8 @@ mod tests {
         (0..corners).map(|n| 0.5 + 0.4 * dvec2(angle(n).cos(), angle(n).sin())).collect()
     }
 
-    /// Sets layers, with data of 20,000 corners or threats, and undoes them. Returns the bytes that undo keeps.
+    /// Sets layers, with data of 20,000 corners or threats, and undoes them. Returns the bytes that undo
+    /// keeps.
     fn kept_by_undo(layer: Layer) -> usize {
         let mut document = Document::new(Settings::default(), None).unwrap();
         document.record();

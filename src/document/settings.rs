@@ -124,8 +124,8 @@ pub enum SettingsError {
 /// Most coarse triangles of a document: the coarse grid is made in one go, and must not delay a frame.
 pub const MAX_COARSE_TRIANGLES: usize = 130_000;
 
-/// Most pixels of the rasters of all layers, each raster counted once. A project with more is not read: pixels
-/// without a value pack to a thousandth, so that a small file could fill the memory.
+/// Most pixels of the rasters of all layers, each raster counted once. A project with more is not read:
+/// pixels without a value pack to a thousandth, so that a small file could fill the memory.
 pub const MOST_RASTER_PIXELS: u64 = 500_000_000;
 
 /// Least memory budget, in bytes: the program without a mesh takes a hundred times as much.

@@ -19,7 +19,8 @@ pub fn make_folder(path: &Path) -> io::Result<()> {
     fs::create_dir_all(path)
 }
 
-/// Removes files that this run has made, when they are of no use without others. What cannot be removed stays.
+/// Removes files that this run has made, when they are of no use without others. What cannot be removed
+/// stays.
 pub fn remove_new(files: &[PathBuf]) {
     for file in files {
         let _ = fs::remove_file(file); // the failure that made them useless is the one to report
@@ -49,8 +50,8 @@ fn folder_of(path: &Path) -> &Path {
     path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
-/// The file that a path stands for: a link stays a link, and the file that it points to is written, whether it
-/// exists or not.
+/// The file that a path stands for: a link stays a link, and the file that it points to is written, whether
+/// it exists or not.
 fn behind_links(path: &Path) -> Result<PathBuf, String> {
     if let Ok(existing) = fs::canonicalize(path) {
         return Ok(existing);
@@ -166,8 +167,8 @@ fn filled(file: File, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> i
     out.into_inner().map_err(io::IntoInnerError::into_error)
 }
 
-/// Creates and locks a temporary file in the same folder, `.NAME.RUN-WRITE.part`. Its name is unique among all
-/// runs of the program and all writes of each run.
+/// Creates and locks a temporary file in the same folder, `.NAME.RUN-WRITE.part`. Its name is unique among
+/// all runs of the program and all writes of each run.
 fn new_part(target: &Path) -> io::Result<(File, PathBuf)> {
     static WRITES: AtomicU64 = AtomicU64::new(0);
     let name =

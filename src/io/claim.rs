@@ -1,8 +1,8 @@
 //! Which projects are open in a window: two windows on one project know of each other.
 //!
-//! A window holds a lock on a small file in the user's data folder, one for each project, as long as the project
-//! is open. The operating system releases the lock when the program ends in any way. The project's own file is
-//! not locked: saving replaces it, and other programs may read it.
+//! A window holds a lock on a small file in the user's data folder, one for each project, as long as the
+//! project is open. The operating system releases the lock when the program ends in any way. The project's
+//! own file is not locked: saving replaces it, and other programs may read it.
 
 use std::fs::{self, File, TryLockError};
 use std::io;
@@ -25,8 +25,8 @@ impl Claim {
         // The same file by whatever name.
         let project = fs::canonicalize(project)?;
         let name = format!("{:016x}.lock", hash(project.as_os_str().as_encoded_bytes()));
-        // Never removed: whoever waits for a removed file would hold a lock that nobody else sees. Some network
-        // disks lock only what is open for reading and writing.
+        // Never removed: whoever waits for a removed file would hold a lock that nobody else sees. Some
+        // network disks lock only what is open for reading and writing.
         let file =
             File::options().read(true).write(true).create(true).truncate(false).open(folder.join(name))?;
         match file.try_lock() {

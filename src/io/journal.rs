@@ -231,8 +231,8 @@ pub enum Left {
     },
 }
 
-/// What earlier runs left in the journals in a folder, one journal at a time: those that no running program has
-/// locked. Journals without unsaved work are deleted.
+/// What earlier runs left in the journals in a folder, one journal at a time: those that no running program
+/// has locked. Journals without unsaved work are deleted.
 pub fn left(folder: &Path) -> impl Iterator<Item = Left> + use<> {
     let mut paths: Vec<PathBuf> =
         fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path()).collect();

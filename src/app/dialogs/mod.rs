@@ -84,8 +84,8 @@ impl Dialogs {
         self.folders.store(storage);
     }
 
-    /// Asks for a file for a document with a name without an ending: beside the file `beside`, where no folder
-    /// for such files is known.
+    /// Asks for a file for a document with a name without an ending: beside the file `beside`, where no
+    /// folder for such files is known.
     pub fn ask(
         &mut self,
         request: FileRequest,

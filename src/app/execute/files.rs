@@ -279,7 +279,8 @@ impl App {
         self.commands.extend(commands);
     }
 
-    /// Says what became of work for a document that is no longer open, and keeps it away from the one that is.
+    /// Says what became of work for a document that is no longer open, and keeps it away from the one that
+    /// is.
     fn finish_for_former_document(&mut self, Finished { name, outcome, .. }: Finished) {
         match outcome {
             // It is a document of its own.

@@ -28,8 +28,8 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
             value_row(ui, "Mesh", "being measured");
             return;
         };
-        // The figures of the former mesh stay until those of the new one are known: nothing jumps. Their places
-        // are no places of the mesh that is shown.
+        // The figures of the former mesh stay until those of the new one are known: nothing jumps. Their
+        // places are no places of the mesh that is shown.
         ui.scope(|ui| {
             if !is_current {
                 ui.disable();

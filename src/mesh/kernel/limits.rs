@@ -63,9 +63,9 @@ pub struct MemoryLimit {
 
 /// A triangle and its share of the nodes, in bytes ([`Mesh::bytes`](crate::mesh::Mesh::bytes)).
 const IN_THE_MESH: usize = 38;
-/// While it is refined from scratch: the mesh of the blocks with their depths and numbers, where every triangle
-/// is a block because the target diameter changes everywhere. The vertex rule takes less: the order of visits
-/// and the values at nodes.
+/// While it is refined from scratch: the mesh of the blocks with their depths and numbers, where every
+/// triangle is a block because the target diameter changes everywhere. The vertex rule takes less: the order
+/// of visits and the values at nodes.
 const WHILE_MADE: usize = 48;
 /// Afterwards, for files and summaries: what lies in the domain, without gaps, and the numbers of its parts.
 const WHILE_WRITTEN: usize = 58;

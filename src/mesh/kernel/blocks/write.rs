@@ -55,8 +55,8 @@ struct Free {
 struct Numbers {
     /// Where its triangles but the first would begin if that one were among them.
     triangles: u32,
-    /// Where its own nodes begin: those within the edges that belong to it, in the order of the edges, and then
-    /// those inside.
+    /// Where its own nodes begin: those within the edges that belong to it, in the order of the edges, and
+    /// then those inside.
     nodes: u32,
 }
 
