@@ -20,6 +20,9 @@ const GRID: &str = "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 0.5\n0.
 const THREATS: &str = "x,y,range,peak\n0.5,0.5,0.1,0.9\n";
 const PICTURE: &[u8] = include_bytes!("../../../assets/icon.png");
 
+/// The name of a file, what is in it, and the command that reads it.
+type Case<'a> = (&'a str, &'a [u8], fn(PathBuf) -> Command);
+
 fn pipe(test: &str, name: &str) -> PathBuf {
     let path = super::folder("app-identity", test).join(name);
     assert!(process::Command::new("mkfifo").arg(&path).status().unwrap().success());
@@ -35,7 +38,7 @@ fn new_document(window: &mut Window) {
 #[test]
 fn what_is_read_for_one_document_does_not_change_the_next_one() {
     let keep_out = |path| Command::Path(PathCommand::KeepOut(KeepOutCommand::Open(path)));
-    let cases: [(&str, &[u8], fn(PathBuf) -> Command); 10] = [
+    let cases: [Case<'_>; 10] = [
         ("mask.geojson", SQUARE.as_bytes(), Command::OpenMask),
         ("outline.geojson", SQUARE.as_bytes(), Command::AddOutline),
         ("shapes.geojson", SQUARE.as_bytes(), Command::OpenShapes),
