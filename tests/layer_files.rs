@@ -46,7 +46,7 @@ impl Folder {
         let (status, out, err) = self.run(&[&["mesh", "--json"], arguments].concat());
         assert_eq!(status, 0, "{arguments:?}: {err}");
         let summary: serde_json::Value = serde_json::from_str(&out).unwrap();
-        format!("{} {}", summary["fingerprint"], summary["triangles"])
+        format!("{} {}", summary["hash"].as_str().unwrap(), summary["triangles"])
     }
 }
 

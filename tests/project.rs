@@ -287,11 +287,11 @@ fn the_command_line_and_the_window_make_the_same_mesh() {
         rules.push(summary["rule"].as_str().unwrap().to_owned());
     }
     assert!(rules.iter().any(|rule| rule == "vertex") && rules.iter().any(|rule| rule == "area"));
-    // Its budget is the project's unless another is asked for, and every other option belongs to the project.
+    // Its budget is the project's unless another is asked for, and its layers are its own.
     let refused = meshed(&["--project", path, "--max-triangles", "100"]).unwrap_err();
     assert!(refused.starts_with("1 ") && refused.contains("100"), "{refused}");
-    let refused = meshed(&["--project", path, "--spacing", "1"]).unwrap_err();
-    assert!(refused.starts_with("2 ") && refused.contains("--spacing"), "{refused}");
+    let refused = meshed(&["--project", path, "--target", "1"]).unwrap_err();
+    assert!(refused.starts_with("2 ") && refused.contains("--target"), "{refused}");
     fs::write(&file, &fs::read(&file).unwrap()[..100]).unwrap();
     let refused = meshed(&["--project", path]).unwrap_err();
     assert!(refused.starts_with("1 ") && refused.contains("cut off"), "{refused}");
@@ -440,16 +440,22 @@ fn archives_packed_by_other_tools_are_opened() {
 #[test]
 fn a_newer_version_is_named() {
     let newer = rewritten(|text| {
-        let newer = text.replace("\"version\": 2", "\"version\": 7, \"seasons\": [1, 2]");
+        let newer = text.replace("\"version\": 3", "\"version\": 7, \"seasons\": [1, 2]");
         newer.replace(concat!("Meshbrush ", env!("CARGO_PKG_VERSION")), "Meshbrush 9.9")
     });
-    refused(&newer, &[NAME, "settings.json", "Meshbrush 9.9", "version 7", "up to version 2"]);
+    refused(&newer, &[NAME, "settings.json", "Meshbrush 9.9", "version 7", "up to version 3"]);
+}
+
+#[test]
+fn a_project_of_version_2_opens() {
+    let older = rewritten(|text| text.replace("\"version\": 3", "\"version\": 2"));
+    assert!(opened(&older).unwrap() == small());
 }
 
 #[test]
 fn errors_in_settings_name_their_place() {
     let cases: &[(&str, &str, &[&str])] = &[
-        ("\"version\": 2", "\"version\": 2, \"seasons\": 4", &["line 3", "seasons"]),
+        ("\"version\": 3", "\"version\": 3, \"seasons\": 4", &["line 3", "seasons"]),
         ("\"spacing\"", "\"spacing\": 1e999, \"spacings\"", &["settings.json"]),
         ("\"columns\": 2", "\"columns\": 100000", &["100,000 × 2", "65,536"]),
         ("\"columns\": 2", "\"columns\": 8192", &["raster", "checksum"]),
@@ -491,7 +497,7 @@ fn errors_stay_short_for_long_values() {
     let long = "m".repeat(100_000);
     for [from, to] in [
         ["Meshbrush project", &long],
-        ["\"version\": 2", &format!("\"version\": 7, \"{long}\": 1")],
+        ["\"version\": 3", &format!("\"version\": 7, \"{long}\": 1")],
         ["\"written_by\": \"Mesh", &format!("\"written_by\": \"{long}")],
         ["\"spacing\"", &format!("\"{long}\"")],
         ["\"area\"", &format!("\"{long}\"")],
@@ -499,7 +505,7 @@ fn errors_stay_short_for_long_values() {
         let bytes = rewritten(|text| {
             assert!(text.contains(from), "{from}: {text}");
             text.replacen(from, to, 1).replacen(
-                "\"version\": 2",
+                "\"version\": 3",
                 "\"version\": 7",
                 usize::from(from.contains("written")),
             )

@@ -105,7 +105,7 @@ fn the_reference_has_an_example_that_is_valid_and_every_key() {
     let example = REFERENCE.split("```toml\n").nth(1).unwrap().split("```").next().unwrap();
     let find = |name: &str| Ok(name.into());
     let recipe = parse(Path::new("strait.toml"), example.into(), &find).unwrap();
-    assert_eq!((recipe.layers.len(), recipe.outputs.len()), (4, 2));
+    assert_eq!((recipe.mesh.layers.len(), recipe.outputs.len()), (4, 2));
     // The message about a key that does not exist lists those that do.
     for table in ["[{}]", "[domain]", "[mesh]", "[limits]", "[[layer]]", "[[output]]"] {
         let text = table.replace("[{}]", "") + "\nqqqqqqqqqqqqqqqqqqqq = 1";
@@ -123,7 +123,8 @@ fn the_reference_has_an_example_that_is_valid_and_every_key() {
 fn the_example_is_valid_and_uses_five_kinds() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/jacksboro.toml");
     let recipe = read(&path).unwrap();
-    let kinds: BTreeSet<&str> = recipe.layers.iter().map(|layer| layer.kind.saved_kind().word()).collect();
+    let kinds: BTreeSet<&str> =
+        recipe.mesh.layers.iter().map(|layer| layer.kind.saved_kind().word()).collect();
     assert_eq!(kinds.len(), 5, "{kinds:?}");
 }
 
@@ -212,8 +213,35 @@ fn mistakes_are_reported_with_line_and_column() {
             1,
             "none/a.svg cannot be written",
         ),
-        ("", "--target 1", 2, "cannot be used with"),
-        ("", "--gradation 1", 2, "cannot be used with"),
+        ("[[output]]\nfile = \"m.vtu\"\nbinary = true", "", 1, "r.toml, line 3, column 1: only .msh has"),
+        (
+            "[[output]]\nfile = \"m.vtu\"\nsize = \"80\"",
+            "",
+            1,
+            "r.toml, line 3, column 1: this is for pictures",
+        ),
+        (
+            "[[output]]\nfile = \"m.msh\"\nlight = true",
+            "",
+            1,
+            "r.toml, line 3, column 1: this is for pictures",
+        ),
+        (
+            "[[output]]\nfile = \"m.png\"\nquantities = [\"x\"]",
+            "",
+            1,
+            "r.toml, line 3, column 1: this format holds no values",
+        ),
+        (
+            "[domain]\nboundary = \"fitted\"",
+            "",
+            1,
+            "r.toml, line 2, column 1: this is for the outline of a region",
+        ),
+        ("", "--target 1", 2, "--target cannot be used with r.toml: domain and layers are those of the file"),
+        ("", "--domain 0,0,1,1", 2, "--domain cannot be used with r.toml"),
+        ("", "--h-min 2 --h-max 1", 2, "largest"),
+        ("[limits]\nh_min = 2", "--h-max 1", 2, "largest"),
         // 10¹² triangles, and more than any lattice has.
         (
             "[[layer]]\nkind = \"formula\"\nquantity = \"diameter\"\nformula = \"1e-6\"",

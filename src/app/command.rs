@@ -68,6 +68,8 @@ pub enum Command {
     OpenBackground(PathBuf),
     /// Reads polygons, and opens a new document with them as its domain.
     OpenDomain(PathBuf),
+    /// Reads a recipe, and opens a new document with its mesh.
+    OpenRecipe(PathBuf),
     /// Reads polygons, and adds them to the domain of the document.
     AddOutline(PathBuf),
     /// Adds an outline that was read.

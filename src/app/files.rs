@@ -16,7 +16,7 @@ use crate::domain::{BoundaryMarks, MeshBoundary, NamedPolygon};
 use crate::geometry::Rect;
 use crate::io::png::{Behind, decode};
 use crate::io::project::Project;
-use crate::io::recipe::{self, RecipeFiles};
+use crate::io::recipe::{self, OpenedRecipe, RecipeFiles};
 use crate::io::{self, MeshData, MeshSource, Meter, Provenance, recording};
 use crate::outline::DerivedMesh;
 use crate::raster::Raster;
@@ -85,6 +85,20 @@ pub fn load_domain(background: &mut Background, path: &Path) {
             Outcome::Opened { path: file, opened }
         }
         Err(problem) => Outcome::NotRead(problem),
+    });
+}
+
+/// Reads a recipe, which is shown as a document without a file once it is read.
+pub fn open_recipe(background: &mut Background, path: &Path) {
+    let file = path.to_owned();
+    background.start(Aim::Read, path, move |meter| match recipe::open(&file, meter) {
+        Ok(OpenedRecipe { document, notes }) => {
+            let opened = Opened { document: Arc::new(document), home: None };
+            let notes = (!notes.is_empty()).then(|| Command::Tell(notes.join(" ")));
+            let commands = [Command::Show(opened)].into_iter().chain(notes).collect();
+            Outcome::Read { path: file, commands }
+        }
+        Err(error) => Outcome::not_read(error),
     });
 }
 
@@ -206,7 +220,8 @@ pub fn save_recipe(session: &Session, background: &mut Background, path: &Path) 
     background.start(Aim::Export, path, move |meter| match recipe.write(meter) {
         Ok(()) => {
             let written: Vec<PathBuf> = recipe.paths().map(Path::to_owned).collect();
-            Outcome::Exported(format!("Saved as a recipe: {}.", listed(&written)))
+            let left_out = recipe.left_out().map_or(String::new(), |sentence| format!(" {sentence}"));
+            Outcome::Exported(format!("Saved as a recipe: {}.{left_out}", listed(&written)))
         }
         Err(_) if meter.is_cancelled() => Outcome::Exported(cancelled(Aim::Export, &file)),
         Err(error) => Outcome::NotWritten(format!("{} could not be written: {error}.", file.display())),

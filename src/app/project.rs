@@ -13,7 +13,7 @@ use super::session::Session;
 use super::widgets::Answer;
 use crate::io;
 use crate::io::project::{ENDING, Project};
-use crate::io::recipe::RecipeFiles;
+use crate::io::recipe::{self, RecipeFiles};
 use crate::io::recording;
 use crate::render::export::ExportFormat;
 
@@ -397,9 +397,11 @@ pub fn open_command(path: PathBuf) -> Result<Command, String> {
         ENDING => Ok(Command::OpenProject(path)),
         "png" | "asc" => Ok(Command::OpenImage(path)),
         "geojson" | "json" => Ok(Command::OpenDomain(path)),
+        recipe::ENDING => Ok(Command::OpenRecipe(path)),
         _ => Err(format!(
-            "{} cannot be opened: a project ends in .{ENDING}, a domain of polygons in .geojson, a greyscale picture of risk in .png, a grid of risk in .asc.",
-            path.display()
+            "{} cannot be opened: a project ends in .{ENDING}, a recipe in .{}, a domain of polygons in .geojson, a greyscale picture of risk in .png, a grid of risk in .asc.",
+            path.display(),
+            recipe::ENDING
         )),
     }
 }

@@ -18,8 +18,8 @@ use crate::render::export::ExportFormat;
 #[derive(Debug, Parser)]
 #[command(name = "meshbrush", version, args_conflicts_with_subcommands = true, max_term_width = 100)]
 pub struct Arguments {
-    /// File to open in the window: a project (.meshbrush), a domain (.geojson), or a greyscale picture as
-    /// risk (.png)
+    /// File to open in the window: a project (.meshbrush), a recipe (.toml), a domain (.geojson), or a
+    /// greyscale picture (.png) or grid (.asc) as risk
     pub file: Option<PathBuf>,
 
     /// Most threads that refine a mesh [default: one for each core]; the mesh is the same with any number
@@ -102,46 +102,22 @@ Examples:
   meshbrush path --project coast.meshbrush --from 1,2 --via 4,4 --to 8,3 --within 1% -o path.csv -o path.png
   meshbrush path --from 0,0 --to 1,1 --cost '1 + 5*x' --json";
 
-/// The options in whose place a project or a recipe stands.
-const DECIDED_BY_A_FILE: [&str; 22] = [
-    "domain",
-    "inside",
-    "region",
-    "boundary",
-    "boundary_diameter",
-    "spacing",
-    "target",
-    "risk",
-    "target_raster",
-    "risk_raster",
-    "threats",
-    "distance",
-    "distance_at_zero",
-    "distance_slope",
-    "distance_range",
-    "gradation",
-    "h_min",
-    "h_max",
-    "transfer_shape",
-    "rule",
-    "resolution",
-    "recipe",
-];
-
 /// What to mesh.
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Domain and target diameter")]
 pub struct InputArguments {
-    /// A recipe: a text that says what to mesh, in place of all other options on domain and target
+    /// A recipe: a text that says what to mesh; options override its values
     ///
-    /// docs/recipe.md lists its keys. The files of its outputs are written beside those of -o.
-    #[arg(value_name = "RECIPE.toml", conflicts_with_all = &DECIDED_BY_A_FILE[..21])]
+    /// Domain and layers are those of the recipe. docs/recipe.md lists its keys. The files of its outputs are
+    /// written beside those of -o.
+    #[arg(value_name = "RECIPE.toml")]
     pub recipe: Option<PathBuf>,
 
-    /// A project saved in the window (.meshbrush), in place of all other options on domain and target
+    /// A project saved in the window (.meshbrush); options override its settings
     ///
-    /// The mesh is the one that the window shows, with the same fingerprint.
-    #[arg(long, value_name = "FILE", conflicts_with_all = DECIDED_BY_A_FILE)]
+    /// Domain and layers are those of the project. Without options the mesh is the one that the window shows,
+    /// with the same fingerprint.
+    #[arg(long, value_name = "FILE", conflicts_with = "recipe")]
     pub project: Option<PathBuf>,
 
     /// Lower left and upper right corner of the domain [default: 0,0,1,1, or where the .asc rasters lie]
@@ -254,8 +230,10 @@ pub struct InputArguments {
     pub h_max: Option<f64>,
 
     /// Bend of the curve from risk to diameter: above 1 only high risk refines, below 1 low risk does
-    #[arg(long, value_name = "EXPONENT", default_value_t = 1.0, allow_hyphen_values = true)]
-    pub transfer_shape: f64,
+    ///
+    /// [default: 1]
+    #[arg(long, value_name = "EXPONENT", allow_hyphen_values = true)]
+    pub transfer_shape: Option<f64>,
 
     /// Which points of a triangle decide its target diameter [default: area with rasters, else vertex]
     #[arg(long)]
@@ -269,8 +247,8 @@ pub struct InputArguments {
     #[arg(long, value_name = "N")]
     pub max_triangles: Option<usize>,
 
-    /// Most memory allowed for the mesh, as in 500MB or 2GB: 96 bytes a triangle [default: what
-    /// --max-triangles take]
+    /// Most memory allowed for the mesh, as in 500MB or 2GB: 96 bytes a triangle [default: that of the
+    /// project, else what --max-triangles take]
     #[arg(long, value_name = "SIZE", allow_hyphen_values = true)]
     pub max_memory: Option<String>,
 

@@ -1,6 +1,5 @@
 //! Builds the mesh of a request, with progress on the terminal.
 
-use std::convert::Infallible;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -8,14 +7,14 @@ use glam::DVec2;
 
 use super::failure::Failure;
 use super::request::MeshRequest;
-use super::sources::{ReadSources, read_sources};
+use super::sources::{ToMesh, read};
 use super::terminal::Terminal;
-use crate::build::{BuildStage, BuiltMesh, MeshBuilder, MeshSpec, RefinementCriterion};
+use crate::build::{BuildStage, BuiltMesh, MeshBuilder, RefinementCriterion};
 use crate::domain::{BoundaryMarks, Domain, MeshBoundary, Region};
 use crate::explain::Explanation;
 use crate::field::RefinementRule;
-use crate::io::{self, Meter};
-use crate::layers::{Layer, PaintLayers, RiskField};
+use crate::io::Meter;
+use crate::layers::{Layer, NODES_AT_A_TIME, PaintLayers, RiskField};
 use crate::mesh::{CoarseError, Extract, InvalidTarget, Limits, Mesh, Progress, TreeTriangle, TriangleId};
 use crate::outline::DerivedMesh;
 use crate::text::{Grouped, LengthUnit};
@@ -62,6 +61,19 @@ impl FinishedMesh {
         MeshBoundary::new(extract, &self.domain, &self.marks)
     }
 
+    /// Names and splits of the boundary that are not on it, a sentence each.
+    pub fn misplaced_marks(&self, boundary: &MeshBoundary) -> Vec<String> {
+        let pieces = boundary.pieces();
+        let is_off = |place: &DVec2| pieces.nearest(*place, pieces.tolerance()).is_none();
+        let names = self.marks.names.iter().filter(|(place, _)| is_off(place)).map(|(place, name)| {
+            format!("The name “{name}” at {}, {} is not on the boundary: it names nothing.", place.x, place.y)
+        });
+        let splits = self.marks.splits.iter().filter(|place| is_off(place)).map(|place| {
+            format!("The split at {}, {} is not on the boundary: it splits nothing.", place.x, place.y)
+        });
+        names.chain(splits).collect()
+    }
+
     /// Which points of a triangle count.
     pub fn rule(&self) -> RefinementRule {
         self.built.rule
@@ -74,10 +86,15 @@ impl FinishedMesh {
     }
 
     /// h̄ at every node, in world units.
-    pub fn target_at_nodes(&self, extract: &Extract) -> Vec<f64> {
+    pub fn target_at_nodes(&self, extract: &Extract, terminal: &mut Terminal) -> Vec<f64> {
         let BuiltMesh { field, rule, .. } = &self.built;
-        let targets = field.targets_at_nodes(*rule, &self.paint, extract, || Ok::<_, Infallible>(()));
-        targets.unwrap_or_else(|never| match never {})
+        let meter = Meter::default();
+        meter.expect(extract.nodes().len() as u64);
+        let count = || meter.add(NODES_AT_A_TIME);
+        let targets = terminal.while_metered("target diameters at nodes", &meter, || {
+            field.targets_at_nodes(*rule, &self.paint, extract, count)
+        });
+        targets.expect("nobody cancels this meter")
     }
 
     /// The risk of the layers.
@@ -116,46 +133,19 @@ impl FinishedMesh {
 /// # Errors
 /// When a file is of no use, the target is impossible somewhere, or a limit is reached.
 pub fn build(request: &MeshRequest, terminal: &mut Terminal) -> Result<FinishedMesh, Failure> {
-    let ToMesh { spec, marks, unit, paint } = read(request, terminal)?;
+    let ToMesh { spec, paint, marks, unit } = read(request, terminal)?;
     let (cleaning, limits, domain) = (spec.cleaning, spec.limits, spec.domain.clone());
     let mut builder = MeshBuilder::new(spec);
     let refinement = run(&mut builder, &paint, terminal);
     terminal.clear();
     let (refinement, capped) = (refinement?, builder.capped());
     let built = builder.finish();
-    let derived = DerivedMesh::new(&built.mesh, &built.domain, &cleaning);
+    let derive = || DerivedMesh::new(&built.mesh, &built.domain, &cleaning);
+    let derived = terminal.while_working("fitting the mesh to its domain", derive);
     if derived.patch().leaves_nothing_of(&built.mesh) {
         return Err(CoarseError::EmptyDomain { spacing: built.mesh.lattice().spacing() }.into());
     }
     Ok(FinishedMesh { built, derived, paint, limits, domain, marks, unit, refinement, capped })
-}
-
-/// What to mesh: that of a saved document, as the window does, or what the options describe.
-struct ToMesh {
-    spec: MeshSpec,
-    marks: Arc<BoundaryMarks>,
-    unit: LengthUnit,
-    paint: PaintLayers,
-}
-
-fn read(request: &MeshRequest, terminal: &mut Terminal) -> Result<ToMesh, Failure> {
-    let meter = Meter::default();
-    let Some(path) = &request.project else {
-        let read = terminal.while_metered("reading", &meter, || read_sources(request, &meter));
-        let ReadSources { spec, paint, marks, unit, notes } = read?;
-        notes.iter().for_each(|note| terminal.note(note));
-        return Ok(ToMesh { spec, marks: Arc::new(marks), unit, paint });
-    };
-    let reading = format!("reading {}", path.display());
-    let document = terminal.while_metered(&reading, &meter, || io::project::read_metered(path, &meter))?;
-    let settings = document.settings();
-    let max_triangles = request.asked_budget.unwrap_or(settings.max_triangles);
-    let limits = Limits { max_triangles, ..request.limits };
-    // Without an option, the mesh is the one that the window shows.
-    let spec = settings.mesh_spec().map_err(CoarseError::from)?;
-    let spec = MeshSpec { limits, cleaning: request.cleaning(spec.cleaning), ..spec };
-    let (marks, paint) = (settings.boundary_marks.clone(), document.paint().clone());
-    Ok(ToMesh { spec, marks, unit: settings.unit, paint })
 }
 
 /// Builds in slices. Returns the time spent on refinement.

@@ -22,7 +22,7 @@ pub struct MeshDetails {
 impl MeshDetails {
     /// Those of a mesh as files get it, which the command `line` asked for.
     pub fn of(finished: &FinishedMesh, extract: &Extract, line: &str, request: &MeshRequest) -> Self {
-        let coordinates = match request.region.as_ref().or(request.project.as_ref()) {
+        let coordinates = match request.mesh.region.as_ref().or(request.project.as_ref()) {
             Some(file) => format!("x, y as in {}", file.display()),
             None => "x, y".to_owned(),
         };

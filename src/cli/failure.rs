@@ -5,6 +5,7 @@ use crate::build::BuildError;
 use crate::field::TransferError;
 use crate::io::ReadError;
 use crate::io::layers::LayerError;
+use crate::io::recipe::DescriptionError;
 use crate::mesh::{CoarseError, InvalidTarget, RefineError};
 use crate::path::PathError;
 
@@ -77,6 +78,17 @@ fn advice(error: &BuildError) -> &'static str {
         | BuildError::Coarse(_)
         | BuildError::InvalidLayer(_)
         | BuildError::InvalidTarget(_) => "",
+    }
+}
+
+impl From<DescriptionError> for Failure {
+    fn from(error: DescriptionError) -> Self {
+        match error {
+            DescriptionError::Read(error) => error.into(),
+            DescriptionError::Layer(error) => error.into(),
+            DescriptionError::Coarse(error) => error.into(),
+            DescriptionError::Unsuited(sentence) => Self::Work(sentence),
+        }
     }
 }
 

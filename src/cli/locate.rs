@@ -52,7 +52,7 @@ fn read_points(path: &Path, request: &MeshRequest) -> Result<Vec<DVec2>, Failure
     if !is_standard_stream(path) {
         return Ok(points::read(path)?);
     }
-    if request.region.as_deref().is_some_and(is_standard_stream) {
+    if request.mesh.region.as_deref().is_some_and(is_standard_stream) {
         let problem = "--region - and --points - both read standard input";
         return Err(Failure::Usage(format!("{problem}. Name a file for one of them.")));
     }

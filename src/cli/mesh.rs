@@ -40,17 +40,21 @@ pub fn run(
     let finished = build(&request, terminal)?;
     let extract = finished.extract();
     let violations = match typed.checks {
-        true => Some(report_violations(&finished, &extract, request.limits.max_level, terminal)?),
+        true => Some(report_violations(&finished, &extract, request.mesh.max_level, terminal)?),
         false => None,
     };
     let writes = files.iter().any(|files| !files.outputs.is_empty());
     let wants_details = typed.json || writes;
-    let details = wants_details.then(|| MeshDetails::of(&finished, &extract, line, &request));
-    let summary = Summary::of(&finished, &extract, details.as_ref(), violations);
+    let (details, summary) = terminal.while_working("measuring the mesh", || {
+        let details = wants_details.then(|| MeshDetails::of(&finished, &extract, line, &request));
+        let summary = Summary::of(&finished, &extract, details.as_ref(), violations);
+        (details, summary)
+    });
     if !typed.json {
         terminal.say(&summary.for_people());
     }
     note_capped(&finished, terminal);
+    note_misplaced_marks(&request, &finished, &extract, terminal);
     if let Some(details) = &details {
         write_files(&files, &finished, &extract, details, terminal)?;
     }
@@ -75,6 +79,19 @@ pub fn note_capped(finished: &FinishedMesh, terminal: &mut Terminal) {
     }
 }
 
+/// Tells the user about names and splits of a recipe that are not on the boundary.
+fn note_misplaced_marks(
+    request: &MeshRequest,
+    finished: &FinishedMesh,
+    extract: &Extract,
+    terminal: &mut Terminal,
+) {
+    if request.mesh.marks.is_some() {
+        let notes = finished.misplaced_marks(&finished.boundary(extract));
+        notes.iter().for_each(|note| terminal.note(note));
+    }
+}
+
 /// Checks every invariant, prints the violations, and returns their number.
 fn report_violations(
     finished: &FinishedMesh,
@@ -83,18 +100,19 @@ fn report_violations(
     terminal: &mut Terminal,
 ) -> Result<usize, Failure> {
     let mesh = finished.mesh();
-    let broken = mesh.violations();
+    // Triangles at the level cap count as satisfied.
+    let below_cap = |id: &TriangleId| max_level.is_none_or(|cap| mesh.triangle(*id).level() < cap);
+    let (broken, unsatisfied, in_derived) = terminal.while_working("checking the mesh", || {
+        (mesh.violations(), finished.unsatisfied(), finished.derived.violations(extract))
+    });
     for violation in broken.iter().take(SHOWN_VIOLATIONS) {
         terminal.say(&format!("check: {violation}"));
     }
-    // Triangles at the level cap count as satisfied.
-    let below_cap = |id: &TriangleId| max_level.is_none_or(|cap| mesh.triangle(*id).level() < cap);
-    let too_coarse = finished.unsatisfied()?.iter().filter(|id| below_cap(id)).count();
+    let too_coarse = unsatisfied?.iter().filter(|id| below_cap(id)).count();
     if too_coarse > 0 {
         let count = Grouped(too_coarse);
         terminal.say(&format!("check: {count} triangles exceed their target diameter (Eq. 14)"));
     }
-    let in_derived = finished.derived.violations(extract);
     for violation in in_derived.iter().take(SHOWN_VIOLATIONS) {
         terminal.say(&format!("check: {violation}"));
     }

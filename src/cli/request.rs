@@ -2,7 +2,6 @@
 //! only a recipe is read.
 
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
 use glam::DVec2;
 
@@ -10,57 +9,22 @@ use super::args::{BoundaryArgument, InputArguments};
 use super::failure::Failure;
 use super::layer_options::layers;
 use crate::document::LEAST_MEMORY;
-use crate::domain::BoundaryMarks;
-use crate::field::{Formula, RefinementRule, Transfer};
+use crate::field::Formula;
 use crate::geometry::Rect;
-use crate::io::layers::{KindSpec, LayerSpec};
-use crate::io::recipe::{Recipe, checked_gradation};
-use crate::mesh::{Cleaning, KeptParts, Limits, MOST_TRIANGLES, MemoryLimit};
-use crate::text::{Bytes, Grouped, LengthUnit};
+use crate::io::layers::LayerSpec;
+use crate::io::recipe::{self, MeshDescription, Recipe, SavedTreatment, checked_gradation};
+use crate::mesh::{KeptParts, MOST_TRIANGLES};
+use crate::text::{Bytes, Grouped};
 
 /// A mesh that is asked for.
 #[derive(Debug)]
 pub struct MeshRequest {
-    /// A saved document, which decides everything but the limits.
+    /// A saved document. What [`Self::mesh`] says overrides its settings.
     pub project: Option<PathBuf>,
-    /// The recipe that the other values come from.
+    /// The recipe that domain and layers come from.
     pub recipe: Option<Recipe>,
-    /// The triangle budget, where one is given; else it is the project's.
-    pub asked_budget: Option<usize>,
-    /// `None` for the rectangle that the rasters cover, or the unit square.
-    pub domain: Option<Rect>,
-    /// The domain is where this is not 0.
-    pub inside: Option<Formula>,
-    /// The domain is what the polygons of this file cover.
-    pub region: Option<PathBuf>,
-    /// How the mesh meets the outline of a region.
-    pub boundary: BoundaryArgument,
-    /// Largest diameter of a triangle on the outline, in world units; `None` for the usual one.
-    pub boundary_diameter: Option<f64>,
-    /// The parts that stay, where that is given.
-    pub parts: Option<KeptParts>,
-    /// Whether pinches stay in any case.
-    pub keeps_pinches: bool,
-    /// Longest side of a coarse cell, in world units.
-    pub spacing: Option<f64>,
-    /// The size field, from the bottom layer to the top one.
-    pub layers: Vec<LayerSpec>,
-    /// Bound of the change of h̄ by unit of length, dimensionless.
-    pub gradation: Option<f64>,
-    /// Lower bound of the target diameter, in world units.
-    pub h_min: Option<f64>,
-    /// Upper bound of the target diameter, in world units.
-    pub h_max: Option<f64>,
-    /// Exponent of the risk, dimensionless.
-    pub transfer_shape: f64,
-    /// Which points of a triangle count.
-    pub rule: RefinementRule,
-    /// What the mesh may cost.
-    pub limits: Limits,
-    /// The unit, in place of that of the region's file.
-    pub unit: Option<LengthUnit>,
-    /// Names of the boundary, in place of those of the region's file.
-    pub marks: Option<Arc<BoundaryMarks>>,
+    /// What to mesh: the options, in place of the values of the recipe where there is one.
+    pub mesh: MeshDescription,
 }
 
 /// Most triangles unless `--max-triangles` says otherwise.
@@ -70,61 +34,40 @@ impl MeshRequest {
     /// Checks the arguments one by one and against each other.
     ///
     /// # Errors
-    /// With a sentence that names the option, the value and the rule.
+    /// With a sentence that names the option, the value and the rule; and when a recipe cannot be read.
     pub fn new(typed: &InputArguments) -> Result<Self, Failure> {
-        if let Some(path) = &typed.recipe {
-            return Self::of_recipe(path, typed);
-        }
-        let layers = layers(typed)?;
-        let request = Self {
-            project: typed.project.clone(),
-            recipe: None,
-            asked_budget: typed.max_triangles,
-            domain: typed.domain.as_deref().map(parse_domain).transpose()?,
-            inside: typed.inside.as_deref().map(|text| parse_formula("--inside", text)).transpose()?,
-            region: typed.region.clone(),
-            boundary: typed.boundary.unwrap_or_default(),
-            boundary_diameter: boundary_diameter(typed)?,
-            parts: typed.parts.as_deref().map(parts).transpose()?,
-            keeps_pinches: typed.keep_pinches,
-            spacing: typed.spacing.map(|value| length("--spacing", value)).transpose()?,
-            rule: rule(typed.rule.map(Into::into), &layers),
-            layers,
-            gradation: typed.gradation.map(gradation).transpose()?,
-            h_min: typed.h_min.map(|value| length("--h-min", value)).transpose()?,
-            h_max: typed.h_max.map(|value| length("--h-max", value)).transpose()?,
-            transfer_shape: typed.transfer_shape,
-            limits: limits(typed, USUAL_BUDGET)?,
-            unit: None,
-            marks: None,
+        refuse_options_beside_a_file(typed)?;
+        let options = description(typed)?;
+        let recipe = typed.recipe.as_deref().map(read_recipe).transpose()?;
+        let given_diameter = options.boundary_diameter;
+        let mesh = match &recipe {
+            Some(recipe) => recipe.mesh.clone().overridden_by(&options),
+            None => options,
         };
+        let request = Self { project: typed.project.clone(), recipe, mesh };
         request.check_bounds()?;
-        Ok(request)
-    }
-
-    /// Whether some source needs both ends of the scale from --h-min to --h-max.
-    pub fn uses_scale(&self) -> bool {
-        self.layers.iter().any(LayerSpec::uses_scale)
-    }
-
-    /// Which triangles stay: the usual ones, unless an option says otherwise.
-    pub fn cleaning(&self, usual: Cleaning) -> Cleaning {
-        Cleaning {
-            parts: self.parts.unwrap_or(usual.parts),
-            keeps_pinches: self.keeps_pinches || usual.keeps_pinches,
+        match given_diameter {
+            // Of a project the domain is not known yet.
+            Some(diameter) if request.project.is_none() => {
+                check_boundary_diameter(diameter, request.mesh.region.is_some(), request.mesh.boundary)?;
+            }
+            _ => {}
         }
+        Ok(request)
     }
 
     /// Options that were given and change nothing, a sentence each.
     pub fn options_without_effect(&self, typed: &InputArguments) -> Vec<String> {
+        // The layers and the domain of a project are not known yet.
+        let is_known = self.project.is_none();
         let unused = [
-            (typed.transfer_shape != 1.0 && !self.layers.iter().any(LayerSpec::is_risk))
+            (is_known && typed.transfer_shape.is_some() && !self.mesh.layers.iter().any(LayerSpec::is_risk))
                 .then_some("--transfer-shape changes nothing without --risk or --risk-raster."),
             typed
                 .resolution
                 .is_some()
                 .then_some("--resolution changes nothing: every layer is asked at its own resolution."),
-            (typed.boundary.is_some() && self.region.is_none())
+            (is_known && typed.boundary.is_some() && self.mesh.region.is_none())
                 .then_some("--boundary changes nothing without --region."),
         ];
         unused.into_iter().flatten().map(str::to_owned).collect()
@@ -132,45 +75,105 @@ impl MeshRequest {
 
     /// The files to read.
     pub fn input_files(&self) -> Vec<PathBuf> {
-        let data = self.layers.iter().flat_map(LayerSpec::files).map(Path::to_owned);
         let recipe = self.recipe.as_ref().map(|recipe| recipe.file().to_owned());
-        data.chain(self.region.clone()).chain(self.project.clone()).chain(recipe).collect()
+        self.mesh.files().map(Path::to_owned).chain(self.project.clone()).chain(recipe).collect()
     }
 
     fn check_bounds(&self) -> Result<(), Failure> {
-        if self.uses_scale() && self.h_min.is_none() {
+        if self.mesh.uses_scale() && self.mesh.h_min.is_none() {
             let problem =
                 "Risk and images need --h-min, the target diameter where the risk is 1 or the image black";
             return Err(Failure::Usage(format!("{problem}. The size of the finest detail is a good start.")));
         }
-        // Where one end is not given, the other takes its place: only the rest is checked then.
-        let h_min = self.h_min.or(self.h_max).unwrap_or(1.0);
-        let h_max = self.h_max.unwrap_or(h_min);
-        Transfer { h_min, h_max, shape: self.transfer_shape }.checked()?;
-        Ok(())
+        Ok(self.mesh.check_transfer()?)
     }
 }
 
-/// The diameter at the outline. It makes sense only where there is an outline, and where the mesh is refined
-/// along it.
-fn boundary_diameter(typed: &InputArguments) -> Result<Option<f64>, Failure> {
-    let given = typed.boundary_diameter.map(|value| length("--boundary-diameter", value)).transpose()?;
-    let Some(diameter) = given else { return Ok(None) };
-    let problem = if typed.region.is_none() {
+/// Checks that a diameter at the outline makes sense.
+///
+/// # Errors
+/// When the domain has no outline, or nothing is refined along it.
+pub fn check_boundary_diameter(
+    diameter: f64,
+    has_outline: bool,
+    boundary: Option<SavedTreatment>,
+) -> Result<(), Failure> {
+    let problem = if !has_outline {
         "it is for the outline of a domain from a file. Name that with --region, or leave it out"
-    } else if typed.boundary == Some(BoundaryArgument::Report) {
+    } else if boundary == Some(SavedTreatment::Report) {
         "with --boundary report nothing is refined along the outline. Take --boundary fitted, or leave it out"
     } else {
-        return Ok(Some(diameter));
+        return Ok(());
     };
     Err(Failure::Usage(format!("--boundary-diameter {diameter}: {problem}.")))
 }
 
+/// Refuses the options on domain and layers beside a project or a recipe, which decide both.
+fn refuse_options_beside_a_file(typed: &InputArguments) -> Result<(), Failure> {
+    let (file, advice) = match (&typed.project, &typed.recipe) {
+        (Some(file), _) => (
+            format!("--project {}", file.display()),
+            "Edit them in the window; or write the project as a recipe with `meshbrush recipe`, and edit that",
+        ),
+        (None, Some(file)) => (file.display().to_string(), "Edit the recipe"),
+        (None, None) => return Ok(()),
+    };
+    let given = [
+        ("--domain", typed.domain.is_some()),
+        ("--inside", typed.inside.is_some()),
+        ("--region", typed.region.is_some()),
+        ("--target", !typed.target.is_empty()),
+        ("--risk", !typed.risk.is_empty()),
+        ("--target-raster", !typed.target_raster.is_empty()),
+        ("--risk-raster", !typed.risk_raster.is_empty()),
+        ("--threats", !typed.threats.is_empty()),
+        ("--distance", !typed.distance.is_empty()),
+    ];
+    let Some((option, _)) = given.iter().find(|(_, is_given)| *is_given) else { return Ok(()) };
+    let rule = "domain and layers are those of the file, and other options override its settings";
+    Err(Failure::Usage(format!("{option} cannot be used with {file}: {rule}. {advice}.")))
+}
+
+/// What the options say.
+fn description(typed: &InputArguments) -> Result<MeshDescription, Failure> {
+    let positive = |option: &str, value: Option<f64>| value.map(|value| length(option, value)).transpose();
+    Ok(MeshDescription {
+        bounds: typed.domain.as_deref().map(parse_domain).transpose()?,
+        inside: typed.inside.as_deref().map(|text| parse_formula("--inside", text)).transpose()?,
+        region: typed.region.clone(),
+        unit: None,
+        boundary: typed.boundary.map(Into::into),
+        boundary_diameter: positive("--boundary-diameter", typed.boundary_diameter)?,
+        parts: typed.parts.as_deref().map(parts).transpose()?,
+        keeps_pinches: typed.keep_pinches,
+        marks: None,
+        spacing: positive("--spacing", typed.spacing)?,
+        rule: typed.rule.map(Into::into),
+        max_triangles: typed.max_triangles.map(triangles).transpose()?,
+        max_level: typed.max_level,
+        max_memory: typed.max_memory.as_deref().map(memory).transpose()?,
+        h_min: positive("--h-min", typed.h_min)?,
+        h_max: positive("--h-max", typed.h_max)?,
+        shape: typed.transfer_shape,
+        gradation: typed.gradation.map(gradation).transpose()?,
+        layers: layers(typed)?,
+    })
+}
+
+/// Reads a recipe.
+fn read_recipe(path: &Path) -> Result<Recipe, Failure> {
+    if !path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case(recipe::ENDING)) {
+        let file = path.display();
+        return Err(Failure::Usage(format!(
+            "{file}: a file without an option is a recipe, and its name ends with .toml. Name a project with \
+             --project, and a domain with --region."
+        )));
+    }
+    Ok(recipe::read(path)?)
+}
+
 /// The parts of the mesh that stay.
-///
-/// # Errors
-/// When the text says none.
-pub fn parts(text: &str) -> Result<KeptParts, Failure> {
+fn parts(text: &str) -> Result<KeptParts, Failure> {
     match text {
         "all" => Ok(KeptParts::All),
         "largest" => Ok(KeptParts::Largest),
@@ -181,15 +184,6 @@ pub fn parts(text: &str) -> Result<KeptParts, Failure> {
             ))),
         },
     }
-}
-
-/// The rule that is asked for; where none is, the one that suits the layers: the area rule misses no pixel.
-pub fn rule(asked: Option<RefinementRule>, layers: &[LayerSpec]) -> RefinementRule {
-    let is_formula = |layer: &LayerSpec| matches!(layer.kind, KindSpec::Formula { .. });
-    asked.unwrap_or(match layers.iter().all(is_formula) {
-        true => RefinementRule::Vertex,
-        false => RefinementRule::Area,
-    })
 }
 
 fn gradation(bound: f64) -> Result<f64, Failure> {
@@ -234,19 +228,13 @@ pub fn length(option: &str, value: f64) -> Result<f64, Failure> {
     }
 }
 
-/// What the mesh may cost; `usual` is the triangle budget where no option gives one.
-///
-/// # Errors
-/// When an option is out of range.
-pub fn limits(typed: &InputArguments, usual: usize) -> Result<Limits, Failure> {
-    let max_triangles = typed.max_triangles.unwrap_or(usual);
-    if !(2..=MOST_TRIANGLES).contains(&max_triangles) {
-        let problem =
-            format!("--max-triangles {max_triangles}: choose from 2 to {}", Grouped(MOST_TRIANGLES));
-        return Err(Failure::Usage(format!("{problem}. A triangle takes 38 bytes of memory.")));
+/// A triangle budget as typed.
+fn triangles(count: usize) -> Result<usize, Failure> {
+    if (2..=MOST_TRIANGLES).contains(&count) {
+        return Ok(count);
     }
-    let bytes = typed.max_memory.as_deref().map(memory).transpose()?;
-    Ok(Limits { max_triangles, max_level: typed.max_level, max_memory: bytes.map(MemoryLimit::for_one_mesh) })
+    let problem = format!("--max-triangles {count}: choose from 2 to {}", Grouped(MOST_TRIANGLES));
+    Err(Failure::Usage(format!("{problem}. A triangle takes 38 bytes of memory.")))
 }
 
 /// A memory limit as typed, in bytes.
@@ -254,4 +242,14 @@ fn memory(typed: &str) -> Result<usize, Failure> {
     let wrong = |rule: &str| Failure::Usage(format!("--max-memory {typed}: {rule}, such as 500MB or 2GB."));
     let bytes = Bytes::parse(typed).ok_or_else(|| wrong("give a size with its unit"))?;
     if bytes >= LEAST_MEMORY { Ok(bytes) } else { Err(wrong("choose 1MB at least")) }
+}
+
+impl From<BoundaryArgument> for SavedTreatment {
+    fn from(typed: BoundaryArgument) -> Self {
+        match typed {
+            BoundaryArgument::Report => Self::Report,
+            BoundaryArgument::Fitted => Self::Fitted,
+            BoundaryArgument::Outline => Self::Outline,
+        }
+    }
 }

@@ -10,7 +10,7 @@ use super::output::{Output, RequestedLook};
 use super::quantities::{NamedQuantity, QuantityError, parse_quantities};
 use super::terminal::Terminal;
 use crate::io::layers::{KeyFault, Step};
-use crate::io::recipe::{OutputSpec, Recipe};
+use crate::io::recipe::{OutputSpec, Recipe, SavedOutput};
 use crate::io::{Interruption, MeshData};
 use crate::mesh::Extract;
 use crate::render::export::ExportFormat;
@@ -62,6 +62,7 @@ impl RequestedFiles {
         ExportFormat::of(path).map_err(|error| KeyFault::value("file", error.to_string()))?;
         let file = Output::new(path, None, saved.binary);
         let file = file.map_err(|failure| KeyFault::value("file", failure.to_string()))?;
+        check_use(saved, &file)?;
         let look = RequestedLook::of_saved(saved)?;
         let quantities = parse_quantities(&saved.quantities).map_err(|(index, error)| {
             let pointer = match &error {
@@ -79,6 +80,29 @@ impl RequestedFiles {
     }
 }
 
+/// Refuses keys that mean nothing for the format of an output.
+fn check_use(saved: &SavedOutput, output: &Output) -> Result<(), KeyFault> {
+    let SavedOutput { file: _, binary, quantities, size, edges, colormap, light } = saved;
+    if *binary && !output.is_binary() {
+        let sentence = "only .msh has a text form and a binary form; leave it out.";
+        return Err(KeyFault::key("binary", sentence));
+    }
+    if !quantities.is_empty() && !output.wants_node_data() {
+        let sentence = "this format holds no values at the nodes; leave it out, or take another format.";
+        return Err(KeyFault::key("quantities", sentence));
+    }
+    let of_pictures = [
+        ("size", size.is_some()),
+        ("edges", edges.is_some()),
+        ("colormap", colormap.is_some()),
+        ("light", light.is_some()),
+    ];
+    match of_pictures.iter().find(|(_, is_given)| *is_given && !output.is_picture()) {
+        Some(&(key, _)) => Err(KeyFault::key(key, "this is for pictures, .png and .svg; leave it out.")),
+        None => Ok(()),
+    }
+}
+
 /// Writes files, and says which.
 ///
 /// # Errors
@@ -92,7 +116,7 @@ pub fn write_files(
 ) -> Result<(), Failure> {
     let mesh = finished.mesh();
     let target_diameter = match requested.iter().any(RequestedFiles::wants_node_data) {
-        true => finished.target_at_nodes(extract),
+        true => finished.target_at_nodes(extract, terminal),
         false => Vec::new(),
     };
     let MeshDetails { boundary, parts, provenance } = details;

@@ -27,7 +27,7 @@ pub fn run(typed: &WhyArguments, out: &mut dyn Write, terminal: &mut Terminal) -
     let mesh = finished.mesh();
     let location = mesh.locate(point);
     let id = location.triangle().ok_or_else(|| nowhere(&typed.point, &location, mesh))?;
-    let explanation = finished.explanation(id);
+    let explanation = terminal.while_working("looking for the cause", || finished.explanation(id));
     let text = if typed.json {
         let answer = Answer::new(&finished, id, &explanation);
         serde_json::to_string(&answer).expect("numbers and texts are valid JSON")

@@ -235,15 +235,20 @@ impl Settings {
     /// # Errors
     /// As [`Self::lattice`].
     pub fn mesh_spec(&self) -> Result<MeshSpec, GridError> {
-        Ok(MeshSpec {
+        Ok(self.mesh_spec_on(self.lattice()?, self.limits()))
+    }
+
+    /// What to mesh on the lattice of a coarse grid, where the mesh may cost other than in a window.
+    pub(crate) fn mesh_spec_on(&self, lattice: Lattice, limits: Limits) -> MeshSpec {
+        MeshSpec {
             domain: self.domain.clone(),
             boundary: self.boundary,
-            lattice: self.lattice()?,
+            lattice,
             field: self.field_spec(),
             rule: self.rule,
             cleaning: self.derived_cleaning(),
-            limits: self.limits(),
-        })
+            limits,
+        }
     }
 
     /// Which triangles stay in the derived mesh: all, unless the mesh is fitted to polygons.

@@ -43,7 +43,7 @@ impl<R: BufRead> Rows<R> {
     /// Reads the header, finds out what separates the fields, and returns the column of each name.
     ///
     /// # Errors
-    /// When one of the first `required` columns has no name in the header.
+    /// When one of the first `required` columns has no name in the header, or a column is there twice.
     pub(super) fn read_header<const COUNT: usize>(
         &mut self,
         names: [&[&str]; COUNT],
@@ -63,12 +63,27 @@ impl<R: BufRead> Rows<R> {
                 self.fields().position(|field| names.iter().any(|name| field.eq_ignore_ascii_case(name)))
             });
             if places[..required].iter().all(Option::is_some) {
+                names.iter().try_for_each(|names| self.check_once(names))?;
                 return Ok(places);
             }
         }
         let header = String::from_utf8_lossy(&line);
         let found = shown(40, header.trim());
         let problem = format!("the header is `{found}`, and it must name the columns {columns}.");
+        Err(Flaw::Syntax(problem).at(self.line))
+    }
+
+    /// Refuses a header in which several columns have one of these names: nothing says which of them counts.
+    fn check_once(&self, names: &[&str]) -> Result<(), PlacedFlaw> {
+        let is_meant = |field: &&str| names.iter().any(|name| field.eq_ignore_ascii_case(name));
+        let columns: Vec<String> =
+            self.fields().filter(is_meant).take(3).map(|field| format!("`{}`", shown(20, field))).collect();
+        if columns.len() < 2 {
+            return Ok(());
+        }
+        let (found, name) = (columns.join(" and "), names[0]);
+        let problem =
+            format!("the header has {found}, each of which could be {name}. Rename or remove all but one.");
         Err(Flaw::Syntax(problem).at(self.line))
     }
 

@@ -127,6 +127,10 @@ mod tests {
                 "x,y,range\n1,2,3\n",
                 ", line 1: the header is `x,y,range`, and it must name the columns x, y, range and peak.",
             ),
+            (
+                "x,y,range,peak,Peak\n",
+                ", line 1: the header has `peak` and `Peak`, each of which could be peak.",
+            ),
             ("x,y,range,peak\n\n1,2,3\n", ", line 3: there is no peak."),
             ("x,y,range,peak\n1,2,far,1\n", ", line 2: range is `far`, which is not a number."),
             ("x,y,range,peak\n1,2,0,1\n", ", line 2: range is 0, and it must be"),

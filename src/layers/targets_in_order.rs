@@ -43,6 +43,9 @@ impl<'a> TargetsInOrder<'a> {
 
 /// Nodes that one thread computes at a time.
 const NODES: usize = 4096;
+/// How many nodes there are, but for the last ones, between two calls of the check of
+/// [`SizeField::targets_at_nodes`].
+pub const NODES_AT_A_TIME: u64 = NODES as u64;
 
 impl SizeField {
     /// h̄ at every node of a mesh, in world units, as `rule` sees it. All threads compute, and ask `check`

@@ -19,6 +19,7 @@ impl Bytes {
         let text = typed.trim();
         let (number, unit) = text.split_at(text.find(|c: char| c.is_ascii_alphabetic())?);
         let unit = match unit.to_ascii_lowercase().as_str() {
+            "b" => 1.0,
             "kb" => 1e3,
             "mb" => 1e6,
             "gb" => 1e9,
@@ -31,6 +32,18 @@ impl Bytes {
         };
         let bytes = number.trim().parse::<f64>().ok()? * unit;
         Some(bytes as usize)
+    }
+
+    /// A text from which [`Self::parse`] reads the same size: that for a person, unless it is rounded.
+    ///
+    /// ```
+    /// # use meshbrush::internals::text::Bytes;
+    /// assert_eq!(Bytes(2_500_000_000).exactly(), "2.5 GB");
+    /// assert_eq!(Bytes(2_500_000_001).exactly(), "2500000001 B");
+    /// ```
+    pub fn exactly(self) -> String {
+        let text = self.to_string();
+        if Self::parse(&text) == Some(self.0) { text } else { format!("{} B", self.0) }
     }
 }
 

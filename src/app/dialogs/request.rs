@@ -124,7 +124,7 @@ impl FileRequest {
     /// The endings of the files that it is about, without the dot.
     pub fn endings(self) -> Vec<&'static str> {
         match self {
-            Self::Open => vec![ENDING, "geojson", "json", "png", "asc"],
+            Self::Open => vec![ENDING, recipe::ENDING, "geojson", "json", "png", "asc"],
             Self::Save => vec![ENDING],
             Self::SaveRecipe => vec![recipe::ENDING],
             Self::ExportTest => vec![recording::ENDING],

@@ -34,6 +34,7 @@ impl App {
                 files::load_background(&self.session, &mut self.background, &path);
             }
             Command::OpenDomain(path) => files::load_domain(&mut self.background, &path),
+            Command::OpenRecipe(path) => files::open_recipe(&mut self.background, &path),
             Command::SaveThreatsAs(path) => {
                 self.commands.extend(self.project.save_table_as(path, Command::SaveThreats));
             }

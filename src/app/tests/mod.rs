@@ -35,6 +35,7 @@ mod plots;
 mod polygon;
 mod project;
 mod query;
+mod recipes;
 mod report;
 mod settings;
 mod software_window;

@@ -233,7 +233,7 @@ fn a_document_is_saved_as_a_recipe_and_files_beside_it_are_asked_about() {
     press(&mut window, "Replace");
     wait(&mut window, "saving", |_| file.exists());
     let recipe = recipe::read(&file).unwrap();
-    assert!(recipe.layers.len() == 2 && project::read(&beside).is_ok(), "{:?}", recipe.layers);
+    assert!(recipe.mesh.layers.len() == 2 && project::read(&beside).is_ok(), "{:?}", recipe.mesh.layers);
 }
 
 #[test]
@@ -311,7 +311,7 @@ fn what_cannot_be_opened_or_saved_is_told_and_changes_nothing() {
 
 /// A file as the desktop hands it over.
 #[derive(Debug)]
-struct Dropped(PathBuf);
+pub(super) struct Dropped(pub PathBuf);
 
 impl egui::DroppedFile for Dropped {
     fn path(&self) -> &Path {

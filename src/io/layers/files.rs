@@ -47,9 +47,11 @@ impl GridFiles {
         Ok(Self(grids))
     }
 
-    /// The smallest rectangle that holds them, if there are some.
-    pub fn extent(&self) -> Option<Rect> {
-        self.0.values().map(|grid| grid.raster().bounds()).reduce(|a, b| a.union(&b))
+    /// The smallest rectangle that holds those of some layers, if they have any.
+    pub fn extent<'a>(&self, layers: impl Iterator<Item = &'a LayerSpec>) -> Option<Rect> {
+        let without_place = layers.filter_map(LayerSpec::raster_file).filter(|file| file.bounds.is_none());
+        let grids = without_place.filter_map(|file| self.0.get(&file.path));
+        grids.map(|grid| grid.raster().bounds()).reduce(|a, b| a.union(&b))
     }
 }
 

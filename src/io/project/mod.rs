@@ -14,7 +14,7 @@
 //! `settings.json`.
 //!
 //! Version 1 had one base field (`base.risk` or `base.diameter`) and two rasters of paint (`paint.tiles`) in
-//! place of the layers.
+//! place of the layers. Version 2 had no pins, paths and corridors.
 //!
 //! Pixels are stored as four planes of bytes, the most significant bytes of all numbers first, which packs to
 //! half the size. Tiles are ordered by column, then row; blank tiles are omitted. The CRC-32 of the archive
@@ -22,10 +22,12 @@
 //! opened gives the same file. The history is not saved.
 //!
 //! The version grows whenever an older program could not read the file correctly, which includes any new
-//! field. A program reads all versions up to its own.
+//! field or word: a test keeps the list of all of them. A program reads all versions up to its own.
 
 mod archive;
 pub(super) mod embedded;
+#[cfg(test)]
+mod keys;
 mod old_tiles;
 mod old_version;
 mod painted;
@@ -61,7 +63,7 @@ use settings::{Parts, Saved};
 pub const ENDING: &str = "meshbrush";
 
 /// The version that is written, and the newest that is read.
-const VERSION: u64 = 2;
+const VERSION: u64 = 3;
 const FORMAT: &str = "Meshbrush project";
 
 const SETTINGS: &str = "settings.json";

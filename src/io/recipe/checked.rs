@@ -8,59 +8,24 @@ use super::super::layers::{
     FindFile, KeyFault, KindSpec, LayerSpec, SavedLayer, Step, compiled, positive_length, rect_of,
 };
 use super::super::words::marks_of;
+use super::MeshDescription;
 use super::saved::{
     SavedDomain, SavedLimits, SavedMesh, SavedOutput, SavedParts, SavedRecipe, SavedTreatment,
 };
 use super::text::{RecipeText, quoted};
 use crate::document::LEAST_MEMORY;
 use crate::domain::BoundaryMarks;
-use crate::field::{Formula, RefinementRule, Transfer};
+use crate::field::Transfer;
 use crate::geometry::Rect;
-use crate::mesh::{KeptParts, MOST_TRIANGLES};
-use crate::text::{Bytes, Grouped, LengthUnit, Number};
+use crate::mesh::MOST_TRIANGLES;
+use crate::text::{Bytes, Grouped, Number};
 
 /// What a recipe says. No file that it names was read yet.
 #[derive(Clone, Debug)]
 pub struct Recipe {
     text: RecipeText,
-    /// The rectangle, where one is given.
-    pub bounds: Option<Rect>,
-    /// The domain is where this is not 0.
-    pub inside: Option<Formula>,
-    /// The domain is what the polygons of this file cover.
-    pub region: Option<PathBuf>,
-    /// The unit of coordinates and lengths, where one is given.
-    pub unit: Option<LengthUnit>,
-    /// How the mesh meets the outline of a region, where that is given.
-    pub boundary: Option<SavedTreatment>,
-    /// Largest diameter of a triangle on the outline, in world units.
-    pub boundary_diameter: Option<f64>,
-    /// The parts of the mesh that stay, where that is given.
-    pub parts: Option<KeptParts>,
-    /// Whether pinches stay in any case.
-    pub keeps_pinches: bool,
-    /// Names of the boundary, in place of those of the region's file.
-    pub marks: Option<Arc<BoundaryMarks>>,
-    /// Longest side of a coarse cell, in world units.
-    pub spacing: Option<f64>,
-    /// Which points of a triangle count.
-    pub rule: Option<RefinementRule>,
-    /// Most triangles.
-    pub max_triangles: Option<usize>,
-    /// Deepest level.
-    pub max_level: Option<u32>,
-    /// Most memory, in bytes.
-    pub max_memory: Option<usize>,
-    /// Smallest target diameter, in world units.
-    pub h_min: Option<f64>,
-    /// Largest target diameter, in world units.
-    pub h_max: Option<f64>,
-    /// Exponent of the curve from risk to diameter, dimensionless.
-    pub shape: f64,
-    /// Bound of the change of h̄ by unit of length, dimensionless.
-    pub gradation: Option<f64>,
-    /// The size field, from the bottom layer to the top one.
-    pub layers: Vec<LayerSpec>,
+    /// What to mesh.
+    pub mesh: MeshDescription,
     /// Files to write.
     pub outputs: Vec<OutputSpec>,
 }
@@ -80,8 +45,8 @@ impl Recipe {
     /// # Errors
     /// With line and column, for the first one that cannot be used.
     pub(super) fn checked(text: RecipeText, saved: &SavedRecipe, find: &FindFile) -> Result<Self, ReadError> {
-        let unplaced = Self::unplaced(&text, saved, find);
-        unplaced.map_err(|fault| text.error(&fault)).map(|recipe| Self { text, ..recipe })
+        let (mesh, outputs) = Self::unplaced(&text, saved, find).map_err(|fault| text.error(&fault))?;
+        Ok(Self { text, mesh, outputs })
     }
 
     /// The file as it was named.
@@ -94,7 +59,11 @@ impl Recipe {
         self.text.error(&fault.within(Step::Index(output)).within(Step::Key("output")))
     }
 
-    fn unplaced(text: &RecipeText, saved: &SavedRecipe, find: &FindFile) -> Result<Self, KeyFault> {
+    fn unplaced(
+        text: &RecipeText,
+        saved: &SavedRecipe,
+        find: &FindFile,
+    ) -> Result<(MeshDescription, Vec<OutputSpec>), KeyFault> {
         let SavedRecipe { domain, mesh, limits, layer, output: outputs } = saved;
         let in_table = |table: &'static str| move |fault: KeyFault| fault.within(Step::Key(table));
         let region = domain.region_file(find).map_err(in_table("domain"))?;
@@ -111,8 +80,7 @@ impl Recipe {
         let folder = text.file().parent();
         let beside = |name: &String| folder.map_or_else(|| name.into(), |folder| folder.join(name));
         let output = |saved: &SavedOutput| OutputSpec { path: beside(&saved.file), saved: saved.clone() };
-        Ok(Self {
-            text: text.clone(),
+        let mesh = MeshDescription {
             bounds: domain.checked_bounds().map_err(in_table("domain"))?,
             inside: inside.map_err(in_table("domain"))?,
             region,
@@ -129,11 +97,11 @@ impl Recipe {
             max_memory: bytes,
             h_min: limits.h_min,
             h_max: limits.h_max,
-            shape: limits.shape.unwrap_or(1.0),
+            shape: limits.shape,
             gradation: limits.gradation,
             layers: layer.iter().enumerate().map(spec).collect::<Result<_, _>>()?,
-            outputs: outputs.iter().map(output).collect(),
-        })
+        };
+        Ok((mesh, outputs.iter().map(output).collect()))
     }
 }
 
@@ -173,6 +141,10 @@ fn check_domain(domain: &SavedDomain) -> Result<(), KeyFault> {
             let sentence = "with boundary = \"report\" nothing is refined along the outline; leave it out.";
             return Err(KeyFault::key("boundary_diameter", sentence));
         }
+    }
+    if domain.boundary.is_some() && domain.region.is_none() {
+        let sentence = "this is for the outline of a region; name its file with `region`, or leave it out.";
+        return Err(KeyFault::key("boundary", sentence));
     }
     if let Some(SavedParts::Share(share)) = domain.parts
         && !(0.0..=1.0).contains(&share)

@@ -10,7 +10,7 @@ use super::super::layers::SavedLayer;
 use super::super::project::{self, Project};
 use super::super::{Meter, asc, geojson, shapes, threats};
 use super::{SavedRecipe, to_text};
-use crate::document::Settings;
+use crate::document::{PathCost, Settings};
 use crate::domain::Polygon;
 use crate::geometry::Rect;
 use crate::layers::{
@@ -29,6 +29,7 @@ const GEOJSON: &str = "geojson";
 pub struct RecipeFiles {
     /// The recipe is the last: it is put in place when the files are there.
     files: Vec<(PathBuf, Content)>,
+    left_out: Vec<&'static str>,
 }
 
 #[derive(Debug)]
@@ -79,7 +80,15 @@ impl RecipeFiles {
         }
         let recipe = SavedRecipe::of_settings(settings, region.as_deref().unwrap_or_default(), layers);
         plan.files.push((path.to_owned(), Content::Recipe(to_text(&recipe))));
-        Self { files: plan.files }
+        Self { files: plan.files, left_out: left_out(settings) }
+    }
+
+    /// What of the document is in no recipe, as a sentence; none where nothing is left out.
+    pub fn left_out(&self) -> Option<String> {
+        let (last, others) = self.left_out.split_last()?;
+        let list =
+            if others.is_empty() { (*last).into() } else { format!("{} and {last}", others.join(", ")) };
+        Some(format!("Not saved in the recipe: {list}. They do not change the mesh; a project keeps them."))
     }
 
     /// The files, the recipe last.
@@ -98,6 +107,21 @@ impl RecipeFiles {
         let drafts: Vec<Draft> = self.files.iter().map(draft).collect::<io::Result<_>>()?;
         put_in_place(drafts, meter)
     }
+}
+
+/// What recipes have no keys for.
+fn left_out(settings: &Settings) -> Vec<&'static str> {
+    let Settings { pins, paths, background, .. } = settings;
+    [
+        (!pins.is_empty(), "pins"),
+        (!paths.routes.is_empty(), "paths"),
+        (paths.cost != PathCost::default(), "the cost of paths"),
+        (!paths.keep_out.is_empty(), "keep-out regions"),
+        (background.is_some(), "the background picture"),
+    ]
+    .into_iter()
+    .filter_map(|(is_there, name)| is_there.then_some(name))
+    .collect()
 }
 
 impl Content {

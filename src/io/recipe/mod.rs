@@ -3,8 +3,11 @@
 //! `docs/recipe.md` lists the keys. Files are named relative to the folder of the recipe.
 
 mod checked;
+mod description;
 mod export;
+mod load;
 mod of_settings;
+mod open;
 mod saved;
 mod text;
 #[cfg(test)]
@@ -20,7 +23,10 @@ use super::error::PlacedFlaw;
 pub use super::words::{SavedName, SavedRule, SavedUnit};
 use super::{Flaw, ReadError};
 pub use checked::{OutputSpec, Recipe, checked_gradation};
+pub use description::MeshDescription;
 pub use export::RecipeFiles;
+pub use load::{Described, DescriptionError, Loading};
+pub use open::{OpenedRecipe, open};
 pub use saved::{SavedDomain, SavedLimits, SavedMesh, SavedOutput, SavedParts, SavedRecipe, SavedTreatment};
 use text::RecipeText;
 pub use write::to_text;

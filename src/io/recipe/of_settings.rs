@@ -4,7 +4,7 @@ use crate::document::Settings;
 use crate::domain::{BoundaryTreatment, DomainShape};
 use crate::geometry::Rect;
 use crate::io::layers::SavedLayer;
-use crate::text::LengthUnit;
+use crate::text::{Bytes, LengthUnit};
 
 impl SavedRecipe {
     /// The recipe that makes the mesh of a document, without outputs.
@@ -16,7 +16,9 @@ impl SavedRecipe {
             spacing: Some(settings.spacing),
             rule: Some(settings.rule.into()),
             max_triangles: Some(settings.max_triangles),
-            ..SavedMesh::default()
+            max_memory: (settings.max_memory != Settings::MAX_MEMORY)
+                .then(|| Bytes(settings.max_memory).exactly()),
+            max_level: None,
         };
         let limits = SavedLimits {
             h_min: Some(settings.transfer.h_min),
@@ -37,6 +39,8 @@ fn domain(settings: &Settings, region_file: &str) -> SavedDomain {
         names,
         ..SavedDomain::default()
     };
+    // A mesh that is not fitted is not cleaned, whatever the settings say about parts.
+    let is_fitted = settings.boundary != BoundaryTreatment::Report;
     match &settings.domain.shape {
         DomainShape::Whole => SavedDomain { bounds: Some([min.x, min.y, max.x, max.y]), ..rectangle },
         DomainShape::Formula(formula) => SavedDomain {
@@ -48,14 +52,10 @@ fn domain(settings: &Settings, region_file: &str) -> SavedDomain {
             region: Some(region_file.to_owned()),
             bounds: Some([min.x, min.y, max.x, max.y]),
             unit: Some(rectangle.unit.unwrap_or(SavedUnit::None)),
-            boundary: Some(match settings.boundary {
-                BoundaryTreatment::Report => SavedTreatment::Report,
-                BoundaryTreatment::Fitted { .. } => SavedTreatment::Fitted,
-                BoundaryTreatment::OnOutline { .. } => SavedTreatment::Outline,
-            }),
+            boundary: Some(SavedTreatment::of(settings.boundary)),
             boundary_diameter: settings.boundary.diameter(),
-            parts: Some(settings.cleaning.parts.into()),
-            keep_pinches: settings.cleaning.keeps_pinches,
+            parts: is_fitted.then(|| settings.cleaning.parts.into()),
+            keep_pinches: is_fitted && settings.cleaning.keeps_pinches,
             ..rectangle
         },
     }

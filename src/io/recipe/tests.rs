@@ -96,16 +96,19 @@ fn error(text: &str) -> ([usize; 2], String) {
 #[test]
 fn a_recipe_with_everything_is_read() {
     let recipe = parsed(FULL).unwrap();
-    assert_eq!(recipe.region.as_deref(), Some(Path::new("sea.geojson")));
-    assert_eq!((recipe.spacing, recipe.max_memory), (Some(0.5), Some(2_000_000_000)));
-    assert_eq!((recipe.h_min, recipe.h_max, recipe.gradation), (Some(0.01), Some(1.0), Some(0.3)));
-    assert_eq!(recipe.parts, Some(crate::mesh::KeptParts::Share(0.01)));
-    let names: Vec<&str> = recipe.layers.iter().map(|layer| layer.name.as_str()).collect();
+    assert_eq!(recipe.mesh.region.as_deref(), Some(Path::new("sea.geojson")));
+    assert_eq!((recipe.mesh.spacing, recipe.mesh.max_memory), (Some(0.5), Some(2_000_000_000)));
+    assert_eq!(
+        (recipe.mesh.h_min, recipe.mesh.h_max, recipe.mesh.gradation),
+        (Some(0.01), Some(1.0), Some(0.3))
+    );
+    assert_eq!(recipe.mesh.parts, Some(crate::mesh::KeptParts::Share(0.01)));
+    let names: Vec<&str> = recipe.mesh.layers.iter().map(|layer| layer.name.as_str()).collect();
     assert_eq!(names, ["Open sea", "Raster", "Threats", "Distance", "Band", "Paint"]);
-    assert_eq!(recipe.marks.as_ref().unwrap().names[0].1, "harbour");
+    assert_eq!(recipe.mesh.marks.as_ref().unwrap().names[0].1, "harbour");
     let outputs: Vec<_> = recipe.outputs.iter().map(|output| output.path.as_path()).collect();
     assert_eq!(outputs, [Path::new("a/sea.vtu"), Path::new("a/sea.png")], "beside the recipe");
-    assert!(parsed("").unwrap().layers.is_empty());
+    assert!(parsed("").unwrap().mesh.layers.is_empty());
 }
 
 #[test]

@@ -1,0 +1,105 @@
+//! Opening recipes in the window, by role and label.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use eframe::egui::accesskit::Role;
+use eframe::egui::{Key, Modifiers};
+use egui_kittest::kittest::Queryable as _;
+use glam::dvec2;
+
+use super::project::Dropped;
+use super::{Window, document, fingerprint, notice, send, stroke, wait_for_notice, wait_until, window};
+use crate::app::command::Command;
+use crate::document::{Document, Follower};
+use crate::io::{Meter, recipe};
+
+/// A recipe in a folder of its own, whose layer reads a file beside it.
+fn recipe_in(name: &str, text: &str) -> PathBuf {
+    let folder = super::folder("app-recipes", name);
+    fs::write(folder.join("depth.asc"), "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2\n3 4\n")
+        .unwrap();
+    let file = folder.join("strait.toml");
+    fs::write(&file, text).unwrap();
+    file
+}
+
+const STRAIT: &str = "[mesh]\nspacing = 0.2\n[limits]\nh_max = 0.4\n\
+                      [[layer]]\nname = \"Shallow\"\nkind = \"band\"\nfile = \"depth.asc\"\n\
+                      between = [0, 1.5]\ndiameter = 0.05\n";
+
+fn shows(window: &Window, label: &str) -> bool {
+    window.query_by_label(label).is_some()
+}
+
+fn is_open(window: &Window) -> bool {
+    shows(window, "strait") && window.state().session().follower().is_in_step(document(window))
+}
+
+fn opened_by_itself(file: &Path) -> Document {
+    recipe::open(file, &Meter::default()).unwrap().document
+}
+
+#[test]
+fn a_dropped_recipe_opens_as_a_new_document_that_has_no_file() {
+    let file = recipe_in("drop", STRAIT);
+    let mut window = window();
+    window.input_mut().dropped_files.push(Arc::new(Dropped(file.clone())));
+    window.run();
+    wait_until(&mut window, is_open);
+    let expected = Follower::new(&mut opened_by_itself(&file)).unwrap().mesh().fingerprint();
+    assert_eq!(fingerprint(&window), expected);
+    let layers = &document(&window).settings().layers;
+    assert!(layers.len() == 1 && layers[0].name == "Shallow");
+    assert!(window.state().project.path().is_none());
+    assert_eq!(window.state().project.recent(), [file]);
+
+    // Saving asks for the name of a project.
+    window.key_press_modifiers(Modifiers::COMMAND, Key::S);
+    window.run();
+    assert!(shows(&window, "Save project"));
+    window.get_by_role_and_label(Role::TextInput, "Path");
+}
+
+#[test]
+fn a_recipe_is_opened_by_name_and_edits_are_asked_about() {
+    let file = recipe_in("open", STRAIT);
+    let mut window = window();
+    stroke(&mut window, dvec2(0.1, 0.1), dvec2(0.2, 0.1));
+    send(&mut window, Command::Open(file));
+    wait_until(&mut window, |window| shows(window, "Do not save"));
+    window.get_by_role_and_label(Role::Button, "Do not save").click();
+    window.run();
+    wait_until(&mut window, is_open);
+}
+
+#[test]
+fn what_the_window_leaves_out_of_a_recipe_is_told() {
+    let file = recipe_in("notes", &format!("{STRAIT}[[output]]\nfile = \"strait.vtu\"\n"));
+    let mut window = window();
+    send(&mut window, Command::Open(file));
+    wait_until(&mut window, is_open);
+    assert!(notice(&window).contains("The window writes no files of [[output]]"), "{}", notice(&window));
+}
+
+#[test]
+fn a_mistake_in_a_recipe_is_reported_with_line_and_column() {
+    let mut window = window();
+    let before = fingerprint(&window);
+    for (name, text, words) in [
+        ("key", "[mesh]\nspacng = 1\n", "strait.toml, line 2, column 1: there is no key `spacng` here"),
+        (
+            "file",
+            "[[layer]]\nkind = \"band\"\nfile = \"no.asc\"\n",
+            "strait.toml, line 3, column 1: the file",
+        ),
+        ("fine", "[mesh]\nspacing = 1e-4\n", "spacing"),
+    ] {
+        send(&mut window, Command::Open(recipe_in(name, text)));
+        let message = wait_for_notice(&mut window);
+        assert!(message.contains(words), "{message}");
+        send(&mut window, Command::Escape);
+    }
+    assert_eq!(fingerprint(&window), before);
+}

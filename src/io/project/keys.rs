@@ -1,0 +1,83 @@
+//! The keys and words of `settings.json` are those of its version.
+
+use std::fmt::Write;
+
+use super::VERSION;
+use super::settings::Saved;
+
+/// Texts in which one key or word, `qqqq`, is unknown, beside the place that it stands in.
+const PLACES: [(&str, &str); 26] = [
+    ("", r#"{"qqqq":1}"#),
+    ("unit", r#"{"unit":"qqqq"}"#),
+    ("background", r#"{"background":{"qqqq":1}}"#),
+    ("domain", r#"{"domain":{"qqqq":1}}"#),
+    ("domain.shape", r#"{"domain":{"shape":"qqqq"}}"#),
+    ("boundary", r#"{"boundary":"qqqq"}"#),
+    ("cleaning", r#"{"cleaning":{"qqqq":1}}"#),
+    ("cleaning.parts", r#"{"cleaning":{"parts":"qqqq"}}"#),
+    ("boundary_marks", r#"{"boundary_marks":{"qqqq":1}}"#),
+    ("boundary_marks.names", r#"{"boundary_marks":{"names":[{"qqqq":1}]}}"#),
+    ("paths", r#"{"paths":{"qqqq":1}}"#),
+    ("paths.cost", r#"{"paths":{"cost":"qqqq"}}"#),
+    ("paths.cost.weights", r#"{"paths":{"cost":{"weights":{"qqqq":1}}}}"#),
+    ("paths.keep_out", r#"{"paths":{"keep_out":[{"qqqq":1}]}}"#),
+    ("transfer", r#"{"transfer":{"qqqq":1}}"#),
+    ("rule", r#"{"rule":"qqqq"}"#),
+    ("layers", r#"{"layers":[{"qqqq":1}]}"#),
+    ("layers.raster", r#"{"layers":[{"raster":{"qqqq":1}}]}"#),
+    ("layers.layer", r#"{"layers":[{"layer":{"qqqq":1}}]}"#),
+    ("layers.layer.kind", r#"{"layers":[{"layer":{"kind":"qqqq"}}]}"#),
+    ("layers.layer.combine", r#"{"layers":[{"layer":{"combine":"qqqq"}}]}"#),
+    ("layers.layer.quantity", r#"{"layers":[{"layer":{"quantity":"qqqq"}}]}"#),
+    ("layers.layer.to", r#"{"layers":[{"layer":{"to":"qqqq"}}]}"#),
+    ("layers.layer.threats", r#"{"layers":[{"layer":{"threats":[{"qqqq":1}]}}]}"#),
+    ("layers.layer.threats.law", r#"{"layers":[{"layer":{"threats":[{"law":"qqqq"}]}}]}"#),
+    ("layers.layer.shapes", r#"{"layers":[{"layer":{"shapes":[{"qqqq":1}]}}]}"#),
+];
+
+/// What the present version has. Where this differs, raise [`VERSION`]: an older program would say that a key
+/// is unknown, in place of "written by a newer program".
+const KEYS_OF_VERSION: (u64, &str) = (3, KEYS);
+
+const KEYS: &str = "\
+: format version written_by name unit background domain boundary cleaning boundary_marks pins paths \
+    spacing transfer base resolution layers gradation rule max_triangles max_memory
+unit: none m km degrees
+background: name part bounds opacity
+domain: bounds shape
+domain.shape: whole formula polygons
+boundary: report fitted_with_diameter on_outline_with_diameter
+cleaning: parts keep_pinches
+cleaning.parts: all largest with_share
+boundary_marks: splits names
+boundary_marks.names: at name
+paths: routes cost keep_out
+paths.cost: weights formula
+paths.cost.weights: length risk
+paths.keep_out: name polygons
+transfer: h_min h_max shape
+rule: vertex area
+layers: id layer raster
+layers.raster: part bounds columns rows
+layers.layer: kind name visible locked combine mask mask_file quantity formula file layer bounds as \
+    curve threats to shapes width at_zero slope range between diameter
+layers.layer.kind: paint formula raster threats distance corridor band
+layers.layer.combine: finest floor replace
+layers.layer.quantity: risk diameter
+layers.layer.to: outline
+layers.layer.threats: x y range peak law
+layers.layer.threats.law: radar gaussian disc
+layers.layer.shapes: point line polygon
+";
+
+#[test]
+fn a_new_key_comes_with_a_new_version() {
+    let mut keys = String::new();
+    for (place, text) in PLACES {
+        let error = serde_json::from_str::<Saved>(text).err().expect("no version has this").to_string();
+        let (_, known) = error.split_once("expected").unwrap_or_else(|| panic!("{place}: {error}"));
+        let known: Vec<&str> = known.split('`').skip(1).step_by(2).collect();
+        writeln!(keys, "{place}: {}", known.join(" ")).expect("a string takes any text");
+    }
+    assert_eq!((VERSION, keys.as_str()), KEYS_OF_VERSION, "raise the version, and put the new list here");
+}
