@@ -11,6 +11,7 @@ use crate::build::MeshSpec;
 use crate::domain::{BoundaryMarks, BoundaryTreatment, Domain, DomainShape, NamedPolygon, RegionError};
 use crate::field::Transfer;
 use crate::geometry::{Lattice, Rect};
+use crate::io::geojson::Outline;
 use crate::io::layers::{GridFiles, LayerFiles, LayerSpec};
 use crate::io::{self, Meter};
 use crate::layers::{Layer, LayerId, LayerKind, PaintLayers, RasterSource, Shapes, SizeFieldSpec};
@@ -44,7 +45,7 @@ pub struct ReadSources {
 /// When a file cannot be read or used, or there is no coarse grid.
 pub fn read_sources(request: &MeshRequest, meter: &Meter) -> Result<ReadSources, Failure> {
     let grids = GridFiles::read(visible(request), meter)?;
-    let (domain, marks, unit) = domain(request, grids.extent(), meter)?;
+    let ReadDomain { domain, marks, unit, note } = domain(request, grids.extent(), meter)?;
     let marks = request.marks.as_deref().cloned().unwrap_or(marks);
     let unit = request.unit.unwrap_or(unit);
     let bounds = domain.bounds;
@@ -54,7 +55,7 @@ pub fn read_sources(request: &MeshRequest, meter: &Meter) -> Result<ReadSources,
     let boundary = boundary(request, spacing, &lattice)?;
     let transfer = transfer(request, bisection_edge_length(lattice.spacing(), 0));
     let (layers, paint) = layers(request, LayerFiles::new(grids, bounds, transfer, meter))?;
-    let notes = notes(request, &layers, bounds);
+    let notes = note.into_iter().chain(notes(request, &layers, bounds)).collect();
     let field = field_spec(request, layers, transfer, &domain, &lattice)?;
     let (rule, limits) = (request.rule, request.limits);
     let is_fitted = boundary != BoundaryTreatment::Report && domain.region().is_some();
@@ -79,13 +80,18 @@ fn layers(request: &MeshRequest, mut files: LayerFiles) -> Result<(Vec<Layer>, P
     Ok((layers, paint))
 }
 
+/// A domain, and what its file says besides.
+struct ReadDomain {
+    domain: Domain,
+    marks: BoundaryMarks,
+    unit: LengthUnit,
+    /// A sentence for the user.
+    note: Option<String>,
+}
+
 /// The domain that is asked for, with the names and the unit that its file has; if none is, the `extent` of
 /// the rasters, or the unit square.
-fn domain(
-    request: &MeshRequest,
-    extent: Option<Rect>,
-    meter: &Meter,
-) -> Result<(Domain, BoundaryMarks, LengthUnit), Failure> {
+fn domain(request: &MeshRequest, extent: Option<Rect>, meter: &Meter) -> Result<ReadDomain, Failure> {
     if let Some(path) = &request.region {
         let outline = if is_standard_stream(path) {
             io::geojson::read_outline_from(stdin().lock(), Path::new("standard input"))?
@@ -93,13 +99,29 @@ fn domain(
             io::geojson::read_outline(path, meter)?
         };
         return domain_of(&outline.polygons, request.domain)
-            .map(|(domain, marks)| (domain, marks, outline.unit))
+            .map(|(domain, marks)| ReadDomain {
+                domain,
+                marks,
+                unit: outline.unit,
+                note: cut(path, &outline),
+            })
             .map_err(|error| Failure::Work(format!("{}: {error}", path.display())));
     }
     let bounds = request.domain.or(extent);
     let shape = request.inside.clone().map_or(DomainShape::Whole, DomainShape::Formula);
     let domain = Domain { bounds: bounds.unwrap_or(Rect::UNIT), shape };
-    Ok((domain, BoundaryMarks::default(), LengthUnit::None))
+    Ok(ReadDomain { domain, marks: BoundaryMarks::default(), unit: LengthUnit::None, note: None })
+}
+
+/// The note on polygons that are cut at the antimeridian.
+fn cut(path: &Path, outline: &Outline) -> Option<String> {
+    outline.is_cut_at_antimeridian().then(|| {
+        format!(
+            "{} is cut at the antimeridian (longitude 180°): the halves on its sides are separate parts of the mesh, and \
+             without --parts all only the largest part stays. Add 360 to the negative longitudes to mesh them as one.",
+            path.display()
+        )
+    })
 }
 
 /// The domain that polygons cover, in `bounds` where these are given, and the names that they bring.
