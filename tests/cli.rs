@@ -332,15 +332,22 @@ fn pieces_of_the_boundary_have_names() {
     let summary = folder.json("--region named.geojson --spacing 1 --parts all -o m.msh");
     let pieces = summary["boundary"].as_array().unwrap();
     let names: Vec<&str> = pieces.iter().map(|piece| piece["name"].as_str().unwrap()).collect();
-    let expected =
-        ["open south", "Forest 'A'", "5", "mainland 3", "Forest 'A' island 1", "Forest 'A' island 2"];
-    assert_eq!(names, expected);
+    assert_eq!(names, ["open south", "Forest 'A'", "5", "mainland 3", "Forest 'A' island 1"]);
     let ids: Vec<u64> = pieces.iter().map(|piece| piece["id"].as_u64().unwrap()).collect();
-    assert_eq!(ids, [0, 1, 2, 3, 4, 5]);
+    assert_eq!(ids, [0, 1, 2, 3, 4]);
     let kinds: Vec<&str> = pieces.iter().map(|piece| piece["kind"].as_str().unwrap()).collect();
-    assert_eq!(kinds, ["open", "mainland", "mainland", "mainland", "island", "island"]);
-    assert_eq!((pieces[0]["length"].as_f64(), &pieces[5]["edges"]), (Some(9.0), &0.into()));
+    assert_eq!(kinds, ["open", "mainland", "mainland", "mainland", "island"]);
+    assert_eq!(pieces[0]["length"].as_f64(), Some(9.0));
+    assert!(pieces.iter().all(|piece| piece["edges"].as_u64().unwrap() > 0));
+    // A piece without an edge is lost, and so is its island.
+    let lost = &summary["lost_pieces"];
+    assert_eq!(
+        (lost.as_array().unwrap().len(), &lost[0]["id"], &lost[0]["kind"]),
+        (1, &5.into(), &"island".into())
+    );
+    assert_eq!(lost[0]["name"], "Forest 'A' island 2");
     let lost = &summary["lost_islands"];
+    assert!((lost[0]["area"].as_f64().unwrap() - 5e-5).abs() < 1e-7, "{lost}");
     assert_eq!((lost.as_array().unwrap().len(), &lost[0]["name"]), (1, &"Forest 'A' island 2".into()));
     assert!((lost[0]["place"][0].as_f64().unwrap() - 2.0).abs() < 0.02);
     let parts: Vec<u64> =
@@ -377,6 +384,20 @@ fn pieces_of_the_boundary_have_names() {
 /// Two squares that a strait parts, which is narrower than the triangles, and a third far away.
 const STRAIT: &str = r#"{"type": "MultiPolygon", "coordinates": [
     [[[0, 0], [4, 0], [4, 4], [0, 4]]], [[[4.01, 4], [8, 4], [8, 8], [4.01, 8]]], [[[7, 0], [8, 0], [8, 1], [7, 1]]]]}"#;
+
+#[test]
+fn polygons_that_are_cut_at_the_antimeridian_are_not_halved_silently() {
+    let folder = Folder::new("antimeridian");
+    let half = |west: f64, east: f64| format!("[[[{west},-18],[{east},-18],[{east},-16],[{west},-16]]]");
+    let of =
+        |halves: [String; 2]| format!(r#"{{"type":"MultiPolygon","coordinates":[{}]}}"#, halves.join(","));
+    folder.file("cut.geojson", of([half(177.0, 180.0), half(-180.0, -178.0)]));
+    let ran = folder.run("mesh --region cut.geojson --spacing 1");
+    assert!(ran.err.contains("cut.geojson is cut at the antimeridian (longitude 180°)"), "{}", ran.err);
+    folder.file("whole.geojson", of([half(177.0, 180.0), half(180.0, 182.0)]));
+    let ran = folder.run("mesh --region whole.geojson --spacing 1");
+    assert!(ran.status == 0 && !ran.err.contains("antimeridian"), "{}", ran.err);
+}
 
 #[test]
 fn a_fitted_mesh_is_one_part_without_pinches_unless_more_is_asked_for() {
@@ -470,6 +491,7 @@ fn bad_regions_are_explained() {
     folder.file("line.geojson", polygon("[[[0,0],[1,1],[2,2]]]"));
     folder.file("narrow.geojson", polygon("[[[0,0],[1e12,0],[0,1e-3]]]"));
     folder.file("vast.geojson", polygon("[[[-1.7e308,-1.7e308],[1.7e308,0],[0,1.7e308]]]"));
+    folder.file("huge.geojson", polygon("[[[0,0],[1e300,0],[1e300,1e300],[0,1e300]]]"));
     folder.file("mixed.geojson", polygon("[[[0,0],[1,0],[0,[1,2]]]]"));
     for (arguments, status, sentence) in [
         ("--region none.geojson", 1, "none.geojson: cannot be read"),
@@ -495,6 +517,7 @@ fn bad_regions_are_explained() {
         ("--region line.geojson", 1, "line.geojson: The polygons cover no area"),
         ("--region narrow.geojson", 1, "is too narrow"),
         ("--region vast.geojson", 1, "vast.geojson: The polygons reach too far"),
+        ("--region huge.geojson", 1, "its width and its height must lie between 1e-120 and 1e150"),
         ("--region mixed.geojson", 1, "mixed.geojson, line 1: this is not valid GeoJSON: a list has both"),
         ("--region .", 1, ".: cannot be read"),
         ("--region frame.geojson --domain 0,0,1,1", 2, "cannot be used with '--domain"),
@@ -627,6 +650,7 @@ fn wrong_arguments_are_explained() {
         ("mesh --domain 0,0,1", 2, "write four numbers with commas between"),
         ("mesh --domain 0,0,1,NaN", 2, "all four numbers must be finite"),
         ("mesh --domain 0,0,inf,1", 2, "all four numbers must be finite"),
+        ("mesh --domain 0,0,1e300,1e300", 1, "its width and its height must lie between 1e-120 and 1e150"),
         ("mesh --domain 1e16,0,1.0000000000000008e16,8 --spacing 1", 1, "Move the domain nearer"),
         ("mesh --target '1 + 2*sqr(x)'", 2, "--target: There is no `sqr`; write `v^2`."),
         ("mesh --target ''", 2, "meshbrush: --target: "),

@@ -199,6 +199,66 @@ fn every_changed_byte_gives_a_result_or_a_sentence() {
     }
 }
 
+/// The words of a text and what separates them.
+fn words(text: &str) -> Vec<&str> {
+    let is_word = |c: &char| c.is_alphanumeric() || "._-+".contains(*c);
+    let mut ends: Vec<usize> = Vec::new();
+    for ((_, c), (at, next)) in text.char_indices().zip(text.char_indices().skip(1)) {
+        if is_word(&c) != is_word(&next) {
+            ends.push(at);
+        }
+    }
+    ends.push(text.len());
+    let starts = std::iter::once(0).chain(ends.iter().copied());
+    starts.zip(&ends).map(|(start, &end)| &text[start..end]).collect()
+}
+
+#[test]
+fn no_message_repeats_a_long_word_of_a_file() {
+    let letters = "a".repeat(100_000);
+    let huge = [
+        letters.clone(),
+        format!("\"{letters}\""),
+        "9".repeat(100_000),
+        format!("0.{}e", "9".repeat(100_000)),
+        format!("[{}", "{".repeat(100)),
+        format!("\"{}", "`\\\"“é".repeat(20_000)),
+    ];
+    let recipe_lines = |bytes: &[u8]| {
+        let found = |name: &str| Ok(PathBuf::from(name));
+        let read = recipe::parse(Path::new(NAME), String::from_utf8(bytes.to_vec()).unwrap(), &found);
+        read.map(drop).map_err(|error| error.to_string())
+    };
+    let texts = samples().into_iter().filter(|(file, _)| std::str::from_utf8(file).is_ok());
+    for (file, read) in texts.chain([(RECIPE.into(), recipe_lines as Reader)]) {
+        let text = String::from_utf8(file).unwrap();
+        let words = words(&text);
+        assert_eq!(words.concat(), text);
+        let mut refused = 0;
+        for at in 0..words.len() {
+            for huge in &huge {
+                let changed = [words[..at].concat(), huge.clone(), words[at + 1..].concat()].concat();
+                if let Err(message) = read(changed.as_bytes()) {
+                    refused += 1;
+                    let start: String = message.chars().take(300).collect();
+                    assert!(message.chars().count() < 1000, "{start}… for a word in place of {}", words[at]);
+                }
+            }
+        }
+        assert!(refused > words.len() / 2);
+    }
+}
+
+#[test]
+fn an_outline_may_begin_with_a_byte_order_mark() {
+    let text = polygon("[[[0,0],[4,0],[4,4]]]");
+    let marked = format!("\u{feff}{text}");
+    assert_eq!(read_geojson(marked.as_bytes()), Ok(()));
+    assert_eq!(read_shapes(marked.as_bytes()), Ok(()));
+    assert!(said("\u{feff}").contains("line 1: the file ends too early"));
+    assert!(said("\u{feff}\u{feff}{}").contains("line 1: this is not valid GeoJSON"));
+}
+
 fn polygon(rings: &str) -> String {
     format!(r#"{{"type":"Polygon","coordinates":{rings}}}"#)
 }

@@ -1,14 +1,15 @@
-//! The pieces of the document's boundary, for the tool that shows and names them. They are found on another
-//! thread: an outline of many corners takes longer than a frame.
+//! The pieces of the document's boundary, for the tool that shows and names them, and which of them the
+//! mesh lacks. Both are found on another thread: an outline of many corners takes longer than a frame.
 
 use std::sync::Arc;
 use std::time::Duration;
 
 use eframe::egui::Context;
 
+use super::derivation::{self, Derived};
 use super::latest::Latest;
 use crate::document::{Document, Follower};
-use crate::domain::{BoundaryMarks, BoundaryPieces, Domain};
+use crate::domain::{BoundaryMarks, BoundaryPieces, Domain, MeshBoundary};
 
 /// What pieces were found for.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,28 +20,74 @@ struct Key {
     revision: Option<u64>,
 }
 
+/// What lost pieces were found for: the pieces, and the mesh as files have it.
+type LostKey = (Key, derivation::Key);
+
 /// Finds the pieces of the boundary.
 #[derive(Default)]
-pub struct BoundaryFinder(Latest<Key, BoundaryPieces>);
+pub struct BoundaryFinder {
+    pieces: Latest<Key, BoundaryPieces>,
+    lost: Latest<LostKey, Vec<usize>>,
+}
 
 impl BoundaryFinder {
     /// The pieces of the document; `None` until they are found.
     pub fn pieces(&self, document: &Document) -> Option<&BoundaryPieces> {
-        let settings = document.settings();
-        let is_current = |key: &Key| key.domain == settings.domain && key.marks == settings.boundary_marks;
-        self.0.last().filter(|(key, _)| is_current(key)).map(|(_, pieces)| pieces)
+        self.pieces.last().filter(|(key, _)| is_current(key, document)).map(|(_, pieces)| pieces)
     }
 
-    /// Finds the pieces of the document, and waits for them up to `patience`. Returns whether some are being
-    /// found.
+    /// The numbers of the pieces of which a derived mesh has no edge, in ascending order; `None` until they
+    /// are found.
+    pub fn lost(&self, document: &Document, derived: &Derived) -> Option<&[usize]> {
+        let ((key, of), lost) = self.lost.last()?;
+        (is_current(key, document) && of == derived.key()).then_some(lost)
+    }
+
+    /// Finds the pieces of the document, and which of them a derived mesh lacks, and waits for them up to
+    /// `patience`. Returns whether some are being found.
     pub fn advance(
+        &mut self,
+        document: &Document,
+        follower: &Follower,
+        derived: Option<&Derived>,
+        patience: Duration,
+        ctx: &Context,
+    ) -> bool {
+        let is_finding = self.find_pieces(document, follower, patience, ctx);
+        if let (false, Some(derived)) = (is_finding, derived) {
+            self.find_lost(document, derived, patience, ctx)
+        } else {
+            is_finding
+        }
+    }
+
+    fn find_lost(
+        &mut self,
+        document: &Document,
+        derived: &Derived,
+        patience: Duration,
+        ctx: &Context,
+    ) -> bool {
+        self.lost.take(Duration::ZERO);
+        let Some((key, pieces)) = self.pieces.last().filter(|(key, _)| is_current(key, document)) else {
+            return false;
+        };
+        let key = (key.clone(), derived.key().clone());
+        if !self.lost.has(&key) {
+            let (pieces, extract) = (pieces.clone(), derived.shared_extract());
+            self.lost.start(key, move || MeshBoundary::of_pieces(&extract, pieces).lost().collect(), ctx);
+        }
+        self.lost.take(patience)
+    }
+
+    fn find_pieces(
         &mut self,
         document: &Document,
         follower: &Follower,
         patience: Duration,
         ctx: &Context,
     ) -> bool {
-        self.0.take(Duration::ZERO);
+        self.pieces.take(Duration::ZERO);
         let is_of_mesh = document.settings().domain.formula().is_some();
         if is_of_mesh && !follower.is_in_step(document) {
             return false;
@@ -48,15 +95,20 @@ impl BoundaryFinder {
         let settings = document.settings();
         let (domain, marks) = (settings.domain.clone(), settings.boundary_marks.clone());
         let key = Key { domain, marks, revision: is_of_mesh.then(|| follower.revision()) };
-        if !self.0.has(&key) {
+        if !self.pieces.has(&key) {
             let Key { domain, marks, revision } = key.clone();
             let mesh = revision.map(|_| follower.shared_mesh());
             let find = move || match mesh {
                 Some(mesh) => BoundaryPieces::of_mesh(&mesh.extract(), &marks),
                 None => BoundaryPieces::of_domain(&domain, &marks).expect("it is given by no formula"),
             };
-            self.0.start(key, find, ctx);
+            self.pieces.start(key, find, ctx);
         }
-        self.0.take(patience)
+        self.pieces.take(patience)
     }
+}
+
+fn is_current(key: &Key, document: &Document) -> bool {
+    let settings = document.settings();
+    key.domain == settings.domain && key.marks == settings.boundary_marks
 }

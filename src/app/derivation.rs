@@ -33,7 +33,7 @@ const MOST_IN_GESTURE: usize = 50_000;
 
 /// What a derived mesh depends on.
 #[derive(Clone, Debug, PartialEq)]
-struct Key {
+pub struct Key {
     revision: u64,
     on_outline: bool,
     cleaning: Cleaning,
@@ -72,6 +72,11 @@ pub struct Derived {
 }
 
 impl Derived {
+    /// What it depends on.
+    pub fn key(&self) -> &Key {
+        &self.key
+    }
+
     /// Nodes and triangles.
     pub fn view(&self) -> MeshView<'_> {
         self.extract.view()
@@ -280,7 +285,7 @@ fn derive(key: Key, mesh: Arc<Mesh>, domain: &DomainOnLattice, sender: &Sender<O
         extract: extract.clone(),
     };
     if sender.send(Outcome::Derived(Box::new(derived), pieces)).is_ok() {
-        let quality = FitQuality::of(&mesh, &extract, &region);
+        let quality = FitQuality::of(&extract, &region);
         let _ = sender.send(Outcome::Quality(quality));
     }
 }

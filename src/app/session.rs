@@ -164,10 +164,16 @@ impl Session {
         self.boundary.pieces(&self.document)
     }
 
+    /// The numbers of the pieces of which the mesh has no edge; `None` until they are found.
+    pub fn lost_boundary_pieces(&self) -> Option<&[usize]> {
+        self.boundary.lost(&self.document, self.derived()?)
+    }
+
     /// Finds the pieces of the boundary, waiting for them up to `patience`. Returns whether some are being
     /// found.
     pub fn find_boundary(&mut self, patience: Duration, ctx: &Context) -> bool {
-        self.boundary.advance(&self.document, &self.follower, patience, ctx)
+        let derived = self.derivation.current(&self.follower);
+        self.boundary.advance(&self.document, &self.follower, derived, patience, ctx)
     }
 
     /// The figures of the mesh that were computed last, and whether they are those of the mesh as it is.

@@ -1,11 +1,10 @@
 //! What files and the JSON summary say about a mesh besides its triangles.
 
-use glam::DVec2;
 use serde::Serialize;
 
 use super::build::FinishedMesh;
 use super::request::MeshRequest;
-use crate::domain::{BoundaryPiece, MeshBoundary, PieceFigures};
+use crate::domain::{HoleFigures, MeshBoundary, PieceFigures};
 use crate::io::{MeshSource, Provenance};
 use crate::mesh::Extract;
 
@@ -44,51 +43,94 @@ impl MeshDetails {
     }
 }
 
-/// A piece of the boundary.
+/// A piece of the boundary of which the mesh has edges.
 #[derive(Clone, Debug, Serialize)]
 pub struct PieceSummary {
-    /// Its number. Markers in files are one higher.
+    /// Its number among all pieces of the domain's boundary. Markers in files are one higher.
     pub id: usize,
     /// Its name, which no other piece has.
     pub name: String,
     /// "open", "mainland" or "island".
     pub kind: &'static str,
-    /// Edges of the mesh; none where the mesh covers an island.
+    /// Edges of the mesh.
     pub edges: usize,
     /// Their length in world units.
     pub length: f64,
 }
 
 impl PieceSummary {
-    /// Those of all pieces, by number.
-    pub fn of_all(boundary: &MeshBoundary) -> Vec<Self> {
-        let pieces = boundary.pieces().list().iter().zip(boundary.figures());
-        let summary = |(id, (piece, figures)): (usize, (&BoundaryPiece, &PieceFigures))| {
-            let PieceFigures { edges, length } = *figures;
+    /// Those of the pieces of which the mesh has edges, by number.
+    pub fn of_present(boundary: &MeshBoundary) -> Vec<Self> {
+        let summary = |id: usize| {
+            let (piece, figures) = (&boundary.pieces().list()[id], boundary.figures()[id]);
+            let PieceFigures { edges, length } = figures;
             Self { id, name: piece.name.clone(), kind: piece.kind.name(), edges, length }
         };
-        pieces.enumerate().map(summary).collect()
+        boundary.present().map(summary).collect()
     }
 }
 
-/// A hole of the polygons that the mesh covers.
+/// A piece of the domain's boundary of which the mesh has no edge.
+#[derive(Clone, Debug, Serialize)]
+pub struct LostPiece {
+    /// Its number among all pieces.
+    pub id: usize,
+    /// Its name.
+    pub name: String,
+    /// "open", "mainland" or "island".
+    pub kind: &'static str,
+    /// The point halfway along it.
+    pub place: [f64; 2],
+}
+
+impl LostPiece {
+    /// Those of a mesh, by number.
+    pub fn all(boundary: &MeshBoundary) -> Vec<Self> {
+        let lost = |id: usize| {
+            let piece = &boundary.pieces().list()[id];
+            let (name, kind) = (piece.name.clone(), piece.kind.name());
+            Self { id, name, kind, place: piece.middle().into() }
+        };
+        boundary.lost().map(lost).collect()
+    }
+}
+
+/// A hole of the polygons that lies wholly under triangles.
 #[derive(Clone, Debug, Serialize)]
 pub struct LostIsland {
     /// One of its corners.
     pub place: [f64; 2],
+    /// Its area in square world units.
+    pub area: f64,
     /// Its name.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
 }
 
 impl LostIsland {
-    /// The one with a corner at a place.
-    pub fn at(place: DVec2, boundary: Option<&MeshBoundary>) -> Self {
+    /// The island with its name, where the pieces of the boundary are known.
+    pub fn new(island: HoleFigures, boundary: Option<&MeshBoundary>) -> Self {
+        let HoleFigures { place, area } = island;
         let pieces = boundary.map(MeshBoundary::pieces);
         let name = pieces.and_then(|pieces| {
             let (piece, _) = pieces.nearest(place, pieces.tolerance())?;
             Some(pieces.list()[piece].name.clone())
         });
-        Self { place: place.into(), name }
+        Self { place: place.into(), area, name }
+    }
+}
+
+/// A hole of the mesh that the polygons do not have.
+#[derive(Clone, Debug, Serialize)]
+pub struct NewHole {
+    /// A point in it.
+    pub place: [f64; 2],
+    /// Its area in square world units.
+    pub area: f64,
+}
+
+impl From<HoleFigures> for NewHole {
+    fn from(HoleFigures { place, area }: HoleFigures) -> Self {
+        Self { place: place.into(), area }
     }
 }

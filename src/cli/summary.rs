@@ -4,7 +4,7 @@ use glam::DVec2;
 use serde::Serialize;
 
 use super::build::FinishedMesh;
-use super::details::{LostIsland, MeshDetails, PieceSummary};
+use super::details::{LostIsland, LostPiece, MeshDetails, NewHole, PieceSummary};
 use crate::domain::{FitQuality, MeshBoundary, Region};
 use crate::field::RefinementRule;
 use crate::mesh::{Extract, MeshStatistics, Removed, RemovedPart, Topology};
@@ -37,8 +37,10 @@ pub struct Summary {
     /// How well the nodes of the boundary lie on the outline, where they are moved there.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub outline_nodes: Option<OutlineNodes>,
-    /// The pieces of the boundary.
+    /// The pieces of the boundary of which the mesh has edges.
     pub boundary: Option<Vec<PieceSummary>>,
+    /// The pieces of the domain's boundary of which the mesh has no edge.
+    pub lost_pieces: Option<Vec<LostPiece>>,
     /// Triangles of each edge-connected part, the largest first.
     pub part_triangles: Option<Vec<usize>>,
     /// Edges, areas, angles and gradation.
@@ -113,8 +115,11 @@ pub struct Outline {
     pub farthest_from_outline: Option<(f64, [f64; 2])>,
     /// Largest distance from the outline to the boundary of the mesh, and the place.
     pub farthest_from_mesh: Option<(f64, [f64; 2])>,
-    /// The holes of the polygons that the mesh covers.
+    /// The holes of the polygons that lie wholly under triangles.
     pub lost_islands: Vec<LostIsland>,
+    /// The holes of the mesh that the polygons do not have, such as inlets whose mouth it closes; the largest
+    /// first.
+    pub new_holes: Vec<NewHole>,
     /// Smallest angle of a triangle, in degrees.
     pub smallest_angle: f64,
     /// Largest angle of a triangle, in degrees.
@@ -169,7 +174,7 @@ impl Outline {
         region: &Region,
         boundary: Option<&MeshBoundary>,
     ) -> Self {
-        let fit = FitQuality::of(finished.mesh(), extract, region);
+        let fit = FitQuality::of(extract, region);
         let Topology { parts, holes, .. } = extract.topology();
         let placed = |farthest: Option<(f64, DVec2)>| farthest.map(|(distance, at)| (distance, at.into()));
         Self {
@@ -183,7 +188,8 @@ impl Outline {
             outline_length: fit.outline_length,
             farthest_from_outline: placed(fit.farthest_from_outline),
             farthest_from_mesh: placed(fit.farthest_from_mesh),
-            lost_islands: fit.lost_islands.iter().map(|&at| LostIsland::at(at, boundary)).collect(),
+            lost_islands: fit.lost_islands.iter().map(|&lost| LostIsland::new(lost, boundary)).collect(),
+            new_holes: fit.new_holes.iter().copied().map(NewHole::from).collect(),
             smallest_angle: fit.smallest_angle,
             largest_angle: fit.largest_angle,
         }
@@ -217,6 +223,15 @@ impl Outline {
             distance(self.farthest_from_outline),
             distance(self.farthest_from_mesh),
         );
+        if let Some(NewHole { place: [x, y], area }) = self.new_holes.first() {
+            text += &format!(
+                "{} that the polygons do not have, the largest with area {} at {}, {}\n",
+                counted(self.new_holes.len(), "hole"),
+                short(*area),
+                short(*x),
+                short(*y),
+            );
+        }
         if removed.triangles > 0 {
             text += &format!(
                 "removed {} in {} and at {}: {:.3} % of the area\n",
@@ -264,7 +279,8 @@ impl Summary {
             area: if extract.is_patched() { extract.area() } else { mesh.area() },
             outline_nodes: finished.derived.fit().map(OutlineNodes::from),
             outline: region.map(|region| Outline::of(finished, extract, region, boundary)),
-            boundary: boundary.map(PieceSummary::of_all),
+            boundary: boundary.map(PieceSummary::of_present),
+            lost_pieces: boundary.map(LostPiece::all),
             part_triangles: details.map(MeshDetails::part_triangles),
             statistics: details.and_then(|_| extract.statistics()),
             max_level: levels.len() - 1,

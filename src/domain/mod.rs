@@ -13,6 +13,8 @@ mod region_builder;
 mod cut_shape;
 mod complexity;
 mod segments;
+mod farthest;
+mod holes;
 
 use std::sync::Arc;
 
@@ -30,6 +32,7 @@ pub use complexity::{MOST_CORNERS, MOST_CROSSINGS};
 pub use cut_shape::CutShape;
 pub use fit::{BoundaryTreatment, DomainOnLattice, DomainOnLatticeBuilder};
 pub use fit_quality::FitQuality;
+pub use holes::HoleFigures;
 pub use on_lattice::RegionOnLattice;
 pub use region::{Polygon, Region, Ring, corners, signed_area};
 

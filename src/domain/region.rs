@@ -133,6 +133,26 @@ impl Region {
         if area > 0.0 { area } else { 0.0 }
     }
 
+    /// The connected parts of the plane that neither the region nor the domain of some rings covers: those
+    /// that are bounded, and wider than the rounding errors of an overlay. The rings have their domain on
+    /// the left and do not cross each other.
+    pub(super) fn parts_beside(&self, rings: &[Ring]) -> Vec<Polygon> {
+        let grid = Grid::over(&self.frame);
+        let mut covered = grid.contours_of(self);
+        covered.extend(grid.contours(rings));
+        let around = grid.contour_around();
+        let mut parts = overlay(std::slice::from_ref(&around), &covered, OverlayOperation::WITHOUT_HOLES);
+        parts.retain(|part| !part[0].iter().any(|corner| around.contains(corner)));
+        let mut parts = grid.polygons(&parts);
+        // Corners move by at most one step, so that only a strip of two steps can come from rounding.
+        let strip = 2.0 * grid.step.max_element();
+        parts.retain(|part| {
+            let length = part.iter().map(|ring| perimeter(ring)).sum::<f64>();
+            part.iter().map(|ring| signed_area(ring)).sum::<f64>() > strip * length
+        });
+        parts
+    }
+
     /// The area covered, in square world units.
     pub fn area(&self) -> f64 {
         self.area
@@ -208,19 +228,15 @@ impl EdgeCursor {
     }
 }
 
-/// Whether a ring encloses a point an odd number of times. Not exact for points on the ring.
-pub(super) fn encloses(ring: &[DVec2], p: DVec2) -> bool {
-    let ends = ring.iter().skip(1).chain(ring.first());
-    let to_the_right = |(a, b): (&DVec2, &DVec2)| {
-        (a.y <= p.y) != (b.y <= p.y) && ((*b - *a).perp_dot(p - *a) > 0.0) == (a.y < b.y)
-    };
-    ring.iter().zip(ends).filter(|&edge| to_the_right(edge)).count() % 2 == 1
-}
-
 /// The corners of a rectangle, anticlockwise.
 pub fn corners(rect: &Rect) -> Ring {
     let Rect { min, max } = *rect;
     vec![min, DVec2::new(max.x, min.y), max, DVec2::new(min.x, max.y)]
+}
+
+/// The length of a ring, in world units.
+fn perimeter(ring: &[DVec2]) -> f64 {
+    ring.iter().zip(ring.iter().cycle().skip(1)).map(|(a, b)| a.distance(*b)).sum()
 }
 
 /// Area enclosed by a ring in square world units, positive when it runs anticlockwise.
@@ -309,10 +325,19 @@ impl Grid {
         DVec2::new(place(p.x, min.x, max.x, self.step.x), place(p.y, min.y, max.y, self.step.y))
     }
 
-    fn region(&self, shapes: Vec<Shape>) -> Region {
+    /// A square around the frame that does not touch it.
+    fn contour_around(&self) -> Contour {
+        let (low, high) = (-8, self.steps as i64 + 8);
+        [[low, low], [high, low], [high, high], [low, high]].map(|[x, y]| IntPoint::new(x, y)).to_vec()
+    }
+
+    fn polygons(&self, shapes: &[Shape]) -> Vec<Polygon> {
         let ring = |contour: &Contour| contour.iter().map(|p| self.world(p)).collect();
-        let polygons: Vec<Polygon> = shapes.iter().map(|shape| shape.iter().map(ring).collect()).collect();
-        Region::of_simple(self.frame, polygons)
+        shapes.iter().map(|shape| shape.iter().map(ring).collect()).collect()
+    }
+
+    fn region(&self, shapes: Vec<Shape>) -> Region {
+        Region::of_simple(self.frame, self.polygons(&shapes))
     }
 }
 

@@ -52,6 +52,11 @@ pub struct Lattice {
     step: DVec2,
 }
 
+/// The shortest and the longest side of a domain, in world units: the areas of triangles are finite numbers,
+/// and not zero.
+const SHORTEST_SIDE: f64 = 1e-120;
+const LONGEST_SIDE: f64 = 1e150;
+
 /// Why no coarse grid could be made.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -65,6 +70,16 @@ pub enum GridError {
     NotARectangle {
         /// The rectangle as given.
         bounds: Rect,
+    },
+    /// A side is so long or so short that squares of lengths are no numbers.
+    #[error(
+        "A domain of {} × {} cannot be meshed: its width and its height must lie between {SHORTEST_SIDE:e} and \
+         {LONGEST_SIDE:e}. Check the unit of the coordinates.",
+        Number(size.x), Number(size.y)
+    )]
+    Size {
+        /// Width and height of the domain.
+        size: DVec2,
     },
     /// The spacing is zero, negative, NaN or infinite.
     #[error(
@@ -135,10 +150,13 @@ impl Lattice {
         if !(bounds.is_proper() && bounds.size().is_finite()) {
             return Err(GridError::NotARectangle { bounds });
         }
+        let size = bounds.size();
+        if size.min_element() < SHORTEST_SIDE || size.max_element() > LONGEST_SIDE {
+            return Err(GridError::Size { size });
+        }
         if !(spacing > 0.0 && spacing.is_finite()) {
             return Err(GridError::Spacing { spacing });
         }
-        let size = bounds.size();
         let least = (size / spacing).max(DVec2::ONE);
         let triangles = 2.0 * least.x * least.y;
         // A single row may not be longer than the lattice either.
@@ -368,8 +386,12 @@ mod tests {
         let narrow =
             |width: f64| Lattice::covering(Rect::new(DVec2::ZERO, dvec2(width, 1e-3)), width / 5.0, 1000);
         assert_eq!(narrow(0.4).unwrap().cells(), [400, 1]);
-        for width in [1.0, 1e3, 1e9, 1e300] {
+        for width in [1.0, 1e3, 1e9, 1e150] {
             assert!(matches!(narrow(width), Err(GridError::TooNarrow { .. })), "{width}");
+        }
+        for (x, y) in [(1e300, 1e-3), (1e300, 1e300), (1.0, 1e-121)] {
+            let rect = Rect::new(DVec2::ZERO, dvec2(x, y));
+            assert!(matches!(Lattice::covering(rect, x, 1000), Err(GridError::Size { .. })), "{x} {y}");
         }
         let far = Rect::new(dvec2(1e16, 0.0), dvec2(1e16 + 8.0, 8.0));
         assert!(matches!(Lattice::covering(far, 1.0, 1000), Err(GridError::TooFarFromOrigin { .. })));

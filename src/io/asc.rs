@@ -17,6 +17,7 @@ use super::rows::reverse_rows;
 use super::{Flaw, Meter, Number, ReadError};
 use crate::geometry::Rect;
 use crate::raster::{LONGEST_SIDE, Raster, is_raster_size};
+use crate::text::excerpt;
 
 /// Reads a grid. Pixels without a value (`NODATA_value`, and `nan` as GDAL writes it) are NaN.
 ///
@@ -328,8 +329,7 @@ impl<R: BufRead> Words<R> {
     }
 
     fn not_a_word(&self, text: &str) -> PlacedFlaw {
-        let start: String = text.chars().take(20).collect();
-        let problem = format!("`{}…` is not a word of an ESRI ASCII grid.", start.escape_debug());
+        let problem = format!("`{}` is not a word of an ESRI ASCII grid.", excerpt(20, text));
         Flaw::Syntax(problem).at(self.line)
     }
 }

@@ -2,6 +2,7 @@
 
 use glam::DVec2;
 
+use crate::domain::Ring;
 use crate::text::LengthUnit;
 
 /// Codes of geographic coordinate systems: WGS 84, ETRS89, NAD83, NAD27, WGS 84 with heights.
@@ -28,6 +29,26 @@ pub fn unit(crs: Option<&str>, corners: impl IntoIterator<Item = DVec2>) -> Leng
         Some(code) if crs.contains("EPSG") && is_in_metres(code) => LengthUnit::Metre,
         _ => LengthUnit::None,
     }
+}
+
+/// Whether rings have edges along the longitudes 180° and −180° whose latitudes overlap.
+pub(super) fn meet_at_antimeridian<'a>(rings: impl Iterator<Item = &'a Ring> + Clone) -> bool {
+    let [east, west] = [180.0, -180.0].map(|longitude| {
+        let edges = rings.clone().flat_map(|ring| ring.iter().zip(ring.iter().cycle().skip(1)));
+        let along = edges.filter(|(a, b)| a.x == longitude && b.x == longitude && a.y != b.y);
+        let mut latitudes: Vec<[f64; 2]> = along.map(|(a, b)| [a.y.min(b.y), a.y.max(b.y)]).collect();
+        latitudes.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        latitudes
+    });
+    let (mut e, mut w) = (0, 0);
+    // Of two ranges apart, the lower one meets none of the other side that come later.
+    while let (Some(a), Some(b)) = (east.get(e), west.get(w)) {
+        if a[0] < b[1] && b[0] < a[1] {
+            return true;
+        }
+        if a[1] <= b[0] { e += 1 } else { w += 1 }
+    }
+    false
 }
 
 /// Whether an EPSG code is that of a known system in metres.
@@ -61,5 +82,20 @@ mod tests {
         assert_eq!(unit(None, [dvec2(-180.0, -90.0), dvec2(180.0, 90.0)]), LengthUnit::Degree);
         assert_eq!(unit(None, [dvec2(23.0, 38.0), dvec2(23.0, 91.0)]), LengthUnit::None);
         assert_eq!(unit(None, [dvec2(181.0, 0.0)]), LengthUnit::None);
+    }
+
+    #[test]
+    fn polygons_that_are_cut_at_the_antimeridian_are_recognised() {
+        let rectangle = |west: f64, east: f64, south: f64, north: f64| -> Ring {
+            vec![dvec2(west, south), dvec2(east, south), dvec2(east, north), dvec2(west, north)]
+        };
+        let meet = |rings: &[Ring]| meet_at_antimeridian(rings.iter());
+        let east = rectangle(177.0, 180.0, -18.0, -16.0);
+        assert!(meet(&[east.clone(), rectangle(-180.0, -178.0, -17.0, -10.0)]));
+        assert!(meet(&[rectangle(-180.0, -178.0, 50.0, 60.0), rectangle(-180.0, 180.0, -5.0, 5.0)]));
+        // One side only, other latitudes, or a corner.
+        assert!(!meet(&[east.clone()]) && !meet(&[]));
+        assert!(!meet(&[east.clone(), rectangle(-180.0, -178.0, -16.0, -10.0)]));
+        assert!(!meet(&[east, vec![dvec2(-180.0, -17.0), dvec2(-178.0, -18.0), dvec2(-178.0, -16.0)]]));
     }
 }

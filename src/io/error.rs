@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use super::Cancelled;
 use crate::raster::{LONGEST_SIDE, MOST_PIXELS};
-use crate::text::Grouped;
+use crate::text::{Grouped, abridged};
 
 /// Why a file could not be used: which file, where in it, and what is wrong there.
 #[derive(Debug, thiserror::Error)]
@@ -64,7 +64,7 @@ pub enum Flaw {
     #[error("the file is damaged: its content does not match its checksum. Use another copy.")]
     Damaged,
     /// The PNG decoder refuses it.
-    #[error("this is not a PNG image that can be read ({0}). Export it again as PNG.")]
+    #[error("this is not a PNG image that can be read ({}). Export it again as PNG.", abridged(_0))]
     Png(String),
     /// A raster with too many pixels, or none.
     #[error(
@@ -80,7 +80,7 @@ pub enum Flaw {
         rows: u64,
     },
     /// The text breaks a rule of its format; the sentence says which.
-    #[error("{0}")]
+    #[error("{}", abridged(_0))]
     Syntax(String),
 }
 
@@ -120,11 +120,4 @@ impl<F: Into<Flaw>> From<F> for PlacedFlaw {
     fn from(flaw: F) -> Self {
         Self { place: Place::Whole, flaw: flaw.into() }
     }
-}
-
-/// At most `most` characters of a text from a file, escaped; the text may be as long as the file.
-pub(super) fn shown(most: usize, text: &str) -> String {
-    let start: String = text.chars().take(most).collect();
-    let more = if text.chars().nth(most).is_some() { "…" } else { "" };
-    format!("{}{more}", start.escape_debug())
 }

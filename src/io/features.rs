@@ -1,7 +1,7 @@
 //! The objects of a GeoJSON file (RFC 7946): geometries, features and collections.
 
 use std::fmt;
-use std::io::Read;
+use std::io::{self, Cursor, Read};
 use std::marker::PhantomData;
 
 use serde::Deserialize;
@@ -47,9 +47,10 @@ pub(super) struct Object<W> {
 }
 
 impl<W: Wanted> Object<W> {
-    /// Reads the object of a file. The parser bounds how deep objects are nested.
+    /// Reads the object of a file, which may begin with a byte order mark. The parser bounds how deep objects
+    /// are nested.
     pub(super) fn parse(input: impl Read) -> Result<Self, PlacedFlaw> {
-        let mut json = serde_json::Deserializer::from_reader(input);
+        let mut json = serde_json::Deserializer::from_reader(without_mark(input).map_err(Flaw::Io)?);
         let object = Self::deserialize(&mut json).map_err(placed)?;
         json.end().map_err(placed)?;
         Ok(object)
@@ -114,6 +115,17 @@ fn name_of<'de, D: Deserializer<'de>>(json: D) -> Result<String, D::Error> {
     let found =
         NAMES.iter().find_map(|name| properties.get(name).and_then(text).filter(|name| !name.is_empty()));
     Ok(found.unwrap_or_default())
+}
+
+/// The input without the byte order mark that it may begin with.
+fn without_mark(mut input: impl Read) -> io::Result<impl Read> {
+    const MARK: [u8; 3] = *b"\xef\xbb\xbf";
+    let mut start = Vec::new();
+    input.by_ref().take(MARK.len() as u64).read_to_end(&mut start)?;
+    if start == MARK {
+        start.clear();
+    }
+    Ok(Cursor::new(start).chain(input))
 }
 
 /// The error of serde_json with its line.

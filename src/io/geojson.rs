@@ -23,6 +23,16 @@ pub struct Outline {
     pub unit: LengthUnit,
 }
 
+impl Outline {
+    /// Whether the polygons end at the antimeridian on both sides of it: coordinates are degrees, and edges
+    /// along the longitudes 180° and −180° lie at the same latitudes. Files are cut there (RFC 7946, section
+    /// 3.1.9), and a mesh does not join the halves.
+    pub fn is_cut_at_antimeridian(&self) -> bool {
+        let rings = || self.polygons.iter().flat_map(|named| &named.polygon);
+        self.unit == LengthUnit::Degree && coordinates::meet_at_antimeridian(rings())
+    }
+}
+
 /// Reads every polygon of a file: of a geometry, a feature, or a collection of either. Other geometries are
 /// ignored.
 ///

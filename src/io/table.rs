@@ -9,7 +9,8 @@ use std::io::{BufRead, Read};
 use csv_core::{ReadRecordResult, ReaderBuilder, Terminator};
 
 use super::Flaw;
-use super::error::{PlacedFlaw, shown};
+use super::error::PlacedFlaw;
+use crate::text::excerpt;
 
 /// Longest line that is read, in bytes. Without a limit a file without line breaks would fill the memory.
 const LONGEST_LINE: u64 = 1 << 20;
@@ -68,7 +69,7 @@ impl<R: BufRead> Rows<R> {
             }
         }
         let header = String::from_utf8_lossy(&line);
-        let found = shown(40, header.trim());
+        let found = excerpt(40, header.trim());
         let problem = format!("the header is `{found}`, and it must name the columns {columns}.");
         Err(Flaw::Syntax(problem).at(self.line))
     }
@@ -77,7 +78,7 @@ impl<R: BufRead> Rows<R> {
     fn check_once(&self, names: &[&str]) -> Result<(), PlacedFlaw> {
         let is_meant = |field: &&str| names.iter().any(|name| field.eq_ignore_ascii_case(name));
         let columns: Vec<String> =
-            self.fields().filter(is_meant).take(3).map(|field| format!("`{}`", shown(20, field))).collect();
+            self.fields().filter(is_meant).take(3).map(|field| format!("`{}`", excerpt(20, field))).collect();
         if columns.len() < 2 {
             return Ok(());
         }
@@ -151,6 +152,6 @@ impl<R: BufRead> Rows<R> {
         let text = text.ok_or_else(|| flaw(format!("there is no {name}.")))?;
         let with_point = |text: &str| (self.delimiter != b',').then(|| text.replace(',', "."));
         let parsed = text.parse().ok().or_else(|| with_point(text)?.parse().ok());
-        parsed.ok_or_else(|| flaw(format!("{name} is `{}`, which is not a number.", shown(40, text))))
+        parsed.ok_or_else(|| flaw(format!("{name} is `{}`, which is not a number.", excerpt(40, text))))
     }
 }

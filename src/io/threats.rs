@@ -6,10 +6,11 @@ use std::path::Path;
 
 use glam::DVec2;
 
-use super::error::{PlacedFlaw, shown};
+use super::error::PlacedFlaw;
 use super::table::Rows;
 use super::{Flaw, Meter, Number, ReadError};
 use crate::layers::{Threat, ThreatError, ThreatLaw};
+use crate::text::excerpt;
 
 /// Names of the columns, in lower case; the last may be missing.
 const NAMES: [&[&str]; 5] =
@@ -64,7 +65,7 @@ fn law_named(name: &str) -> Result<ThreatLaw, Flaw> {
     let found = ThreatLaw::ALL.iter().find(|(_, known)| name.eq_ignore_ascii_case(known));
     found.map(|&(law, _)| law).ok_or_else(|| {
         let known = ThreatLaw::ALL.map(|(_, name)| name).join(", ");
-        Flaw::Syntax(format!("law is `{}`, and the laws are {known}.", shown(40, name)))
+        Flaw::Syntax(format!("law is `{}`, and the laws are {known}.", excerpt(40, name)))
     })
 }
 

@@ -56,7 +56,7 @@ impl OutlineChanges {
             smoother.smooth(&mut patchwork);
         }
         smoother.pull(&mut patchwork);
-        let fit = fit(&patchwork, region, &angles);
+        let fit = fit(&patchwork, region, mesh.lattice().extent(), &angles);
         Self { patch: patch(mesh, &signs, &band, &patchwork, &angles), fit, corner_limit }
     }
 }
@@ -104,7 +104,7 @@ fn retreat(
     }
 }
 
-fn fit(patchwork: &Patchwork, region: &RegionOnLattice, angles: &Angles) -> OutlineFit {
+fn fit(patchwork: &Patchwork, region: &RegionOnLattice, extent: LatticePoint, angles: &Angles) -> OutlineFit {
     let mut fit = OutlineFit::default();
     let mut star = Vec::new();
     for (v, &point) in patchwork.points.iter().enumerate() {
@@ -119,21 +119,24 @@ fn fit(patchwork: &Patchwork, region: &RegionOnLattice, angles: &Angles) -> Outl
         if patchwork.on_outline[v] {
             fit.on_outline += 1;
         } else {
-            fit.farthest = fit.farthest.max(distance(point, region, angles));
+            fit.farthest = fit.farthest.max(distance(point, region, extent, angles));
         }
     }
     fit
 }
 
 /// The distance of a point from the outline, in world units.
-fn distance(point: LatticePoint, region: &RegionOnLattice, angles: &Angles) -> f64 {
-    let mut reach = angles.step().max_element();
-    loop {
-        if let Some(nearest) = region.nearest_on_outline(point.as_dvec2(), reach, angles.step()) {
-            return ((nearest - point.as_dvec2()) * angles.step()).length();
-        }
-        reach *= 4.0;
-    }
+///
+/// The outline is searched within a lattice step first, then within four times as much, up to more than the
+/// diagonal of the lattice. It has an edge there: a node that can be off the outline is at an edge that the
+/// outline crosses, and an edge of the outline along a side of the grid crosses none.
+fn distance(point: LatticePoint, region: &RegionOnLattice, extent: LatticePoint, angles: &Angles) -> f64 {
+    let (p, step) = (point.as_dvec2(), angles.step());
+    let diagonal = (extent.as_dvec2() * step).length();
+    let reaches =
+        std::iter::successors(Some(step.max_element()), |reach| (*reach <= diagonal).then_some(4.0 * reach));
+    let mut nearest = reaches.filter_map(|reach| region.nearest_on_outline(p, reach, step));
+    nearest.next().map_or(0.0, |nearest| ((nearest - p) * step).length())
 }
 
 /// Collects what differs from the mesh.

@@ -150,7 +150,7 @@ pub(super) fn pins(
     found.into_iter().map(|(_, _, pin)| pin).collect()
 }
 
-/// The nodes on the boundary, in the order of their places.
+/// The nodes on the boundary, in the order of the points where they are now: [`nearest`] searches for these.
 fn candidates(mesh: &Mesh, band: &Band, placement: &Placement) -> Vec<Candidate> {
     let mut legs = vec![0.0f64; placement.homes.len()];
     for (t, &id) in band.ids.iter().enumerate() {
@@ -165,13 +165,15 @@ fn candidates(mesh: &Mesh, band: &Band, placement: &Placement) -> Vec<Candidate>
         is_cut || [true, false].iter().all(|&inside| has_sector(band, placement, v, inside))
     };
     let nodes = (0..legs.len() as u32).filter(|&v| legs[v as usize] > 0.0 && on_boundary(v));
-    nodes
+    let mut candidates: Vec<Candidate> = nodes
         .map(|node| Candidate { point: placement.goals[node as usize], node, leg: legs[node as usize] })
-        .collect()
+        .collect();
+    candidates.sort_unstable_by_key(|candidate| (candidate.point, candidate.node));
+    candidates
 }
 
-/// The candidate nearest to a point that may move, and its distance, if that is at most `reach`, in world
-/// units.
+/// The candidate nearest to a point that may move, and its distance, of those that are at most `reach` away
+/// along x, in world units. The candidates are in the order of their points.
 fn nearest<'a>(
     candidates: &'a [Candidate],
     at: LatticePoint,

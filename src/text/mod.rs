@@ -1,8 +1,9 @@
-//! What messages for a person are made of: counts, lengths and their unit, sizes in bytes, a line with carets
-//! under a part of it.
+//! What messages for a person are made of: counts, lengths and their unit, sizes in bytes, excerpts of
+//! files, a line with carets under a part of it.
 
 mod bytes;
 mod digits;
+mod excerpt;
 mod grouped;
 mod number;
 mod pointer;
@@ -10,6 +11,7 @@ mod unit;
 
 pub use bytes::Bytes;
 pub use digits::{digits, fixed, percent_above, rounded, significant, with_unit};
+pub use excerpt::{abridged, excerpt};
 pub use grouped::{Grouped, group_digits};
 pub use number::Number;
 pub use pointer::{draw_pointer, printable};

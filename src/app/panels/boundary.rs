@@ -23,7 +23,9 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
         return;
     };
     let selected = state.tools.boundary.selected_of(pieces);
-    let note = format::count(pieces.list().len() as u64);
+    let lost = state.session.lost_boundary_pieces().unwrap_or_default();
+    let present = pieces.list().len() - lost.len();
+    let note = format::count(present as u64);
     Section::new("Boundary").id("boundary").note(&note).show(ui, |ui| {
         let mut mode = state.tools.boundary.mode;
         let choices = [(BoundaryToolMode::Select, "Select"), (BoundaryToolMode::Split, "Split")];
@@ -41,7 +43,7 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
         if let Some(selected) = selected {
             selected_rows(ui, state, pieces, selected, commands);
         }
-        list(ui, pieces, selected, state.unit(), commands);
+        list(ui, pieces, lost, selected, state.unit(), commands);
     });
 }
 
@@ -91,16 +93,23 @@ fn name_row(ui: &mut Ui, current: &str) -> Option<String> {
     new
 }
 
+/// The pieces that the mesh has, then those that it lacks.
 fn list(
     ui: &mut Ui,
     pieces: &BoundaryPieces,
+    lost: &[usize],
     selected: Option<usize>,
     unit: LengthUnit,
     commands: &mut Vec<Command>,
 ) {
-    for (number, piece) in pieces.list().iter().enumerate().take(MOST_ROWS) {
-        let value = format::length(piece.length(), unit);
-        let help = format!("Length of a piece; its kind is {}. A click selects it.", piece.kind.name());
+    let is_lost = |number: &usize| lost.binary_search(number).is_ok();
+    let present = (0..pieces.list().len()).filter(|number| !is_lost(number));
+    for number in present.chain(lost.iter().copied()).take(MOST_ROWS) {
+        let piece = &pieces.list()[number];
+        let value = if is_lost(&number) { "lost".to_owned() } else { format::length(piece.length(), unit) };
+        let what =
+            if is_lost(&number) { "A piece of which the mesh has no edge" } else { "Length of a piece" };
+        let help = format!("{what}; its kind is {}. A click selects it.", piece.kind.name());
         let row = ValueRow::new(&piece.name, &value).help(&help).stands_out(selected == Some(number));
         if row.link().show(ui).clicked() {
             commands.push(Command::Boundary(BoundaryCommand::Select(piece.middle())));

@@ -62,14 +62,25 @@ fn quality_rows(
 ) {
     let kept = quality.islands - quality.lost_islands.len();
     let islands = format!("{} of {}", count(kept), count(quality.islands));
-    if let Some(&lost) = quality.lost_islands.first() {
-        let help = "Islands of the outline that are no part of the mesh. A click goes to one that it covers.";
+    if let Some(lost) = quality.lost_islands.first() {
+        let help = "Islands of the outline that do not lie wholly under triangles. A click goes to the largest lost one.";
         let row = ValueRow::new("Islands kept", &islands).help(help).stands_out(true).link().show(ui);
-        go_to(&row, lost, state, commands);
+        go_to(&row, lost.place, state, commands);
     } else if quality.islands > 0 {
         value_row(ui, "Islands kept", &islands);
     }
     let percent = |area: f64| 100.0 * area / region.area();
+    if let Some(largest) = quality.new_holes.first() {
+        let value = format!(
+            "{}, up to {} %",
+            count(quality.new_holes.len()),
+            format::digits(percent(largest.area), 3)
+        );
+        let help = "Holes of the mesh that the outline does not have, such as inlets whose mouth it closes, and the area of \
+                    the largest. A click goes there.";
+        let row = ValueRow::new("New holes", &value).help(help).stands_out(true).link().show(ui);
+        go_to(&row, largest.place, state, commands);
+    }
     let sign = if quality.net_area < 0.0 { "−" } else { "+" };
     let net = format!("{sign}{} %", format::digits(percent(quality.net_area.abs()), 3));
     value_row(ui, "Net area", &net);

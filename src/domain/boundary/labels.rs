@@ -10,9 +10,8 @@ pub(super) struct Choice {
 }
 
 /// The labels of a closed loop with the least sum of costs, by dynamic programming. Of equal sums, that with
-/// the lower labels. The time is proportional to the edges, times the squares of their numbers of labels.
-///
-/// `start` is an edge with few labels: each of them takes one pass.
+/// the lower labels. `start` is an edge with few labels: each of them takes one pass over all labels of all
+/// edges.
 pub(super) fn cheapest_labels(choices: &[Choice], start: usize) -> Vec<u32> {
     let count = choices.len();
     let at = |n: usize| &choices[(start + n) % count];
@@ -37,12 +36,14 @@ fn cheapest_path<'a>(at: &impl Fn(usize) -> &'a Choice, count: usize, first: usi
     costs[first] = at(0).labels[first].1;
     for n in 1..count {
         let (last, choice) = (at(n - 1), at(n));
+        // The cheapest way with a change is one for all labels, and the only other way is without one.
+        let changed = cheapest(costs.iter().map(|&cost| cost + last.change));
         let mut from = Vec::with_capacity(choice.labels.len());
         let mut next = Vec::with_capacity(choice.labels.len());
         for &(label, own) in &choice.labels {
-            let ways =
-                last.labels.iter().zip(&costs).map(|(&(other, _), &cost)| cost + change(last, other, label));
-            let (way, cost) = cheapest(ways);
+            let same = last.labels.binary_search_by_key(&label, |&(other, _)| other);
+            let unchanged = same.ok().map(|way| (way, costs[way]));
+            let (way, cost) = cheaper(changed, unchanged);
             from.push(way);
             next.push(cost + own);
         }
@@ -63,6 +64,14 @@ fn cheapest_path<'a>(at: &impl Fn(usize) -> &'a Choice, count: usize, first: usi
 
 fn change(choice: &Choice, label: u32, next: u32) -> f64 {
     if label == next { 0.0 } else { choice.change }
+}
+
+/// The cheaper of two ways; of equal ones that with the lower place.
+fn cheaper(a: (usize, f64), b: Option<(usize, f64)>) -> (usize, f64) {
+    match b {
+        Some((way, cost)) if (cost, way) < (a.1, a.0) => (way, cost),
+        _ => a,
+    }
 }
 
 /// The least of some costs, and its place; of equal ones the first.

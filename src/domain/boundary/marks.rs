@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use glam::DVec2;
 
-use super::super::segments::SegmentGrid;
+use super::super::segments::Segments;
 use super::super::{Domain, Polygon, RegionError};
 use super::{BoundaryKind, BoundaryPieces};
 
@@ -86,11 +86,11 @@ impl BoundaryMarks {
                 owners.resize(segments.len(), owner);
             }
         }
-        let Some(grid) = SegmentGrid::new(segments) else { return marks };
+        let Some(segments) = Segments::new(segments) else { return marks };
         let mut islands: HashMap<usize, usize> = HashMap::new();
         for piece in pieces.list().iter().filter(|piece| piece.kind != BoundaryKind::Open) {
             let middle = piece.middle();
-            let owner = match grid.nearest(middle, |_| true) {
+            let owner = match segments.nearest(middle, |_| true) {
                 Some((segment, distance)) if distance <= pieces.tolerance() => owners[segment as usize],
                 _ => continue,
             };

@@ -102,6 +102,11 @@ impl MeshBoundary {
         (0..self.figures.len()).filter(|&piece| self.figures[piece].edges > 0)
     }
 
+    /// The numbers of the pieces of the domain's boundary of which the mesh has no edge.
+    pub fn lost(&self) -> impl Iterator<Item = usize> + Clone + '_ {
+        (0..self.figures.len()).filter(|&piece| self.figures[piece].edges == 0)
+    }
+
     /// The number of the piece of each edge of [`Extract::boundary_edges`].
     pub fn piece_of_edge(&self) -> &[u32] {
         &self.piece_of_edge

@@ -4,7 +4,7 @@ use std::collections::{HashMap, HashSet};
 
 use glam::DVec2;
 
-use super::super::segments::SegmentGrid;
+use super::super::segments::Segments;
 use super::super::{Domain, DomainShape, Ring, corners};
 use super::stretches::{FrameSide, Stretch, length, stretches};
 use super::{BoundaryKind, BoundaryMarks};
@@ -124,8 +124,9 @@ impl BoundaryPieces {
     /// The number of the piece nearest to a point within `reach`, and its nearest point.
     pub fn nearest(&self, point: DVec2, reach: f64) -> Option<(usize, DVec2)> {
         let index = self.index.as_ref()?;
-        let (segment, _) = index.grid.nearest(point, |_| true).filter(|&(_, distance)| distance <= reach)?;
-        Some((index.owner(segment), nearest_on_segment(point, index.grid.segment(segment))))
+        let (segment, _) =
+            index.segments.nearest(point, |_| true).filter(|&(_, distance)| distance <= reach)?;
+        Some((index.owner(segment), nearest_on_segment(point, index.segments.segment(segment))))
     }
 
     /// The distances to the pieces that `counts` accepts: that to the nearest, and those up to `margin` more.
@@ -138,9 +139,9 @@ impl BoundaryPieces {
     ) -> Vec<(u32, f64)> {
         let Some(index) = &self.index else { return Vec::new() };
         let accepted = |segment: u32| counts(&self.pieces[index.owner(segment)]);
-        let Some((_, least)) = index.grid.nearest(point, accepted) else { return Vec::new() };
+        let Some((_, least)) = index.segments.nearest(point, accepted) else { return Vec::new() };
         let mut found: Vec<(u32, f64)> = Vec::new();
-        index.grid.visit_within(point, least + margin, |segment, distance| {
+        index.segments.visit_within(point, least + margin, |segment, distance| {
             if accepted(segment) {
                 let piece = index.owner(segment) as u32;
                 match found.iter_mut().find(|(other, _)| *other == piece) {
@@ -213,10 +214,10 @@ impl BoundaryPieces {
     }
 }
 
-/// The segments of all pieces, in a grid.
+/// The segments of all pieces.
 #[derive(Clone, Debug)]
 struct Index {
-    grid: SegmentGrid<'static>,
+    segments: Segments,
     /// The number after the last segment of each piece.
     ends: Vec<usize>,
 }
@@ -228,7 +229,7 @@ impl Index {
             segments.extend(points.windows(2).map(|pair| [pair[0], pair[1]]));
             ends.push(segments.len());
         }
-        Some(Self { grid: SegmentGrid::new(segments)?, ends })
+        Some(Self { segments: Segments::new(segments)?, ends })
     }
 
     /// The number of the polyline of a segment.
@@ -251,10 +252,11 @@ fn split(stretches: &[Stretch], splits: &[DVec2], tolerance: f64) -> Vec<Boundar
     let mut cuts: Vec<Vec<Place>> = vec![Vec::new(); stretches.len()];
     let index = if splits.is_empty() { None } else { Index::new(stretches.iter().map(|s| &*s.points)) };
     for (&split, index) in splits.iter().flat_map(|split| Some((split, index.as_ref()?))) {
-        let Some((segment, _)) = index.grid.nearest(split, |_| true).filter(|(_, d)| *d <= tolerance) else {
+        let Some((segment, _)) = index.segments.nearest(split, |_| true).filter(|(_, d)| *d <= tolerance)
+        else {
             continue;
         };
-        let ends = index.grid.segment(segment);
+        let ends = index.segments.segment(segment);
         cuts[index.owner(segment)].push((index.place(segment), nearest_on_segment(split, ends)));
     }
     let mut pieces = Vec::new();
@@ -302,7 +304,7 @@ fn parts(points: &[DVec2], is_closed: bool, mut cuts: Vec<Place>, tolerance: f64
 /// Gives each piece the first name that is anchored on it.
 fn give_names(pieces: &mut [BoundaryPiece], index: &Index, marks: &BoundaryMarks, tolerance: f64) {
     for (place, name) in &marks.names {
-        let nearest = index.grid.nearest(*place, |_| true).filter(|&(_, distance)| distance <= tolerance);
+        let nearest = index.segments.nearest(*place, |_| true).filter(|&(_, distance)| distance <= tolerance);
         let Some((segment, _)) = nearest else { continue };
         let piece = &mut pieces[index.owner(segment)];
         if !piece.is_named {

@@ -11,8 +11,8 @@ use flate2::Compression;
 use flate2::read::DeflateDecoder;
 use flate2::write::DeflateEncoder;
 
-use super::super::error::shown;
 use super::super::{Flaw, Meter};
+use crate::text::excerpt;
 
 const LOCAL: u32 = u32::from_le_bytes(*b"PK\x03\x04");
 const CENTRAL: u32 = u32::from_le_bytes(*b"PK\x01\x02");
@@ -65,7 +65,7 @@ impl<'a> Archive<'a> {
         for _ in 0..count {
             let (name, part, after) = entry(bytes, rest, start)?;
             if parts.iter().any(|(other, _)| *other == name) {
-                return Err(Flaw::Syntax(format!("there are two parts called {}.", shown(40, name))));
+                return Err(Flaw::Syntax(format!("there are two parts called {}.", excerpt(40, name))));
             }
             parts.push((name, part));
             rest = after;
@@ -191,7 +191,7 @@ fn entry<'a>(
     if flags & 1 != 0 || !matches!(method, 0 | DEFLATED) || [packed, size].contains(&u32::MAX) {
         return Err(Flaw::Syntax(format!(
             "\"{}\" in it is encrypted or packed with a method that projects do not use. Pack it again without encryption.",
-            shown(40, text)
+            excerpt(40, text)
         )));
     }
     let local = bytes.get(start..end).ok_or(Flaw::Damaged)?;

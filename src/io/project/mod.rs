@@ -45,13 +45,14 @@ use std::io::{self, Cursor, Read, Write};
 use std::path::Path;
 use std::sync::Arc;
 
-use super::error::{Flaw, PlacedFlaw, ReadError, shown};
+use super::error::{Flaw, PlacedFlaw, ReadError};
 use super::{FileStamp, Meter, geojson, png};
 use crate::document::{Document, Picture, Settings};
 use crate::domain::Polygon;
 use crate::geometry::Rect;
 use crate::layers::{Layer, LayerId, PaintLayers, Quantity, RasterReading};
 use crate::raster::{Raster, RasterPyramid, TiledRaster};
+use crate::text::excerpt;
 use archive::{Archive, ArchiveWriter, Part};
 use old_version::OLD_PAINT;
 use painted::Allowance;
@@ -354,7 +355,7 @@ fn part<'b, 'a>(archive: &'b Archive<'a>, name: &str) -> Result<&'b Part<'a>, Pl
     let missing = || {
         let problem = match name {
             SETTINGS => format!("this is not a Meshbrush project: it has no {name}."),
-            _ => format!("the project has no part {}. Use another copy.", shown(40, name)),
+            _ => format!("the project has no part {}. Use another copy.", excerpt(40, name)),
         };
         Flaw::Syntax(problem).into()
     };

@@ -8,10 +8,10 @@ use serde::{Deserialize, Serialize};
 use crate::document::{KeepOut, PathCost, PathPlan};
 use crate::field::CostFormula;
 use crate::io::Flaw;
-use crate::io::error::shown;
 use crate::io::layers::{SavedPolygon, rings, saved_polygon};
 use crate::layers::Mask;
 use crate::path::Weights;
+use crate::text::excerpt;
 
 /// Between which places, what they cost, and where they do not go.
 #[derive(Debug, Default, Serialize, Deserialize)]
@@ -94,7 +94,7 @@ impl SavedKeepOut {
         match mask {
             Ok(mask) => Ok(KeepOut { name, mask }),
             Err(problem) => {
-                let name = shown(40, &name);
+                let name = excerpt(40, &name);
                 Err(Flaw::Syntax(format!("the keep-out region “{name}” is not valid: {problem}")))
             }
         }

@@ -6,7 +6,7 @@ use glam::DVec2;
 use serde::{Deserialize, Serialize};
 
 use super::super::Flaw;
-use super::super::error::{PlacedFlaw, shown};
+use super::super::error::PlacedFlaw;
 use super::super::words::{SavedName, SavedRule, SavedUnit, marks_of, saved_marks};
 use super::old_version::SavedBase;
 use super::part_names::PartNames;
@@ -21,7 +21,7 @@ use crate::geometry::Rect;
 use crate::layers::RasterReading;
 use crate::mesh::{Cleaning, KeptParts, MOST_TRIANGLES};
 use crate::raster::{Raster, RasterPyramid, is_raster_size};
-use crate::text::{Grouped, Number};
+use crate::text::{Grouped, Number, excerpt};
 
 /// The fields that every version of the format has.
 #[derive(Deserialize)]
@@ -240,7 +240,7 @@ impl Saved {
         if head.format != FORMAT {
             return Err(Flaw::Syntax(format!(
                 "its format is \"{}\" instead of {FORMAT:?}.",
-                shown(40, &head.format)
+                excerpt(40, &head.format)
             ))
             .into());
         }
@@ -248,7 +248,7 @@ impl Saved {
             let by = if head.written_by.is_empty() {
                 "a newer program".into()
             } else {
-                shown(40, &head.written_by)
+                excerpt(40, &head.written_by)
             };
             return Err(Flaw::Syntax(format!(
                 "the project was written by {by} in version {} of its format, and this program ({}) reads up to version \
@@ -347,7 +347,5 @@ fn sentence(error: impl std::fmt::Display) -> PlacedFlaw {
 fn placed(error: serde_json::Error) -> PlacedFlaw {
     let text = error.to_string();
     let problem = text.split(" at line ").next().unwrap_or(&text);
-    // The text repeats names and values of the file, which may be long.
-    let problem: String = problem.chars().take(300).collect();
     Flaw::Syntax(format!("the settings are not valid: {problem}.")).at(error.line().max(1))
 }

@@ -84,7 +84,7 @@ impl MeshDescription {
         let read = || self.layers.iter().filter(|layer| layer.visible || loading.with_hidden);
         let visible = self.layers.iter().filter(|layer| layer.visible);
         let grids = GridFiles::read(read(), loading.meter)?;
-        let (domain, marks, unit) = self.domain(grids.extent(visible), loading)?;
+        let ReadDomain { domain, marks, unit, note } = self.domain(grids.extent(visible), loading)?;
         let bounds = domain.bounds;
         let spacing = self.spacing.unwrap_or(bounds.size().max_element() / USUAL_CELLS);
         let lattice = Lattice::covering(bounds, spacing, loading.most_coarse).map_err(CoarseError::from)?;
@@ -96,7 +96,7 @@ impl MeshDescription {
             files.add_paint(spec, id, &mut paint)?;
         }
         check_outline(&layers, &domain)?;
-        let notes = self.notes(&layers, bounds);
+        let notes = note.into_iter().chain(self.notes(&layers, bounds)).collect();
         let treatment = self.boundary.unwrap_or(SavedTreatment::Outline);
         let usual = BoundaryTreatment::usual_diameter(spacing);
         let settings = Settings {
@@ -120,20 +120,18 @@ impl MeshDescription {
 
     /// The domain, with the names and the unit that its file has; where none is given, the `extent` of the
     /// rasters, or the unit square.
-    fn domain(
-        &self,
-        extent: Option<Rect>,
-        loading: &Loading,
-    ) -> Result<(Domain, BoundaryMarks, LengthUnit), DescriptionError> {
+    fn domain(&self, extent: Option<Rect>, loading: &Loading) -> Result<ReadDomain, DescriptionError> {
         if let Some(path) = &self.region {
             let outline = (loading.read_outline)(path, loading.meter)?;
+            let note = cut_at_antimeridian(path, &outline);
             return domain_of(&outline.polygons, self.bounds)
-                .map(|(domain, marks)| (domain, marks, outline.unit))
+                .map(|(domain, marks)| ReadDomain { domain, marks, unit: outline.unit, note })
                 .map_err(|error| DescriptionError::Unsuited(format!("{}: {error}", path.display())));
         }
         let bounds = self.bounds.or(extent).unwrap_or(Rect::UNIT);
         let shape = self.inside.clone().map_or(DomainShape::Whole, DomainShape::Formula);
-        Ok((Domain { bounds, shape }, BoundaryMarks::default(), LengthUnit::None))
+        let domain = Domain { bounds, shape };
+        Ok(ReadDomain { domain, marks: BoundaryMarks::default(), unit: LengthUnit::None, note: None })
     }
 
     /// The curve from risk to diameter; its ends bound h̄. Where the ends are not given, they do not restrict
@@ -205,6 +203,26 @@ impl Described {
     fn diameter_at(&self, level: u32) -> f64 {
         bisection_edge_length(self.lattice.spacing(), level)
     }
+}
+
+/// The domain of a description, with what its file holds beside the polygons.
+struct ReadDomain {
+    domain: Domain,
+    marks: BoundaryMarks,
+    unit: LengthUnit,
+    /// A sentence for a person.
+    note: Option<String>,
+}
+
+/// The note on polygons that are cut at the antimeridian.
+fn cut_at_antimeridian(path: &Path, outline: &Outline) -> Option<String> {
+    outline.is_cut_at_antimeridian().then(|| {
+        format!(
+            "{} is cut at the antimeridian (longitude 180°): the halves on its sides are separate parts of the mesh, and \
+             without --parts all only the largest part stays. Add 360 to the negative longitudes to mesh them as one.",
+            path.display()
+        )
+    })
 }
 
 /// The domain that polygons cover, in `bounds` where these are given, and the names that they bring.

@@ -6,12 +6,12 @@ use std::path::{Path, PathBuf};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::super::error::{PlacedFlaw, shown};
+use super::super::error::PlacedFlaw;
 use super::super::layers::{KeyFault, Mark, Step};
 use super::super::{Flaw, Place, ReadError};
 use super::saved::SavedRecipe;
 use super::wording::{Context, sentence};
-use crate::text::draw_pointer;
+use crate::text::{draw_pointer, excerpt};
 
 /// The text of a recipe.
 #[derive(Clone, Debug)]
@@ -106,5 +106,5 @@ impl RecipeText {
 
 /// At most 40 characters of a text of the recipe.
 pub(super) fn quoted(text: &str) -> String {
-    format!("\"{}\"", shown(40, text))
+    format!("\"{}\"", excerpt(40, text))
 }

@@ -1,6 +1,6 @@
 //! The messages of serde and of the TOML parser, as sentences for the writer of a recipe.
 
-use super::super::error::shown;
+use crate::text::excerpt;
 
 /// What the message is about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -21,7 +21,7 @@ pub fn sentence(message: &str, context: Context) -> String {
             .or_else(|| wrong_type(message)),
     };
     worded.unwrap_or_else(|| {
-        let message = shown(300, message.trim());
+        let message = excerpt(300, message.trim());
         match context {
             Context::Syntax => format!("this is not valid TOML: {message}."),
             Context::Values => format!("this cannot be used: {message}."),
@@ -35,7 +35,7 @@ fn unknown_key(message: &str) -> Option<String> {
         Some(near) => format!("did you mean `{near}`?"),
         None => format!("the keys here are {}.", known.join(", ")),
     };
-    Some(format!("there is no key `{}` here; {advice}", shown(40, key)))
+    Some(format!("there is no key `{}` here; {advice}", excerpt(40, key)))
 }
 
 fn unknown_word(message: &str) -> Option<String> {
@@ -44,7 +44,7 @@ fn unknown_word(message: &str) -> Option<String> {
         Some(near) => format!("did you mean \"{near}\"?"),
         None => format!("write one of {}.", known.join(", ")),
     };
-    Some(format!("\"{}\" is not possible here; {advice}", shown(40, word)))
+    Some(format!("\"{}\" is not possible here; {advice}", excerpt(40, word)))
 }
 
 fn missing_key(message: &str) -> Option<String> {
@@ -71,13 +71,13 @@ fn wrong_type(message: &str) -> Option<String> {
     let (given, expected) = prefix.rsplit_once(", expected ")?;
     let given = match given.split_once(' ') {
         _ if is_length => format!("{given} values"),
-        Some(("string", text)) => format!("the text {}", shown(40, text).replace("\\\"", "\"")),
+        Some(("string", text)) => format!("the text {}", excerpt(40, text).replace("\\\"", "\"")),
         Some(("integer" | "floating", number)) => number.trim_start_matches("point ").replace('`', ""),
         Some(("boolean", value)) => value.replace('`', ""),
         _ => match given {
             "map" => "a table".into(),
             "sequence" => "a list".into(),
-            other => shown(60, other),
+            other => excerpt(60, other),
         },
     };
     let expected = match expected {

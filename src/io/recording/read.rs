@@ -4,10 +4,11 @@ use std::path::{Path, PathBuf};
 
 use serde::de::DeserializeOwned;
 
-use super::super::error::{Flaw, Place, PlacedFlaw, ReadError, shown};
+use super::super::error::{Flaw, Place, PlacedFlaw, ReadError};
 use super::super::project::{PartNames, Project};
 use super::saved::{SavedHead, SavedMesh, SavedStart, SavedStep};
 use super::{FORMAT, VERSION};
+use crate::text::excerpt;
 
 /// Largest file read.
 const MOST_BYTES: u64 = 1 << 30;
@@ -90,7 +91,7 @@ fn check_head(line: &[u8]) -> Result<(), PlacedFlaw> {
         return Err(not_a_recording().at(1));
     }
     if head.version > VERSION {
-        let by = shown(40, &head.written_by);
+        let by = excerpt(40, &head.written_by);
         return Err(Flaw::Syntax(format!(
             "the recording was written by {by} in version {} of its format, and this program ({}) reads up to version \
              {VERSION}. Use a newer Meshbrush.",
@@ -106,8 +107,6 @@ fn parsed<T: DeserializeOwned>(line: usize, text: &[u8]) -> Result<T, PlacedFlaw
     serde_json::from_slice(text).map_err(|error| {
         let said = error.to_string();
         let problem = said.split(" at line ").next().unwrap_or(&said);
-        // The text repeats names and values of the file, which may be long.
-        let problem: String = problem.chars().take(300).collect();
         let flaw = Flaw::Syntax(format!("the line is not valid: {problem}."));
         PlacedFlaw { place: Place::Column { line, column: error.column() }, flaw }
     })

@@ -1,10 +1,11 @@
 use super::super::Meter;
-use super::super::error::{Flaw, PlacedFlaw, ReadError, shown};
+use super::super::error::{Flaw, PlacedFlaw, ReadError};
 use super::RecordingFile;
 use super::read::{HEAD_LINES, at};
 use super::saved::{SavedMesh, SavedStep};
 use super::write::mesh_of;
 use crate::document::Replay;
+use crate::text::{Grouped, excerpt};
 
 /// What became of a recording that was done again.
 #[derive(Clone, Debug, PartialEq)]
@@ -100,7 +101,7 @@ fn difference(edit: usize, title: &str, expected: &SavedMesh, found: &SavedMesh)
     let both_fail = matches!((expected, found), (SavedMesh::NoMesh(_), SavedMesh::NoMesh(_)));
     (!both_fail && expected != found).then(|| Difference {
         edit,
-        title: shown(40, title),
+        title: excerpt(40, title),
         expected: expected.to_string(),
         found: found.to_string(),
     })
@@ -110,10 +111,10 @@ impl std::fmt::Display for SavedMesh {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::Mesh { fingerprint, triangles } => {
-                let triangles = crate::text::Grouped(*triangles);
-                write!(f, "{} ({triangles} triangles)", shown(32, fingerprint))
+                let triangles = Grouped(*triangles);
+                write!(f, "{} ({triangles} triangles)", excerpt(32, fingerprint))
             }
-            Self::NoMesh(reason) => write!(f, "no mesh ({})", shown(200, reason.trim_end_matches('.'))),
+            Self::NoMesh(reason) => write!(f, "no mesh ({})", excerpt(200, reason.trim_end_matches('.'))),
         }
     }
 }
