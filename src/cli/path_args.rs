@@ -53,9 +53,9 @@ pub struct PathArguments {
     /// Prove that the path costs at most this much more than the best, as in 1% or 0.01
     ///
     /// Raises the lower bound and looks for better paths until the interval is that narrow, which can take
-    /// seconds, or until the work gains nothing more: then a sentence says what would help. The bound holds for
-    /// all paths through the domain, not only for those through the mesh. Without this option there is a lower
-    /// bound where the mesh covers the whole domain, that is, the domain is a rectangle.
+    /// seconds, or until the work gains nothing more: then a sentence says what would help. The bound holds
+    /// for all paths through the domain, not only for those through the mesh. Without this option there is a
+    /// lower bound where the mesh covers the whole domain, that is, the domain is a rectangle.
     #[arg(long, value_name = "SHARE", allow_hyphen_values = true, help_heading = "Path")]
     pub within: Option<String>,
 

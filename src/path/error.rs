@@ -144,8 +144,8 @@ pub enum PathError {
 }
 
 impl PathError {
-    /// The error as what is known of the domain tells it: whether two places that the mesh does not connect lie
-    /// in different parts of the domain as well. `places` are those that the path was to visit.
+    /// The error as what is known of the domain tells it: whether two places that the mesh does not connect
+    /// lie in different parts of the domain as well. `places` are those that the path was to visit.
     pub fn in_domain(self, domain: &Domain, places: &[DVec2]) -> Self {
         let Self::Apart { from, to } = self else { return self };
         let polygons = match &domain.shape {

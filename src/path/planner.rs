@@ -164,8 +164,8 @@ impl Planner {
         self.change_costs(density, areas).map(|_| ())
     }
 
-    /// Follows a change of the cost as [`Self::update`] does, at once and on the mesh as it is: for paths that
-    /// are shown while something is dragged.
+    /// Follows a change of the cost as [`Self::update`] does, at once and on the mesh as it is: for paths
+    /// that are shown while something is dragged.
     ///
     /// # Errors
     /// As [`Self::update`].

@@ -11,8 +11,8 @@ impl March {
     ///
     /// The values are those of a new run, bit for bit. A node whose value came from a changed triangle, or
     /// from a node whose value changes, loses its value. Then the march goes on from the others, and nodes
-    /// that were accepted may fall. Each that falls takes the values of those that depend on it, so a node can
-    /// be accepted several times: after half as many times as there are nodes, a new march is faster.
+    /// that were accepted may fall. Each that falls takes the values of those that depend on it, so a node
+    /// can be accepted several times: after half as many times as there are nodes, a new march is faster.
     pub fn resolve(
         &mut self,
         mesh: &PathMesh,

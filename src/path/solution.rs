@@ -176,7 +176,8 @@ impl Solution {
 
     /// A path with fewer points: none of those left out is farther than `tolerance` from it, in world units.
     /// Stops stay, and so do points without which it would leave the domain or enter a keep-out region
-    /// (Douglas and Peucker's method). The figures are those of the new path. The lower bound holds for it, too.
+    /// (Douglas and Peucker's method). The figures are those of the new path. The lower bound holds for it,
+    /// too.
     ///
     /// # Errors
     /// When the tolerance is negative or NaN.

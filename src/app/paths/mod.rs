@@ -101,8 +101,8 @@ impl PathFinder {
     }
 
     /// Takes what was found, waiting for all of it together up to `patience`, and begins what is to be found
-    /// next. The threads wake the window: no frame needs to wait for them. Alternatives and the front are those
-    /// of `route`.
+    /// next. The threads wake the window: no frame needs to wait for them. Alternatives and the front are
+    /// those of `route`.
     pub fn advance(&mut self, session: &Session, route: Option<usize>, patience: Duration, ctx: &Context) {
         let patience = &Patience::new(patience);
         if self.work.is_running() {

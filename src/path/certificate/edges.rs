@@ -66,8 +66,8 @@ fn edges(space: &QuadraticSpace) -> Vec<[Option<Side>; 2]> {
     edges
 }
 
-/// A factor, at most 1, that brings an affine function below the density in the strip around a segment. It has
-/// the given values, which are positive, at the ends.
+/// A factor, at most 1, that brings an affine function below the density in the strip around a segment. It
+/// has the given values, which are positive, at the ends.
 fn factor_below(
     cost: &dyn CostDensity,
     [a, b]: [DVec2; 2],

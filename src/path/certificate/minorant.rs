@@ -4,9 +4,9 @@
 //! bounded by branch and bound over rectangles: the part of the triangle in each is a convex polygon, on
 //! which the plane is known exactly and the density by its range.
 //!
-//! The density counts inside the triangle only, farther than `inset` from its edges. What it is on the edges is
-//! looked at afterwards, for both triangles together (`edges.rs`): there a jump that follows the mesh costs
-//! nothing.
+//! The density counts inside the triangle only, farther than `inset` from its edges. What it is on the edges
+//! is looked at afterwards, for both triangles together (`edges.rs`): there a jump that follows the mesh
+//! costs nothing.
 
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;

@@ -27,8 +27,8 @@
 //!    costs nothing, and a cost that is smaller on the edge alone counts.
 //!    An edge stands for a strip of some ulps, because a jump that lies on an edge in one formula lies beside
 //!    it in another. Consider v∘φ, where φ moves each point by some ulps such that all strips go to their
-//!    edges, and those around a node to the node. Its gradient in a strip is that along the edge, and elsewhere
-//!    at most the share of ulps in a triangle greater: the bound is rounded down by that share.
+//!    edges, and those around a node to the node. Its gradient in a strip is that along the edge, and
+//!    elsewhere at most the share of ulps in a triangle greater: the bound is rounded down by that share.
 //! 4. Only triangles wholly outside the domain are left out. The others allow more paths than the domain has:
 //!    the bound is still one. The known path must stay in the domain for its cost to be an upper bound.
 //!
@@ -72,8 +72,8 @@ const AIM: f64 = 0.65;
 const ACCURACY: f64 = 0.05;
 /// So many triangles are added at most to a mesh on which a better path is sought.
 const MOST_ADDED: usize = 60_000;
-/// A triangle beside a keep-out region is small for a path if its diameter is this part of the requested width
-/// times the length of the path.
+/// A triangle beside a keep-out region is small for a path if its diameter is this part of the requested
+/// width times the length of the path.
 const SHORT_DETOUR: f64 = 0.1;
 /// The strips around edges are so many ulps of the largest coordinate wide on each side.
 const STRIP_ULPS: f64 = 16.0;

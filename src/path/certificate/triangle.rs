@@ -37,8 +37,8 @@ impl FlatTriangle {
         a.distance(b).max(b.distance(c)).max(c.distance(a))
     }
 
-    /// The triangle without the points that are nearer to an edge than `inset`, or half of it if that is less:
-    /// all edges move towards the centre of the inscribed circle.
+    /// The triangle without the points that are nearer to an edge than `inset`, or half of it if that is
+    /// less: all edges move towards the centre of the inscribed circle.
     pub(super) fn shrunk(&self, inset: f64) -> Self {
         let [a, b, c] = self.corners;
         let sides = [b.distance(c), c.distance(a), a.distance(b)];
