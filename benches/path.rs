@@ -76,7 +76,7 @@ fn bench(criterion: &mut Criterion, mesh: &Mesh, [density, edited]: &[FormulaCos
         b.iter(|| {
             is_edited = !is_edited;
             let density = if is_edited { edited } else { density };
-            planner.update(density, &area).expect("the cost is positive");
+            planner.follow(density, &area).expect("the cost is positive");
             black_box(planner.solve(density, &places, PathRequest::LIVE).expect("there is a path"))
         });
     });

@@ -12,7 +12,8 @@ use glam::{DVec2, dvec2};
 use many_directions::directions;
 use meshbrush::internals::layers::Mask;
 use meshbrush::internals::path::{
-    CostDensity, CostRange, FormulaCost, PathError, PathMesh, PathRequest, Planner, Solution, Waypoint,
+    CostDensity, CostRange, FormulaCost, PathError, PathFigures, PathMesh, PathRequest, Planner, Solution,
+    Waypoint,
 };
 use meshbrush::{CostFormula, Lattice, Limits, Mesh, Rect, RiskField};
 use path_referees::Radial;
@@ -305,7 +306,9 @@ fn via_points_are_visited_in_order() {
     assert!((solution.cost - exact).abs() < 1e-6 * exact, "{} {exact}", solution.cost);
     assert!(solution.lower <= exact && solution.upper >= exact && solution.gap() < 0.05);
     assert_eq!(solution.stops.iter().map(|&stop| solution.points[stop]).collect::<Vec<_>>(), places);
-    assert_eq!(solution.simplified(1e-3).unwrap(), places);
+    let simplified = solution.simplified(&cost("2"), 1e-3).unwrap();
+    assert_eq!(simplified.points, places);
+    assert!((simplified.cost - exact).abs() < 1e-9 && simplified.upper >= exact);
     let profile = solution.profile(&cost("2"), 101);
     assert!((profile[100].cost - exact).abs() < 1e-6 && (profile[50].cost - exact / 2.0).abs() < 1e-6);
 }
@@ -329,8 +332,9 @@ fn bad_input_has_a_sentence() {
         PathError::KeptOut { which: Waypoint::Via(1), at: dvec2(0.5, 0.5) }
     );
     let apart = refused(&one, &[dvec2(0.1, 0.4), dvec2(0.9, 0.5)], &wall);
-    assert_eq!(apart, PathError::Apart { from: Waypoint::Start, to: Waypoint::Goal });
-    assert!(apart.to_string().starts_with("No path leads from the start to the goal"), "{apart}");
+    let (from, to) = (Waypoint::Start, Waypoint::Goal);
+    assert_eq!(apart, PathError::Enclosed { which: Waypoint::Goal, from, to });
+    assert!(apart.to_string().starts_with("No path leads from the start to the goal: keep-out"), "{apart}");
     let nowhere = refused(&one, &[dvec2(f64::NAN, 0.0), inside], &[]);
     assert!(matches!(nowhere, PathError::NotAPlace { which: Waypoint::Start, .. }));
     assert_eq!(refused(&one, &[inside], &[]), PathError::TooFewPlaces);
@@ -348,6 +352,42 @@ fn bad_input_has_a_sentence() {
         let exact = places[0].distance(places[1]);
         assert!((solution.cost - exact).abs() < 1e-9 && solution.lower <= exact && solution.upper >= exact);
     }
+}
+
+#[test]
+fn the_upper_bound_holds_for_a_formula_that_loses_digits() {
+    // A staircase with steps of 125, though its derivative is 1000.
+    let density = cost("1 + 1000*((1e15 + x) - 1e15)");
+    let [p, q] = [dvec2(0.12, 0.5), dvec2(0.24, 0.5)];
+    let places = (0..100_000).map(|n| (f64::from(n) + 0.5) / 1e5);
+    let sum = places.map(|share| density.at(p.lerp(q, share))).sum::<f64>() * p.distance(q) / 1e5;
+    let figures = PathFigures::of(&[p, q], &density, 2e-5);
+    assert!(figures.upper >= sum * (1.0 - 1e-6), "{} {sum}", figures.upper);
+    assert!(figures.upper <= sum * 1.01, "{} {sum}", figures.upper);
+}
+
+#[test]
+fn a_planner_adapts_to_an_edit_as_a_new_one_does() {
+    let mut random = fastrand::Rng::with_seed(2607);
+    let mesh = Arc::new(PathMesh::new(mesh(Rect::UNIT, |_| 0.1).view()));
+    let places = [dvec2(0.1, 0.1), dvec2(0.9, 0.1)];
+    let new = |density: &dyn CostDensity| Planner::new(Arc::clone(&mesh), density).unwrap();
+    let mut planner = new(&cost("1"));
+    let mut bisected = 0;
+    for round in 0..12 {
+        let (at, high) = (0.1 + 0.8 * random.f64(), 1.0 + 50.0 * random.f64());
+        let wall = format!("1 + {high}*(abs(y - {at}) > 0.004)");
+        let density = cost(if round % 3 == 2 { "1 + x" } else { &wall });
+        if round % 4 == 1 {
+            planner.follow(&cost("3"), &[Rect::UNIT]).unwrap();
+        }
+        planner.update(&density, &[Rect::UNIT]).unwrap();
+        bisected += usize::from(planner.mesh().triangle_count() > mesh.triangle_count());
+        let followed = planner.solve(&density, &places, PathRequest::FULL).unwrap();
+        let expected = new(&density).solve(&density, &places, PathRequest::FULL).unwrap();
+        assert!(followed == expected, "{round}: {} {}", followed.cost, expected.cost);
+    }
+    assert!(bisected > 4, "{bisected}");
 }
 
 #[test]

@@ -3,7 +3,16 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::Arc;
 
+use glam::dvec2;
+use meshbrush::RiskField;
+use meshbrush::internals::build::MeshBuilder;
+use meshbrush::internals::document::{Document, KeepOut, PathCost, PathPlan, Settings};
+use meshbrush::internals::io::project::{self, Project};
+use meshbrush::internals::layers::Mask;
+use meshbrush::internals::mesh::Progress;
+use meshbrush::internals::path::{PathMesh, PathRequest, Planner, Weights};
 use serde_json::Value;
 
 /// A folder of its own for each test, removed at the end.
@@ -116,6 +125,148 @@ fn via_points_and_keep_out_regions_count() {
     let proof = folder.json(&format!("{ends} --keep-out wall.geojson --within 1%"));
     let lower = proof["lower"].as_f64().unwrap();
     assert!(lower <= around && lower > 0.97 * around, "{lower} {around}");
+}
+
+/// The unit square with a square hole in the middle.
+const HOLE: &str = "{\"type\":\"Polygon\",\"coordinates\":[[[0,0],[1,0],[1,1],[0,1],[0,0]],\
+    [[0.4,0.4],[0.6,0.4],[0.6,0.6],[0.4,0.6],[0.4,0.4]]]}";
+
+#[test]
+fn paths_between_walls_go_around_holes() {
+    let folder = Folder::new("walls");
+    fs::write(folder.0.join("hole.geojson"), HOLE).unwrap();
+    for boundary in ["fitted", "outline"] {
+        let hole = format!("--region hole.geojson --boundary {boundary} --spacing 0.1 --target 0.05");
+        for (from, to) in [("0.4,0.5", "0.6,0.5"), ("0.4,0.4", "0.6,0.6"), ("0.6,0.45", "0.4,0.55")] {
+            let answer = folder.json(&format!("{hole} --from {from} --to {to}"));
+            let [cost, upper] = ["cost", "upper"].map(|name| answer[name].as_f64().unwrap());
+            assert!(
+                (cost - 0.4).abs() < 1e-9 && upper >= 0.4 - 1e-9,
+                "{boundary} {from} {to}: {cost} {upper}"
+            );
+        }
+    }
+    let along = folder.json("--spacing 0.1 --target 0.05 --cost 'exp(4*x)' --from 0,0.2 --to 0,0.8");
+    assert!((along["cost"].as_f64().unwrap() - 0.6).abs() < 1e-9);
+    let xs = along["points"].as_array().unwrap().iter().map(|point| point[0].as_f64().unwrap());
+    assert!(xs.into_iter().all(|x| x >= 0.0));
+}
+
+#[test]
+fn a_simplified_path_stays_in_the_domain_and_has_figures_of_its_own() {
+    let folder = Folder::new("simplified");
+    fs::write(folder.0.join("hole.geojson"), HOLE).unwrap();
+    let answer = folder.json(
+        "--region hole.geojson --spacing 0.1 --target 0.03 --from 0.3,0.47 --to 0.7,0.5 --simplify 0.05 -o p.geojson",
+    );
+    let points: Vec<[f64; 2]> = serde_json::from_value(answer["points"].clone()).unwrap();
+    let length: f64 = points.windows(2).map(|p| f64::hypot(p[1][0] - p[0][0], p[1][1] - p[0][1])).sum();
+    for name in ["cost", "length"] {
+        assert!((answer[name].as_f64().unwrap() - length).abs() < 1e-12, "{name} {length}");
+    }
+    assert!(points.len() < 6 && length > 0.46, "{points:?}");
+    let feature: Value = serde_json::from_str(&folder.read("p.geojson")).unwrap();
+    assert_eq!(feature["properties"]["cost"], answer["cost"]);
+}
+
+#[test]
+fn bounds_are_claimed_only_where_they_hold() {
+    let folder = Folder::new("bounds");
+    // A line that costs less, on a line of the mesh.
+    for cheap in ["abs(x-0.5)<1e-11", "x==0.5"] {
+        let line = format!("--from 0.4,0.1 --to 0.4,0.9 --spacing 0.125 --cost 'if({cheap},1,10)'");
+        let lower = folder.json(&line)["lower"].as_f64().unwrap();
+        assert!(lower <= 2.8, "{cheap}: {lower}");
+    }
+    // A strait that the mesh leaves out.
+    let strait = "[[[0,0],[0.45,0],[0.45,0.45],[0.55,0.45],[0.55,0],[1,0],[1,1],[0.55,1],[0.55,0.95],[0.45,0.95],\
+        [0.45,1],[0,1],[0,0]],[[0.45,0.47],[0.55,0.47],[0.55,0.9],[0.45,0.9],[0.45,0.47]]]";
+    fs::write(folder.0.join("strait.geojson"), format!("{{\"type\":\"Polygon\",\"coordinates\":{strait}}}"))
+        .unwrap();
+    let through = "--region strait.geojson --boundary outline --boundary-diameter 0.1 --spacing 0.1 --parts all \
+        --from 0.2,0.46 --to 0.8,0.46";
+    let answer = folder.json(through);
+    assert!(answer["cost"].as_f64().unwrap() > 0.7 && answer["lower"] == 0.0, "{answer}");
+    let ran = folder.run(through);
+    assert!(ran.out.contains("no lower bound is known"), "{}", ran.out);
+    let proved = folder.json(&format!("{through} --within 1%"))["lower"].as_f64().unwrap();
+    assert!(proved <= 0.6 && proved > 0.5, "{proved}");
+}
+
+#[test]
+fn each_obstacle_has_an_error_of_its_own() {
+    let folder = Folder::new("obstacles");
+    let ring = "[[[0.4,-0.1],[0.6,-0.1],[0.6,1.1],[0.4,1.1],[0.4,-0.1]]]";
+    fs::write(folder.0.join("wall.geojson"), format!("{{\"type\":\"Polygon\",\"coordinates\":{ring}}}"))
+        .unwrap();
+    let ends = "--from 0.1,0.5 --to 0.9,0.5";
+    for (arguments, message) in [
+        (
+            "--spacing 0.05 --keep-out wall.geojson",
+            "keep-out regions, with the triangles that they touch, enclose",
+        ),
+        ("--spacing 0.05 --inside 'abs(x-0.5)>0.2'", "but the domain may: a strait between them"),
+        ("--spacing 0.05 --cost '1+1e300*x'", "Only costs from 1e-100 to 1e100 can be added up"),
+    ] {
+        let ran = folder.run(&format!("{ends} {arguments}"));
+        assert_eq!(ran.status, 1, "{arguments}: {}", ran.out);
+        assert!(ran.err.contains(message), "{arguments}: {}", ran.err);
+    }
+    for cost in ["if(x<0.3,1e18,1)", "if(x<0.3,1e12,1e-12)"] {
+        let answer = folder.json(&format!("{ends} --spacing 0.05 --cost '{cost}'"));
+        let [cost, lower] = ["cost", "lower"].map(|name| answer[name].as_f64().unwrap());
+        assert!(lower > 0.9 * cost && lower <= cost, "{lower} {cost}");
+    }
+}
+
+#[test]
+fn a_project_decides_places_cost_and_regions_unless_options_do() {
+    let folder = Folder::new("project");
+    let ring = [(0.4, -0.1), (0.6, -0.1), (0.6, 0.7), (0.4, 0.7)].map(|(x, y)| dvec2(x, y));
+    let region = |name: &str, low: f64| KeepOut {
+        name: name.into(),
+        mask: Mask::new(&[vec![ring.map(|p| dvec2(p.x, p.y + low)).to_vec()]]).unwrap(),
+    };
+    let routes =
+        vec![vec![dvec2(0.1, 0.1), dvec2(0.9, 0.1)], vec![dvec2(0.1, 0.9), dvec2(0.2, 0.8), dvec2(0.2, 0.9)]];
+    let cost = PathCost::Weighted(Weights { length: 3.0, risk: 1.0 });
+    let plan = PathPlan { routes: routes.clone(), cost: cost.clone(), keep_out: [region("a", 0.0)].into() };
+    let settings = Settings { paths: Arc::new(plan), ..Settings::default() };
+    let document = Document::new(settings, None).unwrap();
+    let project = Project { settings: document.settings().clone(), paint: document.paint().clone() };
+    let mut bytes = Vec::new();
+    project::write(&mut bytes, &project).unwrap();
+    fs::write(folder.0.join("p.meshbrush"), bytes).unwrap();
+    let number =
+        |options: &str| folder.json(&format!("--project p.meshbrush {options}"))["cost"].as_f64().unwrap();
+    // What the window does: the derived mesh, and a planner for the plan.
+    let spec = document.settings().mesh_spec().unwrap();
+    let mut builder = MeshBuilder::new(spec);
+    while builder.advance(Some(document.paint()), 100_000).unwrap() != Progress::Done {}
+    let mesh = builder.finish().mesh;
+    let density = cost.density(RiskField::new(&document.settings().layers, document.paint())).unwrap();
+    let masks = document.settings().paths.keep_out_masks();
+    let mut planner =
+        Planner::new(PathMesh::with_keep_out(mesh.extract().view(), &masks), &*density).unwrap();
+    for (route, places) in routes.iter().enumerate() {
+        let expected = planner.solve(&*density, places, PathRequest::FULL).unwrap();
+        assert_eq!(number(&format!("--route {}", route + 1)), expected.cost);
+    }
+    let around = 3.0 * (2.0 * f64::hypot(0.3, 0.6) + 0.2);
+    assert!((number("") - around).abs() < 0.03 * around && number("") >= around);
+    assert!((number("--length-weight 2") / number("") - 2.0 / 3.0).abs() < 1e-9);
+    assert!((number("--cost 1") / number("") - 1.0 / 3.0).abs() < 1e-9);
+    assert!((number("--from 0.1,0.1 --to 0.3,0.1") - 0.6).abs() < 1e-9);
+    let ring = "[[[0.1,0.3],[0.2,0.3],[0.2,0.4],[0.1,0.4],[0.1,0.3]]]";
+    fs::write(folder.0.join("other.geojson"), format!("{{\"type\":\"Polygon\",\"coordinates\":{ring}}}"))
+        .unwrap();
+    assert!((number("--keep-out other.geojson") - 2.4).abs() < 1e-9);
+    let refused = |arguments: &str, message: &str| {
+        let ran = folder.run(arguments);
+        assert!(ran.status == 2 && ran.err.contains(message), "{arguments}: {}", ran.err);
+    };
+    refused("--project p.meshbrush --route 3", "are numbered from 1 to 2");
+    refused("--spacing 0.1", "give --from X,Y and --to X,Y");
 }
 
 #[test]

@@ -31,6 +31,7 @@ mod layer_files;
 mod layer_pictures;
 mod notices;
 mod panels;
+mod patience;
 mod path_export;
 mod paths;
 mod pins;

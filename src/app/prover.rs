@@ -3,11 +3,11 @@
 
 use std::sync::Arc;
 use std::sync::mpsc::RecvTimeoutError;
-use std::time::Duration;
 
 use eframe::egui::Context;
 
 use super::paths::FoundPath;
+use super::patience::Patience;
 use super::sequence::{Output, Sequence};
 use crate::domain::Domain;
 use crate::layers::Mask;
@@ -70,12 +70,12 @@ impl Prover {
         self.known = known;
     }
 
-    /// Takes what was proved, waiting up to `patience` for each step, and begins the next certificate.
+    /// Takes what was proved, waiting as long as `patience` lasts, and begins the next certificate.
     pub fn advance(
         &mut self,
         mut paths: Vec<&mut FoundPath>,
         domain: &Domain,
-        patience: Duration,
+        patience: &Patience,
         ctx: &Context,
     ) {
         while let Some(path) = paths.get_mut(self.done) {
@@ -88,7 +88,7 @@ impl Prover {
                 }
                 continue;
             };
-            match proof.values.recv_timeout(patience) {
+            match proof.values.recv_timeout(patience.left()) {
                 Ok(Proof { solution, end }) => {
                     path.end = end;
                     if let Some(known) = &self.known {

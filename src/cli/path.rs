@@ -17,7 +17,7 @@ use super::path_args::PathArguments;
 use super::request::MeshRequest;
 use super::terminal::Terminal;
 use super::why::point;
-use crate::document::PathCost;
+use crate::document::{PathCost, PathPlan};
 use crate::field::CostFormula;
 use crate::io::{self as files, Interruption, Provenance};
 use crate::layers::Mask;
@@ -38,27 +38,29 @@ pub fn run(
     out: &mut dyn Write,
     terminal: &mut Terminal,
 ) -> Result<(), Failure> {
-    let places = places(typed)?;
     let within = typed.within.as_deref().map(share).transpose()?;
     let formula = typed.cost.as_deref().map(cost_formula).transpose()?;
+    let places = places(typed)?;
     let look = RequestedLook::new(&typed.picture)?;
     let outputs = typed.output.iter().map(|path| PathOutput::new(path)).collect::<Result<Vec<_>, _>>()?;
     let request = MeshRequest::new(&typed.input)?;
     let inputs = [request.input_files(), typed.keep_out.clone()].concat();
     outputs.iter().try_for_each(|output| check_place(&output.path, &inputs))?;
     request.options_without_effect(&typed.input).iter().for_each(|note| terminal.note(note));
-    let keep_out = typed.keep_out.iter().map(|path| mask(path)).collect::<Result<Vec<_>, _>>()?;
+    let asked = Asked::new(typed, places, formula)?;
     let finished = build(&request, terminal)?;
     note_capped(&finished, terminal);
     let extract = finished.extract();
-    let density = density(typed, formula, &finished)?;
+    let density = asked.cost.density(finished.risk())?;
     let start = Instant::now();
-    let mut planner = Planner::new(PathMesh::with_keep_out(extract.view(), &keep_out), &*density)?;
-    let mut solution = planner.solve(&*density, &places, PathRequest::FULL)?;
+    let mut planner = Planner::new(PathMesh::with_keep_out(extract.view(), &asked.keep_out), &*density)?;
+    let mut solution = planner
+        .solve(&*density, &asked.places, PathRequest::FULL)
+        .map_err(|error| error.in_domain(finished.domain(), &asked.places))?;
     let mut end = None;
     if let Some(width) = within.filter(|&width| solution.gap() > width) {
         let mesh = Arc::clone(planner.mesh());
-        let task = task(&finished, density.clone(), &keep_out, &solution, width);
+        let task = task(&finished, density.clone(), &asked.keep_out, &solution, width);
         let certificate = PathCertificate::new(&solution, &task)?.with_search(mesh);
         end = prove(&mut solution, certificate, terminal)?;
     }
@@ -75,20 +77,86 @@ pub fn run(
     let look = look.for_mesh(finished.mesh());
     let over = MeshOfPath { mesh: finished.mesh(), extract: &extract, look: &look };
     outputs.iter().try_for_each(|output| output.write(&export, &over, &provenance, terminal))?;
-    let answer = Answer::new(&solution, export.samples(), extract.triangles().len(), seconds);
+    let answer = Answer::new(export.solution(), export.samples(), extract.triangles().len(), seconds);
     match typed.json {
         true => {
             let json = serde_json::to_string(&answer).map_err(|error| Failure::Print(error.into()))?;
             writeln!(out, "{json}").and_then(|()| out.flush()).map_err(Failure::Print)
         }
-        false => writeln!(out, "{}", answer.for_people(solution.gap())).map_err(Failure::Print),
+        false => writeln!(out, "{}", answer.for_people(export.solution().gap())).map_err(Failure::Print),
     }
 }
 
-/// The start, the via points and the goal.
-fn places(typed: &PathArguments) -> Result<Vec<DVec2>, Failure> {
-    let texts = std::iter::once(&typed.from).chain(&typed.via).chain([&typed.to]);
-    texts.map(|text| point(text)).collect()
+/// What path is asked for: by options, and where these say nothing, by the project.
+struct Asked {
+    places: Vec<DVec2>,
+    cost: PathCost,
+    keep_out: Vec<Mask>,
+}
+
+impl Asked {
+    /// Reads the project and the keep-out regions. `places` are those of the options.
+    fn new(
+        typed: &PathArguments,
+        places: Option<Vec<DVec2>>,
+        formula: Option<CostFormula>,
+    ) -> Result<Self, Failure> {
+        let saved = match &typed.input.project {
+            Some(project) => Arc::clone(&files::project::read(project)?.settings().paths),
+            None => Arc::default(),
+        };
+        let keep_out = match typed.keep_out.is_empty() {
+            true => saved.keep_out_masks(),
+            false => typed.keep_out.iter().map(|path| mask(path)).collect::<Result<_, _>>()?,
+        };
+        let places = places.map_or_else(|| saved_places(typed, &saved), Ok)?;
+        Ok(Self { places, cost: cost(typed, formula, &saved.cost), keep_out })
+    }
+}
+
+/// The start, the via points and the goal, where they are given.
+fn places(typed: &PathArguments) -> Result<Option<Vec<DVec2>>, Failure> {
+    let Some((from, to)) = typed.from.as_ref().zip(typed.to.as_ref()) else { return Ok(None) };
+    let texts = std::iter::once(from).chain(&typed.via).chain([to]);
+    texts.map(|text| point(text)).collect::<Result<_, _>>().map(Some)
+}
+
+/// The places of a path of the project.
+fn saved_places(typed: &PathArguments, saved: &PathPlan) -> Result<Vec<DVec2>, Failure> {
+    let number = typed.route.unwrap_or(1);
+    if let Some(places) = number.checked_sub(1).and_then(|n| saved.routes.get(n)) {
+        return Ok(places.clone());
+    }
+    Err(Failure::Usage(match (&typed.input.project, saved.routes.len()) {
+        (None, _) => "A path needs a start and a goal: give --from X,Y and --to X,Y.".to_owned(),
+        (Some(project), 0) => {
+            format!(
+                "{} has no path: give --from X,Y and --to X,Y, or set one in the window.",
+                project.display()
+            )
+        }
+        (Some(project), count) => {
+            format!("--route {number}: the paths of {} are numbered from 1 to {count}.", project.display())
+        }
+    }))
+}
+
+/// What the path costs. A weight that is not given is that of the project, or the usual one.
+fn cost(typed: &PathArguments, formula: Option<CostFormula>, saved: &PathCost) -> PathCost {
+    if let Some(formula) = formula {
+        return PathCost::Formula(formula);
+    }
+    if typed.length_weight.is_none() && typed.risk_weight.is_none() {
+        return saved.clone();
+    }
+    let usual = match saved {
+        PathCost::Weighted(weights) => *weights,
+        PathCost::Formula(_) => Weights::default(),
+    };
+    PathCost::Weighted(Weights {
+        length: typed.length_weight.unwrap_or(usual.length),
+        risk: typed.risk_weight.unwrap_or(usual.risk),
+    })
 }
 
 /// Reads "1%" or "0.01".
@@ -108,20 +176,6 @@ fn cost_formula(text: &str) -> Result<CostFormula, Failure> {
         let pointer = mistake.pointer().replace('\n', "\n    ");
         Failure::Usage(format!("--cost: {mistake}\n    {pointer}"))
     })
-}
-
-fn density(
-    typed: &PathArguments,
-    formula: Option<CostFormula>,
-    finished: &FinishedMesh,
-) -> Result<Arc<dyn CostDensity>, Failure> {
-    let usual = Weights::default();
-    let weights = Weights {
-        length: typed.length_weight.unwrap_or(usual.length),
-        risk: typed.risk_weight.unwrap_or(usual.risk),
-    };
-    let cost = formula.map_or(PathCost::Weighted(weights), PathCost::Formula);
-    Ok(cost.density(finished.risk())?)
 }
 
 fn mask(path: &Path) -> Result<Mask, Failure> {
@@ -199,7 +253,7 @@ impl PathOutput {
 struct Answer {
     /// What the path costs.
     cost: f64,
-    /// No path costs less.
+    /// No path costs less; 0 where no bound is known.
     lower: f64,
     /// The best path costs no more.
     upper: f64,
@@ -223,13 +277,24 @@ impl Answer {
     }
 
     fn for_people(&self, gap: f64) -> String {
+        let bound = match self.lower > 0.0 || self.upper == 0.0 {
+            true => {
+                format!(
+                    "within {} of the best: no path costs less than {}",
+                    percent_above(gap),
+                    short(self.lower)
+                )
+            }
+            false => {
+                "no lower bound is known: the mesh does not cover the whole domain. --within 1% looks for one"
+                    .to_owned()
+            }
+        };
         format!(
-            "cost {}, within {} of the best: no path costs less than {}\n\
+            "cost {}, {bound}\n\
              length {}, accumulated risk {}, highest risk {}\n\
              {} triangles, {:.2} s",
             short(self.cost),
-            percent_above(gap),
-            short(self.lower),
             short(self.length),
             short(self.risk),
             short(self.highest_risk),

@@ -12,23 +12,27 @@ pub struct PathArguments {
     #[command(flatten)]
     pub input: InputArguments,
 
-    /// Where the path begins
-    #[arg(long, value_name = "X,Y", allow_hyphen_values = true, help_heading = "Path")]
-    pub from: String,
+    /// Where the path begins [default: where that of the project does]
+    #[arg(long, value_name = "X,Y", allow_hyphen_values = true, requires = "to", help_heading = "Path")]
+    pub from: Option<String>,
 
-    /// Where the path ends
-    #[arg(long, value_name = "X,Y", allow_hyphen_values = true, help_heading = "Path")]
-    pub to: String,
+    /// Where the path ends [default: where that of the project does]
+    #[arg(long, value_name = "X,Y", allow_hyphen_values = true, requires = "from", help_heading = "Path")]
+    pub to: Option<String>,
 
     /// A place that the path visits on the way; may be repeated, in order
-    #[arg(long, value_name = "X,Y", allow_hyphen_values = true, help_heading = "Path")]
+    #[arg(long, value_name = "X,Y", allow_hyphen_values = true, requires = "from", help_heading = "Path")]
     pub via: Vec<String>,
 
-    /// Polygons that the path stays out of; may be repeated
+    /// Which of the project's paths, from 1 [default: 1]
+    #[arg(long, value_name = "N", requires = "project", conflicts_with = "from", help_heading = "Path")]
+    pub route: Option<usize>,
+
+    /// Polygons that the path stays out of, in place of those of the project; may be repeated
     #[arg(long, value_name = "FILE.geojson", help_heading = "Path")]
     pub keep_out: Vec<PathBuf>,
 
-    /// Cost per unit of length as a formula of x, y and risk, in place of the weights
+    /// Cost per unit of length as a formula of x, y and risk, in place of the weights or the project's cost
     #[arg(
         long,
         value_name = "EXPR",
@@ -38,22 +42,27 @@ pub struct PathArguments {
     )]
     pub cost: Option<String>,
 
-    /// What a unit of length costs where there is no risk [default: 1]
+    /// What a unit of length costs where there is no risk [default: that of the project, or 1]
     #[arg(long, value_name = "L", allow_hyphen_values = true, help_heading = "Path")]
     pub length_weight: Option<f64>,
 
-    /// What a unit of length costs at risk 1, beside that [default: 10]
+    /// What a unit of length costs at risk 1, beside that [default: that of the project, or 10]
     #[arg(long, value_name = "K", allow_hyphen_values = true, help_heading = "Path")]
     pub risk_weight: Option<f64>,
 
     /// Prove that the path costs at most this much more than the best, as in 1% or 0.01
     ///
-    /// Raises the lower bound until the interval is that narrow, which can take seconds, or until the work
-    /// gains nothing more.
+    /// Raises the lower bound and looks for better paths until the interval is that narrow, which can take
+    /// seconds, or until the work gains nothing more: then a sentence says what would help. The bound holds
+    /// for all paths through the domain, not only for those through the mesh. Without this option there is a
+    /// lower bound where the mesh covers the whole domain, that is, the domain is a rectangle.
     #[arg(long, value_name = "SHARE", allow_hyphen_values = true, help_heading = "Path")]
     pub within: Option<String>,
 
     /// Leave out points that are no farther than this from the path
+    ///
+    /// Points without which the path would leave the domain or enter a keep-out region stay. Cost and bounds
+    /// are those of the path that is written.
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, help_heading = "Output")]
     pub simplify: Option<f64>,
 

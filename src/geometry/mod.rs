@@ -14,7 +14,7 @@ pub use box_tree::{BoxGroup, BoxTree};
 pub use lattice::{GridError, LATTICE_BITS, Lattice, LatticePoint};
 pub use lattice_rect::LatticeRect;
 pub use octagon::Octagon;
-pub use predicates::{Side, exact_sum_sign, side_of_edge, side_of_line};
+pub use predicates::{Side, exact_sum_sign, side_of_edge, side_of_line, side_of_points};
 pub use rect::Rect;
 pub use segment::{nearest_on_segment, nearest_share};
 pub use z_order::{interleaved, z_order};

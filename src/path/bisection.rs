@@ -3,6 +3,7 @@
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
+use super::Passage;
 use super::path_mesh::{NONE, PathMesh, PathTriangle, obtuse_corner};
 
 /// A triangle that waits for bisection, the most important first.
@@ -127,8 +128,13 @@ impl PathMesh {
         for (slot, corners, across) in
             [(t, [a, middle, apex], [NONE, new, beyond_a]), (new, [middle, b, apex], [NONE, beyond_b, t])]
         {
-            let obtuse = obtuse_corner(&corners.map(|node| self.nodes[node as usize]));
-            let triangle = PathTriangle { corners, obtuse, ..old };
+            let places = corners.map(|node| self.nodes[node as usize]);
+            let mut triangle = PathTriangle { corners, obtuse: obtuse_corner(&places), ..old };
+            if old.passage == Passage::Partly && self.has_keep_out() {
+                triangle.passage = self.passage_of_part(&places);
+                triangle.is_kept_out = triangle.passage == Passage::Closed;
+            }
+            let obtuse = triangle.obtuse;
             self.has_obtuse |= obtuse < 3 && triangle.is_passable();
             if slot == t {
                 (self.triangles[t as usize], self.across[t as usize]) = (triangle, across);

@@ -20,6 +20,10 @@ pub trait CostDensity: Send + Sync {
 
     /// Bounds of the derivatives along x and y over a closed rectangle in world units; they may be wider than
     /// the values. `None` where the cost may jump, or its derivatives are not known.
+    ///
+    /// They must hold for the differences of costs as [`Self::at`] computes them, but for 10⁻¹² of the costs:
+    /// a formula that loses more digits, such as `(1e15 + x) - 1e15`, has steps, and bounds that are derived
+    /// from its derivatives can be wrong. The integral along a path notices such steps.
     fn derivatives(&self, _rectangle: &Rect) -> Option<[CostRange; 2]> {
         None
     }

@@ -2,7 +2,13 @@ use std::fmt;
 
 use glam::DVec2;
 
+use crate::domain::{Domain, DomainShape, Polygon};
 use crate::text::{Grouped, Number};
+
+/// The least cost per unit of length that paths are found with.
+pub(super) const LEAST_COST: f64 = 1e-100;
+/// The greatest cost per unit of length that paths are found with.
+pub(super) const GREATEST_COST: f64 = 1e100;
 
 /// Why there is no path.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -71,12 +77,48 @@ pub enum PathError {
         /// The place, in world units.
         at: DVec2,
     },
+    /// A cost is so great or so small that sums of costs along paths overflow or are lost.
+    #[error(
+        "The cost near {} is {}. Only costs from {} to {} can be added up along paths: scale the formula or \
+         the weights.",
+        Place(*at), Number(*value), Number(LEAST_COST), Number(GREATEST_COST)
+    )]
+    CostOutOfRange {
+        /// A place with such a cost, in world units.
+        at: DVec2,
+        /// The cost there.
+        value: f64,
+    },
     /// No path leads from one place to the next.
     #[error(
         "No path leads from the {from} to the {to}: they lie in different parts of the domain. \
          Choose two places in one part, or open a gap between the parts."
     )]
     Apart {
+        /// Where the path would begin.
+        from: Waypoint,
+        /// Where it would end.
+        to: Waypoint,
+    },
+    /// The triangles of the mesh do not connect two places, but the domain does, or may.
+    #[error(
+        "The mesh does not connect the {from} with the {to}, but the domain may: a strait between them can be \
+         narrower than the triangles there. Make the mesh finer along the outline."
+    )]
+    MeshApart {
+        /// Where the path would begin.
+        from: Waypoint,
+        /// Where it would end.
+        to: Waypoint,
+    },
+    /// Keep-out regions separate two places.
+    #[error(
+        "No path leads from the {from} to the {to}: keep-out regions, with the triangles that they touch, \
+         enclose the {which}. Remove or move a region, or make the mesh finer between regions."
+    )]
+    Enclosed {
+        /// The place that is enclosed: of the two parts, its own has fewer triangles.
+        which: Waypoint,
         /// Where the path would begin.
         from: Waypoint,
         /// Where it would end.
@@ -101,6 +143,38 @@ pub enum PathError {
     TooFewPlaces,
 }
 
+impl PathError {
+    /// The error as what is known of the domain tells it: whether two places that the mesh does not connect
+    /// lie in different parts of the domain as well. `places` are those that the path was to visit.
+    pub fn in_domain(self, domain: &Domain, places: &[DVec2]) -> Self {
+        let Self::Apart { from, to } = self else { return self };
+        let polygons = match &domain.shape {
+            DomainShape::Whole => return self,
+            DomainShape::Formula(_) => return Self::MeshApart { from, to },
+            DomainShape::Region(region) => region.polygons(),
+        };
+        let part = |which: Waypoint| {
+            let place = places.get(which.index(places.len()))?;
+            polygons.iter().position(|polygon| covers(polygon, *place))
+        };
+        match (part(from), part(to)) {
+            (Some(a), Some(b)) if a != b => self,
+            // A place that is in no part is beside the outline, where the mesh follows it roughly.
+            _ => Self::MeshApart { from, to },
+        }
+    }
+}
+
+/// Whether a polygon covers a point: a ray to the right crosses an odd number of its edges.
+fn covers(polygon: &Polygon, point: DVec2) -> bool {
+    let edges =
+        polygon.iter().flat_map(|ring| (0..ring.len()).map(|n| [ring[n], ring[(n + 1) % ring.len()]]));
+    let crosses = |[a, b]: &[DVec2; 2]| {
+        (a.y <= point.y) != (b.y <= point.y) && point.x < a.x + (point.y - a.y) / (b.y - a.y) * (b.x - a.x)
+    };
+    edges.filter(crosses).count() % 2 == 1
+}
+
 /// A place that a path must visit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Waypoint {
@@ -113,6 +187,15 @@ pub enum Waypoint {
 }
 
 impl Waypoint {
+    /// The place in order of this one of `count`.
+    fn index(self, count: usize) -> usize {
+        match self {
+            Self::Start => 0,
+            Self::Via(number) => number,
+            Self::Goal => count.saturating_sub(1),
+        }
+    }
+
     /// The waypoint at a place of `count` in order.
     pub fn of(index: usize, count: usize) -> Self {
         match index {

@@ -99,10 +99,34 @@ fn mean_range(p: DVec2, q: DVec2, density: &dyn CostDensity, tolerance: f64) -> 
     let reach = p.abs().max(q.abs()).max_element();
     let rounding = ROUNDING * middle + 4.0 * f64::EPSILON * reach * steepest.sum::<f64>();
     let most = 0.125 * spread + rounding;
-    if most.is_nan() {
+    if most.is_nan() || !rises_as_said(p, q, density, &slopes, rounding) {
         return range;
     }
     CostRange { least: range.least.max(middle - most), greatest: range.greatest.min(middle + most) }
+}
+
+/// Whether the cost rises from the middle of a segment to its ends as bounds of its derivatives say. A cost
+/// that loses digits, such as `(1e15 + x) - 1e15`, is a staircase, and its derivatives are not those of the
+/// formula: then they are not used.
+fn rises_as_said(
+    p: DVec2,
+    q: DVec2,
+    density: &dyn CostDensity,
+    slopes: &[CostRange; 2],
+    rounding: f64,
+) -> bool {
+    let middle = p.midpoint(q);
+    let at_middle = density.at(middle);
+    [p, q].into_iter().all(|end| {
+        let (way, rise) = (end - middle, density.at(end) - at_middle);
+        let mut said = CostRange { least: -2.0 * rounding, greatest: 2.0 * rounding };
+        for axis in 0..2 {
+            let [a, b] = [way[axis] * slopes[axis].least, way[axis] * slopes[axis].greatest];
+            said.least += a.min(b);
+            said.greatest += a.max(b);
+        }
+        (said.least..=said.greatest).contains(&rise)
+    })
 }
 
 /// The mean of the cost over a segment, by Gauss's rule with two points.

@@ -160,7 +160,7 @@ impl March {
                 }
                 // By way of the edge it is less, but for rounding.
                 if value == f64::INFINITY {
-                    value = node.value + cost * node.at.distance(front_next.at);
+                    value = from_corner(&node, &front_next, cost);
                 }
                 self.offer_to(next, value, t, front_next.value);
             }
@@ -170,7 +170,7 @@ impl March {
                     value = through_edge(&node, &front_next, [number, next], &front_last, last, cost);
                 }
                 if value == f64::INFINITY {
-                    value = node.value + cost * node.at.distance(front_last.at);
+                    value = from_corner(&node, &front_last, cost);
                 }
                 self.offer_to(last, value, t, front_last.value);
             }
@@ -243,6 +243,14 @@ impl Kite {
         let divides = (pa - pc).perp_dot(pd - pc) > 0.0 && (pd - pc).perp_dot(pb - pc) > 0.0;
         divides.then_some(Self { apex, edges: [[a, d], [d, b]], triangles: [number, across] })
     }
+}
+
+/// The value at `to` along an edge from an accepted node. It is greater than the value there, also where the
+/// cost of the edge is lost in rounding: so each value comes from smaller ones, or from equal ones of nodes
+/// with smaller numbers, and a descent by them ends.
+#[inline]
+pub(super) fn from_corner(from: &Front, to: &Front, cost: f64) -> f64 {
+    (from.value + cost * from.at.distance(to.at)).max(from.value.next_up())
 }
 
 /// The least value at `to` by way of a point between two accepted nodes; infinite where that is at an end, or

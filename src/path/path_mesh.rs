@@ -1,11 +1,11 @@
 //! The triangles that paths go through, as plain arrays.
 
 use std::ops::ControlFlow;
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 use glam::DVec2;
 
-use crate::geometry::{BoxTree, Rect, z_order};
+use crate::geometry::{BoxTree, Rect, Side, side_of_points, z_order};
 use crate::layers::{Coverage, Mask};
 use crate::mesh::MeshView;
 
@@ -38,7 +38,11 @@ pub struct PathMesh {
     /// The triangles around each node that are not closed.
     around: Vec<u32>,
     pub(super) has_obtuse: bool,
-    pub(super) has_partly: bool,
+    /// The regions that paths stay out of.
+    keep_out: Arc<[Mask]>,
+    /// Whether the triangles cover the whole rectangle of the mesh, but for what keep-out regions hold: then
+    /// no path through the domain leaves them.
+    pub(super) covers_domain: bool,
     tree: OnceLock<BoxTree>,
 }
 
@@ -68,19 +72,11 @@ impl PathMesh {
 
     /// Keep-out regions close the triangles within and leave out those that they touch.
     pub fn with_keep_out(view: MeshView, keep_out: &[Mask]) -> Self {
-        Self::with_passages(view, |corners, is_outside| {
-            if is_outside {
-                return Passage::Closed;
-            }
-            let [a, b, c] = *corners;
-            let rectangle = Rect::new(a.min(b).min(c), a.max(b).max(c));
-            let passage = |mask: &Mask| match mask.classify(&rectangle) {
-                Coverage::Inside => Passage::Closed,
-                Coverage::Mixed => Passage::Partly,
-                Coverage::Outside => Passage::Open,
-            };
-            keep_out.iter().map(passage).min().unwrap_or(Passage::Open)
-        })
+        let passage = |corners: &[DVec2; 3], is_outside| match is_outside {
+            true => Passage::Closed,
+            false => passage_beside(keep_out, corners),
+        };
+        Self { keep_out: keep_out.into(), ..Self::with_passages(view, passage) }
     }
 
     /// `passage` says for each triangle, by its corners and whether it is marked as outside the domain,
@@ -89,20 +85,33 @@ impl PathMesh {
         let lattice = view.lattice();
         let nodes: Vec<DVec2> = view.nodes().iter().map(|&node| lattice.world_from_lattice(node)).collect();
         let mut mesh = Self { nodes, ..Self::default() };
+        let mut covered = 0;
         for triangle in view.triangles() {
             let corners = triangle.edge_nodes().map(|(from, _)| from.index() as u32);
             let places = corners.map(|node| mesh.nodes[node as usize]);
             let across = triangle.raw_neighbours.map(|n| n.triangle().map_or(NONE, |t| t.index() as u32));
             let (passage, obtuse) = (passage(&places, triangle.is_outside()), obtuse_corner(&places));
             mesh.has_obtuse |= obtuse < 3 && passage > Passage::Closed;
-            mesh.has_partly |= passage == Passage::Partly;
+            covered += if triangle.is_outside() { 0 } else { twice_area(&view, corners) };
             let is_kept_out = passage == Passage::Closed && !triangle.is_outside();
             mesh.triangles.push(PathTriangle { corners, passage, obtuse, is_kept_out });
             mesh.across.push(across);
         }
+        let extent = lattice.extent();
+        mesh.covers_domain = covered == 2 * i128::from(extent.x) * i128::from(extent.y);
         mesh.sort_along_curve();
         mesh.connect();
         mesh
+    }
+
+    /// Whether there are regions that paths stay out of.
+    pub(super) fn has_keep_out(&self) -> bool {
+        !self.keep_out.is_empty()
+    }
+
+    /// Whether paths go through a part of a triangle that a keep-out region touches.
+    pub(super) fn passage_of_part(&self, corners: &[DVec2; 3]) -> Passage {
+        passage_beside(&self.keep_out, corners)
     }
 
     /// Numbers the nodes along a Z-order curve, and the triangles by their first nodes.
@@ -226,6 +235,23 @@ impl PathMesh {
         self.around_point(point).iter().any(holds)
     }
 
+    /// The point, or one as near as rounding allows that a closed triangle contains, where rounding put the
+    /// point outside.
+    pub(super) fn moved_into(&self, triangle: u32, point: DVec2) -> DVec2 {
+        let corners = self.corners(triangle);
+        let centroid = (corners[0] + corners[1] + corners[2]) / 3.0;
+        let shares = std::iter::successors(Some(f64::EPSILON), |share| Some(2.0 * share));
+        let moved = shares.take_while(|&share| share < 1.0).map(|share| point + share * (centroid - point));
+        std::iter::once(point).chain(moved).find(|&point| holds(&corners, point)).unwrap_or(corners[0])
+    }
+
+    /// An open triangle that contains a point: exactly if there is one, else but for rounding.
+    pub(super) fn open_triangle_at(&self, point: DVec2) -> Option<u32> {
+        let found = self.around_point(point);
+        let mut open = found.iter().copied().filter(|&t| self.passage(t) == Passage::Open);
+        open.find(|&t| holds(&self.corners(t), point)).or_else(|| self.locate(point, Passage::Open))
+    }
+
     /// The triangle with the lowest number that contains a point and has at least this passage.
     pub fn locate(&self, point: DVec2, least: Passage) -> Option<u32> {
         let contains = |&number: &u32| {
@@ -233,6 +259,24 @@ impl PathMesh {
         };
         self.around_point(point).into_iter().find(contains)
     }
+}
+
+/// Whether paths that stay out of regions go through a triangle.
+fn passage_beside(keep_out: &[Mask], &[a, b, c]: &[DVec2; 3]) -> Passage {
+    let rectangle = Rect::new(a.min(b).min(c), a.max(b).max(c));
+    let passage = |mask: &Mask| match mask.classify(&rectangle) {
+        Coverage::Inside => Passage::Closed,
+        Coverage::Mixed => Passage::Partly,
+        Coverage::Outside => Passage::Open,
+    };
+    keep_out.iter().map(passage).min().unwrap_or(Passage::Open)
+}
+
+/// Twice the area of a triangle, in square lattice steps.
+fn twice_area(view: &MeshView, corners: [u32; 3]) -> i128 {
+    let [a, b, c] = corners.map(|node| view.nodes()[node as usize]);
+    let way = |from: u32, to: u32| i128::from(to) - i128::from(from);
+    way(a.x, b.x) * way(a.y, c.y) - way(a.y, b.y) * way(a.x, c.x)
 }
 
 /// The order of numbers by their keys, and the place of each number in it.
@@ -252,6 +296,11 @@ pub(super) fn obtuse_corner(corners: &[DVec2; 3]) -> u8 {
         p.dot(q) < -1e-9 * p.length() * q.length()
     };
     (0..3).find(is_obtuse).unwrap_or(3) as u8
+}
+
+/// Whether a closed triangle, anticlockwise, contains a point.
+pub(super) fn holds(&[a, b, c]: &[DVec2; 3], point: DVec2) -> bool {
+    [(a, b), (b, c), (c, a)].iter().all(|&(from, to)| side_of_points(from, to, point) != Side::Right)
 }
 
 /// Whether a closed triangle, anticlockwise, contains a point, but for rounding.

@@ -16,7 +16,8 @@ pub struct Place {
 }
 
 impl Place {
-    /// Finds a waypoint.
+    /// Finds a waypoint. A point that lies outside only by rounding is moved into its triangle, by as little
+    /// as numbers allow.
     ///
     /// # Errors
     /// When it is no point of the domain, or lies where no path may go.
@@ -24,8 +25,8 @@ impl Place {
         if !point.is_finite() {
             return Err(PathError::NotAPlace { which, at: point });
         }
-        match mesh.locate(point, Passage::Open) {
-            Some(triangle) => Ok(Self { point, triangle }),
+        match mesh.open_triangle_at(point) {
+            Some(triangle) => Ok(Self { point: mesh.moved_into(triangle, point), triangle }),
             None if mesh.locate(point, Passage::Partly).is_some() || mesh.is_kept_out(point) => {
                 Err(PathError::KeptOut { which, at: point })
             }

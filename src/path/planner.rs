@@ -7,10 +7,11 @@ use glam::DVec2;
 use super::integral::PathFigures;
 use super::lower::LowerBound;
 use super::march::{March, Seed};
+use super::obstacle::obstacle;
 use super::path_mesh::PathMesh;
 use super::place::Place;
 use super::refine::{Effort, refine};
-use super::trace::trace;
+use super::trace::{trace, trace_by_nodes};
 use super::triangle_costs::TriangleCosts;
 use super::walls::Walls;
 use super::{CostDensity, Passage, PathError, Solution, Waypoint};
@@ -47,13 +48,23 @@ const COMPARED: f64 = 1e-3;
 #[derive(Clone, Debug)]
 pub struct Planner {
     mesh: Arc<PathMesh>,
-    walls: Walls,
+    walls: Arc<Walls>,
+    adaptation: Option<Adaptation>,
     costs: TriangleCosts,
     /// With mean costs through open triangles, one for each waypoint.
     origins: Vec<Origin>,
     /// With least costs through all triangles that are not closed.
     origins_for_bounds: Vec<Origin>,
     bound: LowerBound,
+}
+
+/// What the mesh of a planner was bisected from.
+#[derive(Clone, Debug)]
+struct Adaptation {
+    /// The mesh that the planner was made with.
+    base: Arc<PathMesh>,
+    /// Whether the mesh may be another one than for the cost as it is.
+    is_outdated: bool,
 }
 
 /// A march from a waypoint.
@@ -102,9 +113,11 @@ impl Planner {
     /// # Errors
     /// When the cost is zero, negative, NaN or infinite somewhere.
     pub fn new(mesh: impl Into<Arc<PathMesh>>, density: &dyn CostDensity) -> Result<Self, PathError> {
-        let mut mesh = mesh.into();
+        let base = mesh.into();
+        let mut mesh = Arc::clone(&base);
         let costs = TriangleCosts::on_adapted(&mut mesh, density)?;
-        Ok(Self::with_costs(mesh, costs))
+        let adaptation = Some(Adaptation { base, is_outdated: false });
+        Ok(Self { adaptation, ..Self::with_costs(mesh, costs) })
     }
 
     /// As [`Self::new`], on the mesh as it is.
@@ -118,9 +131,10 @@ impl Planner {
     }
 
     fn with_costs(mesh: Arc<PathMesh>, costs: TriangleCosts) -> Self {
-        let walls = Walls::new(&mesh);
+        let walls = Arc::new(Walls::new(&mesh));
         let (origins, origins_for_bounds) = Default::default();
-        Self { mesh, walls, costs, origins, origins_for_bounds, bound: LowerBound::default() }
+        let bound = LowerBound::default();
+        Self { mesh, walls, adaptation: None, costs, origins, origins_for_bounds, bound }
     }
 
     /// The triangles that paths go through: those of the mesh that the planner was made with, or parts of
@@ -134,11 +148,37 @@ impl Planner {
         &self.costs
     }
 
-    /// Follows a change of the cost inside rectangles in world units.
+    /// Follows a change of the cost inside rectangles in world units: paths are then those of a new planner.
+    /// Where the mesh would be bisected in another way for the new cost, it is one.
     ///
     /// # Errors
     /// When the new cost is zero, negative, NaN or infinite somewhere; then nothing changes.
     pub fn update(&mut self, density: &dyn CostDensity, areas: &[Rect]) -> Result<(), PathError> {
+        if let Some(Adaptation { base, is_outdated }) = &self.adaptation {
+            let is_bisected = !Arc::ptr_eq(base, &self.mesh) && !base.meeting(areas).is_empty();
+            if *is_outdated || is_bisected || base.wants_adapting(density, areas)? {
+                *self = Self::new(Arc::clone(base), density)?;
+                return Ok(());
+            }
+        }
+        self.change_costs(density, areas).map(|_| ())
+    }
+
+    /// Follows a change of the cost as [`Self::update`] does, at once and on the mesh as it is: for paths
+    /// that are shown while something is dragged.
+    ///
+    /// # Errors
+    /// As [`Self::update`].
+    pub fn follow(&mut self, density: &dyn CostDensity, areas: &[Rect]) -> Result<(), PathError> {
+        let has_changed = self.change_costs(density, areas)?;
+        if let Some(adaptation) = &mut self.adaptation {
+            adaptation.is_outdated |= has_changed;
+        }
+        Ok(())
+    }
+
+    /// Computes costs again, and lets the marches follow. Returns whether there was a change.
+    fn change_costs(&mut self, density: &dyn CostDensity, areas: &[Rect]) -> Result<bool, PathError> {
         let changed = self.costs.update(&self.mesh, density, areas)?;
         for origin in &mut self.origins {
             origin.follow(&self.mesh, &self.costs.mean, Passage::Open, &changed);
@@ -146,7 +186,7 @@ impl Planner {
         for origin in &mut self.origins_for_bounds {
             origin.follow(&self.mesh, &self.costs.least, Passage::Partly, &changed);
         }
-        Ok(())
+        Ok(!changed.is_empty())
     }
 
     /// The path of least cost from the first of the places to the last by way of the others, in order.
@@ -179,7 +219,8 @@ impl Planner {
         }
         let leg = |(leg, pair): (usize, &[Place])| {
             let [from, to] = [leg, leg + 1].map(|index| Waypoint::of(index, places.len()));
-            self.leg(density, leg, [pair[0], pair[1]], request).ok_or(PathError::Apart { from, to })
+            self.leg(density, leg, [pair[0], pair[1]], request)?
+                .ok_or_else(|| obstacle(&self.mesh, [pair[0], pair[1]], [from, to]))
         };
         places.windows(2).enumerate().map(leg).collect()
     }
@@ -225,39 +266,65 @@ impl Planner {
     pub(super) fn relaxed(&self, path: &Solution, density: &dyn CostDensity, tolerance: f64) -> Solution {
         let leg = |stops: &[usize]| {
             let points = refine(&path.points[stops[0]..=stops[1]], density, &self.walls, Effort::FULL);
-            Solution::of(points, density, tolerance)
+            self.solution(points, density, tolerance)
         };
         Solution::joined(path.stops.windows(2).map(leg))
     }
 
+    /// A polyline that the walls admit, with its figures.
+    fn solution(&self, points: Vec<DVec2>, density: &dyn CostDensity, tolerance: f64) -> Solution {
+        debug_assert!(self.walls.admit_all(&points), "a path leaves the open triangles: {points:?}");
+        Solution { walls: vec![Arc::clone(&self.walls)], ..Solution::of(points, density, tolerance) }
+    }
+
+    /// The path of a leg; `None` where no march leads to its goal.
+    ///
+    /// # Errors
+    /// When its cost is not finite.
     fn leg(
         &mut self,
         density: &dyn CostDensity,
         leg: usize,
-        [start, goal]: [Place; 2],
+        ends: [Place; 2],
         request: PathRequest,
-    ) -> Option<Solution> {
+    ) -> Result<Option<Solution>, PathError> {
+        let [start, goal] = ends;
         if start.point == goal.point {
-            return Some(Solution::of(vec![start.point, goal.point], density, request.tolerance));
+            return Ok(Some(self.solution(vec![start.point, goal.point], density, request.tolerance)));
         }
-        let traced = trace(&self.mesh, &self.costs.mean, &self.origins[leg].march, start, goal)?;
+        let Some(traced) = self.traced(leg, ends) else { return Ok(None) };
         let refined = refine(&traced, density, &self.walls, request.effort);
-        let mut solution = Solution::of(refined, density, request.tolerance);
+        let mut solution = self.solution(refined, density, request.tolerance);
         // Where the cost jumps, a refined path can cost more.
         if PathFigures::of(&traced, density, COMPARED).cost < solution.cost {
-            let other = Solution::of(traced, density, request.tolerance);
+            let other = self.solution(traced, density, request.tolerance);
             if other.upper < solution.upper {
                 solution = other;
             }
         }
-        if request.has_bounds {
+        if !solution.upper.is_finite() {
+            return Err(PathError::CostOutOfRange { at: start.point, value: solution.upper });
+        }
+        // A path through a part of the domain that no triangle covers may cost less than any that is known.
+        if request.has_bounds && self.mesh.covers_domain {
             let bound = &mut LowerBound::default();
             std::mem::swap(bound, &mut self.bound);
             let marches = [leg, leg + 1].map(|place| &self.origins_for_bounds[place].march);
-            let lower = bound.compute(&self.mesh, &self.costs.least, [start, goal], marches, solution.upper);
+            let lower = bound.compute(&self.mesh, &self.costs.least, ends, marches, solution.upper);
             std::mem::swap(bound, &mut self.bound);
             solution.lower = lower.min(solution.upper);
         }
-        Some(solution)
+        Ok(Some(solution))
+    }
+
+    /// The path that a march leads to, through open triangles only.
+    fn traced(&self, leg: usize, ends: [Place; 2]) -> Option<Vec<DVec2>> {
+        let march = &self.origins[leg].march;
+        let traced = trace(&self.mesh, &self.costs.mean, march, ends)?;
+        // In triangles as small as rounding, a point beside an edge may belong to a third one.
+        match self.walls.admit_all(&traced) {
+            true => Some(traced),
+            false => trace_by_nodes(&self.mesh, &self.costs.mean, march, ends),
+        }
     }
 }

@@ -24,7 +24,7 @@ impl Effort {
     pub const LIVE: Self = Self { pieces: &[32, 128], steps: 8 };
 }
 
-/// A path of less cost near a polyline that stays within the walls.
+/// A path of less cost near a polyline that the walls admit; they admit it, too.
 ///
 /// Its vertices move along their normals only: along the path they would slide together. Each round divides
 /// the pieces and takes some steps of Newton's method with damping; the matrix is tridiagonal, because a
@@ -38,7 +38,7 @@ pub(super) fn refine(
     let Some(&first) = effort.pieces.first() else { return points.to_vec() };
     let mut points = thin_out(points, walls, first);
     for &pieces in effort.pieces {
-        divide(&mut points, pieces);
+        divide(&mut points, walls, pieces);
         Relaxation { points: &mut points, density, walls, damping: 1e-2 }.run(effort.steps);
     }
     points
@@ -67,14 +67,19 @@ fn thin_out(points: &[DVec2], walls: &Walls, pieces: usize) -> Vec<DVec2> {
 }
 
 /// Divides the longer pieces until there are about this many.
-fn divide(points: &mut Vec<DVec2>, pieces: usize) {
+fn divide(points: &mut Vec<DVec2>, walls: &Walls, pieces: usize) {
     let length: f64 = points.windows(2).map(|pair| pair[0].distance(pair[1])).sum();
     let longest = length / pieces as f64;
     let mut divided = vec![points[0]];
     for pair in points.windows(2) {
         let parts = (pair[0].distance(pair[1]) / longest * 0.999).ceil().max(1.0) as usize;
-        for part in 1..parts {
-            divided.push(pair[0].lerp(pair[1], part as f64 / parts as f64));
+        let mut last = pair[0];
+        for left in (2..=parts).rev() {
+            // A part that no point divides is divided with the next.
+            if let Some(point) = walls.between(last, pair[1], 1.0 / left as f64) {
+                divided.push(point);
+                last = point;
+            }
         }
         divided.push(pair[1]);
     }

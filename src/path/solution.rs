@@ -1,11 +1,13 @@
+use std::sync::Arc;
+
 use glam::DVec2;
 
 use super::integral::PathFigures;
-use super::{CostDensity, PathError};
+use super::{CostDensity, PathError, Walls};
 use crate::geometry::nearest_on_segment;
 
 /// A path, and how far from the best it can be.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default)]
 #[non_exhaustive]
 pub struct Solution {
     /// What the path costs, as computed.
@@ -24,6 +26,16 @@ pub struct Solution {
     pub points: Vec<DVec2>,
     /// The places in `points` of the start, the via points and the goal.
     pub stops: Vec<usize>,
+    /// For each leg between stops, the walls of the mesh on which it was found: they admit it.
+    pub(super) walls: Vec<Arc<Walls>>,
+}
+
+impl PartialEq for Solution {
+    /// Where a path was found does not make it another one.
+    fn eq(&self, other: &Self) -> bool {
+        let figures = |one: &Self| [one.cost, one.lower, one.upper, one.length, one.risk, one.highest_risk];
+        figures(self) == figures(other) && self.points == other.points && self.stops == other.stops
+    }
 }
 
 /// A place on a path, for a profile.
@@ -71,7 +83,7 @@ impl Solution {
         let PathFigures { cost, upper, length, risk, highest_risk } =
             PathFigures::of(&points, density, tolerance);
         let stops = vec![0, points.len() - 1];
-        Self { cost, lower: 0.0, upper, length, risk, highest_risk, points, stops }
+        Self { cost, lower: 0.0, upper, length, risk, highest_risk, points, stops, walls: Vec::new() }
     }
 
     /// The path along several, each of which begins where the last ends.
@@ -113,22 +125,21 @@ impl Solution {
         let end = self.points.len() - 1;
         self.points.extend(&next.points[1..]);
         self.stops.extend(next.stops[1..].iter().map(|stop| end + stop));
+        self.walls.extend(next.walls);
     }
 
-    /// Cost, risk and density at some of the points, given by their places in `points`, in order.
-    pub fn samples_at(&self, density: &dyn CostDensity, places: &[usize]) -> Vec<PathSample> {
+    /// Cost, risk and density at all points.
+    pub fn samples(&self, density: &dyn CostDensity) -> Vec<PathSample> {
         let (mut distance, mut cost) = (0.0, 0.0);
-        let mut samples = Vec::with_capacity(places.len());
+        let mut samples = Vec::with_capacity(self.points.len());
         for (n, &point) in self.points.iter().enumerate() {
             if n > 0 {
                 distance += self.points[n - 1].distance(point);
                 let piece = [self.points[n - 1], point];
                 cost += PathFigures::of(&piece, density, PROFILE_TOLERANCE).cost;
             }
-            if places.binary_search(&n).is_ok() {
-                let (risk, density) = (density.risk_at(point), density.at(point));
-                samples.push(PathSample { distance, point, cost, risk, density });
-            }
+            let (risk, density) = (density.risk_at(point), density.at(point));
+            samples.push(PathSample { distance, point, cost, risk, density });
         }
         samples
     }
@@ -163,39 +174,48 @@ impl Solution {
         samples
     }
 
-    /// The path with fewer points: none of those left out is farther than `tolerance` from it, in world
-    /// units. Stops stay (Douglas and Peucker's method).
+    /// A path with fewer points: none of those left out is farther than `tolerance` from it, in world units.
+    /// Stops stay, and so do points without which it would leave the domain or enter a keep-out region
+    /// (Douglas and Peucker's method). The figures are those of the new path. The lower bound holds for it,
+    /// too.
     ///
     /// # Errors
     /// When the tolerance is negative or NaN.
-    pub fn simplified(&self, tolerance: f64) -> Result<Vec<DVec2>, PathError> {
-        Ok(self.waypoints(tolerance)?.into_iter().map(|place| self.points[place]).collect())
-    }
-
-    /// The places in `points` of those that [`Self::simplified`] keeps.
-    ///
-    /// # Errors
-    /// When the tolerance is negative or NaN.
-    pub fn waypoints(&self, tolerance: f64) -> Result<Vec<usize>, PathError> {
+    pub fn simplified(&self, density: &dyn CostDensity, tolerance: f64) -> Result<Self, PathError> {
         if tolerance < 0.0 || tolerance.is_nan() {
             return Err(PathError::InvalidTolerance { tolerance });
         }
-        let mut keeps = vec![false; self.points.len()];
-        self.stops.iter().for_each(|&stop| keeps[stop] = true);
-        let mut parts: Vec<[usize; 2]> = self.stops.windows(2).map(|pair| [pair[0], pair[1]]).collect();
-        while let Some([first, last]) = parts.pop() {
-            let [a, b] = [self.points[first], self.points[last]];
-            let distances = (first + 1..last)
-                .map(|n| (n, self.points[n].distance(nearest_on_segment(self.points[n], [a, b]))));
-            let Some((farthest, distance)) = distances.max_by(|p, q| p.1.total_cmp(&q.1)) else { continue };
-            if distance > tolerance {
-                keeps[farthest] = true;
-                parts.extend([[first, farthest], [farthest, last]]);
-            }
-        }
-        Ok((0..keeps.len()).filter(|&n| keeps[n]).collect())
+        let leg = |(number, ends): (usize, &[usize])| {
+            let walls = self.walls.get(number);
+            let points = simplified(&self.points[ends[0]..=ends[1]], tolerance, walls.map(|walls| &**walls));
+            let figures = Self::of(points, density, UPPER_TOLERANCE);
+            Self { walls: walls.into_iter().cloned().collect(), ..figures }
+        };
+        let mut solution = Self::joined(self.stops.windows(2).enumerate().map(leg));
+        solution.lower = self.lower.min(solution.upper);
+        Ok(solution)
     }
 }
 
+/// A polyline with fewer points, all of whose pieces the walls admit, as they admit the given one.
+fn simplified(points: &[DVec2], tolerance: f64, walls: Option<&Walls>) -> Vec<DVec2> {
+    let mut keeps = vec![false; points.len()];
+    (keeps[0], keeps[points.len() - 1]) = (true, true);
+    let mut parts = vec![[0, points.len() - 1]];
+    while let Some([first, last]) = parts.pop() {
+        let [a, b] = [points[first], points[last]];
+        let distances =
+            (first + 1..last).map(|n| (n, points[n].distance(nearest_on_segment(points[n], [a, b]))));
+        let Some((farthest, distance)) = distances.max_by(|p, q| p.1.total_cmp(&q.1)) else { continue };
+        if distance > tolerance || walls.is_some_and(|walls| !walls.admit(a, b)) {
+            keeps[farthest] = true;
+            parts.extend([[first, farthest], [farthest, last]]);
+        }
+    }
+    points.iter().zip(keeps).filter_map(|(&point, keeps)| keeps.then_some(point)).collect()
+}
+
+/// The upper bound of a simplified path is above its cost by about this share.
+const UPPER_TOLERANCE: f64 = 2e-5;
 /// Bounds of the cost of a piece of a profile differ by this share.
 const PROFILE_TOLERANCE: f64 = 1e-3;

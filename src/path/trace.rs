@@ -27,34 +27,37 @@ struct Step {
     stand: Option<Stand>,
 }
 
+impl Step {
+    /// Its value and the number of its node: what falls from step to step.
+    fn height(&self) -> (f64, u32) {
+        (self.value, if let Some(Stand::OnNode(node)) = self.stand { node } else { NONE })
+    }
+}
+
 /// A foot this near to the end of an edge, as a share of the edge, is the end.
 const NEAR_END: f64 = 1e-9;
 
 /// The path from the start of a march to the goal, as a polyline from the start: each piece lies in one
-/// triangle. `None` where the march did not reach the goal.
+/// triangle, but for rounding. `None` where the march did not reach the goal.
 ///
 /// It goes down from the goal: from a point of a triangle to the point x of the other edges with the least
-/// u(x) + F |x − p|, where u is linear on the edges. Where that does not lead down, it goes to the lowest
-/// node nearby, and from there by way of the nodes that gave the values.
+/// u(x) + F |x − p|, where u is linear on the edges. Where that does not lead down, it goes to a node that
+/// does ([`Descent::down_to_node`]).
 pub(super) fn trace(
     mesh: &PathMesh,
     costs: &[f64],
     march: &March,
-    start: Place,
-    goal: Place,
+    [start, goal]: [Place; 2],
 ) -> Option<Vec<DVec2>> {
-    // A march may have paused at the goal: what lies beyond does not count.
-    let corners = goal.corner_nodes(mesh);
-    let farthest = corners.iter().map(|&node| march.value(node)).fold(0.0, f64::max);
-    let descent = Descent { mesh, costs, march, start, farthest };
-    let (mut stand, mut at, mut value) = (descent.stand_at(goal), goal.point, f64::INFINITY);
+    let descent = Descent::new(mesh, costs, march, [start, goal])?;
+    let (mut stand, mut at, mut height) = (descent.stand_at(goal), goal.point, (f64::INFINITY, NONE));
     let mut points = vec![goal.point];
-    // Ends: each step leads to a lower value, except from an edge to an end of equal value.
+    // Each step leads to a lower value, or to an equal one of a lower number. There are few values between
+    // those of neighbouring nodes; should there be many, the way by nodes only is as short as they are many.
     for _ in 0..8 * mesh.triangles.len() + 8 {
-        let mut step = descent.best(stand, at)?;
-        if step.value >= value && step.stand.is_some() {
-            step = descent.to_lowest_node(stand, at).filter(|step| step.value <= value)?;
-        }
+        let step = descent.best(stand, at).filter(|step| step.stand.is_none() || step.height() < height);
+        let step = step.or_else(|| descent.down_to_node(stand, at))?;
+        height = step.height();
         if step.to != at {
             points.push(step.to);
         }
@@ -62,9 +65,31 @@ pub(super) fn trace(
             points.reverse();
             return Some(points);
         };
-        (stand, at, value) = (next, step.to, step.value);
+        (stand, at) = (next, step.to);
     }
-    None
+    trace_by_nodes(mesh, costs, march, [start, goal])
+}
+
+/// The same by way of nodes only: each piece lies in one triangle, without an exception for rounding.
+pub(super) fn trace_by_nodes(
+    mesh: &PathMesh,
+    costs: &[f64],
+    march: &March,
+    [start, goal]: [Place; 2],
+) -> Option<Vec<DVec2>> {
+    let descent = Descent::new(mesh, costs, march, [start, goal])?;
+    let (mut stand, mut at) = (Stand::Within(goal.triangle), goal.point);
+    let mut points = vec![goal.point];
+    // Ends: the nodes have lower and lower values, or equal ones and lower numbers.
+    loop {
+        let step = descent.down_to_node(stand, at)?;
+        points.push(step.to);
+        let Some(next) = step.stand else {
+            points.reverse();
+            return Some(points);
+        };
+        (stand, at) = (next, step.to);
+    }
 }
 
 struct Descent<'a> {
@@ -76,7 +101,20 @@ struct Descent<'a> {
     farthest: f64,
 }
 
-impl Descent<'_> {
+impl<'a> Descent<'a> {
+    /// `None` where the march did not reach the goal.
+    fn new(
+        mesh: &'a PathMesh,
+        costs: &'a [f64],
+        march: &'a March,
+        [start, goal]: [Place; 2],
+    ) -> Option<Self> {
+        // A march may have paused at the goal: what lies beyond does not count.
+        let values = goal.corner_nodes(mesh).map(|node| march.value(node));
+        let farthest = values.into_iter().fold(0.0, f64::max);
+        farthest.is_finite().then_some(Self { mesh, costs, march, start, farthest })
+    }
+
     fn value(&self, node: u32) -> f64 {
         let value = self.march.value(node);
         if value <= self.farthest { value } else { f64::INFINITY }
@@ -136,7 +174,8 @@ impl Descent<'_> {
             } else if foot > 1.0 - NEAR_END {
                 (b, Stand::OnNode(ends[1]))
             } else {
-                (a.lerp(b, foot), Stand::OnEdge(t, k))
+                // Rounding must not put a point of a wall outside.
+                (self.mesh.moved_into(t, a.lerp_monotonic(b, foot)), Stand::OnEdge(t, k))
             };
             let [at_a, at_b] = ends.map(|node| self.value(node));
             let value = match stand {
@@ -184,14 +223,25 @@ impl Descent<'_> {
         Some(foot.clamp(0.0, 1.0))
     }
 
-    /// A step to the node with the least distance among those of the triangles here.
-    fn to_lowest_node(&self, stand: Stand, at: DVec2) -> Option<Step> {
-        let here = if let Stand::OnNode(node) = stand { Some(node) } else { None };
-        let triangles = self.triangles(stand).into_iter();
-        let nodes = triangles.flat_map(|t| self.mesh.triangles[t as usize].corners.map(|node| (node, t)));
+    /// A step to a node that is lower: from a node to the lowest corner of the triangle that its value came
+    /// from, or to the start if it has none; from elsewhere to the lowest corner of the triangles there.
+    fn down_to_node(&self, stand: Stand, at: DVec2) -> Option<Step> {
+        let triangles = match stand {
+            Stand::OnNode(node) => match self.march.nodes[node as usize].from {
+                NONE => {
+                    let to = self.start.point;
+                    let total = self.costs[self.start.triangle as usize] * at.distance(to);
+                    return Some(Step { total, value: 0.0, to, stand: None });
+                }
+                from => vec![from],
+            },
+            _ => self.triangles(stand),
+        };
+        let nodes =
+            triangles.iter().flat_map(|&t| self.mesh.triangles[t as usize].corners.map(|node| (node, t)));
         let (node, t) = nodes
-            .filter(|&(node, _)| Some(node) != here && self.value(node).is_finite())
-            .min_by(|a, b| self.value(a.0).total_cmp(&self.value(b.0)))?;
+            .filter(|&(node, _)| self.value(node).is_finite())
+            .min_by(|a, b| self.value(a.0).total_cmp(&self.value(b.0)).then(a.0.cmp(&b.0)))?;
         let (to, value) = (self.mesh.nodes[node as usize], self.value(node));
         let total = value + self.costs[t as usize] * at.distance(to);
         Some(Step { total, value, to, stand: Some(Stand::OnNode(node)) })

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::error::{GREATEST_COST, LEAST_COST};
 use super::path_mesh::PathMesh;
 use super::{CostDensity, Passage, PathError, checked_range};
 use crate::geometry::Rect;
@@ -44,17 +45,13 @@ impl TriangleCosts {
     /// # Errors
     /// When the cost is zero, negative, NaN or infinite somewhere.
     pub(super) fn on_adapted(mesh: &mut Arc<PathMesh>, density: &dyn CostDensity) -> Result<Self, PathError> {
-        let size = mesh.bounds().map_or(0.0, |bounds| bounds.size().max_element());
-        let importance = |mesh: &PathMesh, triangle: u32, cost: TriangleCost| {
-            let excess = cost.variation().min(1.0) * mesh.diameter(triangle) - COARSEST * size;
-            if excess > 0.0 { excess } else { 0.0 }
-        };
+        let coarsest = coarsest(mesh);
         let mut costs = Self::default();
         let mut wanted = Vec::new();
         for triangle in 0..mesh.triangle_count() as u32 {
             let cost = mesh.cost(triangle, density)?;
             costs.set(triangle, cost);
-            let importance = importance(mesh, triangle, cost);
+            let importance = mesh.importance(triangle, cost, coarsest);
             if importance > 0.0 {
                 wanted.push((importance, triangle));
             }
@@ -63,7 +60,7 @@ impl TriangleCosts {
             Arc::make_mut(mesh).bisect(wanted, MOST_ADDED, |mesh, triangle| {
                 let cost = mesh.cost(triangle, density)?;
                 costs.set(triangle, cost);
-                Ok::<_, PathError>(importance(mesh, triangle, cost))
+                Ok::<_, PathError>(mesh.importance(triangle, cost, coarsest))
             })?;
         }
         Ok(costs)
@@ -101,6 +98,11 @@ impl TriangleCosts {
     }
 }
 
+/// The greatest diameter of a triangle whose cost varies by as much as the least cost.
+fn coarsest(mesh: &PathMesh) -> f64 {
+    COARSEST * mesh.bounds().map_or(0.0, |bounds| bounds.size().max_element())
+}
+
 impl TriangleCost {
     const CLOSED: Self = Self { least: f64::INFINITY, greatest: f64::INFINITY, mean: f64::INFINITY };
 
@@ -111,6 +113,37 @@ impl TriangleCost {
 }
 
 impl PathMesh {
+    /// Whether [`TriangleCosts::on_adapted`] would begin with a triangle of this mesh that meets one of the
+    /// rectangles. Ranges of parts lie in those of the whole, so elsewhere it bisects as before.
+    ///
+    /// # Errors
+    /// As [`Self::costs`].
+    pub(super) fn wants_adapting(
+        &self,
+        density: &dyn CostDensity,
+        areas: &[Rect],
+    ) -> Result<bool, PathError> {
+        let coarsest = coarsest(self);
+        for triangle in self.meeting(areas) {
+            if self.importance(triangle, self.cost(triangle, density)?, coarsest) > 0.0 {
+                return Ok(true);
+            }
+        }
+        Ok(false)
+    }
+
+    /// How much a triangle should be bisected: by how much its diameter is too large for its cost; 0 where it
+    /// is not. A triangle that a keep-out region touches has a jump of the cost.
+    fn importance(&self, triangle: u32, cost: TriangleCost, coarsest: f64) -> f64 {
+        let variation = match self.passage(triangle) {
+            Passage::Closed => 0.0,
+            Passage::Partly => 1.0,
+            Passage::Open => cost.variation().min(1.0),
+        };
+        let excess = variation * self.diameter(triangle) - coarsest;
+        if excess > 0.0 { excess } else { 0.0 }
+    }
+
     /// The cost of each triangle.
     ///
     /// # Errors
@@ -130,6 +163,15 @@ impl PathMesh {
         let range = checked_range(density, &self.rectangle(triangle))?;
         let spread = range.greatest - range.least;
         let [a, b, c] = self.corners(triangle);
+        if range.least < LEAST_COST || range.greatest > GREATEST_COST {
+            // The range may be wider than the values.
+            let at = [a, b, c, (a + b + c) / 3.0].map(|at| (at, density.at(at)));
+            if let Some(&(at, value)) =
+                at.iter().find(|(_, value)| !(LEAST_COST..=GREATEST_COST).contains(value))
+            {
+                return Err(PathError::CostOutOfRange { at, value });
+            }
+        }
         let mean = if spread <= 0.0 {
             range.least
         } else if spread <= ALIKE * range.least {

@@ -6,15 +6,18 @@ use glam::DVec2;
 
 use super::Passage;
 use super::path_mesh::{NONE, PathMesh, contains};
-use crate::geometry::{BoxTree, Rect};
+use crate::geometry::{BoxTree, Rect, Side, side_of_points};
 
 /// The edges at which the open triangles of a mesh end, to test segments.
-#[derive(Clone, Debug)]
+///
+/// All tests are exact for the coordinates as they are: a segment along a wall is admitted, and one that
+/// leaves the open triangles by the smallest number of f64 is not.
+#[derive(Clone)]
 pub struct Walls {
     walls: Vec<Wall>,
     tree: BoxTree,
-    /// Coordinates are exact to about this length.
-    margin: f64,
+    /// The distance of neighbouring numbers at the largest coordinate.
+    ulp: f64,
 }
 
 /// An edge from a to b with the open triangles to the left, and the end of the next edge along them.
@@ -39,8 +42,8 @@ struct Touch {
     is_open: [bool; 2],
 }
 
-/// Lengths below this share of the coordinates count as rounding.
-const ROUNDING: f64 = 1e-13;
+/// A point that rounding put outside is moved by this many ulps at most.
+const MOST_ULPS: f64 = 4096.0;
 
 impl Walls {
     /// The walls of a mesh.
@@ -56,24 +59,46 @@ impl Walls {
         let boxes: Vec<Rect> = walls.iter().map(|wall| Rect::spanning(wall.a, wall.b)).collect();
         let tree = BoxTree::new(&boxes);
         let largest = tree.bounds().map_or(0.0, |all| all.min.abs().max(all.max.abs()).max_element());
-        Self { walls, tree, margin: ROUNDING * largest }
+        Self { walls, tree, ulp: largest.next_up() - largest }
     }
 
     /// Whether a segment stays in the open triangles, their rims included. Its first end must lie in them.
+    ///
+    /// A segment can leave them only where it crosses a wall, at an end on a wall, or at a corner of the
+    /// walls. At each of these it is known on which side it goes on.
     pub fn admit(&self, p: DVec2, q: DVec2) -> bool {
         if p == q {
             return true;
         }
         let mut touched: Vec<Touch> = Vec::new();
-        let around = Rect::spanning(p, q).expanded(self.margin);
-        let blocked = self.tree.visit_meeting(&around, |number| {
-            let wall = &self.walls[number as usize];
-            match self.is_blocked_by(wall, p, q, &mut touched) {
+        let blocked = self.tree.visit_meeting(&Rect::spanning(p, q), |number| {
+            match is_blocked_by(&self.walls[number as usize], p, q, &mut touched) {
                 true => ControlFlow::Break(()),
                 false => ControlFlow::Continue(()),
             }
         });
         blocked.is_continue() && touched.iter().all(|touch| touch.is_open == [true; 2])
+    }
+
+    /// Whether all pieces of a polyline stay in the open triangles. Its first point must lie in them.
+    pub fn admit_all(&self, points: &[DVec2]) -> bool {
+        points.windows(2).all(|pair| self.admit(pair[0], pair[1]))
+    }
+
+    /// A point between the ends of a segment that is admitted, such that both parts are admitted, too.
+    ///
+    /// Rounding puts most points beside an oblique segment, and where the segment follows a wall, perhaps
+    /// beyond it: then it is a point a few ulps beside the segment. `None` where none of those tried will do.
+    pub(super) fn between(&self, p: DVec2, q: DVec2, share: f64) -> Option<DVec2> {
+        let at = p.lerp_monotonic(q, share);
+        let admits = |at: &DVec2| self.admit(p, *at) && self.admit(*at, q);
+        if admits(&at) {
+            return Some(at);
+        }
+        let across = self.ulp * (q - p).perp().normalize_or_zero();
+        let ulps =
+            std::iter::successors(Some(1.0), |ulps| Some(2.0 * ulps).filter(|&ulps| ulps <= MOST_ULPS));
+        ulps.flat_map(|ulps| [at + ulps * across, at - ulps * across]).find(admits)
     }
 
     /// The corner of the walls within a triangle that is farthest from the line through its first two points.
@@ -92,54 +117,55 @@ impl Walls {
         });
         best
     }
+}
 
-    fn is_blocked_by(&self, wall: &Wall, p: DVec2, q: DVec2, touched: &mut Vec<Touch>) -> bool {
-        let [of_p, of_q] = [p, q].map(|end| self.side([wall.a, wall.b], end));
-        let [of_a, of_b] = [wall.a, wall.b].map(|end| self.side([p, q], end));
-        if of_p * of_q < 0 && of_a * of_b < 0 {
-            return true;
-        }
-        // An end on the wall, between its ends: the segment must not leave to the right.
-        let along = |end: DVec2| (end - wall.a).dot(wall.b - wall.a);
-        let is_between = |end: DVec2| along(end) > 0.0 && along(end) < (wall.b - wall.a).length_squared();
-        if (of_p == 0 && is_between(p) && of_q < 0) || (of_q == 0 && is_between(q) && of_p < 0) {
-            return true;
-        }
-        if of_b == 0 {
-            self.touch(wall, p, q, touched);
-        }
-        false
+impl std::fmt::Debug for Walls {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Walls").field("count", &self.walls.len()).finish_non_exhaustive()
     }
+}
 
-    /// Notes whether a segment through the end of a wall has open triangles on both sides of it.
-    fn touch(&self, wall: &Wall, p: DVec2, q: DVec2, touched: &mut Vec<Touch>) {
-        let place = (wall.b - p).dot(q - p) / (q - p).length_squared();
-        if !(0.0..=1.0).contains(&place) && wall.b.distance(p).min(wall.b.distance(q)) > self.margin {
-            return;
-        }
-        // A corner at an end of the segment has only one side.
-        let is_open = [p, q].map(|end| end.distance(wall.b) <= self.margin || self.leads_inside(wall, end));
-        match touched.iter_mut().find(|touch| touch.node == wall.node) {
-            // Several wedges meet in the node: one of them is enough.
-            Some(touch) => (0..2).for_each(|side| touch.is_open[side] |= is_open[side]),
-            None => touched.push(Touch { node: wall.node, is_open }),
-        }
+fn is_blocked_by(wall: &Wall, p: DVec2, q: DVec2, touched: &mut Vec<Touch>) -> bool {
+    let [of_p, of_q] = [p, q].map(|end| side_of_points(wall.a, wall.b, end));
+    let [of_a, of_b] = [wall.a, wall.b].map(|end| side_of_points(p, q, end));
+    let are_apart = |one: Side, other: Side| one != other && one != Side::On && other != Side::On;
+    if are_apart(of_p, of_q) && are_apart(of_a, of_b) {
+        return true;
     }
+    // An end on the wall, between its ends: the segment must not leave to the right.
+    if (of_p == Side::On && of_q == Side::Right && is_between(wall, p))
+        || (of_q == Side::On && of_p == Side::Right && is_between(wall, q))
+    {
+        return true;
+    }
+    if of_b == Side::On && Rect::spanning(p, q).contains(wall.b) {
+        touch(wall, p, q, touched);
+    }
+    false
+}
 
-    /// Whether the way from b to a point begins in the wedge of open triangles at b.
-    fn leads_inside(&self, wall: &Wall, to: DVec2) -> bool {
-        let left = [[wall.a, wall.b], [wall.b, wall.next]].map(|edge| self.side(edge, to) >= 0);
-        let is_convex = self.side([wall.a, wall.b], wall.next) >= 0;
-        if is_convex { left[0] && left[1] } else { left[0] || left[1] }
-    }
+/// Whether a point of the line through a wall lies between its ends, and is neither of them.
+fn is_between(wall: &Wall, point: DVec2) -> bool {
+    point != wall.a && point != wall.b && Rect::spanning(wall.a, wall.b).contains(point)
+}
 
-    /// 1 if a point lies to the left of a line, −1 to the right, 0 on it but for rounding.
-    fn side(&self, [from, to]: [DVec2; 2], point: DVec2) -> i32 {
-        let (line, arm) = (to - from, point - from);
-        let area = line.perp_dot(arm);
-        let margin = 4.0 * self.margin * (line.length() + arm.length());
-        i32::from(area > margin) - i32::from(area < -margin)
+/// Notes whether a segment through the end of a wall has open triangles on both sides of it.
+fn touch(wall: &Wall, p: DVec2, q: DVec2, touched: &mut Vec<Touch>) {
+    // A corner at an end of the segment has only one side.
+    let is_open = [p, q].map(|end| end == wall.b || leads_inside(wall, end));
+    match touched.iter_mut().find(|touch| touch.node == wall.node) {
+        // Several wedges meet in the node: one of them is enough.
+        Some(touch) => (0..2).for_each(|side| touch.is_open[side] |= is_open[side]),
+        None => touched.push(Touch { node: wall.node, is_open }),
     }
+}
+
+/// Whether the way from b to a point begins in the wedge of open triangles at b.
+fn leads_inside(wall: &Wall, to: DVec2) -> bool {
+    let is_left = |from, to, point| side_of_points(from, to, point) != Side::Right;
+    let left = [is_left(wall.a, wall.b, to), is_left(wall.b, wall.next, to)];
+    let is_convex = is_left(wall.a, wall.b, wall.next);
+    if is_convex { left[0] && left[1] } else { left[0] || left[1] }
 }
 
 fn is_wall(mesh: &PathMesh, t: u32, edge: usize) -> bool {

@@ -1,5 +1,6 @@
 //! Exports a path: as GeoJSON, as a table, or as a picture over its mesh.
 
+use std::borrow::Cow;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
@@ -49,7 +50,7 @@ impl PathFormat {
 
 /// A path as files get it.
 pub struct PathExport<'a> {
-    solution: &'a Solution,
+    solution: Cow<'a, Solution>,
     samples: Vec<PathSample>,
 }
 
@@ -64,8 +65,8 @@ pub struct MeshOfPath<'a> {
 }
 
 impl<'a> PathExport<'a> {
-    /// A path with all its points, or only those that keep the others within a tolerance of it, in world
-    /// units. `density` is what the path costs.
+    /// A path with all its points, or simplified with a tolerance in world units ([`Solution::simplified`]).
+    /// `density` is what paths cost.
     ///
     /// # Errors
     /// When the tolerance is negative or NaN.
@@ -74,11 +75,17 @@ impl<'a> PathExport<'a> {
         density: &dyn CostDensity,
         tolerance: Option<f64>,
     ) -> Result<Self, PathError> {
-        let kept = match tolerance {
-            Some(tolerance) => solution.waypoints(tolerance)?,
-            None => (0..solution.points.len()).collect(),
+        let solution = match tolerance {
+            Some(tolerance) => Cow::Owned(solution.simplified(density, tolerance)?),
+            None => Cow::Borrowed(solution),
         };
-        Ok(Self { solution, samples: solution.samples_at(density, &kept) })
+        let samples = solution.samples(density);
+        Ok(Self { solution, samples })
+    }
+
+    /// The path that is written, with its figures.
+    pub fn solution(&self) -> &Solution {
+        &self.solution
     }
 
     /// The points that are written, with the cost up to each.
@@ -99,7 +106,7 @@ impl<'a> PathExport<'a> {
         meter: &Meter,
     ) -> io::Result<()> {
         write_file_metered(file, meter, |out: &mut dyn Write| match format {
-            PathFormat::GeoJson => write_geojson(out, self.solution, &self.samples, provenance),
+            PathFormat::GeoJson => write_geojson(out, &self.solution, &self.samples, provenance),
             PathFormat::Csv => write_csv(out, &self.samples),
             PathFormat::Picture(format) => {
                 let points: Vec<DVec2> = self.samples.iter().map(|sample| sample.point).collect();

@@ -1,12 +1,12 @@
 //! The next best paths that differ substantially, found on another thread.
 
 use std::sync::mpsc::RecvTimeoutError;
-use std::time::Duration;
 
 use eframe::egui::Context;
 use glam::DVec2;
 
 use super::Key;
+use crate::app::patience::Patience;
 use crate::app::prover::Known;
 use crate::app::sequence::{Output, Sequence};
 use crate::geometry::nearest_on_segment;
@@ -91,14 +91,14 @@ impl AlternativesFinder {
         }
     }
 
-    /// Takes what was found, waiting up to `patience` for each path, and begins the search for those of
+    /// Takes what was found, waiting as long as `patience` lasts, and begins the search for those of
     /// another path.
     pub(super) fn advance(
         &mut self,
         of: (Key, usize),
         (best, places): (&Solution, &[DVec2]),
         basis: &Known,
-        patience: Duration,
+        patience: &Patience,
         ctx: &Context,
     ) {
         if !self.is_on {
@@ -110,7 +110,7 @@ impl AlternativesFinder {
             self.start(best, places.to_vec(), basis, ctx);
         }
         while let Some(running) = &self.running {
-            match running.values.recv_timeout(patience) {
+            match running.values.recv_timeout(patience.left()) {
                 Ok(path) => {
                     let place = self.paths.partition_point(|other| other.cost < path.cost);
                     self.paths.insert(place, path);

@@ -2,12 +2,12 @@
 
 use std::sync::Arc;
 use std::sync::mpsc::RecvTimeoutError;
-use std::time::Duration;
 
 use eframe::egui::Context;
 use glam::DVec2;
 
 use super::{Key, MeshKey};
+use crate::app::patience::Patience;
 use crate::app::sequence::{Output, Sequence};
 use crate::app::session::Session;
 use crate::document::KeepOut;
@@ -104,14 +104,14 @@ impl FrontFinder {
         }
     }
 
-    /// Takes what was found, waiting up to `patience` for each path, and begins the front of a route where it
+    /// Takes what was found, waiting as long as `patience` lasts, and begins the front of a route where it
     /// is not known.
     pub(super) fn advance(
         &mut self,
         session: &Session,
         (key, route): (Key, usize),
         mesh: &Arc<PathMesh>,
-        patience: Duration,
+        patience: &Patience,
         ctx: &Context,
     ) {
         if !self.is_on {
@@ -129,7 +129,7 @@ impl FrontFinder {
             }
         }
         while let Some(running) = &self.running {
-            match running.values.recv_timeout(patience) {
+            match running.values.recv_timeout(patience.left()) {
                 Ok(news) => (self.points, self.remaining) = (news.points, news.remaining),
                 Err(RecvTimeoutError::Timeout) => return,
                 Err(RecvTimeoutError::Disconnected) => self.running = None,

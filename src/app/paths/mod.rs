@@ -30,10 +30,10 @@ pub use work::{FoundPath, ShownPath};
 use work::{KnownPlanner, PlannedMesh, Work, WorkResult, find, find_corridor};
 
 use super::latest::Latest;
+use super::patience::Patience;
 use super::prover::{Known, Prover};
 use super::session::{DocumentId, Session};
 use super::statistics::MeasuredMesh;
-use crate::domain::DomainShape;
 use crate::layers::RiskField;
 use crate::path::PathError;
 
@@ -100,12 +100,13 @@ impl PathFinder {
         self.key.as_ref().is_some_and(|key| key.document == session.document().revision() && !key.is_live)
     }
 
-    /// Takes what was found, waiting for it up to `patience`, and begins what is to be found next. The
-    /// threads wake the window: no frame needs to wait for them. Alternatives and the front are those of
-    /// `route`.
+    /// Takes what was found, waiting for all of it together up to `patience`, and begins what is to be found
+    /// next. The threads wake the window: no frame needs to wait for them. Alternatives and the front are
+    /// those of `route`.
     pub fn advance(&mut self, session: &Session, route: Option<usize>, patience: Duration, ctx: &Context) {
+        let patience = &Patience::new(patience);
         if self.work.is_running() {
-            if self.work.take(patience) {
+            if self.work.take(patience.left()) {
                 return;
             }
             self.take_work(session);
@@ -170,13 +171,13 @@ impl PathFinder {
                 None => PlannedMesh::Mesh(session.follower().shared_mesh()),
             },
         };
-        let bounds = document.settings().domain.bounds;
+        let domain = document.settings().domain.clone();
         self.work.start(
             key,
             move || {
                 let density = plan.cost.density(risk.clone()).ok()?;
-                let planner = mesh.planner(&density, (plan.clone(), risk), bounds);
-                Some(find(planner, density, &plan.routes, is_live))
+                let planner = mesh.planner(&density, (plan.clone(), risk), domain.bounds, is_live);
+                Some(find(planner, density, (&plan.routes, &domain), is_live))
             },
             ctx,
         );
@@ -210,7 +211,7 @@ impl PathFinder {
         match work.result {
             WorkResult::Corridor(lines) => self.corridor.lines = lines.into(),
             WorkResult::Paths { density, routes } => {
-                self.take_paths(session, routes);
+                self.take_paths(routes);
                 self.basis =
                     known.zip(density).map(|((mesh, keep_out), density)| Known { density, mesh, keep_out });
                 self.prover.begin(self.basis.clone());
@@ -219,25 +220,18 @@ impl PathFinder {
         }
     }
 
-    fn take_paths(&mut self, session: &Session, routes: Vec<Result<FoundPath, PathError>>) {
-        let bounds_hold = session.document().settings().domain.shape == DomainShape::Whole;
+    fn take_paths(&mut self, routes: Vec<Result<FoundPath, PathError>>) {
         self.shown.resize_with(routes.len(), ShownPath::default);
         for (shown, found) in self.shown.iter_mut().zip(routes) {
             match found {
-                Ok(mut found) => {
-                    if !bounds_hold {
-                        // It knows no path between the outline and the mesh: a certificate does.
-                        found.solution.lower = 0.0;
-                    }
-                    *shown = ShownPath { found: Some(found), problem: None };
-                }
+                Ok(found) => *shown = ShownPath { found: Some(found), problem: None },
                 Err(problem) => shown.problem = Some(problem),
             }
         }
     }
 
     /// Looks for the front and the alternatives of a complete path.
-    fn find_others(&mut self, session: &Session, of: (Key, usize), patience: Duration, ctx: &Context) {
+    fn find_others(&mut self, session: &Session, of: (Key, usize), patience: &Patience, ctx: &Context) {
         let Some(basis) = &self.basis else { return self.alternatives.clear() };
         self.front.advance(session, of, &basis.mesh, patience, ctx);
         let shown = self.shown.get(of.1).filter(|shown| shown.problem.is_none());
@@ -251,7 +245,7 @@ impl PathFinder {
     }
 
     /// Raises the lower bounds of complete paths.
-    fn prove(&mut self, session: &Session, patience: Duration, ctx: &Context) {
+    fn prove(&mut self, session: &Session, patience: &Patience, ctx: &Context) {
         let found = self.shown.iter_mut().filter(|shown| shown.problem.is_none());
         let found = found.filter_map(|shown| shown.found.as_mut()).collect();
         self.prover.advance(found, &session.document().settings().domain, patience, ctx);

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use crate::document::PathPlan;
+use crate::domain::Domain;
 use crate::geometry::Rect;
 use crate::layers::RiskField;
 use crate::mesh::{Extract, Mesh};
@@ -93,13 +94,18 @@ impl PlannedMesh {
         density: &Arc<dyn CostDensity>,
         (plan, risk): (Arc<PathPlan>, RiskField),
         bounds: Rect,
+        is_live: bool,
     ) -> Result<KnownPlanner, PathError> {
         let around = |view| PathMesh::with_keep_out(view, &plan.keep_out_masks());
         let planner = match self {
             Self::Planner(mut known) => {
                 let same_cost = plan.cost == known.plan.cost;
                 let areas = if same_cost { risk.areas_that_differ(&known.risk) } else { None };
-                known.planner.update(&**density, &areas.unwrap_or_else(|| vec![bounds]))?;
+                let areas = areas.unwrap_or_else(|| vec![bounds]);
+                match is_live {
+                    true => known.planner.follow(&**density, &areas)?,
+                    false => known.planner.update(&**density, &areas)?,
+                }
                 known.planner
             }
             Self::Mesh(mesh) => Planner::new(around(mesh.view()), &**density)?,
@@ -113,7 +119,7 @@ impl PlannedMesh {
 pub(super) fn find(
     planner: Result<KnownPlanner, PathError>,
     density: Arc<dyn CostDensity>,
-    routes: &[Vec<DVec2>],
+    (routes, domain): (&[Vec<DVec2>], &Domain),
     is_live: bool,
 ) -> Work {
     let mut known = match planner {
@@ -125,7 +131,8 @@ pub(super) fn find(
     };
     let request = if is_live { PathRequest::LIVE } else { PathRequest::FULL };
     let routes = routes.iter().map(|places| {
-        let solution = known.planner.solve(&*density, places, request)?;
+        let found = known.planner.solve(&*density, places, request);
+        let solution = found.map_err(|problem| problem.in_domain(domain, places))?;
         Ok(FoundPath::new(solution, &*density))
     });
     let routes = routes.collect();

@@ -39,15 +39,17 @@ impl PathCertificate {
     /// As [`Certificate::new`].
     pub fn new(solution: &Solution, task: &CertificateTask) -> Result<Self, PathError> {
         let stop: Arc<AtomicBool> = Arc::default();
-        let leg = |ends: &[usize]| {
+        let leg = |(number, ends): (usize, &[usize])| {
             let path = solution.points[ends[0]..=ends[1]].to_vec();
-            let solution = Solution::of(path.clone(), &*task.cost, TOLERANCE * task.width);
+            let walls = solution.walls.get(number).into_iter().cloned().collect();
+            let figures = Solution::of(path.clone(), &*task.cost, TOLERANCE * task.width);
+            let solution = Solution { walls, ..figures };
             let upper = solution.upper;
             let mut certificate = Certificate::new(CertificateTask { path, upper, ..task.clone() })?;
             certificate.stop = Arc::clone(&stop);
             Ok(Leg { certificate, solution, searches: MOST_SEARCHES })
         };
-        let legs = solution.stops.windows(2).map(leg).collect::<Result<_, _>>()?;
+        let legs = solution.stops.windows(2).enumerate().map(leg).collect::<Result<_, _>>()?;
         Ok(Self { legs, cost: Arc::clone(&task.cost), width: task.width, mesh: None })
     }
 

@@ -4,8 +4,9 @@
 //! bounded by branch and bound over rectangles: the part of the triangle in each is a convex polygon, on
 //! which the plane is known exactly and the density by its range.
 //!
-//! The density counts inside the triangle only. At a jump along an edge the triangle on the other side keeps
-//! the function's derivative along the edge below the smaller value; see the head of the module.
+//! The density counts inside the triangle only, farther than `inset` from its edges. What it is on the edges
+//! is looked at afterwards, for both triangles together (`edges.rs`): there a jump that follows the mesh
+//! costs nothing.
 
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
@@ -20,9 +21,6 @@ use crate::path::CostDensity;
 const SAMPLES: usize = 5;
 /// Most rectangles that are looked at for one bound.
 const MOST_RECTANGLES: usize = 240;
-/// Rectangles are asked about without a margin of this part of the domain's size, so that a jump that lies on
-/// an edge but for rounding counts as on the edge.
-pub(super) const INSET: f64 = 1e-10;
 /// What rounding can change a value by, as a part of it.
 const ROUNDING: f64 = 1e-13;
 /// A plane below this part of the least value at a corner is not used.
@@ -31,7 +29,8 @@ const LOWEST: f64 = 0.05;
 /// What is known of the cost density in a triangle.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Minorant {
-    /// Values at the corners of an affine function that is below the density inside the triangle.
+    /// Values at the corners of an affine function that is below the density inside the triangle, and where
+    /// [`lower_at_edges`](super::edges::lower_at_edges) needs it, on an edge.
     pub at_corners: [f64; 3],
     /// The density's mean over samples.
     pub mean: f64,
@@ -40,12 +39,13 @@ pub(super) struct Minorant {
 }
 
 impl Minorant {
-    /// Of the affine functions tried, the one with the greatest mean. A jump nearer to an edge than `inset`
-    /// may count as on the edge.
+    /// Of the affine functions tried, the one with the greatest mean. It is below the density at all points
+    /// that are farther than `inset` from the edges.
     pub(super) fn new(cost: &dyn CostDensity, triangle: &FlatTriangle, inset: f64) -> Self {
         let samples = Samples::new(cost, triangle);
         let origin = triangle.centroid();
-        let search = |plane, attained| Search::new(cost, triangle, inset, plane, attained);
+        let inner = triangle.shrunk(inset);
+        let search = |plane, attained| Search::new(cost, &inner, plane, attained);
         let flat = Plane { value: 0.0, slope: DVec2::ZERO, origin };
         let least = search(flat, samples.least()).bound(0.002 * samples.least());
         let mean = samples.mean(least);
@@ -79,6 +79,12 @@ impl Minorant {
         } else {
             Self { at_corners: [most; 3], ..self }
         }
+    }
+
+    /// Multiplies the affine function by a factor.
+    pub(super) fn scale(&mut self, factor: f64) {
+        self.at_corners = self.at_corners.map(|value| value * factor);
+        self.least *= factor;
     }
 
     /// Whether no affine function comes near the cost.
@@ -148,7 +154,6 @@ impl Samples {
 struct Search<'a> {
     cost: &'a dyn CostDensity,
     triangle: &'a FlatTriangle,
-    inset: f64,
     plane: Plane,
     /// A value that is attained, as far as samples tell.
     attained: f64,
@@ -165,14 +170,8 @@ struct Part {
 }
 
 impl<'a> Search<'a> {
-    fn new(
-        cost: &'a dyn CostDensity,
-        triangle: &'a FlatTriangle,
-        inset: f64,
-        plane: Plane,
-        attained: f64,
-    ) -> Self {
-        Self { cost, triangle, inset, plane, attained, open: BinaryHeap::new(), looked_at: 0 }
+    fn new(cost: &'a dyn CostDensity, triangle: &'a FlatTriangle, plane: Plane, attained: f64) -> Self {
+        Self { cost, triangle, plane, attained, open: BinaryHeap::new(), looked_at: 0 }
     }
 
     /// A lower bound, within `tolerance` of the least value where the allowance of rectangles is enough.
@@ -189,8 +188,8 @@ impl<'a> Search<'a> {
                 self.add(quarter, part.bound);
             }
         }
-        // No rectangle has a part of the triangle: it is flat.
-        self.attained
+        // No rectangle has a part of the triangle, so it is flat: nothing is known.
+        f64::NEG_INFINITY
     }
 
     fn add(&mut self, rectangle: Rect, bound_of_whole: f64) {
@@ -199,15 +198,13 @@ impl<'a> Search<'a> {
             return;
         }
         self.looked_at += 1;
-        let inset = DVec2::splat(self.inset).min(0.25 * rectangle.size());
-        let inner = Rect::new(rectangle.min + inset, rectangle.max - inset);
-        let range = self.cost.range(&inner);
+        let range = self.cost.range(&rectangle);
         let highest = polygon.corners().iter().map(|&p| self.plane.at(p)).fold(f64::NEG_INFINITY, f64::max);
         let below = |value: f64| value - ROUNDING * (value.abs() + highest.abs());
         let is_exact = range.least == range.greatest;
         let mut bound = below(range.least) - highest;
         if !is_exact {
-            bound = bound.max(self.bound_by_slopes(&rectangle, &inner));
+            bound = bound.max(self.bound_by_slopes(&rectangle));
         } else {
             self.attained = self.attained.min(bound);
         }
@@ -215,8 +212,8 @@ impl<'a> Search<'a> {
     }
 
     /// The mean value theorem: f ≥ f(m) − Σ |x − m| · greatest |∂f|, for the density minus the plane.
-    fn bound_by_slopes(&mut self, rectangle: &Rect, inner: &Rect) -> f64 {
-        let Some(slopes) = self.cost.derivatives(inner) else { return f64::NEG_INFINITY };
+    fn bound_by_slopes(&self, rectangle: &Rect) -> f64 {
+        let Some(slopes) = self.cost.derivatives(rectangle) else { return f64::NEG_INFINITY };
         let middle = rectangle.center();
         let value = self.cost.at(middle);
         let half = 0.5 * rectangle.size();
@@ -246,14 +243,11 @@ fn quarters(rectangle: &Rect) -> [Rect; 4] {
 struct Clipped {
     corners: [DVec2; 8],
     count: usize,
-    /// Twice the area of the rectangle, for comparison.
-    scale: f64,
 }
 
 fn clipped(triangle: &FlatTriangle, rectangle: &Rect) -> Clipped {
     let [a, b, c] = triangle.corners;
-    let size = rectangle.size();
-    let mut polygon = Clipped { corners: [a, b, c, a, a, a, a, a], count: 3, scale: size.x * size.y };
+    let mut polygon = Clipped { corners: [a, b, c, a, a, a, a, a], count: 3 };
     for axis in 0..2 {
         polygon = polygon.cut(|p| p[axis] - rectangle.min[axis]);
         polygon = polygon.cut(|p| rectangle.max[axis] - p[axis]);
@@ -290,12 +284,12 @@ impl Clipped {
         }
     }
 
-    /// Whether it has no area but for rounding.
+    /// Whether it has no area.
     fn is_flat(&self) -> bool {
         let corners = self.corners();
         let Some(&first) = corners.first() else { return true };
         let fan = corners.windows(2).map(|pair| (pair[0] - first).perp_dot(pair[1] - first));
-        fan.sum::<f64>().abs() <= 1e-12 * self.scale
+        fan.sum::<f64>() == 0.0
     }
 }
 

@@ -9,6 +9,7 @@
 //! setup       mesh with h ≤ max(h_min, 0.7 · distance from the path)
 //!   ↓
 //! minorant    for each triangle an affine function ℓ ≤ c     ◀──────────┐
+//! edges       on each edge, too, by one of the triangles beside it      │
 //! programme   max v(goal) − v(start), |∇v| ≤ ℓ at all corners           │
 //! proof       λ = min ℓ / |∇v|, bound = λ (v(goal) − v(start))          │
 //! marking     what each triangle loses, from the flow of the dual ──────┘ bisect
@@ -22,14 +23,19 @@
 //!    edges and boundaries and through nodes where two parts meet.
 //! 2. The gradient of v is affine, so |∇v| is convex, and with an affine ℓ ≤ c the corners decide.
 //! 3. Where γ stays on an edge, its direction is that of the edge, and there the gradients of both triangles
-//!    agree. So each needs ℓ ≤ c in its interior only, if c on the edge is the smaller of the values beside
-//!    it: a jump that follows the mesh costs nothing.
+//!    agree. So on an edge it suffices that one of the two ℓ is at most c there: a jump that follows the mesh
+//!    costs nothing, and a cost that is smaller on the edge alone counts.
+//!    An edge stands for a strip of some ulps, because a jump that lies on an edge in one formula lies beside
+//!    it in another. Consider v∘φ, where φ moves each point by some ulps such that all strips go to their
+//!    edges, and those around a node to the node. Its gradient in a strip is that along the edge, and
+//!    elsewhere at most the share of ulps in a triangle greater: the bound is rounded down by that share.
 //! 4. Only triangles wholly outside the domain are left out. The others allow more paths than the domain has:
 //!    the bound is still one. The known path must stay in the domain for its cost to be an upper bound.
 //!
 //! Nothing is taken from the solver on trust: λ and the difference are computed from the values of v, and
 //! rounded down. A programme that fails leaves the bound of those before.
 
+mod edges;
 mod legs;
 mod marking;
 mod minorant;
@@ -46,8 +52,10 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use glam::DVec2;
 
-use super::{PathError, PathMesh};
+use super::{Passage, PathError, PathMesh};
+use crate::geometry::Rect;
 use crate::mesh::{Limits, Mesh};
+use edges::lower_at_edges;
 use marking::{bisections, estimates};
 use minorant::Minorant;
 use programme::Programme;
@@ -64,6 +72,13 @@ const AIM: f64 = 0.65;
 const ACCURACY: f64 = 0.05;
 /// So many triangles are added at most to a mesh on which a better path is sought.
 const MOST_ADDED: usize = 60_000;
+/// A triangle beside a keep-out region is small for a path if its diameter is this part of the requested
+/// width times the length of the path.
+const SHORT_DETOUR: f64 = 0.1;
+/// The strips around edges are so many ulps of the largest coordinate wide on each side.
+const STRIP_ULPS: f64 = 16.0;
+/// The gradient grows by at most so many times the width of a strip as a part of the smallest triangle.
+const STRIP_LOSS: f64 = 20.0;
 /// After so many programmes in a row that hardly raise the bound, it ends.
 const MOST_IDLE: usize = 3;
 
@@ -208,7 +223,7 @@ impl Certificate {
         self.programmes += 1;
         self.nodes = space.nodes;
         let before = self.width();
-        let lower = proven_gain(&space, &minorants, &solution.function, &gain);
+        let lower = proven_gain(&space, &minorants, &solution.function, &gain) * self.without_strips(&space);
         self.lower = self.lower.max(lower.min(self.task.upper));
         let estimates = estimates(&space, &minorants, &solution, &kept);
         let lost = estimates.iter().sum::<f64>() / self.task.upper;
@@ -261,26 +276,48 @@ impl Certificate {
     }
 
     /// Bisects a mesh for paths until it is as fine everywhere as the certificate's mesh, which is fine where
-    /// paths that nearly are the best may go.
+    /// paths that nearly are the best may go. Where the known path passes a keep-out region, it is bisected
+    /// until a detour around the triangles that the region touches is short for the requested width.
     fn refine_like(&self, mesh: &mut PathMesh) {
+        let length: f64 = self.task.path.windows(2).map(|pair| pair[0].distance(pair[1])).sum();
+        let short = SHORT_DETOUR * self.task.width * length;
         let excess = |mesh: &PathMesh, triangle: u32| {
             let centroid = FlatTriangle::new(mesh.corners(triangle)).centroid();
             let within = self.mesh.locate(centroid).triangle();
-            let enough = within.map_or(f64::INFINITY, |id| {
+            let mut enough = within.map_or(f64::INFINITY, |id| {
                 FlatTriangle::new(self.mesh.world_corners(id)).diameter() * (1.0 + 1e-9)
             });
-            let excess = mesh.diameter(triangle) - enough;
-            if excess > 0.0 { excess } else { 0.0 }
+            let diameter = mesh.diameter(triangle);
+            if mesh.passage(triangle) == Passage::Partly
+                && diameter > short
+                && setup::distance_from(&self.task.path, centroid) <= 2.0 * diameter
+            {
+                enough = enough.min(short);
+            }
+            if diameter > enough { diameter - enough } else { 0.0 }
         };
         let all = 0..mesh.triangle_count() as u32;
         let wanted = all.map(|t| (excess(mesh, t), t)).filter(|wanted| wanted.0 > 0.0).collect();
         let Ok(()) = mesh.bisect(wanted, MOST_ADDED, |mesh, t| Ok::<_, Infallible>(excess(mesh, t)));
     }
 
+    /// Half the width of the strips around edges, in world units.
+    fn inset(&self) -> f64 {
+        let Rect { min, max } = self.mesh.lattice().bounds();
+        let largest = min.abs().max(max.abs()).max_element();
+        STRIP_ULPS * (largest.next_up() - largest)
+    }
+
+    /// The factor that rounds a bound down for the strips around edges.
+    fn without_strips(&self, space: &QuadraticSpace) -> f64 {
+        let diameters = space.elements.iter().map(|element| element.flat.diameter());
+        (1.0 - STRIP_LOSS * self.inset() / diameters.fold(f64::INFINITY, f64::min)).max(0.0)
+    }
+
     /// An affine function below the cost for each triangle of the space.
     fn minorants_of(&mut self, space: &QuadraticSpace) -> Result<Vec<Minorant>, PathError> {
         self.minorants.resize(self.mesh.raw_triangle_count(), None);
-        let inset = minorant::INSET * self.mesh.lattice().bounds().size().max_element();
+        let inset = self.inset();
         let mut all = Vec::with_capacity(space.elements.len());
         for element in &space.elements {
             let level = self.mesh.triangle(element.id).level();
@@ -289,11 +326,14 @@ impl Certificate {
                 Some((at, minorant)) if at == level => minorant,
                 _ => Minorant::new(&*self.task.cost, &element.flat, inset),
             };
+            *known = Some((level, minorant));
+            all.push(minorant.at_most(100.0 * self.task.upper / element.flat.diameter()));
+        }
+        lower_at_edges(&*self.task.cost, space, &mut all, inset);
+        for (element, minorant) in space.elements.iter().zip(&all) {
             if minorant.least.is_nan() || minorant.least <= 0.0 {
                 return Err(PathError::UnboundedCost { at: element.flat.centroid() });
             }
-            *known = Some((level, minorant));
-            all.push(minorant.at_most(100.0 * self.task.upper / element.flat.diameter()));
         }
         Ok(all)
     }

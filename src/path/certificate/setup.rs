@@ -5,12 +5,16 @@ use glam::DVec2;
 use super::task::{CertificateTask, Placement};
 use super::triangle::FlatTriangle;
 use crate::mesh::{Limits, Mesh, TriangleId};
+use crate::path::parts::Parts;
 use crate::path::{PathError, Waypoint};
 
 /// The largest triangles on the path, as a part of the domain's longer side.
 const LARGEST: f64 = 1.0 / 32.0;
 /// The diameter of other triangles, as a part of their distance from the path.
 const GRADING: f64 = 0.7;
+
+/// A point this far outside a triangle, as a part of its height, counts as on its edge.
+const TOUCHES: f64 = 1e-9;
 
 /// A mesh that is finer near the path.
 pub(super) fn graded_mesh(task: &CertificateTask) -> Result<Mesh, PathError> {
@@ -31,7 +35,7 @@ pub(super) fn graded_mesh(task: &CertificateTask) -> Result<Mesh, PathError> {
 }
 
 /// The distance of a point from a polyline of at least one point.
-fn distance_from(path: &[DVec2], point: DVec2) -> f64 {
+pub(super) fn distance_from(path: &[DVec2], point: DVec2) -> f64 {
     let from_segment = |pair: &[DVec2]| {
         let along = pair[1] - pair[0];
         let length_squared = along.length_squared().max(f64::MIN_POSITIVE);
@@ -55,7 +59,7 @@ pub(super) struct Kept {
 /// Finds the triangles that are not wholly outside and belong together with the start's.
 pub(super) fn reachable(mesh: &Mesh, task: &CertificateTask) -> Result<Kept, PathError> {
     let placements: Vec<Placement> = mesh.raw_elements().map(|element| (task.placement)(&element)).collect();
-    let mut parts = Parts((0..mesh.raw_nodes().len()).collect());
+    let mut parts = Parts::new(mesh.raw_nodes().len());
     for (triangle, placement) in mesh.raw_triangles().iter().zip(&placements) {
         if *placement != Placement::Outside {
             let [a, b, c] = triangle.vertices.map(|node| node.index());
@@ -63,9 +67,16 @@ pub(super) fn reachable(mesh: &Mesh, task: &CertificateTask) -> Result<Kept, Pat
             parts.join(b, c);
         }
     }
-    let find = |which, at| match mesh.locate(at).triangle() {
-        Some(id) if placements[id.index()] != Placement::Outside => Ok(id),
-        _ => Err(PathError::Outside { which, at }),
+    let is_kept = |id: TriangleId| placements[id.index()] != Placement::Outside;
+    let find = |which, at| {
+        // On a boundary, another triangle than the one found may belong to the domain.
+        let touches = |&id: &TriangleId| {
+            is_kept(id)
+                && FlatTriangle::new(mesh.world_corners(id)).barycentric(at).iter().all(|&s| s >= -TOUCHES)
+        };
+        let found = mesh.locate(at).triangle().filter(|&id| is_kept(id));
+        let found = found.or_else(|| (0..placements.len()).map(TriangleId::from_index).find(touches));
+        found.ok_or(PathError::Outside { which, at })
     };
     let start = find(Waypoint::Start, task.start())?;
     let goal = find(Waypoint::Goal, task.goal())?;
@@ -82,23 +93,4 @@ pub(super) fn reachable(mesh: &Mesh, task: &CertificateTask) -> Result<Kept, Pat
     };
     let cut = triangles.iter().map(|id| placements[id.index()] == Placement::Cut).collect();
     Ok(Kept { triangles, cut, start, goal })
-}
-
-/// Nodes in parts that hang together.
-struct Parts(Vec<usize>);
-
-impl Parts {
-    fn root(&mut self, mut node: usize) -> usize {
-        // Ends: the node above has a smaller number.
-        while self.0[node] != node {
-            self.0[node] = self.0[self.0[node]];
-            node = self.0[node];
-        }
-        node
-    }
-
-    fn join(&mut self, a: usize, b: usize) {
-        let (a, b) = (self.root(a), self.root(b));
-        self.0[a.max(b)] = a.min(b);
-    }
 }

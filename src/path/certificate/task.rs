@@ -71,9 +71,18 @@ impl fmt::Display for CertificateEnd {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Reached => "The bounds are as close as asked for.",
-            Self::UpperBoundLimits => "The lower bound is as good as it gets: only a better path would help.",
-            Self::NoMoreGain => "Finer triangles no longer raise the lower bound.",
-            Self::TooLarge => "The proof needs more triangles than it may have.",
+            Self::UpperBoundLimits => {
+                "The lower bound is as good as it gets: only a better path would help. A finer mesh along \
+                 keep-out regions and where the cost jumps can show one."
+            }
+            Self::NoMoreGain => {
+                "Finer triangles no longer raise the lower bound. A finer mesh along keep-out regions and where \
+                 the cost jumps can still show a better path."
+            }
+            Self::TooLarge => {
+                "The proof needs more triangles than it may have, most of them where the cost jumps or varies \
+                 much. Ask for a wider interval, or smooth the cost there."
+            }
             Self::SolverFailed => "The solver of the proof found no better bound.",
         })
     }

@@ -37,6 +37,18 @@ impl FlatTriangle {
         a.distance(b).max(b.distance(c)).max(c.distance(a))
     }
 
+    /// The triangle without the points that are nearer to an edge than `inset`, or half of it if that is
+    /// less: all edges move towards the centre of the inscribed circle.
+    pub(super) fn shrunk(&self, inset: f64) -> Self {
+        let [a, b, c] = self.corners;
+        let sides = [b.distance(c), c.distance(a), a.distance(b)];
+        let round = sides.iter().sum::<f64>();
+        let center = self.point(sides.map(|side| side / round));
+        let radius = (b - a).perp_dot(c - a).abs() / round;
+        let share = (inset / radius).min(0.5);
+        Self::new(self.corners.map(|corner| corner + share * (center - corner)))
+    }
+
     pub(super) fn centroid(&self) -> DVec2 {
         self.corners.iter().sum::<DVec2>() / 3.0
     }
