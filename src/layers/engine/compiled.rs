@@ -73,7 +73,7 @@ impl CompiledLayer {
                 let function = Function::Threats(threats.clone());
                 (
                     reading(Quantity::Risk, 0.0),
-                    Values::Analytic(Analytic { function, quantity: Quantity::Risk }),
+                    Values::Analytic(Analytic::new(function, Quantity::Risk)),
                 )
             }
             LayerKind::Distance { to, at_zero, slope, range } => {
@@ -85,7 +85,7 @@ impl CompiledLayer {
                     let (shapes, reach) = (shapes.clone(), to.reach());
                     let (at_zero, slope, range) = (*at_zero, *slope, *range);
                     let function = Function::Distance { shapes, reach, at_zero, slope, range };
-                    Values::Analytic(Analytic { function, quantity: Quantity::Diameter })
+                    Values::Analytic(Analytic::new(function, Quantity::Diameter))
                 });
                 (reading(Quantity::Diameter, NO_RISK), values)
             }
@@ -265,7 +265,7 @@ impl Values {
     }
 
     fn of_formula(quantity: Quantity, formula: &Formula) -> Self {
-        let analytic = Analytic { function: Function::Formula(formula.clone()), quantity };
+        let analytic = Analytic::new(Function::Formula(formula.clone()), quantity);
         match formula.constant() {
             Some(_) => Self::Constant(analytic),
             None => Self::Analytic(analytic),
