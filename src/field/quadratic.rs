@@ -35,7 +35,11 @@ impl Quadratic {
 
     /// One number everywhere.
     pub const fn constant(value: f64) -> Self {
-        if value.is_finite() { Self { coefficients: [value, 0.0, 0.0, 0.0, 0.0, 0.0], rest: 0.0 } } else { Self::UNKNOWN }
+        if value.is_finite() {
+            Self { coefficients: [value, 0.0, 0.0, 0.0, 0.0, 0.0], rest: 0.0 }
+        } else {
+            Self::UNKNOWN
+        }
     }
 
     /// A coordinate: `middle` ± `half` along axis 0 or 1, for numbers within `rest` of it.
@@ -146,6 +150,12 @@ impl Quadratic {
 
     /// Products of more than two linear factors count as rest.
     pub fn times(&self, other: &Self) -> Self {
+        if other.is_constant() {
+            return self.scaled(other.middle());
+        }
+        if self.is_constant() {
+            return other.scaled(self.middle());
+        }
         let [a, au, av, auu, auv, avv] = self.coefficients;
         let [b, bu, bv, buu, buv, bvv] = other.coefficients;
         let coefficients = [
@@ -161,6 +171,12 @@ impl Quadratic {
         let cut_off = linear * other_bend + bend * (other_linear + other_bend);
         let rest = cut_off + size * other.rest + other_size * self.rest;
         Self::new(coefficients, rest + 16.0 * EPSILON * size * other_size + TINY)
+    }
+
+    /// A product with a number.
+    fn scaled(&self, factor: f64) -> Self {
+        let rest = factor.abs() * self.rest + 4.0 * EPSILON * factor.abs() * self.size() + TINY;
+        Self::new(self.coefficients.map(|c| factor * c), rest)
     }
 
     /// f².
@@ -183,7 +199,11 @@ impl Quadratic {
         let inverse = 1.0 / self.middle();
         let square = inverse * inverse;
         // The derivatives of 1/t, divided by factorials, are −1/t², 1/t³ and −1/t⁴.
-        self.composed([inverse, -square, square * inverse], 1.0 / (nearest * nearest) / (nearest * nearest), 0.0)
+        self.composed(
+            [inverse, -square, square * inverse],
+            1.0 / (nearest * nearest) / (nearest * nearest),
+            0.0,
+        )
     }
 
     /// √f.

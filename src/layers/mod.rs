@@ -8,6 +8,8 @@ mod engine;
 mod layer;
 mod least;
 mod mask;
+#[cfg(test)]
+mod model_tests;
 mod models;
 mod paint_layers;
 mod risk;

@@ -28,6 +28,8 @@ pub struct Place {
     /// The middle, and half of the sides.
     pub middle: DVec2,
     pub half: DVec2,
+    /// What rounding changes in the coordinates.
+    pub rest: DVec2,
 }
 
 impl Place {
@@ -48,13 +50,17 @@ struct Square {
 /// The rim as a share of the side: a rectangle around a triangle extends beyond the square by a cell.
 const RIM: f64 = 0.125;
 
-/// The largest square whose model is tried has 2^7 times the side of the rectangle in question: one model then
-/// serves for thousands of rectangles.
-const WIDEST: u32 = 7;
+/// The largest square whose model is tried has 2^4 times the side of the rectangle in question: one model then
+/// serves for hundreds of rectangles.
+const WIDEST: u32 = 4;
 
-/// A model is good enough for a rectangle where its rest is at most this share of the change of the polynomial
-/// over the rectangle.
-const GOOD: f64 = 0.125;
+/// A model is good enough for a rectangle where its rest is at most this multiple of the change of the
+/// polynomial over the rectangle. A smaller one would need more models, a greater one more rectangles.
+const GOOD: f64 = 1.0;
+
+/// A model of the smallest square around a rectangle is good enough with this multiple: at a kink, the bounds
+/// of the function itself would tell little more.
+const FAIR: f64 = 8.0;
 
 /// The number of models that a thread keeps: 56 KB.
 const KEPT_BITS: u32 = 9;
@@ -70,6 +76,12 @@ thread_local! {
     /// At the place that a hash of function and square gives. A model is the same whenever it is made, so an
     /// answer does not depend on which models are kept.
     static KEPT: RefCell<Vec<Kept>> = const { RefCell::new(Vec::new()) };
+}
+
+#[cfg(test)]
+thread_local! {
+    /// How often this thread has evaluated a whole function to bound it.
+    pub(super) static MADE: std::cell::Cell<usize> = const { std::cell::Cell::new(0) };
 }
 
 /// Bounds of a function at the centres of the squares of `1 << bits` cells in a rectangle of such squares.
@@ -98,29 +110,31 @@ pub fn bounds(
     let half = [0, 1].map(|axis: usize| 0.5 * (cells.max[axis] - cells.min[axis]) as f64 - inset);
     let side = (2.0 * half[0].max(half[1])).max(1.0) as u64;
     let extent = lattice.extent();
-    let whole = u64::from(extent.x.max(extent.y)).next_power_of_two().ilog2();
-    let least_bits = (side.ilog2()).min(whole);
+    let whole = extent.x.max(extent.y).next_power_of_two().ilog2();
+    let around = |bits: u32| Square { bits, at: middle.map(|v| v as i64 >> bits) };
+    let fits = |bits: &u32| around(*bits).part(middle, half).is_some();
+    let Some(least_bits) = (side.ilog2()..=whole).find(fits) else { return bounds() };
     let mut square_bits = (least_bits + WIDEST).min(whole);
-    let mut found = Bounds::ANYTHING;
     loop {
-        let square = Square { bits: square_bits, at: middle.map(|v| v as i64 >> square_bits) };
-        let mut skipped = 1;
+        let (square, mut skipped) = (around(square_bits), 1);
         if let Some((center, half)) = square.part(middle, half) {
             let model = kept(function, square, || model(&square.place(lattice)));
-            found = model.bounds_over(center, half);
+            let found = model.bounds_over(center, half);
             let (rest, change) = (model.rest(), found.greatest - found.least - 2.0 * model.rest());
-            if rest <= GOOD * change || rest == 0.0 {
+            let is_least = square_bits == least_bits;
+            if rest <= if is_least { FAIR } else { GOOD } * change || rest == 0.0 {
                 return found;
+            }
+            if is_least {
+                #[cfg(test)]
+                MADE.with(|made| made.set(made.get() + 1));
+                let own = bounds();
+                return Bounds { valid: own.valid || found.valid, ..own.intersection(found) };
             }
             skipped = halvings(rest / (GOOD * change));
         }
-        if square_bits == least_bits {
-            break;
-        }
         square_bits = square_bits.saturating_sub(skipped).max(least_bits);
     }
-    let own = bounds();
-    Bounds { valid: own.valid || found.valid, ..own.intersection(found) }
 }
 
 /// How often a square is halved until its rest, which shrinks with the third power of the side, has shrunk
@@ -138,6 +152,8 @@ fn kept(function: ModelId, square: Square, model: impl FnOnce() -> Quadratic) ->
     if let Some(found) = found.filter(|found| found.function == function && found.square == square) {
         return found.model;
     }
+    #[cfg(test)]
+    MADE.with(|made| made.set(made.get() + 1));
     let new = Kept { function, square, model: model() };
     KEPT.with_borrow_mut(|kept| {
         if kept.is_empty() {
@@ -167,8 +183,8 @@ impl Square {
         let middle = origin + (DVec2::from(self.at.map(|v| v as f64)) + 0.5) * side * step;
         let half = (0.5 + RIM) * side * step;
         let rest = 4.0 * f64::EPSILON * (origin.abs() + middle.abs() + half);
-        let coordinates = [0, 1]
-            .map(|axis: usize| Quadratic::coordinate(axis, middle[axis], half[axis], rest[axis]));
-        Place { coordinates, middle, half }
+        let coordinates =
+            [0, 1].map(|axis: usize| Quadratic::coordinate(axis, middle[axis], half[axis], rest[axis]));
+        Place { coordinates, middle, half, rest }
     }
 }

@@ -3,14 +3,12 @@
 use std::ops::ControlFlow;
 
 use super::models::Place;
+use super::threats::NO_SURVIVAL;
 use super::{Threat, ThreatLaw, Threats};
 use crate::field::{Bounds, Quadratic};
 
 /// More than the rounding errors in a share of the peak.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
-
-/// Survival below this is lost when it is subtracted from 1.
-const NOTHING: f64 = f64::EPSILON / 16.0;
 
 impl Threats {
     /// A model of the combined risk.
@@ -18,8 +16,11 @@ impl Threats {
         let one = Quadratic::constant(1.0);
         let mut survival = one;
         let certain = self.visit_meeting(&place.rect(), |threat| {
-            survival = survival.times(&one.minus(&threat.model(place)));
-            if survival.size() < NOTHING { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            let risk = threat.model(place);
+            if !(risk.is_constant() && risk.middle() == 0.0) {
+                survival = survival.times(&one.minus(&risk));
+            }
+            if survival.size() < NO_SURVIVAL { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         });
         if certain.is_break() { one } else { one.minus(&survival) }
     }
@@ -34,11 +35,20 @@ impl Threat {
 
     /// The square of distance / range.
     fn squared_share(&self, place: &Place) -> Quadratic {
-        let [x, y] = [0, 1].map(|axis: usize| {
-            let offset = place.coordinates[axis].minus(&Quadratic::constant(self.at[axis]));
-            offset.times(&Quadratic::constant(1.0 / self.range))
-        });
-        x.squared().plus(&y.squared())
+        let share = (place.middle - self.at) / self.range;
+        let half = place.half / self.range;
+        let coefficients = [
+            share.length_squared(),
+            2.0 * share.x * half.x,
+            2.0 * share.y * half.y,
+            half.x * half.x,
+            0.0,
+            half.y * half.y,
+        ];
+        // The coordinates are off by `rest`, and each operation by a few ulps.
+        let farthest = share.abs() + half;
+        let off = place.rest / self.range + 8.0 * f64::EPSILON * farthest;
+        Quadratic::new(coefficients, 4.0 * farthest.dot(off))
     }
 }
 
@@ -62,6 +72,8 @@ impl ThreatLaw {
             return zero;
         }
         let s = squared.middle();
+        let is_within = least >= flat && greatest <= 1.0;
+        let cut_off = |share: Quadratic| if is_within { share } else { share.min(&one).max(&zero) };
         match self {
             Self::Radar if least <= 0.1 => Quadratic::UNKNOWN,
             Self::Radar => {
@@ -69,7 +81,7 @@ impl ThreatLaw {
                 let power = 1.0 / (15.0 * s * s);
                 let third = 4.0 / (15.0 * least * least * least * least * least);
                 let series = [power - 1.0 / 15.0, -2.0 * power / s, 3.0 * power / (s * s)];
-                squared.composed(series, third, ROUNDING).min(&one).max(&zero)
+                cut_off(squared.composed(series, third, ROUNDING))
             }
             Self::Gaussian => {
                 let rim = libm::exp(-4.5);
@@ -77,9 +89,9 @@ impl ThreatLaw {
                 let value = scale * libm::exp(-4.5 * s);
                 let third = scale * 4.5f64.powi(3) / 6.0 * libm::exp(-4.5 * least);
                 let series = [value - scale * rim, -4.5 * value, 10.125 * value];
-                squared.composed(series, third, ROUNDING).min(&one).max(&zero)
+                cut_off(squared.composed(series, third, ROUNDING))
             }
-            Self::Disc => disc(squared, least >= flat && greatest <= 1.0),
+            Self::Disc => disc(squared, is_within),
         }
     }
 }

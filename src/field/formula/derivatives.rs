@@ -49,8 +49,8 @@ impl Values for Varying {
 
     fn one(op: Op, a: Self) -> Self {
         let value = interval::unary(op, a.value);
-        let slopes = || Some(a.slopes_times(factor(op, a.value, value)?)?);
-        Self { value, slopes: slopes() }
+        let slopes = factor(op, a.value, value).and_then(|factor| a.slopes_times(factor));
+        Self { value, slopes }
     }
 
     fn two(op: Op, a: Self, b: Self) -> Self {

@@ -56,6 +56,10 @@ pub(super) struct OfOne {
     pub model: Option<fn(&Quadratic) -> Quadratic>,
 }
 
+/// The derivatives along x and y of a function of two values, from what is known of the values and from bounds of
+/// the result.
+type Slopes = fn(Varying, Varying, Bounds) -> Option<[Bounds; 2]>;
+
 /// A function of two values.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct OfTwo {
@@ -63,7 +67,7 @@ pub(super) struct OfTwo {
     pub bounds: fn(Bounds, Bounds) -> Bounds,
     /// Bounds of the derivatives along x and y, from what is known of the arguments and from bounds of the
     /// result.
-    pub slopes: Option<fn(Varying, Varying, Bounds) -> Option<[Bounds; 2]>>,
+    pub slopes: Option<Slopes>,
     pub model: Option<fn(&Quadratic, &Quadratic) -> Quadratic>,
 }
 
@@ -90,11 +94,7 @@ impl OfOne {
 }
 
 impl OfTwo {
-    const fn smooth(
-        self,
-        slopes: fn(Varying, Varying, Bounds) -> Option<[Bounds; 2]>,
-        model: fn(&Quadratic, &Quadratic) -> Quadratic,
-    ) -> Self {
+    const fn smooth(self, slopes: Slopes, model: fn(&Quadratic, &Quadratic) -> Quadratic) -> Self {
         Self { slopes: Some(slopes), model: Some(model), ..self }
     }
 

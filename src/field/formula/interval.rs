@@ -64,11 +64,8 @@ pub(super) fn binary(op: Op, a: Bounds, b: Bounds) -> Bounds {
         Op::Two(function) => {
             // The sign of a zero is not known, so bounds of it are not a point.
             let is_point = |v: Bounds| v.is_one() && v.least != 0.0;
-            let value = if is_point(a) && is_point(b) {
-                (function.value)(a.least, b.least)
-            } else {
-                f64::NAN
-            };
+            let value =
+                if is_point(a) && is_point(b) { (function.value)(a.least, b.least) } else { f64::NAN };
             if value.is_nan() { (function.bounds)(a, b) } else { Bounds::one(value) }
         }
         _ => unreachable!("the machine runs every other operation itself"),

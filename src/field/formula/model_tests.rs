@@ -1,7 +1,7 @@
 use glam::{DVec2, dvec2};
 
-use super::bounds_tests::{grown, simple_formulas};
 use super::Formula;
+use super::bounds_tests::{grown, simple_formulas};
 use crate::field::{Bounds, Quadratic};
 
 /// A model of a formula over a square.
@@ -28,7 +28,10 @@ fn check(formula: &Formula, middle: DVec2, half: f64, random: &mut fastrand::Rng
             let p = middle + half * dvec2(share(0), share(1));
             let value = formula.eval(p.x, p.y);
             let holds = if value.is_nan() { !bounds.valid } else { bounds.contains(value) };
-            assert!(holds, "{formula} at {p:?} is {value:?}, not in {bounds:?}; {middle:?} ± {half}: {model:?}");
+            assert!(
+                holds,
+                "{formula} at {p:?} is {value:?}, not in {bounds:?}; {middle:?} ± {half}: {model:?}"
+            );
         }
     }
     model.bounds() != Bounds::ANYTHING
@@ -91,7 +94,9 @@ fn the_rest_shrinks_with_the_third_power_of_the_side() {
 
 #[test]
 fn numbers_and_decided_choices_are_exact() {
-    for source in ["if(x < 2, 0.0125, sin(x))", "max(0.0125, x - 9)", "clamp(x, 3, 0.0125)", "step(x, 5)*0.0125"] {
+    for source in
+        ["if(x < 2, 0.0125, sin(x))", "max(0.0125, x - 9)", "clamp(x, 3, 0.0125)", "step(x, 5)*0.0125"]
+    {
         let formula: Formula = source.parse().unwrap();
         assert_eq!(model(&formula, dvec2(0.5, 0.5), 0.5), Quadratic::constant(0.0125), "{source}");
     }

@@ -3,9 +3,9 @@
 use std::f64::consts::{FRAC_PI_2, LN_2, LN_10};
 
 use super::functions::OfThree;
+use super::interval;
 use super::machine::Values;
 use super::program::Op;
-use super::interval;
 use crate::field::{Bounds, Quadratic};
 
 impl Values for Quadratic {

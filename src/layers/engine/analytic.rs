@@ -112,6 +112,12 @@ impl Analytic {
         Self { function, quantity, models }
     }
 
+    /// The same, asked by its own bounds only.
+    #[cfg(test)]
+    pub fn without_models(self) -> Self {
+        Self { models: None, ..self }
+    }
+
     /// The value at a point in world units, as it counts: where it is not valid, that of nothing.
     pub fn at(&self, point: DVec2) -> f32 {
         self.value(self.function.at(point))
