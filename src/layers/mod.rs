@@ -8,6 +8,9 @@ mod engine;
 mod layer;
 mod least;
 mod mask;
+#[cfg(test)]
+mod model_tests;
+mod models;
 mod paint_layers;
 mod risk;
 mod risk_slopes;
@@ -16,6 +19,7 @@ mod settled;
 mod size_field;
 mod targets;
 mod targets_in_order;
+mod threat_models;
 mod threats;
 mod usual;
 

@@ -143,6 +143,9 @@ impl Threat {
 /// Up to this risk p, 1 − p is rounded to 1: the threat changes no combined risk.
 const NEGLIGIBLE: f64 = f64::EPSILON / 4.0;
 
+/// Survival below this is lost when it is subtracted from 1, in whichever order it was multiplied: the risk is 1.
+pub(super) const NO_SURVIVAL: f64 = f64::EPSILON / 16.0;
+
 /// Threats and their combined risk 1 − Π(1 − pᵢ): each is survived or not, independently of the others.
 ///
 /// Clones share their data. The risk at a point depends on the list alone, to the last bit, and not on the
@@ -224,14 +227,18 @@ impl Threats {
     /// The combined risk at a point in world units, 0 to 1.
     pub fn risk_at(&self, p: DVec2) -> f64 {
         // The product depends on its order to the last bit, so it follows the list.
-        let mut risks = Vec::new();
-        let _ = self.0.tree.visit_meeting(&Rect::new(p, p), |number| {
+        let (mut risks, mut survival) = (Vec::with_capacity(64), 1.0);
+        let end = self.0.tree.visit_meeting(&Rect::new(p, p), |number| {
             let risk = self.0.threats[number as usize].risk_at(p);
             if risk > 0.0 {
                 risks.push((number, risk));
+                survival *= 1.0 - risk;
             }
-            ControlFlow::Continue(())
+            if survival < NO_SURVIVAL { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         });
+        if end.is_break() {
+            return 1.0;
+        }
         risks.sort_unstable_by_key(|&(number, _)| number);
         1.0 - risks.iter().map(|(_, risk)| 1.0 - risk).product::<f64>()
     }
@@ -254,7 +261,7 @@ impl Threats {
         // What is survived: at least and at most.
         let (mut least, mut most, mut count) = (1.0, 1.0, 0);
         let (mut least_of_groups, mut count_in_groups) = (1.0, 0);
-        let _ = indexed.tree.descend(
+        let end = indexed.tree.descend(
             |group, reach| {
                 let within = rect.contains(reach.min) && rect.contains(reach.max);
                 if within {
@@ -274,9 +281,12 @@ impl Threats {
                     most *= 1.0 - risk.least;
                     count += 1;
                 }
-                ControlFlow::Continue(())
+                if most < NO_SURVIVAL { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
             },
         );
+        if end.is_break() {
+            return Bounds::one(1.0);
+        }
         if count + count_in_groups == 0 {
             return Bounds::one(0.0);
         }

@@ -54,7 +54,7 @@ fn check(formula: &Formula, rect: &Rect, points: usize, random: &mut fastrand::R
 }
 
 /// A call of every function with simple values of x and y, and every operator.
-fn simple_formulas() -> Vec<String> {
+pub(super) fn simple_formulas() -> Vec<String> {
     let values = ["x", "y", "x*y", "x-y", "2", "-0.5", "1/x", "x^3", "0", "sqrt(y)", "inf"];
     let mut all = Vec::new();
     for (call, _) in functions() {
@@ -92,7 +92,7 @@ fn values_of_every_function_lie_within_the_bounds() {
 }
 
 /// A random formula as text, nested up to `depth` levels.
-fn grown(random: &mut fastrand::Rng, depth: usize) -> String {
+pub(super) fn grown(random: &mut fastrand::Rng, depth: usize) -> String {
     const LEAVES: [&str; 10] = ["x", "y", "x", "y", "r", "theta", "0.5", "2", "3.7", "-1"];
     const SIGNS: [&str; 14] = ["+", "-", "*", "/", "%", "^", "<", "<=", ">", ">=", "==", "!=", "and", "or"];
     if depth == 0 {

@@ -1,20 +1,22 @@
 //! Bounds of a formula's derivatives over a rectangle: automatic differentiation with intervals.
 
-use super::functions::{self, known};
+use super::functions::OfThree;
+use super::interval;
+use super::machine::{self, Values};
 use super::program::{Op, Program};
-use super::{function_bounds, interval};
 use crate::field::Bounds;
 use crate::geometry::Rect;
 
 /// Values over a rectangle, and their derivatives along x and y.
 #[derive(Clone, Copy)]
-struct Varying {
-    value: Bounds,
-    slopes: [Bounds; 2],
+pub(super) struct Varying {
+    pub value: Bounds,
+    /// `None` where the values may jump, or a derivative is not known.
+    pub slopes: Option<[Bounds; 2]>,
 }
 
 pub(super) const ZERO: Bounds = Bounds::new(0.0, 0.0);
-const ONE: Bounds = Bounds::new(1.0, 1.0);
+pub(super) const ONE: Bounds = Bounds::new(1.0, 1.0);
 
 /// Bounds of the derivatives along x and y over a rectangle, with the given risks and their derivatives.
 /// `None` where it may jump, or has a function whose derivative is not known here.
@@ -25,106 +27,85 @@ pub(super) fn derivatives(
     rect: &Rect,
     (risk, risk_slopes): (Bounds, [Bounds; 2]),
 ) -> Option<[Bounds; 2]> {
-    let mut stack: Vec<Varying> = Vec::with_capacity(program.slots());
-    let mut acc = Varying::constant(ZERO);
-    for &op in program.code() {
-        let loaded = match op {
-            Op::Number(value) => Some(Varying::constant(Bounds::one(value))),
-            Op::X => Some(Varying { value: Bounds::new(rect.min.x, rect.max.x), slopes: [ONE, ZERO] }),
-            Op::Y => Some(Varying { value: Bounds::new(rect.min.y, rect.max.y), slopes: [ZERO, ONE] }),
-            Op::Risk => Some(Varying { value: risk, slopes: risk_slopes }),
-            _ => None,
-        };
-        if let Some(loaded) = loaded {
-            stack.push(acc);
-            acc = loaded;
-            continue;
-        }
-        acc = match operands(op)? {
-            1 => of_one(op, acc)?,
-            _ => of_two(op, stack.pop()?, acc)?,
-        };
-    }
-    acc.slopes.iter().all(|slope| slope.valid && !slope.has_infinity()).then_some(acc.slopes)
+    let coordinate = |axis: usize, slopes| Varying {
+        value: Bounds::new(rect.min[axis], rect.max[axis]),
+        slopes: Some(slopes),
+    };
+    let risk = Varying { value: risk, slopes: Some(risk_slopes) };
+    let values = [coordinate(0, [ONE, ZERO]), coordinate(1, [ZERO, ONE]), risk];
+    let slopes = machine::run(program, values).slopes?;
+    slopes.iter().all(|slope| slope.valid && !slope.has_infinity()).then_some(slopes)
 }
 
-/// The number of operands; `None` for operations that choose, compare, or join more.
-fn operands(op: Op) -> Option<usize> {
-    match op {
-        Op::Negate | Op::Abs | Op::Sqrt | Op::One(..) => Some(1),
-        Op::Add | Op::Subtract | Op::Multiply | Op::Divide | Op::Min | Op::Max | Op::Two(..) => Some(2),
-        _ => None,
+impl Values for Varying {
+    /// Without derivatives, unless the bounds are a number: other bounds may come from a jump.
+    fn of_bounds(value: Bounds) -> Self {
+        Self { value, slopes: value.is_one().then_some([ZERO; 2]) }
+    }
+
+    fn bounds(&self) -> Bounds {
+        self.value
+    }
+
+    fn one(op: Op, a: Self) -> Self {
+        let value = interval::unary(op, a.value);
+        let slopes = factor(op, a.value, value).and_then(|factor| a.slopes_times(factor));
+        Self { value, slopes }
+    }
+
+    fn two(op: Op, a: Self, b: Self) -> Self {
+        let value = interval::binary(op, a.value, b.value);
+        Self { value, slopes: slopes_of_two(op, a, b, value) }
+    }
+
+    fn three(function: &OfThree, a: Self, b: Self, c: Self) -> Self {
+        Self::of_bounds((function.bounds)(a.value, b.value, c.value))
+    }
+
+    fn either(self, other: Self) -> Self {
+        Self::of_bounds(self.value.union(other.value))
     }
 }
 
 impl Varying {
-    fn constant(value: Bounds) -> Self {
-        Self { value, slopes: [ZERO; 2] }
+    /// The slopes, each times a factor.
+    pub fn slopes_times(&self, factor: Bounds) -> Option<[Bounds; 2]> {
+        Some(self.slopes?.map(|slope| times(slope, factor)))
     }
 
-    /// The same slopes, each times a factor.
-    fn slopes_times(&self, factor: Bounds) -> [Bounds; 2] {
-        self.slopes.map(|slope| times(slope, factor))
-    }
-
-    fn is_constant(&self) -> bool {
-        self.value.is_one() && self.slopes == [ZERO; 2]
+    pub fn is_constant(&self) -> bool {
+        self.value.is_one() && self.slopes == Some([ZERO; 2])
     }
 }
 
 /// A product; one with 0 is 0, whatever the other factor.
-fn times(a: Bounds, b: Bounds) -> Bounds {
+pub(super) fn times(a: Bounds, b: Bounds) -> Bounds {
     if a == ZERO || b == ZERO { ZERO } else { a.times(b) }
 }
 
-fn sums([a, b]: [Bounds; 2], [c, d]: [Bounds; 2]) -> [Bounds; 2] {
-    [a.plus(c), b.plus(d)]
+/// Sums of slopes, where both are known.
+pub(super) fn sums(a: Option<[Bounds; 2]>, b: Option<[Bounds; 2]>) -> Option<[Bounds; 2]> {
+    let ([a, b], [c, d]) = (a?, b?);
+    Some([a.plus(c), b.plus(d)])
 }
 
-fn of_one(op: Op, a: Varying) -> Option<Varying> {
-    let value = interval::unary(op, a.value)?;
-    let factor = match op {
+/// The derivative of an operation on one value, from its argument and its result.
+fn factor(op: Op, a: Bounds, result: Bounds) -> Option<Bounds> {
+    Some(match op {
         Op::Negate => Bounds::one(-1.0),
-        Op::Abs if a.value.least >= 0.0 => ONE,
-        Op::Abs if a.value.greatest <= 0.0 => Bounds::one(-1.0),
+        Op::Abs if a.least >= 0.0 => ONE,
+        Op::Abs if a.greatest <= 0.0 => Bounds::one(-1.0),
         Op::Abs => Bounds::new(-1.0, 1.0),
-        Op::Sqrt => Bounds::one(0.5).over(value),
-        Op::One(function, _) => slope_of_function(function, a.value, value)?,
+        Op::Sqrt => Bounds::one(0.5).over(result),
+        Op::One(function) => (function.slope?)(a, result),
         _ => return None,
-    };
-    Some(Varying { value, slopes: a.slopes_times(factor) })
+    })
 }
 
-/// The derivative of a function of one value, from its argument and its result.
-fn slope_of_function(function: fn(f64) -> f64, a: Bounds, result: Bounds) -> Option<Bounds> {
-    let is = |known: fn(f64) -> f64| std::ptr::fn_addr_eq(function, known);
-    let slope = if is(known::exp) {
-        result
-    } else if is(known::log) {
-        ONE.over(a)
-    } else if is(known::sin) {
-        function_bounds::cos(a)
-    } else if is(known::cos) {
-        function_bounds::sin(a).negated()
-    } else if is(known::tanh) {
-        ONE.minus(result.squared())
-    } else if is(known::sinh) {
-        function_bounds::cosh(a)
-    } else if is(known::cosh) {
-        function_bounds::sinh(a)
-    } else if is(known::atan) {
-        ONE.over(ONE.plus(a.squared()))
-    } else {
-        return None;
-    };
-    Some(slope)
-}
-
-fn of_two(op: Op, a: Varying, b: Varying) -> Option<Varying> {
-    let value = interval::binary(op, a.value, b.value);
-    let slopes = match op {
+fn slopes_of_two(op: Op, a: Varying, b: Varying, value: Bounds) -> Option<[Bounds; 2]> {
+    match op {
         Op::Add => sums(a.slopes, b.slopes),
-        Op::Subtract => sums(a.slopes, b.slopes.map(Bounds::negated)),
+        Op::Subtract => sums(a.slopes, b.slopes_times(Bounds::one(-1.0))),
         Op::Multiply => sums(a.slopes_times(b.value), b.slopes_times(a.value)),
         Op::Divide => {
             let inverse = ONE.over(b.value);
@@ -137,39 +118,12 @@ fn of_two(op: Op, a: Varying, b: Varying) -> Option<Varying> {
             } else if high.value.greatest < low.value.least {
                 b.slopes
             } else {
-                [0, 1].map(|axis| a.slopes[axis].union(b.slopes[axis]))
+                let (a, b) = (a.slopes?, b.slopes?);
+                Some([0, 1].map(|axis: usize| a[axis].union(b[axis])))
             }
         }
-        Op::Two(function, _) => slopes_of_function(function, a, b, value)?,
-        _ => return None,
-    };
-    Some(Varying { value, slopes })
-}
-
-/// The derivatives of a function of two values.
-fn slopes_of_function(
-    function: fn(f64, f64) -> f64,
-    a: Varying,
-    b: Varying,
-    value: Bounds,
-) -> Option<[Bounds; 2]> {
-    let is = |known: fn(f64, f64) -> f64| std::ptr::fn_addr_eq(function, known);
-    if is(functions::power) && b.is_constant() {
-        // (aⁿ)′ = n aⁿ⁻¹ a′
-        let less = interval::binary(Op::Two(functions::power, function_bounds::power), a.value, {
-            Bounds::one(b.value.least - 1.0)
-        });
-        Some(a.slopes_times(times(b.value, less)))
-    } else if is(known::hypot) {
-        // √(a² + b²)′ = (a a′ + b b′) / √(a² + b²), with factors from −1 to 1
-        let factor = |of: Bounds| of.over(value).intersection(Bounds::new(-1.0, 1.0));
-        Some(sums(a.slopes_times(factor(a.value)), b.slopes_times(factor(b.value))))
-    } else if is(functions::gauss) && b.is_constant() {
-        // exp(−(d/s)²/2)′ = −d / s² · exp(−(d/s)²/2) · d′
-        let factor = a.value.over(b.value.squared()).negated();
-        Some(a.slopes_times(times(factor, value)))
-    } else {
-        None
+        Op::Two(function) => (function.slopes?)(a, b, value),
+        _ => None,
     }
 }
 

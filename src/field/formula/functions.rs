@@ -2,9 +2,10 @@
 
 use std::f64::consts;
 
-use super::function_bounds as bounds;
+use super::derivatives::Varying;
 use super::program::{Op, max, min};
-use crate::field::Bounds;
+use super::{function_bounds as bounds, models, slopes};
+use crate::field::{Bounds, Quadratic};
 
 /// How a function's values become instructions.
 #[derive(Clone, Copy, Debug)]
@@ -43,65 +44,128 @@ impl Function {
     }
 }
 
-/// A function of one value, and its bounds; below, of two and three.
-type OfOne = (fn(f64) -> f64, fn(Bounds) -> Bounds);
-type OfTwo = (fn(f64, f64) -> f64, fn(Bounds, Bounds) -> Bounds);
-type OfThree = (fn(f64, f64, f64) -> f64, fn(Bounds, Bounds, Bounds) -> Bounds);
-
-const fn one(call: &'static str, op: OfOne, meaning: &'static str) -> Function {
-    function(call, Form::Fixed(1, Op::One(op.0, op.1)), meaning)
+/// A function of one value.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct OfOne {
+    pub value: fn(f64) -> f64,
+    /// Bounds of the values.
+    pub bounds: fn(Bounds) -> Bounds,
+    /// Bounds of the derivative, from those of the argument and of the result, if it is known.
+    pub slope: Option<fn(Bounds, Bounds) -> Bounds>,
+    /// A model of the values, if there is a better one than bounds.
+    pub model: Option<fn(&Quadratic) -> Quadratic>,
 }
 
-const fn two(call: &'static str, op: OfTwo, meaning: &'static str) -> Function {
-    function(call, Form::Fixed(2, Op::Two(op.0, op.1)), meaning)
+/// The derivatives along x and y of a function of two values, from what is known of the values and from bounds of
+/// the result.
+type Slopes = fn(Varying, Varying, Bounds) -> Option<[Bounds; 2]>;
+
+/// A function of two values.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct OfTwo {
+    pub value: fn(f64, f64) -> f64,
+    pub bounds: fn(Bounds, Bounds) -> Bounds,
+    /// Bounds of the derivatives along x and y, from what is known of the arguments and from bounds of the
+    /// result.
+    pub slopes: Option<Slopes>,
+    pub model: Option<fn(&Quadratic, &Quadratic) -> Quadratic>,
 }
 
-const fn three(call: &'static str, op: OfThree, meaning: &'static str) -> Function {
-    function(call, Form::Fixed(3, Op::Three(op.0, op.1)), meaning)
+/// A function of three values.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct OfThree {
+    pub value: fn(f64, f64, f64) -> f64,
+    pub bounds: fn(Bounds, Bounds, Bounds) -> Bounds,
+    pub model: Option<fn(&Quadratic, &Quadratic, &Quadratic) -> Quadratic>,
+}
+
+const fn of_one(value: fn(f64) -> f64, bounds: fn(Bounds) -> Bounds) -> OfOne {
+    OfOne { value, bounds, slope: None, model: None }
+}
+
+const fn of_two(value: fn(f64, f64) -> f64, bounds: fn(Bounds, Bounds) -> Bounds) -> OfTwo {
+    OfTwo { value, bounds, slopes: None, model: None }
+}
+
+impl OfOne {
+    const fn smooth(self, slope: fn(Bounds, Bounds) -> Bounds, model: fn(&Quadratic) -> Quadratic) -> Self {
+        Self { slope: Some(slope), model: Some(model), ..self }
+    }
+}
+
+impl OfTwo {
+    const fn smooth(self, slopes: Slopes, model: fn(&Quadratic, &Quadratic) -> Quadratic) -> Self {
+        Self { slopes: Some(slopes), model: Some(model), ..self }
+    }
+
+    const fn modelled(self, model: fn(&Quadratic, &Quadratic) -> Quadratic) -> Self {
+        Self { model: Some(model), ..self }
+    }
+}
+
+const fn one(call: &'static str, of: &'static OfOne, meaning: &'static str) -> Function {
+    function(call, Form::Fixed(1, Op::One(of)), meaning)
+}
+
+const fn two(call: &'static str, of: &'static OfTwo, meaning: &'static str) -> Function {
+    function(call, Form::Fixed(2, Op::Two(of)), meaning)
+}
+
+const fn three(call: &'static str, of: &'static OfThree, meaning: &'static str) -> Function {
+    function(call, Form::Fixed(3, Op::Three(of)), meaning)
 }
 
 const fn function(call: &'static str, form: Form, meaning: &'static str) -> Function {
     Function { form, call, meaning }
 }
 
-/// All functions, in the order of the help.
+/// All functions, in the order of the help: the call, the value, its bounds, its derivative and its model
+/// where they are known, and the meaning.
 #[rustfmt::skip] // one line a function
-pub(super) const FUNCTIONS: &[Function] = &[
+pub(super) static FUNCTIONS: &[Function] = &[
     function("if(c, a, b)", Form::If, "a where c is true, else b"),
     function("abs(v)", Form::Fixed(1, Op::Abs), "size without sign"),
-    one("sign(v)", (sign, bounds::sign), "-1, 0 or 1"),
+    one("sign(v)", &const { of_one(sign, bounds::sign) }, "-1, 0 or 1"),
     function("min(a, b, ...)", Form::Join(Op::Min), "the smallest of two values or more"),
     function("max(a, b, ...)", Form::Join(Op::Max), "the largest of two values or more"),
-    three("clamp(v, lo, hi)", (clamp, bounds::clamp), "v, kept between lo and hi"),
-    three("mix(a, b, t)", (mix, bounds::mix), "a at t = 0, b at t = 1, straight between and beyond"),
-    two("step(edge, v)", (step, bounds::step), "0 where v is below the edge, else 1"),
-    three("smoothstep(lo, hi, v)", (smoothstep, bounds::smoothstep), "0 up to lo, 1 from hi, an S-curve between"),
-    two("gauss(d, s)", (gauss, bounds::gauss), "bell curve exp(-(d/s)^2/2): 1 at d = 0, 0.61 at d = s"),
-    two("hypot(a, b)", (known::hypot, bounds::hypot), "sqrt(a^2 + b^2): the distance, from differences in x and y"),
+    three("clamp(v, lo, hi)", &OfThree { value: clamp, bounds: bounds::clamp, model: Some(models::clamp) }, "v, kept between lo and hi"),
+    three("mix(a, b, t)", &OfThree { value: mix, bounds: bounds::mix, model: Some(models::mix) }, "a at t = 0, b at t = 1, straight between and beyond"),
+    two("step(edge, v)", &const { of_two(step, bounds::step) }, "0 where v is below the edge, else 1"),
+    three("smoothstep(lo, hi, v)", &OfThree { value: smoothstep, bounds: bounds::smoothstep, model: Some(models::smoothstep) }, "0 up to lo, 1 from hi, an S-curve between"),
+    two("gauss(d, s)", &const { of_two(gauss, bounds::gauss).smooth(slopes::gauss, models::gauss) }, "bell curve exp(-(d/s)^2/2): 1 at d = 0, 0.61 at d = s"),
+    two("hypot(a, b)", &const { of_two(libm::hypot, bounds::hypot).smooth(slopes::hypot, models::hypot) }, "sqrt(a^2 + b^2): the distance, from differences in x and y"),
     function("sqrt(v)", Form::Fixed(1, Op::Sqrt), "square root"),
-    one("cbrt(v)", (libm::cbrt, bounds::cbrt), "cube root"),
-    two("pow(a, b)", (power, bounds::power), "a to the power b, as a^b"),
-    one("exp(v)", (known::exp, bounds::exp), "e to the power v"),
-    one("ln(v)", (known::log, bounds::ln), "logarithm to base e"),
-    one("log10(v)", (libm::log10, bounds::log10), "logarithm to base 10"),
-    one("log2(v)", (libm::log2, bounds::log2), "logarithm to base 2"),
-    one("sin(v)", (known::sin, bounds::sin), "sine of an angle in radians"),
-    one("cos(v)", (known::cos, bounds::cos), "cosine of an angle in radians"),
-    one("tan(v)", (libm::tan, bounds::tan), "tangent of an angle in radians"),
-    one("asin(v)", (libm::asin, bounds::asin), "angle whose sine is v"),
-    one("acos(v)", (libm::acos, bounds::acos), "angle whose cosine is v"),
-    one("atan(v)", (known::atan, bounds::atan), "angle whose tangent is v"),
-    two("atan2(y, x)", (libm::atan2, bounds::atan2), "angle of the direction (x, y), from -pi to pi"),
-    one("sinh(v)", (known::sinh, bounds::sinh), "hyperbolic sine"),
-    one("cosh(v)", (known::cosh, bounds::cosh), "hyperbolic cosine"),
-    one("tanh(v)", (known::tanh, bounds::tanh), "hyperbolic tangent"),
-    one("floor(v)", (f64::floor, bounds::floor), "whole number at or below v"),
-    one("ceil(v)", (f64::ceil, bounds::ceil), "whole number at or above v"),
-    one("round(v)", (f64::round, bounds::round), "nearest whole number, halves away from 0"),
-    one("trunc(v)", (f64::trunc, bounds::trunc), "whole part, towards 0"),
-    one("fract(v)", (fract, bounds::fract), "v - floor(v): from 0 up to 1, repeating"),
-    two("mod(a, b)", (modulo, bounds::modulo), "a % b: what is left of a after whole steps of b, with the sign of b"),
+    one("cbrt(v)", &const { of_one(libm::cbrt, bounds::cbrt) }, "cube root"),
+    two("pow(a, b)", &const { of_two(power, bounds::power).smooth(slopes::power, models::power) }, "a to the power b, as a^b"),
+    one("exp(v)", &const { of_one(libm::exp, bounds::exp).smooth(slopes::exp, models::exp) }, "e to the power v"),
+    one("ln(v)", &const { of_one(libm::log, bounds::ln).smooth(slopes::ln, models::ln) }, "logarithm to base e"),
+    one("log10(v)", &const { of_one(libm::log10, bounds::log10).smooth(slopes::log10, models::log10) }, "logarithm to base 10"),
+    one("log2(v)", &const { of_one(libm::log2, bounds::log2).smooth(slopes::log2, models::log2) }, "logarithm to base 2"),
+    one("sin(v)", &const { of_one(libm::sin, bounds::sin).smooth(slopes::sin, models::sin) }, "sine of an angle in radians"),
+    one("cos(v)", &const { of_one(libm::cos, bounds::cos).smooth(slopes::cos, models::cos) }, "cosine of an angle in radians"),
+    one("tan(v)", &const { of_one(libm::tan, bounds::tan).smooth(slopes::tan, models::tan) }, "tangent of an angle in radians"),
+    one("asin(v)", &const { of_one(libm::asin, bounds::asin) }, "angle whose sine is v"),
+    one("acos(v)", &const { of_one(libm::acos, bounds::acos) }, "angle whose cosine is v"),
+    one("atan(v)", &const { of_one(libm::atan, bounds::atan).smooth(slopes::atan, models::atan) }, "angle whose tangent is v"),
+    two("atan2(y, x)", &const { of_two(libm::atan2, bounds::atan2).modelled(models::atan2) }, "angle of the direction (x, y), from -pi to pi"),
+    one("sinh(v)", &const { of_one(libm::sinh, bounds::sinh).smooth(slopes::sinh, models::sinh) }, "hyperbolic sine"),
+    one("cosh(v)", &const { of_one(libm::cosh, bounds::cosh).smooth(slopes::cosh, models::cosh) }, "hyperbolic cosine"),
+    one("tanh(v)", &const { of_one(libm::tanh, bounds::tanh).smooth(slopes::tanh, models::tanh) }, "hyperbolic tangent"),
+    one("floor(v)", &const { of_one(f64::floor, bounds::floor) }, "whole number at or below v"),
+    one("ceil(v)", &const { of_one(f64::ceil, bounds::ceil) }, "whole number at or above v"),
+    one("round(v)", &const { of_one(f64::round, bounds::round) }, "nearest whole number, halves away from 0"),
+    one("trunc(v)", &const { of_one(f64::trunc, bounds::trunc) }, "whole part, towards 0"),
+    one("fract(v)", &const { of_one(fract, bounds::fract) }, "v - floor(v): from 0 up to 1, repeating"),
+    two("mod(a, b)", &const { of_two(modulo, bounds::modulo) }, "a % b: what is left of a after whole steps of b, with the sign of b"),
 ];
+
+/// The instruction of a function that has one.
+pub(super) fn instruction(name: &str) -> Option<Op> {
+    match find_function(name)?.form {
+        Form::Fixed(_, op) | Form::Join(op) => Some(op),
+        Form::If => None,
+    }
+}
 
 /// A name of a value.
 #[derive(Clone, Copy, Debug)]
@@ -249,25 +313,7 @@ fn distance(a: &str, b: &str) -> usize {
     row[b.len()]
 }
 
-/// Functions whose derivatives are known: they are recognized by their address. Inlined, a function could
-/// have several.
-pub(super) mod known {
-    macro_rules! functions {
-        ($($name:ident($($value:ident),+))*) => {
-            $(
-                #[inline(never)]
-                pub fn $name($($value: f64),+) -> f64 {
-                    libm::$name($($value),+)
-                }
-            )*
-        };
-    }
-
-    functions! { exp(v) log(v) sin(v) cos(v) atan(v) sinh(v) cosh(v) tanh(v) hypot(a, b) }
-}
-
 /// `a^b`. A square is one product, which is the nearest number to it; `libm::pow` need not be.
-#[inline(never)]
 pub(super) fn power(a: f64, b: f64) -> f64 {
     if b == 2.0 { a * a } else { libm::pow(a, b) }
 }
@@ -322,7 +368,6 @@ fn smoothstep(lo: f64, hi: f64, v: f64) -> f64 {
     t * t * (3.0 - 2.0 * t)
 }
 
-#[inline(never)]
 pub(super) fn gauss(d: f64, s: f64) -> f64 {
     let t = d / s;
     libm::exp(-0.5 * (t * t))

@@ -35,8 +35,13 @@ mod function_bounds;
 mod functions;
 mod interval;
 mod lexer;
+mod machine;
+#[cfg(test)]
+mod model_tests;
+mod models;
 mod parser;
 mod program;
+mod slopes;
 #[cfg(test)]
 mod tests;
 
@@ -50,7 +55,7 @@ pub use functions::functions;
 pub use parser::{MAX_LENGTH, MAX_NESTING};
 use program::{Op, Program};
 
-use crate::field::Bounds;
+use crate::field::{Bounds, Quadratic};
 use crate::geometry::Rect;
 
 /// A formula in x and y, compiled once and evaluated many times.
@@ -122,6 +127,16 @@ impl Formula {
     /// formula may jump, or a derivative is not known.
     pub(crate) fn derivatives(&self, rect: &Rect) -> Option<[Bounds; 2]> {
         derivatives::derivatives(&self.program, rect, (Bounds::ANYTHING, [derivatives::ZERO; 2]))
+    }
+
+    /// A model of [`Self::eval`] over a rectangle, from models of the coordinates.
+    pub(crate) fn model(&self, [x, y]: [Quadratic; 2]) -> Quadratic {
+        machine::run(&self.program, [x, y, Quadratic::UNKNOWN])
+    }
+
+    /// The number of instructions.
+    pub(crate) fn length(&self) -> usize {
+        self.program.code().len()
     }
 
     /// The formula of a number: its shortest text.

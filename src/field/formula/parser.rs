@@ -6,9 +6,8 @@
 use std::ops::Range;
 
 use super::error::{ParseError, quote};
-use super::function_bounds as bounds;
 use super::functions::{
-    Form, Function, Noun, coordinates, find_function, find_noun, known, modulo, power, suggestion,
+    Form, Function, Noun, coordinates, find_function, find_noun, instruction, suggestion,
 };
 use super::lexer::{Lexer, Token};
 use super::program::{Compare, Op, Program, run};
@@ -123,13 +122,13 @@ impl<'a> Parser<'a> {
             // Right-associative: the right side may contain further powers.
             Token::Power => {
                 let right = self.expression(binding)?;
-                return Ok(self.join(left, right, Op::Two(power, bounds::power)));
+                return Ok(self.join(left, right, named_operator("pow")));
             }
             Token::Plus => Op::Add,
             Token::Minus => Op::Subtract,
             Token::Times => Op::Multiply,
             Token::Over => Op::Divide,
-            _ => Op::Two(modulo, bounds::modulo), // `infix_binding` lets nothing else through
+            _ => named_operator("mod"), // `infix_binding` lets nothing else through
         };
         let right = self.expression(binding + 1)?;
         Ok(self.join(left, right, op))
@@ -256,11 +255,11 @@ impl<'a> Parser<'a> {
             Noun::Number(value) => self.load(Op::Number(value)),
             Noun::Radius => {
                 let (x, y) = (self.load(Op::X), self.load(Op::Y));
-                self.join(x, y, Op::Two(known::hypot, bounds::hypot))
+                self.join(x, y, named_operator("hypot"))
             }
             Noun::Angle => {
                 let (y, x) = (self.load(Op::Y), self.load(Op::X));
-                self.join(y, x, Op::Two(libm::atan2, bounds::atan2))
+                self.join(y, x, named_operator("atan2"))
             }
         })
     }
@@ -431,6 +430,11 @@ fn infix_binding(token: Token) -> Option<u8> {
         Token::Power => Some(binding::POWER),
         _ => None,
     }
+}
+
+/// The instruction of a function that is also written in another way.
+fn named_operator(name: &str) -> Op {
+    instruction(name).expect("the table has this function")
 }
 
 /// What to write instead of a word that is an operator in other languages.

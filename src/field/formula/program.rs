@@ -1,6 +1,6 @@
 //! A compiled formula: instructions in postfix order for a stack machine with an accumulator.
 
-use crate::field::Bounds;
+use super::functions::{OfOne, OfThree, OfTwo};
 
 /// One instruction.
 ///
@@ -51,12 +51,12 @@ pub(super) enum Op {
     NextLink(Compare),
     /// Drops the accumulator and takes the value below: the end of a chain.
     Drop,
-    /// Any other function of one value, and its bounds.
-    One(fn(f64) -> f64, fn(Bounds) -> Bounds),
-    /// Any other function of two values, and its bounds.
-    Two(fn(f64, f64) -> f64, fn(Bounds, Bounds) -> Bounds),
-    /// Any other function of three values, and its bounds.
-    Three(fn(f64, f64, f64) -> f64, fn(Bounds, Bounds, Bounds) -> Bounds),
+    /// Any other function of one value.
+    One(&'static OfOne),
+    /// Any other function of two values.
+    Two(&'static OfTwo),
+    /// Any other function of three values.
+    Three(&'static OfThree),
     /// Takes a condition and skips if it is 0.
     SkipIfZero(u32),
     /// Skips always.
@@ -233,12 +233,12 @@ fn run_on<const SLOTS: usize>(code: &[Op], [x, y, risk]: [f64; 3]) -> f64 {
             }
             Op::Drop => acc = pop!(),
             // Functions.
-            Op::One(function, _) => acc = function(acc),
-            Op::Two(function, _) => acc = function(pop!(), acc),
-            Op::Three(function, _) => {
+            Op::One(function) => acc = (function.value)(acc),
+            Op::Two(function) => acc = (function.value)(pop!(), acc),
+            Op::Three(function) => {
                 let second = pop!();
                 let first = pop!();
-                acc = function(first, second, acc);
+                acc = (function.value)(first, second, acc);
             }
             // Branches.
             Op::SkipIfZero(count) => {

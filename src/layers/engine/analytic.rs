@@ -2,8 +2,9 @@
 
 use glam::DVec2;
 
-use crate::field::{Bounds, Formula, f32_not_below};
+use crate::field::{Bounds, Formula, Quadratic, f32_not_below};
 use crate::geometry::{Lattice, Rect};
+use crate::layers::models::{self, ModelId, Place};
 use crate::layers::{Quantity, Shapes, Threats};
 use crate::raster::ValueRange;
 
@@ -14,6 +15,8 @@ use super::cells::{Cells, Cut};
 pub struct Analytic {
     pub function: Function,
     pub quantity: Quantity,
+    /// Where models of the function are kept, if it has any.
+    models: Option<ModelId>,
 }
 
 /// A function of the point, in world units.
@@ -48,6 +51,12 @@ pub fn squares_along(lattice: &Lattice) -> u32 {
     extent.x.max(extent.y).div_ceil(1 << square_bits(lattice))
 }
 
+/// Formulas with this many instructions or more are asked by models.
+const LONG_FORMULA: usize = 24;
+
+/// Lists with this many threats or more are asked by models.
+const MANY_THREATS: usize = 8;
+
 impl Function {
     fn at(&self, point: DVec2) -> f64 {
         match self {
@@ -69,6 +78,23 @@ impl Function {
         }
     }
 
+    /// Whether models of the function are cheaper than its bounds.
+    fn has_models(&self) -> bool {
+        match self {
+            Self::Formula(formula) => formula.length() >= LONG_FORMULA,
+            Self::Threats(threats) => threats.list().len() >= MANY_THREATS,
+            Self::Distance { .. } => false,
+        }
+    }
+
+    fn model(&self, place: &Place) -> Quadratic {
+        match self {
+            Self::Formula(formula) => formula.model(place.coordinates),
+            Self::Threats(threats) => threats.model(place),
+            Self::Distance { .. } => Quadratic::UNKNOWN,
+        }
+    }
+
     /// The value at a distance from the shapes.
     fn at_distance(&self, distance: f64) -> f64 {
         match self {
@@ -81,6 +107,17 @@ impl Function {
 }
 
 impl Analytic {
+    pub fn new(function: Function, quantity: Quantity) -> Self {
+        let models = function.has_models().then(ModelId::new);
+        Self { function, quantity, models }
+    }
+
+    /// The same, asked by its own bounds only.
+    #[cfg(test)]
+    pub fn without_models(self) -> Self {
+        Self { models: None, ..self }
+    }
+
     /// The value at a point in world units, as it counts: where it is not valid, that of nothing.
     pub fn at(&self, point: DVec2) -> f32 {
         self.value(self.function.at(point))
@@ -130,9 +167,17 @@ impl Analytic {
         let Some(cut) = cut_between_squares(cells, bits) else {
             return (ValueRange::one(self.at(center(cells, lattice, bits))), None);
         };
-        let rect = cells.rounded_out(bits).world_rect(lattice);
-        let range = self.enclosed(self.function.bounds(&rect));
+        let range = self.enclosed(self.bounds(&cells.rounded_out(bits), lattice, bits));
         (range, (!range.is_one()).then_some(cut))
+    }
+
+    /// Bounds of the numbers at the centres of squares of `1 << bits` cells.
+    fn bounds(&self, cells: &Cells, lattice: &Lattice, bits: u32) -> Bounds {
+        let own = || self.function.bounds(&cells.world_rect(lattice));
+        match self.models {
+            None => own(),
+            Some(id) => models::bounds(id, cells, lattice, bits, |place| self.function.model(place), own),
+        }
     }
 
     /// The range of the values that count, from the bounds of the numbers.

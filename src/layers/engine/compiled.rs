@@ -71,10 +71,7 @@ impl CompiledLayer {
             }
             LayerKind::Threats(threats) => {
                 let function = Function::Threats(threats.clone());
-                (
-                    reading(Quantity::Risk, 0.0),
-                    Values::Analytic(Analytic { function, quantity: Quantity::Risk }),
-                )
+                (reading(Quantity::Risk, 0.0), Values::Analytic(Analytic::new(function, Quantity::Risk)))
             }
             LayerKind::Distance { to, at_zero, slope, range } => {
                 let shapes = match to {
@@ -85,7 +82,7 @@ impl CompiledLayer {
                     let (shapes, reach) = (shapes.clone(), to.reach());
                     let (at_zero, slope, range) = (*at_zero, *slope, *range);
                     let function = Function::Distance { shapes, reach, at_zero, slope, range };
-                    Values::Analytic(Analytic { function, quantity: Quantity::Diameter })
+                    Values::Analytic(Analytic::new(function, Quantity::Diameter))
                 });
                 (reading(Quantity::Diameter, NO_RISK), values)
             }
@@ -97,6 +94,15 @@ impl CompiledLayer {
         };
         let (id, combine, mask, bits) = (layer.id, layer.combine, layer.mask.clone(), square_bits(lattice));
         Self { id, combine, mask, reading, values, bits }
+    }
+
+    /// The same, with functions asked by their own bounds only.
+    #[cfg(test)]
+    pub fn without_models(mut self) -> Self {
+        if let Values::Analytic(analytic) = self.values {
+            self.values = Values::Analytic(analytic.without_models());
+        }
+        self
     }
 
     /// Whether the layer can be asked alone: where it asks, h̄ is no greater.
@@ -265,7 +271,7 @@ impl Values {
     }
 
     fn of_formula(quantity: Quantity, formula: &Formula) -> Self {
-        let analytic = Analytic { function: Function::Formula(formula.clone()), quantity };
+        let analytic = Analytic::new(Function::Formula(formula.clone()), quantity);
         match formula.constant() {
             Some(_) => Self::Constant(analytic),
             None => Self::Analytic(analytic),

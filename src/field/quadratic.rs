@@ -1,0 +1,293 @@
+//! Quadratic models of functions over a rectangle.
+
+use super::Bounds;
+
+/// A function over a rectangle, as a polynomial of degree 2 and the largest distance from it.
+///
+/// ```text
+///  |         .-'  polynomial + rest        u and v are the coordinates in the rectangle, from −1 to 1.
+///  |     _.-'  .  the function             |f(u, v) − p(u, v)| ≤ rest, for the values as computed in f64:
+///  | .-'' . ''  _.-'                       every operation adds what its rounding can change.
+///  | . ' ' _.-''  polynomial − rest
+///  |___.-''____________________
+/// ```
+///
+/// The rest shrinks with the third power of the side of the rectangle where a function is smooth. Bounds of
+/// the function over any part of the rectangle follow from the polynomial alone, however long the formula of
+/// the function is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Quadratic {
+    /// The coefficients of 1, u, v, u², uv and v².
+    coefficients: [f64; 6],
+    /// Not negative; infinite where the function may not be a finite number.
+    rest: f64,
+}
+
+/// Half a unit in the last place of 1, doubled: a bound of the relative error of an operation.
+const EPSILON: f64 = f64::EPSILON;
+
+/// More than what underflow can change in an operation.
+const TINY: f64 = 1e-300;
+
+impl Quadratic {
+    /// A function of which nothing is known.
+    pub const UNKNOWN: Self = Self { coefficients: [0.0; 6], rest: f64::INFINITY };
+
+    /// One number everywhere.
+    pub const fn constant(value: f64) -> Self {
+        if value.is_finite() {
+            Self { coefficients: [value, 0.0, 0.0, 0.0, 0.0, 0.0], rest: 0.0 }
+        } else {
+            Self::UNKNOWN
+        }
+    }
+
+    /// A coordinate: `middle` ± `half` along axis 0 or 1, for numbers within `rest` of it.
+    pub fn coordinate(axis: usize, middle: f64, half: f64, rest: f64) -> Self {
+        let mut coefficients = [middle, 0.0, 0.0, 0.0, 0.0, 0.0];
+        coefficients[1 + axis] = half;
+        Self { coefficients, rest }
+    }
+
+    /// A function of which bounds are known.
+    pub fn of_bounds(Bounds { least, greatest, valid }: Bounds) -> Self {
+        if !(valid && least.is_finite() && greatest.is_finite()) {
+            return Self::UNKNOWN;
+        }
+        if least == greatest {
+            return Self::constant(least);
+        }
+        let middle = 0.5 * least + 0.5 * greatest;
+        let rest = (greatest - middle).max(middle - least) * (1.0 + EPSILON) + TINY;
+        Self { rest, ..Self::constant(middle) }
+    }
+
+    /// A polynomial and the largest distance from it.
+    pub fn new(coefficients: [f64; 6], rest: f64) -> Self {
+        let is_known = rest.is_finite() && coefficients.iter().all(|c| c.is_finite());
+        if is_known { Self { coefficients, rest } } else { Self::UNKNOWN }
+    }
+
+    /// The largest distance from the polynomial.
+    pub fn rest(&self) -> f64 {
+        self.rest
+    }
+
+    /// The value of the polynomial in the middle of the rectangle.
+    pub fn middle(&self) -> f64 {
+        self.coefficients[0]
+    }
+
+    /// Whether the function is known to be one number.
+    pub fn is_constant(&self) -> bool {
+        self.rest == 0.0 && self.coefficients[1..].iter().all(|&c| c == 0.0)
+    }
+
+    /// The same with a greater distance from the polynomial.
+    pub fn loosened(&self, rest: f64) -> Self {
+        Self::new(self.coefficients, self.rest + rest)
+    }
+
+    /// How much the linear terms, and how much the quadratic ones, can change the value.
+    fn reach(&self) -> [f64; 2] {
+        let [_, a, b, c, d, e] = self.coefficients.map(f64::abs);
+        [a + b, c + d + e]
+    }
+
+    /// No value is farther from 0.
+    pub fn size(&self) -> f64 {
+        let [linear, bend] = self.reach();
+        self.coefficients[0].abs() + linear + bend + self.rest
+    }
+
+    /// Bounds over the whole rectangle.
+    pub fn bounds(&self) -> Bounds {
+        self.bounds_over([0.0; 2], [1.0; 2])
+    }
+
+    /// Bounds over a part of the rectangle, by its centre and its half sides in the coordinates u and v.
+    pub fn bounds_over(&self, [u, v]: [f64; 2], [half_u, half_v]: [f64; 2]) -> Bounds {
+        let [c, cu, cv, cuu, cuv, cvv] = self.coefficients;
+        // The same polynomial around the centre of the part.
+        let value = c + u * (cu + cuu * u + cuv * v) + v * (cv + cvv * v);
+        let slope_u = cu + 2.0 * cuu * u + cuv * v;
+        let slope_v = cv + 2.0 * cvv * v + cuv * u;
+        let linear = slope_u.abs() * half_u + slope_v.abs() * half_v + (cuv * half_u * half_v).abs();
+        let (uu, vv) = (cuu * half_u * half_u, cvv * half_v * half_v);
+        let rest = self.rest + if self.is_constant() { 0.0 } else { 32.0 * EPSILON * self.size() };
+        let least = value - linear + uu.min(0.0) + vv.min(0.0) - rest;
+        let greatest = value + linear + uu.max(0.0) + vv.max(0.0) + rest;
+        if least.is_finite() && greatest.is_finite() {
+            Bounds::new(least, greatest)
+        } else {
+            Bounds::ANYTHING
+        }
+    }
+
+    /// −f.
+    pub fn negated(&self) -> Self {
+        Self { coefficients: self.coefficients.map(|c| -c), ..*self }
+    }
+
+    /// A sum.
+    pub fn plus(&self, other: &Self) -> Self {
+        self.weighted(1.0, other, 1.0)
+    }
+
+    /// A difference.
+    pub fn minus(&self, other: &Self) -> Self {
+        self.weighted(1.0, other, -1.0)
+    }
+
+    /// A sum with a factor for each of the two.
+    fn weighted(&self, factor: f64, other: &Self, other_factor: f64) -> Self {
+        let (a, b) = (&self.coefficients, &other.coefficients);
+        let coefficients = std::array::from_fn(|n| factor * a[n] + other_factor * b[n]);
+        let size = factor.abs() * self.size() + other_factor.abs() * other.size();
+        let rest = factor.abs() * self.rest + other_factor.abs() * other.rest;
+        Self::new(coefficients, rest + 4.0 * EPSILON * size + TINY)
+    }
+
+    /// Products of more than two linear factors count as rest.
+    pub fn times(&self, other: &Self) -> Self {
+        if other.is_constant() {
+            return self.scaled(other.middle());
+        }
+        if self.is_constant() {
+            return other.scaled(self.middle());
+        }
+        let [a, au, av, auu, auv, avv] = self.coefficients;
+        let [b, bu, bv, buu, buv, bvv] = other.coefficients;
+        let coefficients = [
+            a * b,
+            a * bu + au * b,
+            a * bv + av * b,
+            a * buu + au * bu + auu * b,
+            a * buv + au * bv + av * bu + auv * b,
+            a * bvv + av * bv + avv * b,
+        ];
+        let ([linear, bend], [other_linear, other_bend]) = (self.reach(), other.reach());
+        let (size, other_size) = (self.size(), other.size());
+        let cut_off = linear * other_bend + bend * (other_linear + other_bend);
+        let rest = cut_off + size * other.rest + other_size * self.rest;
+        Self::new(coefficients, rest + 16.0 * EPSILON * size * other_size + TINY)
+    }
+
+    /// A product with a number.
+    fn scaled(&self, factor: f64) -> Self {
+        let rest = factor.abs() * self.rest + 4.0 * EPSILON * factor.abs() * self.size() + TINY;
+        Self::new(self.coefficients.map(|c| factor * c), rest)
+    }
+
+    /// f².
+    pub fn squared(&self) -> Self {
+        self.times(self)
+    }
+
+    /// A quotient.
+    pub fn over(&self, other: &Self) -> Self {
+        self.times(&other.inverse())
+    }
+
+    /// 1 / f.
+    fn inverse(&self) -> Self {
+        let Bounds { least, greatest, .. } = self.bounds();
+        if least <= 0.0 && greatest >= 0.0 {
+            return Self::UNKNOWN;
+        }
+        let nearest = least.abs().min(greatest.abs());
+        let inverse = 1.0 / self.middle();
+        let square = inverse * inverse;
+        // The derivatives of 1/t, divided by factorials, are −1/t², 1/t³ and −1/t⁴.
+        self.composed(
+            [inverse, -square, square * inverse],
+            1.0 / (nearest * nearest) / (nearest * nearest),
+            0.0,
+        )
+    }
+
+    /// √f.
+    pub fn sqrt(&self) -> Self {
+        let Bounds { least, .. } = self.bounds();
+        if self.middle().min(least) <= 0.0 {
+            return Self::UNKNOWN;
+        }
+        let root = self.middle().sqrt();
+        let slope = 0.5 / root;
+        let series = [root, slope, -0.25 * slope / self.middle()];
+        self.composed(series, 0.0625 / (least * least * least.sqrt()), 0.0)
+    }
+
+    /// A function of f, from its Taylor series at [`Self::middle`]: the value, the derivative, and half the
+    /// second derivative. `third` is at least a sixth of the size of its third derivative over
+    /// [`Self::bounds`]; by at most `error` the series is off, beyond a few ulps of each coefficient.
+    pub fn composed(&self, [value, slope, bend]: [f64; 3], third: f64, error: f64) -> Self {
+        let [_, u, v, uu, uv, vv] = self.coefficients;
+        let coefficients = [
+            value,
+            slope * u,
+            slope * v,
+            slope * uu + bend * u * u,
+            slope * uv + 2.0 * bend * u * v,
+            slope * vv + bend * v * v,
+        ];
+        let ([linear, curved], own) = (self.reach(), self.rest);
+        let step = linear + curved + own;
+        // (linear + curved + own)² without linear².
+        let beyond = (2.0 * linear + curved) * curved + (2.0 * (linear + curved) + own) * own;
+        let rest = slope.abs() * own + bend.abs() * beyond + third * step * step * step + error;
+        let rounding = 32.0 * EPSILON * (value.abs() + slope.abs() * step + bend.abs() * step * step);
+        Self::new(coefficients, rest * (1.0 + 1e-12) + rounding + TINY)
+    }
+
+    /// The larger of two.
+    pub fn max(&self, other: &Self) -> Self {
+        let Bounds { least, greatest, valid } = self.minus(other).bounds();
+        if !valid {
+            return Self::UNKNOWN;
+        }
+        if least >= 0.0 {
+            return *self;
+        }
+        if greatest <= 0.0 {
+            return *other;
+        }
+        // With d = self − other: max(0, d) lies between two parallel lines of this slope, 2 · middle apart.
+        let slope = greatest / (greatest - least);
+        let middle = -0.5 * slope * least;
+        let rounding = 1e-12 * middle + 4.0 * EPSILON * (greatest - least);
+        let between = self.weighted(slope, other, 1.0 - slope);
+        between.plus(&Self::constant(middle)).loosened(middle + rounding)
+    }
+
+    /// The smaller of two.
+    pub fn min(&self, other: &Self) -> Self {
+        self.negated().max(&other.negated()).negated()
+    }
+
+    /// The size without sign.
+    pub fn abs(&self) -> Self {
+        self.max(&self.negated())
+    }
+
+    /// What holds for both: either may be the value at each point.
+    pub fn either(&self, other: &Self) -> Self {
+        if self == other {
+            return *self;
+        }
+        let apart = self.minus(other).bounds();
+        let rest = 0.5 * apart.least.abs().max(apart.greatest.abs());
+        let middle = self.weighted(0.5, other, 0.5);
+        Self::new(middle.coefficients, middle.rest + rest)
+    }
+
+    /// This one or what bounds say, whichever leaves less open.
+    pub fn or_bounds(self, bounds: impl FnOnce() -> Bounds) -> Self {
+        let [linear, bend] = self.reach();
+        if self.rest <= linear + bend {
+            return self;
+        }
+        let other = Self::of_bounds(bounds());
+        if other.rest < self.rest { other } else { self }
+    }
+}
