@@ -3,12 +3,15 @@
 mod areas;
 mod check;
 mod curve;
+mod difference;
 mod distance;
 mod engine;
+mod extent;
 mod layer;
 mod least;
 mod mask;
 mod paint_layers;
+mod reach;
 mod risk;
 mod risk_slopes;
 mod sampled;
@@ -19,8 +22,10 @@ mod targets_in_order;
 mod threats;
 mod usual;
 
+pub use areas::PaintChange;
 pub use check::{InvalidLayer, LayerCheck};
 pub use curve::{CurveError, ValueCurve};
+pub use difference::Circumstances;
 pub use distance::{ShapeList, Shapes, ShapesError};
 pub use layer::{Combine, DistanceTo, Layer, LayerId, LayerKind, Quantity, RasterReading, RasterSource};
 pub use least::LeastTarget;

@@ -37,7 +37,7 @@ pub use limits::{Limits, MOST_TRIANGLES, MemoryLimit};
 pub use refine::Refiner;
 pub use tree::TreeTriangle;
 pub use triangle::{Orientation, Triangle};
-pub use update::{TargetChange, Updater};
+pub use update::{ChangedArea, Falloff, TargetChange, Updater};
 
 use coarse::CoarseIndex;
 
