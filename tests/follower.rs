@@ -4,9 +4,12 @@ use std::sync::Arc;
 
 use glam::{DVec2, dvec2};
 use meshbrush::internals::document::{Document, Follower, MeshChange, Setting, Settings, Stage};
-use meshbrush::internals::field::Formula;
+use meshbrush::internals::domain::{Domain, corners};
+use meshbrush::internals::field::{Formula, Transfer};
 use meshbrush::internals::geometry::Rect;
-use meshbrush::internals::layers::{Combine, Layer, LayerKind};
+use meshbrush::internals::layers::{
+    Combine, DistanceTo, Layer, LayerId, LayerKind, Mask, ShapeList, Shapes, Threat, ThreatLaw, Threats,
+};
 use meshbrush::internals::mesh::Mesh;
 use meshbrush::internals::paint::{Brush, Medium};
 
@@ -230,4 +233,90 @@ fn a_cancelled_update_is_not_in_step_and_the_next_edit_catches_up() {
     document.undo();
     settle(&mut follower, &mut document);
     assert_as_from_scratch(&follower, &document);
+}
+
+/// A document of the unit square with these layers, and its follower.
+fn with_layers(layers: Vec<Layer>) -> (Document, Follower) {
+    let mut document = Document::new(Settings { layers, ..Settings::default() }, None).unwrap();
+    let follower = Follower::new(&mut document).unwrap();
+    (document, follower)
+}
+
+/// Changes the layers of a document without a slice of the follower.
+fn change_layers(document: &mut Document, change: impl FnOnce(&mut Vec<Layer>)) {
+    let mut layers = document.settings().layers.clone();
+    change(&mut layers);
+    document.set(Setting::Layers(layers)).unwrap();
+    document.end_gesture();
+}
+
+fn square(centre: DVec2, half: f64) -> Vec<DVec2> {
+    corners(&Rect::around(centre, half))
+}
+
+#[test]
+fn an_edited_outline_changes_the_layer_that_measures_the_distance_to_it() {
+    for range in [f64::INFINITY, 0.1] {
+        let distance = LayerKind::Distance { to: DistanceTo::Outline, at_zero: 0.01, slope: 0.2, range };
+        let (mut document, mut follower) = with_layers(Layer::stack([LayerKind::constant(0.2), distance]));
+        let l_shape = [[0.0, 0.0], [1.0, 0.0], [1.0, 0.5], [0.5, 0.5], [0.5, 1.0], [0.0, 1.0]];
+        let l_shape = l_shape.map(DVec2::from).to_vec();
+        let domain = Domain::of_stored_polygons(vec![vec![l_shape]], Rect::UNIT).unwrap();
+        document.set(Setting::Domain(domain)).unwrap();
+        document.end_gesture();
+        follower.take_change();
+        settle(&mut follower, &mut document);
+        assert!(matches!(follower.take_change(), Some(MeshChange::Within(_))), "it is followed in place");
+        assert_as_from_scratch(&follower, &document);
+        // Outline and layers between two slices.
+        document.undo();
+        change_layers(&mut document, |layers| layers[0].kind = LayerKind::constant(0.05));
+        settle(&mut follower, &mut document);
+        assert!(matches!(follower.take_change(), Some(MeshChange::Within(_))), "both are followed in place");
+        assert_as_from_scratch(&follower, &document);
+    }
+}
+
+#[test]
+fn edits_between_two_slices_do_not_hide_each_other() {
+    let threat = |x| Threat { at: dvec2(x, 0.5), range: 0.1, peak: 0.9, law: ThreatLaw::Radar };
+    let threats = Threats::new(vec![threat(0.2), threat(0.8)]).unwrap();
+    let layers = Layer::stack([LayerKind::constant(0.2), LayerKind::Threats(threats.clone())]);
+    let (mut document, mut follower) = with_layers(layers);
+    document.set(Setting::TransferShape(4.0)).unwrap();
+    let mut moved = threats;
+    moved.set(0, threat(0.25)).unwrap();
+    change_layers(&mut document, |layers| layers[1].kind = LayerKind::Threats(moved));
+    settle(&mut follower, &mut document);
+    assert_as_from_scratch(&follower, &document);
+}
+
+#[test]
+fn layers_as_small_as_the_squares_of_functions_leave_nothing_behind() {
+    let side = f64::from(1u32 << 15).recip();
+    for n in 0..40 {
+        let centre = dvec2(0.5 + 0.03 * f64::from(n) * side, 0.4 + 0.07 * f64::from(n) * side);
+        let mask = Mask::new(&[vec![square(centre, 0.51 * side + 0.04 * f64::from(n) * side)]]).unwrap();
+        let mut layers = Layer::stack([LayerKind::constant(0.2), LayerKind::constant(2e-5)]);
+        layers[1].mask = Some(mask);
+        let points = ShapeList { points: vec![centre], ..ShapeList::default() };
+        let to = DistanceTo::Shapes { name: String::new(), shapes: Shapes::new(points, false).unwrap() };
+        let range = 0.1 * f64::from(n) * side + 0.5 * side;
+        let distance = LayerKind::Distance { to, at_zero: 2e-5, slope: 0.0, range };
+        layers.push(Layer::new(LayerId(2), "distance", distance));
+        let threat = Threat { at: centre, range, peak: 1.0, law: ThreatLaw::Disc };
+        let threats = LayerKind::Threats(Threats::new(vec![threat]).unwrap());
+        layers.push(Layer::new(LayerId(3), "threats", threats));
+        for shown in 1..4 {
+            let mut layers = layers.clone();
+            (1..4).for_each(|other| layers[other].visible = other == shown);
+            let transfer = Transfer { h_min: 2e-5, h_max: 0.2, shape: 1.0 };
+            let settings = Settings { layers, transfer, ..Settings::default() };
+            let mut document = Document::new(settings, None).unwrap();
+            let mut follower = Follower::new(&mut document).unwrap();
+            change_layers(&mut document, |layers| layers[shown].visible = false);
+            settle(&mut follower, &mut document);
+            assert_as_from_scratch(&follower, &document);
+        }
+    }
 }

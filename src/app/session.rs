@@ -441,7 +441,7 @@ impl Session {
     fn take_back(&mut self, error: &BuildError) {
         let revision = self.document.revision();
         let is_other = self.document.settings() != self.follower.settings();
-        if is_other || self.document.changed_layers_last() {
+        if is_other || self.document.is_followed_in_place() {
             self.document.reject_last();
         }
         if self.document.revision() != revision {

@@ -4,25 +4,26 @@
 //!                     paint                   other settings
 //!        ┌──────────────────────────┐  ┌─────────────────────────────┐
 //!        │                          ▼  │                             ▼
-//!    ┌────────┐    done    ┌──────────────┐   vertex rule    ┌──────────────┐
+//!    ┌────────┐    done    ┌──────────────┐   another grid   ┌──────────────┐
 //!    │ InStep │ ◀───────── │   Updating   │ ───────────────▶ │  Rebuilding  │ ──┐ newer settings:
 //!    └────────┘            └──────────────┘ ◀─── shown ───── └──────────────┘ ◀─┘ shown, then the next
-//!        │                        ▲
-//!        │ outline, layers        │ indexed, checked
-//!        ▼                        │
-//!    ┌──────────────────────────────┐         error, cancel   ┌────────┐
-//!    │      FollowingOutline        │      (any state) ─────▶ │ GaveUp │ ── next edit ──▶ (any state)
-//!    │      FollowingLayers         │                         └────────┘
-//!    └──────────────────────────────┘
+//!        │                      ▲    │
+//!        │ outline,   compared, │    │ updated, and
+//!        │ layers      checked  │    ▼ newer settings
+//!        │                  ┌─────────────┐    error, cancel   ┌────────┐
+//!        └────────────────▶ │  Following  │    (any state) ──▶ │ GaveUp │ ── next edit ──▶ (any state)
+//!                           └─────────────┘                    └────────┘
 //! ```
+//!
+//! `Settings::change_from` says which of them other settings need.
 //!
 //! Every edit may arrive in every state; [`Follower::advance`] first chooses the state for the document as it
 //! is, then does one slice of work there.
 
 use std::sync::Arc;
 
-use super::layers_update::LayersUpdate;
-use super::outline_update::OutlineUpdate;
+use super::change::Change;
+use super::following::Following;
 use super::rebuild::Rebuild;
 use super::shown::Shown;
 use super::{Document, Repainted, Settings, Stage};
@@ -35,8 +36,8 @@ use crate::mesh::{Changes, Mesh, MeshCopy, Progress};
 ///
 /// Paint changes the mesh where it is, and nowhere else ([`Updater`](crate::mesh::Updater)): the mesh is
 /// conforming and can be drawn after every slice, and once in step it is the one made from scratch. So do
-/// edits of layers, limits and gradation, and of the outline of a fitted domain. For everything else (other
-/// settings, and every edit under the vertex rule, which cannot be undone locally) another mesh is built
+/// edits of layers, limits and gradation, and of the outline of a fitted domain, together or one after the
+/// other. For everything else (other settings, and every edit under the vertex rule, which cannot be undone locally) another mesh is built
 /// beside the one that is shown; the two change places when the new one is whole.
 #[derive(Clone, Debug)]
 pub struct Follower {
@@ -59,10 +60,8 @@ enum FollowState {
         /// The mesh that will be updated, while an export holds the shown one.
         copy: Option<Box<MeshCopy>>,
     },
-    /// Another outline is compared with that of the shown mesh and indexed.
-    FollowingOutline(Box<OutlineUpdate>),
-    /// Other layers are checked.
-    FollowingLayers(Box<LayersUpdate>),
+    /// Settings that the shown mesh can follow where it is are compared with those that it has, and checked.
+    Following(Box<Following>),
     /// Another mesh is built beside the shown one.
     Rebuilding(Box<Rebuild>),
     /// Nothing, as long as the document has this revision.
@@ -150,8 +149,7 @@ impl Follower {
             FollowState::Updating { copy: None } => {
                 Stage::Refining { triangles: self.mesh().raw_triangle_count() }
             }
-            FollowState::FollowingOutline(_) => Stage::Indexing,
-            FollowState::FollowingLayers(_) => Stage::Checking,
+            FollowState::Following(following) => following.stage(),
             FollowState::Rebuilding(rebuild) => rebuild.stage(),
             FollowState::GaveUp { cancelled: true, .. } => Stage::GaveUp(None),
             FollowState::GaveUp { cancelled: false, .. } => Stage::GaveUp(self.stopped.clone()),
@@ -226,64 +224,68 @@ impl Follower {
 
     /// Chooses the state for the document as it is, and does one slice of work there.
     fn work(&mut self, document: &Document, budget: usize) -> Result<(), BuildError> {
-        let wanted = document.settings();
-        self.state = match self.chosen_state(wanted)? {
+        self.state = match self.chosen_state(document)? {
             FollowState::Updating { copy } => self.update(copy, document, budget)?,
-            FollowState::FollowingOutline(update) => self.follow_outline(update, wanted, budget)?,
-            FollowState::FollowingLayers(update) => self.follow_layers(update, document, budget)?,
+            FollowState::Following(following) => self.follow(following, document, budget)?,
             FollowState::Rebuilding(rebuild) => self.rebuild(rebuild, document, budget)?,
             idle @ (FollowState::InStep | FollowState::GaveUp { .. }) => idle,
         };
         Ok(())
     }
 
-    /// The present state, if its work is still of use for the wanted settings; otherwise the next.
-    fn chosen_state(&mut self, wanted: &Settings) -> Result<FollowState, BuildError> {
+    /// The present state, if its work is still of use for the document as it is; otherwise the next.
+    fn chosen_state(&mut self, document: &Document) -> Result<FollowState, BuildError> {
         let state = std::mem::replace(&mut self.state, FollowState::InStep);
         let shown = &self.shown;
         let goes_on = match &state {
             FollowState::InStep | FollowState::GaveUp { .. } => false,
-            // The mesh keeps moving while a layer or a limit is dragged: newer ones wait for the update.
-            FollowState::Updating { .. } if !shown.obeys(wanted) => {
-                shown.has_updates() && shown.can_follow_layers(wanted)
+            // The mesh keeps moving while a layer, a limit or the outline is dragged: newer ones wait for the
+            // update.
+            FollowState::Updating { .. } => {
+                shown.has_updates()
+                    && match shown.change_to(document) {
+                        Change::Nothing => shown.settings == *document.settings(),
+                        Change::Update { .. } => true,
+                        Change::NewMesh { .. } => false,
+                    }
             }
-            FollowState::Updating { .. } => shown.settings == *wanted && shown.has_updates(),
-            // An update of the outline that has begun is finished; what came since is the next one.
-            FollowState::FollowingOutline(_) => shown.can_follow_outline(wanted),
-            // So is a check: the mesh keeps moving while a layer is dragged.
-            FollowState::FollowingLayers(_) => shown.can_follow_layers(wanted),
+            // So does work on an edit: what came since is the next one.
+            FollowState::Following(_) => matches!(shown.change_to(document), Change::Update { .. }),
             FollowState::Rebuilding(rebuild) => {
                 let triangles = shown.mesh.raw_triangle_count();
-                rebuild.is_for(wanted)
-                    || (!shown.obeys(wanted) && rebuild.is_worth_finishing(wanted, triangles))
+                rebuild.is_for(document.settings())
+                    || (shown.change_to(document) != Change::Nothing
+                        && rebuild.is_worth_finishing(document, triangles))
             }
         };
-        if goes_on { Ok(state) } else { self.next_state(wanted) }
+        if goes_on { Ok(state) } else { self.next_state(document) }
     }
 
-    /// The next state on the way to the wanted settings, when there is no current work.
-    fn next_state(&mut self, wanted: &Settings) -> Result<FollowState, BuildError> {
-        self.next_state_reusing(wanted, None)
+    /// The next state on the way to the document as it is, when there is no current work.
+    fn next_state(&mut self, document: &Document) -> Result<FollowState, BuildError> {
+        self.next_state_reusing(document, None)
     }
 
     /// As [`Self::next_state`]; a rebuild uses the memory of `spare` again.
     fn next_state_reusing(
         &mut self,
-        wanted: &Settings,
+        document: &Document,
         spare: Option<Mesh>,
     ) -> Result<FollowState, BuildError> {
-        if self.shown.obeys(wanted) {
-            self.shown.adopt(wanted);
-            let updates = self.shown.has_updates();
-            return Ok(if updates { FollowState::Updating { copy: None } } else { FollowState::InStep });
+        let wanted = document.settings();
+        match self.shown.change_to(document) {
+            Change::Nothing => {
+                self.shown.adopt(wanted);
+                let updates = self.shown.has_updates();
+                Ok(if updates { FollowState::Updating { copy: None } } else { FollowState::InStep })
+            }
+            Change::Update { outline, field } => {
+                Ok(FollowState::Following(Box::new(self.shown.follow(wanted, outline, field))))
+            }
+            Change::NewMesh { .. } => {
+                Ok(FollowState::Rebuilding(Box::new(self.shown.rebuild(wanted, spare)?)))
+            }
         }
-        if let Some(update) = self.shown.follow_outline(wanted) {
-            return Ok(FollowState::FollowingOutline(Box::new(update)));
-        }
-        if let Some(update) = self.shown.follow_layers(wanted) {
-            return Ok(FollowState::FollowingLayers(Box::new(update)));
-        }
-        Ok(FollowState::Rebuilding(Box::new(self.shown.rebuild(wanted, spare)?)))
     }
 
     /// One slice of updates of the shown mesh.
@@ -302,38 +304,24 @@ impl Follower {
             // What is impossible with outdated layers may be possible with the present ones.
             Ok(()) | Err(_) => {}
         }
-        self.next_state(document.settings())
+        self.next_state(document)
     }
 
-    /// One slice of work on another outline; at its end the mesh begins to follow.
-    fn follow_outline(
+    /// One slice of work on other settings; at its end the mesh begins to follow.
+    fn follow(
         &mut self,
-        mut update: Box<OutlineUpdate>,
-        wanted: &Settings,
-        budget: usize,
-    ) -> Result<FollowState, BuildError> {
-        if update.advance(budget) == Progress::More {
-            return Ok(FollowState::FollowingOutline(update));
-        }
-        self.shown.take_outline(*update);
-        self.next_state(wanted)
-    }
-
-    /// One slice of work on other layers; at its end the mesh begins to follow.
-    fn follow_layers(
-        &mut self,
-        mut update: Box<LayersUpdate>,
+        mut following: Box<Following>,
         document: &Document,
         budget: usize,
     ) -> Result<FollowState, BuildError> {
-        match update.advance(budget) {
-            Ok(Progress::More) => return Ok(FollowState::FollowingLayers(update)),
-            Ok(Progress::Done) => self.shown.take_layers(*update, document.paint()),
-            Err(error) if update.settings == *document.settings() => return Err(error),
+        match following.advance(budget) {
+            Ok(Progress::More) => return Ok(FollowState::Following(following)),
+            Ok(Progress::Done) => self.shown.take(following.finish(), document.paint()),
+            Err(error) if following.is_for(document.settings()) => return Err(error),
             // It may be possible with the present settings.
             Err(_) => {}
         }
-        self.next_state(document.settings())
+        self.next_state(document)
     }
 
     /// One slice of work on another mesh; at its end that is shown.
@@ -351,13 +339,13 @@ impl Follower {
                 self.revision += 1;
                 self.change = Some(MeshChange::Replaced);
                 // Unless an export holds it, the next mesh of a drag is built in its memory.
-                return self.next_state_reusing(wanted, Arc::into_inner(former.mesh));
+                return self.next_state_reusing(document, Arc::into_inner(former.mesh));
             }
             Err(error) if rebuild.is_up_to_date(wanted) => return Err(error),
             // It may be possible with the present settings and paint.
             Err(_) => {}
         }
-        self.next_state(wanted)
+        self.next_state(document)
     }
 
     fn note_changes(&mut self) {

@@ -2,16 +2,16 @@
 //! mesh from it; these are never saved.
 
 mod background;
+mod change;
 mod edits;
 mod examples;
 mod experiment;
 mod follower;
+mod following;
 mod history;
 mod layer_titles;
 mod layers;
-mod layers_update;
 mod outline;
-mod outline_update;
 mod path_plan;
 mod pricer;
 mod rebuild;
@@ -41,10 +41,10 @@ pub use setting::{Setting, SettingKind};
 pub use settings::{LEAST_MEMORY, MAX_COARSE_TRIANGLES, MOST_RASTER_PIXELS, Settings, SettingsError};
 pub use stage::Stage;
 
-use crate::geometry::Rect;
-use crate::layers::{LayerId, PaintLayers};
+use crate::layers::{LayerId, PaintChange, PaintLayers};
 use crate::mesh::TargetChange;
-use crate::paint::{Medium, Patch};
+use crate::paint::{Medium, Patch, Repaint};
+use change::Change;
 use history::{Entry, EntryData};
 use strokes::LayerStroke;
 
@@ -80,18 +80,9 @@ pub struct Document {
 #[derive(Clone, Debug, PartialEq)]
 pub enum Repainted {
     /// Within these rectangles, which may overlap; the list may be empty.
-    Within(Vec<RepaintedArea>),
+    Within(Vec<PaintChange>),
     /// The document was replaced: everything may differ.
     Everything,
-}
-
-/// Where and how painted target diameters changed.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct RepaintedArea {
-    /// In world units.
-    pub rect: Rect,
-    /// What happened to h̄.
-    pub change: TargetChange,
 }
 
 impl Document {
@@ -190,7 +181,7 @@ impl Document {
             let mut patch = Patch::clearing(raster);
             if !patch.is_empty() {
                 let areas = patch.exchange(raster);
-                let change = self.settings.change_by(&Medium::Eraser, layer);
+                let change = Medium::Eraser.change(self.settings.transfer.h_max);
                 self.note_repainted(layer, areas, change);
                 patches.push((layer, patch));
             }
@@ -273,12 +264,11 @@ impl Document {
         did
     }
 
-    /// Whether the last gesture changed layers, transfer curve or gradation. The mesh follows these in place,
-    /// so that its settings do not tell whether they can be met.
-    pub fn changed_layers_last(&self) -> bool {
+    /// Whether the last gesture changed settings that the mesh follows in place, such as layers or the outline.
+    /// Then its settings do not tell whether they can be met.
+    pub fn is_followed_in_place(&self) -> bool {
         let Some(EntryData::Settings(before)) = self.last_data() else { return false };
-        let Settings { layers, transfer, gradation, .. } = &self.settings;
-        before.layers != *layers || before.transfer != *transfer || before.gradation != *gradation
+        matches!(self.settings.change_from(before, &self.paint), Change::Update { .. })
     }
 
     /// Undoes the last gesture without a way to redo it, if it changed a setting: it turned out that no mesh
@@ -346,13 +336,13 @@ impl Document {
     fn note_repainted(
         &mut self,
         layer: LayerId,
-        areas: impl IntoIterator<Item = Rect>,
+        areas: impl IntoIterator<Item = Repaint>,
         change: TargetChange,
     ) {
-        for rect in areas {
+        for Repaint { area, before } in areas {
             self.edits.layers.insert(layer);
             if let Repainted::Within(earlier) = &mut self.repainted {
-                earlier.push(RepaintedArea { rect, change });
+                earlier.push(PaintChange { layer, area, before, change });
             }
         }
         self.revision += 1;

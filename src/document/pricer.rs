@@ -1,10 +1,10 @@
 use super::{Document, Follower};
 use crate::build::RefinementCriterion;
 use crate::field::RefinementRule;
-use crate::geometry::LatticeRect;
-use crate::layers::{LayerId, PaintLayers};
+use crate::geometry::{LatticeRect, Rect};
+use crate::layers::{LayerId, PaintChange, PaintLayers, SizeField};
 use crate::mesh::{Forecast, Progress};
-use crate::paint::{Preview, StrokePlan};
+use crate::paint::{Preview, Repaint, StrokePlan};
 
 /// Computes in slices how a planned stroke would change the number of triangles, without changing document or
 /// mesh.
@@ -154,8 +154,8 @@ fn paint_more(
     if !preview.advance(budget) {
         return Work::Painting(preview);
     }
-    let (raster, areas) = preview.finish();
-    if areas.is_empty() {
+    let (raster, changed) = preview.finish();
+    if changed.is_empty() {
         return Work::Known(Price::Nothing(NoChange::OutsideField));
     }
     let is_same = match document.paint().get(question.layer) {
@@ -168,15 +168,27 @@ fn paint_more(
     let mut paint = document.paint().clone();
     paint.insert(question.layer, raster);
     let field = follower.field();
-    let affected = areas.iter().filter_map(|area| field.area_affected_by(area, &paint));
-    match affected.reduce(|a, b| union(&a, &b)) {
-        None => Work::Known(Price::Nothing(NoChange::OutsideField)),
+    let h_max = document.settings().transfer.h_max;
+    let (layer, change) = (question.layer, question.plan.brush.medium.change(h_max));
+    let affected = changed.iter().flat_map(|&Repaint { area, before }| {
+        field.changes_by_paint(&PaintChange { layer, area, before, change }, &paint)
+    });
+    match affected.map(|area| area.rect).reduce(|a, b| union(&a, &b)) {
+        None if changed.iter().all(|repaint| !meets(&repaint.area, field)) => {
+            Work::Known(Price::Nothing(NoChange::OutsideField))
+        }
+        None => Work::Known(Price::Nothing(why_nothing(question, &paint, follower))),
         Some(area) => {
             let limits = follower.settings().limits();
             let forecast = Box::new(Forecast::new(follower.mesh(), area, &limits));
             Work::Counting { forecast, paint }
         }
     }
+}
+
+/// Whether a rectangle in world units has a point of the lattice of a field.
+fn meets(area: &Rect, field: &SizeField) -> bool {
+    area.intersection(&field.lattice().bounds()).is_some()
 }
 
 fn union(a: &LatticeRect, b: &LatticeRect) -> LatticeRect {

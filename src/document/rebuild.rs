@@ -1,11 +1,11 @@
 //! Another mesh, built beside the shown one.
 
+use super::change::Change;
 use super::shown::Shown;
-use super::{Document, RepaintedArea, Settings, Stage};
+use super::{Document, Settings, Stage};
 use crate::build::{BuildError, BuildStage, MeshBuilder, MeshSpec, Parts};
-use crate::geometry::Rect;
-use crate::layers::PaintLayers;
-use crate::mesh::Progress;
+use crate::layers::{PaintChange, PaintLayers};
+use crate::mesh::{Progress, TargetChange};
 
 /// Builds the mesh of a document, in slices.
 #[derive(Clone, Debug)]
@@ -13,8 +13,8 @@ pub(super) struct Rebuild {
     /// The settings of the document when it began.
     settings: Settings,
     builder: MeshBuilder,
-    /// Where the paint changed since it began, in world units: the mesh is updated there once it is shown.
-    repainted: Vec<Rect>,
+    /// Where the paint changed since it began: the mesh is updated there once it is shown.
+    repainted: Vec<PaintChange>,
 }
 
 /// A rebuild for outdated settings is finished up to this many triangles, besides twice those of the shown
@@ -30,8 +30,9 @@ impl Rebuild {
     }
 
     /// Notes what was painted meanwhile.
-    pub(super) fn repaint(&mut self, areas: &[RepaintedArea]) {
-        self.repainted.extend(areas.iter().map(|area| area.rect));
+    pub(super) fn repaint(&mut self, areas: &[PaintChange]) {
+        // Pixels may have been read before or after they changed.
+        self.repainted.extend(areas.iter().map(|area| PaintChange { change: TargetChange::Any, ..*area }));
     }
 
     pub(super) fn is_for(&self, settings: &Settings) -> bool {
@@ -46,15 +47,11 @@ impl Rebuild {
     /// Whether to finish and show the mesh although the document has other settings by now. Then the mesh
     /// keeps moving while a slider or a handle is dragged; a restart at each move would never get to the end.
     ///
-    /// Not so where the result would be of no interest, as for another domain or document, or would take too
-    /// long.
-    pub(super) fn is_worth_finishing(&self, wanted: &Settings, shown_triangles: usize) -> bool {
-        let Settings { name, domain, rule, layers, .. } = &self.settings;
-        let similar = *name == wanted.name
-            && *domain == wanted.domain
-            && *rule == wanted.rule
-            && layers.len() == wanted.layers.len();
-        similar && self.builder.triangles() <= 2 * shown_triangles + MOST_OUTDATED
+    /// Not so where the result would be of no interest, as for another domain, or would take too long.
+    pub(super) fn is_worth_finishing(&self, document: &Document, shown_triangles: usize) -> bool {
+        let change = document.settings().change_from(&self.settings, document.paint());
+        change != Change::NewMesh { is_similar: false }
+            && self.builder.triangles() <= 2 * shown_triangles + MOST_OUTDATED
     }
 
     /// One slice of work: about `budget` edges, pixels or triangles.

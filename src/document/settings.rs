@@ -8,9 +8,8 @@ use crate::build::MeshSpec;
 use crate::domain::{BoundaryMarks, BoundaryTreatment, Domain};
 use crate::field::{RefinementRule, Transfer, TransferError, checked_target};
 use crate::geometry::{GridError, Lattice, Rect};
-use crate::layers::{Combine, Layer, LayerId, LayerKind, Quantity, Shapes, SizeFieldSpec};
-use crate::mesh::{Cleaning, KeptParts, Limits, MemoryLimit, TargetChange};
-use crate::paint::Medium;
+use crate::layers::{Layer, LayerKind, Quantity, Shapes, SizeFieldSpec};
+use crate::mesh::{Cleaning, KeptParts, Limits, MemoryLimit};
 use crate::path::PathError;
 use crate::text::{Bytes, Grouped, LengthUnit, Number};
 
@@ -255,45 +254,6 @@ impl Settings {
     pub fn derived_cleaning(&self) -> Cleaning {
         let is_fitted = self.domain.region().is_some() && self.boundary != BoundaryTreatment::Report;
         if is_fitted { self.cleaning } else { Cleaning::NONE }
-    }
-
-    /// Whether the mesh of these settings is that of `other`, if neither reaches a budget: the derived mesh
-    /// may differ.
-    pub fn share_mesh_with(&self, other: &Self) -> bool {
-        let boundary = match self.boundary.diameter() == other.boundary.diameter() {
-            true => other.boundary,
-            false => self.boundary,
-        };
-        let Self { unit, cleaning, max_triangles, max_memory, .. } = *other;
-        let (boundary_marks, background) = (other.boundary_marks.clone(), other.background.clone());
-        let (pins, paths) = (other.pins.clone(), other.paths.clone());
-        let derived = Self { boundary, boundary_marks, cleaning, max_triangles, max_memory, ..self.clone() };
-        Self { unit, background, pins, paths, ..derived } == *other
-    }
-
-    /// What paint of a medium does to h̄ on a layer.
-    pub(super) fn change_by(&self, medium: &Medium, layer: LayerId) -> TargetChange {
-        // A floor that is erased lets h̄ become smaller.
-        let is_finest = |painted: &Layer| painted.id == layer && painted.combine == Combine::Finest;
-        match self.layers.iter().any(is_finest) {
-            true => medium.change(self.transfer.h_max),
-            false => TargetChange::Any,
-        }
-    }
-
-    /// What happened to h̄ since it was that of `former`, where only the limits of h̄ differ.
-    pub(super) fn change_since(&self, former: &Self) -> TargetChange {
-        let Transfer { h_min, h_max, shape } = former.transfer;
-        let others = Self { transfer: former.transfer, ..self.clone() };
-        if others != *former || self.transfer.shape != shape {
-            TargetChange::Any
-        } else if self.transfer.h_min <= h_min && self.transfer.h_max <= h_max {
-            TargetChange::Finer
-        } else if self.transfer.h_min >= h_min && self.transfer.h_max >= h_max {
-            TargetChange::Coarser
-        } else {
-            TargetChange::Any
-        }
     }
 
     /// What the mesh may cost.

@@ -2,16 +2,15 @@
 
 use std::sync::Arc;
 
-use super::layers_update::LayersUpdate;
-use super::outline_update::OutlineUpdate;
+use super::change::Change;
+use super::following::{Followed, Following};
 use super::rebuild::Rebuild;
-use super::{RepaintedArea, Settings};
+use super::{Document, Settings};
 use crate::build::{BuildError, BuiltMesh, Parts, RefinementCriterion};
 use crate::domain::DomainOnLattice;
 use crate::field::RefinementRule;
-use crate::geometry::{LatticeRect, Rect};
-use crate::layers::{PaintLayers, SizeField};
-use crate::mesh::{Changes, Mesh, MeshCopy, Progress, RefineError, TargetChange, Updater};
+use crate::layers::{PaintChange, PaintLayers, SizeField};
+use crate::mesh::{ChangedArea, Changes, Mesh, MeshCopy, Progress, RefineError, Updater};
 
 /// The field and the mesh that are shown, with the updates that they still need.
 #[derive(Clone, Debug)]
@@ -44,43 +43,46 @@ const LARGE: usize = 250_000;
 /// Triangles that are looked up to estimate a share of them.
 const SAMPLE: usize = 4096;
 
-/// Whether more than half of the triangles of a mesh lie in some areas, by a sample at equal steps.
-fn hold_most(areas: &[LatticeRect], mesh: &Mesh) -> bool {
+/// Whether some areas concern more than half of the triangles of a mesh, by a sample at equal steps.
+fn hold_most(areas: &[ChangedArea], mesh: &Mesh) -> bool {
     let triangles = mesh.raw_triangles();
     let sampled = triangles.iter().step_by(triangles.len().div_ceil(SAMPLE).max(1));
     let count = sampled.len();
     let inside = sampled.filter(|triangle| {
         let corners = triangle.edge_nodes().map(|(from, _)| mesh.node(from));
-        areas.iter().any(|area| area.touches(corners))
+        areas.iter().any(|area| {
+            area.rect.touches(corners) && area.concerns(mesh, corners, triangle.level()).contains(&true)
+        })
     });
     2 * inside.count() > count
 }
 
 impl Shown {
-    /// A mesh that was just built. `repainted` was painted meanwhile, in world units.
-    pub(super) fn new(settings: Settings, built: BuiltMesh, repainted: &[Rect], paint: &PaintLayers) -> Self {
+    /// A mesh that was just built. `repainted` was painted meanwhile.
+    pub(super) fn new(
+        settings: Settings,
+        built: BuiltMesh,
+        repainted: &[PaintChange],
+        paint: &PaintLayers,
+    ) -> Self {
         let BuiltMesh { domain, field, mesh, .. } = built;
         let updater = Updater::new(settings.limits());
         let upkeep = Upkeep::InPlace;
         let mut shown = Self { settings, domain, field, mesh: Arc::new(mesh), updater, upkeep };
-        // Pixels may have been read before or after they changed.
-        let areas: Vec<_> =
-            repainted.iter().map(|&rect| RepaintedArea { rect, change: TargetChange::Any }).collect();
-        shown.repaint(&areas, paint);
+        shown.repaint(repainted, paint);
         shown
     }
 
     /// Notes where the paint changed. `paint` is the paint as it is now.
-    pub(super) fn repaint(&mut self, areas: &[RepaintedArea], paint: &PaintLayers) {
-        if areas.is_empty() {
+    pub(super) fn repaint(&mut self, changes: &[PaintChange], paint: &PaintLayers) {
+        if changes.is_empty() {
             return;
         }
         match self.settings.rule {
             RefinementRule::Area => {
-                for RepaintedArea { rect, change } in areas {
-                    if let Some(area) = self.field.area_affected_by(rect, paint) {
-                        self.updater.add_change(area, *change);
-                    }
+                for change in changes {
+                    let areas = self.field.changes_by_paint(change, paint);
+                    areas.into_iter().for_each(|area| self.updater.add_area(area));
                 }
             }
             RefinementRule::Vertex => self.upkeep = Upkeep::NewMesh,
@@ -105,15 +107,21 @@ impl Shown {
         self.upkeep == Upkeep::InPlace && !self.updater.is_done()
     }
 
-    /// Whether the shown mesh, once it is updated, is that of `wanted`: the settings that it was made from,
-    /// or others with the same mesh and budgets that it keeps.
-    pub(super) fn obeys(&self, wanted: &Settings) -> bool {
-        if self.upkeep != Upkeep::InPlace {
-            return false;
+    /// What brings the shown mesh in step with a document, besides the updates that it still needs.
+    ///
+    /// A mesh beyond the wanted budgets is made again: only that finds out whether they can be kept.
+    pub(super) fn change_to(&self, document: &Document) -> Change {
+        let wanted = document.settings();
+        let is_same = self.settings == *wanted;
+        let change =
+            if is_same { Change::Nothing } else { wanted.change_from(&self.settings, document.paint()) };
+        let is_too_large = !is_same && self.mesh.raw_triangle_count() > wanted.limits().most_triangles();
+        match change {
+            Change::Nothing | Change::Update { .. } if self.upkeep == Upkeep::NewMesh || is_too_large => {
+                Change::NewMesh { is_similar: true }
+            }
+            change => change,
         }
-        self.settings == *wanted
-            || (self.mesh.raw_triangle_count() <= wanted.limits().most_triangles()
-                && self.settings.share_mesh_with(wanted))
     }
 
     /// Takes over settings that the mesh obeys. Updates that a former budget stopped go on.
@@ -125,56 +133,41 @@ impl Shown {
         }
     }
 
-    /// The work that follows other layers in place, where that is possible.
-    pub(super) fn follow_layers(&self, wanted: &Settings) -> Option<LayersUpdate> {
-        self.can_follow_layers(wanted).then(|| LayersUpdate::new(&self.settings, wanted, self.mesh.lattice()))
+    /// The work that follows an edit in place.
+    pub(super) fn follow(&self, wanted: &Settings, outline: bool, field: bool) -> Following {
+        Following::new(&self.settings, wanted, self.mesh.lattice(), outline, field)
     }
 
-    /// Not so where the mesh is beyond the wanted budgets already: only a rebuild finds out whether they can
-    /// be kept.
-    pub(super) fn can_follow_layers(&self, wanted: &Settings) -> bool {
-        self.upkeep == Upkeep::InPlace
-            && self.mesh.raw_triangle_count() <= wanted.limits().most_triangles()
-            && LayersUpdate::is_possible(&self.settings, wanted)
-    }
-
-    /// Takes over other layers: the mesh is updated where h̄ can differ, or made again where that is most of
-    /// a large mesh.
-    pub(super) fn take_layers(&mut self, update: LayersUpdate, paint: &PaintLayers) {
-        let (settings, field) = update.finish();
-        let areas = field.areas_that_differ(&self.field, paint);
-        if self.mesh.raw_triangle_count() >= LARGE && hold_most(&areas, &self.mesh) {
+    /// Takes over an edit: the mesh is updated where outline or h̄ can differ, or made again where that is
+    /// most of a large mesh.
+    pub(super) fn take(&mut self, followed: Followed, paint: &PaintLayers) {
+        let Followed { settings, outline, field } = followed;
+        let outline_areas = outline.as_ref().map(|(_, areas)| areas.as_slice());
+        let changes = field
+            .as_ref()
+            .map_or_else(Vec::new, |field| field.changes_since(&self.field, paint, outline_areas));
+        if self.mesh.raw_triangle_count() >= LARGE && hold_most(&changes, &self.mesh) {
             self.upkeep = Upkeep::NewMesh;
-        } else {
-            let change = settings.change_since(&self.settings);
-            areas.into_iter().for_each(|area| self.updater.add_change(area, change));
+            if outline.is_some() {
+                // Until the other mesh is shown, this one has the former outline.
+                return;
+            }
+        }
+        changes.into_iter().for_each(|area| self.updater.add_area(area));
+        match outline {
+            None => self.domain = self.domain.with_boundary(settings.boundary),
+            Some((domain, areas)) => {
+                self.domain = domain;
+                let lattice = self.mesh.lattice();
+                for area in areas.iter().filter_map(|area| lattice.rect_around(area)) {
+                    // Corners are moved to the nearest lattice point: by a step at most.
+                    self.updater.add_and_report(area.expanded(1, lattice.extent()));
+                }
+            }
         }
         self.updater.set_limits(settings.limits());
-        self.domain = self.domain.with_boundary(settings.boundary);
-        (self.settings, self.field) = (settings, field);
-    }
-
-    /// The work that follows an edit of the outline in place, where that is possible.
-    pub(super) fn follow_outline(&self, wanted: &Settings) -> Option<OutlineUpdate> {
-        if self.can_follow_outline(wanted) {
-            OutlineUpdate::new(&self.settings, wanted, self.mesh.lattice())
-        } else {
-            None
-        }
-    }
-
-    pub(super) fn can_follow_outline(&self, wanted: &Settings) -> bool {
-        self.upkeep == Upkeep::InPlace
-            && self.settings.domain != wanted.domain
-            && OutlineUpdate::is_possible(&self.settings, wanted)
-    }
-
-    /// Takes over another outline: the mesh is updated where it differs.
-    pub(super) fn take_outline(&mut self, update: OutlineUpdate) {
-        self.settings = update.settings.clone();
-        let (domain, areas) = update.finish();
-        self.domain = domain;
-        areas.into_iter().for_each(|area| self.updater.add_and_report(area));
+        self.field = field.unwrap_or_else(|| self.field.clone());
+        self.settings = settings;
     }
 
     /// The work on another mesh, which reuses what the shown one has already, and the memory of `spare`.

@@ -13,7 +13,7 @@ use crate::paint::{Brush, Medium, Mirror, PathPoint, Stroke};
 pub(super) struct LayerStroke {
     layer: LayerId,
     stroke: Stroke,
-    /// What it does to h̄.
+    /// What it does to the diameters that the pixels ask for.
     change: TargetChange,
     /// Its path and brush, if it is recorded.
     recorded: Option<RecordedStroke>,
@@ -43,7 +43,7 @@ impl Document {
         let settings = &self.settings;
         let is_first = self.paint.get(layer).is_none();
         self.paint.get_or_insert(layer, || settings.blank_raster(layer));
-        let change = settings.change_by(&brush.medium, layer);
+        let change = brush.medium.change(settings.transfer.h_max);
         let stroke = Stroke::new(brush, settings.transfer.h_max, settings.domain.bounds).mirrored(mirror);
         let recorded =
             self.recording.is_some().then(|| RecordedStroke { layer, brush, mirror, path: Vec::new() });

@@ -1,169 +1,146 @@
-//! Where h̄ can differ after an edit.
+//! Where the mesh must be looked at again after an edit, on the lattice.
 
+use glam::DVec2;
+
+use super::difference::Circumstances;
+use super::engine::analytic::square_bits;
 use super::engine::cells::Cells;
-use super::{Combine, DistanceTo, Layer, LayerKind, PaintLayers, SizeField, SizeFieldSpec, Threat, Threats};
+use super::reach::Reach;
+use super::{Combine, LayerId, PaintLayers, SizeField};
 use crate::geometry::{LatticeRect, Rect};
-use crate::raster::ValueRanges;
+use crate::mesh::{ChangedArea, Falloff, TargetChange};
+use crate::raster::ValueRange;
 
-/// How often the reach of an edit is made smaller.
-const MOST_ROUNDS: usize = 8;
+/// Most rectangles of one step of an edit, where gradation carries each of them farther.
+const MOST_GRADED: usize = 8;
+
+/// A part of a paint layer that was painted.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PaintChange {
+    /// The layer.
+    pub layer: LayerId,
+    /// Where its pixels changed, in world units.
+    pub area: Rect,
+    /// The range of the values of the pixels before, there and perhaps around it.
+    pub before: ValueRange,
+    /// What happened to the diameters that the pixels ask for.
+    pub change: TargetChange,
+}
 
 impl SizeField {
-    /// The part of the lattice in which triangles can get another answer after the paint changed within a
-    /// rectangle in world units; `None` where it lies outside.
-    pub fn area_affected_by(&self, repainted: &Rect, paint: &PaintLayers) -> Option<LatticeRect> {
-        self.affected(&repainted.expanded(self.reach(repainted, paint)))
-    }
-
-    /// How far beyond an edit gradation can carry its effect, in world units.
+    /// Where and how h̄ can have changed since it was that of an earlier field on the same lattice, with the
+    /// same paint.
     ///
-    /// At distance d it can only lower what is above h_min + g d. So the greatest diameter that the layers
-    /// ask for around the edit bounds the distance, which bounds what is around the edit, and so on.
-    fn reach(&self, edited: &Rect, paint: &PaintLayers) -> f64 {
-        let SizeFieldSpec { transfer, unasked, gradation, .. } = self.spec();
-        let Some(slope) = gradation else { return 0.0 };
-        let reach = |greatest: f64| (greatest - transfer.h_min).max(0.0) / slope;
-        // No triangle is larger than a coarse one, so more than `unasked` is never needed.
-        let most = transfer.h_max.min(*unasked);
-        let mut distance = reach(most);
-        for _ in 0..MOST_ROUNDS {
-            let Some(around) = self.affected(&edited.expanded(distance)) else { break };
-            let ([_, greatest], _) = self.diameters(paint, &Cells::of(&around));
-            let next = reach(greatest.min(most));
-            if next > 0.9 * distance {
-                break;
+    /// `outline_areas` are rectangles in world units that hold every edge that only one of the two outlines
+    /// has, if they are known.
+    pub fn changes_since(
+        &self,
+        old: &Self,
+        paint: &PaintLayers,
+        outline_areas: Option<&[Rect]>,
+    ) -> Vec<ChangedArea> {
+        let circumstances = Circumstances { paint, longest: self.longest(), outline_areas };
+        let mut changes = Vec::new();
+        for step in self.spec().difference(old.spec(), &circumstances) {
+            // Rectangles whose reaches overlap would be searched several times.
+            let most = if old.spec().gradation.is_some() { MOST_GRADED } else { usize::MAX };
+            let rects = step.area.rects_within(self.lattice().bounds(), most);
+            for core in rects.iter().filter_map(|rect| self.core(rect)) {
+                let asked = [old, self].map(|field| field.least_asked(step.layer, core, paint));
+                let least = self.least_diameter(asked[0].min(asked[1]), old);
+                // Another limit of the slope is a step of its own, which changes h̄ everywhere.
+                changes.extend(old.reached(core, least, [old, self], paint, step.change));
             }
-            distance = next;
         }
-        distance
+        changes.dedup();
+        changes
     }
 
-    /// The lattice rectangle around one in world units, with one step to spare for rounding.
-    fn affected(&self, area: &Rect) -> Option<LatticeRect> {
+    /// Where and how h̄ can have changed after pixels changed; nowhere if the field has no such layer. `paint`
+    /// has the pixels as they are now.
+    ///
+    /// A change to smaller diameters ends, and one to larger diameters begins, with what is asked for now and
+    /// before.
+    pub fn changes_by_paint(&self, painted: &PaintChange, paint: &PaintLayers) -> Vec<ChangedArea> {
+        let PaintChange { layer, area, before, change } = painted;
+        let stack = self.spec().layers.iter();
+        let Some(layer) =
+            stack.filter(|other| other.visible && other.paints().is_some()).find(|l| l.id == *layer)
+        else {
+            return Vec::new();
+        };
+        let area = match &layer.mask {
+            Some(mask) => area.intersection(&mask.bounds()),
+            None => Some(*area),
+        };
+        let Some(core) = area.and_then(|area| self.core(&area)) else { return Vec::new() };
+        if layer.combine != Combine::Finest || !self.spec().is_ordered(self.longest()) {
+            let least = self.least_diameter(0.0, self);
+            return self.reached(core, least, [self, self], paint, TargetChange::Any).collect();
+        }
+        let compiled = self.compiled().iter().find(|compiled| compiled.id == layer.id);
+        let asked_before = compiled.map_or(0.0, |compiled| compiled.diameters_of(*before).least);
+        let asked = match change {
+            TargetChange::Finer => self.least_asked(Some(layer.id), core, paint),
+            TargetChange::Coarser => asked_before,
+            TargetChange::Any => asked_before.min(self.least_asked(Some(layer.id), core, paint)),
+        };
+        self.reached(core, self.least_diameter(asked, self), [self, self], paint, *change).collect()
+    }
+
+    /// The least diameter that a layer asks for in some cells, in world units; 0 without a layer, and infinite
+    /// where it is hidden.
+    fn least_asked(&self, layer: Option<LayerId>, core: Cells, paint: &PaintLayers) -> f64 {
+        let Some(id) = layer else { return 0.0 };
+        let compiled = self.compiled().iter().find(|compiled| compiled.id == id);
+        compiled.map_or(f64::INFINITY, |layer| layer.diameters(paint, &core, self.lattice()).0.least)
+    }
+
+    /// A diameter that a layer asks for, no less than the limits of two fields, in world units.
+    fn least_diameter(&self, asked: f64, other: &Self) -> f64 {
+        let limits = [self.spec(), other.spec()].map(|spec| spec.transfer.h_min);
+        asked.max(limits[0].min(limits[1]))
+    }
+
+    /// The diameter of a coarse triangle, in world units: nothing coarser matters to a mesh.
+    pub fn longest(&self) -> f64 {
+        self.lengths()[0]
+    }
+
+    /// The rectangles that an edit of some cells affects, before and after which no layer that changed asks
+    /// for less than `least` there.
+    fn reached(
+        &self,
+        core: Cells,
+        least: f64,
+        fields: [&Self; 2],
+        paint: &PaintLayers,
+        change: TargetChange,
+    ) -> impl Iterator<Item = ChangedArea> {
         let extent = self.lattice().extent();
-        Some(self.lattice().rect_around(area)?.expanded(1, extent))
+        let cells = match self.spec().gradation {
+            _ if least >= self.longest() => Vec::new(),
+            None => vec![core],
+            Some(slope) => Reach { fields, paint, slope }.of(core, least),
+        };
+        let closed = move |cells: Cells| LatticeRect::from(cells).expanded(1, extent);
+        let falloff = Falloff { core: closed(core), least, slope: self.spec().gradation.unwrap_or(0.0) };
+        cells.into_iter().map(move |cells| ChangedArea {
+            rect: closed(cells),
+            change,
+            falloff: Some(falloff),
+        })
     }
 
-    /// The rectangles in which h̄ of this field can differ from that of another one on the same lattice, with
-    /// the same paint.
-    pub fn areas_that_differ(&self, other: &Self, paint: &PaintLayers) -> Vec<LatticeRect> {
-        let (new, old) = (self.spec(), other.spec());
-        let same_limits = new.unasked == old.unasked
-            && new.gradation == old.gradation
-            && new.transfer.h_min == old.transfer.h_min
-            && new.transfer.h_max == old.transfer.h_max;
-        if !same_limits || has_new_order(&new.layers, &old.layers) {
-            return vec![Cells::all(self.lattice().extent()).into()];
-        }
-        let new_curve = new.transfer != old.transfer;
-        let new_outline = new.outline != old.outline;
-        let mut changed = Vec::new();
-        for layer in new.layers.iter().chain(&old.layers) {
-            let [before, after] = [&old.layers, &new.layers]
-                .map(|layers| layers.iter().find(|other| other.id == layer.id && other.visible));
-            let differs = match (before, after) {
-                (None, None) => false,
-                (Some(before), Some(after)) => {
-                    !asks_alike(before, after)
-                        || (new_curve && layer.is_of_risk())
-                        || (new_outline && layer.is_of_outline())
-                }
-                _ => true,
-            };
-            if let (Some(before), Some(after)) = (before, after)
-                && let Some(area) = dragged_threat(before, after)
-            {
-                changed.extend(area);
-            } else if differs && layer.visible {
-                let bounds = self.lattice().bounds();
-                let area = layer.extent(paint).map_or(Some(bounds), |area| area.intersection(&bounds));
-                changed.extend(area.filter(|area| area.min.cmple(area.max).all()));
-            }
-        }
-        changed.dedup();
-        changed.iter().filter_map(|area| self.area_affected_by(area, paint)).collect()
-    }
-}
-
-/// Whether layers that both stacks have lie in another order. Where only the finest counts, order does not
-/// matter.
-fn has_new_order(new: &[Layer], old: &[Layer]) -> bool {
-    let common = |layers: &[Layer], others: &[Layer]| {
-        let is_common =
-            |layer: &&Layer| layer.visible && others.iter().any(|o| o.id == layer.id && o.visible);
-        layers.iter().filter(is_common).map(|layer| layer.id).collect::<Vec<_>>()
-    };
-    let plain = new.iter().chain(old).all(|layer| layer.combine == Combine::Finest || !layer.visible);
-    !plain && common(new, old) != common(old, new)
-}
-
-/// Where two states of a layer of threats differ, if they differ in nothing but the threats.
-fn dragged_threat(before: &Layer, after: &Layer) -> Option<Option<Rect>> {
-    match (&before.kind, &after.kind) {
-        (LayerKind::Threats(old), LayerKind::Threats(new)) if old != new => {
-            let alike = before.combine == after.combine && before.mask == after.mask;
-            alike.then(|| Threats::changed_area(old, new))
-        }
-        _ => None,
-    }
-}
-
-/// Whether two states of a layer ask for the same.
-fn asks_alike(a: &Layer, b: &Layer) -> bool {
-    a.combine == b.combine && a.mask == b.mask && a.kind == b.kind
-}
-
-/// An area that no layer reaches.
-const NOWHERE: Rect = Rect::new(glam::DVec2::INFINITY, glam::DVec2::INFINITY);
-
-impl Layer {
-    /// Whether its values are risks, so that the transfer curve matters.
-    fn is_of_risk(&self) -> bool {
-        use super::{Quantity, RasterReading};
-        match &self.kind {
-            LayerKind::Paint(quantity) | LayerKind::Formula { quantity, .. } => *quantity == Quantity::Risk,
-            LayerKind::Raster { reading, .. } => *reading == RasterReading::Risk,
-            LayerKind::Threats(_) => true,
-            LayerKind::Distance { .. } | LayerKind::Band { .. } => false,
-        }
-    }
-
-    /// Whether it asks for the distance to the boundary of the domain.
-    pub fn is_of_outline(&self) -> bool {
-        matches!(self.kind, LayerKind::Distance { to: DistanceTo::Outline, .. })
-    }
-
-    /// The rectangle in world units beyond which the layer asks for nothing; `None` where there is none.
-    pub fn extent(&self, paint: &PaintLayers) -> Option<Rect> {
-        let extent = self.extent_of_kind(paint);
-        match (&self.mask, extent) {
-            (Some(mask), Some(extent)) => Some(extent.intersection(&mask.bounds()).unwrap_or(NOWHERE)),
-            (Some(mask), None) => Some(mask.bounds()),
-            (None, extent) => extent,
-        }
-    }
-
-    fn extent_of_kind(&self, paint: &PaintLayers) -> Option<Rect> {
-        match &self.kind {
-            LayerKind::Paint(_) => {
-                let raster = paint.get(self.id);
-                let tiles = raster
-                    .into_iter()
-                    .flat_map(|raster| raster.tiles().map(|(place, _)| place.area(raster.grid())));
-                Some(tiles.reduce(|a, b| a.union(&b)).unwrap_or(NOWHERE))
-            }
-            LayerKind::Formula { .. } => None,
-            LayerKind::Raster { source, .. } | LayerKind::Band { source, .. } => {
-                Some(source.raster.raster().bounds())
-            }
-            LayerKind::Threats(threats) => {
-                Some(threats.list().iter().map(Threat::reach).reduce(|a, b| a.union(&b)).unwrap_or(NOWHERE))
-            }
-            LayerKind::Distance { to, range, .. } if range.is_finite() => {
-                Some(to.shapes()?.extent().expanded(to.reach() + *range))
-            }
-            LayerKind::Distance { .. } => None,
-        }
+    /// The cells that are told what is at some point of a rectangle in world units.
+    ///
+    /// A function counts in a whole square of cells with its value at the centre, and lines between pixels are
+    /// moved to lattice lines.
+    fn core(&self, area: &Rect) -> Option<Cells> {
+        let lattice = self.lattice();
+        let square = lattice.step() * DVec2::splat((1u32 << square_bits(lattice)).into());
+        let around = Rect::new(area.min - square, area.max + square);
+        Some(Cells::of(&lattice.rect_around(&around)?))
     }
 }
 
@@ -174,7 +151,8 @@ mod tests {
     use super::*;
     use crate::field::{RefinementRule, Transfer};
     use crate::geometry::Lattice;
-    use crate::layers::{ShapeList, Shapes};
+    use crate::layers::extent::{Extent, ExtentContext};
+    use crate::layers::{DistanceTo, Layer, LayerKind, ShapeList, Shapes, SizeFieldSpec};
 
     #[test]
     fn a_corridor_asks_for_nothing_beyond_its_extent() {
@@ -184,14 +162,16 @@ mod tests {
         let layer =
             Layer::stack([LayerKind::Distance { to, at_zero: 0.01, slope: 0.1, range: 0.15 }]).remove(0);
         let paint = PaintLayers::default();
-        let extent = layer.extent(&paint).unwrap();
         let spec = SizeFieldSpec {
-            layers: vec![layer],
+            layers: vec![layer.clone()],
             transfer: Transfer { h_min: 0.01, h_max: 1.0, shape: 1.0 },
             unasked: 1.0,
             outline: None,
             gradation: None,
         };
+        let context = ExtentContext { spec: &spec, paint: &paint, longest: 1.0 };
+        let Extent::Within(rects) = layer.extent(&context) else { panic!("it has an end") };
+        let [extent] = rects[..] else { panic!("{rects:?}") };
         let field = SizeField::new(spec, &Lattice::covering(Rect::UNIT, 0.05, 1000).unwrap());
         let points = (0..10_000).map(|n| dvec2(f64::from(n % 100), f64::from(n / 100)) / 99.0);
         let asked: Vec<_> =
@@ -209,12 +189,18 @@ mod tests {
         let side = |base: f64, gradation| {
             let layers = Layer::stack([LayerKind::constant(base)]);
             let spec = SizeFieldSpec { layers, transfer, unasked: 0.07, outline: None, gradation };
-            let area = SizeField::new(spec, &lattice).area_affected_by(&edited, &paint).unwrap();
-            f64::from(area.max.x - area.min.x) * lattice.step().x
+            let field = SizeField::new(spec, &lattice);
+            let (core, change) = (field.core(&edited).unwrap(), TargetChange::Any);
+            let areas: Vec<_> = field.reached(core, 0.01, [&field, &field], &paint, change).collect();
+            let least = areas.iter().map(|area| area.rect.min.x).min();
+            let most = areas.iter().map(|area| area.rect.max.x).max();
+            f64::from(most.unwrap() - least.unwrap()) * lattice.step().x
         };
-        assert!((side(0.03, None) - 0.02).abs() < 1e-6);
-        // (0.03 − 0.01) / 0.2 beyond the edit on both sides, and no farther for a larger h_max.
-        assert!((side(0.03, Some(0.2)) - 0.22).abs() < 1e-6);
-        assert!((side(5.0, Some(0.2)) - 0.62).abs() < 1e-6, "no more than triangles can need");
+        // A square of a function on both sides, and (0.03 − 0.01) / 0.2 beyond the edit with gradation; no
+        // farther for a larger h_max than triangles need.
+        let longest = lattice.spacing() * 2f64.sqrt();
+        assert!((side(0.03, None) - 0.02).abs() < 1e-4);
+        assert!((side(0.03, Some(0.2)) - 0.22).abs() < 1e-4);
+        assert!((side(5.0, Some(0.2)) - (0.02 + 10.0 * (longest.min(0.07) - 0.01))).abs() < 1e-4);
     }
 }

@@ -30,7 +30,7 @@ pub struct InvalidLayer {
 /// Interval arithmetic proves most formulas valid with a few evaluations. Where it does not, the formula is
 /// evaluated at the centres of about 1024 × 1024 squares, so that a single bad point can be missed; there the
 /// layer asks for nothing.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct LayerCheck {
     /// What is left: the number of a layer among the visible ones, and cells.
     left: Vec<(usize, Cells)>,

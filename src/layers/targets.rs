@@ -115,14 +115,20 @@ impl SizeField {
 
     /// The least and the greatest h̄ of some cells before gradation, and where to divide them to know more.
     pub(super) fn diameters(&self, paint: &PaintLayers, cells: &Cells) -> ([f64; 2], Option<Cut>) {
-        let ([least, greatest], cut) = self.asked_diameters(paint, cells);
-        let (mut low, mut high) = (self.limited(least), self.limited(greatest));
+        let (asked, cut) = self.asked_diameters(paint, cells);
+        let [low, high] = self.limited_diameters(asked);
+        ([low, high], cut.filter(|_| low < high))
+    }
+
+    /// The least and the greatest h̄ before gradation, from the least and the greatest diameter asked for.
+    pub(super) fn limited_diameters(&self, [least, greatest]: [f64; 2]) -> [f64; 2] {
+        let (low, high) = (self.limited(least), self.limited(greatest));
         if greatest == f64::INFINITY && least < f64::INFINITY {
             // Somewhere perhaps nothing is asked for, and there h̄ may be less or more than what is asked.
             let unasked = self.spec().unasked;
-            (low, high) = (low.min(unasked), self.spec().transfer.h_max.max(unasked));
+            return [low.min(unasked), self.spec().transfer.h_max.max(unasked)];
         }
-        ([low, high], cut.filter(|_| low < high))
+        [low, high]
     }
 
     /// The least and the greatest diameter that the layers ask for in some cells, infinite where nothing is

@@ -30,9 +30,9 @@ pub use extract::{
     BoundaryEdge, Cell, Extract, MeshEdge, MeshPatch, MeshStatistics, MeshView, PatchPieces, PatchTriangle,
 };
 pub use kernel::{
-    BlockRefiner, Changes, CoarseError, Element, InvalidTarget, LevelsWithin, Limits, MOST_TRIANGLES,
-    MemoryLimit, Mesh, MeshCopy, Neighbour, NodeId, Orientation, ProgramAllocator, Progress, RefineError,
-    Refiner, RuleAnswers, SharedRule, TargetChange, TreeTriangle, Triangle, TriangleId, Updater,
+    BlockRefiner, ChangedArea, Changes, CoarseError, Element, Falloff, InvalidTarget, LevelsWithin, Limits,
+    MOST_TRIANGLES, MemoryLimit, Mesh, MeshCopy, Neighbour, NodeId, Orientation, ProgramAllocator, Progress,
+    RefineError, Refiner, RuleAnswers, SharedRule, TargetChange, TreeTriangle, Triangle, TriangleId, Updater,
     bisection_edge_length, level_for_diameter,
 };
 pub use query::{

@@ -17,7 +17,7 @@ pub enum Medium {
 }
 
 impl Medium {
-    /// What it does to h̄, if a layer of paint counts where it is the finest.
+    /// What it does to the diameters that pixels ask for. `h_max` is the largest, in world units.
     pub fn change(&self, h_max: f64) -> TargetChange {
         match *self {
             Self::Risk(aim) if aim >= 1.0 => TargetChange::Finer,

@@ -8,6 +8,6 @@ mod resolution;
 mod stroke;
 
 pub use brush::{Brush, DiameterChange, Medium, Mirror, PathPoint};
-pub use patch::Patch;
+pub use patch::{Patch, Repaint};
 pub use preview::{Preview, StrokePlan};
 pub use stroke::Stroke;

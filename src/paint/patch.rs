@@ -2,13 +2,22 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use crate::geometry::Rect;
-use crate::raster::{Tile, TilePlace, TiledRaster, ValueRanges};
+use crate::raster::{Tile, TilePlace, TiledRaster, ValueRange, ValueRanges};
 
 /// What was before a stroke at each place that it changed: enough to undo the stroke and to redo it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Patch {
     /// `None` where there was no tile.
     tiles: BTreeMap<TilePlace, Option<Arc<Tile>>>,
+}
+
+/// A part of a painted raster that changed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Repaint {
+    /// Where values may have changed, in world units.
+    pub area: Rect,
+    /// The range of the values before, there and perhaps around it.
+    pub before: ValueRange,
 }
 
 impl Patch {
@@ -25,9 +34,9 @@ impl Patch {
     /// Exchanges the kept tiles with those of the raster: the first call undoes the stroke, the second redoes
     /// it.
     ///
-    /// Returns the rectangles in which values may have changed, in world units, at most one for each tile: a
-    /// long stroke touches far less than its bounding rectangle.
-    pub fn exchange(&mut self, raster: &mut TiledRaster) -> Vec<Rect> {
+    /// Returns where values may have changed, at most one rectangle for each tile: a long stroke touches far
+    /// less than its bounding rectangle.
+    pub fn exchange(&mut self, raster: &mut TiledRaster) -> Vec<Repaint> {
         let (new, gone): (Vec<_>, Vec<_>) = self.tiles.iter_mut().partition(|(_, tile)| tile.is_some());
         let mut changed = Vec::new();
         // Parents appear before their children, and disappear after them.
@@ -36,8 +45,12 @@ impl Patch {
             // Where there is no tile, the parent counts; where the parent changes, it has its own rectangle.
             let values =
                 |tile: &Option<Arc<Tile>>| tile.clone().unwrap_or_else(|| Arc::new(raster.inherited(place)));
-            let difference = values(&kept).difference(&values(&present));
-            changed.extend(difference.map(|pixels| place.area_of_pixels(pixels, raster.grid())));
+            let before = values(&present);
+            let difference = values(&kept).difference(&before);
+            changed.extend(difference.map(|pixels| Repaint {
+                area: place.area_of_pixels(pixels, raster.grid()),
+                before: range_of(&before),
+            }));
             *tile = raster.exchange(place, kept);
         }
         changed
@@ -57,4 +70,13 @@ impl Patch {
     pub fn bytes(&self) -> usize {
         self.tiles.values().flatten().count() * size_of::<Tile>()
     }
+}
+
+/// The range of the values of a tile.
+pub(super) fn range_of(tile: &Tile) -> ValueRange {
+    tile.values()
+        .iter()
+        .map(|&value| ValueRange::one(value))
+        .reduce(ValueRange::union)
+        .unwrap_or(ValueRange::one(0.0))
 }

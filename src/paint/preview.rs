@@ -1,6 +1,6 @@
 use glam::DVec2;
 
-use super::{Brush, Mirror, Stroke};
+use super::{Brush, Mirror, Repaint, Stroke};
 use crate::geometry::Rect;
 use crate::raster::TiledRaster;
 
@@ -34,7 +34,7 @@ impl StrokePlan {
 pub struct Preview {
     stroke: Stroke,
     raster: TiledRaster,
-    areas: Vec<Rect>,
+    changed: Vec<Repaint>,
 }
 
 impl Preview {
@@ -43,19 +43,19 @@ impl Preview {
     pub fn new(plan: &StrokePlan, h_max: f64, bounds: Rect, raster: &TiledRaster) -> Self {
         let mut stroke = Stroke::new(plan.brush, h_max, bounds).mirrored(plan.mirror);
         [plan.from, plan.to].into_iter().for_each(|end| stroke.extend(raster, end));
-        Self { stroke, raster: raster.clone(), areas: Vec::new() }
+        Self { stroke, raster: raster.clone(), changed: Vec::new() }
     }
 
     /// Paints about `pixels` more. Returns whether all is painted.
     pub fn advance(&mut self, pixels: usize) -> bool {
-        self.areas.extend(self.stroke.advance(&mut self.raster, pixels));
+        self.changed.extend(self.stroke.advance(&mut self.raster, pixels));
         self.stroke.is_drawn()
     }
 
-    /// The raster after the stroke, and the rectangles in which it differs, in world units.
-    pub fn finish(mut self) -> (TiledRaster, Vec<Rect>) {
+    /// The raster after the stroke, and where it differs.
+    pub fn finish(mut self) -> (TiledRaster, Vec<Repaint>) {
         while !self.advance(usize::MAX) {}
         self.stroke.finish(&mut self.raster);
-        (self.raster, self.areas)
+        (self.raster, self.changed)
     }
 }

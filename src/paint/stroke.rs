@@ -3,11 +3,11 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use super::Patch;
+use super::patch::range_of;
 use super::resolution::Segment;
-use super::{Brush, Mirror, PathPoint};
+use super::{Brush, Mirror, Patch, PathPoint, Repaint};
 use crate::geometry::Rect;
-use crate::raster::{TILE, Tile, TilePlace, TiledRaster, ValueRanges, power_of_two};
+use crate::raster::{TILE, Tile, TilePlace, TiledRaster, ValueRange, ValueRanges, power_of_two};
 
 /// One gesture with a brush, from press to release.
 ///
@@ -89,9 +89,9 @@ impl Stroke {
         }
     }
 
-    /// Draws about `pixels` of the next segment, whole tiles of it. Returns the rectangle in which pixels may
-    /// have changed, in world units; `None` if nothing was left to draw.
-    pub fn advance(&mut self, raster: &mut TiledRaster, pixels: usize) -> Option<Rect> {
+    /// Draws about `pixels` of the next segment, whole tiles of it. Returns where pixels may have changed, with
+    /// their values before the stroke; `None` if nothing was left to draw.
+    pub fn advance(&mut self, raster: &mut TiledRaster, pixels: usize) -> Option<Repaint> {
         let mut changed: Option<Rect> = None;
         let mut tiles_left = pixels.div_ceil((TILE * TILE) as usize).max(1);
         while let Some(mut segment) = self.pending.pop_front() {
@@ -109,7 +109,15 @@ impl Stroke {
                 break;
             }
         }
-        changed
+        changed.map(|area| Repaint { area, before: self.values_before(raster, &area) })
+    }
+
+    /// The range of the values before the stroke on the tiles that it covers in a rectangle, in world units.
+    fn values_before(&self, raster: &TiledRaster, area: &Rect) -> ValueRange {
+        let meets = |place: &TilePlace| place.area(raster.grid()).intersection(area).is_some();
+        let covered = self.covered.iter().filter(|(place, _)| meets(place));
+        let ranges = covered.map(|(_, covered)| range_of(&covered.before));
+        ranges.fold(ValueRange::one(raster.blank()), ValueRange::union)
     }
 
     /// Draws a segment on a tile, and lists the tile's children to be drawn next. Returns the rectangle that

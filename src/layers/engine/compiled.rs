@@ -221,6 +221,11 @@ impl CompiledLayer {
         (diameters, mask_cut.or(cut))
     }
 
+    /// The diameters that the values of a range ask for.
+    pub fn diameters_of(&self, range: ValueRange) -> Diameters {
+        self.reading.diameters(range)
+    }
+
     /// The range of the values in some cells, `None` where the layer has none, and where to divide the cells
     /// to know more.
     fn range(

@@ -38,7 +38,7 @@ pub use memory::ProgramAllocator;
 pub use refine::Refiner;
 pub use tree::TreeTriangle;
 pub use triangle::{Orientation, Triangle};
-pub use update::{TargetChange, Updater};
+pub use update::{ChangedArea, Falloff, TargetChange, Updater};
 
 use coarse::CoarseIndex;
 

@@ -67,7 +67,7 @@ use super::{
     Bitset, Changes, Diameters, Element, InvalidTarget, Limits, Mesh, Progress, RefineError, Search,
     Triangle, TriangleId,
 };
-use crate::geometry::LatticeRect;
+use crate::geometry::{LatticePoint, LatticeRect};
 
 /// Brings a mesh up to date where its rule has changed, in slices.
 ///
@@ -152,13 +152,19 @@ impl Updater {
 
     /// As [`Self::add`], for a change in one direction: that takes about half the questions.
     pub fn add_change(&mut self, area: LatticeRect, change: TargetChange) {
-        self.areas.push(Area { rect: area, change, reports_all: false });
+        self.add_area(ChangedArea { rect: area, change, falloff: None });
+    }
+
+    /// As [`Self::add_change`], where it is known which triangles cannot be affected because of their size.
+    pub(crate) fn add_area(&mut self, area: ChangedArea) {
+        self.areas.push(Area { area, reports_all: false });
     }
 
     /// As [`Self::add`], where besides something has changed that is derived from each triangle alone: all
     /// that touch the rectangle count as changed ([`Self::take_changes`]).
     pub fn add_and_report(&mut self, area: LatticeRect) {
-        self.areas.push(Area { rect: area, change: TargetChange::Any, reports_all: true });
+        let area = ChangedArea { rect: area, change: TargetChange::Any, falloff: None };
+        self.areas.push(Area { area, reports_all: true });
     }
 
     /// Whether nothing is left to do.
@@ -262,18 +268,20 @@ impl Updater {
     ) -> Result<(), InvalidTarget> {
         let Some((search, area)) = &mut self.search else {
             if let Some(area) = self.areas.pop() {
-                self.search = Some((Search::new(mesh, area.rect), area));
+                self.search = Some((Search::new(mesh, area.area.rect), area));
             }
             return Ok(());
         };
+        let Area { area, reports_all } = area;
         if let Some(id) = search.found() {
-            if area.change != TargetChange::Coarser && exceeds(&mesh.element(id, diameters))? {
+            let [asks, loosens] = area.concerns(mesh, mesh.corners(id), mesh.triangle(id).level());
+            if asks && exceeds(&mesh.element(id, diameters))? {
                 self.exceeding.insert(id.index());
             }
-            if area.change != TargetChange::Finer {
+            if loosens {
                 self.loose.insert(id.index());
             }
-            if area.reports_all {
+            if *reports_all {
                 self.log.triangle(id);
                 self.log.step();
             }
@@ -378,8 +386,60 @@ pub enum TargetChange {
 /// A rectangle to be searched.
 #[derive(Clone, Copy, Debug)]
 struct Area {
-    rect: LatticeRect,
-    change: TargetChange,
+    area: ChangedArea,
     /// Whether all triangles that touch it count as changed.
     reports_all: bool,
+}
+
+/// A rectangle in which the target diameters of a rule have changed, and what is known of that.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ChangedArea {
+    /// Triangles that touch it can get another answer.
+    pub rect: LatticeRect,
+    /// What happened to the target diameters.
+    pub change: TargetChange,
+    /// How small the target diameters can be that changed; `None` where it is not known.
+    pub falloff: Option<Falloff>,
+}
+
+/// A least diameter that grows with the distance from the cause of a change: no smaller target diameter is
+/// other than before.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Falloff {
+    /// Where the change has its cause.
+    pub core: LatticeRect,
+    /// The least diameter there, in world units.
+    pub least: f64,
+    /// How much it grows by unit of length.
+    pub slope: f64,
+}
+
+impl ChangedArea {
+    /// Whether a triangle can have begun to exceed its target, and whether its parent can have ceased to.
+    #[inline]
+    pub fn concerns(&self, mesh: &Mesh, corners: [LatticePoint; 3], level: u32) -> [bool; 2] {
+        let least = self.falloff.map_or(0.0, |falloff| falloff.least_at(mesh, corners));
+        // The answer for a triangle changes only if a changed target diameter is smaller than the triangle's.
+        let exceeds = |level: u32| mesh.diameter(level) > least;
+        let asks = self.change != TargetChange::Coarser && exceeds(level);
+        // A triangle without a parent has no node that could go.
+        let loosens = self.change != TargetChange::Finer && level > 0 && exceeds(level - 1);
+        [asks, loosens]
+    }
+}
+
+impl Falloff {
+    /// The least diameter in a triangle, in world units.
+    #[inline]
+    fn least_at(&self, mesh: &Mesh, [a, b, c]: [LatticePoint; 3]) -> f64 {
+        let Self { core, least, slope } = self;
+        let gap =
+            |low: u32, high: u32, from: u32, to: u32| low.saturating_sub(to).max(from.saturating_sub(high));
+        let x = gap(core.min.x, core.max.x, a.x.min(b.x).min(c.x), a.x.max(b.x).max(c.x));
+        let y = gap(core.min.y, core.max.y, a.y.min(b.y).min(c.y), a.y.max(b.y).max(c.y));
+        let step = mesh.lattice().step();
+        let distance = (f64::from(x) * step.x).hypot(f64::from(y) * step.y);
+        // A little less, for rounding errors here and where the target diameters are computed.
+        (least + slope * distance) * (1.0 - 1e-9)
+    }
 }

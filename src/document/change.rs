@@ -1,0 +1,154 @@
+//! What other settings mean for a mesh. This is the one place that decides it; where a size field differs is
+//! decided by [`SizeFieldSpec::difference`](crate::layers::SizeFieldSpec::difference).
+
+use super::Settings;
+use crate::domain::Domain;
+use crate::field::RefinementRule;
+use crate::layers::{Circumstances, PaintLayers};
+
+/// What brings the mesh of some settings in step with others.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Change {
+    /// Nothing: the mesh is the same, if neither settings have a budget that it exceeds. What is derived from
+    /// it may differ.
+    Nothing,
+    /// It is updated where the outline of the domain or the size field differ.
+    Update {
+        /// Whether the outline differs.
+        outline: bool,
+        /// Whether the size field differs.
+        field: bool,
+    },
+    /// Another mesh is made.
+    NewMesh {
+        /// Whether it is one of the same domain by the same rule, as while a spacing is dragged.
+        is_similar: bool,
+    },
+}
+
+impl Settings {
+    /// What brings the mesh of earlier settings in step with these, if the painted pixels are the same.
+    ///
+    /// Both settings are taken apart completely, without `..`: a new setting does not compile until somebody
+    /// has decided what it changes.
+    pub(super) fn change_from(&self, old: &Self, paint: &PaintLayers) -> Change {
+        let Self {
+            // These say nothing about the mesh.
+            name: _,
+            unit: _,
+            background: _,
+            boundary_marks: _,
+            pins: _,
+            paths: _,
+            // This one decides what is derived from the mesh.
+            cleaning: _,
+            // What the mesh may cost is compared with what it costs.
+            max_triangles: _,
+            max_memory: _,
+            domain,
+            boundary,
+            spacing,
+            transfer,
+            layers,
+            gradation,
+            rule,
+        } = self;
+        let Self {
+            name: _,
+            unit: _,
+            background: _,
+            boundary_marks: _,
+            pins: _,
+            paths: _,
+            cleaning: _,
+            max_triangles: _,
+            max_memory: _,
+            domain: old_domain,
+            boundary: old_boundary,
+            spacing: old_spacing,
+            transfer: old_transfer,
+            layers: old_layers,
+            gradation: old_gradation,
+            rule: old_rule,
+        } = old;
+        // Only polygons are met in one way or another; nodes are moved onto them in the derived mesh.
+        let is_fitted_alike = boundary.diameter() == old_boundary.diameter()
+            || [domain, old_domain].iter().all(|domain| domain.region().is_none());
+        let outline = domain != old_domain;
+        let has_other_grid = spacing != old_spacing || rule != old_rule || !is_fitted_alike;
+        if has_other_grid || (outline && !self.can_follow_outline(old_domain)) {
+            return Change::NewMesh { is_similar: !outline && rule == old_rule };
+        }
+        let field = transfer != old_transfer
+            || layers != old_layers
+            || gradation != old_gradation
+            || (outline && layers.iter().any(|layer| layer.visible && layer.is_of_outline()));
+        match rule {
+            _ if !outline && !field => Change::Nothing,
+            RefinementRule::Area => Change::Update { outline, field },
+            // Coarsening would leave triangles behind. What does not matter to the mesh is taken over.
+            RefinementRule::Vertex if self.has_same_field(old, paint) => Change::Update { outline, field },
+            RefinementRule::Vertex => Change::NewMesh { is_similar: true },
+        }
+    }
+
+    /// Whether the mesh can follow from another domain to this one in place: only where it is fitted, so that
+    /// triangles outside stay in it, marked.
+    fn can_follow_outline(&self, old: &Domain) -> bool {
+        let Domain { bounds, shape: _ } = &self.domain;
+        let Domain { bounds: old_bounds, shape: _ } = old;
+        bounds == old_bounds
+            && [&self.domain, old].iter().all(|domain| domain.formula().is_none())
+            && self.boundary.diameter().is_some()
+            && self.rule == RefinementRule::Area
+    }
+
+    /// Whether the size field asks for the same everywhere.
+    fn has_same_field(&self, old: &Self, paint: &PaintLayers) -> bool {
+        let circumstances = Circumstances { paint, longest: f64::INFINITY, outline_areas: None };
+        self.field_spec().difference(&old.field_spec(), &circumstances).is_empty()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::document::Setting;
+    use crate::domain::BoundaryTreatment;
+    use crate::geometry::Rect;
+    use crate::layers::LayerKind;
+
+    fn change(rule: RefinementRule, edit: impl FnOnce(&mut Settings)) -> Change {
+        let old = Settings { rule, ..Settings::default() };
+        let mut new = old.clone();
+        edit(&mut new);
+        new.change_from(&old, PaintLayers::blank())
+    }
+
+    #[test]
+    fn names_and_budgets_leave_the_mesh_alone() {
+        for rule in [RefinementRule::Area, RefinementRule::Vertex] {
+            let same = change(rule, |new| {
+                new.name = "other".into();
+                new.max_triangles = 5;
+                new.boundary = BoundaryTreatment::Report;
+            });
+            assert_eq!(same, Change::Nothing);
+            let renamed = change(rule, |new| new.layers[0].name = "other".into());
+            assert_eq!(renamed, Change::Update { outline: false, field: true });
+        }
+    }
+
+    #[test]
+    fn another_grid_or_rule_needs_another_mesh() {
+        let area = RefinementRule::Area;
+        let spacing = change(area, |new| new.spacing *= 2.0);
+        assert_eq!(spacing, Change::NewMesh { is_similar: true });
+        let bounds =
+            |new: &mut Settings| Setting::Bounds(Rect::new(-glam::DVec2::ONE, glam::DVec2::ONE)).apply(new);
+        assert_eq!(change(area, bounds), Change::NewMesh { is_similar: false });
+        let base = |new: &mut Settings| new.layers[0].kind = LayerKind::constant(0.1);
+        assert_eq!(change(area, base), Change::Update { outline: false, field: true });
+        assert_eq!(change(RefinementRule::Vertex, base), Change::NewMesh { is_similar: true });
+    }
+}

@@ -1,0 +1,387 @@
+//! What an edit of a size field changes. This is the one place that decides it.
+//!
+//! h̄ before gradation is a function of what each layer asks for at the same point, and a monotone one: where a
+//! layer asks for a smaller diameter than before, h̄ does not grow. In a layer in which the finest counts, a
+//! request for nothing is an infinite diameter. For a floor and a replacement it is not, and a direction is
+//! claimed only where they ask in the same places as before. So an edit is taken apart into steps, each of
+//! which changes one layer or the limits:
+//!
+//! ```text
+//!   old stack ─▶ layers leave ─▶ others change places ─▶ layers change ─▶ layers join ─▶ limits ─▶ new stack
+//! ```
+//!
+//! Each step has an area, outside of which h̄ before gradation stays as it is, and a direction. Both
+//! specifications are taken apart completely, without `..`: a new field does not compile until somebody has
+//! decided what it changes.
+
+use super::extent::{Extent, ExtentContext};
+use super::{
+    Combine, DistanceTo, Layer, LayerId, LayerKind, PaintLayers, Quantity, SizeFieldSpec, Threat, Threats,
+};
+use crate::field::{Formula, Transfer};
+use crate::geometry::Rect;
+use crate::mesh::TargetChange::{self, Any, Coarser, Finer};
+
+/// One step from a specification of a size field to another.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SpecChange {
+    /// Where h̄ before gradation can differ.
+    pub area: Extent,
+    /// In which direction.
+    pub change: TargetChange,
+    /// The layer that changes, if it is one in which the finest counts: h̄ changes only where that is what it
+    /// asks for before or after.
+    pub layer: Option<LayerId>,
+}
+
+/// What both specifications of an edit have in common, and how their outlines differ.
+#[derive(Clone, Copy, Debug)]
+pub struct Circumstances<'a> {
+    /// The painted pixels.
+    pub paint: &'a PaintLayers,
+    /// The diameter of a coarse triangle in world units: nothing coarser than this matters to a mesh.
+    pub longest: f64,
+    /// Rectangles in world units that hold every edge that only one of the two outlines has, if they are
+    /// known.
+    pub outline_areas: Option<&'a [Rect]>,
+}
+
+impl SizeFieldSpec {
+    /// The steps from an earlier specification to this one; none where the mesh is the same.
+    pub fn difference(&self, old: &Self, circumstances: &Circumstances) -> Vec<SpecChange> {
+        let new = self;
+        let Self { layers, transfer, unasked, outline, gradation } = new;
+        let now = limits(transfer, *unasked, circumstances.longest);
+        let (layers_now, outline_now, slope_now) = (layers, outline, slope(*gradation));
+        let Self { layers, transfer, unasked, outline, gradation } = old;
+        let before = limits(transfer, *unasked, circumstances.longest);
+
+        let mut steps = Steps {
+            new: circumstances.context(new),
+            old: circumstances.context(old),
+            outline_areas: circumstances.outline_areas,
+            has_new_transfer: new.transfer != *transfer,
+            has_new_outline: outline_now != outline,
+            is_ordered: [new, old].iter().all(|spec| spec.is_ordered(circumstances.longest)),
+            changes: Vec::new(),
+        };
+        steps.add_layers(layers_now, layers);
+        steps.add_everywhere(direction(now.numbers(), before.numbers()));
+        steps.add_everywhere(direction([slope_now], [slope(*gradation)]));
+        steps.changes
+    }
+}
+
+impl SizeFieldSpec {
+    /// Whether h̄ is nowhere larger than where no layer asks for anything, as far as it matters to a mesh with
+    /// coarse triangles of the diameter `longest`, in world units. Otherwise a layer that asks for more can
+    /// let h̄ grow.
+    pub(super) fn is_ordered(&self, longest: f64) -> bool {
+        self.unasked >= self.transfer.h_max.min(longest)
+    }
+}
+
+impl<'a> Circumstances<'a> {
+    fn context(&self, spec: &'a SizeFieldSpec) -> ExtentContext<'a> {
+        ExtentContext { spec, paint: self.paint, longest: self.longest }
+    }
+}
+
+/// The limits of h̄, as far as they matter to a mesh, in world units.
+#[derive(Clone, Copy, Debug)]
+struct Limits {
+    h_min: f64,
+    h_max: f64,
+    unasked: f64,
+}
+
+fn limits(transfer: &Transfer, unasked: f64, longest: f64) -> Limits {
+    let Transfer { h_min, h_max, shape: _ } = *transfer;
+    Limits { h_min: h_min.min(longest), h_max: h_max.min(longest), unasked: unasked.min(h_max).min(longest) }
+}
+
+impl Limits {
+    fn numbers(self) -> [f64; 3] {
+        [self.h_min, self.h_max, self.unasked]
+    }
+}
+
+/// A limit of the slope as a number.
+fn slope(gradation: Option<f64>) -> f64 {
+    gradation.unwrap_or(f64::INFINITY)
+}
+
+/// The direction of a change of numbers with which h̄ grows; `None` where none differs.
+fn direction<const N: usize>(new: [f64; N], old: [f64; N]) -> Option<TargetChange> {
+    let all = |holds: fn(&f64, &f64) -> bool| new.iter().zip(&old).all(|(new, old)| holds(new, old));
+    if all(|new, old| new == old) {
+        None
+    } else if all(|new, old| new <= old) {
+        Some(Finer)
+    } else if all(|new, old| new >= old) {
+        Some(Coarser)
+    } else {
+        Some(Any)
+    }
+}
+
+/// What happens to h̄ where a layer ceases to ask for something.
+fn when_lost(combine: Combine) -> TargetChange {
+    match combine {
+        Combine::Finest => Coarser,
+        Combine::Floor => Finer,
+        Combine::Replace => Any,
+    }
+}
+
+/// What happens to h̄ where a layer begins to ask for something.
+fn when_gained(combine: Combine) -> TargetChange {
+    match combine {
+        Combine::Finest => Finer,
+        Combine::Floor => Coarser,
+        Combine::Replace => Any,
+    }
+}
+
+/// The steps of an edit, as far as they are known.
+struct Steps<'a> {
+    new: ExtentContext<'a>,
+    old: ExtentContext<'a>,
+    outline_areas: Option<&'a [Rect]>,
+    has_new_transfer: bool,
+    has_new_outline: bool,
+    /// See [`SizeFieldSpec::is_ordered`].
+    is_ordered: bool,
+    changes: Vec<SpecChange>,
+}
+
+impl Steps<'_> {
+    /// A change of a layer, of which `combine` says how it was and is combined with others.
+    fn add(&mut self, layer: &Layer, combine: Combine, area: Extent, change: TargetChange) {
+        if area != Extent::Within(Vec::new()) {
+            let is_plain = self.is_ordered && combine == Combine::Finest;
+            let change = if self.is_ordered { change } else { Any };
+            self.changes.push(SpecChange { area, change, layer: is_plain.then_some(layer.id) });
+        }
+    }
+
+    /// Limits have a direction in any case.
+    fn add_everywhere(&mut self, change: Option<TargetChange>) {
+        let change = change.map(|change| SpecChange { area: Extent::Everywhere, change, layer: None });
+        self.changes.extend(change);
+    }
+
+    /// A change wherever one of two states of a layer asks for something.
+    fn add_both(&mut self, new: &Layer, old: &Layer, change: TargetChange) {
+        let (before, after) = (old.extent(&self.old), new.extent(&self.new));
+        let combine = if new.combine == Combine::Finest { old.combine } else { new.combine };
+        if before != after {
+            self.add(old, combine, before, change);
+        }
+        self.add(new, combine, after, change);
+    }
+
+    fn add_layers(&mut self, new: &[Layer], old: &[Layer]) {
+        let visible = |layers: &[Layer], of: &Layer| {
+            of.visible && layers.iter().any(|layer| layer.id == of.id && layer.visible)
+        };
+        for layer in old.iter().filter(|layer| layer.visible && !visible(new, layer)) {
+            self.add(layer, layer.combine, layer.extent(&self.old), when_lost(layer.combine));
+        }
+        let stayed: Vec<&Layer> = old.iter().filter(|layer| visible(new, layer)).collect();
+        let kept: Vec<&Layer> = new.iter().filter(|layer| visible(old, layer)).collect();
+        self.add_new_order(&kept, &stayed);
+        for layer in kept {
+            if let Some(before) = stayed.iter().find(|before| before.id == layer.id) {
+                self.add_layer(layer, before);
+            }
+        }
+        for layer in new.iter().filter(|layer| layer.visible && !visible(old, layer)) {
+            self.add(layer, layer.combine, layer.extent(&self.new), when_gained(layer.combine));
+        }
+    }
+
+    /// The same layers in another order. Where only the finest counts, order does not matter.
+    fn add_new_order(&mut self, new: &[&Layer], old: &[&Layer]) {
+        let is_same = |(new, old): &(&&Layer, &&Layer)| new.id == old.id;
+        let first = new.iter().zip(old).take_while(is_same).count();
+        let last = new[first..].iter().rev().zip(old[first..].iter().rev()).take_while(is_same).count();
+        let moved = &old[first..old.len() - last];
+        if moved.iter().any(|layer| layer.combine != Combine::Finest) {
+            for layer in moved {
+                // Its request can now count for more or for less, whatever it is.
+                self.add(layer, Combine::Replace, layer.extent(&self.old), Any);
+            }
+        }
+    }
+
+    /// Two states of a layer that is visible in both.
+    fn add_layer(&mut self, new: &Layer, old: &Layer) {
+        let Layer { id: _, name: _, visible: _, locked: _, combine, mask, kind } = new;
+        let Layer {
+            id: _,
+            name: _,
+            visible: _,
+            locked: _,
+            combine: old_combine,
+            mask: old_mask,
+            kind: old_kind,
+        } = old;
+        if combine != old_combine {
+            return self.add_both(new, old, Any);
+        }
+        let has_new_values = kind != old_kind
+            || (self.has_new_transfer && new.is_of_risk())
+            || (self.has_new_outline && new.is_of_outline());
+        match (mask, old_mask) {
+            _ if mask == old_mask => {}
+            (Some(_), None) if !has_new_values => {
+                self.add(old, *combine, old.extent(&self.old), when_lost(*combine))
+            }
+            (None, Some(_)) if !has_new_values => {
+                self.add(new, *combine, new.extent(&self.new), when_gained(*combine))
+            }
+            _ => return self.add_both(new, old, Any),
+        }
+        if has_new_values {
+            self.add_values(new, old);
+        }
+    }
+
+    /// Two states of a layer with the same mask and combination, but other values.
+    fn add_values(&mut self, new: &Layer, old: &Layer) {
+        if self.has_new_transfer && (new.is_of_risk() || old.is_of_risk()) {
+            return self.add_both(new, old, Any);
+        }
+        let change = match (&new.kind, &old.kind) {
+            (LayerKind::Threats(threats), LayerKind::Threats(before)) => {
+                return self.add_threats(new, threats, before);
+            }
+            _ if self.has_new_outline && (new.is_of_outline() || old.is_of_outline()) => {
+                return self.add_distance_to_outline(new, old);
+            }
+            (new_kind, old_kind) => values_change(new_kind, old_kind, new.combine),
+        };
+        if let Some(change) = change {
+            self.add_both(new, old, change);
+        }
+    }
+
+    /// Other threats of a layer. A threat that is replaced leaves, and the other one joins.
+    fn add_threats(&mut self, layer: &Layer, new: &Threats, old: &Threats) {
+        let is_finest = layer.combine == Combine::Finest;
+        let [mut finer, mut coarser] = [Vec::new(), Vec::new()];
+        for (before, after) in changed_threats(new.list(), old.list()) {
+            let [gains, loses] = match (before, after) {
+                (Some(before), Some(after)) => {
+                    let differs_in_peak = Threat { peak: before.peak, ..*after } == *before;
+                    [
+                        !differs_in_peak || after.peak > before.peak,
+                        !differs_in_peak || after.peak < before.peak,
+                    ]
+                }
+                (before, after) => [after.is_some(), before.is_some()],
+            };
+            let reach =
+                |threat: Option<&Threat>| threat.filter(|threat| threat.peak > 0.0).map(Threat::reach);
+            finer.extend(reach(after).filter(|_| gains));
+            coarser.extend(reach(before).filter(|_| loses));
+        }
+        for (rects, change) in [(finer, Finer), (coarser, Coarser)] {
+            let area = Extent::of(rects).within_mask(layer.mask.as_ref());
+            self.add(layer, layer.combine, area, if is_finest { change } else { Any });
+        }
+    }
+
+    /// A layer of the distance to the outline, where the outline differs, and perhaps the layer besides.
+    ///
+    /// Where a distance differs, the nearest edge before or after is one that the other outline does not
+    /// have.
+    fn add_distance_to_outline(&mut self, new: &Layer, old: &Layer) {
+        let farthest = |layer: &Layer, context: &ExtentContext| match &layer.kind {
+            LayerKind::Distance { to: DistanceTo::Outline, at_zero, slope, range } => {
+                range.min(layer.range_below_ceiling(*at_zero, *slope, context))
+            }
+            _ => f64::INFINITY,
+        };
+        let reach = farthest(new, &self.new).max(farthest(old, &self.old));
+        let both_have_outlines = [self.new, self.old].iter().all(|context| context.spec.outline.is_some());
+        match self.outline_areas {
+            Some(edges) if new.kind == old.kind && both_have_outlines && reach.is_finite() => {
+                let area = Extent::of(edges.iter().map(|edge| edge.expanded(reach.max(0.0))));
+                self.add(new, new.combine, area.within_mask(new.mask.as_ref()), Any);
+            }
+            _ => self.add_both(new, old, Any),
+        }
+    }
+}
+
+/// The threats of two lists that differ: those before and after, at the same place of the list.
+fn changed_threats<'a>(
+    new: &'a [Threat],
+    old: &'a [Threat],
+) -> Vec<(Option<&'a Threat>, Option<&'a Threat>)> {
+    if new.len() == old.len() {
+        let pairs = old.iter().zip(new).filter(|(before, after)| before != after);
+        return pairs.map(|(before, after)| (Some(before), Some(after))).collect();
+    }
+    // Some left or joined: what is equal at the beginning and at the end of both lists does not count.
+    let first = new.iter().zip(old).take_while(|(a, b)| a == b).count();
+    let (new, old) = (&new[first..], &old[first..]);
+    let last = new.iter().rev().zip(old.iter().rev()).take_while(|(a, b)| a == b).count();
+    let left = old[..old.len() - last].iter().map(|before| (Some(before), None));
+    left.chain(new[..new.len() - last].iter().map(|after| (None, Some(after)))).collect()
+}
+
+/// The direction of a change of the values of a layer, `None` where they are equal. The transfer curve, the
+/// outline, threats and paint are not looked at here.
+fn values_change(new: &LayerKind, old: &LayerKind, combine: Combine) -> Option<TargetChange> {
+    if new == old {
+        return None;
+    }
+    match new {
+        LayerKind::Paint(_) | LayerKind::Threats(_) => Some(Any),
+        LayerKind::Formula { quantity, formula } => match old {
+            LayerKind::Formula { quantity: old_quantity, formula: old_formula }
+                if quantity == old_quantity =>
+            {
+                Some(formula_change(*quantity, [formula, old_formula], combine))
+            }
+            _ => Some(Any),
+        },
+        LayerKind::Raster { source: _, reading: _ } => Some(Any),
+        LayerKind::Distance { to, at_zero, slope, range } => match old {
+            LayerKind::Distance { to: old_to, at_zero: old_at_zero, slope: old_slope, range: old_range }
+                if to == old_to && (range == old_range || combine == Combine::Finest) =>
+            {
+                // Beyond the range the diameter is infinite.
+                let is_increasing =
+                    *at_zero > 0.0 && *old_at_zero > 0.0 && *slope >= 0.0 && *old_slope >= 0.0;
+                direction([*at_zero, *slope, -range], [*old_at_zero, *old_slope, -old_range])
+                    .map(|change| if is_increasing { change } else { Any })
+            }
+            _ => Some(Any),
+        },
+        LayerKind::Band { source, between, diameter } => match old {
+            LayerKind::Band { source: old_source, between: old_between, diameter: old_diameter }
+                if source == old_source && between == old_between =>
+            {
+                let are_lengths = [diameter, old_diameter].iter().all(|d| **d > 0.0 && d.is_finite());
+                direction([*diameter], [*old_diameter]).map(|change| if are_lengths { change } else { Any })
+            }
+            _ => Some(Any),
+        },
+    }
+}
+
+/// The direction of a change of a formula: known where both are constant.
+fn formula_change(quantity: Quantity, [new, old]: [&Formula; 2], combine: Combine) -> TargetChange {
+    let (Quantity::Diameter, Some(new), Some(old)) = (quantity, new.constant(), old.constant()) else {
+        return Any;
+    };
+    let ask_alike = combine == Combine::Finest || (new.is_finite() && old.is_finite());
+    match direction([new], [old]) {
+        Some(change) if ask_alike && new > 0.0 && old > 0.0 => change,
+        _ => Any,
+    }
+}

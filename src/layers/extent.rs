@@ -1,0 +1,152 @@
+//! Where a layer can ask for something.
+
+use super::{
+    Combine, DistanceTo, Layer, LayerKind, Mask, PaintLayers, Quantity, RasterReading, SizeFieldSpec, Threats,
+};
+use crate::geometry::{Rect, z_order};
+use crate::raster::ValueRanges;
+
+/// A part of the plane, in world units.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Extent {
+    /// All of it.
+    Everywhere,
+    /// These closed rectangles, which may overlap; the list may be empty.
+    Within(Vec<Rect>),
+}
+
+/// What decides the extent of a layer, besides the layer.
+#[derive(Clone, Copy, Debug)]
+pub struct ExtentContext<'a> {
+    /// The size field that the layer belongs to.
+    pub spec: &'a SizeFieldSpec,
+    /// The painted pixels.
+    pub paint: &'a PaintLayers,
+    /// The diameter of a coarse triangle in world units: nothing coarser than this matters to a mesh.
+    pub longest: f64,
+}
+
+/// Most rectangles of an extent; more are joined, those that are near to each other first.
+const MOST_RECTS: usize = 64;
+
+impl Extent {
+    /// A part of the plane with these rectangles, of which many are joined.
+    pub fn of(rects: impl IntoIterator<Item = Rect>) -> Self {
+        Self::Within(joined(rects.into_iter().collect(), MOST_RECTS))
+    }
+
+    /// The rectangles of the part of the plane in `bounds`, of which some are joined if there are more than
+    /// `most`.
+    pub fn rects_within(self, bounds: Rect, most: usize) -> Vec<Rect> {
+        match self {
+            Self::Everywhere => vec![bounds],
+            Self::Within(rects) => joined(rects, most),
+        }
+    }
+
+    /// The part that lies in the bounds of a mask, if there is one.
+    pub fn within_mask(self, mask: Option<&Mask>) -> Self {
+        let Some(mask) = mask else { return self };
+        match self {
+            Self::Everywhere => Self::Within(vec![mask.bounds()]),
+            Self::Within(rects) => {
+                let bounds = mask.bounds();
+                Self::Within(rects.iter().filter_map(|rect| rect.intersection(&bounds)).collect())
+            }
+        }
+    }
+}
+
+/// At most so many rectangles: near ones are joined.
+fn joined(mut rects: Vec<Rect>, most: usize) -> Vec<Rect> {
+    let bounds = rects.iter().copied().reduce(|a, b| a.union(&b));
+    let Some(bounds) = bounds.filter(|_| rects.len() > most) else { return rects };
+    rects.sort_by_key(|rect| z_order(rect.center(), &bounds));
+    let groups = rects.chunks(rects.len().div_ceil(most));
+    groups.filter_map(|group| group.iter().copied().reduce(|a, b| a.union(&b))).collect()
+}
+
+impl ExtentContext<'_> {
+    /// A diameter from which on it makes no difference to the mesh what a layer in which the finest counts
+    /// asks for, in world units. Infinite where no such layer may be left out.
+    fn ceiling(&self) -> f64 {
+        let ceiling = self.spec.transfer.h_max.min(self.longest);
+        if self.spec.unasked >= ceiling { ceiling } else { f64::INFINITY }
+    }
+}
+
+impl Layer {
+    /// Whether its values are risks, so that the transfer curve matters.
+    pub(super) fn is_of_risk(&self) -> bool {
+        match &self.kind {
+            LayerKind::Paint(quantity) | LayerKind::Formula { quantity, formula: _ } => {
+                *quantity == Quantity::Risk
+            }
+            LayerKind::Raster { reading, source: _ } => *reading == RasterReading::Risk,
+            LayerKind::Threats(_) => true,
+            LayerKind::Distance { .. } | LayerKind::Band { .. } => false,
+        }
+    }
+
+    /// Whether it asks for the distance to the boundary of the domain.
+    pub fn is_of_outline(&self) -> bool {
+        matches!(self.kind, LayerKind::Distance { to: DistanceTo::Outline, .. })
+    }
+
+    /// Where the layer, if it is visible, can ask for something that matters to the mesh.
+    pub(super) fn extent(&self, context: &ExtentContext) -> Extent {
+        self.extent_of_kind(context).within_mask(self.mask.as_ref())
+    }
+
+    fn extent_of_kind(&self, context: &ExtentContext) -> Extent {
+        match &self.kind {
+            LayerKind::Paint(_) => {
+                let raster = context.paint.get(self.id);
+                let tiles = raster
+                    .into_iter()
+                    .flat_map(|raster| raster.tiles().map(|(place, _)| place.area(raster.grid())));
+                Extent::of(tiles)
+            }
+            LayerKind::Formula { quantity, formula } => match (quantity, formula.constant()) {
+                (Quantity::Diameter, Some(f64::INFINITY)) => Extent::Within(Vec::new()),
+                _ => Extent::Everywhere,
+            },
+            LayerKind::Raster { source, reading: _ }
+            | LayerKind::Band { source, between: _, diameter: _ } => {
+                Extent::of([source.raster.raster().bounds()])
+            }
+            LayerKind::Threats(threats) => Extent::of(threats.reaches()),
+            LayerKind::Distance { to, at_zero, slope, range } => {
+                let farthest = range.min(self.range_below_ceiling(*at_zero, *slope, context));
+                let shapes =
+                    if *to == DistanceTo::Outline { context.spec.outline.as_ref() } else { to.shapes() };
+                match shapes {
+                    None => Extent::Within(Vec::new()),
+                    Some(_) if farthest < 0.0 => Extent::Within(Vec::new()),
+                    Some(shapes) if farthest.is_finite() => {
+                        Extent::of([shapes.extent().expanded(to.reach() + farthest)])
+                    }
+                    Some(_) => Extent::Everywhere,
+                }
+            }
+        }
+    }
+
+    /// The distance from which on the layer asks for too large a diameter to matter, in world units: below
+    /// zero where it never matters, infinite where it always can.
+    pub(super) fn range_below_ceiling(&self, at_zero: f64, slope: f64, context: &ExtentContext) -> f64 {
+        let ceiling = context.ceiling();
+        if self.combine != Combine::Finest || ceiling == f64::INFINITY || !(slope > 0.0) {
+            return f64::INFINITY;
+        }
+        // A little more, because the value at a distance is rounded.
+        (ceiling * (1.0 + 1e-9) - at_zero) / slope
+    }
+}
+
+impl Threats {
+    /// The rectangles beyond which there is no risk, in world units.
+    fn reaches(&self) -> impl Iterator<Item = Rect> {
+        self.list().iter().filter(|threat| threat.peak > 0.0).map(super::Threat::reach)
+    }
+}
