@@ -1,6 +1,8 @@
-//! The only geometric predicates of the program, rectangles and an index of them, and the map between the
-//! world and the integer lattice on which every node of a mesh lies.
+//! The only geometric predicates of the program, rectangles and an index of them, the order of a search through
+//! the parts of a region, and the map between the world and the integer lattice on which every node of a mesh
+//! lies.
 
+mod best_first;
 mod box_tree;
 mod lattice;
 mod lattice_rect;
@@ -10,6 +12,7 @@ mod rect;
 mod segment;
 mod z_order;
 
+pub use best_first::BestFirst;
 pub use box_tree::{BoxGroup, BoxTree};
 pub use lattice::{GridError, LATTICE_BITS, Lattice, LatticePoint};
 pub use lattice_rect::LatticeRect;

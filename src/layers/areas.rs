@@ -1,9 +1,6 @@
 //! Where the mesh must be looked at again after an edit, on the lattice.
 
-use glam::DVec2;
-
 use super::difference::Circumstances;
-use super::engine::analytic::square_bits;
 use super::engine::cells::Cells;
 use super::reach::Reach;
 use super::{Combine, LayerId, PaintLayers, SizeField};
@@ -134,12 +131,11 @@ impl SizeField {
 
     /// The cells that are told what is at some point of a rectangle in world units.
     ///
-    /// A function counts in a whole square of cells with its value at the centre, and lines between pixels are
-    /// moved to lattice lines.
+    /// A function counts in a whole cell with its value at the centre, and lines between pixels are moved to
+    /// lattice lines.
     fn core(&self, area: &Rect) -> Option<Cells> {
         let lattice = self.lattice();
-        let square = lattice.step() * DVec2::splat((1u32 << square_bits(lattice)).into());
-        let around = Rect::new(area.min - square, area.max + square);
+        let around = Rect::new(area.min - lattice.step(), area.max + lattice.step());
         Some(Cells::of(&lattice.rect_around(&around)?))
     }
 }
@@ -196,7 +192,7 @@ mod tests {
             let most = areas.iter().map(|area| area.rect.max.x).max();
             f64::from(most.unwrap() - least.unwrap()) * lattice.step().x
         };
-        // A square of a function on both sides, and (0.03 − 0.01) / 0.2 beyond the edit with gradation; no
+        // A cell on both sides, and (0.03 − 0.01) / 0.2 beyond the edit with gradation; no
         // farther for a larger h_max than triangles need.
         let longest = lattice.spacing() * 2f64.sqrt();
         assert!((side(0.03, None) - 0.02).abs() < 1e-4);

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::engine::analytic::{Analytic, center, cut_between_squares};
+use super::engine::analytic::Analytic;
 use super::engine::cells::Cells;
 use super::{Layer, SizeField};
 use crate::geometry::Lattice;
@@ -94,13 +94,14 @@ enum Checked {
 fn checked(analytic: &Analytic, cells: &Cells, lattice: &Lattice) -> Checked {
     let extent = lattice.extent();
     let bits = extent.x.max(extent.y).next_power_of_two().ilog2().saturating_sub(FINEST_LOG);
-    if analytic.is_valid_within(&cells.rounded_out(bits).world_rect(lattice)) {
+    if analytic.is_valid_within(&cells.world_rect(lattice)) {
         return Checked::Valid;
     }
-    match cut_between_squares(cells, bits) {
+    let is_large = (0..2).any(|axis| cells.max[axis] - cells.min[axis] > 1 << bits);
+    match cells.middle().filter(|_| is_large) {
         Some(cut) => Checked::Divided(cells.divided(cut)),
         None => {
-            let at = center(cells, lattice, bits);
+            let at = cells.center(lattice);
             let value = analytic.raw(at);
             if analytic.is_valid(value) { Checked::Valid } else { Checked::Invalid { at, value } }
         }

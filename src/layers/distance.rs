@@ -144,6 +144,16 @@ impl Shapes {
         self.0.tree.nearest(p, squared).map_or(f64::INFINITY, |(_, squared)| squared.sqrt())
     }
 
+    /// The point of the shapes that is nearest to a point, both in world units.
+    pub fn nearest(&self, p: DVec2) -> DVec2 {
+        if self.0.filled.as_ref().is_some_and(|mask| mask.contains(p)) {
+            return p;
+        }
+        let on = |number: u32| nearest_on_segment(p, self.0.segments[number as usize]);
+        let found = self.0.tree.nearest(p, |number| p.distance_squared(on(number)));
+        found.map_or(p, |(number, _)| on(number))
+    }
+
     /// Bounds of the distance over a closed rectangle in world units.
     ///
     /// The distance changes at most as much as the point moves: from the centre by half a diagonal.

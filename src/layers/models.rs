@@ -84,7 +84,7 @@ thread_local! {
     pub(super) static MADE: std::cell::Cell<usize> = const { std::cell::Cell::new(0) };
 }
 
-/// Bounds of a function at the centres of the squares of `1 << bits` cells in a rectangle of such squares.
+/// Bounds of a function at the centres of the cells in a rectangle.
 ///
 /// ```text
 ///   +---------------+     Models of squares around the rectangle are tried from the widest down, until one is
@@ -101,13 +101,11 @@ pub fn bounds(
     function: ModelId,
     cells: &Cells,
     lattice: &Lattice,
-    bits: u32,
     model: impl Fn(&Place) -> Quadratic,
     bounds: impl FnOnce() -> Bounds,
 ) -> Bounds {
-    let inset = 0.5 * (1i64 << bits) as f64;
     let middle = [0, 1].map(|axis: usize| 0.5 * (cells.min[axis] + cells.max[axis]) as f64);
-    let half = [0, 1].map(|axis: usize| 0.5 * (cells.max[axis] - cells.min[axis]) as f64 - inset);
+    let half = [0, 1].map(|axis: usize| 0.5 * (cells.max[axis] - cells.min[axis]) as f64 - 0.5);
     let side = (2.0 * half[0].max(half[1])).max(1.0) as u64;
     let extent = lattice.extent();
     let whole = extent.x.max(extent.y).next_power_of_two().ilog2();

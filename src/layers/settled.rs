@@ -1,7 +1,8 @@
 //! Answers of the area rule for whole squares of triangles.
 
-use super::engine::LEVELS;
 use super::engine::cells::Cells;
+use super::engine::gradation::graded_bounds;
+use super::engine::{KnownSquares, LEVELS};
 use super::{PaintLayers, SizeField};
 use crate::field::Transfer;
 use crate::geometry::{Lattice, LatticePoint};
@@ -26,6 +27,8 @@ use crate::mesh::LevelsWithin;
 pub struct SettledSquares {
     /// At the place that a hash of the key says; another square there is forgotten.
     squares: Vec<Square>,
+    /// For gradation.
+    known: KnownSquares,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -45,7 +48,7 @@ const WIDER_BITS: u32 = 4;
 impl Default for SettledSquares {
     fn default() -> Self {
         let empty = Square { key: u64::MAX, levels: LevelsWithin::UNKNOWN };
-        Self { squares: vec![empty; 1 << KEPT_BITS] }
+        Self { squares: vec![empty; 1 << KEPT_BITS], known: KnownSquares::default() }
     }
 }
 
@@ -65,7 +68,7 @@ impl SizeField {
             let levels = self.settled(squares, paint, corners, level, wider);
             levels.exceeds(level)
         });
-        settled.unwrap_or_else(|| self.asks_for_more(paint, corners, level))
+        settled.unwrap_or_else(|| self.asks_with(&mut squares.known, paint, corners, level))
     }
 
     /// What the area rule says of a triangle and of all triangles within. `squares` must have been used for
@@ -79,7 +82,7 @@ impl SizeField {
         level: u32,
     ) -> LevelsWithin {
         let settled = self.settled(squares, paint, corners, level, 0);
-        settled.decided_at(level, || self.asks_for_more(paint, corners, level))
+        settled.decided_at(level, || self.asks_with(&mut squares.known, paint, corners, level))
     }
 
     /// What is known of all triangles in the square around one of this level, or in one that is 2^wider times
@@ -102,16 +105,23 @@ impl SizeField {
         let [x, y] = [a.x.min(b.x).min(c.x) >> bits, a.y.min(b.y).min(c.y) >> bits];
         let key = u64::from(bits) << 58 | u64::from(x) << 29 | u64::from(y);
         let place = key.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> (64 - KEPT_BITS);
-        let square = &mut squares.squares[place as usize];
+        let SettledSquares { squares, known } = squares;
+        let square = &mut squares[place as usize];
         if square.key != key {
-            *square = Square { key, levels: self.levels_in_square(paint, bits, [x, y]) };
+            *square = Square { key, levels: self.levels_in_square(known, paint, bits, [x, y]) };
         }
         square.levels
     }
 
     /// What is known of all triangles in a dyadic square of 2^bits steps.
     #[cold]
-    fn levels_in_square(&self, paint: &PaintLayers, bits: u32, [x, y]: [u32; 2]) -> LevelsWithin {
+    fn levels_in_square(
+        &self,
+        known: &mut KnownSquares,
+        paint: &PaintLayers,
+        bits: u32,
+        [x, y]: [u32; 2],
+    ) -> LevelsWithin {
         let extent = self.lattice().extent();
         let (min, limit) =
             ([i64::from(x) << bits, i64::from(y) << bits], [extent.x, extent.y].map(i64::from));
@@ -122,10 +132,17 @@ impl SizeField {
         };
         let ([least, greatest], _) = self.asked_diameters(paint, &cells);
         let Transfer { h_min, h_max, .. } = self.spec().transfer;
-        // What is near can ask for more by gradation.
-        let least = if self.spec().gradation.is_some() { h_min } else { least.clamp(h_min, h_max) };
+        let [least, greatest] = [least, greatest].map(|diameter| diameter.clamp(h_min, h_max));
+        let [least, greatest] = match self.spec().gradation {
+            None => [least, greatest],
+            Some(slope) => {
+                let is_level =
+                    |[low, high]: [f64; 2]| self.first_level_within(low) == self.first_level_within(high);
+                graded_bounds(self, paint, known, &cells, slope, [least, greatest], is_level)
+            }
+        };
         LevelsWithin {
-            exceed_below: self.first_level_within(greatest.clamp(h_min, h_max)),
+            exceed_below: self.first_level_within(greatest),
             satisfied_from: self.first_level_within(least),
         }
     }

@@ -1,9 +1,8 @@
-use super::engine::analytic::squares_along;
 use super::engine::asked::Share;
 use super::engine::cells::{Cells, Cut};
 use super::engine::reading::{Answer, lengths};
 use super::engine::search::any_cell;
-use super::engine::{CompiledLayer, LEVELS, gradation};
+use super::engine::{CompiledLayer, KnownSquares, LEVELS, gradation};
 use super::{Combine, Layer, PaintLayers, Shapes, settled};
 use crate::field::Transfer;
 use crate::geometry::{Lattice, LatticePoint, Octagon};
@@ -52,10 +51,14 @@ impl SizeField {
     /// The field of a spec on a lattice.
     pub fn new(spec: SizeFieldSpec, lattice: &Lattice) -> Self {
         let visible = spec.layers.iter().filter(|layer| layer.visible);
-        let layers: Vec<_> = visible
+        let mut layers: Vec<_> = visible
             .map(|layer| CompiledLayer::new(layer, &spec.transfer, lattice, spec.outline.as_ref()))
             .collect();
         let is_minimum = layers.iter().all(CompiledLayer::is_plain);
+        if let (Some(gradation), true) = (spec.gradation, is_minimum) {
+            let most = spec.unasked.min(spec.transfer.h_max);
+            layers.iter_mut().for_each(|layer| layer.grade(gradation, spec.transfer.h_min, most, lattice));
+        }
         let (lengths, square_bits) = (lengths(lattice.spacing()), Box::new(settled::square_bits(lattice)));
         Self { lattice: *lattice, lengths, square_bits, layers, is_minimum, spec }
     }
@@ -77,15 +80,16 @@ impl SizeField {
         &self.lattice
     }
 
-    /// The number of squares along the longer side of the lattice on which formulas, threats and distances
-    /// are constant: they count with their values at the centres.
-    pub fn squares_along(&self) -> u32 {
-        squares_along(&self.lattice)
-    }
-
     /// The visible layers, from the bottom to the top.
     pub(super) fn compiled(&self) -> &[CompiledLayer] {
         &self.layers
+    }
+
+    /// Binary logarithm of the side of the squares, in lattice steps, that searches divide at lines between
+    /// pixels: those that are about as large as the largest pixels.
+    pub(super) fn pixel_bits(&self, paint: &PaintLayers) -> u32 {
+        let bits = self.layers.iter().filter_map(|layer| layer.pixel_bits(paint, &self.lattice));
+        bits.max().map_or(0, |bits| bits + 1)
     }
 
     /// Whether an element's diameter exceeds its target by the area rule: whether h̄ is below it at some
@@ -98,6 +102,19 @@ impl SizeField {
     /// [`Self::exceeds`] of a triangle by its corners and its level.
     #[inline]
     pub fn asks_for_more(&self, paint: &PaintLayers, corners: [LatticePoint; 3], level: u32) -> bool {
+        self.asks_with(&mut KnownSquares::few(), paint, corners, level)
+    }
+
+    /// [`Self::asks_for_more`], where many triangles nearby are asked about. `known` must have been used for
+    /// this field and these pixels only.
+    #[inline]
+    pub(super) fn asks_with(
+        &self,
+        known: &mut KnownSquares,
+        paint: &PaintLayers,
+        corners: [LatticePoint; 3],
+        level: u32,
+    ) -> bool {
         if let Some(asks) = self.limits_decide(level) {
             return asks;
         }
@@ -108,7 +125,7 @@ impl SizeField {
             None => self.any_below(paint, &triangle, around, level),
             Some(slope) => {
                 self.any_below(paint, &triangle, around, level)
-                    || gradation::any_below(self, paint, corners, slope, length)
+                    || gradation::any_below(self, paint, known, corners, slope, length)
             }
         }
     }

@@ -4,8 +4,8 @@ use glam::DVec2;
 
 use super::engine::asked::Share;
 use super::engine::cells::{Cells, Cut};
-use super::engine::gradation;
 use super::engine::reading::Diameters;
+use super::engine::{KnownSquares, gradation};
 use super::{Combine, LayerId, PaintLayers, SizeField};
 use crate::field::{RefinementRule, Transfer};
 use crate::mesh::level_for_diameter;
@@ -40,20 +40,40 @@ impl SizeField {
         let before = self.ungraded_at(paint, point).0;
         match self.spec().gradation {
             None => before,
-            Some(slope) => gradation::least(self, paint, point, slope, before).0,
+            Some(slope) => self.graded(&mut KnownSquares::few(), paint, point, slope, before).0,
         }
+    }
+
+    /// h̄ at a point with gradation, and the place that it is carried from, both in world units. `before` is a
+    /// value that h̄ is known not to exceed.
+    pub(super) fn graded(
+        &self,
+        known: &mut KnownSquares,
+        paint: &PaintLayers,
+        point: DVec2,
+        slope: f64,
+        before: f64,
+    ) -> (f64, DVec2) {
+        let mut start = (before, point);
+        for layer in self.compiled() {
+            if let Some((value, from)) = layer.carried_to(point).filter(|(value, _)| *value < start.0) {
+                start = (value, from);
+            }
+        }
+        gradation::least(self, paint, known, point, slope, start)
     }
 
     /// h̄ at a node, in world units, for the vertex rule.
     ///
     /// A value that no mesh can meet (NaN, zero or less) is returned as it is, for the rule to refuse.
     pub fn target_at_node(&self, paint: &PaintLayers, point: DVec2) -> f64 {
+        self.invalid_at(paint, point).unwrap_or_else(|| self.target_at(paint, point))
+    }
+
+    /// A diameter that a layer asks for at a point in world units and that no mesh can meet.
+    pub(super) fn invalid_at(&self, paint: &PaintLayers, point: DVec2) -> Option<f64> {
         let asked = self.compiled().iter().map(|layer| layer.diameter_at(paint, point));
-        let mut invalid = asked.filter(|diameter| !is_valid(*diameter));
-        match invalid.next() {
-            Some(invalid) => invalid,
-            None => self.target_at(paint, point),
-        }
+        asked.into_iter().find(|diameter| !is_valid(*diameter))
     }
 
     /// h̄ at a point in world units, as `rule` sees it: what files and the inspector show.
@@ -77,7 +97,8 @@ impl SizeField {
         });
         let asked = asked.collect();
         let (before, layer) = self.ungraded_at(paint, point);
-        let graded = self.spec().gradation.map(|slope| gradation::least(self, paint, point, slope, before));
+        let known = &mut KnownSquares::few();
+        let graded = self.spec().gradation.map(|slope| self.graded(known, paint, point, slope, before));
         match graded {
             Some((target, from)) if target < before => {
                 let layer = self.ungraded_at(paint, from).1.or(layer);

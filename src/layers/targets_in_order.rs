@@ -1,7 +1,7 @@
 use glam::DVec2;
 use rayon::prelude::*;
 
-use super::engine::gradation;
+use super::engine::KnownSquares;
 use super::{PaintLayers, SizeField};
 use crate::field::RefinementRule;
 use crate::mesh::Extract;
@@ -16,28 +16,34 @@ struct TargetsInOrder<'a> {
     rule: RefinementRule,
     /// The last point, and h̄ there.
     last: Option<(DVec2, f64)>,
+    known: KnownSquares,
 }
 
-/// The bound is raised by so much that rounding cannot hide the exact result.
-const SLACK: f64 = 1.0 + 1e-9;
+/// The bound is raised by so much that the tolerance of the search cannot hide the result.
+const SLACK: f64 = 1.0 + 2e-6;
 
 impl<'a> TargetsInOrder<'a> {
     fn new(field: &'a SizeField, paint: &'a PaintLayers, rule: RefinementRule) -> Self {
-        Self { field, paint, rule, last: None }
+        Self { field, paint, rule, last: None, known: KnownSquares::default() }
     }
 
     /// [`SizeField::target_by_rule`] at a point in world units.
     fn at(&mut self, point: DVec2) -> f64 {
-        let target = match (self.field.spec().gradation, self.last) {
-            (Some(slope), Some((before, target))) if self.rule == RefinementRule::Area => {
-                let bound = (target + slope * point.distance(before)) * SLACK;
-                let start = self.field.ungraded_at(self.paint, point).0.min(bound);
-                gradation::least(self.field, self.paint, point, slope, start).0
-            }
-            _ => self.field.target_by_rule(self.rule, self.paint, point),
+        let invalid = match self.rule {
+            RefinementRule::Area => None,
+            RefinementRule::Vertex => self.field.invalid_at(self.paint, point),
         };
-        self.last = target.is_finite().then_some((point, target));
+        let target = invalid.unwrap_or_else(|| self.valid_at(point));
+        self.last = (target > 0.0 && target.is_finite()).then_some((point, target));
         target
+    }
+
+    fn valid_at(&mut self, point: DVec2) -> f64 {
+        let before = self.field.ungraded_at(self.paint, point).0;
+        let Some(slope) = self.field.spec().gradation else { return before };
+        let bound =
+            self.last.map_or(f64::INFINITY, |(last, target)| (target + slope * point.distance(last)) * SLACK);
+        self.field.graded(&mut self.known, self.paint, point, slope, before.min(bound)).0
     }
 }
 

@@ -9,6 +9,7 @@ use crate::layers::{Quantity, Shapes, Threats};
 use crate::raster::ValueRange;
 
 use super::cells::{Cells, Cut};
+use super::steepness::steepest;
 
 /// A function of the point, and what its values mean.
 #[derive(Clone, Debug)]
@@ -25,30 +26,77 @@ pub enum Function {
     Formula(Formula),
     /// The combined risk.
     Threats(Threats),
-    /// d₀ + s · distance up to a range, then infinity. The distance is that beyond `reach` from the shapes.
+    /// A function of the distance from shapes.
     Distance {
         shapes: Shapes,
-        reach: f64,
-        at_zero: f64,
-        slope: f64,
-        range: f64,
+        profile: Profile,
     },
 }
 
-/// Squares of this many cells along a side of the lattice at most: the value of a function is constant on
-/// each.
-pub const FINEST_LOG: u32 = 15;
-
-/// Binary logarithm of the side of the squares on which functions are constant, in lattice steps.
-pub fn square_bits(lattice: &Lattice) -> u32 {
-    let extent = lattice.extent();
-    (extent.x.max(extent.y).next_power_of_two().ilog2()).saturating_sub(FINEST_LOG)
+/// d₀ + s · distance up to a range, then infinity. The distance is that beyond `reach` from the shapes.
+#[derive(Clone, Copy, Debug)]
+pub struct Profile {
+    pub reach: f64,
+    pub at_zero: f64,
+    pub slope: f64,
+    pub range: f64,
+    /// What gradation carries away from the shapes, if that is known.
+    pub graded: Option<Graded>,
 }
 
-/// Number of these squares along the longer side of the lattice.
-pub fn squares_along(lattice: &Lattice) -> u32 {
-    let extent = lattice.extent();
-    extent.x.max(extent.y).div_ceil(1 << square_bits(lattice))
+/// Gradation of the function of a distance, in closed form.
+///
+/// ```text
+///        s > g                         s ≤ g
+///            /  .-'                        .-' g
+///         s / .-' g                   _.--'
+///          /-'                   __--' s
+///   -------'  h_min           ---'  h_min         distance
+/// ```
+///
+/// On the straight way to the nearest shape, h falls by s per unit of length. So it is best to go all the way
+/// if s > g, and otherwise not at all, or to the range.
+#[derive(Clone, Copy, Debug)]
+pub struct Graded {
+    gradation: f64,
+    /// Up to this diameter; where more would be carried, the function is the one before gradation.
+    pub most: f64,
+}
+
+impl Profile {
+    /// The value at a distance from the shapes.
+    fn at(&self, distance: f64) -> f64 {
+        let beyond = distance - self.reach;
+        let within = beyond <= self.range;
+        let asked = if within { self.at_zero + self.slope * beyond.max(0.0) } else { f64::INFINITY };
+        let Some(Graded { gradation, most }) = self.graded else { return asked };
+        let flat = if self.slope <= gradation { beyond.min(self.range) } else { 0.0 };
+        let carried = self.at_zero + self.slope * flat.max(0.0) + gradation * (beyond - flat).max(0.0);
+        if carried < asked && carried <= most { carried } else { asked }
+    }
+
+    /// The same function with what gradation carries, where it is at least h_min. The shapes must lie where h̄
+    /// is wanted, so that the way to them does.
+    fn graded(self, gradation: f64, h_min: f64, most: f64) -> Self {
+        let below = if self.slope > 0.0 { ((h_min - self.at_zero) / self.slope).max(0.0) } else { 0.0 };
+        // Within that distance h is h_min.
+        let below = below.min(self.range);
+        Self {
+            reach: self.reach + below,
+            at_zero: self.at_zero.max(h_min),
+            range: self.range - below,
+            graded: Some(Graded { gradation, most }),
+            ..self
+        }
+    }
+
+    /// The greatest slope, where the function does not jump.
+    pub fn steepness(&self) -> f64 {
+        match self.graded {
+            Some(Graded { gradation, .. }) => self.slope.min(gradation),
+            None => self.slope,
+        }
+    }
 }
 
 /// Formulas with this many instructions or more are asked by models.
@@ -62,7 +110,7 @@ impl Function {
         match self {
             Self::Formula(formula) => formula.eval(point.x, point.y),
             Self::Threats(threats) => threats.risk_at(point),
-            Self::Distance { shapes, .. } => self.at_distance(shapes.distance(point)),
+            Self::Distance { shapes, profile } => profile.at(shapes.distance(point)),
         }
     }
 
@@ -70,9 +118,9 @@ impl Function {
         match self {
             Self::Formula(formula) => formula.bounds(rect),
             Self::Threats(threats) => threats.bounds(rect),
-            Self::Distance { shapes, .. } => {
+            Self::Distance { shapes, profile } => {
                 let Bounds { least, greatest, valid } = shapes.bounds(rect);
-                let [least, greatest] = [least, greatest].map(|distance| self.at_distance(distance));
+                let [least, greatest] = [least, greatest].map(|distance| profile.at(distance));
                 Bounds { least, greatest, valid }
             }
         }
@@ -95,13 +143,34 @@ impl Function {
         }
     }
 
-    /// The value at a distance from the shapes.
-    fn at_distance(&self, distance: f64) -> f64 {
+    /// The function with what gradation carries, where a closed form is known: at least h_min, up to `most`.
+    pub fn graded(&self, gradation: f64, h_min: f64, most: f64, bounds: &Rect) -> Option<Self> {
+        let Self::Distance { shapes, profile } = self else { return None };
+        let extent = shapes.extent();
+        let is_within = bounds.contains(extent.min) && bounds.contains(extent.max);
+        is_within.then(|| Self::Distance {
+            shapes: shapes.clone(),
+            profile: profile.graded(gradation, h_min, most),
+        })
+    }
+
+    /// What gradation carries to a point, and from where, if there is a closed form for it.
+    pub fn carried_to(&self, point: DVec2) -> Option<(f64, DVec2)> {
+        let Self::Distance { shapes, profile } = self else { return None };
+        let graded = profile.graded?;
+        let nearest = shapes.nearest(point);
+        let distance = nearest.distance(point);
+        let source = profile.reach + if profile.slope <= graded.gradation { profile.range } else { 0.0 };
+        let from = if source < distance { nearest.lerp(point, source / distance) } else { point };
+        Some((profile.at(distance), from))
+    }
+
+    /// The greatest slope over a rectangle; infinite where the function may jump, or the slope is not known.
+    pub fn steepness(&self, rect: &Rect) -> f64 {
         match self {
-            Self::Distance { reach, at_zero, slope, range, .. } if distance - reach <= *range => {
-                at_zero + slope * (distance - reach).max(0.0)
-            }
-            _ => f64::INFINITY,
+            Self::Formula(formula) => formula.derivatives(rect).map_or(f64::INFINITY, steepest),
+            Self::Threats(threats) => steepest(threats.slopes(rect)),
+            Self::Distance { profile, .. } => profile.steepness(),
         }
     }
 }
@@ -161,22 +230,22 @@ impl Analytic {
         }
     }
 
-    /// The range of the values of some cells, and where to divide them to know more. The values of a square
-    /// of `1 << bits` cells are that at its centre.
-    pub fn range(&self, cells: &Cells, lattice: &Lattice, bits: u32) -> (ValueRange, Option<Cut>) {
-        let Some(cut) = cut_between_squares(cells, bits) else {
-            return (ValueRange::one(self.at(center(cells, lattice, bits))), None);
+    /// The range of the values of some cells, and where to divide them to know more. A cell has the value at
+    /// its centre.
+    pub fn range(&self, cells: &Cells, lattice: &Lattice) -> (ValueRange, Option<Cut>) {
+        let Some(cut) = cells.middle() else {
+            return (ValueRange::one(self.at(cells.center(lattice))), None);
         };
-        let range = self.enclosed(self.bounds(&cells.rounded_out(bits), lattice, bits));
+        let range = self.enclosed(self.bounds(cells, lattice));
         (range, (!range.is_one()).then_some(cut))
     }
 
-    /// Bounds of the numbers at the centres of squares of `1 << bits` cells.
-    fn bounds(&self, cells: &Cells, lattice: &Lattice, bits: u32) -> Bounds {
-        let own = || self.function.bounds(&cells.world_rect(lattice));
+    /// Bounds of the numbers at the centres of some cells.
+    fn bounds(&self, cells: &Cells, lattice: &Lattice) -> Bounds {
+        let own = || self.function.bounds(&cells.centers(lattice));
         match self.models {
             None => own(),
-            Some(id) => models::bounds(id, cells, lattice, bits, |place| self.function.model(place), own),
+            Some(id) => models::bounds(id, cells, lattice, |place| self.function.model(place), own),
         }
     }
 
@@ -197,26 +266,4 @@ impl Analytic {
             }
         }
     }
-}
-
-/// A cut between two squares of `1 << bits` cells, through the side with more of them; `None` where the cells
-/// lie within one square.
-pub fn cut_between_squares(cells: &Cells, bits: u32) -> Option<Cut> {
-    let ends = |axis: usize| [cells.min[axis] >> bits, (cells.max[axis] - 1) >> bits];
-    let count = |axis: usize| ends(axis)[1] - ends(axis)[0];
-    let axis = usize::from(count(1) > count(0));
-    let [first, last] = ends(axis);
-    if first == last {
-        return None;
-    }
-    // At the highest bit in which they differ, so that the parts of different rectangles coincide.
-    let bit = (first ^ last).ilog2();
-    Some(Cut { axis, at: (last >> bit << bit) << bits })
-}
-
-/// The centre of the square of `1 << bits` cells that holds the cells, in world units.
-pub fn center(cells: &Cells, lattice: &Lattice, bits: u32) -> DVec2 {
-    let half = 0.5 * (1i64 << bits) as f64;
-    let corner = cells.min.map(|v| (v >> bits << bits) as f64 + half);
-    lattice.bounds().min + DVec2::from(corner) * lattice.step()
 }

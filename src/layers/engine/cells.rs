@@ -89,6 +89,31 @@ impl Cells {
         Some(Cut { axis, at: last >> bit << bit })
     }
 
+    /// The centre in world units.
+    #[inline]
+    pub fn center(&self, lattice: &Lattice) -> DVec2 {
+        let twice = [0, 1].map(|axis: usize| (self.min[axis] + self.max[axis]) as f64);
+        lattice.bounds().min + 0.5 * DVec2::from(twice) * lattice.step()
+    }
+
+    /// The smallest rectangle around the centres of the cells, in world units. A line between cells, where a
+    /// function may jump, lies between two such rectangles.
+    #[inline]
+    pub fn centers(&self, lattice: &Lattice) -> Rect {
+        let corner = |place: [f64; 2]| lattice.bounds().min + DVec2::from(place) * lattice.step();
+        let min = self.min.map(|v| v as f64 + 0.5);
+        Rect::new(corner(min), corner([0, 1].map(|axis: usize| self.max[axis] as f64 - 0.5)))
+    }
+
+    /// These cells and those that touch them.
+    pub fn with_neighbours(&self, extent: LatticePoint) -> Self {
+        let extent = [extent.x, extent.y].map(i64::from);
+        Self {
+            min: self.min.map(|v| (v - 1).max(0)),
+            max: [0, 1].map(|axis: usize| (self.max[axis] + 1).min(extent[axis])),
+        }
+    }
+
     /// The smallest rectangle of squares of `1 << bits` cells that holds these cells.
     #[inline]
     pub fn rounded_out(&self, bits: u32) -> Self {
@@ -163,6 +188,11 @@ impl GridOnLattice {
         let steps = grid.pixel / lattice.step();
         let origin = (grid.origin - lattice.bounds().min) / lattice.step();
         Self { origin, steps, pixels_per_step: 1.0 / steps, log_steps: exponent(steps.min_element()) }
+    }
+
+    /// Binary logarithm of the shorter side of a pixel in lattice steps, rounded down.
+    pub fn log_steps(&self) -> i32 {
+        self.log_steps
     }
 
     /// The lines between squares at a scale, across an axis.

@@ -12,7 +12,7 @@ use crate::layers::{
 };
 use crate::raster::{PixelGrid, RasterPyramid, ValueRange, ValueRanges};
 
-use super::analytic::{Analytic, Function, center, cut_between_squares, square_bits};
+use super::analytic::{Analytic, Function, Profile};
 use super::asked::Share;
 use super::cells::{Cells, Cut, GridOnLattice};
 use super::reading::{Answer, Diameters, Reading, lengths};
@@ -26,8 +26,8 @@ pub struct CompiledLayer {
     mask: Option<Mask>,
     reading: Reading,
     values: Values,
-    /// See [`square_bits`].
-    bits: u32,
+    /// The values with what gradation carries, where there is a closed form.
+    graded: Option<Analytic>,
 }
 
 /// Where the values of a layer come from.
@@ -81,8 +81,11 @@ impl CompiledLayer {
                 let values = shapes.map_or(Values::Nothing, |shapes| {
                     let (shapes, reach) = (shapes.clone(), to.reach());
                     let (at_zero, slope, range) = (*at_zero, *slope, *range);
-                    let function = Function::Distance { shapes, reach, at_zero, slope, range };
-                    Values::Analytic(Analytic::new(function, Quantity::Diameter))
+                    let profile = Profile { reach, at_zero, slope, range, graded: None };
+                    Values::Analytic(Analytic::new(
+                        Function::Distance { shapes, profile },
+                        Quantity::Diameter,
+                    ))
                 });
                 (reading(Quantity::Diameter, NO_RISK), values)
             }
@@ -92,8 +95,16 @@ impl CompiledLayer {
                 (reading, Values::of_raster(source, f32::INFINITY, lattice))
             }
         };
-        let (id, combine, mask, bits) = (layer.id, layer.combine, layer.mask.clone(), square_bits(lattice));
-        Self { id, combine, mask, reading, values, bits }
+        let (id, combine, mask) = (layer.id, layer.combine, layer.mask.clone());
+        Self { id, combine, mask, reading, values, graded: None }
+    }
+
+    /// Finds in closed form what gradation carries, where that is possible: at least h_min, up to `most`. The
+    /// finest of all layers must count.
+    pub fn grade(&mut self, gradation: f64, h_min: f64, most: f64, lattice: &Lattice) {
+        let (Values::Analytic(analytic), None) = (&self.values, &self.mask) else { return };
+        let function = analytic.function.graded(gradation, h_min, most, &lattice.bounds());
+        self.graded = function.map(|function| Analytic::new(function, analytic.quantity));
     }
 
     /// The same, with functions asked by their own bounds only.
@@ -170,10 +181,10 @@ impl CompiledLayer {
     /// How many of some cells the mask covers, and where to divide them to know more.
     fn coverage(&self, cells: &Cells, lattice: &Lattice) -> (Share, Option<Cut>) {
         let Some(mask) = &self.mask else { return (Share::All, None) };
-        let Some(cut) = cut_between_squares(cells, self.bits) else {
-            return (Share::of(mask.contains(center(cells, lattice, self.bits))), None);
+        let Some(cut) = cells.middle() else {
+            return (Share::of(mask.contains(cells.center(lattice))), None);
         };
-        match mask.classify(&cells.rounded_out(self.bits).world_rect(lattice)) {
+        match mask.classify(&cells.centers(lattice)) {
             Coverage::Inside => (Share::All, None),
             Coverage::Outside => (Share::None, None),
             Coverage::Mixed => (Share::Some, Some(cut)),
@@ -242,9 +253,57 @@ impl CompiledLayer {
                 GridOnLattice::new(raster.grid(), lattice).range(raster, cells)
             }
             Values::Raster { raster, gap, grid } => grid.range(&WithGaps { raster, gap: *gap }, cells),
-            Values::Analytic(analytic) => analytic.range(cells, lattice, self.bits),
+            Values::Analytic(analytic) => self.graded.as_ref().unwrap_or(analytic).range(cells, lattice),
         };
         (Some(range), cut)
+    }
+
+    /// Binary logarithm of the side of the pixels in lattice steps, rounded down, if there are any.
+    pub fn pixel_bits(&self, paint: &PaintLayers, lattice: &Lattice) -> Option<u32> {
+        let log_steps = match &self.values {
+            Values::Paint => GridOnLattice::new(paint.get(self.id)?.grid(), lattice).log_steps(),
+            Values::Raster { grid, .. } => grid.log_steps(),
+            Values::Nothing | Values::Constant(_) | Values::Analytic(_) => return None,
+        };
+        Some(log_steps.clamp(0, 30) as u32)
+    }
+
+    /// How fast the diameters of some cells change at most, where the layer asks for one; infinite where they
+    /// may jump. `diameters` are those of the cells.
+    pub fn steepness(&self, cells: &Cells, diameters: &Diameters, lattice: &Lattice) -> f64 {
+        if diameters.least == diameters.greatest {
+            return 0.0;
+        }
+        match &self.values {
+            Values::Nothing | Values::Constant(_) => 0.0,
+            Values::Paint | Values::Raster { .. } => f64::INFINITY,
+            Values::Analytic(analytic) => {
+                let analytic = self.graded.as_ref().unwrap_or(analytic);
+                let rect = cells.world_rect(lattice);
+                let of_values = analytic.function.steepness(&rect);
+                let (ValueRange { least, greatest }, _) = analytic.range(cells, lattice);
+                of_values * self.reading.steepness(least.into(), greatest.into())
+            }
+        }
+    }
+
+    /// Whether the diameters rise to `h_max` without a jump where the layer stops asking in some cells.
+    pub fn fades_to(&self, h_max: f64, cells: &Cells, lattice: &Lattice) -> bool {
+        if self.coverage(cells, lattice).0 != Share::All {
+            return false;
+        }
+        match (&self.values, &self.graded) {
+            (Values::Analytic(Analytic { function: Function::Threats(_), .. }), _) => true,
+            (_, Some(Analytic { function: Function::Distance { profile, .. }, .. })) => {
+                profile.graded.is_some_and(|graded| graded.most >= h_max)
+            }
+            _ => false,
+        }
+    }
+
+    /// What gradation carries to a point in world units, and from where, if there is a closed form for it.
+    pub fn carried_to(&self, point: DVec2) -> Option<(f64, DVec2)> {
+        self.graded.as_ref().and_then(|graded| graded.function.carried_to(point))
     }
 
     /// The diameter that the layer asks for at a point in world units: infinite where it asks for nothing,
@@ -258,12 +317,11 @@ impl CompiledLayer {
                 self.reading.diameter_of(analytic.raw(point))
             }
             Values::Nothing => f64::INFINITY,
-            Values::Paint => paint.get(self.id).map_or(f64::INFINITY, |raster| {
-                self.reading.diameters(ValueRange::one(raster.sample(point))).least
-            }),
+            Values::Paint => paint
+                .get(self.id)
+                .map_or(f64::INFINITY, |raster| self.reading.diameter_of(raster.sample(point).into())),
             Values::Raster { raster, gap, .. } => {
-                let value = raster.sample(point).unwrap_or(*gap);
-                self.reading.diameters(ValueRange::one(value)).least
+                self.reading.diameter_of(raster.sample(point).unwrap_or(*gap).into())
             }
         }
     }

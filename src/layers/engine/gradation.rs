@@ -1,164 +1,323 @@
 //! The largest field that changes by no more than a given slope and never exceeds what the layers ask for:
 //! h̄(x) = min over y of h(y) + g |x − y|.
+//!
+//! Questions about it are searches through the lattice, best first (`BestFirst`): no cell of a rectangle
+//! carries less to x than the least h in the rectangle plus g times its distance from x. Two facts keep them
+//! short.
+//!
+//! **Most questions are comparisons.** The rule of refinement asks whether h̄ < ℓ. Then a rectangle whose bound
+//! is at least ℓ is skipped, and any value below ℓ ends the search.
+//!
+//! **Only steep places matter.** Where h changes by at most g per unit of length, a step from y towards x does
+//! not increase h(y) + g |x − y|. So from any y one gets without loss to x itself, or to the border of a
+//! rectangle in which h is steeper than g, or jumps. Only such rectangles are divided.
 
 use glam::DVec2;
 
-use crate::geometry::{Lattice, LatticePoint, Octagon, Rect, nearest_on_segment};
+use crate::geometry::{BestFirst, LatticePoint, Octagon, Rect};
 use crate::layers::{PaintLayers, SizeField};
 
-use super::cells::Cells;
+use super::cells::{Cells, Cut};
+use super::place::{Place, Point, TriangleInWorld, gap, rect_of};
+use super::squares::{KnownSquares, LEAST_BITS, Square};
+use super::steepness::is_steep;
 
-/// Whether a cell of the lattice, at distance d from the closed triangle, has h + g d < `length`.
-///
-/// Branch and bound over rectangles of cells: a rectangle is skipped when even the least diameter in it, at
-/// the distance of the rectangle, is not below; the search ends when the greatest one is.
+/// A comparison that has not ended after so many rectangles says that h̄ is not below.
+const MOST_COMPARED: usize = 1 << 16;
+
+/// What is above the least value by less than this share of it is not searched, up to [`FEW`] rectangles.
+const TIGHT: f64 = 1e-9;
+
+/// The number of rectangles after which [`TOLERANCE`] is enough.
+const FEW: usize = 200;
+
+/// A value that is read is above the least one by at most this share of it.
+const TOLERANCE: f64 = 1e-6;
+
+/// A value that is read is the least that was found in so many rectangles.
+const MOST_READ: usize = 1 << 13;
+
+/// A search over a field from a place, with the slope g.
+pub struct Search<'a, P> {
+    pub field: &'a SizeField,
+    pub paint: &'a PaintLayers,
+    pub place: P,
+    pub slope: f64,
+    /// Squares of 2^this steps are divided where the layers say so.
+    pub finest: u32,
+}
+
+/// A rectangle to search.
+#[derive(Clone, Copy)]
+pub struct Part {
+    pub area: Area,
+    /// In world units, with the corner of the lattice as origin.
+    pub rect: Rect,
+    /// No cell has a lower h before gradation.
+    pub least: f64,
+    /// No cell has a greater one.
+    pub greatest: f64,
+    /// From the place.
+    pub distance: f64,
+}
+
+#[derive(Clone, Copy)]
+pub enum Area {
+    Square(Square),
+    /// Cells, and where to divide them.
+    Cells(Cells, Option<Cut>),
+}
+
+impl<P: Place> Search<'_, P> {
+    /// The squares in which values below `length` can lie, which are at least `least`.
+    pub fn start(&self, least: f64, length: f64) -> impl Iterator<Item = Square> + use<P> {
+        let lattice = self.field.lattice();
+        let reach = self.place.bounds().expanded(((length - least) / self.slope).max(0.0));
+        let step = lattice.step();
+        let all = Cells::all(lattice.extent());
+        let [min, max] = [reach.min / step, reach.max / step].map(|p| p.to_array());
+        let around = Cells {
+            min: min.map(|v| v.floor() as i64 - 1).map(|v| v.max(0)),
+            max: max.map(|v| (v.ceil() as i64).saturating_add(1)),
+        };
+        around.intersection(&all).into_iter().flat_map(|around| Square::covering(&around))
+    }
+
+    /// A part, unless its bound is at least `limit`, and its bound.
+    #[inline]
+    pub fn square(&self, known: &mut KnownSquares, square: Square, limit: f64) -> Option<(f64, Part)> {
+        let [least, greatest] = known.diameters(self.field, self.paint, square);
+        if least >= limit {
+            return None;
+        }
+        let cells = square.cells(self.field.lattice().extent())?;
+        self.bounded(Area::Square(square), &cells, [least, greatest], limit)
+    }
+
+    fn cells(&self, cells: Cells, limit: f64) -> Option<(f64, Part)> {
+        let (diameters, cut) = self.field.diameters(self.paint, &cells);
+        self.bounded(Area::Cells(cells, cut), &cells, diameters, limit)
+    }
+
+    #[inline]
+    fn bounded(
+        &self,
+        area: Area,
+        cells: &Cells,
+        [least, greatest]: [f64; 2],
+        limit: f64,
+    ) -> Option<(f64, Part)> {
+        let rect = rect_of(cells, self.field.lattice());
+        // The exact distance takes longer.
+        if least + self.slope * gap(&self.place.bounds(), &rect) >= limit {
+            return None;
+        }
+        let distance = self.place.distance(cells, &rect);
+        let bound = least + self.slope * distance;
+        (bound < limit).then_some((bound, Part { area, rect, least, greatest, distance }))
+    }
+
+    /// Whether h may change faster than g in a part, so that it matters.
+    #[inline]
+    pub fn is_steep(&self, known: &mut KnownSquares, part: &Part) -> bool {
+        match &part.area {
+            Area::Square(square) => known.is_steep(self.field, self.paint, *square),
+            Area::Cells(cells, _) => is_steep(self.field, self.paint, cells),
+        }
+    }
+
+    /// Visits what a part is divided into and can have a value below `limit`, until `visit` returns true.
+    /// Returns whether it did.
+    #[inline]
+    pub fn divide(
+        &self,
+        known: &mut KnownSquares,
+        part: &Part,
+        limit: f64,
+        mut visit: impl FnMut(f64, Part) -> bool,
+    ) -> bool {
+        let mut offer = |found: Option<(f64, Part)>| found.is_some_and(|(bound, part)| visit(bound, part));
+        let halves = |cells: Cells, cut: Option<Cut>| cut.map(|cut| cells.divided(cut));
+        let halves = match part.area {
+            Area::Square(square) if square.bits > self.finest => {
+                return square
+                    .quarters()
+                    .into_iter()
+                    .any(|quarter| offer(self.square(known, quarter, limit)));
+            }
+            Area::Square(square) => square
+                .cells(self.field.lattice().extent())
+                .and_then(|cells| halves(cells, self.field.diameters(self.paint, &cells).1)),
+            Area::Cells(cells, cut) => halves(cells, cut),
+        };
+        halves.into_iter().flatten().any(|cells| offer(self.cells(cells, limit)))
+    }
+
+    /// Whether a cell, at distance d from the place, has h + g d < `length`. Cells at the place itself must be
+    /// known to have no h below.
+    fn any_below(&self, known: &mut KnownSquares, length: f64) -> bool {
+        let mut parts = BestFirst::default();
+        let h_min = self.field.spec().transfer.h_min;
+        let offer = |bound: f64, part: Part, parts: &mut BestFirst<Part>| {
+            if part.greatest + self.slope * part.distance < length {
+                return true;
+            }
+            parts.push(bound, part);
+            false
+        };
+        for square in self.start(h_min, length) {
+            if self.square(known, square, length).is_some_and(|(bound, part)| offer(bound, part, &mut parts))
+            {
+                return true;
+            }
+        }
+        for _ in 0..MOST_COMPARED {
+            let Some((_, part)) = parts.pop() else { return false };
+            let steep = self.is_steep(known, &part);
+            if steep && self.divide(known, &part, length, |bound, part| offer(bound, part, &mut parts)) {
+                return true;
+            }
+        }
+        false
+    }
+}
+
+/// Binary logarithm of a quarter of the side of a shape that fits a rectangle of the lattice.
+pub fn quarter_bits([min, max]: [[i64; 2]; 2]) -> u32 {
+    let side = (max[0] - min[0]).max(max[1] - min[1]).max(1);
+    (side as u64).ilog2().saturating_sub(2).max(LEAST_BITS)
+}
+
+/// Whether a cell of the lattice, at distance d from the closed triangle, has h + g d < `length`. Cells that
+/// touch the triangle must be known to have no h below.
 pub fn any_below(
     field: &SizeField,
     paint: &PaintLayers,
+    known: &mut KnownSquares,
     corners: [LatticePoint; 3],
     slope: f64,
     length: f64,
 ) -> bool {
-    let lattice = field.lattice();
-    let triangle = TriangleInWorld::new(corners, lattice);
-    // Nothing is finer than h_min, so nothing beyond this distance matters.
-    let reach = (length - field.spec().transfer.h_min) / slope;
-    let Some(around) = cells_within(&triangle.bounds(), reach, lattice) else { return false };
-    let search = Search { field, paint, triangle, slope, length };
-    search.any(around)
+    let place = TriangleInWorld::new(corners, field.lattice());
+    // Many pixels can be equally far from a side of the triangle; cells are then divided at pixels.
+    let finest = quarter_bits(Octagon::triangle(corners).bounds()).max(field.pixel_bits(paint));
+    Search { field, paint, place, slope, finest }.any_below(known, length)
 }
 
-struct Search<'a> {
-    field: &'a SizeField,
-    paint: &'a PaintLayers,
-    triangle: TriangleInWorld,
+/// The least h + g d over the lattice, at distance d from a point in world units, and the place from which it
+/// comes; `start` is a value that is known, and its place.
+///
+/// The value is above the exact one by at most [`TOLERANCE`] of it.
+pub fn least(
+    field: &SizeField,
+    paint: &PaintLayers,
+    known: &mut KnownSquares,
+    point: DVec2,
     slope: f64,
-    length: f64,
-}
-
-impl Search<'_> {
-    fn any(&self, cells: Cells) -> bool {
-        let (diameters, cut) = self.field.diameters(self.paint, &cells);
-        if diameters[0] >= self.length {
-            return false;
+    start: (f64, DVec2),
+) -> (f64, DVec2) {
+    let origin = field.lattice().bounds().min;
+    let place = Point(point - origin);
+    let finest = field.pixel_bits(paint).max(LEAST_BITS);
+    let search = Search { field, paint, place, slope, finest };
+    let (mut best, mut parts) = (start, BestFirst::default());
+    for square in search.start(field.spec().transfer.h_min, start.0) {
+        if let Some((bound, part)) = search.square(known, square, best.0 * (1.0 - TIGHT)) {
+            parts.push(bound, part);
         }
-        let distance = self.triangle.distance(&cells, self.field.lattice());
-        if diameters[0] + self.slope * distance >= self.length {
-            return false;
-        }
-        if diameters[1] + self.slope * distance < self.length {
-            return true;
-        }
-        let Some(cut) = cut else { return false };
-        let [low, high] = cells.divided(cut);
-        self.any(low) || self.any(high)
     }
-}
-
-/// The least h + g d over all cells, at distance d from a point in world units, and the place of that cell.
-pub fn least(field: &SizeField, paint: &PaintLayers, point: DVec2, slope: f64, start: f64) -> (f64, DVec2) {
-    let lattice = field.lattice();
-    let mut best = (start, point);
-    let reach = (start - field.spec().transfer.h_min) / slope;
-    let bounds = Rect::new(point, point);
-    if let Some(around) = cells_within(&bounds, reach, lattice) {
-        search_least(field, paint, point, slope, around, &mut best);
+    for number in 0..MOST_READ {
+        let tolerance = if number < FEW { TIGHT } else { TOLERANCE };
+        let Some((bound, part)) = parts.pop() else { break };
+        if bound >= best.0 * (1.0 - tolerance) {
+            break;
+        }
+        let is_one = part.least == part.greatest;
+        let center = part.rect.center();
+        // One value all over counts at the nearest place.
+        let at = if is_one { search.nearest(&part.rect) } else { center };
+        let carried = slope * at.distance(search.place.0);
+        if part.least + carried < best.0 {
+            let value = field.ungraded_at(paint, origin + center).0 + carried;
+            if value < best.0 {
+                best = (value, origin + at);
+            }
+        }
+        if is_one || !search.is_steep(known, &part) {
+            continue;
+        }
+        let limit = best.0 * (1.0 - TIGHT);
+        search.divide(known, &part, limit, |bound, part| {
+            parts.push(bound, part);
+            false
+        });
     }
     best
 }
 
-fn search_least(
+impl Search<'_, Point> {
+    /// The point of a rectangle that is nearest to the place.
+    fn nearest(&self, rect: &Rect) -> DVec2 {
+        self.place.0.clamp(rect.min, rect.max)
+    }
+}
+
+/// What bounds of h̄ are put farther by, as a share: sums of distances are rounded.
+const MARGIN: f64 = 2e-7;
+
+/// The number of rectangles in which [`graded_bounds`] looks at most.
+const MOST_BOUNDED: usize = 24;
+
+/// Bounds of h̄ over all points of some cells, from those before gradation, `[least, greatest]`.
+///
+/// It ends when `is_enough` says so of the bounds of the least h̄, or after a few rectangles: the bounds hold at
+/// any time.
+pub fn graded_bounds(
     field: &SizeField,
     paint: &PaintLayers,
-    point: DVec2,
+    known: &mut KnownSquares,
+    cells: &Cells,
     slope: f64,
-    cells: Cells,
-    best: &mut (f64, DVec2),
-) {
-    let (diameters, cut) = field.diameters(paint, &cells);
-    let rect = cells.world_rect(field.lattice());
-    let nearest = point.clamp(rect.min, rect.max);
-    let distance = nearest.distance(point);
-    if diameters[0] + slope * distance >= best.0 {
-        return;
+    [least, greatest]: [f64; 2],
+    is_enough: impl Fn([f64; 2]) -> bool,
+) -> [f64; 2] {
+    let place = rect_of(cells, field.lattice());
+    let (center, half_diagonal) = (place.center(), 0.5 * place.size().length());
+    let finest = quarter_bits([cells.min, cells.max]);
+    let search = Search { field, paint, place, slope, finest };
+    let mut parts = BestFirst::default();
+    // The least h̄ is from `low` to `low_most`, and every h̄ is at most `high`.
+    let (mut low_most, mut high) = (greatest, greatest);
+    let offer = |found: Option<(f64, Part)>, parts: &mut BestFirst<Part>, ends: [&mut f64; 2]| {
+        let Some((bound, part)) = found else { return };
+        let [low_most, high] = ends;
+        let nearest = center.clamp(part.rect.min, part.rect.max);
+        *low_most = low_most.min(part.greatest + slope * part.distance);
+        *high = high.min(part.greatest + slope * (nearest.distance(center) + half_diagonal));
+        parts.push(bound, part);
+    };
+    for square in search.start(field.spec().transfer.h_min, least) {
+        offer(search.square(known, square, least), &mut parts, [&mut low_most, &mut high]);
     }
-    let sure = diameters[1] + slope * distance;
-    if sure < best.0 {
-        *best = (sure, nearest);
-    }
-    if let Some(cut) = cut {
-        let mut parts = cells.divided(cut);
-        // The nearer part first: it is more likely to have the least value.
-        let middle = parts.map(|part| part.world_rect(field.lattice()).center().distance_squared(point));
-        if middle[1] < middle[0] {
-            parts.swap(0, 1);
+    let mut low = least;
+    for _ in 0..MOST_BOUNDED {
+        let Some((bound, part)) = parts.pop() else {
+            low = least;
+            break;
+        };
+        low = bound.min(least);
+        let Area::Square(square) = part.area else { break };
+        if square.bits <= finest || is_enough([low, low_most]) {
+            break;
         }
-        parts.into_iter().for_each(|part| search_least(field, paint, point, slope, part, best));
-    }
-}
-
-/// The cells of the lattice within a distance of a rectangle, and some more.
-fn cells_within(bounds: &Rect, reach: f64, lattice: &Lattice) -> Option<Cells> {
-    let around = lattice.rect_around(&bounds.expanded(reach))?;
-    let [min, max] = [around.min, around.max].map(|p| [i64::from(p.x), i64::from(p.y)]);
-    Cells { min: min.map(|v| v - 1), max: max.map(|v| v + 1) }.intersection(&Cells::all(lattice.extent()))
-}
-
-/// A triangle in units of the world, with the corner of the lattice as origin.
-pub struct TriangleInWorld {
-    corners: [DVec2; 3],
-    octagon: Octagon,
-    origin: DVec2,
-}
-
-impl TriangleInWorld {
-    pub fn new(corners: [LatticePoint; 3], lattice: &Lattice) -> Self {
-        Self {
-            octagon: Octagon::triangle(corners),
-            corners: corners.map(|c| c.as_dvec2() * lattice.step()),
-            origin: lattice.bounds().min,
+        // Places of the cells themselves are known to have at least `least`.
+        if !search.is_steep(known, &part) {
+            continue;
+        }
+        for quarter in square.quarters() {
+            offer(search.square(known, quarter, least), &mut parts, [&mut low_most, &mut high]);
         }
     }
-
-    pub fn centroid(&self) -> DVec2 {
-        self.origin + self.corners.iter().sum::<DVec2>() / 3.0
-    }
-
-    /// The point of the closed triangle that is nearest to `point`, both in world units.
-    pub fn nearest(&self, point: DVec2) -> DVec2 {
-        let p = point - self.origin;
-        let [a, b, c] = self.corners;
-        let edges = [[a, b], [b, c], [c, a]];
-        let sides = edges.map(|[from, to]| (to - from).perp_dot(p - from));
-        if sides.iter().all(|&side| side >= 0.0) || sides.iter().all(|&side| side <= 0.0) {
-            return point;
-        }
-        let nearest = edges.map(|edge| nearest_on_segment(p, edge));
-        let closer = |a: DVec2, b: DVec2| if b.distance_squared(p) < a.distance_squared(p) { b } else { a };
-        self.origin + nearest.into_iter().fold(nearest[0], closer)
-    }
-
-    fn bounds(&self) -> Rect {
-        let [a, b, c] = self.corners.map(|corner| corner + self.origin);
-        Rect::new(a.min(b).min(c), a.max(b).max(c))
-    }
-
-    /// The distance between the closed triangle and the closed rectangle of some cells, in world units.
-    pub fn distance(&self, cells: &Cells, lattice: &Lattice) -> f64 {
-        if self.octagon.meets(&cells.octagon()) {
-            return 0.0;
-        }
-        let corner = |[x, y]: [i64; 2]| DVec2::new(x as f64, y as f64) * lattice.step();
-        let (min, max) = (corner(cells.min), corner(cells.max));
-        let [a, b, c] = self.corners;
-        // Of two convex polygons without a common point, a corner of one is nearest to the other.
-        let to_rect = |p: DVec2| p.distance_squared(p.clamp(min, max));
-        let mut least = to_rect(a).min(to_rect(b)).min(to_rect(c));
-        for p in [min, DVec2::new(max.x, min.y), max, DVec2::new(min.x, max.y)] {
-            for edge in [[a, b], [b, c], [c, a]] {
-                least = least.min(p.distance_squared(nearest_on_segment(p, edge)));
-            }
-        }
-        least.sqrt()
-    }
+    let [h_min, h_max] = [field.spec().transfer.h_min, field.spec().transfer.h_max];
+    [(low * (1.0 - MARGIN)).max(h_min), (high * (1.0 + MARGIN)).min(h_max)]
 }

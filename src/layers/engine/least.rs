@@ -1,12 +1,13 @@
-//! The least h̄ in a closed triangle, by branch and bound over rectangles of cells.
+//! The least h̄ in a closed triangle, by a search through rectangles of cells, best first.
 
 use glam::DVec2;
 
-use crate::geometry::{LatticePoint, Rect};
+use crate::geometry::{BestFirst, LatticePoint, Octagon, Rect};
 use crate::layers::{PaintLayers, SizeField};
 
-use super::cells::{Cells, Cut};
-use super::gradation::TriangleInWorld;
+use super::gradation::{Part, Search, quarter_bits};
+use super::place::TriangleInWorld;
+use super::squares::KnownSquares;
 
 /// The least h̄ in a closed triangle.
 pub struct Least {
@@ -21,64 +22,61 @@ pub struct Least {
 /// What is above the least value by less than this share of it is not searched.
 const TOLERANCE: f64 = 1e-9;
 
+/// The value is the least that was found in so many rectangles.
+const MOST: usize = 1 << 16;
+
 /// How often [`nearest_pair`] projects from one shape to the other. Each projection brings the points nearer.
 const PROJECTIONS: usize = 60;
 
+/// A slope with which no other cells count than those that touch the triangle.
+const NO_GRADATION: f64 = f64::MAX;
+
 /// The least h̄ in the closed triangle with these corners.
 pub fn least_within(field: &SizeField, paint: &PaintLayers, corners: [LatticePoint; 3]) -> Least {
-    let triangle = TriangleInWorld::new(corners, field.lattice());
-    let mut search = Search { field, paint, triangle, slope: field.spec().gradation, best: None };
-    let all = Cells::all(field.lattice().extent());
-    search.visit(&search.part(all));
-    let (target, cells) = search.best.unwrap_or((field.spec().unasked, all));
-    let (at, from) = nearest_pair(&search.triangle, &cells.world_rect(field.lattice()));
-    Least { target, at, from }
+    let lattice = field.lattice();
+    let place = TriangleInWorld::new(corners, lattice);
+    let slope = field.spec().gradation.unwrap_or(NO_GRADATION);
+    let finest = quarter_bits(Octagon::triangle(corners).bounds()).max(field.pixel_bits(paint));
+    let search = Search { field, paint, place, slope, finest };
+    let origin = lattice.bounds().min;
+    let all = Rect::new(DVec2::ZERO, lattice.bounds().max - origin);
+    let (target, rect) = search.least(&mut KnownSquares::few()).unwrap_or((field.spec().unasked, all));
+    let (at, from) = nearest_pair(&search.place, &rect);
+    Least { target, at: origin + at, from: origin + from }
 }
 
-struct Search<'a> {
-    field: &'a SizeField,
-    paint: &'a PaintLayers,
-    triangle: TriangleInWorld,
-    slope: Option<f64>,
-    /// The least value so far, and the cells that have it.
-    best: Option<(f64, Cells)>,
-}
-
-/// A rectangle of cells, and what is known of it.
-struct Part {
-    cells: Cells,
-    /// No point of the triangle has a lower value by these cells.
-    bound: f64,
-    /// Where to divide the cells to know more.
-    cut: Option<Cut>,
-}
-
-impl Search<'_> {
-    fn part(&self, cells: Cells) -> Part {
-        let distance = self.triangle.distance(&cells, self.field.lattice());
-        let carried = match self.slope {
-            Some(slope) => slope * distance,
-            None if distance > 0.0 => f64::INFINITY,
-            None => 0.0,
+impl Search<'_, TriangleInWorld> {
+    /// The least value of a cell, carried to the triangle, and a rectangle that has it.
+    fn least(&self, known: &mut KnownSquares) -> Option<(f64, Rect)> {
+        let mut parts = BestFirst::default();
+        let mut best = (f64::INFINITY, Rect::UNIT);
+        let offer = |(bound, part): (f64, Part), parts: &mut BestFirst<Part>, best: &mut (f64, Rect)| {
+            let sure = part.greatest + self.slope * part.distance;
+            if sure < best.0 {
+                *best = (sure, part.rect);
+            }
+            if part.least < part.greatest {
+                parts.push(bound, part);
+            }
         };
-        let ([least, _], cut) = self.field.diameters(self.paint, &cells);
-        Part { cells, bound: least + carried, cut }
-    }
-
-    fn visit(&mut self, part: &Part) {
-        let limit = self.best.map_or(f64::INFINITY, |(best, _)| best * (1.0 - TOLERANCE));
-        if part.bound >= limit {
-            return;
+        let most = self.field.spec().transfer.h_max.max(self.field.spec().unasked);
+        for square in self.start(self.field.spec().transfer.h_min, most) {
+            let found = self.square(known, square, f64::INFINITY);
+            found.into_iter().for_each(|found| offer(found, &mut parts, &mut best));
         }
-        let Some(cut) = part.cut else {
-            self.best = Some((part.bound, part.cells));
-            return;
-        };
-        let mut parts = part.cells.divided(cut).map(|cells| self.part(cells));
-        if parts[1].bound < parts[0].bound {
-            parts.swap(0, 1);
+        for _ in 0..MOST {
+            let limit = best.0 * (1.0 - TOLERANCE);
+            let Some((bound, part)) = parts.pop().filter(|(bound, _)| *bound < limit) else { break };
+            debug_assert!(bound <= part.greatest + self.slope * part.distance);
+            // At the triangle itself, all cells count.
+            if part.distance == 0.0 || self.is_steep(known, &part) {
+                self.divide(known, &part, limit, |bound, part| {
+                    offer((bound, part), &mut parts, &mut best);
+                    false
+                });
+            }
         }
-        parts.iter().for_each(|part| self.visit(part));
+        best.0.is_finite().then_some(best)
     }
 }
 

@@ -6,8 +6,12 @@ pub mod cells;
 mod compiled;
 pub mod gradation;
 pub mod least;
+mod place;
 pub mod reading;
 pub mod search;
+mod squares;
+mod steepness;
 
 pub use compiled::CompiledLayer;
 pub use reading::LEVELS;
+pub use squares::KnownSquares;

@@ -18,13 +18,14 @@ pub const LEVELS: usize = 64;
 /// diameter depend on the value monotonically, so that this is one comparison with a limit for that level.
 #[derive(Clone, Debug)]
 pub enum Reading {
-    /// Risk: at least the limit of the level. Risk 0 asks for nothing.
+    /// Risk: at least the limit of the level.
     Risk {
         /// The smallest risk that asks for more than each level; infinite where none does.
         least: Box<[f32; LEVELS]>,
         transfer: Transfer,
         table: TransferTable,
-        /// Risks up to this one ask for nothing: 0 in paint; elsewhere 0 asks for the largest diameter.
+        /// Risks up to this one ask for nothing: 0 in paint and of threats; elsewhere 0 asks for the largest
+        /// diameter.
         nothing: f32,
     },
     /// Target diameter: at most the limit of the level.
@@ -89,7 +90,7 @@ impl Reading {
     /// Risks in a mesh with the given coarse spacing.
     pub fn risk(transfer: &Transfer, spacing: f64, nothing: f32) -> Self {
         let table = TransferTable::new(transfer);
-        let asks = |risk: f32, length: f64| table.diameter(f64::from(risk)) < length;
+        let asks = |risk: f32, length: f64| transfer.diameter(f64::from(risk)) < length;
         let limit = |&length: &f64| least_risk(|risk| asks(risk, length));
         let least: Vec<f32> = lengths(spacing).iter().map(limit).collect();
         Self::Risk { least: to_array(least), transfer: *transfer, table, nothing }
@@ -136,6 +137,7 @@ impl Reading {
     /// less where it is not valid.
     pub fn diameter_of(&self, value: f64) -> f64 {
         match self {
+            Self::Risk { nothing, .. } if value <= f64::from(*nothing) => f64::INFINITY,
             Self::Risk { transfer, .. } => transfer.diameter(value),
             Self::Diameter { .. } => value,
             Self::Curve { .. } | Self::Band { .. } => self.diameters(ValueRange::one(value as f32)).least,
@@ -146,13 +148,17 @@ impl Reading {
     pub fn diameters(&self, range: ValueRange) -> Diameters {
         let ValueRange { least, greatest } = range;
         match self {
-            Self::Risk { table, nothing, .. } => {
-                let of = |risk: f32| match risk > *nothing {
-                    true => table.diameter(f64::from(risk)),
-                    false => f64::INFINITY,
-                };
+            Self::Risk { transfer, table, nothing, .. } => {
                 let present = share(greatest > *nothing, least > *nothing);
-                Diameters { least: of(greatest), greatest: of(least), present }
+                let [low, high] = match least == greatest {
+                    true => [transfer.diameter(f64::from(least)); 2],
+                    false => table.enclosing(f64::from(least), f64::from(greatest)),
+                };
+                Diameters {
+                    least: if present == Share::None { f64::INFINITY } else { low },
+                    greatest: if present == Share::All { high } else { f64::INFINITY },
+                    present,
+                }
             }
             Self::Diameter { .. } => Diameters {
                 least: f64::from(least),
@@ -212,6 +218,24 @@ impl Question<'_> {
     #[inline]
     pub fn is_monotone(self) -> bool {
         matches!(self, Self::AtLeast(_) | Self::AtMost(_))
+    }
+}
+
+impl Reading {
+    /// How much the diameter changes at most with the value, between two values; 1 for diameters, infinite for
+    /// readings that may jump.
+    pub fn steepness(&self, least: f64, greatest: f64) -> f64 {
+        match self {
+            // h̄ |log(h_min / h_max)| k risk^(k − 1)
+            Self::Risk { transfer, .. } => {
+                let Transfer { h_min, h_max, shape } = *transfer;
+                let power = |risk: f64| libm::pow(risk, shape - 1.0);
+                let power = if shape >= 1.0 { power(greatest) } else { power(least) };
+                transfer.diameter(least) * libm::log(h_max / h_min) * shape * power * (1.0 + 1e-12)
+            }
+            Self::Diameter { .. } => 1.0,
+            Self::Curve { .. } | Self::Band { .. } => f64::INFINITY,
+        }
     }
 }
 

@@ -12,23 +12,34 @@ use super::reading::Question;
 ///
 /// `ask` answers for all cells of a rectangle: where they ask for more, and where to divide the rectangle to
 /// know more. It must give a cut wherever the answer is [`Share::Some`].
+///
+/// Where two layers change along one line, as at the rim of a mask that they share, cells on the line can stay
+/// undecided to the last. So the search ends after [`MOST_ASKED`] rectangles, with no cell found.
 pub fn any_cell(
     triangle: &Octagon,
     cells: Cells,
     ask: &mut impl FnMut(&Cells) -> (Share, Option<Cut>),
 ) -> bool {
-    if !triangle.meets(&cells.octagon()) {
-        return false;
-    }
-    match ask(&cells) {
-        (Share::None, _) => false,
-        (Share::All, _) => true,
-        (Share::Some, cut) => {
-            let cut = cut.expect("an undecided rectangle has a cut");
-            cells.divided(cut).into_iter().any(|part| any_cell(triangle, part, ask))
+    let mut left = vec![cells];
+    for _ in 0..MOST_ASKED {
+        let Some(cells) = left.pop() else { return false };
+        if !triangle.meets(&cells.octagon()) {
+            continue;
+        }
+        match ask(&cells) {
+            (Share::None, _) => {}
+            (Share::All, _) => return true,
+            (Share::Some, cut) => {
+                let [low, high] = cells.divided(cut.expect("an undecided rectangle has a cut"));
+                left.extend([high, low]);
+            }
         }
     }
+    false
 }
+
+/// The number of rectangles after which [`any_cell`] ends.
+const MOST_ASKED: usize = 1 << 16;
 
 /// A search in one raster, square by square of its own.
 pub struct RasterSearch<'a, R> {
