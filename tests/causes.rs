@@ -181,7 +181,7 @@ const DISC: [&str; 6] =
 #[test]
 fn the_command_line_names_the_layer_and_the_place() {
     let own = why(&[&["0.3,0.5"][..], &DISC].concat()).unwrap();
-    assert!(own.contains("exceeds its target.\nThe least target diameter in it is at (0.29"), "{own}");
+    assert!(own.contains("exceeds its target.\nThe least target diameter in it is at (0.30"), "{own}");
     assert!(own.contains("the layer “Formula” asks for 0.001"), "{own}");
     let forced = why(&[&["0.27,0.46"][..], &DISC].concat()).unwrap();
     assert!(forced.contains("It was bisected to keep the mesh compatible."), "{forced}");

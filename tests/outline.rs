@@ -12,7 +12,7 @@ use fastrand::Rng;
 use formula_mesh::formula_mesh;
 use glam::{DVec2, dvec2};
 use meshbrush::internals::build::BuiltMesh;
-use meshbrush::internals::domain::{BoundaryTreatment, Domain, Polygon, Ring};
+use meshbrush::internals::domain::{BoundaryTreatment, Domain, Ring};
 use meshbrush::internals::geometry::{Lattice, LatticePoint, LatticeRect};
 use meshbrush::internals::io::geojson;
 use meshbrush::internals::mesh::{

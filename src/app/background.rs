@@ -11,8 +11,8 @@ use eframe::egui::Context;
 
 use super::busy::Busy;
 use super::command::{Command, Opened};
+use super::document_id::DocumentId;
 use super::home::Home;
-use super::session::DocumentId;
 use super::threads::Threads;
 use crate::io::{self, Meter};
 

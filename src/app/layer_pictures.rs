@@ -5,8 +5,9 @@ use std::time::Duration;
 
 use eframe::egui::{Color32, ColorImage, Context, TextureHandle, TextureOptions};
 
+use super::document_id::DocumentId;
 use super::latest::Latest;
-use super::session::{DocumentId, Session};
+use super::session::Session;
 use super::view::View;
 use crate::colormap::{LevelColors, category_color};
 use crate::document::Document;

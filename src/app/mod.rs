@@ -16,6 +16,7 @@ mod contours;
 mod cuts;
 mod derivation;
 mod dialogs;
+mod document_id;
 mod execute;
 mod files;
 mod frame;

@@ -1,7 +1,8 @@
 //! A figure of the report that is shown, and its numbers beside ours.
 
+use super::document_id::DocumentId;
 use super::frame::FrameState;
-use super::session::{DocumentId, Session};
+use super::session::Session;
 use super::stepping::Stepping;
 use super::widgets::format;
 use crate::document::{Comparison, Experiment, ReportFigure};

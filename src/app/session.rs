@@ -9,6 +9,7 @@ use super::ages::AgeKeeper;
 use super::boundary::BoundaryFinder;
 use super::cuts::CutQueue;
 use super::derivation::{Derivation, Derived, PiecesChange};
+use super::document_id::DocumentId;
 use super::notices::{self, Notices};
 use super::readout::{Quantity, Readout};
 use super::slices::{SLICE, follow_document};
@@ -29,17 +30,6 @@ pub struct ShownChange {
     pub mesh: Option<MeshChange>,
     /// What became of the pieces that are drawn in place of some of its triangles.
     pub pieces: Option<PiecesChange>,
-}
-
-/// Tells the documents apart that are opened in a window one after the other. Whatever is computed, read or
-/// written beside the window carries the identity of the document that it is for.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct DocumentId(u64);
-
-impl DocumentId {
-    fn next(self) -> Self {
-        Self(self.0 + 1)
-    }
 }
 
 /// A document and its mesh in the window.

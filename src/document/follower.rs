@@ -37,8 +37,9 @@ use crate::mesh::{Changes, Mesh, MeshCopy, Progress};
 /// Paint changes the mesh where it is, and nowhere else ([`Updater`](crate::mesh::Updater)): the mesh is
 /// conforming and can be drawn after every slice, and once in step it is the one made from scratch. So do
 /// edits of layers, limits and gradation, and of the outline of a fitted domain, together or one after the
-/// other. For everything else (other settings, and every edit under the vertex rule, which cannot be undone locally) another mesh is built
-/// beside the one that is shown; the two change places when the new one is whole.
+/// other. For everything else (other settings, and every edit under the vertex rule, which cannot be undone
+/// locally) another mesh is built beside the one that is shown; the two change places when the new one is
+/// whole.
 #[derive(Clone, Debug)]
 pub struct Follower {
     shown: Shown,

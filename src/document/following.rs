@@ -10,8 +10,8 @@ use crate::geometry::{Lattice, Rect};
 use crate::layers::{LayerCheck, SizeField};
 use crate::mesh::Progress;
 
-/// Prepares an edit that the mesh can follow where it is, in slices: compares another outline with that of the
-/// shown mesh, indexes it, and checks another size field.
+/// Prepares an edit that the mesh can follow where it is, in slices: compares another outline with that of
+/// the shown mesh, indexes it, and checks another size field.
 #[derive(Clone, Debug)]
 pub(super) struct Following {
     /// The settings after the edit.

@@ -264,8 +264,8 @@ impl Document {
         did
     }
 
-    /// Whether the last gesture changed settings that the mesh follows in place, such as layers or the outline.
-    /// Then its settings do not tell whether they can be met.
+    /// Whether the last gesture changed settings that the mesh follows in place, such as layers or the
+    /// outline. Then its settings do not tell whether they can be met.
     pub fn is_followed_in_place(&self) -> bool {
         let Some(EntryData::Settings(before)) = self.last_data() else { return false };
         matches!(self.settings.change_from(before, &self.paint), Change::Update { .. })

@@ -53,8 +53,8 @@ impl SizeField {
         changes
     }
 
-    /// Where and how h̄ can have changed after pixels changed; nowhere if the field has no such layer. `paint`
-    /// has the pixels as they are now.
+    /// Where and how h̄ can have changed after pixels changed; nowhere if the field has no such layer.
+    /// `paint` has the pixels as they are now.
     ///
     /// A change to smaller diameters ends, and one to larger diameters begins, with what is asked for now and
     /// before.
@@ -85,8 +85,8 @@ impl SizeField {
         self.reached(core, self.least_diameter(asked, self), [self, self], paint, *change).collect()
     }
 
-    /// The least diameter that a layer asks for in some cells, in world units; 0 without a layer, and infinite
-    /// where it is hidden.
+    /// The least diameter that a layer asks for in some cells, in world units; 0 without a layer, and
+    /// infinite where it is hidden.
     fn least_asked(&self, layer: Option<LayerId>, core: Cells, paint: &PaintLayers) -> f64 {
         let Some(id) = layer else { return 0.0 };
         let compiled = self.compiled().iter().find(|compiled| compiled.id == id);

@@ -1,10 +1,10 @@
 //! What an edit of a size field changes. This is the one place that decides it.
 //!
-//! h̄ before gradation is a function of what each layer asks for at the same point, and a monotone one: where a
-//! layer asks for a smaller diameter than before, h̄ does not grow. In a layer in which the finest counts, a
-//! request for nothing is an infinite diameter. For a floor and a replacement it is not, and a direction is
-//! claimed only where they ask in the same places as before. So an edit is taken apart into steps, each of
-//! which changes one layer or the limits:
+//! h̄ before gradation is a function of what each layer asks for at the same point, and a monotone one: where
+//! a layer asks for a smaller diameter than before, h̄ does not grow. In a layer in which the finest counts,
+//! a request for nothing is an infinite diameter. For a floor and a replacement it is not, and a direction
+//! is claimed only where they ask in the same places as before. So an edit is taken apart into steps, each
+//! of which changes one layer or the limits:
 //!
 //! ```text
 //!   old stack ─▶ layers leave ─▶ others change places ─▶ layers change ─▶ layers join ─▶ limits ─▶ new stack
@@ -73,9 +73,9 @@ impl SizeFieldSpec {
 }
 
 impl SizeFieldSpec {
-    /// Whether h̄ is nowhere larger than where no layer asks for anything, as far as it matters to a mesh with
-    /// coarse triangles of the diameter `longest`, in world units. Otherwise a layer that asks for more can
-    /// let h̄ grow.
+    /// Whether h̄ is nowhere larger than where no layer asks for anything, as far as it matters to a mesh
+    /// with coarse triangles of the diameter `longest`, in world units. Otherwise a layer that asks for more
+    /// can let h̄ grow.
     pub(super) fn is_ordered(&self, longest: f64) -> bool {
         self.unasked >= self.transfer.h_max.min(longest)
     }

@@ -142,7 +142,8 @@ fn a_long_sum_is_evaluated_about_once_for_each_triangle() {
     let (paint, mut squares) = (PaintLayers::blank(), SettledSquares::default());
     let before = MADE.get();
     let mut leaves = 0;
-    // From the two triangles of each cell down the bisection tree: [right angle, and the ends of the longest edge].
+    // From the two triangles of each cell down the bisection tree: [right angle, and the ends of the longest
+    // edge].
     let steps = lattice.cell_steps();
     let cells = (0..16).map(|n| [steps * (n % 4), steps * (n / 4)]);
     let mut open: Vec<([LatticePoint; 3], u32)> = cells

@@ -50,8 +50,8 @@ struct Square {
 /// The rim as a share of the side: a rectangle around a triangle extends beyond the square by a cell.
 const RIM: f64 = 0.125;
 
-/// The largest square whose model is tried has 2^4 times the side of the rectangle in question: one model then
-/// serves for hundreds of rectangles.
+/// The largest square whose model is tried has 2^4 times the side of the rectangle in question: one model
+/// then serves for hundreds of rectangles.
 const WIDEST: u32 = 4;
 
 /// A model is good enough for a rectangle where its rest is at most this multiple of the change of the
@@ -87,9 +87,9 @@ thread_local! {
 /// Bounds of a function at the centres of the cells in a rectangle.
 ///
 /// ```text
-///   +---------------+     Models of squares around the rectangle are tried from the widest down, until one is
-///   |       |       |     good enough. Where none is, as at jumps, the bounds of the function itself over the
-///   |   +---+---+   |     rectangle count as well.
+///   +---------------+     Models of squares around the rectangle are tried from the widest down, until
+///   |       |       |     one is good enough. Where none is, as at jumps, the bounds of the function
+///   |   +---+---+   |     itself over the rectangle count as well.
 ///   |   | ##|   |   |
 ///   |---+---+---+---|
 ///   |       |       |
@@ -164,8 +164,8 @@ fn kept(function: ModelId, square: Square, model: impl FnOnce() -> Quadratic) ->
 }
 
 impl Square {
-    /// A rectangle, by its middle and half of its sides in cells, in the coordinates of a model of the square.
-    /// `None` where it extends beyond the rim.
+    /// A rectangle, by its middle and half of its sides in cells, in the coordinates of a model of the
+    /// square. `None` where it extends beyond the rim.
     fn part(&self, middle: [f64; 2], half: [f64; 2]) -> Option<([f64; 2], [f64; 2])> {
         let side = (1u64 << self.bits) as f64;
         let reach = (0.5 + RIM) * side;

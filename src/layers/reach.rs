@@ -1,8 +1,9 @@
 //! How far a limit of gradation carries an edit.
 //!
-//! Let h before gradation change within a core only, where it is at least m before and after. Then h̄ at a point
-//! x beyond can change only through a point of the core, so that it is at least m + g d at distance d; and it is
-//! at most h(x), which is the same before and after. So only points with m + g d < h(x) are affected:
+//! Let h before gradation change within a core only, where it is at least m before and after. Then h̄ at a
+//! point x beyond can change only through a point of the core, so that it is at least m + g d at distance d;
+//! and it is at most h(x), which is the same before and after. So only points with m + g d < h(x) are
+//! affected:
 //!
 //! ```text
 //!        h(x) ─────────────┐

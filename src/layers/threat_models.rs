@@ -87,7 +87,8 @@ impl ThreatLaw {
                 let rim = libm::exp(-4.5);
                 let scale = 1.0 / (1.0 - rim);
                 let value = scale * libm::exp(-4.5 * s);
-                let third = scale * 4.5f64.powi(3) / 6.0 * libm::exp(-4.5 * least);
+                // 4.5³ = 91.125
+                let third = scale * 91.125 / 6.0 * libm::exp(-4.5 * least);
                 let series = [value - scale * rim, -4.5 * value, 10.125 * value];
                 cut_off(squared.composed(series, third, ROUNDING))
             }

@@ -143,7 +143,8 @@ impl Threat {
 /// Up to this risk p, 1 − p is rounded to 1: the threat changes no combined risk.
 const NEGLIGIBLE: f64 = f64::EPSILON / 4.0;
 
-/// Survival below this is lost when it is subtracted from 1, in whichever order it was multiplied: the risk is 1.
+/// Survival below this is lost when it is subtracted from 1, in whichever order it was multiplied: the risk
+/// is 1.
 pub(super) const NO_SURVIVAL: f64 = f64::EPSILON / 16.0;
 
 /// Threats and their combined risk 1 − Π(1 − pᵢ): each is survived or not, independently of the others.

@@ -20,6 +20,13 @@ pub struct Repaint {
     pub before: ValueRange,
 }
 
+impl Repaint {
+    /// Both changes as one.
+    pub(super) fn union(&self, other: &Self) -> Self {
+        Self { area: self.area.union(&other.area), before: self.before.union(other.before) }
+    }
+}
+
 impl Patch {
     /// The patch that removes all tiles of a raster.
     pub fn clearing(raster: &TiledRaster) -> Self {

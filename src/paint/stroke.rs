@@ -89,15 +89,15 @@ impl Stroke {
         }
     }
 
-    /// Draws about `pixels` of the next segment, whole tiles of it. Returns where pixels may have changed, with
-    /// their values before the stroke; `None` if nothing was left to draw.
+    /// Draws about `pixels` of the next segment, whole tiles of it. Returns where pixels may have changed,
+    /// with their values before the stroke; `None` if nothing was left to draw.
     pub fn advance(&mut self, raster: &mut TiledRaster, pixels: usize) -> Option<Repaint> {
-        let mut changed: Option<Rect> = None;
+        let mut changed: Option<Repaint> = None;
         let mut tiles_left = pixels.div_ceil((TILE * TILE) as usize).max(1);
         while let Some(mut segment) = self.pending.pop_front() {
             while let Some(place) = segment.places.pop_if(|_| tiles_left > 0) {
-                if let Some(area) = self.draw(raster, &mut segment, place) {
-                    changed = Some(changed.map_or(area, |changed| changed.union(&area)));
+                if let Some(drawn) = self.draw(raster, &mut segment, place) {
+                    changed = Some(changed.map_or(drawn, |changed| changed.union(&drawn)));
                     tiles_left -= 1;
                 }
             }
@@ -109,20 +109,12 @@ impl Stroke {
                 break;
             }
         }
-        changed.map(|area| Repaint { area, before: self.values_before(raster, &area) })
+        changed
     }
 
-    /// The range of the values before the stroke on the tiles that it covers in a rectangle, in world units.
-    fn values_before(&self, raster: &TiledRaster, area: &Rect) -> ValueRange {
-        let meets = |place: &TilePlace| place.area(raster.grid()).intersection(area).is_some();
-        let covered = self.covered.iter().filter(|(place, _)| meets(place));
-        let ranges = covered.map(|(_, covered)| range_of(&covered.before));
-        ranges.fold(ValueRange::one(raster.blank()), ValueRange::union)
-    }
-
-    /// Draws a segment on a tile, and lists the tile's children to be drawn next. Returns the rectangle that
-    /// may have changed, in world units; `None` if the segment covers no pixel of the tile.
-    fn draw(&mut self, raster: &mut TiledRaster, segment: &mut Segment, place: TilePlace) -> Option<Rect> {
+    /// Draws a segment on a tile, and lists the tile's children to be drawn next. Returns where
+    /// pixels may have changed; `None` if the segment covers no pixel of the tile.
+    fn draw(&mut self, raster: &mut TiledRaster, segment: &mut Segment, place: TilePlace) -> Option<Repaint> {
         // Children count instead of the tile, so they are drawn on as well.
         for child in place.children().into_iter().filter(|child| raster.tile(*child).is_some()) {
             if segment.reaches(child, raster.grid()) {
@@ -131,8 +123,8 @@ impl Stroke {
         }
         let coverage = coverage_of_tile(segment, place, raster)?;
         self.deepen(raster, place);
-        self.stamp(raster, place, &coverage);
-        Some(segment.area_on(place, raster.grid()))
+        let before = self.stamp(raster, place, &coverage)?;
+        Some(Repaint { area: segment.area_on(place, raster.grid()), before })
     }
 
     /// Whether the path is drawn to its last point.
@@ -174,10 +166,11 @@ impl Stroke {
         }
     }
 
-    /// Applies the brush to the pixels of a tile, with the coverage of one segment.
-    fn stamp(&mut self, raster: &mut TiledRaster, place: TilePlace, coverage: &Tile) {
+    /// Applies the brush to the pixels of a tile, with the coverage of one segment. Returns the range of the
+    /// values of the tile before the stroke.
+    fn stamp(&mut self, raster: &mut TiledRaster, place: TilePlace, coverage: &Tile) -> Option<ValueRange> {
         self.before.keep(raster, place);
-        let Some(tile) = raster.tile(place) else { return };
+        let tile = raster.tile(place)?;
         let touched = self
             .covered
             .entry(place)
@@ -193,6 +186,7 @@ impl Stroke {
                 }
             }
         });
+        Some(range_of(&touched.before))
     }
 }
 

@@ -29,10 +29,11 @@ pub use front::{FRONT_PATHS, FrontCommand, FrontFinder};
 pub use work::{FoundPath, ShownPath};
 use work::{KnownPlanner, PlannedMesh, Work, WorkResult, find, find_corridor};
 
+use super::document_id::DocumentId;
 use super::latest::Latest;
 use super::patience::Patience;
 use super::prover::{Known, Prover};
-use super::session::{DocumentId, Session};
+use super::session::Session;
 use super::statistics::MeasuredMesh;
 use crate::layers::RiskField;
 use crate::path::PathError;

@@ -16,8 +16,9 @@ use glam::DVec2;
 pub use export::MOST_FILES;
 pub use picture::paint;
 
+use super::document_id::DocumentId;
 use super::latest::Latest;
-use super::session::{DocumentId, Session};
+use super::session::Session;
 use super::tools::Tools;
 use crate::build::RefinementCriterion;
 use crate::document::ReportFigure;

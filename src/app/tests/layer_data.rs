@@ -213,18 +213,6 @@ fn distances_are_measured_to_shapes_of_a_file() {
 }
 
 #[test]
-fn a_formula_says_how_finely_it_is_evaluated() {
-    let mut window = window_of(TALL);
-    select(&mut window, "Base");
-    assert!(window.query_by_label_contains("Evaluated at").is_none(), "a number is the same everywhere");
-    type_into(&mut window, "Target diameter h̄(x, y)", "0.1 + 0.1*x");
-    let remark = window.get_by_label_contains("Evaluated at the centres of");
-    let text = remark.accesskit_node().value().unwrap_or_default();
-    // A coarse grid of 6 × 6 cells, and 4,096 squares along each: a power of two.
-    assert!(text.contains(" 24,576 squares along the longer side"), "{text}");
-}
-
-#[test]
 fn undo_says_what_was_done_to_the_layers() {
     let mut window = window_of(TALL);
     let base = LayerId(0);

@@ -56,8 +56,8 @@ pub(super) struct OfOne {
     pub model: Option<fn(&Quadratic) -> Quadratic>,
 }
 
-/// The derivatives along x and y of a function of two values, from what is known of the values and from bounds of
-/// the result.
+/// The derivatives along x and y of a function of two values, from what is known of the values and from
+/// bounds of the result.
 type Slopes = fn(Varying, Varying, Bounds) -> Option<[Bounds; 2]>;
 
 /// A function of two values.

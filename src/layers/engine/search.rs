@@ -13,8 +13,8 @@ use super::reading::Question;
 /// `ask` answers for all cells of a rectangle: where they ask for more, and where to divide the rectangle to
 /// know more. It must give a cut wherever the answer is [`Share::Some`].
 ///
-/// Where two layers change along one line, as at the rim of a mask that they share, cells on the line can stay
-/// undecided to the last. So the search ends after [`MOST_ASKED`] rectangles, with no cell found.
+/// Where two layers change along one line, as at the rim of a mask that they share, cells on the line can
+/// stay undecided to the last. So the search ends after [`MOST_ASKED`] rectangles, with no cell found.
 pub fn any_cell(
     triangle: &Octagon,
     cells: Cells,

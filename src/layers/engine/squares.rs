@@ -70,7 +70,8 @@ struct Known {
 /// that does not change, and never depend on what is kept.
 #[derive(Clone, Debug)]
 pub struct KnownSquares {
-    /// At the place that a hash of the key says; another square there is forgotten. Empty before the first use.
+    /// At the place that a hash of the key says; another square there is forgotten. Empty before the first
+    /// use.
     squares: Vec<Known>,
     /// Binary logarithm of the number of squares that are kept.
     kept_bits: u32,

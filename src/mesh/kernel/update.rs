@@ -61,6 +61,8 @@
 //! Triangles are taken from the end of the array: the youngest first. Those are near in space and in memory,
 //! and when a place is painted and erased again, entries leave from the end and no other has to move.
 
+use glam::DVec2;
+
 use super::changes::ChangeLog;
 use super::coarsen::Star;
 use super::{
@@ -438,7 +440,7 @@ impl Falloff {
         let x = gap(core.min.x, core.max.x, a.x.min(b.x).min(c.x), a.x.max(b.x).max(c.x));
         let y = gap(core.min.y, core.max.y, a.y.min(b.y).min(c.y), a.y.max(b.y).max(c.y));
         let step = mesh.lattice().step();
-        let distance = (f64::from(x) * step.x).hypot(f64::from(y) * step.y);
+        let distance = (DVec2::new(f64::from(x), f64::from(y)) * step).length();
         // A little less, for rounding errors here and where the target diameters are computed.
         (least + slope * distance) * (1.0 - 1e-9)
     }

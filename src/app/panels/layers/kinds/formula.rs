@@ -6,8 +6,7 @@ use super::{Addition, KindPanel, add, quantity_name, set_kind_once};
 use crate::app::command::Command;
 use crate::app::frame::FrameState;
 use crate::app::panels::formula::FormulaRow;
-use crate::app::panels::remark;
-use crate::app::widgets::{Icon, NumberRow, format, segmented};
+use crate::app::widgets::{Icon, NumberRow, segmented};
 use crate::field::Formula;
 use crate::layers::{Layer, LayerKind, Quantity};
 
@@ -53,13 +52,6 @@ fn parameters(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut
         },
     };
     let entered = row.show(ui, state, Some(formula));
-    if formula.constant().is_none() {
-        let squares = format::count(state.session.follower().field().squares_along().into());
-        remark(
-            ui,
-            &format!("Evaluated at the centres of {squares} squares along the longer side of the domain."),
-        );
-    }
     if let Some(Some(formula)) = entered {
         set_kind_once(layer, LayerKind::Formula { quantity: *quantity, formula }, commands);
     }
