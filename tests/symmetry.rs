@@ -326,20 +326,16 @@ fn a_layer_that_asks_for_nothing_changes_nothing() {
         let fine = || LayerKind::constant(0.001);
         let layer = |kind| Layer::new(LayerId(50), "nothing", kind);
         let neutral = [
-            (layer(LayerKind::Paint(Quantity::Risk)), true),
-            (layer(LayerKind::Paint(Quantity::Diameter)), true),
-            (layer(LayerKind::constant(f64::INFINITY)), true),
-            (layer(LayerKind::target(infinite)), true),
-            // A risk of 0 asks for the largest diameter where more than the finest counts.
-            (layer(LayerKind::Threats(Threats::new(vec![threat]).unwrap())), false),
-            (Layer { visible: false, ..layer(fine()) }, true),
-            (Layer { mask: Some(elsewhere), ..layer(fine()) }, true),
+            layer(LayerKind::Paint(Quantity::Risk)),
+            layer(LayerKind::Paint(Quantity::Diameter)),
+            layer(LayerKind::constant(f64::INFINITY)),
+            layer(LayerKind::target(infinite)),
+            layer(LayerKind::Threats(Threats::new(vec![threat]).unwrap())),
+            Layer { visible: false, ..layer(fine()) },
+            Layer { mask: Some(elsewhere), ..layer(fine()) },
         ];
-        for (number, (layer, in_any_way)) in neutral.into_iter().enumerate() {
+        for (number, layer) in neutral.into_iter().enumerate() {
             for combine in Combine::ALL {
-                if combine != Combine::Finest && !in_any_way {
-                    continue;
-                }
                 for place in [0, stack.layers.len()] {
                     let mut with = stack.clone();
                     with.layers.insert(place, Layer { combine, ..layer.clone() });

@@ -72,11 +72,10 @@ impl Terminal {
                 }
                 self.clear();
             });
+            // The watcher ends with the work, also where that panics: the scope waits for it.
+            let ends = Ends { done: &done, watcher: watcher.as_ref().ok().map(|watcher| watcher.thread()) };
             let result = work();
-            done.store(true, Ordering::Relaxed);
-            if let Ok(watcher) = watcher {
-                watcher.thread().unpark();
-            }
+            drop(ends);
             result
         })
     }
@@ -86,6 +85,19 @@ impl Terminal {
         if self.last_shown.take().is_some() {
             let _ = write!(io::stderr(), "{ERASE}");
         }
+    }
+}
+
+/// Ends the thread that shows progress.
+struct Ends<'a> {
+    done: &'a AtomicBool,
+    watcher: Option<&'a thread::Thread>,
+}
+
+impl Drop for Ends<'_> {
+    fn drop(&mut self) {
+        self.done.store(true, Ordering::Relaxed);
+        self.watcher.inspect(|watcher| watcher.unpark());
     }
 }
 
@@ -113,7 +125,16 @@ fn share(meter: &Meter) -> String {
 
 #[cfg(test)]
 mod tests {
+    use std::panic::{AssertUnwindSafe, catch_unwind};
+
     use super::*;
+
+    #[test]
+    fn a_panic_in_shown_work_does_not_wait_for_ever() {
+        let mut terminal = Terminal { show_progress: false, last_shown: None };
+        let work = AssertUnwindSafe(|| terminal.while_working("failing", || panic!("on purpose")));
+        assert!(catch_unwind(work).is_err());
+    }
 
     #[test]
     fn a_line_of_progress_fits_on_a_line_and_keeps_its_end() {

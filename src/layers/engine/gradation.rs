@@ -77,7 +77,7 @@ impl<P: Place> Search<'_, P> {
         let all = Cells::all(lattice.extent());
         let [min, max] = [reach.min / step, reach.max / step].map(|p| p.to_array());
         let around = Cells {
-            min: min.map(|v| v.floor() as i64 - 1).map(|v| v.max(0)),
+            min: min.map(|v| (v.floor() as i64).saturating_sub(1).max(0)),
             max: max.map(|v| (v.ceil() as i64).saturating_add(1)),
         };
         around.intersection(&all).into_iter().flat_map(|around| Square::covering(&around))
