@@ -1,6 +1,6 @@
-//! The only geometric predicates of the program, rectangles and an index of them, the order of a search through
-//! the parts of a region, and the map between the world and the integer lattice on which every node of a mesh
-//! lies.
+//! The only geometric predicates of the program, rectangles and an index of them, the order of a search
+//! through the parts of a region, and the map between the world and the integer lattice on which every node
+//! of a mesh lies.
 
 mod best_first;
 mod box_tree;

@@ -136,9 +136,8 @@ impl SizeField {
         let [least, greatest] = match self.spec().gradation {
             None => [least, greatest],
             Some(slope) => {
-                let is_level = |[low, high]: [f64; 2]| {
-                    self.first_level_within(low) == self.first_level_within(high)
-                };
+                let is_level =
+                    |[low, high]: [f64; 2]| self.first_level_within(low) == self.first_level_within(high);
                 graded_bounds(self, paint, known, &cells, slope, [least, greatest], is_level)
             }
         };

@@ -41,9 +41,8 @@ impl<'a> TargetsInOrder<'a> {
     fn valid_at(&mut self, point: DVec2) -> f64 {
         let before = self.field.ungraded_at(self.paint, point).0;
         let Some(slope) = self.field.spec().gradation else { return before };
-        let bound = self.last.map_or(f64::INFINITY, |(last, target)| {
-            (target + slope * point.distance(last)) * SLACK
-        });
+        let bound =
+            self.last.map_or(f64::INFINITY, |(last, target)| (target + slope * point.distance(last)) * SLACK);
         self.field.graded(&mut self.known, self.paint, point, slope, before.min(bound)).0
     }
 }

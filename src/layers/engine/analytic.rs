@@ -24,7 +24,10 @@ pub enum Function {
     /// The combined risk.
     Threats(Threats),
     /// A function of the distance from shapes.
-    Distance { shapes: Shapes, profile: Profile },
+    Distance {
+        shapes: Shapes,
+        profile: Profile,
+    },
 }
 
 /// d₀ + s · distance up to a range, then infinity. The distance is that beyond `reach` from the shapes.
@@ -69,8 +72,8 @@ impl Profile {
         if carried < asked && carried <= most { carried } else { asked }
     }
 
-    /// The same function with what gradation carries, where it is at least h_min. The shapes must lie where h̄
-    /// is wanted, so that the way to them does.
+    /// The same function with what gradation carries, where it is at least h_min. The shapes must lie where
+    /// h̄ is wanted, so that the way to them does.
     fn graded(self, gradation: f64, h_min: f64, most: f64) -> Self {
         let below = if self.slope > 0.0 { ((h_min - self.at_zero) / self.slope).max(0.0) } else { 0.0 };
         // Within that distance h is h_min.

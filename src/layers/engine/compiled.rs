@@ -304,9 +304,9 @@ impl CompiledLayer {
                 self.reading.diameter_of(analytic.raw(point))
             }
             Values::Nothing => f64::INFINITY,
-            Values::Paint => paint.get(self.id).map_or(f64::INFINITY, |raster| {
-                self.reading.diameter_of(raster.sample(point).into())
-            }),
+            Values::Paint => paint
+                .get(self.id)
+                .map_or(f64::INFINITY, |raster| self.reading.diameter_of(raster.sample(point).into())),
             Values::Raster { raster, gap, .. } => {
                 self.reading.diameter_of(raster.sample(point).unwrap_or(*gap).into())
             }
@@ -351,5 +351,9 @@ impl ValueRanges for WithGaps<'_> {
 
     fn whole_range(&self) -> ValueRange {
         self.raster.whole().with_gaps(self.gap)
+    }
+
+    fn finest(&self) -> i32 {
+        0
     }
 }

@@ -5,12 +5,12 @@
 //! carries less to x than the least h in the rectangle plus g times its distance from x. Two facts keep them
 //! short.
 //!
-//! **Most questions are comparisons.** The rule of refinement asks whether h̄ < ℓ. Then a rectangle whose bound
-//! is at least ℓ is skipped, and any value below ℓ ends the search.
+//! **Most questions are comparisons.** The rule of refinement asks whether h̄ < ℓ. Then a rectangle whose
+//! bound is at least ℓ is skipped, and any value below ℓ ends the search.
 //!
-//! **Only steep places matter.** Where h changes by at most g per unit of length, a step from y towards x does
-//! not increase h(y) + g |x − y|. So from any y one gets without loss to x itself, or to the border of a
-//! rectangle in which h is steeper than g, or jumps. Only such rectangles are divided.
+//! **Only steep places matter.** Where h changes by at most g per unit of length, a step from y towards x
+//! does not increase h(y) + g |x − y|. So from any y one gets without loss to x itself, or to the border of
+//! a rectangle in which h is steeper than g, or jumps. Only such rectangles are divided.
 
 use glam::DVec2;
 
@@ -140,7 +140,10 @@ impl<P: Place> Search<'_, P> {
         let halves = |cells: Cells, cut: Option<Cut>| cut.map(|cut| cells.divided(cut));
         let halves = match part.area {
             Area::Square(square) if square.bits > self.finest => {
-                return square.quarters().into_iter().any(|quarter| offer(self.square(known, quarter, limit)));
+                return square
+                    .quarters()
+                    .into_iter()
+                    .any(|quarter| offer(self.square(known, quarter, limit)));
             }
             Area::Square(square) => square
                 .cells(self.field.lattice().extent())
@@ -150,8 +153,8 @@ impl<P: Place> Search<'_, P> {
         halves.into_iter().flatten().any(|cells| offer(self.cells(cells, limit)))
     }
 
-    /// Whether a cell, at distance d from the place, has h + g d < `length`. Cells at the place itself must be
-    /// known to have no h below.
+    /// Whether a cell, at distance d from the place, has h + g d < `length`. Cells at the place itself must
+    /// be known to have no h below.
     fn any_below(&self, known: &mut KnownSquares, length: f64) -> bool {
         let mut parts = BestFirst::default();
         let h_min = self.field.spec().transfer.h_min;
@@ -163,7 +166,8 @@ impl<P: Place> Search<'_, P> {
             false
         };
         for square in self.start(h_min, length) {
-            if self.square(known, square, length).is_some_and(|(bound, part)| offer(bound, part, &mut parts)) {
+            if self.square(known, square, length).is_some_and(|(bound, part)| offer(bound, part, &mut parts))
+            {
                 return true;
             }
         }
@@ -266,8 +270,8 @@ const MOST_BOUNDED: usize = 24;
 
 /// Bounds of h̄ over all points of some cells, from those before gradation, `[least, greatest]`.
 ///
-/// It ends when `is_enough` says so of the bounds of the least h̄, or after a few rectangles: the bounds hold at
-/// any time.
+/// It ends when `is_enough` says so of the bounds of the least h̄, or after a few rectangles: the bounds
+/// hold at any time.
 pub fn graded_bounds(
     field: &SizeField,
     paint: &PaintLayers,

@@ -222,8 +222,8 @@ impl Question<'_> {
 }
 
 impl Reading {
-    /// How much the diameter changes at most with the value, between two values; 1 for diameters, infinite for
-    /// readings that may jump.
+    /// How much the diameter changes at most with the value, between two values; 1 for diameters, infinite
+    /// for readings that may jump.
     pub fn steepness(&self, least: f64, greatest: f64) -> f64 {
         match self {
             // h̄ |log(h_min / h_max)| k risk^(k − 1)

@@ -13,8 +13,8 @@ use super::reading::Question;
 /// `ask` answers for all cells of a rectangle: where they ask for more, and where to divide the rectangle to
 /// know more. It must give a cut wherever the answer is [`Share::Some`].
 ///
-/// Where two layers change along one line, as at the rim of a mask that they share, cells on the line can stay
-/// undecided to the last. So the search ends after [`MOST_ASKED`] rectangles, with no cell found.
+/// Where two layers change along one line, as at the rim of a mask that they share, cells on the line can
+/// stay undecided to the last. So the search ends after [`MOST_ASKED`] rectangles, with no cell found.
 pub fn any_cell(
     triangle: &Octagon,
     cells: Cells,
@@ -59,7 +59,7 @@ impl<R: ValueRanges> RasterSearch<'_, R> {
         if self.question.asks(self.raster.whole_range()) == Share::None {
             return false;
         }
-        let scale = self.grid.scale_of(cells);
+        let scale = self.grid.scale_of(cells).max(self.raster.finest());
         let [low, high] = self.grid.squares(scale, cells);
         for y in low[1]..=high[1] {
             for x in low[0]..=high[0] {
@@ -81,7 +81,7 @@ impl<R: ValueRanges> RasterSearch<'_, R> {
         cells: impl FnOnce() -> Cells,
     ) -> bool {
         // Most squares are decided by their values.
-        let asks = self.question.asks(self.raster.range(scale, x as i32, y as i32));
+        let asks = self.question.asks(self.raster.range_anywhere(scale, [x, y]));
         if asks == Share::None {
             return false;
         }

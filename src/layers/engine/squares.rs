@@ -36,8 +36,7 @@ impl Square {
     #[inline]
     pub fn quarters(&self) -> [Self; 4] {
         let (bits, column, row) = (self.bits - 1, 2 * self.column, 2 * self.row);
-        [[0, 0], [1, 0], [0, 1], [1, 1]]
-            .map(|[x, y]| Self { bits, column: column + x, row: row + y })
+        [[0, 0], [1, 0], [0, 1], [1, 1]].map(|[x, y]| Self { bits, column: column + x, row: row + y })
     }
 
     /// At most four squares that cover some cells, not much larger than these.
@@ -71,7 +70,8 @@ struct Known {
 /// that does not change, and never depend on what is kept.
 #[derive(Clone, Debug)]
 pub struct KnownSquares {
-    /// At the place that a hash of the key says; another square there is forgotten. Empty before the first use.
+    /// At the place that a hash of the key says; another square there is forgotten. Empty before the first
+    /// use.
     squares: Vec<Known>,
     /// Binary logarithm of the number of squares that are kept.
     kept_bits: u32,

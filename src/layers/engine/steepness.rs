@@ -8,8 +8,8 @@ use crate::layers::{Combine, PaintLayers, SizeField};
 use super::asked::Share;
 use super::cells::Cells;
 
-/// Whether h̄ before gradation may change by more than the gradation per unit of length in some cells, or jumps
-/// there or at their border. Without gradation it never does.
+/// Whether h̄ before gradation may change by more than the gradation per unit of length in some cells, or
+/// jumps there or at their border. Without gradation it never does.
 ///
 /// A layer whose values are above those of another one all over does not count where the finest counts.
 pub fn is_steep(field: &SizeField, paint: &PaintLayers, cells: &Cells) -> bool {
@@ -38,7 +38,8 @@ pub fn is_steep(field: &SizeField, paint: &PaintLayers, cells: &Cells) -> bool {
         if diameters.present != Share::All && !fades {
             return true;
         }
-        !(layer.steepness(cells, diameters, field.lattice()) <= slope)
+        let steepness = layer.steepness(cells, diameters, field.lattice());
+        steepness > slope || steepness.is_nan()
     })
 }
 

@@ -53,13 +53,6 @@ fn parameters(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut
         },
     };
     let entered = row.show(ui, state, Some(formula));
-    if formula.constant().is_none() {
-        let squares = format::count(state.session.follower().field().squares_along().into());
-        remark(
-            ui,
-            &format!("Evaluated at the centres of {squares} squares along the longer side of the domain."),
-        );
-    }
     if let Some(Some(formula)) = entered {
         set_kind_once(layer, LayerKind::Formula { quantity: *quantity, formula }, commands);
     }
