@@ -375,7 +375,7 @@ fn meshes_are_the_smallest_refinements_that_meet_the_definition() {
 #[test]
 fn smooth_formulas_are_asked_at_the_centres_of_cells() {
     let lattice = Lattice::covering(Rect::UNIT, SPACING, 1000).unwrap();
-    let cells = i64::from(lattice.extent().x);
+    let squares = i64::from(lattice.extent().x);
     let transfer = Transfer { h_min: 0.001, h_max: 0.4, shape: 1.0 };
     let bounds = Bounds { h_min: transfer.h_min, h_max: transfer.h_max, unasked: 0.4, gradation: None };
     let target = Formula::parse("0.005 + 0.25*hypot(x - 0.4, y - 0.3)").unwrap();
@@ -401,19 +401,19 @@ fn smooth_formulas_are_asked_at_the_centres_of_cells() {
         let layers = [definition(&other, Combine::Finest), definition(&target, combine)];
         // A small triangle near the circle on which the formula is ℓ.
         let level = random.u32(3..8);
-        let side = 1 << random.u32(4..8);
-        let radius = (length(level) - 0.005) / 0.25 + 3.0 * side as f64 / cells as f64 * (random.f64() - 0.5);
+        let radius = (length(level) - 0.005) / 0.25 + 100.0 / squares as f64 * (random.f64() - 0.4);
         let place = dvec2(0.4, 0.3) + radius * DVec2::from_angle(random.f64() * std::f64::consts::TAU);
         let place = place.clamp(DVec2::ZERO, DVec2::splat(0.999)) * lattice.extent().as_dvec2();
+        let side = 1 << random.u32(2..6);
         let corner = place.to_array().map(|v| v as i64 / side * side);
         let [x, y] = corner;
         let triangle = [[x, y], [x + side, y], [x, y + side]];
         let [first, last] = [0, side].map(|to| corner.map(|v| v + to));
         let mut least = f64::INFINITY;
-        for j in (first[1] - 1).max(0)..=last[1].min(cells - 1) {
-            for i in (first[0] - 1).max(0)..=last[0].min(cells - 1) {
+        for j in (first[1] - 1).max(0)..=last[1].min(squares - 1) {
+            for i in (first[0] - 1).max(0)..=last[0].min(squares - 1) {
                 if touches(&triangle, [i, j], [i + 1, j + 1]) {
-                    let center = (dvec2(i as f64, j as f64) + 0.5) * lattice.step();
+                    let center = (dvec2(i as f64, j as f64) + 0.5) / squares as f64;
                     least = least.min(combined(&layers, &bounds, center));
                 }
             }

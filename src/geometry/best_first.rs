@@ -4,8 +4,9 @@ use std::collections::BinaryHeap;
 /// The parts of a region that are left to search, the one with the lowest bound first.
 ///
 /// Branch and bound looks for a least value: each part has a bound below which it has no value, and is
-/// divided when its turn comes. As the part with the lowest bound is always the next, no value of the region
-/// is below that bound, and a search that stops there has looked at the fewest parts that its bounds allow.
+/// divided when its turn comes. As the part with the lowest bound is always the next, no value of the
+/// region is below that bound, and a search that stops there has looked at the fewest parts that its bounds
+/// allow.
 ///
 /// The order depends on the bounds and on the order of the calls alone: of parts with equal bounds, the one
 /// that was added last is the next.

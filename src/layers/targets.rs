@@ -44,8 +44,8 @@ impl SizeField {
         }
     }
 
-    /// h̄ at a point with gradation, and the place that it is carried from, both in world units. `before` is
-    /// a value that h̄ is known not to exceed.
+    /// h̄ at a point with gradation, and the place that it is carried from, both in world units. `before`
+    /// is a value that h̄ is known not to exceed.
     pub(super) fn graded(
         &self,
         known: &mut KnownSquares,

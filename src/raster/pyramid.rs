@@ -218,6 +218,10 @@ impl ValueRanges for RasterPyramid {
     fn whole_range(&self) -> ValueRange {
         self.whole().with_gaps(f32::INFINITY)
     }
+
+    fn finest(&self) -> i32 {
+        0
+    }
 }
 
 impl SquareValues {

@@ -96,4 +96,21 @@ pub trait ValueRanges {
 
     /// The range of all values of the raster.
     fn whole_range(&self) -> ValueRange;
+
+    /// The scale of the finest pixels: no square is finer than those that it lies in.
+    fn finest(&self) -> i32 {
+        i32::MIN
+    }
+
+    /// [`Self::range`] of a square in any column and row, however far from the pixels.
+    #[inline]
+    fn range_anywhere(&self, mut scale: i32, [mut x, mut y]: [i64; 2]) -> ValueRange {
+        let is_near = |n: i64| i32::try_from(n).is_ok();
+        // So far from the origin, no pixel is as fine as that.
+        while scale < 0 && !(is_near(x) && is_near(y)) {
+            (scale, x, y) = (scale + 1, x >> 1, y >> 1);
+        }
+        let nearest = |n: i64| n.clamp(i32::MIN.into(), i32::MAX.into()) as i32;
+        self.range(scale, nearest(x), nearest(y))
+    }
 }

@@ -114,16 +114,6 @@ impl Cells {
         }
     }
 
-    /// The smallest rectangle of squares of `1 << bits` cells that holds these cells.
-    #[inline]
-    pub fn rounded_out(&self, bits: u32) -> Self {
-        let side = 1 << bits;
-        Self {
-            min: self.min.map(|v| v >> bits << bits),
-            max: self.max.map(|v| (v + side - 1) >> bits << bits),
-        }
-    }
-
     /// The common cells.
     pub fn intersection(&self, other: &Self) -> Option<Self> {
         let common = Self {
@@ -245,7 +235,7 @@ impl GridOnLattice {
     /// The range of the values of a raster in a rectangle of cells, and where to divide the rectangle to know
     /// more: at a line between squares. There is no such line when the range is exact.
     pub fn range(&self, raster: &impl ValueRanges, cells: &Cells) -> (ValueRange, Option<Cut>) {
-        let mut scale = self.scale_of(cells);
+        let mut scale = self.scale_of(cells).max(raster.finest());
         loop {
             let [low, high] = self.squares(scale, cells);
             let range = joined_range(raster, scale, low, high);
@@ -315,10 +305,10 @@ impl Lines {
 /// The range over squares from `low` to `high`, both included.
 #[inline]
 fn joined_range(raster: &impl ValueRanges, scale: i32, low: [i64; 2], high: [i64; 2]) -> ValueRange {
-    let mut range = raster.range(scale, low[0] as i32, low[1] as i32);
+    let mut range = raster.range_anywhere(scale, low);
     for y in low[1]..=high[1] {
         for x in low[0]..=high[0] {
-            range = range.union(raster.range(scale, x as i32, y as i32));
+            range = range.union(raster.range_anywhere(scale, [x, y]));
         }
     }
     range

@@ -365,4 +365,8 @@ impl ValueRanges for WithGaps<'_> {
     fn whole_range(&self) -> ValueRange {
         self.raster.whole().with_gaps(self.gap)
     }
+
+    fn finest(&self) -> i32 {
+        0
+    }
 }

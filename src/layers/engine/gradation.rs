@@ -270,8 +270,8 @@ const MOST_BOUNDED: usize = 24;
 
 /// Bounds of h̄ over all points of some cells, from those before gradation, `[least, greatest]`.
 ///
-/// It ends when `is_enough` says so of the bounds of the least h̄, or after a few rectangles: the bounds hold
-/// at any time.
+/// It ends when `is_enough` says so of the bounds of the least h̄, or after a few rectangles: the bounds
+/// hold at any time.
 pub fn graded_bounds(
     field: &SizeField,
     paint: &PaintLayers,

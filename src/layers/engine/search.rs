@@ -59,7 +59,7 @@ impl<R: ValueRanges> RasterSearch<'_, R> {
         if self.question.asks(self.raster.whole_range()) == Share::None {
             return false;
         }
-        let scale = self.grid.scale_of(cells);
+        let scale = self.grid.scale_of(cells).max(self.raster.finest());
         let [low, high] = self.grid.squares(scale, cells);
         for y in low[1]..=high[1] {
             for x in low[0]..=high[0] {
@@ -81,7 +81,7 @@ impl<R: ValueRanges> RasterSearch<'_, R> {
         cells: impl FnOnce() -> Cells,
     ) -> bool {
         // Most squares are decided by their values.
-        let asks = self.question.asks(self.raster.range(scale, x as i32, y as i32));
+        let asks = self.question.asks(self.raster.range_anywhere(scale, [x, y]));
         if asks == Share::None {
             return false;
         }

@@ -38,7 +38,8 @@ pub fn is_steep(field: &SizeField, paint: &PaintLayers, cells: &Cells) -> bool {
         if diameters.present != Share::All && !fades {
             return true;
         }
-        !(layer.steepness(cells, diameters, field.lattice()) <= slope)
+        let steepness = layer.steepness(cells, diameters, field.lattice());
+        steepness > slope || steepness.is_nan()
     })
 }
 

@@ -212,6 +212,10 @@ impl ValueRanges for TiledRaster {
         self.scales.len() as i32
     }
 
+    fn finest(&self) -> i32 {
+        1 - self.depths.len().max(1) as i32
+    }
+
     #[inline]
     fn range(&self, scale: i32, x: i32, y: i32) -> ValueRange {
         if scale > self.coarsest() {
