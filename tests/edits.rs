@@ -71,8 +71,8 @@ fn edit(seed: u64, scale: Scale, seen: &mut Seen) {
     seen.compared += driver.compared;
 }
 
-fn run(scale: Scale) {
-    let edits = number("MESHBRUSH_EDITS").unwrap_or(360);
+fn run(scale: Scale, usual: usize) {
+    let edits = number("MESHBRUSH_EDITS").unwrap_or(usual);
     let first = number("MESHBRUSH_SEED").unwrap_or(0) as u64;
     let mut seen = Seen::default();
     for seed in first.. {
@@ -84,19 +84,19 @@ fn run(scale: Scale) {
     }
     let Seen { edits, changes_within, compared } = seen;
     assert!(
-        changes_within > edits / 5 && compared > edits / 8,
+        changes_within > edits / 10 && compared > edits / 8,
         "of {edits} edits, {changes_within} slices changed the mesh in place, and {compared} meshes were compared"
     );
 }
 
 #[test]
 fn the_mesh_after_any_edits_is_the_one_made_from_scratch() {
-    run(Scale { diameter: 0.02, smallest: 0.02, triangles: 1000 });
+    run(Scale { diameter: 0.02, smallest: 0.02, triangles: 1000 }, 360);
 }
 
 #[test]
 fn edits_of_a_thousand_millionth_of_the_domain_are_seen() {
-    run(Scale { diameter: 0.02, smallest: 1e-9, triangles: 1000 });
+    run(Scale { diameter: 0.02, smallest: 1e-9, triangles: 1000 }, 60);
 }
 
 /// What `fuzz/` runs, on a few bytes.

@@ -197,7 +197,7 @@ mod tests {
         let longest = lattice.spacing() * 2f64.sqrt();
         assert!((side(0.03, None) - 0.02).abs() < 1e-4);
         assert!((side(0.03, Some(0.2)) - 0.22).abs() < 1e-4);
-        let farthest = 0.02 + 10.0 * (longest.min(0.07) - 0.01);
+        let farthest = 0.02 + 10.0 * (longest - 0.01);
         assert!((side(5.0, Some(0.2)) - farthest).abs() < 1e-4, "{} {farthest}", side(5.0, Some(0.2)));
     }
 }

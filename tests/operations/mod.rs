@@ -99,7 +99,10 @@ impl Operation {
     pub fn choose(choices: &mut impl Choices, scale: Scale) -> Self {
         match choices.below(46) {
             0..14 => Self::stroke(choices, scale),
-            14 => Self::Begin(brush(choices, scale), point(choices)),
+            14 => {
+                let brush = brush(choices, scale);
+                Self::Begin(Brush { radius: brush.radius.max(0.02), ..brush }, point(choices))
+            }
             15 => Self::Draw(point(choices)),
             16 => Self::End,
             17 => Self::CancelStroke,
@@ -119,8 +122,11 @@ impl Operation {
 
     pub fn stroke(choices: &mut impl Choices, scale: Scale) -> Self {
         let brush = brush(choices, scale);
-        let count = 1 + choices.below(3);
-        Self::Stroke(brush, (0..count).map(|_| point(choices)).collect())
+        let (count, first) = (choices.below(3), point(choices));
+        // A small brush makes a short stroke: tiles are painted one by one.
+        let reach = if brush.radius < 0.02 { 20.0 * brush.radius } else { 1.0 };
+        let next = |_| if reach < 1.0 { first + reach * (point(choices) - 0.5) } else { point(choices) };
+        Self::Stroke(brush, std::iter::once(first).chain((0..count).map(next)).collect())
     }
 
     /// Does it; what the document refuses must leave it as it was.
