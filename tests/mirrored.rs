@@ -53,7 +53,8 @@ fn mesh_of_image(
 
 #[test]
 fn an_image_of_an_outline_has_the_image_of_the_mesh() {
-    let images: [(&str, fn(DVec2) -> DVec2); 2] = [("turned", |p| -p), ("mirrored", |p| dvec2(p.y, p.x))];
+    type Image = (&'static str, fn(DVec2) -> DVec2);
+    let images: [Image; 2] = [("turned", |p| -p), ("mirrored", |p| dvec2(p.y, p.x))];
     let mut corners = 0;
     for seed in 0..runs(25) {
         let mut random = Rng::with_seed(seed);

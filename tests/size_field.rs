@@ -157,7 +157,7 @@ fn a_mesh_around_a_point_is_the_smallest_that_meets_the_closed_form() {
                 let least = 0.01 + slope.min(gradation) * distance_from(at, corners);
                 let level = closure::level(cell, t);
                 let whole = lattice.spacing() / f64::from(1u32 << (level / 2));
-                let length = if level % 2 == 0 { whole * 2f64.sqrt() } else { whole };
+                let length = if level.is_multiple_of(2) { whole * 2f64.sqrt() } else { whole };
                 least < length * (1.0 - 1e-7)
             };
             let expected = closure::refine(closure::coarse(columns, rows, cell, |_, _| true), asks);

@@ -151,7 +151,7 @@ mod tests {
         let meter = Meter::default();
         assert_eq!(share(&meter), "0 MB");
         meter.expect(400);
-        assert_eq!(terminal.while_metered("reading", &meter, || meter.add(100).is_ok()), true);
+        assert!(terminal.while_metered("reading", &meter, || meter.add(100).is_ok()));
         assert_eq!(share(&meter), "25 %");
         assert_eq!(terminal.while_working("checking", || 7), 7);
     }

@@ -94,7 +94,7 @@ mod tests {
         assert!(meet(&[east.clone(), rectangle(-180.0, -178.0, -17.0, -10.0)]));
         assert!(meet(&[rectangle(-180.0, -178.0, 50.0, 60.0), rectangle(-180.0, 180.0, -5.0, 5.0)]));
         // One side only, other latitudes, or a corner.
-        assert!(!meet(&[east.clone()]) && !meet(&[]));
+        assert!(!meet(std::slice::from_ref(&east)) && !meet(&[]));
         assert!(!meet(&[east.clone(), rectangle(-180.0, -178.0, -16.0, -10.0)]));
         assert!(!meet(&[east, vec![dvec2(-180.0, -17.0), dvec2(-178.0, -18.0), dvec2(-178.0, -16.0)]]));
     }

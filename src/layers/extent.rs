@@ -136,7 +136,7 @@ impl Layer {
     /// zero where it never matters, infinite where it always can.
     pub(super) fn range_below_ceiling(&self, at_zero: f64, slope: f64, context: &ExtentContext) -> f64 {
         let ceiling = context.ceiling();
-        if self.combine != Combine::Finest || ceiling == f64::INFINITY || !(slope > 0.0) {
+        if self.combine != Combine::Finest || ceiling == f64::INFINITY || slope.is_nan() || slope <= 0.0 {
             return f64::INFINITY;
         }
         // A little more, because the value at a distance is rounded.

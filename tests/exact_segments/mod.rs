@@ -50,8 +50,8 @@ fn product(a: i128, b: i128) -> (i128, u128) {
     let (x, y) = (a.unsigned_abs(), b.unsigned_abs());
     let low = |n: u128| n & u128::from(u64::MAX);
     let (x0, x1, y0, y1) = (low(x), x >> 64, low(y), y >> 64);
-    let middle = low(x1 * y0) + low(x0 * y1) + (x0 * y0 >> 64);
-    let upper = x1 * y1 + (x1 * y0 >> 64) + (x0 * y1 >> 64) + (middle >> 64);
+    let middle = low(x1 * y0) + low(x0 * y1) + ((x0 * y0) >> 64);
+    let upper = x1 * y1 + ((x1 * y0) >> 64) + ((x0 * y1) >> 64) + (middle >> 64);
     let lower = (middle << 64) | low(x0 * y0);
     if (a < 0) == (b < 0) {
         (upper as i128, lower)
