@@ -158,7 +158,8 @@ fn distance(choices: &mut impl Choices, scale: Scale) -> LayerKind {
             let polygons = if other == 4 { vec![polygon(choices, centre, size)] } else { Vec::new() };
             let lines = if other == 3 { vec![vec![centre, end]] } else { Vec::new() };
             let list = ShapeList { points: vec![centre, end], lines, polygons };
-            let shapes = Shapes::new(list, choices.below(2) == 0).unwrap();
+            // Polygons from a file are always filled, and so are those of a project.
+            let shapes = Shapes::new(list, true).unwrap();
             DistanceTo::Shapes { name: "shapes".into(), shapes }
         }
     };
