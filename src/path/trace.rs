@@ -52,8 +52,8 @@ pub(super) fn trace(
     let descent = Descent::new(mesh, costs, march, [start, goal])?;
     let (mut stand, mut at, mut height) = (descent.stand_at(goal), goal.point, (f64::INFINITY, NONE));
     let mut points = vec![goal.point];
-    // Each step leads to a lower value, or to an equal one of a lower number. There are few values between
-    // those of neighbouring nodes; should there be many, the way by nodes only is as short as they are many.
+    // Each step leads to a lower value, or to a node of equal value and lower number. The number of steps is
+    // limited all the same: values on edges can be arbitrarily close. Beyond the limit, nodes alone lead down.
     for _ in 0..8 * mesh.triangles.len() + 8 {
         let step = descent.best(stand, at).filter(|step| step.stand.is_none() || step.height() < height);
         let step = step.or_else(|| descent.down_to_node(stand, at))?;
@@ -70,7 +70,8 @@ pub(super) fn trace(
     trace_by_nodes(mesh, costs, march, [start, goal])
 }
 
-/// The same by way of nodes only: each piece lies in one triangle, without an exception for rounding.
+/// The path that [`trace`] looks for, through nodes only. Each piece lies in one triangle, without an
+/// exception for rounding.
 pub(super) fn trace_by_nodes(
     mesh: &PathMesh,
     costs: &[f64],
