@@ -52,8 +52,8 @@ pub(super) fn trace(
     let descent = Descent::new(mesh, costs, march, [start, goal])?;
     let (mut stand, mut at, mut height) = (descent.stand_at(goal), goal.point, (f64::INFINITY, NONE));
     let mut points = vec![goal.point];
-    // Each step leads to a lower value, or to a node of equal value and lower number. The number of steps is
-    // limited all the same: values on edges can be arbitrarily close. Beyond the limit, nodes alone lead down.
+    // Each step leads to a lower value, or to a node of equal value and lower number. The steps are
+    // limited all the same: values on edges can be arbitrarily close. Beyond it, nodes alone lead down.
     for _ in 0..8 * mesh.triangles.len() + 8 {
         let step = descent.best(stand, at).filter(|step| step.stand.is_none() || step.height() < height);
         let step = step.or_else(|| descent.down_to_node(stand, at))?;
