@@ -41,7 +41,7 @@ class Found:
         self.boundary = boundary if boundary is None else edge_set(boundary)
         self.tolerance = 1e-12 if exact else 1e-5
         # What only some formats have: names and edges of the pieces of the boundary, markers of nodes, parts.
-        self.pieces, self.edges_by_marker, self.markers, self.names, self.parts = None, None, None, None, None
+        self.pieces, self.edges_by_marker, self.markers, self.names_by_marker, self.parts = [None] * 5
 
     def area(self):
         a, b, c = (self.nodes[self.triangles[:, corner], :2] for corner in range(3))
@@ -67,7 +67,8 @@ def edge_set(edges):
 def read_vtu(path):
     mesh = meshio.read(path)
     found = Found(mesh.points, mesh.cells_dict["triangle"], mesh.cell_data_dict["level"]["triangle"])
-    found.names = bytes(mesh.field_data["boundary_names"]).decode().splitlines()
+    lines = bytes(mesh.field_data["boundary_names"]).decode().split("\n")
+    found.names_by_marker = {marker: name for marker, name in enumerate(lines, start=1) if name}
     found.markers = mesh.point_data["boundary"]
     found.parts = mesh.cell_data_dict["part"]["triangle"]
     assert (mesh.point_data["target_diameter"] > 0).all()
@@ -242,14 +243,16 @@ def check_boundary(found, summary):
     """Names, edges and lengths of the pieces are those of the summary; edges with a marker are those of the piece."""
     pieces = summary["boundary"]
     names = [piece["name"] for piece in pieces]
-    assert len(set(names)) == len(names) and [piece["id"] for piece in pieces] == list(range(len(pieces)))
-    assert found.names is None or found.names == names, f"names {found.names}"
+    ids = [piece["id"] for piece in pieces]
+    # A piece that the mesh left out is not listed, and the others keep their ids.
+    assert len(set(names)) == len(names) and ids == sorted(set(ids)) and all(piece["edges"] > 0 for piece in pieces)
+    names_by_marker = dict(zip((id + 1 for id in ids), names))
+    assert found.names_by_marker in (None, names_by_marker), f"names {found.names_by_marker}"
     if found.edges_by_marker is not None:
-        found.pieces = {names[marker - 1]: edges for marker, edges in found.edges_by_marker.items()}
+        found.pieces = {names_by_marker[marker]: edges for marker, edges in found.edges_by_marker.items()}
     if found.pieces is not None:
-        present = [piece for piece in pieces if piece["edges"] > 0]
-        assert found.pieces.keys() == {piece["name"] for piece in present}, f"names {found.pieces.keys()}"
-        for piece in present:
+        assert found.pieces.keys() == set(names), f"names {found.pieces.keys()}"
+        for piece in pieces:
             edges = found.pieces[piece["name"]]
             ends = found.nodes[np.array(sorted(edges)), :2]
             length = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1).sum()

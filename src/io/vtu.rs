@@ -5,8 +5,9 @@
 //! connected part, from 0 for the largest. ParaView, VTK, PyVista and meshio read it.
 //!
 //! Field data: `boundary_names`, the names of the pieces in the order of their markers, a line for each, as
-//! bytes of UTF-8. (VTK has arrays of strings, but meshio refuses them.) A processing instruction
-//! `<?meshbrush …?>` says where the mesh comes from; a comment could not hold the `--` of a command.
+//! bytes of UTF-8; the line of a piece that has no edge in the mesh is empty. (VTK has arrays of strings, but
+//! meshio refuses them.) A processing instruction `<?meshbrush …?>` says where the mesh comes from; a comment
+//! could not hold the `--` of a command.
 //!
 //! The header has the offset of each array, and so depends on the compressed sizes of the arrays before it.
 //! Therefore every array is compressed twice, first to measure and then to write: that costs time, but only
@@ -172,7 +173,10 @@ fn write_header(
 }
 
 fn write_names(out: &mut impl Write, data: &MeshData) -> io::Result<()> {
-    let names: Vec<&str> = data.boundary.pieces().list().iter().map(|piece| piece.name.as_str()).collect();
+    let mut names = vec![""; data.boundary.pieces().list().len()];
+    for id in data.boundary.present() {
+        names[id] = &data.boundary.pieces().list()[id].name;
+    }
     let bytes = names.join("\n").into_bytes();
     writeln!(out, "    <FieldData>")?;
     let count = bytes.len();
