@@ -292,9 +292,11 @@ fn compare_coasts(derived: bool, usual: u64) {
         let (plain, mapped) = (mesh(&IDENTITY), mesh(&map));
         let [plain, mapped] = [triangles(&plain, &map, derived), triangles(&mapped, &IDENTITY, derived)];
         let differing = plain.iter().filter(|triangle| mapped.binary_search(triangle).is_err()).count();
-        // Not exact yet: on some coasts a few triangles at the outline differ.
+        // Where two places are equally good for a node, smoothing takes the first in the order of its search,
+        // and the triangles around that node differ.
+        let allowed = if derived { plain.len() / 50 } else { 0 };
         assert!(
-            50 * differing <= plain.len() && plain.len().abs_diff(mapped.len()) * 50 <= plain.len(),
+            differing <= allowed && plain.len() == mapped.len(),
             "coast {seed} with {map:?}: {differing} of {} and {}",
             plain.len(),
             mapped.len()

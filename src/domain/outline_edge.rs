@@ -55,11 +55,14 @@ impl OutlineEdge {
         ax.abs_diff(bx) + ay.abs_diff(by)
     }
 
-    /// Whether a lattice point lies on the edge.
+    /// Whether a point, given by three times its coordinates, lies on the edge.
     pub(super) fn holds(&self, [px, py]: [i64; 2]) -> bool {
-        let [[ax, ay], [bx, by]] = self.ends;
+        let [[ax, ay], [bx, by]] = self.ends.map(|end| end.map(|c| 3 * c));
         let between = |a: i64, b: i64, p: i64| a.min(b) <= p && p <= a.max(b);
-        between(ax, bx, px) && between(ay, by, py) && (bx - ax) * (py - ay) == (by - ay) * (px - ax)
+        let product = |a: i64, b: i64| i128::from(a) * i128::from(b);
+        between(ax, bx, px)
+            && between(ay, by, py)
+            && product(bx - ax, py - ay) == product(by - ay, px - ax)
     }
 
     /// Whether the edge crosses the horizontal line through a point, left of the point and within
