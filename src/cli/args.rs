@@ -1,9 +1,10 @@
 //! Arguments as typed. [`MeshRequest`](super::request::MeshRequest) interprets and checks them.
 
+use std::ffi::OsString;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap::{Args, CommandFactory as _, Parser, Subcommand, ValueEnum};
 
 #[cfg(feature = "gui")]
 use super::more_args::ScreenshotsArguments;
@@ -16,7 +17,7 @@ use crate::render::export::ExportFormat;
 ///
 /// Without a command the window opens.
 #[derive(Debug, Parser)]
-#[command(name = "meshbrush", version, args_conflicts_with_subcommands = true, max_term_width = 100)]
+#[command(name = "meshbrush", version, max_term_width = 100)]
 pub struct Arguments {
     /// File to open in the window: a project (.meshbrush), a recipe (.toml), a domain (.geojson), or a
     /// greyscale picture (.png) or grid (.asc) as risk
@@ -28,6 +29,25 @@ pub struct Arguments {
 
     #[command(subcommand)]
     pub command: Option<Command>,
+}
+
+impl Arguments {
+    /// The arguments as typed, the name of the program first. (clap can forbid a file before a command only
+    /// together with all options, and `--threads` may stand on either side.)
+    ///
+    /// # Errors
+    /// Wrong usage, and also help and version, which clap hands over as errors.
+    pub fn read(typed: &[OsString]) -> Result<Self, clap::Error> {
+        let arguments = Self::try_parse_from(typed)?;
+        if let (Some(file), Some(_)) = (&arguments.file, &arguments.command) {
+            let sentence = format!(
+                "'{}' stands before the command; write files and options of a command after its name",
+                file.display()
+            );
+            return Err(Self::command().error(clap::error::ErrorKind::ArgumentConflict, sentence));
+        }
+        Ok(arguments)
+    }
 }
 
 /// What to do without a window.

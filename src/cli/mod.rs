@@ -34,7 +34,7 @@ use std::path::Path;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use clap::{CommandFactory, Parser};
+use clap::CommandFactory;
 
 use args::{Arguments, Command};
 use command_line::command_line;
@@ -59,7 +59,7 @@ pub struct Window {
 /// Runs the program. `arguments` begin with its name; `window` is `None` in a build without one.
 pub fn run(arguments: impl IntoIterator<Item = OsString>, window: Option<Window>) -> ExitCode {
     let typed: Vec<OsString> = arguments.into_iter().collect();
-    let arguments = match Arguments::try_parse_from(&typed) {
+    let arguments = match Arguments::read(&typed) {
         Ok(arguments) => arguments,
         Err(answer) => {
             // Help and version too come as an "error", with status 0. A closed pipe is no error.

@@ -60,9 +60,7 @@ impl OutlineEdge {
         let [[ax, ay], [bx, by]] = self.ends.map(|end| end.map(|c| 3 * c));
         let between = |a: i64, b: i64, p: i64| a.min(b) <= p && p <= a.max(b);
         let product = |a: i64, b: i64| i128::from(a) * i128::from(b);
-        between(ax, bx, px)
-            && between(ay, by, py)
-            && product(bx - ax, py - ay) == product(by - ay, px - ax)
+        between(ax, bx, px) && between(ay, by, py) && product(bx - ax, py - ay) == product(by - ay, px - ax)
     }
 
     /// Whether the edge crosses the horizontal line through a point, left of the point and within

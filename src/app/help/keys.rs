@@ -34,6 +34,23 @@ pub fn show(ui: &mut Ui, catalog: &[CatalogItem]) {
     ui.data_mut(|data| data.insert_temp(id, query));
 }
 
+/// The list as a page of the documentation.
+#[cfg(test)]
+pub fn page(catalog: &[CatalogItem]) -> String {
+    let mut page = "# Keys and gestures\n\nThe list of Shift+`F1` in the window. On a Mac, Ctrl is Cmd. \
+                    Written by a test.\n"
+        .to_owned();
+    let mut group = "";
+    for entry in entries(catalog) {
+        if entry.group != group {
+            group = entry.group;
+            page += &format!("\n## {group}\n\n| | |\n|---|---|\n");
+        }
+        page += &format!("| {} | {} |\n", entry.title, entry.keys);
+    }
+    page
+}
+
 /// Gestures first: they are the hardest to guess.
 fn entries(catalog: &[CatalogItem]) -> Vec<Entry<'_>> {
     let gestures = GESTURES.iter().map(|gesture| Entry {

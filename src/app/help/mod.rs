@@ -5,6 +5,9 @@ mod manual;
 mod markdown;
 mod page;
 
+#[cfg(test)]
+pub use keys::page as keys_page;
+
 use eframe::egui::{self, Context, Frame, Margin, ScrollArea, Ui, vec2};
 
 use super::catalog::CatalogItem;

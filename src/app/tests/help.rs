@@ -82,3 +82,15 @@ fn about_names_the_report() {
     choose(&mut window, "Help", "About Meshbrush");
     assert!(window.query_by_label_contains("Local Bisection Refinement of Triangulated Grids").is_some());
 }
+
+#[test]
+fn the_page_of_keys_is_the_list_in_the_window() {
+    let window = window();
+    let page = crate::app::help::keys_page(&crate::app::catalog::catalog(&window.state().state(None)));
+    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/keys.md");
+    if std::env::var_os("UPDATE_DOCS").is_some() {
+        std::fs::write(&path, &page).unwrap();
+    }
+    let written = std::fs::read_to_string(path).unwrap_or_default();
+    assert!(written == page, "docs/keys.md is not the list of keys: UPDATE_DOCS=1 cargo test --lib keys");
+}

@@ -1,0 +1,15 @@
+//! The program as a person runs it: command line, recipes, projects.
+
+mod causes;
+mod cli;
+mod folder;
+mod layer_files;
+mod located;
+mod memory;
+mod one_program;
+mod path_cli;
+mod project;
+mod readme;
+mod recipe;
+#[path = "../shared/runs.rs"]
+mod runs;

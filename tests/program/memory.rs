@@ -1,0 +1,105 @@
+//! The memory of the program: the budget is kept at the peak, and running out of memory is an error.
+#![cfg(target_os = "linux")]
+
+use std::fs;
+use std::process::{Child, Command, Stdio};
+use std::time::Duration;
+
+use crate::folder::Folder;
+use meshbrush::internals::mesh::MemoryLimit;
+
+/// What large pages at the ends of arrays and the stacks of threads take, in bytes.
+const ROUNDING: usize = 8 << 20;
+
+fn mesh(folder: &Folder, options: &str) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_meshbrush"));
+    command.current_dir(&folder.0).args(["mesh", "--json", "--threads", "2"]);
+    command.args(options.split_whitespace()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    command
+}
+
+/// The exit status, the most memory that the program had at a time in bytes, and the number of triangles.
+fn peak_of(folder: &Folder, options: &str) -> (i32, usize, usize) {
+    let mut child = mesh(folder, options).spawn().unwrap();
+    let mut peak = 0;
+    while child.try_wait().unwrap().is_none() {
+        peak = peak.max(memory(&child));
+        std::thread::sleep(Duration::from_micros(500));
+    }
+    let output = child.wait_with_output().unwrap();
+    let summary = serde_json::from_slice::<serde_json::Value>(&output.stdout).ok();
+    let triangles = summary.and_then(|summary| summary["triangles"].as_u64()).unwrap_or(0);
+    (output.status.code().expect("no signal ends it"), peak, triangles as usize)
+}
+
+/// The most memory that a process has had so far, in bytes; 0 once it has ended.
+fn memory(child: &Child) -> usize {
+    let status = fs::read_to_string(format!("/proc/{}/status", child.id())).unwrap_or_default();
+    let most = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
+    most.map_or(0, |most| 1024 * most.trim().trim_end_matches(" kB").parse::<usize>().unwrap())
+}
+
+/// Diameters that differ from pixel to pixel.
+fn noise() -> String {
+    let mut random = fastrand::Rng::with_seed(1);
+    let rows = (0..300).map(|_| {
+        let row: Vec<String> =
+            (0..300).map(|_| format!("{:.5}", 0.002 + 0.01 * random.f64().powi(2))).collect();
+        row.join(" ")
+    });
+    let head = "ncols 300\nnrows 300\nxllcorner 0\nyllcorner 0\ncellsize 0.0033333333333\n".to_owned();
+    head + &rows.collect::<Vec<_>>().join("\n")
+}
+
+#[test]
+fn the_memory_budget_is_kept_at_the_peak() {
+    let folder = Folder::new("budget");
+    let hole = r#"{"type":"Polygon","coordinates":[[[0,0],[1,0],[1,1],[0,1],[0,0]],[[0.4,0.4],[0.6,0.4],[0.6,0.6],[0.4,0.4]]]}"#;
+    fs::write(folder.0.join("hole.geojson"), hole).unwrap();
+    fs::write(folder.0.join("noise.asc"), noise()).unwrap();
+    let (_, base, _) = peak_of(&folder, "--domain 0,0,1,1 --spacing 0.1 --target 0.05");
+    let fields = [
+        "--domain 0,0,1,1 --target 0.0028+0.02*abs(sin(90*x)*sin(80*y)) --rule area",
+        "--domain 0,0,1,1 --target 0.0028+0.02*abs(sin(90*x)*sin(80*y)) --rule vertex",
+        "--domain 0,0,1,1 --target 0.0035",
+        "--domain 0,0,1,1 --target-raster noise.asc",
+        "--region hole.geojson --target 0.002+0.004*hypot(x,y)",
+    ];
+    std::thread::scope(|scope| {
+        for field in fields {
+            let folder = &folder;
+            scope.spawn(move || is_kept(folder, field, base));
+        }
+    });
+}
+
+fn is_kept(folder: &Folder, field: &str, base: usize) {
+    // All write to the same file: each write has a temporary file of its own.
+    let options = format!("--spacing 0.05 {field} -o mesh.vtu");
+    let (status, peak, triangles) = peak_of(&folder, &options);
+    assert!(status == 0 && triangles > 150_000, "{field}: {triangles}");
+    let budget = triangles * MemoryLimit::ONE_MESH;
+    assert!(peak <= base + budget + ROUNDING, "{field}: {peak} for {triangles} triangles, {base} without");
+    // With a little less than the mesh needs, that is not passed either.
+    let budget = budget * 9 / 10;
+    let limited = format!("{options} --max-memory {:.3}MB", budget as f64 / 1e6);
+    let (status, peak, _) = peak_of(&folder, &limited);
+    assert_eq!(status, 1, "{limited}");
+    assert!(peak <= base + budget + ROUNDING, "{limited}: {peak}, {base} without");
+}
+
+#[test]
+fn running_out_of_memory_is_an_error() {
+    let folder = Folder::new("out");
+    let program = env!("CARGO_BIN_EXE_meshbrush");
+    let mesh = "mesh --threads 2 --domain 0,0,1,1 --spacing 0.01 --target 0.001 -o mesh.vtu";
+    for kilobytes in [150_000, 250_000, 350_000, 500_000] {
+        let line = format!("ulimit -v {kilobytes}; exec {program} {mesh}");
+        let output = Command::new("sh").current_dir(&folder.0).args(["-c", &line]).output().unwrap();
+        let told = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(1), "{kilobytes} kB: {told}");
+        let last = told.trim_end().lines().last().unwrap_or_default();
+        assert!(last.contains("meshbrush: Memory ran out") && last.ends_with('.'), "{kilobytes} kB: {told}");
+        assert!(!folder.0.join("mesh.vtu").exists());
+    }
+}

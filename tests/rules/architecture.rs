@@ -1,0 +1,421 @@
+//! Checks the rules of ARCHITECTURE.md by reading the source.
+//!
+//! Comments, strings and tests do not count as code. Exceptions are listed with a reason, and an exception
+//! that is no longer needed must be removed from its list.
+
+use std::collections::BTreeSet;
+use std::fs;
+
+use crate::source::{Function, SourceFile, read_src, read_texts};
+
+/// The modules, lowest first: each imports only from those before it.
+const MODULES: [&str; 20] = [
+    "text", "geometry", "mesh", "plot", "raster", "field", "domain", "layers", "outline", "paint", "build",
+    "path", "explain", "document", "io", "colormap", "scene", "render", "cli", "app",
+];
+
+/// What lib.rs declares besides: documentation, and the door for our own tests.
+const OTHER_MODULES: [&str; 2] = ["guide", "internals"];
+
+/// Largest number of lines of a file, without its tests.
+const LONGEST_FILE: usize = 450;
+/// Files that may be longer: the file and the reason.
+const LONG_FILES: [(&str, &str); 0] = [];
+
+/// Largest number of lines of a function.
+const LONGEST_FUNCTION: usize = 60;
+/// Functions that may be longer: file, name and reason.
+const LONG_FUNCTIONS: [(&str, &str, &str); 1] = [(
+    "src/field/formula/program.rs",
+    "run_on",
+    "one arm for each instruction, a line each, around one accumulator and one stack",
+)];
+
+/// Largest width of a line of a comment: max_width in rustfmt.toml.
+const WIDEST_COMMENT: usize = 110;
+
+/// Functions of std that round differently on different machines.
+const INEXACT: [&str; 23] = [
+    "sin", "cos", "tan", "sin_cos", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh", "exp", "exp2",
+    "exp_m1", "ln", "ln_1p", "log", "log2", "log10", "powf", "powi", "cbrt", "hypot",
+];
+/// Places where they are harmless: file, name and reason.
+const INEXACT_ALLOWED: [(&str, &str, &str); 0] = [];
+
+fn rank(module: &str) -> Option<usize> {
+    MODULES.iter().position(|known| *known == module)
+}
+
+/// The files of the modules, without `lib.rs`, `main.rs` and [`OTHER_MODULES`].
+fn files() -> Vec<SourceFile> {
+    let ours = |file: &SourceFile| !file.module.is_empty() && !OTHER_MODULES.contains(&file.top_module());
+    read_src().into_iter().filter(ours).collect()
+}
+
+/// The files of the modules before the given one.
+fn files_before(module: &str) -> impl Iterator<Item = SourceFile> {
+    let end = rank(module).unwrap();
+    files().into_iter().filter(move |file| rank(file.top_module()).is_some_and(|rank| rank < end))
+}
+
+/// Fails with everything found, one per line.
+fn assert_none(found: Vec<String>, rule: &str) {
+    assert!(found.is_empty(), "{rule}\n  {}", found.join("\n  "));
+}
+
+/// Places where code names a path that begins with one of `beginnings` (segments joined by `::`).
+fn named<'a>(files: impl IntoIterator<Item = SourceFile>, beginnings: &'a [&'a str]) -> Vec<String> {
+    let mut found = Vec::new();
+    for file in files {
+        for path in file.paths() {
+            let text = path.segments.join("::") + "::";
+            if beginnings.iter().any(|beginning| text.starts_with(&format!("{beginning}::"))) {
+                found.push(format!("{}:{} names {}", file.path, path.line, path.segments.join("::")));
+            }
+        }
+    }
+    found
+}
+
+/// Places where the code contains a word.
+fn with_word(files: impl IntoIterator<Item = SourceFile>, word: &str) -> Vec<String> {
+    let mut found = Vec::new();
+    for file in files {
+        let lines = file.tokens.iter().filter(|token| token.text == word).map(|token| token.line);
+        found.extend(lines.map(|line| format!("{}:{line} names {word}", file.path)));
+    }
+    found
+}
+
+/// Every exception must still be needed.
+fn assert_needed(listed: &[String], met: &[String], list: &str) {
+    let idle = listed.iter().filter(|exception| !met.contains(exception)).cloned().collect();
+    assert_none(idle, &format!("these are listed in {list} and no longer need to be:"));
+}
+
+#[test]
+fn lib_rs_declares_the_modules_in_their_order() {
+    let all = read_src();
+    let lib = all.iter().find(|file| file.path == "src/lib.rs").unwrap();
+    let names: Vec<&str> = lib.tokens.iter().map(|token| token.text.as_str()).collect();
+    let declared: Vec<&str> = names.windows(2).filter(|pair| pair[0] == "mod").map(|pair| pair[1]).collect();
+    assert_eq!(declared, [&MODULES[..], &OTHER_MODULES].concat(), "src/lib.rs declares the modules in order");
+    let strangers =
+        files().into_iter().filter(|file| rank(file.top_module()).is_none()).map(|file| file.path);
+    assert_none(strangers.collect(), "every file is in a listed module:");
+}
+
+#[test]
+fn a_module_imports_only_from_modules_before_it() {
+    let mut found = Vec::new();
+    for file in files() {
+        for path in file.paths().into_iter().filter(|path| path.segments[0] == "crate") {
+            // A path to the crate itself, or a glob of it, would hide what is imported.
+            let to = path.segments.get(1).map_or("the whole crate", String::as_str);
+            let (from, target) = (rank(file.top_module()), rank(to));
+            if target.is_none() || target > from {
+                found.push(format!("{}:{} imports from {to}", file.path, path.line));
+            }
+        }
+        assert!(!file.paths().iter().any(|path| path.segments[0] == "meshbrush"), "{}", file.path);
+    }
+    assert_none(
+        found,
+        &format!("a module imports only from modules before it; the order is {}:", MODULES.join(" ")),
+    );
+}
+
+#[test]
+fn the_program_is_one_call_of_the_library() {
+    let main = read_src().into_iter().filter(|file| file.path == "src/main.rs");
+    let allowed = ["meshbrush::run_program", "meshbrush::ProgramAllocator"];
+    let inner = named(main, &["meshbrush"])
+        .into_iter()
+        .filter(|found| !allowed.iter().any(|allowed| found.contains(allowed)));
+    assert_none(inner.collect(), "main.rs calls run_program, takes the allocator, and nothing else:");
+}
+
+#[test]
+fn the_mesh_knows_only_geometry() {
+    let mesh = files().into_iter().filter(|file| file.top_module() == "mesh");
+    let others: Vec<String> = MODULES[3..].iter().map(|module| format!("crate::{module}")).collect();
+    let others: Vec<&str> = others.iter().map(String::as_str).collect();
+    assert_none(named(mesh, &others), "the mesh takes rule and domain as closures:");
+}
+
+#[test]
+fn the_parts_of_the_mesh_import_downwards() {
+    let parts = ["kernel", "extract", "query", "steps"];
+    let mut found = Vec::new();
+    for file in files().into_iter().filter(|file| file.module.len() > 1 && file.top_module() == "mesh") {
+        let own = parts.iter().position(|part| *part == file.module[1]);
+        let allowed = &parts[..=own.unwrap_or_else(|| panic!("{} is in no part of mesh", file.path))];
+        for path in file.paths() {
+            // `crate::mesh` alone is a visibility.
+            let names_mesh = path.segments.len() > 2 && path.segments[..2] == ["crate", "mesh"];
+            if names_mesh && !allowed.contains(&path.segments[2].as_str()) {
+                found.push(format!("{}:{} names {}", file.path, path.line, path.segments.join("::")));
+            }
+        }
+    }
+    assert_none(found, &format!("in mesh the order is {}:", parts.join(" ")));
+}
+
+#[test]
+fn nothing_before_render_reads_clock_environment_or_screen() {
+    let forbidden = [
+        "std::time",
+        "std::env",
+        "std::thread",
+        "std::net",
+        "std::process::Command",
+        "eframe",
+        "egui",
+        "egui_wgpu",
+        "wgpu",
+        "rfd",
+        "pollster",
+        "clap",
+    ];
+    assert_none(
+        named(files_before("render"), &forbidden),
+        "the same document must give the same mesh on every machine:",
+    );
+    let mut up_to_render = files_before("render").collect::<Vec<_>>();
+    up_to_render.extend(files().into_iter().filter(|file| file.top_module() == "render"));
+    for word in ["Instant", "SystemTime"] {
+        assert_none(with_word(up_to_render.clone(), word), "no module before cli reads the clock:");
+    }
+}
+
+#[test]
+fn only_io_opens_files() {
+    let others = files().into_iter().filter(|file| file.top_module() != "io");
+    assert_none(named(others, &["std::fs", "fs", "File"]), "only io opens files:");
+}
+
+#[test]
+fn code_that_decides_a_mesh_rounds_the_same_on_every_machine() {
+    let (mut found, mut met) = (Vec::new(), Vec::new());
+    let allowed: Vec<String> =
+        INEXACT_ALLOWED.iter().map(|(file, name, _)| format!("{file} {name}")).collect();
+    for file in files_before("io") {
+        for call in file.tokens.windows(3).filter(|three| three[0].text == "." && three[2].text == "(") {
+            let (name, place) = (call[1].text.as_str(), format!("{} {}", file.path, call[1].text));
+            if INEXACT.contains(&name) && allowed.contains(&place) {
+                met.push(place);
+            } else if INEXACT.contains(&name) {
+                found.push(format!("{}:{} calls {name}; use libm", file.path, call[1].line));
+            }
+        }
+    }
+    let by_path = ["f64", "f32"].map(|float| INEXACT.map(|name| format!("{float}::{name}"))).concat();
+    let by_path: Vec<&str> = by_path.iter().map(String::as_str).collect();
+    found.extend(named(files_before("io"), &by_path));
+    assert_none(found, "the results of std's functions depend on the machine, those of libm do not:");
+    assert_needed(&allowed, &met, "INEXACT_ALLOWED");
+}
+
+#[test]
+fn egui_and_wgpu_meet_in_listed_files_only() {
+    // The second shows a window that is drawn in software. The third draws the whole window without a display,
+    // as eframe does with one. The fourth configures eframe.
+    let joins = [
+        "src/app/canvas/gpu.rs",
+        "src/app/software_window/gpu.rs",
+        "src/app/screenshots/offscreen.rs",
+        "src/app/mod.rs",
+    ];
+    let window =
+        files().into_iter().filter(|file| file.top_module() == "app" && !joins.contains(&file.path.as_str()));
+    let window: Vec<SourceFile> = window.collect();
+    for word in ["wgpu", "egui_wgpu"] {
+        assert_none(with_word(window.clone(), word), "of the window, only these files use wgpu:");
+    }
+    let others = files()
+        .into_iter()
+        .filter(|file| file.top_module() != "app" && !file.path.starts_with("src/render/gpu/"));
+    assert_none(with_word(others, "wgpu"), "besides the window, only render/gpu uses wgpu:");
+}
+
+#[test]
+fn only_the_window_uses_egui() {
+    let others: Vec<SourceFile> = files().into_iter().filter(|file| file.top_module() != "app").collect();
+    for word in ["egui", "egui_plot", "eframe", "rfd"] {
+        assert_none(with_word(others.clone(), word), "only the window uses egui:");
+    }
+}
+
+/// Files of the window that may name a tool: the file, and why. All others read the table of tools.
+const NAMES_A_TOOL: [(&str, &str); 11] = [
+    ("src/app/canvas/mod.rs", "Space and the middle button pan with every tool"),
+    ("src/app/catalog/tool.rs", "the modes of the tools for domain and boundary are commands"),
+    ("src/app/execute/domain.rs", "commands of the tools for domain and boundary select them"),
+    ("src/app/execute/layers.rs", "a layer of threats is edited with the tool for threats"),
+    ("src/app/execute/mod.rs", "some commands belong to one tool"),
+    ("src/app/panels/brush.rs", "brush and eraser share a section"),
+    ("src/app/execute/report.rs", "Figure 6 of the report is a query"),
+    ("src/app/execute/threats.rs", "counts uses of the tool for threats"),
+    ("src/app/panels/domain.rs", "the section shows the tool's settings while it is selected"),
+    ("src/app/screenshots/mod.rs", "pictures of single tools"),
+    ("src/app/screenshots/tour.rs", "pictures of single tools"),
+];
+
+#[test]
+fn a_tool_is_one_file_and_one_entry_of_the_table() {
+    let window = files().into_iter().filter(|file| file.path.starts_with("src/app/"));
+    let window = window.filter(|file| !file.path.starts_with("src/app/tools/"));
+    let tools = ["BRUSH", "ERASER", "QUERY", "THREATS", "DOMAIN", "BOUNDARY", "PAN"]
+        .map(|tool| format!("crate::app::tools::{tool}"));
+    let tools: Vec<&str> = tools.iter().map(String::as_str).collect();
+    let listed: Vec<String> = NAMES_A_TOOL.iter().map(|(file, _)| (*file).to_owned()).collect();
+    let (mut found, mut met) = (Vec::new(), Vec::new());
+    for file in window {
+        let (path, names) = (file.path.clone(), named([file], &tools));
+        if listed.contains(&path) && !names.is_empty() {
+            met.push(path);
+        } else {
+            found.extend(names);
+        }
+    }
+    assert_none(found, "keys, menus, panels and canvas read the table of tools:");
+    assert_needed(&listed, &met, "NAMES_A_TOOL");
+}
+
+#[test]
+fn unsafe_code_is_in_one_file() {
+    let others = read_src().into_iter().filter(|file| file.path != "src/mesh/kernel/memory.rs");
+    assert_none(with_word(others, "unsafe"), "unsafe code is in mesh/kernel/memory.rs only:");
+}
+
+#[test]
+fn files_are_short() {
+    let long: Vec<SourceFile> =
+        read_src().into_iter().filter(|file| file.line_count > LONGEST_FILE).collect();
+    let listed: Vec<String> = LONG_FILES.iter().map(|(file, _)| (*file).to_owned()).collect();
+    let found = long.iter().filter(|file| !listed.contains(&file.path));
+    assert_none(
+        found.map(|file| format!("{} has {}", file.path, file.line_count)).collect(),
+        &format!("a file has at most {LONGEST_FILE} lines, or a reason in LONG_FILES:"),
+    );
+    assert_needed(&listed, &long.into_iter().map(|file| file.path).collect::<Vec<_>>(), "LONG_FILES");
+}
+
+/// A row of a table or a line of a drawing, which cannot be wrapped.
+fn is_table_or_drawing(comment: &str) -> bool {
+    let text = comment.trim_start().trim_start_matches(['/', '!']);
+    text.starts_with(" |") || text.starts_with("     ")
+}
+
+#[test]
+fn comments_fit_the_width_of_the_code() {
+    let mut found = Vec::new();
+    for (path, text) in read_texts() {
+        let comments = text.lines().enumerate().filter(|(_, line)| line.trim_start().starts_with("//"));
+        for (index, line) in comments.filter(|(_, line)| !is_table_or_drawing(line)) {
+            if line.chars().count() > WIDEST_COMMENT {
+                found.push(format!("{path}:{} has {} columns", index + 1, line.chars().count()));
+            }
+        }
+    }
+    assert_none(
+        found,
+        &format!("a comment has at most {WIDEST_COMMENT} columns, like max_width in rustfmt.toml:"),
+    );
+}
+
+/// Keys of the form `[Name1995]`, and `[Report]`.
+fn keys(text: &str) -> BTreeSet<String> {
+    let bracketed = text.split('[').skip(1).filter_map(|rest| rest.split(']').next());
+    let is_key = |word: &&str| {
+        let name = word.trim_end_matches(|c: char| c.is_ascii_digit());
+        let year = &word[name.len()..];
+        *word == "Report"
+            || (year.len() == 4
+                && name.starts_with(|c: char| c.is_ascii_uppercase())
+                && name.chars().all(|c| c.is_ascii_alphabetic()))
+    };
+    bracketed.map(|word| word.trim_end_matches('\\')).filter(is_key).map(str::to_owned).collect()
+}
+
+#[test]
+fn every_reference_is_cited_and_every_citation_is_defined() {
+    let list = fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/docs/references.md")).unwrap();
+    let defined =
+        list.lines().filter(|line| line.starts_with(r"**\[")).flat_map(keys).collect::<BTreeSet<_>>();
+    let mut cited = BTreeSet::new();
+    for (path, text) in read_texts() {
+        for key in keys(&text) {
+            assert!(defined.contains(&key), "{path} cites [{key}], which docs/references.md does not define");
+            cited.insert(key);
+        }
+    }
+    assert_eq!(cited, defined, "every key of docs/references.md is cited in the source");
+}
+
+#[test]
+fn functions_fit_on_a_screen() {
+    let listed: Vec<String> = LONG_FUNCTIONS.iter().map(|(file, name, _)| format!("{file} {name}")).collect();
+    let (mut found, mut met) = (Vec::new(), Vec::new());
+    for file in read_src() {
+        for Function { name, lines } in file.functions() {
+            let (length, place) = (lines.end() - lines.start() + 1, format!("{} {name}", file.path));
+            if length > LONGEST_FUNCTION && listed.contains(&place) {
+                met.push(place);
+            } else if length > LONGEST_FUNCTION {
+                found.push(format!("{}:{} {name} has {length} lines", file.path, lines.start()));
+            }
+        }
+    }
+    let rule = format!("a function has at most {LONGEST_FUNCTION} lines, or a reason in LONG_FUNCTIONS:");
+    assert_none(found, &rule);
+    assert_needed(&listed, &met, "LONG_FUNCTIONS");
+}
+
+/// Source that is easy to misread.
+const TRAPS: &str = r####"
+//! crate::io in a doc comment
+use std::{fmt, time::{self, Instant as Clock}}; // crate::document
+use crate::{geometry::{Rect, Side}, mesh};
+use super::super::raster::*;
+/* crate::app /* nested */ unsafe */
+const TEXT: &str = "crate::cli \" unsafe"; const RAW: &[u8] = br##"wgpu"# crate::app"##;
+const QUOTE: char = '"'; const ESCAPED: char = '\''; const HEX: char = '\u{22}';
+fn generic<'a>(x: &'a [u8; 3]) -> self::own::Type { super::sibling::call(x); 1..2; }
+mod inner { fn up() { super::near(); super::super::sibling::call() } }
+#[cfg(test)]
+mod tests { use crate::app::App; fn unsafe_test() { unsafe {} } }
+#[cfg(test)] #[allow(unused)]
+fn helper(x: [u8; 3]) { crate::cli::run(); }
+#[cfg(test)]
+mod elsewhere;
+#[cfg(not(test))]
+fn last() { crate::paint::stamp::<u8>() }
+"####;
+
+#[test]
+fn the_reader_handles_source_that_is_easy_to_misread() {
+    let file = SourceFile::new("src/field/formula/mod.rs", TRAPS);
+    let paths: Vec<String> = file.paths().iter().map(|path| path.segments.join("::")).collect();
+    let expected = [
+        "std::fmt",
+        "std::time::self",
+        "std::time::Instant",
+        "crate::geometry::Rect",
+        "crate::geometry::Side",
+        "crate::mesh",
+        "crate::raster::*",
+        "crate::field::formula::own::Type",
+        "crate::field::sibling::call",
+        "crate::field::formula::near",
+        "crate::field::sibling::call",
+        "crate::paint::stamp",
+    ];
+    assert_eq!(paths, expected);
+    let words: Vec<&str> = file.tokens.iter().map(|token| token.text.as_str()).collect();
+    assert!(!words.iter().any(|word| ["unsafe", "wgpu", "app", "document", "cli", "helper"].contains(word)));
+    let functions: Vec<String> = file.functions().into_iter().map(|function| function.name).collect();
+    assert_eq!(functions, ["generic", "up", "last"]);
+    assert_eq!(file.line_count, TRAPS.lines().count() - 6);
+    assert_eq!(file.functions()[0].lines, 9..=9);
+}
