@@ -5,6 +5,7 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::integral::PathFigures;
+use super::lines::Lines;
 use super::lower::LowerBound;
 use super::march::{March, Seed};
 use super::obstacle::obstacle;
@@ -83,7 +84,7 @@ impl Origin {
     /// Marches from a place, as far as that is not done. `until`: only to the corners of that place's
     /// triangle, unless the costs change again and again.
     fn run(&mut self, mesh: &PathMesh, costs: &[f64], least: Passage, place: Place, until: Option<Place>) {
-        let seeds = place.seeds(mesh, costs).to_vec();
+        let seeds = place.seeds(mesh, costs);
         let is_same_place = self.place == Some(place);
         let to_the_end = is_same_place && self.follows;
         let until = until.filter(|_| !to_the_end).map(|place| place.corner_nodes(mesh));
@@ -97,7 +98,7 @@ impl Origin {
 
     /// Follows changed costs; what cannot be followed is marched again later.
     fn follow(&mut self, mesh: &PathMesh, costs: &[f64], least: Passage, changed: &[u32]) {
-        let seeds = self.place.map(|place| place.seeds(mesh, costs).to_vec());
+        let seeds = self.place.map(|place| place.seeds(mesh, costs));
         self.follows = true;
         if self.is_current && self.march.is_complete() && seeds.as_ref() == Some(&self.seeds) {
             self.march.resolve(mesh, costs, least, &self.seeds, changed);
@@ -299,6 +300,15 @@ impl Planner {
         if PathFigures::of(&traced, density, COMPARED).cost < solution.cost {
             let other = self.solution(traced, density, request.tolerance);
             if other.upper < solution.upper {
+                solution = other;
+            }
+        }
+        if request.effort == Effort::FULL {
+            let size = self.mesh.bounds().map_or(0.0, |bounds| bounds.size().max_element());
+            let lines = Lines { mesh: &self.mesh, costs: &self.costs, walls: &self.walls, density, size };
+            let along = lines.path(ends, solution.cost, request.effort);
+            let other = along.map(|along| self.solution(along, density, request.tolerance));
+            if let Some(other) = other.filter(|other| other.upper < solution.upper) {
                 solution = other;
             }
         }
