@@ -195,9 +195,8 @@ fn paths_between_any_places_stay_in_the_domain_and_cost_what_they_say() {
                 assert!(path.length >= shortest * (1.0 - 1e-12), "{} {shortest} {message}", path.length);
             }
             if formula == "1" {
-                if solution.cost > 1.0001 * shortest {
-                    eprintln!("DBG {} of {shortest} {message}", solution.cost / shortest);
-                }
+                // The march errs on coarse triangles: it can take the longer of two ways that are nearly equal.
+                assert!(solution.cost <= 1.03 * shortest, "{} {shortest} {message}", solution.cost);
                 assert!(solution.upper >= shortest * (1.0 - 1e-12), "{message}");
                 assert!(
                     solution.lower <= shortest * (1.0 + 1e-12),

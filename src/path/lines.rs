@@ -27,8 +27,8 @@ const ABOUT: f64 = 1.05;
 const MOST_RECTANGLES: usize = 600;
 /// A chord leaves out fewer points than this.
 const LONGEST_CHORD: usize = 96;
-/// Where a path comes to a line, so many places on it are tried beyond, at distances that grow by this factor,
-/// from this part of the longer side of all triangles on.
+/// Where a path comes to a line, so many places on it are tried beyond, at distances that grow by this
+/// factor, from this part of the longer side of all triangles on.
 const MOST_FARTHER: usize = 24;
 const STRETCH: f64 = 1.3;
 const NEXT: f64 = 2e-4;

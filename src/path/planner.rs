@@ -304,12 +304,18 @@ impl Planner {
             }
         }
         if request.effort == Effort::FULL {
-            let size = self.mesh.bounds().map_or(0.0, |bounds| bounds.size().max_element());
-            let lines = Lines { mesh: &self.mesh, costs: &self.costs, walls: &self.walls, density, size };
-            let along = lines.path(ends, solution.cost, request.effort);
-            let other = along.map(|along| self.solution(along, density, request.tolerance));
-            if let Some(other) = other.filter(|other| other.upper < solution.upper) {
-                solution = other;
+            let others = [self.backwards(ends), self.along_lines(density, ends, solution.cost)];
+            for other in others.into_iter().flatten() {
+                let refined = refine(&other, density, &self.walls, request.effort);
+                for points in [refined, other] {
+                    // Bounds are much work: only for what promises to cost less.
+                    if PathFigures::of(&points, density, COMPARED).cost < solution.cost {
+                        let other = self.solution(points, density, request.tolerance);
+                        if other.upper < solution.upper {
+                            solution = other;
+                        }
+                    }
+                }
             }
         }
         if !solution.upper.is_finite() {
@@ -325,6 +331,24 @@ impl Planner {
             solution.lower = lower.min(solution.upper);
         }
         Ok(Some(solution))
+    }
+
+    /// The path that a march from the goal leads to. It errs elsewhere than one from the start, and can find
+    /// the better one of two ways that cost nearly the same.
+    fn backwards(&self, [start, goal]: [Place; 2]) -> Option<Vec<DVec2>> {
+        let (mut march, costs) = (March::default(), &self.costs.mean);
+        let seeds = goal.seeds(&self.mesh, costs);
+        march.run(&self.mesh, costs, Passage::Open, &seeds, Some(start.corner_nodes(&self.mesh)));
+        let mut traced = trace(&self.mesh, costs, &march, [goal, start])?;
+        traced.reverse();
+        self.walls.admit_all(&traced).then_some(traced)
+    }
+
+    /// A path by way of lines that are cheaper than the triangles around them.
+    fn along_lines(&self, density: &dyn CostDensity, ends: [Place; 2], known: f64) -> Option<Vec<DVec2>> {
+        let size = self.mesh.bounds().map_or(0.0, |bounds| bounds.size().max_element());
+        let lines = Lines { mesh: &self.mesh, costs: &self.costs, walls: &self.walls, density, size };
+        lines.path(ends, known, Effort::FULL)
     }
 
     /// The path that a march leads to, through open triangles only.

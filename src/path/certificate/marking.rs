@@ -12,7 +12,7 @@ const LEAST_LEFT: f64 = 0.12;
 /// One round aims at no more than this part.
 const MOST_LEFT: f64 = 0.7;
 /// A round makes at most so many times as many triangles, unless there are few.
-const GROWTH: f64 = 2.5;
+const GROWTH: f64 = 3.5;
 /// So many triangles are few.
 const ALWAYS: f64 = 8000.0;
 /// How often a bisection halves what a triangle loses, and the most bisections of a triangle in one round.

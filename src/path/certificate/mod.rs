@@ -81,7 +81,7 @@ const STRIP_ULPS: f64 = 16.0;
 const STRIP_LOSS: f64 = 20.0;
 /// A certificate ends before a programme with which it would take more work than this, in nodes times steps of
 /// the solver: some ten seconds. It is a count, so that every machine proves the same.
-const MOST_WORK: u64 = 600_000;
+const MOST_WORK: u64 = 700_000;
 /// About so many steps the solver takes for a programme.
 const USUAL_STEPS: u64 = 25;
 /// After so many programmes in a row that hardly raise the bound, it ends.
@@ -271,8 +271,8 @@ impl Certificate {
         let aim = (AIM * (self.task.width - fixed)).min(0.5 * lost);
         let deepest = self.mesh.lattice().deepest_level();
         let mut wanted: Vec<u32> = self.mesh.raw_triangles().iter().map(|t| t.level()).collect();
-        // Twice as many triangles as nodes, and some more where the closure adds them.
-        let most = 2 * self.task.most_nodes;
+        // There are twice as many triangles as nodes, and the last programme may have some more.
+        let most = 5 * self.task.most_nodes / 2;
         let bisections = bisections(estimates, minorants, aim * self.task.upper, most);
         for (element, more) in space.elements.iter().zip(bisections) {
             let level = &mut wanted[element.id.index()];
