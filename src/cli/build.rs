@@ -133,7 +133,15 @@ impl FinishedMesh {
 /// # Errors
 /// When a file is of no use, the target is impossible somewhere, or a limit is reached.
 pub fn build(request: &MeshRequest, terminal: &mut Terminal) -> Result<FinishedMesh, Failure> {
-    let ToMesh { spec, paint, marks, unit } = read(request, terminal)?;
+    build_from(read(request, terminal)?, terminal)
+}
+
+/// Builds the mesh of what was read.
+///
+/// # Errors
+/// When the target is impossible somewhere, or a limit is reached.
+pub fn build_from(read: ToMesh, terminal: &mut Terminal) -> Result<FinishedMesh, Failure> {
+    let ToMesh { spec, paint, marks, unit, .. } = read;
     let (cleaning, limits, domain) = (spec.cleaning, spec.limits, spec.domain.clone());
     let mut builder = MeshBuilder::new(spec);
     let refinement = run(&mut builder, &paint, terminal);

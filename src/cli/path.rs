@@ -3,24 +3,27 @@
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::time::Instant;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::{Duration, Instant};
 
 use glam::DVec2;
 use serde::Serialize;
 
-use super::build::{FinishedMesh, build};
+use super::build::{FinishedMesh, build_from};
 use super::details::MeshDetails;
 use super::failure::Failure;
 use super::mesh::note_capped;
 use super::output::{RequestedLook, check_place};
 use super::path_args::PathArguments;
 use super::request::MeshRequest;
+use super::sources::{ToMesh, read};
 use super::terminal::Terminal;
 use super::why::point;
 use crate::document::{PathCost, PathPlan};
 use crate::field::CostFormula;
 use crate::io::{self as files, Interruption, Provenance};
 use crate::layers::Mask;
+use crate::mesh::MeshView;
 use crate::path::{
     CertificateEnd, CertificateTask, CostDensity, PathCertificate, PathError, PathMesh, PathRequest,
     PathSample, Planner, Solution, Weights,
@@ -47,31 +50,22 @@ pub fn run(
     let inputs = [request.input_files(), typed.keep_out.clone()].concat();
     outputs.iter().try_for_each(|output| check_place(&output.path, &inputs))?;
     request.options_without_effect(&typed.input).iter().for_each(|note| terminal.note(note));
-    let asked = Asked::new(typed, places, formula)?;
-    let finished = build(&request, terminal)?;
+    let (read, asked) = read_and_ask(&request, terminal, |saved| Asked::new(typed, places, formula, saved))?;
+    let finished = build_from(read, terminal)?;
     note_capped(&finished, terminal);
     let extract = finished.extract();
     let density = asked.cost.density(finished.risk())?;
     let start = Instant::now();
-    let mut planner = Planner::new(PathMesh::with_keep_out(extract.view(), &asked.keep_out), &*density)?;
-    let mut solution = planner
-        .solve(&*density, &asked.places, PathRequest::FULL)
+    let search = || asked.path(&*density, extract.view());
+    let (mut solution, mesh) = terminal
+        .while_working("finding the path", search)
         .map_err(|error| error.in_domain(finished.domain(), &asked.places))?;
-    let mut end = None;
     if let Some(width) = within.filter(|&width| solution.gap() > width) {
-        let mesh = Arc::clone(planner.mesh());
         let task = task(&finished, density.clone(), &asked.keep_out, &solution, width);
-        let certificate = PathCertificate::new(&solution, &task)?.with_search(mesh);
-        end = prove(&mut solution, certificate, terminal)?;
+        let end = prove(&mut solution, &task, mesh, terminal);
+        note_end(end, &solution, width, terminal);
     }
     let seconds = start.elapsed().as_secs_f64();
-    if let Some((width, end)) = within.filter(|&width| solution.gap() > width).zip(end) {
-        let reached = percent_above(solution.gap());
-        terminal.note(&format!(
-            "The path is proved to be within {reached} of the best, not {}. {end}",
-            percent_above(width)
-        ));
-    }
     let export = PathExport::new(&solution, &*density, typed.simplify)?;
     let provenance = MeshDetails::of(&finished, &extract, line, &request).provenance;
     let look = look.for_mesh(finished.mesh());
@@ -95,23 +89,48 @@ struct Asked {
 }
 
 impl Asked {
-    /// Reads the project and the keep-out regions. `places` are those of the options.
+    /// Reads the keep-out regions. `places` are those of the options, `saved` what the project says.
     fn new(
         typed: &PathArguments,
         places: Option<Vec<DVec2>>,
         formula: Option<CostFormula>,
+        saved: &PathPlan,
     ) -> Result<Self, Failure> {
-        let saved = match &typed.input.project {
-            Some(project) => Arc::clone(&files::project::read(project)?.settings().paths),
-            None => Arc::default(),
-        };
         let keep_out = match typed.keep_out.is_empty() {
             true => saved.keep_out_masks(),
             false => typed.keep_out.iter().map(|path| mask(path)).collect::<Result<_, _>>()?,
         };
-        let places = places.map_or_else(|| saved_places(typed, &saved), Ok)?;
+        let places = places.map_or_else(|| saved_places(typed, saved), Ok)?;
         Ok(Self { places, cost: cost(typed, formula, &saved.cost), keep_out })
     }
+
+    /// The path, and the triangles that it was sought in.
+    fn path(
+        &self,
+        density: &dyn CostDensity,
+        view: MeshView,
+    ) -> Result<(Solution, Arc<PathMesh>), PathError> {
+        let mesh = PathMesh::with_keep_out(view, &self.keep_out);
+        let mut planner = Planner::new(mesh, density)?;
+        let solution = planner.solve(density, &self.places, PathRequest::FULL)?;
+        Ok((solution, Arc::clone(planner.mesh())))
+    }
+}
+
+/// Reads what the request names, and with the paths of its project, what path is asked for. Without a project
+/// that is known before: a mistake in it should not wait for large files.
+fn read_and_ask(
+    request: &MeshRequest,
+    terminal: &mut Terminal,
+    ask: impl FnOnce(&PathPlan) -> Result<Asked, Failure>,
+) -> Result<(ToMesh, Asked), Failure> {
+    if request.project.is_none() {
+        let asked = ask(&PathPlan::default())?;
+        return Ok((read(request, terminal)?, asked));
+    }
+    let read = read(request, terminal)?;
+    let asked = ask(&read.paths)?;
+    Ok((read, asked))
 }
 
 /// The start, the via points and the goal, where they are given.
@@ -199,20 +218,51 @@ fn task(
 }
 
 /// Raises the lower bound, and takes better paths. Returns why that ended.
+///
+/// # Errors
+/// When there is no proof, or none beyond what the solution has then.
 fn prove(
     solution: &mut Solution,
-    mut certificate: PathCertificate,
+    task: &CertificateTask,
+    mesh: Arc<PathMesh>,
     terminal: &mut Terminal,
 ) -> Result<Option<CertificateEnd>, PathError> {
-    let start = Instant::now();
-    let mut end = certificate.end();
-    while end.is_none() {
-        terminal.progress(start, || format!("within {} of the best", percent_above(solution.gap())));
-        end = certificate.advance()?;
-        solution.take(certificate.solution());
+    let gap = AtomicU64::new(solution.gap().to_bits());
+    let line = |elapsed: Duration| {
+        let reached = percent_above(f64::from_bits(gap.load(Ordering::Relaxed)));
+        format!("within {reached} of the best, {} s", elapsed.as_secs())
+    };
+    terminal.while_shown(line, || {
+        let mut certificate = PathCertificate::new(solution, task)?.with_search(mesh);
+        let mut end = certificate.end();
+        while end.is_none() {
+            end = certificate.advance()?;
+            solution.take(certificate.solution());
+            gap.store(solution.gap().to_bits(), Ordering::Relaxed);
+        }
+        Ok(end)
+    })
+}
+
+/// Says why a path is not proved to be as good as asked for. The path itself is there all the same.
+fn note_end(
+    end: Result<Option<CertificateEnd>, PathError>,
+    solution: &Solution,
+    width: f64,
+    terminal: &mut Terminal,
+) {
+    let asked = percent_above(width);
+    match end {
+        Ok(Some(end)) if solution.gap() > width => {
+            let reached = percent_above(solution.gap());
+            terminal
+                .note(&format!("The path is proved to be within {reached} of the best, not {asked}. {end}"));
+        }
+        Ok(_) => {}
+        Err(error) => {
+            terminal.note(&format!("The path is not proved to be within {asked} of the best. {error}"));
+        }
     }
-    terminal.clear();
-    Ok(end)
 }
 
 /// A file of the path.

@@ -9,7 +9,7 @@ use super::output::is_standard_stream;
 use super::request::{MeshRequest, USUAL_BUDGET, check_boundary_diameter};
 use super::terminal::Terminal;
 use crate::build::MeshSpec;
-use crate::document::Settings;
+use crate::document::{PathPlan, Settings};
 use crate::domain::BoundaryMarks;
 use crate::geometry::Lattice;
 use crate::io::geojson::{self, Outline};
@@ -29,6 +29,8 @@ pub struct ToMesh {
     pub marks: Arc<BoundaryMarks>,
     /// The unit of coordinates and lengths, where a file says it.
     pub unit: LengthUnit,
+    /// The paths of a project.
+    pub paths: Arc<PathPlan>,
 }
 
 /// Reads the files of a request.
@@ -99,7 +101,8 @@ fn to_mesh(
     request.mesh.boundary_diameter.map_or(Ok(()), |diameter| check_resolvable(diameter, &spec.lattice))?;
     // What is said about parts counts for every domain; else only fitted meshes are cleaned.
     let spec = MeshSpec { cleaning: request.mesh.cleaning(spec.cleaning), ..spec };
-    Ok(ToMesh { spec, paint, marks: settings.boundary_marks, unit: settings.unit })
+    let Settings { boundary_marks: marks, unit, paths, .. } = settings;
+    Ok(ToMesh { spec, paint, marks, unit, paths })
 }
 
 /// Reads the polygons of a domain, from standard input where the file is `-`.

@@ -61,7 +61,12 @@ impl Terminal {
         self.while_shown(|elapsed| format!("{what}, {} s", elapsed.as_secs()), work)
     }
 
-    fn while_shown<T>(&mut self, line: impl Fn(Duration) -> String + Sync, work: impl FnOnce() -> T) -> T {
+    /// Does work while another thread shows a line about it, made from the time that it has taken.
+    pub fn while_shown<T>(
+        &mut self,
+        line: impl Fn(Duration) -> String + Sync,
+        work: impl FnOnce() -> T,
+    ) -> T {
         let (start, done) = (Instant::now(), AtomicBool::new(false));
         thread::scope(|scope| {
             // Where memory is so short that there is no thread, nothing is shown.

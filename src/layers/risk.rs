@@ -279,17 +279,17 @@ struct Descent<'a, R> {
 
 impl<R: ValueRanges> Descent<'_, R> {
     /// The first and the last column and row of squares of a side in pixels that touch the rectangle.
-    fn places(&self, side: f64) -> [[i32; 2]; 2] {
+    fn places(&self, side: f64) -> [[i64; 2]; 2] {
         let margin = PIXEL_MARGIN * side.min(1.0);
-        let first = self.min.map(|v| (((v - margin) / side).ceil() as i32).saturating_sub(1));
-        let last = self.max.map(|v| ((v + margin) / side).floor() as i32);
+        let first = self.min.map(|v| (((v - margin) / side).ceil() as i64).saturating_sub(1));
+        let last = self.max.map(|v| ((v + margin) / side).floor() as i64);
         // The ceiling of a place between two lines belongs to the square before it.
         let first = [0, 1].map(|axis: usize| first[axis].min(last[axis]));
         [first, last]
     }
 
-    fn square(&self, scale: i32, x: i32, y: i32) -> ValueRange {
-        let range = self.raster.range(scale, x, y);
+    fn square(&self, scale: i32, x: i64, y: i64) -> ValueRange {
+        let range = self.raster.range_anywhere(scale, [x, y]);
         if range.is_one() || scale <= self.finest {
             return range;
         }
@@ -408,6 +408,22 @@ mod tests {
         assert_eq!(field.at(dvec2(0.4, 0.5)), 0.75);
         let line = Rect::new(dvec2(0.5, 0.1), dvec2(0.5, 0.9));
         assert_eq!(field.range(&line), Bounds::new(0.25, 0.75));
+    }
+
+    #[test]
+    fn a_raster_far_from_a_rectangle_has_no_risk_there() {
+        for (bounds, at) in [
+            (Rect::new(DVec2::ZERO, DVec2::splat(1e-9)), dvec2(10.0, -10.0)),
+            (Rect::new(DVec2::ZERO, DVec2::splat(1e-30)), dvec2(1.0, 0.0)),
+        ] {
+            let raster = RasterPyramid::new(Raster::from_values(bounds, [2, 2], vec![0.75; 4]));
+            let source = RasterSource { name: String::new(), raster: raster.into() };
+            let kind = LayerKind::Raster { source, reading: RasterReading::Risk };
+            let field = RiskField::new(&Layer::stack([kind]), PaintLayers::blank());
+            assert_eq!(field.at(bounds.center()), 0.75);
+            assert_eq!(field.at(at), 0.0);
+            assert_eq!(field.range(&Rect::spanning(at, bounds.center())), Bounds::new(0.0, 0.75));
+        }
     }
 
     #[test]

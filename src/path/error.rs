@@ -64,6 +64,19 @@ pub enum PathError {
         /// The place, in world units.
         at: DVec2,
     },
+    /// The start, the goal or a via point is in a triangle of the mesh, but not in the domain that bounds are
+    /// proved for.
+    #[error(
+        "No bound is proved from the {which} {}: it lies outside the outline of the domain or in a keep-out \
+         region, though a triangle of the mesh holds it. Choose a place inside the outline.",
+        Place(*at)
+    )]
+    BeyondOutline {
+        /// Which place.
+        which: Waypoint,
+        /// The place, in world units.
+        at: DVec2,
+    },
     /// The start, the goal or a via point is in a region where no path may go, or in a triangle that touches
     /// one.
     #[error(
@@ -144,6 +157,16 @@ pub enum PathError {
 }
 
 impl PathError {
+    /// The error of a leg between two of `count` places, by its number from 0, as one of the whole path.
+    pub(super) fn of_leg(self, leg: usize, count: usize) -> Self {
+        let of = |which: Waypoint| Waypoint::of(if which == Waypoint::Goal { leg + 1 } else { leg }, count);
+        match self {
+            Self::BeyondOutline { which, at } => Self::BeyondOutline { which: of(which), at },
+            Self::Apart { from, to } => Self::Apart { from: of(from), to: of(to) },
+            other => other,
+        }
+    }
+
     /// The error as what is known of the domain tells it: whether two places that the mesh does not connect
     /// lie in different parts of the domain as well. `places` are those that the path was to visit.
     pub fn in_domain(self, domain: &Domain, places: &[DVec2]) -> Self {

@@ -6,6 +6,7 @@
 //!                            where the cost varies much
 //!   March                  → distance to each node: fast marching on triangles
 //!   trace, refine          → a polyline, and a better one near it
+//!   Lines                  → one along lines that are cheaper than the triangles around them
 //!   PathFigures            → its cost, rounded up: no path needs to cost more
 //!   LowerBound             → no path costs less
 //!   Certificate            → a better bound, on a mesh of its own, as close as asked for
@@ -19,6 +20,7 @@ mod cost;
 mod error;
 mod front;
 mod integral;
+mod lines;
 mod lower;
 mod march;
 mod obstacle;

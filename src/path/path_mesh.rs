@@ -252,6 +252,13 @@ impl PathMesh {
         open.find(|&t| holds(&self.corners(t), point)).or_else(|| self.locate(point, Passage::Open))
     }
 
+    /// The open triangles that contain a point, but for rounding, in the order of their numbers.
+    pub(super) fn open_triangles_at(&self, point: DVec2) -> Vec<u32> {
+        let mut found = self.around_point(point);
+        found.retain(|&t| self.passage(t) == Passage::Open && contains(&self.corners(t), point));
+        found
+    }
+
     /// The triangle with the lowest number that contains a point and has at least this passage.
     pub fn locate(&self, point: DVec2, least: Passage) -> Option<u32> {
         let contains = |&number: &u32| {

@@ -3,8 +3,9 @@
 use glam::DVec2;
 
 use super::march::Seed;
-use super::path_mesh::PathMesh;
+use super::path_mesh::{NONE, PathMesh};
 use super::{Passage, PathError, Waypoint};
+use crate::geometry::{Side, side_of_points};
 
 /// A point in one of the open triangles that contain it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,11 +35,33 @@ impl Place {
         }
     }
 
-    /// The corners of its triangle, with the exact costs of the segments to them: where a march begins.
-    pub fn seeds(&self, mesh: &PathMesh, costs: &[f64]) -> [Seed; 3] {
+    /// The corners of its triangle, and those beyond its edges to which a segment leads through two open
+    /// triangles, with the costs of the segments: where a march begins. From the corners alone, a march would
+    /// find a place on an edge to be as far as if the way led by one of the ends.
+    pub fn seeds(&self, mesh: &PathMesh, costs: &[f64]) -> Vec<Seed> {
+        let triangle = &mesh.triangles[self.triangle as usize];
         let cost = costs[self.triangle as usize];
-        let corners = mesh.triangles[self.triangle as usize].corners;
-        corners.map(|node| (node, cost * self.point.distance(mesh.nodes[node as usize])))
+        let to = |node: u32| mesh.nodes[node as usize];
+        let mut seeds: Vec<Seed> =
+            triangle.corners.iter().map(|&node| (node, cost * self.point.distance(to(node)))).collect();
+        for (edge, &across) in mesh.across[self.triangle as usize].iter().enumerate() {
+            if across == NONE || mesh.passage(across) != Passage::Open {
+                continue;
+            }
+            let [a, b] = [triangle.corners[edge], triangle.corners[(edge + 1) % 3]];
+            let beyond =
+                mesh.triangles[across as usize].corners.into_iter().find(|&node| node != a && node != b);
+            let Some(beyond) = beyond else { continue };
+            let sides = [a, b].map(|end| side_of_points(self.point, to(beyond), to(end)));
+            if sides != [Side::Left, Side::Right] && sides != [Side::Right, Side::Left] {
+                continue;
+            }
+            let heights = [self.point, to(beyond)].map(|end| (to(b) - to(a)).perp_dot(end - to(a)).abs());
+            let own = heights[0] / (heights[0] + heights[1]);
+            let mean = own * cost + (1.0 - own) * costs[across as usize];
+            seeds.push((beyond, mean * self.point.distance(to(beyond))));
+        }
+        seeds
     }
 
     /// The corners of its triangle.

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::integral::PathFigures;
+use super::lines::Lines;
 use super::lower::LowerBound;
 use super::march::{March, Seed};
 use super::obstacle::obstacle;
@@ -83,7 +84,7 @@ impl Origin {
     /// Marches from a place, as far as that is not done. `until`: only to the corners of that place's
     /// triangle, unless the costs change again and again.
     fn run(&mut self, mesh: &PathMesh, costs: &[f64], least: Passage, place: Place, until: Option<Place>) {
-        let seeds = place.seeds(mesh, costs).to_vec();
+        let seeds = place.seeds(mesh, costs);
         let is_same_place = self.place == Some(place);
         let to_the_end = is_same_place && self.follows;
         let until = until.filter(|_| !to_the_end).map(|place| place.corner_nodes(mesh));
@@ -97,7 +98,7 @@ impl Origin {
 
     /// Follows changed costs; what cannot be followed is marched again later.
     fn follow(&mut self, mesh: &PathMesh, costs: &[f64], least: Passage, changed: &[u32]) {
-        let seeds = self.place.map(|place| place.seeds(mesh, costs).to_vec());
+        let seeds = self.place.map(|place| place.seeds(mesh, costs));
         self.follows = true;
         if self.is_current && self.march.is_complete() && seeds.as_ref() == Some(&self.seeds) {
             self.march.resolve(mesh, costs, least, &self.seeds, changed);
@@ -302,6 +303,21 @@ impl Planner {
                 solution = other;
             }
         }
+        if request.effort == Effort::FULL {
+            let others = [self.backwards(ends), self.along_lines(density, ends, solution.cost)];
+            for other in others.into_iter().flatten() {
+                let refined = refine(&other, density, &self.walls, request.effort);
+                for points in [refined, other] {
+                    // Bounds are much work: only for what promises to cost less.
+                    if PathFigures::of(&points, density, COMPARED).cost < solution.cost {
+                        let other = self.solution(points, density, request.tolerance);
+                        if other.upper < solution.upper {
+                            solution = other;
+                        }
+                    }
+                }
+            }
+        }
         if !solution.upper.is_finite() {
             return Err(PathError::CostOutOfRange { at: start.point, value: solution.upper });
         }
@@ -315,6 +331,24 @@ impl Planner {
             solution.lower = lower.min(solution.upper);
         }
         Ok(Some(solution))
+    }
+
+    /// The path that a march from the goal leads to. It errs elsewhere than one from the start, and can find
+    /// the better one of two ways that cost nearly the same.
+    fn backwards(&self, [start, goal]: [Place; 2]) -> Option<Vec<DVec2>> {
+        let (mut march, costs) = (March::default(), &self.costs.mean);
+        let seeds = goal.seeds(&self.mesh, costs);
+        march.run(&self.mesh, costs, Passage::Open, &seeds, Some(start.corner_nodes(&self.mesh)));
+        let mut traced = trace(&self.mesh, costs, &march, [goal, start])?;
+        traced.reverse();
+        self.walls.admit_all(&traced).then_some(traced)
+    }
+
+    /// A path by way of lines that are cheaper than the triangles around them.
+    fn along_lines(&self, density: &dyn CostDensity, ends: [Place; 2], known: f64) -> Option<Vec<DVec2>> {
+        let size = self.mesh.bounds().map_or(0.0, |bounds| bounds.size().max_element());
+        let lines = Lines { mesh: &self.mesh, costs: &self.costs, walls: &self.walls, density, size };
+        lines.path(ends, known, Effort::FULL)
     }
 
     /// The path that a march leads to, through open triangles only.

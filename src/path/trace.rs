@@ -58,14 +58,10 @@ pub(super) fn trace(
         let step = descent.best(stand, at).filter(|step| step.stand.is_none() || step.height() < height);
         let step = step.or_else(|| descent.down_to_node(stand, at))?;
         height = step.height();
-        if step.to != at {
-            points.push(step.to);
+        match take(step, &mut points) {
+            Some(next) => (stand, at) = next,
+            None => return Some(points),
         }
-        let Some(next) = step.stand else {
-            points.reverse();
-            return Some(points);
-        };
-        (stand, at) = (next, step.to);
     }
     trace_by_nodes(mesh, costs, march, [start, goal])
 }
@@ -83,14 +79,25 @@ pub(super) fn trace_by_nodes(
     let mut points = vec![goal.point];
     // Ends: the nodes have lower and lower values, or equal ones and lower numbers.
     loop {
-        let step = descent.down_to_node(stand, at)?;
-        points.push(step.to);
-        let Some(next) = step.stand else {
-            points.reverse();
-            return Some(points);
-        };
-        (stand, at) = (next, step.to);
+        match take(descent.down_to_node(stand, at)?, &mut points) {
+            Some(next) => (stand, at) = next,
+            None => return Some(points),
+        }
     }
+}
+
+/// Adds the end of a step to the points from the goal on, and returns where the descent stands then. `None`
+/// at the start: then the points are those of the path, from the start on.
+fn take(step: Step, points: &mut Vec<DVec2>) -> Option<(Stand, DVec2)> {
+    let stays = points.last() == Some(&step.to);
+    if !stays || step.stand.is_none() && points.len() == 1 {
+        points.push(step.to);
+    }
+    let next = step.stand.map(|stand| (stand, step.to));
+    if next.is_none() {
+        points.reverse();
+    }
+    next
 }
 
 struct Descent<'a> {

@@ -8,7 +8,7 @@ use crate::runs::seeds;
 use glam::{DVec2, dvec2};
 use meshbrush::internals::path::{
     CertificateTask, CostDensity, FormulaCost, PathCertificate, PathError, PathMesh, PathRequest, Planner,
-    Solution,
+    Solution, Waypoint,
 };
 use meshbrush::{CostFormula, Domain, Lattice, Limits, Mesh, Rect, RiskField};
 
@@ -106,6 +106,24 @@ fn no_bound_is_above_the_cost_by_way_of_a_cheap_line() {
 }
 
 #[test]
+fn paths_follow_cheap_lines_that_have_bounds_of_their_own() {
+    for (at, half_width) in [(0.5, 1e-11), (0.53, 1e-9), (0.53, 0.0), (0.47, 1e-6), (0.3, 1e-3)] {
+        let condition =
+            if half_width == 0.0 { format!("x == {at}") } else { format!("abs(x - {at}) < {half_width:e}") };
+        let density = cost(&format!("if({condition}, 1, 10)"));
+        let line = Line { through: dvec2(at, 0.0), along: DVec2::Y, elsewhere: 10.0 };
+        let places = [dvec2(0.4, 0.1), dvec2(0.45, 0.9)];
+        let mut planner = Planner::new(square(8.0, 0.2), &density).unwrap();
+        let solution = planner.solve(&density, &places, PathRequest::FULL).unwrap();
+        let best = line.by_way(places[0], places[1]);
+        assert!(solution.upper <= best * 1.002, "{condition}: {} {best}", solution.upper);
+        // The way to the strip is shorter than that to the line.
+        let least = best - 20.0 * half_width - 1e-9;
+        assert!(solution.upper >= least && solution.lower <= best, "{condition}: {} {least}", solution.upper);
+    }
+}
+
+#[test]
 fn a_cost_that_is_smaller_at_a_point_only_costs_no_bound() {
     let domain = Domain::rectangle(Rect::UNIT);
     for formula in ["if(hypot(x - 0.5, y - 0.5) < 1e-12, 1, 2)", "if(x == 0.375 && y == 0.25, 1e-3, 2)"] {
@@ -182,4 +200,26 @@ fn bounds_hold_where_the_mesh_leaves_a_strait_out() {
         solution.take(certificate.solution());
         assert!(solution.lower <= shortest * (1.0 + 1e-9) && solution.lower > 0.5 * shortest, "{seed}");
     }
+}
+
+#[test]
+fn a_certificate_from_beyond_the_outline_says_so() {
+    // The mesh covers the square, the domain its lower half.
+    let half = [(0.0, 0.0), (1.0, 0.0), (1.0, 0.5), (0.0, 0.5)].map(|(x, y)| dvec2(x, y));
+    let domain = Domain::of_polygons(&[vec![half.to_vec()]]).unwrap();
+    let density = cost("1");
+    let places = [dvec2(0.1, 0.1), dvec2(0.5, 0.4), dvec2(0.9, 0.9)];
+    let solution = Planner::new(square(8.0, 0.2), &density)
+        .unwrap()
+        .solve(&density, &places, PathRequest::FULL)
+        .unwrap();
+    let path = solution.points.clone();
+    let task = CertificateTask::in_rectangle(Rect::UNIT, Arc::new(density), path, solution.upper, 0.02);
+    let Err(error) =
+        PathCertificate::new(&solution, &task.unwrap().in_domain(&Domain { bounds: Rect::UNIT, ..domain }))
+    else {
+        panic!("a bound from outside the domain")
+    };
+    assert!(matches!(error, PathError::BeyondOutline { which: Waypoint::Goal, .. }), "{error}");
+    assert!(error.to_string().starts_with("No bound is proved from the goal (0.9, 0.9): "), "{error}");
 }

@@ -171,8 +171,14 @@ fn paths_between_any_places_stay_in_the_domain_and_cost_what_they_say() {
             };
             found += 1;
             let simplified = solution.simplified(&density, 0.04).unwrap();
+            // Beside a jump of the cost, a simplified path can cost as much as the jump is high.
+            let most = if formula.starts_with("if") { 5.0 } else { 2.0 };
+            assert!(simplified.points.len() <= solution.points.len(), "{message}");
             assert!(
-                simplified.points.len() <= solution.points.len() && simplified.cost < 2.0 * solution.cost
+                simplified.cost <= most * solution.cost,
+                "{} {} {message}",
+                simplified.cost,
+                solution.cost
             );
             for path in [&solution, &simplified] {
                 assert_stays_inside(&forbidden, &path.points, &message);
@@ -184,6 +190,8 @@ fn paths_between_any_places_stay_in_the_domain_and_cost_what_they_say() {
                 assert!(path.length >= shortest * (1.0 - 1e-12), "{} {shortest} {message}", path.length);
             }
             if formula == "1" {
+                // The march errs on coarse triangles: it can take the longer of two ways that are nearly equal.
+                assert!(solution.cost <= 1.03 * shortest, "{} {shortest} {message}", solution.cost);
                 assert!(solution.upper >= shortest * (1.0 - 1e-12), "{message}");
                 assert!(
                     solution.lower <= shortest * (1.0 + 1e-12),

@@ -51,6 +51,21 @@ fn a_proof_narrows_the_interval() {
 }
 
 #[test]
+fn a_path_without_a_proof_is_written_all_the_same() {
+    let folder = Folder::new("no-proof");
+    let inlet = r#"{"type":"Polygon","coordinates":[[[0,0],[1,0],[1,1],[0.6,1],[0.6,0.7],[0.4,0.7],[0.4,1],
+        [0,1],[0,0]]]}"#;
+    fs::write(folder.0.join("inlet.geojson"), inlet).unwrap();
+    // Triangles so large that they cover a part of the inlet.
+    let coarse = "--region inlet.geojson --spacing 0.25 --target 0.5 --boundary-diameter 0.5";
+    let ran = folder.run(&format!("{coarse} --from 0.45,0.75 --to 0.9,0.1 --within 1%"));
+    assert_eq!(ran.status, 0, "{}", ran.err);
+    assert!(ran.out.starts_with("cost 0.79"), "{}", ran.out);
+    let said = "not proved to be within 1 % of the best. No bound is proved from the start (0.45, 0.75)";
+    assert!(ran.err.contains(said), "{}", ran.err);
+}
+
+#[test]
 fn the_best_valley_between_threats_is_found_on_a_coarse_mesh() {
     let folder = Folder::new("valley");
     let threats = "x,y,range,peak,law\n27,38,19,1,radar\n45,70,22,0.9,radar\n52,22,17,1,radar\n\

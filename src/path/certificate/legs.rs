@@ -39,13 +39,15 @@ impl PathCertificate {
     /// As [`Certificate::new`].
     pub fn new(solution: &Solution, task: &CertificateTask) -> Result<Self, PathError> {
         let stop: Arc<AtomicBool> = Arc::default();
+        let count = solution.stops.len();
         let leg = |(number, ends): (usize, &[usize])| {
             let path = solution.points[ends[0]..=ends[1]].to_vec();
             let walls = solution.walls.get(number).into_iter().cloned().collect();
             let figures = Solution::of(path.clone(), &*task.cost, TOLERANCE * task.width);
             let solution = Solution { walls, ..figures };
             let upper = solution.upper;
-            let mut certificate = Certificate::new(CertificateTask { path, upper, ..task.clone() })?;
+            let mut certificate = Certificate::new(CertificateTask { path, upper, ..task.clone() })
+                .map_err(|error| error.of_leg(number, count))?;
             certificate.stop = Arc::clone(&stop);
             Ok(Leg { certificate, solution, searches: MOST_SEARCHES })
         };
@@ -117,8 +119,10 @@ impl PathCertificate {
         if self.end().is_none()
             && let Some(leg) = self.widest(|leg| self.has_more(leg))
         {
-            match self.legs[leg].certificate.end() {
-                None => _ = self.legs[leg].certificate.advance()?,
+            let count = self.legs.len() + 1;
+            let certificate = &mut self.legs[leg].certificate;
+            match certificate.end() {
+                None => _ = certificate.advance().map_err(|error| error.of_leg(leg, count))?,
                 Some(_) => self.seek(leg),
             }
         }

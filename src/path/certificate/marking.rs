@@ -9,6 +9,12 @@ use super::setup::Kept;
 
 /// One round aims at leaving at least this part of what is lost: estimates are too rough to aim farther.
 const LEAST_LEFT: f64 = 0.12;
+/// One round aims at no more than this part.
+const MOST_LEFT: f64 = 0.7;
+/// A round makes at most so many times as many triangles, unless there are few.
+const GROWTH: f64 = 3.5;
+/// So many triangles are few.
+const ALWAYS: f64 = 8000.0;
 /// How often a bisection halves what a triangle loses, and the most bisections of a triangle in one round.
 const ELSEWHERE: (f64, f64) = (1.5, 3.0);
 /// The same where the cost jumps: the flow goes round a triangle that was bisected, through the next one.
@@ -52,9 +58,26 @@ pub(super) fn estimates(
 /// by √2, and an affine function misses half as much. A path is a line, so n bisections make 2^(n/2)
 /// triangles on it. The fewest triangles result where all lose equally much. Where the cost jumps, a
 /// bisection gains less.
-pub(super) fn bisections(estimates: &[f64], minorants: &[Minorant], goal: f64) -> Vec<u32> {
+///
+/// A goal that takes many more triangles is approached in several rounds: the estimates of the next one are
+/// better, and a large programme costs more than some small ones. With `most` triangles there is an end.
+pub(super) fn bisections(estimates: &[f64], minorants: &[Minorant], goal: f64, most: usize) -> Vec<u32> {
     let all: f64 = estimates.iter().sum();
-    let goal = goal.max(LEAST_LEFT * all);
+    let most = most.min((GROWTH * estimates.len() as f64).max(ALWAYS) as usize);
+    let mut goal = goal.max(LEAST_LEFT * all);
+    // Ends: with all that is lost as the goal, nothing is bisected.
+    loop {
+        let found = bisections_for(estimates, minorants, goal);
+        let triangles: u64 = found.iter().map(|&more| 1 << more).sum();
+        if triangles <= most as u64 || goal >= MOST_LEFT * all {
+            return found;
+        }
+        goal = (1.2 * goal).min(MOST_LEFT * all);
+    }
+}
+
+/// [`bisections`] for one goal.
+fn bisections_for(estimates: &[f64], minorants: &[Minorant], goal: f64) -> Vec<u32> {
     let left = |equal: f64| -> f64 {
         let after = |one: f64| if one > equal { equal * libm::cbrt(one / equal) } else { one };
         estimates.iter().map(|&one| after(one)).sum()

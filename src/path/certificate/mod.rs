@@ -79,6 +79,11 @@ const SHORT_DETOUR: f64 = 0.1;
 const STRIP_ULPS: f64 = 16.0;
 /// The gradient grows by at most so many times the width of a strip as a part of the smallest triangle.
 const STRIP_LOSS: f64 = 20.0;
+/// A certificate ends before a programme with which it would take more work than this, in nodes times steps of
+/// the solver: some ten seconds. It is a count, so that every machine proves the same.
+const MOST_WORK: u64 = 700_000;
+/// About so many steps the solver takes for a programme.
+const USUAL_STEPS: u64 = 25;
 /// After so many programmes in a row that hardly raise the bound, it ends.
 const MOST_IDLE: usize = 3;
 
@@ -115,6 +120,8 @@ pub struct Certificate {
     lower: f64,
     programmes: usize,
     nodes: usize,
+    /// What all programmes took: nodes times steps of the solver.
+    work: u64,
     /// Programmes in a row that hardly raised the bound.
     idle: usize,
     end: Option<CertificateEnd>,
@@ -138,6 +145,7 @@ impl Certificate {
             lower: 0.0,
             programmes: 0,
             nodes: 0,
+            work: 0,
             idle: 0,
             end,
             stop: Arc::default(),
@@ -203,6 +211,10 @@ impl Certificate {
         }
         let kept = setup::reachable(&self.mesh, &self.task)?;
         let space = QuadraticSpace::new(&self.mesh, &kept.triangles);
+        if self.work + (space.nodes as u64) * USUAL_STEPS > MOST_WORK {
+            self.end = Some(CertificateEnd::TooLarge);
+            return Ok(self.end);
+        }
         let minorants = self.minorants_of(&space)?;
         let (start, goal) = (&space.elements[kept.start], &space.elements[kept.goal]);
         let gain = gain_weights(start, goal, &self.task);
@@ -222,6 +234,7 @@ impl Certificate {
         };
         self.programmes += 1;
         self.nodes = space.nodes;
+        self.work += (space.nodes as u64) * u64::from(solution.steps);
         let before = self.width();
         let lower = proven_gain(&space, &minorants, &solution.function, &gain) * self.without_strips(&space);
         self.lower = self.lower.max(lower.min(self.task.upper));
@@ -258,9 +271,10 @@ impl Certificate {
         let aim = (AIM * (self.task.width - fixed)).min(0.5 * lost);
         let deepest = self.mesh.lattice().deepest_level();
         let mut wanted: Vec<u32> = self.mesh.raw_triangles().iter().map(|t| t.level()).collect();
-        for (element, more) in
-            space.elements.iter().zip(bisections(estimates, minorants, aim * self.task.upper))
-        {
+        // There are twice as many triangles as nodes, and the last programme may have some more.
+        let most = 5 * self.task.most_nodes / 2;
+        let bisections = bisections(estimates, minorants, aim * self.task.upper, most);
+        for (element, more) in space.elements.iter().zip(bisections) {
             let level = &mut wanted[element.id.index()];
             *level = (*level + more).min(deepest);
         }

@@ -24,6 +24,8 @@ pub(super) struct ProgrammeSolution {
     /// For each triangle and corner the multiplier of its cone in world coordinates: how much path there is,
     /// and in which direction.
     pub flows: Vec<[DVec2; 3]>,
+    /// How many steps the solver took.
+    pub steps: u32,
 }
 
 /// The programme of a space of functions.
@@ -65,6 +67,7 @@ impl Programme<'_> {
         (is_finite && !stop.load(Ordering::Relaxed)).then(|| ProgrammeSolution {
             function: self.function(&solver.solution.x),
             flows: self.flows(&solver.solution.z),
+            steps: solver.solution.iterations,
         })
     }
 

@@ -76,7 +76,7 @@ pub(super) fn reachable(mesh: &Mesh, task: &CertificateTask) -> Result<Kept, Pat
         };
         let found = mesh.locate(at).triangle().filter(|&id| is_kept(id));
         let found = found.or_else(|| (0..placements.len()).map(TriangleId::from_index).find(touches));
-        found.ok_or(PathError::Outside { which, at })
+        found.ok_or(PathError::BeyondOutline { which, at })
     };
     let start = find(Waypoint::Start, task.start())?;
     let goal = find(Waypoint::Goal, task.goal())?;

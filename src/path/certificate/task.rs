@@ -46,7 +46,7 @@ pub struct CertificateTask {
     pub upper: f64,
     /// The requested width: (upper − lower) / upper.
     pub width: f64,
-    /// It ends with a programme of so many nodes.
+    /// It ends with a programme of so many nodes, or before one that would take too much work.
     pub most_nodes: usize,
 }
 
@@ -60,7 +60,7 @@ pub enum CertificateEnd {
     UpperBoundLimits,
     /// Finer triangles no longer raise the bound.
     NoMoreGain,
-    /// The mesh has as many nodes as the task allows.
+    /// The mesh has as many nodes as the task allows, or the next programme would take too much work.
     TooLarge,
     /// The solver failed. The bound is that of the programmes before.
     SolverFailed,
@@ -81,7 +81,8 @@ impl fmt::Display for CertificateEnd {
             }
             Self::TooLarge => {
                 "The proof needs more triangles than it may have, most of them where the cost jumps or varies \
-                 much. Ask for a wider interval, or smooth the cost there."
+                 much, or along an outline. Ask for a wider interval, smooth the cost there, or divide the path \
+                 by --via points: each part is proved by itself."
             }
             Self::SolverFailed => "The solver of the proof found no better bound.",
         })
