@@ -169,7 +169,8 @@ impl SizeField {
                     (least, greatest) = (least.min(low), greatest.max(high));
                 }
             }
-            cut = layer_cut.or(cut);
+            // A line between pixels decides more than the middle of what a function is known in.
+            cut = if layer.has_pixels() { layer_cut.or(cut) } else { cut.or(layer_cut) };
         }
         ([least, greatest], cut)
     }

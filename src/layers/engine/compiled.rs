@@ -213,6 +213,9 @@ impl CompiledLayer {
     }
 
     /// The diameters that the layer asks for in some cells, and where to divide them to know more.
+    ///
+    /// A line between pixels comes before an edge of the mask: there are few, and on both sides the diameters
+    /// of single pixels are known. A curve of the values can be lower between two values than at both.
     pub fn diameters(
         &self,
         paint: &PaintLayers,
@@ -229,7 +232,13 @@ impl CompiledLayer {
             diameters.present = diameters.present.masked();
             diameters.greatest = f64::INFINITY;
         }
-        (diameters, mask_cut.or(cut))
+        let cut = if self.has_pixels() { cut.or(mask_cut) } else { mask_cut.or(cut) };
+        (diameters, cut)
+    }
+
+    /// Whether the values are those of pixels.
+    pub fn has_pixels(&self) -> bool {
+        matches!(self.values, Values::Paint | Values::Raster { .. })
     }
 
     /// The diameters that the values of a range ask for.
