@@ -124,28 +124,6 @@ impl Quadratic {
         }
     }
 
-    /// How far the values of the polynomial can be apart, to about a factor of two.
-    pub fn change(&self) -> f64 {
-        let [linear, bend] = self.reach();
-        linear + bend
-    }
-
-    /// The same function over a part of the rectangle, by its centre and its half sides in the coordinates u
-    /// and v. The rest stays that of the whole.
-    pub fn part(&self, [u, v]: [f64; 2], [half_u, half_v]: [f64; 2]) -> Self {
-        let [c, cu, cv, cuu, cuv, cvv] = self.coefficients;
-        let coefficients = [
-            c + u * (cu + cuu * u + cuv * v) + v * (cv + cvv * v),
-            (cu + 2.0 * cuu * u + cuv * v) * half_u,
-            (cv + 2.0 * cvv * v + cuv * u) * half_v,
-            cuu * half_u * half_u,
-            cuv * half_u * half_v,
-            cvv * half_v * half_v,
-        ];
-        let rounding = if self.is_constant() { 0.0 } else { 32.0 * EPSILON * self.size() + TINY };
-        Self::new(coefficients, self.rest + rounding)
-    }
-
     /// −f.
     pub fn negated(&self) -> Self {
         Self { coefficients: self.coefficients.map(|c| -c), ..*self }

@@ -23,7 +23,6 @@ mod size_field;
 mod targets;
 mod targets_in_order;
 mod threat_models;
-mod threat_squares;
 mod threats;
 mod usual;
 

@@ -1,6 +1,6 @@
 use glam::{DVec2, dvec2};
 
-use super::models::{MADE, ModelId, Place, Square};
+use super::models::{MADE, Place};
 use super::{
     Combine, Layer, LayerKind, Mask, PaintLayers, SettledSquares, SizeField, SizeFieldSpec, Threat,
     ThreatLaw, Threats,
@@ -51,37 +51,6 @@ fn the_risk_lies_within_its_model() {
         }
     }
     assert!(narrow > 2500, "{narrow}");
-}
-
-/// Squares of all sizes in random order: most models are made from those of larger squares.
-#[test]
-fn the_risk_lies_within_models_from_squares_around() {
-    let mut random = fastrand::Rng::with_seed(54);
-    let lattice = Lattice::covering(Rect::UNIT, 0.1, 1_000_000).unwrap();
-    let (mut inherited, mut as_close) = (0, 0);
-    for round in 0..60 {
-        let count = [9, 60, 400][round % 3];
-        let threats = threats(&mut random, count, &[0.01, 0.1, 0.4]);
-        let function = ModelId::new();
-        for _ in 0..40 {
-            let bits = random.u32(2..lattice.extent().x.ilog2());
-            let at = [lattice.extent().x, lattice.extent().y].map(|v| i64::from(random.u32(..v) >> bits));
-            let square = Square { bits, at };
-            let (place, model) = (square.place(&lattice), threats.model_in(function, square, &lattice));
-            let (direct, bounds) = (threats.model(&place), model.bounds());
-            inherited += usize::from(model != direct);
-            let least_rest = f64::max(direct.rest(), direct.change() / 8.0) + 1e-12;
-            as_close += usize::from(model.rest() <= 2.0 * least_rest);
-            for _ in 0..8 {
-                let mut share = || 2.0 * random.f64() - 1.0;
-                let [u, v] = [share(), share()];
-                let risk = threats.risk_at(place.middle + dvec2(u, v) * place.half);
-                let at_point = model.bounds_over([u, v], [1e-15; 2]);
-                assert!(bounds.contains(risk) && at_point.contains(risk), "{risk} {bounds:?} {at_point:?}");
-            }
-        }
-    }
-    assert!(inherited > 800 && as_close > 2000, "{inherited} {as_close}");
 }
 
 const LONG: [&str; 6] = [

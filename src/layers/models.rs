@@ -42,9 +42,9 @@ impl Place {
 
 /// A dyadic square of 2^bits cells along each side, and a rim around it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Square {
-    pub bits: u32,
-    pub at: [i64; 2],
+struct Square {
+    bits: u32,
+    at: [i64; 2],
 }
 
 /// The rim as a share of the side: a rectangle around a triangle extends beyond the square by a cell.
@@ -96,15 +96,13 @@ thread_local! {
 ///   +---------------+
 /// ```
 ///
-/// `model` gives the model of the function in a square, and `bounds` its bounds over the rectangle. They count
-/// beside the model of the smallest square only if `are_close` says that they may tell more.
+/// `model` gives the model of the function over a place, and `bounds` its bounds over the rectangle.
 pub fn bounds(
     function: ModelId,
     cells: &Cells,
     lattice: &Lattice,
-    model: impl Fn(Square) -> Quadratic,
+    model: impl Fn(&Place) -> Quadratic,
     bounds: impl FnOnce() -> Bounds,
-    are_close: bool,
 ) -> Bounds {
     let middle = [0, 1].map(|axis: usize| 0.5 * (cells.min[axis] + cells.max[axis]) as f64);
     let half = [0, 1].map(|axis: usize| 0.5 * (cells.max[axis] - cells.min[axis]) as f64 - 0.5);
@@ -118,7 +116,7 @@ pub fn bounds(
     loop {
         let (square, mut skipped) = (around(square_bits), 1);
         if let Some((center, half)) = square.part(middle, half) {
-            let model = kept(function, square, || model(square));
+            let model = kept(function, square, || model(&square.place(lattice)));
             let found = model.bounds_over(center, half);
             let (rest, change) = (model.rest(), found.greatest - found.least - 2.0 * model.rest());
             let is_least = square_bits == least_bits;
@@ -128,7 +126,7 @@ pub fn bounds(
             if is_least {
                 #[cfg(test)]
                 MADE.with(|made| made.set(made.get() + 1));
-                let own = if are_close { bounds() } else { found };
+                let own = bounds();
                 return Bounds { valid: own.valid || found.valid, ..own.intersection(found) };
             }
             skipped = halvings(rest / (GOOD * change));
@@ -177,20 +175,7 @@ impl Square {
         fits.then(|| (from.map(|v| v / reach), half.map(|v| rounded_up(v / reach))))
     }
 
-    /// The square of twice the side that it is a quarter of.
-    pub fn around(&self) -> Self {
-        Self { bits: self.bits + 1, at: self.at.map(|v| v >> 1) }
-    }
-
-    /// Where it lies in [`Self::around`], both with their rims, in the coordinates of a model of that: the
-    /// centre, and half of the sides.
-    pub fn in_square_around(&self) -> ([f64; 2], [f64; 2]) {
-        let toward = |v: i64| if v & 1 == 0 { -0.25 } else { 0.25 };
-        (self.at.map(|v| toward(v) / (0.5 + RIM)), [0.5; 2])
-    }
-
-    /// The square with its rim.
-    pub fn place(&self, lattice: &Lattice) -> Place {
+    fn place(&self, lattice: &Lattice) -> Place {
         let side = (1u64 << self.bits) as f64;
         let (origin, step) = (lattice.bounds().min, lattice.step());
         let middle = origin + (DVec2::from(self.at.map(|v| v as f64)) + 0.5) * side * step;

@@ -16,7 +16,7 @@ impl Threats {
         let one = Quadratic::constant(1.0);
         let mut survival = one;
         let certain = self.visit_meeting(&place.rect(), |threat| {
-            let (risk, _) = threat.model(place);
+            let risk = threat.model(place);
             if !(risk.is_constant() && risk.middle() == 0.0) {
                 survival = survival.times(&one.minus(&risk));
             }
@@ -27,12 +27,10 @@ impl Threats {
 }
 
 impl Threat {
-    /// A model of the risk, and whether the risk has no kink there.
-    pub(super) fn model(&self, place: &Place) -> (Quadratic, bool) {
-        let squared = self.squared_share(place);
-        let share = self.law.model(&squared);
-        let risk = share.times(&Quadratic::constant(self.peak)).or_bounds(|| self.bounds(&place.rect()));
-        (risk, self.law.is_smooth(squared.bounds()))
+    /// A model of the risk.
+    fn model(&self, place: &Place) -> Quadratic {
+        let share = self.law.model(&self.squared_share(place));
+        share.times(&Quadratic::constant(self.peak)).or_bounds(|| self.bounds(&place.rect()))
     }
 
     /// The square of distance / range.
@@ -55,28 +53,15 @@ impl Threat {
 }
 
 impl ThreatLaw {
-    /// Whether the share of the peak has no kink between two values of the square of distance / range.
-    fn is_smooth(self, Bounds { least, greatest, .. }: Bounds) -> bool {
-        least > 1.0 || greatest < self.flat() || (least >= self.flat() && greatest <= 1.0) || {
-            // The bell curve has no kink at its crest, where rounding may make the square negative.
-            self == Self::Gaussian && greatest <= 1.0
-        }
-    }
-
-    /// Up to this square of distance / range, the share is 1.
-    fn flat(self) -> f64 {
-        match self {
-            Self::Radar => 0.25,
-            Self::Gaussian => 0.0,
-            Self::Disc => 0.5625,
-        }
-    }
-
     /// A model of the share of the peak, from one of the square of distance / range.
     fn model(self, squared: &Quadratic) -> Quadratic {
         let Bounds { least, greatest, valid } = squared.bounds();
         let (one, zero) = (Quadratic::constant(1.0), Quadratic::constant(0.0));
-        let flat = self.flat();
+        let flat = match self {
+            Self::Radar => 0.25,
+            Self::Gaussian => 0.0,
+            Self::Disc => 0.5625,
+        };
         if !valid {
             return Quadratic::UNKNOWN;
         }

@@ -160,12 +160,11 @@ struct Indexed {
     tree: BoxTree,
     /// For each group of the tree, by level, the product of 1 − peak: at least this is survived.
     survival: Vec<Vec<f64>>,
-    mean_range: f64,
 }
 
 impl Default for Indexed {
     fn default() -> Self {
-        Self { threats: Vec::new(), tree: BoxTree::new(&[]), survival: Vec::new(), mean_range: 0.0 }
+        Self { threats: Vec::new(), tree: BoxTree::new(&[]), survival: Vec::new() }
     }
 }
 
@@ -186,8 +185,7 @@ impl Threats {
         }
         let reaches: Vec<Rect> = threats.iter().map(Threat::reach).collect();
         let tree = BoxTree::new(&reaches);
-        let mean_range = mean_range(&threats);
-        let mut indexed = Indexed { threats, tree, survival: Vec::new(), mean_range };
+        let mut indexed = Indexed { threats, tree, survival: Vec::new() };
         for level in 0..indexed.tree.level_count() {
             let groups = 0..indexed.tree.group_count(level);
             let survival = groups.map(|index| indexed.survival_of(BoxGroup { level, index })).collect();
@@ -203,7 +201,7 @@ impl Threats {
 
     /// The address of the data that clones share, and their memory in bytes.
     pub fn shared_data(&self) -> (usize, usize) {
-        let Indexed { threats, tree, survival, .. } = &*self.0;
+        let Indexed { threats, tree, survival } = &*self.0;
         let survival: usize = survival.iter().map(|level| size_of_val(&**level)).sum();
         (Arc::as_ptr(&self.0).addr(), size_of_val(&**threats) + tree.bytes() + survival)
     }
@@ -220,7 +218,6 @@ impl Threats {
         threat.check()?;
         let indexed = Arc::make_mut(&mut self.0);
         indexed.threats[number] = threat;
-        indexed.mean_range = mean_range(&indexed.threats);
         indexed.tree.set(number as u32, threat.reach());
         for group in indexed.tree.groups_of(number as u32) {
             indexed.survival[group.level][group.index] = indexed.survival_of(group);
@@ -253,21 +250,7 @@ impl Threats {
         rect: &Rect,
         mut visit: impl FnMut(&Threat) -> ControlFlow<()>,
     ) -> ControlFlow<()> {
-        self.visit_numbers_meeting(rect, |number| visit(&self.0.threats[number as usize]))
-    }
-
-    /// The same by their numbers in the list.
-    pub(super) fn visit_numbers_meeting(
-        &self,
-        rect: &Rect,
-        visit: impl FnMut(u32) -> ControlFlow<()>,
-    ) -> ControlFlow<()> {
-        self.0.tree.visit_meeting(rect, visit)
-    }
-
-    /// The mean of the ranges, in world units.
-    pub(super) fn mean_range(&self) -> f64 {
-        self.0.mean_range
+        self.0.tree.visit_meeting(rect, |number| visit(&self.0.threats[number as usize]))
     }
 
     /// Bounds of the combined risk over a closed rectangle in world units.
@@ -330,11 +313,6 @@ impl Threats {
         let changed = old[..old.len() - last].iter().chain(&new[..new.len() - last]);
         changed.filter(|threat| threat.peak > 0.0).map(Threat::reach).reduce(|a, b| a.union(&b))
     }
-}
-
-/// In the order of the list, so that it depends on the list alone.
-fn mean_range(threats: &[Threat]) -> f64 {
-    threats.iter().map(|threat| threat.range / threats.len() as f64).sum()
 }
 
 impl Indexed {

@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use crate::field::{Bounds, Formula, Quadratic, f32_not_below};
 use crate::geometry::{Lattice, Rect};
-use crate::layers::models::{self, ModelId, Square};
+use crate::layers::models::{self, ModelId, Place};
 use crate::layers::{Quantity, Shapes, Threats};
 use crate::raster::ValueRange;
 
@@ -126,12 +126,6 @@ impl Function {
         }
     }
 
-    /// Whether bounds over a rectangle may tell more than a model of a square around it. Those of many threats
-    /// do not: each of them may be at its least or at its greatest, wherever the others are.
-    fn has_close_bounds(&self) -> bool {
-        !matches!(self, Self::Threats(_))
-    }
-
     /// Whether models of the function are cheaper than its bounds.
     fn has_models(&self) -> bool {
         match self {
@@ -141,10 +135,10 @@ impl Function {
         }
     }
 
-    fn model(&self, id: ModelId, square: Square, lattice: &Lattice) -> Quadratic {
+    fn model(&self, place: &Place) -> Quadratic {
         match self {
-            Self::Formula(formula) => formula.model(square.place(lattice).coordinates),
-            Self::Threats(threats) => threats.model_in(id, square, lattice),
+            Self::Formula(formula) => formula.model(place.coordinates),
+            Self::Threats(threats) => threats.model(place),
             Self::Distance { .. } => Quadratic::UNKNOWN,
         }
     }
@@ -251,10 +245,7 @@ impl Analytic {
         let own = || self.function.bounds(&cells.centers(lattice));
         match self.models {
             None => own(),
-            Some(id) => {
-                let model = |square| self.function.model(id, square, lattice);
-                models::bounds(id, cells, lattice, model, own, self.function.has_close_bounds())
-            }
+            Some(id) => models::bounds(id, cells, lattice, |place| self.function.model(place), own),
         }
     }
 
