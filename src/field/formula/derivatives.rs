@@ -41,11 +41,7 @@ pub(super) fn steepness(program: &Program, rect: &Rect) -> f64 {
     gradient.map_or(f64::INFINITY, |gradient| gradient.length)
 }
 
-fn gradient(
-    program: &Program,
-    rect: &Rect,
-    (risk, risk_slopes): (Bounds, [Bounds; 2]),
-) -> Option<Gradient> {
+fn gradient(program: &Program, rect: &Rect, (risk, risk_slopes): (Bounds, [Bounds; 2])) -> Option<Gradient> {
     let coordinate = |axis: usize, slopes| {
         let value = Bounds::new(rect.min[axis], rect.max[axis]);
         Varying::new(value, Some(Gradient::of(slopes)))

@@ -95,11 +95,7 @@ impl OfOne {
 }
 
 impl OfTwo {
-    const fn smooth(
-        self,
-        derivative: Derivative,
-        model: fn(&Quadratic, &Quadratic) -> Quadratic,
-    ) -> Self {
+    const fn smooth(self, derivative: Derivative, model: fn(&Quadratic, &Quadratic) -> Quadratic) -> Self {
         Self { derivative: Some(derivative), model: Some(model), ..self }
     }
 

@@ -9,8 +9,8 @@ const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 /// Bounds of the derivatives along x and y, and of the length of the gradient.
 ///
-/// The bounds along both axes alone make the length too large by up to √2: the gradient of the distance from a
-/// point has the length 1, and its components are from −1 to 1.
+/// The bounds along both axes alone make the length too large by up to √2: the gradient of the distance from
+/// a point has the length 1, and its components are from −1 to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Gradient {
     pub along: [Bounds; 2],
@@ -27,7 +27,8 @@ impl Gradient {
         Self::new(along, f64::INFINITY)
     }
 
-    /// With a length that is known beside the bounds along the axes; the smaller one counts. NaN says nothing.
+    /// With a length that is known beside the bounds along the axes; the smaller one counts. NaN tells
+    /// nothing.
     fn new(along: [Bounds; 2], length: f64) -> Self {
         let [x, y] = along.map(size);
         let by_axes = rounded_up(libm::hypot(x, y));

@@ -112,6 +112,10 @@ fn distances_have_their_slope_over_any_rectangle() {
 fn jumps_and_poles_are_steep_without_limit() {
     for source in ["if(x > 0, 1, 2)", "floor(x)", "1/x", "sqrt(x)", "sqrt(abs(x))", "x % 0.5", "ln(x)"] {
         let formula: Formula = source.parse().unwrap();
-        assert_eq!(formula.steepness(&Rect::new(dvec2(-1.0, 0.0), dvec2(1.0, 1.0))), f64::INFINITY, "{source}");
+        assert_eq!(
+            formula.steepness(&Rect::new(dvec2(-1.0, 0.0), dvec2(1.0, 1.0))),
+            f64::INFINITY,
+            "{source}"
+        );
     }
 }
