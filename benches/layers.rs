@@ -7,10 +7,14 @@
 //! the first slice after which the mesh differs, *rest* the time until it is up to date. Both are medians of
 //! five. *slice* is the longest time that a single slice took in any of them.
 //!
+//! *hover* is what the window reads at a point under the pointer: h̄, the layer that decides it, and the place
+//! from which gradation carries it.
+//!
 //! A stroke and a dragged threat, one move per frame of 1/60 s: the work of a frame is the edit and the slices
 //! after it, until the mesh is up to date or the window's budget is spent. The times between frames are not
 //! waited for.
 
+use std::hint::black_box;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -25,6 +29,8 @@ use meshbrush::internals::raster::{Raster, RasterPyramid};
 use meshbrush_benches::window::{BRUSH, FRAME_BUDGET, SLICE, wave};
 
 const FRAMES: usize = 120;
+/// The points that the pointer rests on.
+const HOVERS: usize = 2_000;
 /// How often each edit is repeated.
 const ROUNDS: usize = 5;
 /// The layer of threats.
@@ -197,8 +203,26 @@ impl Bench {
     }
 }
 
+impl Bench {
+    /// Reads h̄ at random points.
+    fn hover(&self) {
+        let mut random = fastrand::Rng::with_seed(4);
+        let mut times: Vec<Duration> = (0..HOVERS)
+            .map(|_| {
+                let point = dvec2(random.f64(), random.f64());
+                let began = Instant::now();
+                black_box(self.follower.field().decision_at(self.document.paint(), point));
+                began.elapsed()
+            })
+            .collect();
+        times.sort();
+        let at = |share: f64| milliseconds(times[(share * HOVERS as f64).ceil() as usize - 1]);
+        eprintln!("  {:15} median {} 99 % {} worst {}", "hover", at(0.5), at(0.99), at(1.0));
+    }
+}
+
 fn milliseconds(time: Duration) -> String {
-    format!("{:8.2} ms", 1e3 * time.as_secs_f64())
+    format!("{:8.3} ms", 1e3 * time.as_secs_f64())
 }
 
 /// Changes one layer of a document.
@@ -233,8 +257,9 @@ fn undo(document: &mut Document) {
 }
 
 fn main() {
-    for gradation in [None, Some(0.5)] {
+    for gradation in [None, Some(0.5), Some(0.1)] {
         let mut bench = Bench::new(gradation);
+        bench.hover();
         bench.pair(["dab", "dab undone"], [&dab, &undo]);
         let there = |document: &mut Document| {
             move_threat(document, 0.5);

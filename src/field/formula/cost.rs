@@ -2,7 +2,7 @@ use std::fmt;
 use std::str::FromStr;
 use std::sync::Arc;
 
-use super::{Op, ParseError, Program, derivatives, interval, parser};
+use super::{Op, ParseError, Program, derivatives, gradient, interval, parser};
 use crate::field::Bounds;
 use crate::geometry::Rect;
 
@@ -56,7 +56,7 @@ impl CostFormula {
         let slopes = match risk_slopes {
             Some(slopes) => slopes,
             None if needs_risk && !risk.is_one() => return None,
-            None => [derivatives::ZERO; 2],
+            None => [gradient::ZERO; 2],
         };
         derivatives::derivatives(&self.program, rect, (risk, slopes))
     }

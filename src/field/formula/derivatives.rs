@@ -1,21 +1,24 @@
 //! Bounds of a formula's derivatives over a rectangle: automatic differentiation with intervals.
 
 use super::functions::OfThree;
+use super::gradient::{Gradient, ZERO, times};
 use super::interval;
 use super::machine::{self, Values};
 use super::program::{Op, Program};
 use crate::field::Bounds;
 use crate::geometry::Rect;
 
-/// Values over a rectangle, and their derivatives along x and y.
+/// Values over a rectangle, and their gradient.
 #[derive(Clone, Copy)]
 pub(super) struct Varying {
     pub value: Bounds,
     /// `None` where the values may jump, or a derivative is not known.
-    pub slopes: Option<[Bounds; 2]>,
+    pub gradient: Option<Gradient>,
+    /// The gradient of a function whose square the value is, if one is known. Then the square root has no
+    /// pole at 0: √(x² + y²) is a distance.
+    pub of_root: Option<Gradient>,
 }
 
-pub(super) const ZERO: Bounds = Bounds::new(0.0, 0.0);
 pub(super) const ONE: Bounds = Bounds::new(1.0, 1.0);
 
 /// Bounds of the derivatives along x and y over a rectangle, with the given risks and their derivatives.
@@ -25,22 +28,34 @@ pub(super) const ONE: Bounds = Bounds::new(1.0, 1.0);
 pub(super) fn derivatives(
     program: &Program,
     rect: &Rect,
-    (risk, risk_slopes): (Bounds, [Bounds; 2]),
+    risk: (Bounds, [Bounds; 2]),
 ) -> Option<[Bounds; 2]> {
-    let coordinate = |axis: usize, slopes| Varying {
-        value: Bounds::new(rect.min[axis], rect.max[axis]),
-        slopes: Some(slopes),
+    let gradient = gradient(program, rect, risk)?;
+    gradient.is_known().then_some(gradient.along)
+}
+
+/// The largest slope in any direction over a rectangle; infinite where the program may jump, or has a
+/// function whose derivative is not known here.
+pub(super) fn steepness(program: &Program, rect: &Rect) -> f64 {
+    let gradient = gradient(program, rect, (Bounds::ANYTHING, [ZERO; 2]));
+    gradient.map_or(f64::INFINITY, |gradient| gradient.length)
+}
+
+fn gradient(program: &Program, rect: &Rect, (risk, risk_slopes): (Bounds, [Bounds; 2])) -> Option<Gradient> {
+    let coordinate = |axis: usize, slopes| {
+        let value = Bounds::new(rect.min[axis], rect.max[axis]);
+        Varying::new(value, Some(Gradient::of(slopes)))
     };
-    let risk = Varying { value: risk, slopes: Some(risk_slopes) };
+    let risk = Varying::new(risk, Some(Gradient::of(risk_slopes)));
     let values = [coordinate(0, [ONE, ZERO]), coordinate(1, [ZERO, ONE]), risk];
-    let slopes = machine::run(program, values).slopes?;
-    slopes.iter().all(|slope| slope.valid && !slope.has_infinity()).then_some(slopes)
+    machine::run(program, values).gradient
 }
 
 impl Values for Varying {
     /// Without derivatives, unless the bounds are a number: other bounds may come from a jump.
     fn of_bounds(value: Bounds) -> Self {
-        Self { value, slopes: value.is_one().then_some([ZERO; 2]) }
+        let gradient = value.is_one().then_some(Gradient::NONE);
+        Self { value, gradient, of_root: gradient.filter(|_| value.least >= 0.0) }
     }
 
     fn bounds(&self) -> Bounds {
@@ -49,17 +64,24 @@ impl Values for Varying {
 
     fn one(op: Op, a: Self) -> Self {
         let value = interval::unary(op, a.value);
-        let slopes = factor(op, a.value, value).and_then(|factor| a.slopes_times(factor));
-        Self { value, slopes }
+        let gradient = factor(op, a.value, value).and_then(|factor| a.gradient_times(factor));
+        Self::new(value, if matches!(op, Op::Sqrt) { a.gradient_of_root(gradient) } else { gradient })
     }
 
     fn two(op: Op, a: Self, b: Self) -> Self {
         let value = interval::binary(op, a.value, b.value);
-        Self { value, slopes: slopes_of_two(op, a, b, value) }
+        match op {
+            Op::Two(function) => match function.derivative {
+                Some(derivative) => derivative(a, b, value),
+                None => Self::of_bounds(value),
+            },
+            _ => Self { value, gradient: of_two(op, a, b, value), of_root: root_of_two(op, a, b) },
+        }
     }
 
     fn three(function: &OfThree, a: Self, b: Self, c: Self) -> Self {
-        Self::of_bounds((function.bounds)(a.value, b.value, c.value))
+        let value = (function.bounds)(a.value, b.value, c.value);
+        Self::new(value, (function.derivative)(a, b, c))
     }
 
     fn either(self, other: Self) -> Self {
@@ -68,25 +90,34 @@ impl Values for Varying {
 }
 
 impl Varying {
-    /// The slopes, each times a factor.
-    pub fn slopes_times(&self, factor: Bounds) -> Option<[Bounds; 2]> {
-        Some(self.slopes?.map(|slope| times(slope, factor)))
+    /// Values that are no squares as far as is known.
+    pub fn new(value: Bounds, gradient: Option<Gradient>) -> Self {
+        Self { value, gradient, of_root: None }
+    }
+
+    /// The gradient times a factor.
+    pub fn gradient_times(&self, factor: Bounds) -> Option<Gradient> {
+        Some(self.gradient?.times(factor))
+    }
+
+    /// The gradient of the square root, from what its derivative gives.
+    pub fn gradient_of_root(&self, by_derivative: Option<Gradient>) -> Option<Gradient> {
+        // The root that is known may have the other sign.
+        let of_size = |root: Gradient| Gradient::of_hypot(&root, &Gradient::NONE);
+        match (by_derivative, self.of_root.map(of_size)) {
+            (Some(gradient), Some(root)) => Some(gradient.or(root)),
+            (gradient, root) => gradient.or(root),
+        }
     }
 
     pub fn is_constant(&self) -> bool {
-        self.value.is_one() && self.slopes == Some([ZERO; 2])
+        self.value.is_one() && self.gradient == Some(Gradient::NONE)
     }
 }
 
-/// A product; one with 0 is 0, whatever the other factor.
-pub(super) fn times(a: Bounds, b: Bounds) -> Bounds {
-    if a == ZERO || b == ZERO { ZERO } else { a.times(b) }
-}
-
-/// Sums of slopes, where both are known.
-pub(super) fn sums(a: Option<[Bounds; 2]>, b: Option<[Bounds; 2]>) -> Option<[Bounds; 2]> {
-    let ([a, b], [c, d]) = (a?, b?);
-    Some([a.plus(c), b.plus(d)])
+/// The sum of gradients, where both are known.
+fn sum(a: Option<Gradient>, b: Option<Gradient>) -> Option<Gradient> {
+    Some(a?.plus(&b?))
 }
 
 /// The derivative of an operation on one value, from its argument and its result.
@@ -102,27 +133,40 @@ fn factor(op: Op, a: Bounds, result: Bounds) -> Option<Bounds> {
     })
 }
 
-fn slopes_of_two(op: Op, a: Varying, b: Varying, value: Bounds) -> Option<[Bounds; 2]> {
+fn of_two(op: Op, a: Varying, b: Varying, value: Bounds) -> Option<Gradient> {
     match op {
-        Op::Add => sums(a.slopes, b.slopes),
-        Op::Subtract => sums(a.slopes, b.slopes_times(Bounds::one(-1.0))),
-        Op::Multiply => sums(a.slopes_times(b.value), b.slopes_times(a.value)),
+        Op::Add => sum(a.gradient, b.gradient),
+        Op::Subtract => sum(a.gradient, b.gradient_times(Bounds::one(-1.0))),
+        Op::Multiply => sum(a.gradient_times(b.value), b.gradient_times(a.value)),
         Op::Divide => {
             let inverse = ONE.over(b.value);
-            sums(a.slopes_times(inverse), b.slopes_times(times(value, inverse).negated()))
+            sum(a.gradient_times(inverse), b.gradient_times(times(value, inverse).negated()))
         }
         Op::Min | Op::Max => {
             let (low, high) = if matches!(op, Op::Min) { (a, b) } else { (b, a) };
             if low.value.greatest < high.value.least {
-                a.slopes
+                a.gradient
             } else if high.value.greatest < low.value.least {
-                b.slopes
+                b.gradient
             } else {
-                let (a, b) = (a.slopes?, b.slopes?);
-                Some([0, 1].map(|axis: usize| a[axis].union(b[axis])))
+                Some(a.gradient?.union(&b.gradient?))
             }
         }
-        Op::Two(function) => (function.slopes?)(a, b, value),
+        _ => None,
+    }
+}
+
+/// The gradient of a root of a sum of squares, or of a multiple of one.
+fn root_of_two(op: Op, a: Varying, b: Varying) -> Option<Gradient> {
+    let multiple = |root: Gradient, factor: Varying, size: fn(f64) -> f64| {
+        let is_positive = factor.is_constant() && factor.value.least > 0.0;
+        is_positive.then(|| root.times(Bounds::one(size(factor.value.least))))
+    };
+    match op {
+        Op::Add => Some(Gradient::of_hypot(&a.of_root?, &b.of_root?)),
+        Op::Multiply if a.is_constant() => multiple(b.of_root?, a, f64::sqrt),
+        Op::Multiply => multiple(a.of_root?, b, f64::sqrt),
+        Op::Divide => multiple(a.of_root?, b, |divisor| (1.0 / divisor).sqrt()),
         _ => None,
     }
 }

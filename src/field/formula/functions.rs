@@ -3,6 +3,7 @@
 use std::f64::consts;
 
 use super::derivatives::Varying;
+use super::gradient::Gradient;
 use super::program::{Op, max, min};
 use super::{function_bounds as bounds, models, slopes};
 use crate::field::{Bounds, Quadratic};
@@ -56,18 +57,16 @@ pub(super) struct OfOne {
     pub model: Option<fn(&Quadratic) -> Quadratic>,
 }
 
-/// The derivatives along x and y of a function of two values, from what is known of the values and from
-/// bounds of the result.
-type Slopes = fn(Varying, Varying, Bounds) -> Option<[Bounds; 2]>;
+/// What is known of a function of two values, from what is known of the values and from bounds of the result.
+type Derivative = fn(Varying, Varying, Bounds) -> Varying;
 
 /// A function of two values.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct OfTwo {
     pub value: fn(f64, f64) -> f64,
     pub bounds: fn(Bounds, Bounds) -> Bounds,
-    /// Bounds of the derivatives along x and y, from what is known of the arguments and from bounds of the
-    /// result.
-    pub slopes: Option<Slopes>,
+    /// The gradient with the values, if it is known.
+    pub derivative: Option<Derivative>,
     pub model: Option<fn(&Quadratic, &Quadratic) -> Quadratic>,
 }
 
@@ -76,6 +75,8 @@ pub(super) struct OfTwo {
 pub(super) struct OfThree {
     pub value: fn(f64, f64, f64) -> f64,
     pub bounds: fn(Bounds, Bounds, Bounds) -> Bounds,
+    /// The gradient, if it is known.
+    pub derivative: fn(Varying, Varying, Varying) -> Option<Gradient>,
     pub model: Option<fn(&Quadratic, &Quadratic, &Quadratic) -> Quadratic>,
 }
 
@@ -84,7 +85,7 @@ const fn of_one(value: fn(f64) -> f64, bounds: fn(Bounds) -> Bounds) -> OfOne {
 }
 
 const fn of_two(value: fn(f64, f64) -> f64, bounds: fn(Bounds, Bounds) -> Bounds) -> OfTwo {
-    OfTwo { value, bounds, slopes: None, model: None }
+    OfTwo { value, bounds, derivative: None, model: None }
 }
 
 impl OfOne {
@@ -94,8 +95,8 @@ impl OfOne {
 }
 
 impl OfTwo {
-    const fn smooth(self, slopes: Slopes, model: fn(&Quadratic, &Quadratic) -> Quadratic) -> Self {
-        Self { slopes: Some(slopes), model: Some(model), ..self }
+    const fn smooth(self, derivative: Derivative, model: fn(&Quadratic, &Quadratic) -> Quadratic) -> Self {
+        Self { derivative: Some(derivative), model: Some(model), ..self }
     }
 
     const fn modelled(self, model: fn(&Quadratic, &Quadratic) -> Quadratic) -> Self {
@@ -128,10 +129,10 @@ pub(super) static FUNCTIONS: &[Function] = &[
     one("sign(v)", &const { of_one(sign, bounds::sign) }, "-1, 0 or 1"),
     function("min(a, b, ...)", Form::Join(Op::Min), "the smallest of two values or more"),
     function("max(a, b, ...)", Form::Join(Op::Max), "the largest of two values or more"),
-    three("clamp(v, lo, hi)", &OfThree { value: clamp, bounds: bounds::clamp, model: Some(models::clamp) }, "v, kept between lo and hi"),
-    three("mix(a, b, t)", &OfThree { value: mix, bounds: bounds::mix, model: Some(models::mix) }, "a at t = 0, b at t = 1, straight between and beyond"),
+    three("clamp(v, lo, hi)", &OfThree { value: clamp, bounds: bounds::clamp, derivative: slopes::clamp, model: Some(models::clamp) }, "v, kept between lo and hi"),
+    three("mix(a, b, t)", &OfThree { value: mix, bounds: bounds::mix, derivative: slopes::mix, model: Some(models::mix) }, "a at t = 0, b at t = 1, straight between and beyond"),
     two("step(edge, v)", &const { of_two(step, bounds::step) }, "0 where v is below the edge, else 1"),
-    three("smoothstep(lo, hi, v)", &OfThree { value: smoothstep, bounds: bounds::smoothstep, model: Some(models::smoothstep) }, "0 up to lo, 1 from hi, an S-curve between"),
+    three("smoothstep(lo, hi, v)", &OfThree { value: smoothstep, bounds: bounds::smoothstep, derivative: slopes::smoothstep, model: Some(models::smoothstep) }, "0 up to lo, 1 from hi, an S-curve between"),
     two("gauss(d, s)", &const { of_two(gauss, bounds::gauss).smooth(slopes::gauss, models::gauss) }, "bell curve exp(-(d/s)^2/2): 1 at d = 0, 0.61 at d = s"),
     two("hypot(a, b)", &const { of_two(libm::hypot, bounds::hypot).smooth(slopes::hypot, models::hypot) }, "sqrt(a^2 + b^2): the distance, from differences in x and y"),
     function("sqrt(v)", Form::Fixed(1, Op::Sqrt), "square root"),

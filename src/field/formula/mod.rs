@@ -33,6 +33,9 @@ mod derivatives;
 mod error;
 mod function_bounds;
 mod functions;
+mod gradient;
+#[cfg(test)]
+mod gradient_tests;
 mod interval;
 mod lexer;
 mod machine;
@@ -126,7 +129,13 @@ impl Formula {
     /// Bounds of the derivatives along x and y over a closed rectangle in world units. `None` where the
     /// formula may jump, or a derivative is not known.
     pub(crate) fn derivatives(&self, rect: &Rect) -> Option<[Bounds; 2]> {
-        derivatives::derivatives(&self.program, rect, (Bounds::ANYTHING, [derivatives::ZERO; 2]))
+        derivatives::derivatives(&self.program, rect, (Bounds::ANYTHING, [gradient::ZERO; 2]))
+    }
+
+    /// The largest slope in any direction over a closed rectangle in world units; infinite where the formula
+    /// may jump, or a derivative is not known.
+    pub(crate) fn steepness(&self, rect: &Rect) -> f64 {
+        derivatives::steepness(&self.program, rect)
     }
 
     /// A model of [`Self::eval`] over a rectangle, from models of the coordinates.

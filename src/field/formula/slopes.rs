@@ -2,8 +2,11 @@
 
 use std::f64::consts::{LN_2, LN_10};
 
-use super::derivatives::{ONE, Varying, sums, times};
+use super::derivatives::{ONE, Varying};
 use super::function_bounds as bounds;
+use super::gradient::{Gradient, times};
+use super::machine::Values;
+use super::program::Op;
 use crate::field::Bounds;
 
 pub(super) fn exp(_: Bounds, result: Bounds) -> Bounds {
@@ -52,25 +55,59 @@ pub(super) fn tanh(_: Bounds, result: Bounds) -> Bounds {
 }
 
 /// With a constant exponent: (aⁿ)′ = n aⁿ⁻¹ a′.
-pub(super) fn power(a: Varying, n: Varying, _: Bounds) -> Option<[Bounds; 2]> {
+pub(super) fn power(a: Varying, n: Varying, value: Bounds) -> Varying {
     if !n.is_constant() {
-        return None;
+        return Varying::of_bounds(value);
     }
     let less = bounds::power(a.value, Bounds::one(n.value.least - 1.0));
-    a.slopes_times(times(n.value, less))
+    let by_derivative = a.gradient_times(times(n.value, less));
+    let gradient = if n.value.least == 0.5 { a.gradient_of_root(by_derivative) } else { by_derivative };
+    let of_root = a.gradient.filter(|_| n.value.least == 2.0);
+    Varying { value, gradient, of_root }
 }
 
 /// √(a² + b²)′ = (a a′ + b b′) / √(a² + b²), with factors from −1 to 1.
-pub(super) fn hypot(a: Varying, b: Varying, result: Bounds) -> Option<[Bounds; 2]> {
-    let factor = |of: Bounds| of.over(result).intersection(Bounds::new(-1.0, 1.0));
-    sums(a.slopes_times(factor(a.value)), b.slopes_times(factor(b.value)))
+pub(super) fn hypot(a: Varying, b: Varying, value: Bounds) -> Varying {
+    let gradient = |a: Varying, b: Varying| {
+        let factor = |of: Bounds| of.over(value).intersection(Bounds::new(-1.0, 1.0));
+        let by_factors = a.gradient_times(factor(a.value))?.plus(&b.gradient_times(factor(b.value))?);
+        Some(by_factors.or(Gradient::of_hypot(&a.gradient?, &b.gradient?)))
+    };
+    Varying::new(value, gradient(a, b))
 }
 
+/// The greatest slope of the bell curve exp(−t²/2) is e^(−1/2), at t = 1.
+const STEEPEST_OF_BELL: f64 = 0.606_530_659_712_634;
+
 /// With a constant s: exp(−(d/s)²/2)′ = −d / s² · exp(−(d/s)²/2) · d′.
-pub(super) fn gauss(d: Varying, s: Varying, result: Bounds) -> Option<[Bounds; 2]> {
+pub(super) fn gauss(d: Varying, s: Varying, value: Bounds) -> Varying {
     if !s.is_constant() {
+        return Varying::of_bounds(value);
+    }
+    let most = STEEPEST_OF_BELL / s.value.least.abs();
+    let factor = times(d.value.over(s.value.squared()).negated(), value);
+    let factor = if factor.valid { factor.intersection(Bounds::new(-most, most)) } else { factor };
+    Varying::new(value, d.gradient_times(factor))
+}
+
+pub(super) fn clamp(v: Varying, lo: Varying, hi: Varying) -> Option<Gradient> {
+    Varying::two(Op::Min, Varying::two(Op::Max, v, lo), hi).gradient
+}
+
+pub(super) fn mix(a: Varying, b: Varying, t: Varying) -> Option<Gradient> {
+    let rest = Varying::two(Op::Subtract, Varying::of_bounds(ONE), t);
+    let [first, second] = [(a, rest), (b, t)].map(|(v, share)| Varying::two(Op::Multiply, v, share));
+    Some(first.gradient?.plus(&second.gradient?))
+}
+
+/// With constant limits: 6 t (1 − t) / (hi − lo) for the share t of the way.
+pub(super) fn smoothstep(lo: Varying, hi: Varying, v: Varying) -> Option<Gradient> {
+    let span = hi.value.minus(lo.value);
+    if !lo.is_constant() || !hi.is_constant() || span.has_zero() {
         return None;
     }
-    let factor = d.value.over(s.value.squared()).negated();
-    d.slopes_times(times(factor, result))
+    let unit = |t: Bounds| t.max(Bounds::one(0.0)).min(ONE);
+    let share = unit(v.value.minus(lo.value).over(span));
+    let rise = share.times(ONE.minus(share)).times(Bounds::one(6.0));
+    v.gradient_times(rise.min(Bounds::one(1.5)).over(span))
 }

@@ -168,7 +168,7 @@ impl Function {
     /// The greatest slope over a rectangle; infinite where the function may jump, or the slope is not known.
     pub fn steepness(&self, rect: &Rect) -> f64 {
         match self {
-            Self::Formula(formula) => formula.derivatives(rect).map_or(f64::INFINITY, steepest),
+            Self::Formula(formula) => formula.steepness(rect),
             Self::Threats(threats) => steepest(threats.slopes(rect)),
             Self::Distance { profile, .. } => profile.steepness(),
         }

@@ -8,6 +8,10 @@ use crate::layers::{Combine, PaintLayers, SizeField};
 use super::asked::Share;
 use super::cells::Cells;
 
+/// Bounds of slopes are rounded up. Where h is steeper than g by this share of g alone, gradation takes at
+/// most this share of h̄ away: it carries values of at least 0 over distances up to h̄ / g.
+const MARGIN: f64 = 1e-9;
+
 /// Whether h̄ before gradation may change by more than the gradation per unit of length in some cells, or
 /// jumps there or at their border. Without gradation it never does.
 ///
@@ -39,7 +43,7 @@ pub fn is_steep(field: &SizeField, paint: &PaintLayers, cells: &Cells) -> bool {
             return true;
         }
         let steepness = layer.steepness(cells, diameters, field.lattice());
-        steepness > slope || steepness.is_nan()
+        steepness > slope * (1.0 + MARGIN) || steepness.is_nan()
     })
 }
 
