@@ -286,7 +286,7 @@ impl App {
         }
     }
 
-    fn state<'a>(&'a self, readout: Option<&'a Readout>) -> FrameState<'a> {
+    pub(super) fn state<'a>(&'a self, readout: Option<&'a Readout>) -> FrameState<'a> {
         FrameState {
             session: &self.session,
             project: &self.project,

@@ -34,7 +34,7 @@ fn the_series_of_section_5_4_comes_out() {
         let halved = 0.5f64.powi(level / 2);
         // Odd levels are exact; even ones are irrational, so a hair above.
         let target = if level % 2 == 1 { halved } else { halved * 2.0f64.sqrt() * (1.0 + 1e-12) };
-        let summary = folder.json("mesh", &diamond(target));
+        let summary = folder.json("mesh", diamond(target));
         assert_eq!(summary["triangles"], count, "level {level}");
         assert_eq!(summary["max_level"], level);
     }
@@ -43,7 +43,7 @@ fn the_series_of_section_5_4_comes_out() {
 #[test]
 fn the_summary_says_all_that_a_program_asks() {
     let folder = Folder::new("cli-summary");
-    let summary = folder.json("mesh", &diamond(0.25));
+    let summary = folder.json("mesh", diamond(0.25));
     assert_eq!(summary["triangles"], 9560);
     assert_eq!(summary["nodes"], 4821);
     assert_eq!(summary["levels"], serde_json::json!([440, 72, 72, 144, 384, 8448]));
@@ -53,13 +53,13 @@ fn the_summary_says_all_that_a_program_asks() {
     let hash = summary["hash"].as_str().unwrap();
     assert!(hash.len() == 32 && hash.chars().all(|c| c.is_ascii_hexdigit()));
     // The same mesh by way of an even-level target has the same hash; another mesh has another.
-    assert_eq!(folder.json("mesh", &diamond(0.26))["hash"], hash);
-    assert_ne!(folder.json("mesh", &diamond(0.24))["hash"], hash);
+    assert_eq!(folder.json("mesh", diamond(0.26))["hash"], hash);
+    assert_ne!(folder.json("mesh", diamond(0.24))["hash"], hash);
 }
 
 #[test]
 fn people_get_the_summary_on_standard_error() {
-    let ran = Folder::new("cli-people").run(&format!("mesh --checks {}", diamond(0.25)));
+    let ran = Folder::new("cli-people").run(format!("mesh --checks {}", diamond(0.25)));
     assert_eq!((ran.status, ran.out.as_str()), (0, ""));
     assert!(ran.err.contains("9,560 triangles, 4,821 nodes, levels 0 to 5"), "{}", ran.err);
     assert!(ran.err.contains("every invariant of the mesh holds"));
@@ -70,7 +70,7 @@ fn people_get_the_summary_on_standard_error() {
 fn every_ending_is_written_and_the_files_agree() {
     let folder = Folder::new("cli-endings");
     let outputs = "-o m.vtu -o m.msh -o m.obj -o m.NODE -o m.csv -o m.stl -o m.2dm -o m.svg";
-    let ran = folder.run(&format!("mesh {} {outputs} --quantity x*y", diamond(0.25)));
+    let ran = folder.run(format!("mesh {} {outputs} --quantity x*y", diamond(0.25)));
     assert_eq!(ran.status, 0, "{}", ran.err);
     assert_eq!(
         folder.names(),
@@ -99,7 +99,7 @@ fn every_ending_is_written_and_the_files_agree() {
 fn a_picture_shows_the_levels() {
     let folder = Folder::new("cli-picture");
     let run = |options: &str| {
-        let ran = folder.run(&format!("mesh {} -o m.png {options}", diamond(0.25)));
+        let ran = folder.run(format!("mesh {} -o m.png {options}", diamond(0.25)));
         assert_eq!(ran.status, 0, "{}", ran.err);
         let file = std::io::BufReader::new(fs::File::open(folder.0.join("m.png")).unwrap());
         let mut reader = png::Decoder::new(file).read_info().unwrap();
@@ -139,7 +139,7 @@ fn an_image_of_risk_refines_where_it_is_bright() {
     grey[6 * 64..7 * 64].fill(255);
     folder.file("risk.png", png([64, 64], &grey));
     let options = "--risk-raster risk.png --h-min 0.02 --spacing 0.25 --checks";
-    let by_area = folder.json("mesh", &format!("{options} -o m.csv"));
+    let by_area = folder.json("mesh", format!("{options} -o m.csv"));
     assert_eq!(by_area["violations"], 0);
     let table = folder.read("m.csv");
     assert_eq!(by_area["max_level"], 9);
@@ -150,7 +150,7 @@ fn an_image_of_risk_refines_where_it_is_bright() {
     // beyond.
     assert!(heights.iter().all(|y| (56.0 / 64.0..=59.0 / 64.0).contains(y)), "{heights:?}");
     // The report's rule sees nothing of it.
-    let by_vertex = folder.json("mesh", &format!("{options} --rule vertex"));
+    let by_vertex = folder.json("mesh", format!("{options} --rule vertex"));
     assert_eq!(by_vertex["triangles"], 32);
 }
 
@@ -170,8 +170,8 @@ fn grids_lie_where_they_say_and_images_cover_the_domain() {
     // Black asks for --h-min, white for --h-max.
     folder.file("grey.png", png([2, 1], &[0, 255]));
     let image = "--target-raster grey.png --domain 0,0,2,1 --spacing 1 --h-max 1.5";
-    assert_eq!(folder.json("mesh", &format!("{image} --h-min 1.45"))["triangles"], 4);
-    assert_eq!(folder.json("mesh", &format!("{image} --h-min 0.5"))["max_level"], 3);
+    assert_eq!(folder.json("mesh", format!("{image} --h-min 1.45"))["triangles"], 4);
+    assert_eq!(folder.json("mesh", format!("{image} --h-min 0.5"))["max_level"], 3);
     // A grid that misses the domain asks for nothing, and that is said.
     let ran = folder.run("mesh --target-raster length.asc --domain 0,0,1,1");
     assert!(ran.err.contains("does not meet the domain") && ran.err.contains("800 triangles"), "{}", ran.err);
@@ -183,7 +183,7 @@ fn points_are_found_and_values_interpolated() {
     let rows = "0.3,0.15\n0.5,0.5\n0.5,0.1\n0,0\n2,2\nNaN,0\n-0.9,-0.9\n";
     folder.file("points.csv", format!("x,y\n\n{rows}"));
     let options = "--domain -1,-1,1,1 --spacing 0.5 --inside 'r < 1.2' --target 'if(r < 0.4, 0.125, 1)'";
-    let ran = folder.run(&format!("locate {options} --points points.csv --quantity '2*x + y'"));
+    let ran = folder.run(format!("locate {options} --points points.csv --quantity '2*x + y'"));
     assert_eq!(ran.status, 0, "{}", ran.err);
     let mut lines = ran.out.lines();
     assert_eq!(lines.next(), Some("x,y,where,triangle,level,v1,v2,v3,zeta1,zeta2,zeta3,value"));
@@ -202,7 +202,7 @@ fn points_are_found_and_values_interpolated() {
             _ => assert!(row[3..].iter().all(|field| field.is_empty())),
         }
     }
-    let to_file = folder.run(&format!("locate {options} --points points.csv -o found.csv"));
+    let to_file = folder.run(format!("locate {options} --points points.csv -o found.csv"));
     assert_eq!((to_file.status, to_file.out.as_str()), (0, ""));
     let values: Vec<String> =
         folder.read("found.csv").lines().map(|row| row.rsplit(',').next().unwrap().to_owned()).collect();
@@ -240,7 +240,7 @@ fn a_region_is_meshed_as_its_boundary_asks() {
     assert_eq!((&report["triangles"], &report["max_level"]), (&26.into(), &0.into()));
     // Sizes from a field and the outline go together; what lies in the hole asks for nothing.
     let target = "--target 'if(max(abs(x - 2), abs(y - 2)) < 0.5, 0.001, 1)'";
-    assert_eq!(folder.json("mesh", &format!("--region frame.geojson --spacing 1 {target}"))["max_level"], 7);
+    assert_eq!(folder.json("mesh", format!("--region frame.geojson --spacing 1 {target}"))["max_level"], 7);
     let ran = folder.run("mesh --region frame.geojson --spacing 1");
     assert!(
         ran.err.contains(
@@ -385,13 +385,13 @@ fn points_in_a_region_are_found_in_the_triangles_of_its_files() {
     // On the outer side, on the hole's side and its corner, inside, in the hole, beyond.
     folder.file("points.csv", "x,y\n4,2.3\n3,2.5\n1,1\n0.3,2.9\n3.9,3.8\n2,2\n5,5\n");
     let input = "--region frame.geojson --spacing 1";
-    assert_eq!(folder.run(&format!("mesh {input} -o m.node")).status, 0);
+    assert_eq!(folder.run(format!("mesh {input} -o m.node")).status, 0);
     let rows = |text: &str| -> Vec<Vec<f64>> {
         let numbers = |line: &str| line.split_whitespace().map(|word| word.parse().unwrap()).collect();
         text.lines().skip(1).filter(|line| !line.starts_with('#')).map(numbers).collect()
     };
     let (nodes, elements) = (rows(&folder.read("m.node")), rows(&folder.read("m.ele")));
-    let ran = folder.run(&format!("locate {input} --points points.csv"));
+    let ran = folder.run(format!("locate {input} --points points.csv"));
     assert_eq!(ran.status, 0, "{}", ran.err);
     let found: Vec<Vec<&str>> = ran.out.lines().skip(1).map(|line| line.split(',').collect()).collect();
     let wheres: Vec<&str> = found.iter().map(|row| row[2]).collect();
@@ -507,7 +507,7 @@ fn bad_regions_are_explained() {
 #[test]
 fn a_level_cap_is_kept_and_said() {
     let folder = Folder::new("cli-cap");
-    let ran = folder.run(&format!("mesh --max-level 3 --checks {}", diamond(0.25)));
+    let ran = folder.run(format!("mesh --max-level 3 --checks {}", diamond(0.25)));
     assert_eq!(ran.status, 0);
     assert!(ran.err.contains("levels 0 to 3") && ran.err.contains("--max-level left"), "{}", ran.err);
 }
@@ -711,7 +711,7 @@ fn a_build_without_a_window_says_so() {
 fn shells_complete_the_options() {
     let folder = Folder::new("cli-completions");
     for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
-        let ran = folder.run(&format!("completions {shell}"));
+        let ran = folder.run(format!("completions {shell}"));
         assert_eq!(ran.status, 0, "{}", ran.err);
         for word in ["meshbrush", "max-triangles", "project"] {
             assert!(ran.out.contains(word), "{shell}: no {word}");
@@ -748,7 +748,7 @@ fn a_dash_is_standard_input_or_output() {
     );
     folder.run("mesh --spacing 0.5 -o file.csv -o file.vtu");
     for ending in ["csv", "vtu"] {
-        let piped = folder.command(&format!("mesh --spacing 0.5 -o - --format {ending}")).output().unwrap();
+        let piped = folder.command(format!("mesh --spacing 0.5 -o - --format {ending}")).output().unwrap();
         assert!(piped.status.success());
         // The files say by which command they were made.
         let without_command = |bytes: &[u8]| {

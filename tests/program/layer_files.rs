@@ -209,7 +209,7 @@ fn the_recipe_of_a_document_gives_its_mesh() {
     let folder = Folder::new("recipe");
     let project = Project::of(&document());
     folder.file("all.meshbrush", project_bytes(&project));
-    let Ran { status, err, .. } = folder.run(&["recipe", "all.meshbrush", "-o", "all.toml"]);
+    let Ran { status, err, .. } = folder.run(["recipe", "all.meshbrush", "-o", "all.toml"]);
     assert_eq!(status, 0, "{err}");
     for file in ["all-raster.asc", "all-threats.csv", "all-distance.geojson", "all-paint.meshbrush"] {
         assert!(folder.0.join(file).exists(), "{file}: {err}");
@@ -276,15 +276,15 @@ fn layers_that_ask_for_nothing_are_noted_and_faults_name_the_layer() {
         ("kind = \"distance\"\nfile = \"half.asc\"\nat_zero = 0.1\nslope = 1", 1, "half.asc, line 1: "),
     ] {
         folder.file("own.toml", format!("{head}{layer}"));
-        let Ran { status: found, err, .. } = folder.run(&["mesh", "own.toml"]);
+        let Ran { status: found, err, .. } = folder.run(["mesh", "own.toml"]);
         assert!(found == status && err.contains(words), "{layer}\n{found}: {err}");
     }
     let finest = "[[layer]]\nkind = \"formula\"\nquantity = \"diameter\"\nformula = \"1e-6\"\n";
     folder.file("own.toml", format!("{finest}[mesh]\nmax_triangles = 5000\n"));
-    let Ran { status, err, .. } = folder.run(&["mesh", "own.toml"]);
+    let Ran { status, err, .. } = folder.run(["mesh", "own.toml"]);
     assert!(status == 1 && err.contains("5,000 triangles"), "{err}");
     folder.file("own.toml", "[domain]\ninside = \"x < y\"\n[[layer]]\nkind = \"distance\"\nto = \"outline\"\nat_zero = 1\nslope = 1");
-    let Ran { err, .. } = folder.run(&["mesh", "own.toml"]);
+    let Ran { err, .. } = folder.run(["mesh", "own.toml"]);
     assert!(err.contains("The layer “Distance”: there is no distance to the outline of a domain"), "{err}");
 }
 
@@ -295,7 +295,7 @@ fn options_take_threats_distances_and_a_limit_of_gradation() {
     folder.file("point.geojson", r#"{"type":"Point","coordinates":[0.2,0.2]}"#);
     let usual = ["--h-min", "0.02", "--h-max", "0.3", "--checks", "--rule", "area"];
     let count = |options: &[&str]| {
-        let Ran { status, out, err } = folder.run(&[&["mesh", "--json"], &usual[..], options].concat());
+        let Ran { status, out, err } = folder.run([&["mesh", "--json"], &usual[..], options].concat());
         assert_eq!(status, 0, "{err}");
         let summary: serde_json::Value = serde_json::from_str(&out).unwrap();
         summary["triangles"].as_u64().unwrap()

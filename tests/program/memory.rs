@@ -76,14 +76,14 @@ fn the_memory_budget_is_kept_at_the_peak() {
 fn is_kept(folder: &Folder, field: &str, base: usize) {
     // All write to the same file: each write has a temporary file of its own.
     let options = format!("--spacing 0.05 {field} -o mesh.vtu");
-    let (status, peak, triangles) = peak_of(&folder, &options);
+    let (status, peak, triangles) = peak_of(folder, &options);
     assert!(status == 0 && triangles > 150_000, "{field}: {triangles}");
     let budget = triangles * MemoryLimit::ONE_MESH;
     assert!(peak <= base + budget + ROUNDING, "{field}: {peak} for {triangles} triangles, {base} without");
     // With a little less than the mesh needs, that is not passed either.
     let budget = budget * 9 / 10;
     let limited = format!("{options} --max-memory {:.3}MB", budget as f64 / 1e6);
-    let (status, peak, _) = peak_of(&folder, &limited);
+    let (status, peak, _) = peak_of(folder, &limited);
     assert_eq!(status, 1, "{limited}");
     assert!(peak <= base + budget + ROUNDING, "{limited}: {peak}, {base} without");
 }

@@ -245,7 +245,7 @@ fn in_window(document: &mut Document) -> String {
 
 /// The same of the command line.
 fn by_command(folder: &Folder, arguments: &[&str]) -> String {
-    let Ran { status, out, err } = folder.run(&[&["mesh", "--json"], arguments].concat());
+    let Ran { status, out, err } = folder.run([&["mesh", "--json"], arguments].concat());
     assert_eq!(status, 0, "{arguments:?}: {err}");
     let summary: serde_json::Value = serde_json::from_str(&out).unwrap();
     format!("{} {}", summary["hash"].as_str().unwrap(), summary["triangles"])
@@ -429,9 +429,9 @@ fn the_memory_budget_of_a_project_counts_on_the_command_line() {
     folder.file("a.meshbrush", bytes);
     RecipeFiles::new(&project, &folder.0.join("a.toml")).write(&Meter::default()).unwrap();
     for file in [&["--project", "a.meshbrush"][..], &["a.toml"]] {
-        let Ran { status, err, .. } = folder.run(&[&["mesh"], file].concat());
+        let Ran { status, err, .. } = folder.run([&["mesh"], file].concat());
         assert!(status == 1 && err.contains("2 MB of memory"), "{file:?} gave {status}: {err}");
-        let Ran { status, err, .. } = folder.run(&[&["mesh"], file, &["--max-memory", "1GB"]].concat());
+        let Ran { status, err, .. } = folder.run([&["mesh"], file, &["--max-memory", "1GB"]].concat());
         assert_eq!(status, 0, "{file:?}: {err}");
     }
 }

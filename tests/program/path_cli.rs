@@ -23,7 +23,7 @@ const COARSE: &str = "--spacing 0.125";
 #[test]
 fn the_answer_has_the_path_its_figures_and_an_interval() {
     let folder = Folder::new("answer");
-    let answer = folder.json("path", &format!("--from 0.1,0.2 --to 0.9,0.8 --length-weight 2 {COARSE}"));
+    let answer = folder.json("path", format!("--from 0.1,0.2 --to 0.9,0.8 --length-weight 2 {COARSE}"));
     let number = |name: &str| answer[name].as_f64().unwrap_or_else(|| panic!("{name}"));
     assert!((number("cost") - 2.0).abs() < 1e-9 && (number("length") - 1.0).abs() < 1e-9);
     assert!(number("lower") <= 2.0 && number("upper") >= 2.0 && number("lower") > 1.9);
@@ -42,7 +42,7 @@ fn a_proof_narrows_the_interval() {
         (upper - lower) / upper
     };
     assert!(width(&folder.json("path", &options)) > 0.01);
-    assert!(width(&folder.json("path", &format!("{options} --within 1%"))) <= 0.01);
+    assert!(width(&folder.json("path", format!("{options} --within 1%"))) <= 0.01);
     // The proof has a grid of its own, however fine that of the mesh is.
     let fine = "--from 0.2,0.3 --to 0.8,0.6 --cost '1 + x' --spacing 0.012 --within 0.05%";
     assert!(width(&folder.json("path", fine)) <= 0.0005);
@@ -58,7 +58,7 @@ fn a_path_without_a_proof_is_written_all_the_same() {
     fs::write(folder.0.join("inlet.geojson"), inlet).unwrap();
     // Triangles so large that they cover a part of the inlet.
     let coarse = "--region inlet.geojson --spacing 0.25 --target 0.5 --boundary-diameter 0.5";
-    let ran = folder.run(&format!("{coarse} --from 0.45,0.75 --to 0.9,0.1 --within 1%"));
+    let ran = folder.run(format!("{coarse} --from 0.45,0.75 --to 0.9,0.1 --within 1%"));
     assert_eq!(ran.status, 0, "{}", ran.err);
     assert!(ran.out.starts_with("cost 0.79"), "{}", ran.out);
     let said = "not proved to be within 1 % of the best. No bound is proved from the start (0.45, 0.75)";
@@ -88,14 +88,14 @@ fn via_points_and_keep_out_regions_count() {
     fs::write(folder.0.join("wall.geojson"), format!("{{\"type\":\"Polygon\",\"coordinates\":{ring}}}"))
         .unwrap();
     let ends = "--from 0.1,0.1 --to 0.9,0.1 --spacing 0.05";
-    let cost = |options: &str| folder.json("path", &format!("{ends} {options}"))["cost"].as_f64().unwrap();
+    let cost = |options: &str| folder.json("path", format!("{ends} {options}"))["cost"].as_f64().unwrap();
     assert!((cost("") - 0.8).abs() < 1e-9);
     let via = 2.0 * f64::hypot(0.4, 0.5);
     assert!((cost("--via 0.5,0.6") - via).abs() < 1e-6);
     let around = 2.0 * f64::hypot(0.3, 0.6) + 0.2;
     let found = cost("--keep-out wall.geojson");
     assert!(found > around - 1e-9 && found < around * 1.1, "{found} {around}");
-    let proof = folder.json("path", &format!("{ends} --keep-out wall.geojson --within 1%"));
+    let proof = folder.json("path", format!("{ends} --keep-out wall.geojson --within 1%"));
     let lower = proof["lower"].as_f64().unwrap();
     assert!(lower <= around && lower > 0.97 * around, "{lower} {around}");
 }
@@ -111,7 +111,7 @@ fn paths_between_walls_go_around_holes() {
     for boundary in ["fitted", "outline"] {
         let hole = format!("--region hole.geojson --boundary {boundary} --spacing 0.1 --target 0.05");
         for (from, to) in [("0.4,0.5", "0.6,0.5"), ("0.4,0.4", "0.6,0.6"), ("0.6,0.45", "0.4,0.55")] {
-            let answer = folder.json("path", &format!("{hole} --from {from} --to {to}"));
+            let answer = folder.json("path", format!("{hole} --from {from} --to {to}"));
             let [cost, upper] = ["cost", "upper"].map(|name| answer[name].as_f64().unwrap());
             assert!(
                 (cost - 0.4).abs() < 1e-9 && upper >= 0.4 - 1e-9,
@@ -162,7 +162,7 @@ fn bounds_are_claimed_only_where_they_hold() {
     assert!(answer["cost"].as_f64().unwrap() > 0.7 && answer["lower"] == 0.0, "{answer}");
     let ran = path(&folder, through);
     assert!(ran.out.contains("no lower bound is known"), "{}", ran.out);
-    let proved = folder.json("path", &format!("{through} --within 1%"))["lower"].as_f64().unwrap();
+    let proved = folder.json("path", format!("{through} --within 1%"))["lower"].as_f64().unwrap();
     assert!(proved <= 0.6 && proved > 0.5, "{proved}");
 }
 
@@ -186,7 +186,7 @@ fn each_obstacle_has_an_error_of_its_own() {
         assert!(ran.err.contains(message), "{arguments}: {}", ran.err);
     }
     for cost in ["if(x<0.3,1e18,1)", "if(x<0.3,1e12,1e-12)"] {
-        let answer = folder.json("path", &format!("{ends} --spacing 0.05 --cost '{cost}'"));
+        let answer = folder.json("path", format!("{ends} --spacing 0.05 --cost '{cost}'"));
         let [cost, lower] = ["cost", "lower"].map(|name| answer[name].as_f64().unwrap());
         assert!(lower > 0.9 * cost && lower <= cost, "{lower} {cost}");
     }
@@ -211,7 +211,7 @@ fn a_project_decides_places_cost_and_regions_unless_options_do() {
     project::write(&mut bytes, &project).unwrap();
     fs::write(folder.0.join("p.meshbrush"), bytes).unwrap();
     let number = |options: &str| {
-        folder.json("path", &format!("--project p.meshbrush {options}"))["cost"].as_f64().unwrap()
+        folder.json("path", format!("--project p.meshbrush {options}"))["cost"].as_f64().unwrap()
     };
     // What the window does: the derived mesh, and a planner for the plan.
     let spec = document.settings().mesh_spec().unwrap();
@@ -249,7 +249,7 @@ fn every_output_is_written() {
     let outputs = "-o path.geojson -o path.csv -o path.svg -o path.png --size 200 --simplify 0.01";
     let options =
         "--from 0.1,0.1 --to 0.9,0.8 --risk 'exp(-20*hypot(x-0.5, y-0.5)^2)' --h-min 0.1 --h-max 0.2";
-    let answer = folder.json("path", &format!("{options} {COARSE} {outputs}"));
+    let answer = folder.json("path", format!("{options} {COARSE} {outputs}"));
     let points = answer["points"].as_array().unwrap();
     let feature: Value = serde_json::from_str(&folder.read("path.geojson")).unwrap();
     assert_eq!(feature["geometry"]["coordinates"].as_array().unwrap(), points);
@@ -290,6 +290,6 @@ fn bad_input_has_a_sentence_and_a_status() {
         assert_eq!(ran.status, status, "{arguments}: {}", ran.err);
         assert!(ran.err.contains(message), "{arguments}: {}", ran.err);
     }
-    let same = folder.json("path", &format!("--from 0.5,0.5 --to 0.5,0.5 {COARSE} --within 1%"));
+    let same = folder.json("path", format!("--from 0.5,0.5 --to 0.5,0.5 {COARSE} --within 1%"));
     assert_eq!((&same["cost"], &same["lower"]), (&0.0.into(), &0.0.into()));
 }

@@ -208,7 +208,7 @@ fn mistakes_are_reported_with_line_and_column() {
         ("[mesh]\nspacing = 1e-6", "", 1, "spacing"),
     ] {
         folder.file("r.toml", recipe);
-        let Ran { status, err, .. } = folder.run(&format!("mesh r.toml {arguments}"));
+        let Ran { status, err, .. } = folder.run(format!("mesh r.toml {arguments}"));
         assert_eq!(status, expected_status, "{recipe}: {err}");
         assert!(err.contains(expected), "{recipe} gave {err}");
         assert!(!err.contains("panicked"), "{err}");
@@ -223,7 +223,7 @@ fn mistakes_are_reported_with_line_and_column() {
             "its name ends with .toml. Name a project with --project, and a domain with --region.",
         ),
     ] {
-        let Ran { status: got, err, .. } = folder.run(&format!("mesh {arguments}"));
+        let Ran { status: got, err, .. } = folder.run(format!("mesh {arguments}"));
         assert_eq!(got, status, "{err}");
         assert!(err.contains(expected), "{err}");
     }
@@ -248,7 +248,7 @@ fn options_on_layers_are_checked() {
         ("--threats a.csv", "Risk and images need --h-min"),
         ("--project a.meshbrush --threats a.csv", "cannot be used with"),
     ] {
-        let Ran { status, err, .. } = folder.run(&format!("mesh {options}"));
+        let Ran { status, err, .. } = folder.run(format!("mesh {options}"));
         assert_eq!(status, 2, "{options}: {err}");
         assert!(err.contains(expected), "{options} gave {err}");
     }
