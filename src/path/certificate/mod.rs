@@ -79,8 +79,8 @@ const SHORT_DETOUR: f64 = 0.1;
 const STRIP_ULPS: f64 = 16.0;
 /// The gradient grows by at most so many times the width of a strip as a part of the smallest triangle.
 const STRIP_LOSS: f64 = 20.0;
-/// A certificate ends before a programme with which it would take more work than this, in nodes times steps of
-/// the solver: some ten seconds. It is a count, so that every machine proves the same.
+/// A certificate ends before a programme with which it would take more work than this, in nodes times steps
+/// of the solver: some ten seconds. It is a count, so that every machine proves the same.
 const MOST_WORK: u64 = 700_000;
 /// About so many steps the solver takes for a programme.
 const USUAL_STEPS: u64 = 25;
