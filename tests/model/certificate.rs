@@ -114,7 +114,7 @@ fn bad_input_is_refused_and_stopping_keeps_the_work() {
     let refused = |path, upper| Certificate::new(task(path, upper)).err();
     let (a, b) = (dvec2(-1.0, 0.0), dvec2(1.0, 0.5));
     assert_eq!(refused(vec![a], 1.0), Some(PathError::TooFewPlaces));
-    assert!(matches!(refused(vec![a, dvec2(3.0, 0.0)], 4.0), Some(PathError::Outside { .. })));
+    assert!(matches!(refused(vec![a, dvec2(3.0, 0.0)], 4.0), Some(PathError::BeyondOutline { .. })));
     assert!(matches!(refused(vec![a, dvec2(f64::NAN, 0.0)], 4.0), Some(PathError::NotAPlace { .. })));
     assert!(matches!(refused(vec![a, b], f64::NAN), Some(PathError::InvalidCost { .. })));
     let same = Certificate::new(task(vec![a, a], 0.0)).unwrap();

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use crate::operations::{Operation, Scale, domains};
+use crate::runs::runs;
 use glam::{DVec2, dvec2};
 use meshbrush::internals::build::RefinementCriterion;
 use meshbrush::internals::document::{
@@ -299,7 +300,7 @@ fn the_price_of_a_stroke_is_what_it_then_costs() {
         let mut document = Document::new(settings, None).unwrap();
         let mut follower = Follower::new(&mut document).unwrap();
         let mut pricer = Pricer::default();
-        for stroke in 0..200 {
+        for stroke in 0..runs(40) {
             let brush = any_brush(&mut random);
             let plan = any_plan(brush, &mut random);
             // Now and then the pointer moves on before the price is known.
@@ -331,7 +332,7 @@ fn the_price_of_a_stroke_is_what_it_then_costs() {
             same += usize::from(change == 0);
         }
     }
-    assert!(dearer > 100 && cheaper > 100 && same > 10, "{dearer} {cheaper} {same}");
+    assert!(dearer > 20 && cheaper > 20 && same > 2, "{dearer} {cheaper} {same}");
 }
 
 /// A click or a line, in the square and beside it, now and then mirrored.

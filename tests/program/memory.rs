@@ -32,9 +32,13 @@ fn peak_of(folder: &Folder, options: &str) -> (i32, usize, usize) {
     (output.status.code().expect("no signal ends it"), peak, triangles as usize)
 }
 
-/// The most memory that a process has had so far, in bytes; 0 once it has ended.
+/// The most memory that the program has had so far, in bytes; 0 once it has ended, and while the new process
+/// is still a copy of the one that runs the tests.
 fn memory(child: &Child) -> usize {
     let status = fs::read_to_string(format!("/proc/{}/status", child.id())).unwrap_or_default();
+    if !status.starts_with("Name:\tmeshbrush\n") {
+        return 0;
+    }
     let most = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
     most.map_or(0, |most| 1024 * most.trim().trim_end_matches(" kB").parse::<usize>().unwrap())
 }

@@ -58,7 +58,7 @@ fn a_path_without_a_proof_is_written_all_the_same() {
     fs::write(folder.0.join("inlet.geojson"), inlet).unwrap();
     // Triangles so large that they cover a part of the inlet.
     let coarse = "--region inlet.geojson --spacing 0.25 --target 0.5 --boundary-diameter 0.5";
-    let ran = folder.run(format!("{coarse} --from 0.45,0.75 --to 0.9,0.1 --within 1%"));
+    let ran = path(&folder, &format!("{coarse} --from 0.45,0.75 --to 0.9,0.1 --within 1%"));
     assert_eq!(ran.status, 0, "{}", ran.err);
     assert!(ran.out.starts_with("cost 0.79"), "{}", ran.out);
     let said = "not proved to be within 1 % of the best. No bound is proved from the start (0.45, 0.75)";
