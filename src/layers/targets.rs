@@ -169,7 +169,7 @@ impl SizeField {
                     (least, greatest) = (least.min(low), greatest.max(high));
                 }
             }
-            // A line between pixels decides more than the middle of what a function is known in.
+            // A cut between pixels makes diameters exact; one in the middle of a function does not.
             cut = if layer.has_pixels() { layer_cut.or(cut) } else { cut.or(layer_cut) };
         }
         ([least, greatest], cut)

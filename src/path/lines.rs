@@ -23,20 +23,21 @@ use crate::geometry::Rect;
 const HIDDEN: f64 = 0.6;
 /// A place costs about the least of its triangle if it costs less than this times as much.
 const ABOUT: f64 = 1.05;
-/// So many rectangles are looked at for one place.
+/// The most rectangles in which one place is searched.
 const MOST_RECTANGLES: usize = 600;
 /// A chord leaves out fewer points than this.
 const LONGEST_CHORD: usize = 96;
-/// Where a path comes to a line, so many places on it are tried beyond, at distances that grow by this
-/// factor, from this part of the longer side of all triangles on.
+/// The most places that are tried on a line beyond the one where a path comes to it.
 const MOST_FARTHER: usize = 24;
-const STRETCH: f64 = 1.3;
+/// The distance of the first of them, as a part of the longer side of the mesh.
 const NEXT: f64 = 2e-4;
-/// Pieces in which the cost of a chord is summed, at least and at most.
+/// The distance of each of the others, as a multiple of the one before.
+const STRETCH: f64 = 1.3;
+/// The least and the largest number of pieces in which the cost of a chord is summed.
 const SUMMED: [f64; 2] = [2.0, 32.0];
-/// So many pieces for each chord as long as the longer side of all triangles.
+/// The number of pieces of a chord that is as long as the longer side of the mesh.
 const SUMMED_LENGTH: f64 = 500.0;
-/// So small parts of a chord have bounds of their own in the upper bound of a path.
+/// The part of a chord over which the upper bound of a path takes bounds of the cost.
 const SHORT: f64 = 1.0 / 4096.0;
 /// A march with least costs promises at least this part less than the known path.
 const LEAST_PROMISE: f64 = 1e-3;
@@ -47,7 +48,7 @@ pub(super) struct Lines<'a> {
     pub costs: &'a TriangleCosts,
     pub walls: &'a Walls,
     pub density: &'a dyn CostDensity,
-    /// The longer side of all triangles.
+    /// The longer side of the rectangle around the mesh.
     pub size: f64,
 }
 

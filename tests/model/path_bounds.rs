@@ -65,7 +65,7 @@ impl Line {
 
 #[test]
 fn no_bound_is_above_the_cost_by_way_of_a_cheap_line() {
-    for seed in seeds(5) {
+    for seed in seeds(10) {
         let mut random = fastrand::Rng::with_seed(2700 + seed);
         // On a line of the meshes, or off it, along an axis or a diagonal.
         let at = if random.bool() { f64::from(random.u32(1..8)) / 8.0 } else { 0.2 + 0.6 * random.f64() };
@@ -96,8 +96,7 @@ fn no_bound_is_above_the_cost_by_way_of_a_cheap_line() {
             let message = format!("{seed} {formula} {places:?}: possible {possible}");
             assert!(solution.lower <= possible * (1.0 + 1e-6) + 1e-9, "{} {message}", solution.lower);
             assert!(solution.lower <= solution.upper, "{message}");
-            // A certificate takes seconds.
-            if seed % 5 == 0 && cells == 8.0 && solution.upper > 0.0 {
+            if cells == 8.0 && solution.upper > 0.0 {
                 let certificate = certified(&solution, &density, &Domain::rectangle(Rect::UNIT)).unwrap();
                 let lower = certificate.lower();
                 assert!(lower <= possible * (1.0 + 1e-6) + 1e-9, "certified {lower} {message}");

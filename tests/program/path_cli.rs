@@ -15,7 +15,7 @@ use meshbrush::internals::path::{PathMesh, PathRequest, Planner, Weights};
 use serde_json::Value;
 
 fn path(folder: &Folder, arguments: &str) -> Ran {
-    folder.run(&*format!("path {arguments}"))
+    folder.run(format!("path {arguments}"))
 }
 
 const COARSE: &str = "--spacing 0.125";

@@ -5,6 +5,7 @@
 use std::path::Path;
 use std::process::Command;
 
+use crate::folder::Folder;
 use meshbrush::internals::field::formula::functions;
 
 const README: &str = include_str!("../../README.md");
@@ -19,10 +20,9 @@ fn blocks(language: &str) -> impl Iterator<Item = &'static str> {
 #[cfg(unix)]
 #[test]
 fn every_command_works_as_typed() {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("readme-{}", std::process::id()));
-    std::fs::create_dir_all(folder.join("assets")).unwrap();
+    let folder = Folder::new("readme");
     for input in ["assets/jacksboro_slope.png", "assets/jacksboro.toml", "assets/aegean_sea.geojson"] {
-        std::fs::copy(Path::new(env!("CARGO_MANIFEST_DIR")).join(input), folder.join(input)).unwrap();
+        folder.file(input, std::fs::read(Path::new(env!("CARGO_MANIFEST_DIR")).join(input)).unwrap());
     }
     let programs = Path::new(PROGRAM).parent().unwrap();
     let path = format!("{}:{}", programs.display(), std::env::var("PATH").unwrap());
@@ -32,7 +32,7 @@ fn every_command_works_as_typed() {
         let ran = Command::new("sh")
             .args(["-euc", block])
             .env("PATH", &path)
-            .current_dir(&folder)
+            .current_dir(&folder.0)
             .output()
             .unwrap();
         assert!(ran.status.success(), "{block}\n{}", String::from_utf8_lossy(&ran.stderr));
@@ -47,9 +47,8 @@ fn every_command_works_as_typed() {
     for file in
         ["diamond.vtu", "terrain.msh", "terrain.png", "sea.2dm", "found.csv", "path.geojson", "jacksboro.png"]
     {
-        assert!(folder.join(file).metadata().unwrap().len() > 100, "{file}");
+        assert!(folder.0.join(file).metadata().unwrap().len() > 100, "{file}");
     }
-    std::fs::remove_dir_all(folder).unwrap();
 }
 
 /// Compares a page with what the program says, and writes it instead where `UPDATE_DOCS` is set.

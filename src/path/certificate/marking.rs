@@ -11,9 +11,9 @@ use super::setup::Kept;
 const LEAST_LEFT: f64 = 0.12;
 /// One round aims at no more than this part.
 const MOST_LEFT: f64 = 0.7;
-/// A round makes at most so many times as many triangles, unless there are few.
+/// A round multiplies the number of triangles by at most this factor, if more than [`ALWAYS`] result.
 const GROWTH: f64 = 3.5;
-/// So many triangles are few.
+/// A round may make this number of triangles from any number.
 const ALWAYS: f64 = 8000.0;
 /// How often a bisection halves what a triangle loses, and the most bisections of a triangle in one round.
 const ELSEWHERE: (f64, f64) = (1.5, 3.0);
@@ -59,8 +59,9 @@ pub(super) fn estimates(
 /// triangles on it. The fewest triangles result where all lose equally much. Where the cost jumps, a
 /// bisection gains less.
 ///
-/// A goal that takes many more triangles is approached in several rounds: the estimates of the next one are
-/// better, and a large programme costs more than some small ones. With `most` triangles there is an end.
+/// A goal that takes many more triangles is approached in several rounds: estimates improve from round to
+/// round, and one large programme costs more than several small ones. No round makes more than `most`
+/// triangles, unless the goal is to keep [`MOST_LEFT`] of what is lost.
 pub(super) fn bisections(estimates: &[f64], minorants: &[Minorant], goal: f64, most: usize) -> Vec<u32> {
     let all: f64 = estimates.iter().sum();
     let most = most.min((GROWTH * estimates.len() as f64).max(ALWAYS) as usize);

@@ -79,10 +79,10 @@ const SHORT_DETOUR: f64 = 0.1;
 const STRIP_ULPS: f64 = 16.0;
 /// The gradient grows by at most so many times the width of a strip as a part of the smallest triangle.
 const STRIP_LOSS: f64 = 20.0;
-/// A certificate ends before a programme with which it would take more work than this, in nodes times steps
-/// of the solver: some ten seconds. It is a count, so that every machine proves the same.
+/// The most work of a certificate, in nodes times steps of the solver: some ten seconds. A programme that
+/// would exceed it is not started. It is a count, so that every machine proves the same.
 const MOST_WORK: u64 = 700_000;
-/// About so many steps the solver takes for a programme.
+/// The number of steps that the solver usually takes for a programme.
 const USUAL_STEPS: u64 = 25;
 /// After so many programmes in a row that hardly raise the bound, it ends.
 const MOST_IDLE: usize = 3;
@@ -120,7 +120,7 @@ pub struct Certificate {
     lower: f64,
     programmes: usize,
     nodes: usize,
-    /// What all programmes took: nodes times steps of the solver.
+    /// The work of all programmes so far: nodes times steps of the solver.
     work: u64,
     /// Programmes in a row that hardly raised the bound.
     idle: usize,
