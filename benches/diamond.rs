@@ -1,8 +1,8 @@
 //! The mesh of Figure 1 of the report (Section 5.4) on [−10, 10]², which the benches of the core build.
 
 use glam::DVec2;
-use meshbrush::internals::geometry::{Lattice, LatticePoint, Rect};
-use meshbrush::internals::mesh::{
+use meshbrush_mesh::geometry::{Lattice, LatticePoint, Rect};
+use meshbrush_mesh::mesh::{
     Element, InvalidTarget, LevelsWithin, Limits, Mesh, RuleAnswers, SharedRule, bisection_edge_length,
 };
 

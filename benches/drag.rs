@@ -9,9 +9,9 @@
 
 use std::time::Instant;
 
-use meshbrush::internals::document::{Document, Follower, MeshChange, Setting, Settings};
-use meshbrush::internals::layers::Layer;
 use meshbrush_benches::window::{FRAME_BUDGET, SLICE, wave};
+use meshbrush_core::document::{Document, Follower, MeshChange, Setting, Settings};
+use meshbrush_core::layers::Layer;
 
 const SECONDS: usize = 2;
 const MOVES: usize = 60 * SECONDS;

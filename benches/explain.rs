@@ -8,15 +8,13 @@ use std::time::Duration;
 
 use criterion::{BenchmarkId, Criterion, Throughput};
 use glam::DVec2;
-use meshbrush::internals::build::{BuiltMesh, MeshBuilder, MeshSpec, RefinementCriterion};
-use meshbrush::internals::domain::{BoundaryTreatment, Domain};
-use meshbrush::internals::explain::Explanation;
-use meshbrush::internals::field::{Formula, RefinementRule, Transfer};
-use meshbrush::internals::geometry::{Lattice, Rect};
-use meshbrush::internals::layers::{Layer, LayerKind, PaintLayers, SizeFieldSpec};
-use meshbrush::internals::mesh::{
-    Cleaning, Limits, Progress, TreeTriangle, TriangleId, bisection_edge_length,
-};
+use meshbrush_core::build::{BuiltMesh, MeshBuilder, MeshSpec, RefinementCriterion};
+use meshbrush_core::domain::{BoundaryTreatment, Domain};
+use meshbrush_core::explain::Explanation;
+use meshbrush_core::field::{Formula, RefinementRule, Transfer};
+use meshbrush_core::layers::{Layer, LayerKind, PaintLayers, SizeFieldSpec};
+use meshbrush_mesh::geometry::{Lattice, Rect};
+use meshbrush_mesh::mesh::{Cleaning, Limits, Progress, TreeTriangle, TriangleId, bisection_edge_length};
 
 const TRIANGLES: usize = 1_000;
 

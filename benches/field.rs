@@ -2,13 +2,13 @@
 
 use std::sync::Arc;
 
-use meshbrush::internals::field::Transfer;
-use meshbrush::internals::geometry::{LatticePoint, Rect};
-use meshbrush::internals::layers::{
+use meshbrush_core::field::Transfer;
+use meshbrush_core::layers::{
     Layer, LayerKind, PaintLayers, RasterReading, RasterSource, SettledSquares, SizeField, SizeFieldSpec,
 };
-use meshbrush::internals::mesh::{LevelsWithin, RuleAnswers, SharedRule};
-use meshbrush::internals::raster::{Raster, RasterPyramid};
+use meshbrush_core::raster::{Raster, RasterPyramid};
+use meshbrush_mesh::geometry::{LatticePoint, Rect};
+use meshbrush_mesh::mesh::{LevelsWithin, RuleAnswers, SharedRule};
 
 use crate::diamond;
 

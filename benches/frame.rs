@@ -21,14 +21,14 @@ use std::ops::Range;
 use std::time::{Duration, Instant};
 
 use glam::{DVec2, dvec2};
-use meshbrush::internals::document::{Document, Follower, MeshChange, Settings, Stage};
-use meshbrush::internals::domain::{BoundaryTreatment, Domain};
-use meshbrush::internals::layers::Layer;
-use meshbrush::internals::mesh::{PatchPieces, TriangleId};
-use meshbrush::internals::outline::DerivedMesh;
-use meshbrush::internals::paint::{Brush, Medium};
-use meshbrush::internals::render::gpu::Offscreen;
 use meshbrush_benches::window::{BRUSH, FRAME_BUDGET, SLICE, wave};
+use meshbrush_core::document::{Document, Follower, MeshChange, Settings, Stage};
+use meshbrush_core::domain::{BoundaryTreatment, Domain};
+use meshbrush_core::layers::Layer;
+use meshbrush_core::outline::DerivedMesh;
+use meshbrush_core::paint::{Brush, Medium};
+use meshbrush_mesh::mesh::{PatchPieces, TriangleId};
+use meshbrush_render::render::gpu::Offscreen;
 
 const FRAMES: usize = 120;
 /// What a mouse reports in a frame, at 120 a second.

@@ -16,9 +16,9 @@ use std::time::{Duration, Instant};
 
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, BenchmarkId, Criterion, SamplingMode, Throughput};
-use meshbrush::internals::layers::SizeField;
-use meshbrush::internals::mesh::{Limits, Mesh, Refiner, SharedRule, bisection_edge_length};
 use meshbrush_benches::{diamond, field};
+use meshbrush_core::layers::SizeField;
+use meshbrush_mesh::mesh::{Limits, Mesh, Refiner, SharedRule, bisection_edge_length};
 use rayon::ThreadPool;
 use rayon::prelude::*;
 

@@ -19,14 +19,14 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use glam::{DVec2, dvec2};
-use meshbrush::internals::document::{Document, Follower, Setting, Settings, Stage};
-use meshbrush::internals::geometry::Rect;
-use meshbrush::internals::layers::{
+use meshbrush_benches::window::{BRUSH, FRAME_BUDGET, SLICE, wave};
+use meshbrush_core::document::{Document, Follower, Setting, Settings, Stage};
+use meshbrush_core::layers::{
     Combine, DistanceTo, Layer, LayerId, LayerKind, Mask, Quantity, RasterReading, RasterSource, ShapeList,
     Shapes, Threat, ThreatLaw, Threats, ValueCurve,
 };
-use meshbrush::internals::raster::{Raster, RasterPyramid};
-use meshbrush_benches::window::{BRUSH, FRAME_BUDGET, SLICE, wave};
+use meshbrush_core::raster::{Raster, RasterPyramid};
+use meshbrush_mesh::geometry::Rect;
 
 const FRAMES: usize = 120;
 /// The points that the pointer rests on.

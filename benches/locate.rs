@@ -8,8 +8,8 @@ use std::time::Duration;
 
 use criterion::{BenchmarkId, Criterion, Throughput};
 use glam::{DVec2, dvec2};
-use meshbrush::internals::mesh::{Locator, Mesh, NodeId};
 use meshbrush_benches::diamond;
+use meshbrush_mesh::mesh::{Locator, Mesh, NodeId};
 use spade::{
     DelaunayTriangulation, HierarchyHintGenerator, HintGenerator, LastUsedVertexHintGenerator, Point2,
     Triangulation,

@@ -6,12 +6,14 @@ use std::time::Duration;
 
 use criterion::{BenchmarkId, Criterion, Throughput};
 use glam::dvec2;
-use meshbrush::internals::mesh::{Mesh, NodeId};
-use meshbrush::internals::path::{
+use meshbrush_benches::diamond;
+use meshbrush_core::field::CostFormula;
+use meshbrush_core::layers::RiskField;
+use meshbrush_core::path::{
     CostDensity, FormulaCost, March, Passage, PathMesh, PathRequest, Place, Planner, Waypoint,
 };
-use meshbrush::{CostFormula, Rect, RiskField};
-use meshbrush_benches::diamond;
+use meshbrush_mesh::geometry::Rect;
+use meshbrush_mesh::mesh::{Mesh, NodeId};
 use pathfinding::prelude::dijkstra_all;
 
 /// Costs on a scale of integers: the crate compares costs exactly.

@@ -7,11 +7,11 @@
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use meshbrush::internals::document::{Document, Follower, Setting, Settings, Stage};
-use meshbrush::internals::geometry::Rect;
-use meshbrush::internals::layers::{Layer, LayerKind, RasterReading, RasterSource};
-use meshbrush::internals::raster::{Raster, RasterPyramid};
 use meshbrush_benches::window::{FRAME_BUDGET, SLICE};
+use meshbrush_core::document::{Document, Follower, Setting, Settings, Stage};
+use meshbrush_core::layers::{Layer, LayerKind, RasterReading, RasterSource};
+use meshbrush_core::raster::{Raster, RasterPyramid};
+use meshbrush_mesh::geometry::Rect;
 
 /// How often each change is repeated; medians are printed.
 const ROUNDS: usize = 3;

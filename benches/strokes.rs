@@ -7,10 +7,10 @@
 use std::time::{Duration, Instant};
 
 use glam::dvec2;
-use meshbrush::internals::document::{Document, Follower, Settings};
-use meshbrush::internals::layers::Layer;
-use meshbrush::internals::mesh::Progress;
 use meshbrush_benches::window::{BRUSH, SLICE, wave};
+use meshbrush_core::document::{Document, Follower, Settings};
+use meshbrush_core::layers::Layer;
+use meshbrush_mesh::mesh::Progress;
 
 /// How often each stroke is repeated; medians are printed.
 const ROUNDS: usize = 5;

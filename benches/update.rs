@@ -14,15 +14,13 @@ use std::time::{Duration, Instant};
 
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, BenchmarkId, Criterion, SamplingMode, Throughput};
-use meshbrush::internals::field::Transfer;
-use meshbrush::internals::geometry::{Lattice, LatticePoint, LatticeRect, Rect};
-use meshbrush::internals::layers::{
-    Layer, LayerId, LayerKind, PaintLayers, Quantity, SizeField, SizeFieldSpec,
-};
-use meshbrush::internals::mesh::{
+use meshbrush_core::field::Transfer;
+use meshbrush_core::layers::{Layer, LayerId, LayerKind, PaintLayers, Quantity, SizeField, SizeFieldSpec};
+use meshbrush_core::raster::{PixelGrid, PixelRect, TILE, TilePlace, TiledRaster};
+use meshbrush_mesh::geometry::{Lattice, LatticePoint, LatticeRect, Rect};
+use meshbrush_mesh::mesh::{
     Element, Forecast, InvalidTarget, Limits, Mesh, Progress, Refiner, Updater, bisection_edge_length,
 };
-use meshbrush::internals::raster::{PixelGrid, PixelRect, TILE, TilePlace, TiledRaster};
 
 /// Pixels along a side of the field.
 const SIDE: u32 = 2048;

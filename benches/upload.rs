@@ -6,10 +6,10 @@ use std::time::Duration;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use glam::DVec2;
-use meshbrush::internals::colormap::LEVELS;
-use meshbrush::internals::geometry::{Lattice, Rect};
-use meshbrush::internals::mesh::{Limits, Mesh};
-use meshbrush::internals::scene::{Camera, Style};
+use meshbrush_mesh::geometry::{Lattice, Rect};
+use meshbrush_mesh::mesh::{Limits, Mesh};
+use meshbrush_render::colormap::LEVELS;
+use meshbrush_render::scene::{Camera, Style};
 
 const SIZE: [u32; 2] = [1200, 900];
 
@@ -52,20 +52,14 @@ fn software(c: &mut Criterion) {
         let (style, mut frame) = (style(), 0);
         group.bench_function(BenchmarkId::new("draw", name), |b| {
             b.iter(|| {
-                meshbrush::internals::render::software::draw(
-                    &mesh,
-                    &moved(&mesh, &mut frame),
-                    &style,
-                    None,
-                    &[],
-                )
+                meshbrush_render::render::software::draw(&mesh, &moved(&mesh, &mut frame), &style, None, &[])
             });
         });
     }
 }
 
 fn gpu(c: &mut Criterion) {
-    let mut offscreen = match meshbrush::internals::render::gpu::Offscreen::new() {
+    let mut offscreen = match meshbrush_render::render::gpu::Offscreen::new() {
         Ok(offscreen) => offscreen,
         Err(e) => return eprintln!("The GPU was not measured. {e}"),
     };

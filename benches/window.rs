@@ -2,9 +2,9 @@
 
 use std::time::Duration;
 
-use meshbrush::internals::field::Formula;
-use meshbrush::internals::layers::LayerKind;
-use meshbrush::internals::paint::{Brush, Medium};
+use meshbrush_core::field::Formula;
+use meshbrush_core::layers::LayerKind;
+use meshbrush_core::paint::{Brush, Medium};
 
 /// `FRAME_BUDGET` in `app/frame.rs`.
 pub const FRAME_BUDGET: Duration = Duration::from_millis(7);

@@ -12,99 +12,108 @@
 //! number of triangles added to keep the mesh conforming is bounded by \[BDD2004\], and coarsening follows
 //! \[ChenZhang2010\]. The [references](guide::references) have the titles.
 
-// What only the window, the tests and the benches use is unused in other builds. Builds of tests have
-// `internals`.
-#![cfg_attr(not(feature = "internals"), allow(dead_code, unused_imports))]
 #![deny(unsafe_code)]
 
-mod text;
-mod geometry;
-mod mesh;
-mod plot;
-mod raster;
-mod field;
-mod domain;
-mod layers;
-mod outline;
-mod paint;
-mod build;
-mod path;
-mod explain;
-mod document;
-mod io;
-mod colormap;
-mod scene;
-mod render;
-mod cli;
 #[cfg(feature = "gui")]
 mod app;
 
 pub use glam;
 
+use meshbrush_cli::cli;
+
 // Build a mesh.
-pub use build::{BuildError, BuildStage, BuiltMesh, MeshBuilder, MeshSpec, RefinementCriterion};
-pub use domain::{
+#[doc(inline)]
+pub use meshbrush_core::build::{
+    BuildError, BuildStage, BuiltMesh, MeshBuilder, MeshSpec, RefinementCriterion,
+};
+#[doc(inline)]
+pub use meshbrush_core::domain::{
     BoundaryKind, BoundaryMarks, BoundaryPiece, BoundaryPieces, BoundaryTreatment, CutShape, Domain,
     DomainOnLattice, DomainShape, MOST_CORNERS, MeshBoundary, NamedPolygon, PieceFigures, PieceRun, Polygon,
     Region, RegionError, Ring,
 };
-pub use field::formula::ParseError;
-pub use field::{
+#[doc(inline)]
+pub use meshbrush_core::field::formula::ParseError;
+#[doc(inline)]
+pub use meshbrush_core::field::{
     Bounds, CostFormula, Formula, RefinementRule, RiskToDiameter, Transfer, TransferError, VertexRule,
 };
-pub use geometry::{GridError, Lattice, LatticePoint, LatticeRect, Rect};
-pub use mesh::{
+#[doc(inline)]
+pub use meshbrush_core::raster::{PixelRect, Raster, RasterPyramid, TiledRaster};
+#[doc(inline)]
+pub use meshbrush_mesh::geometry::{GridError, Lattice, LatticePoint, LatticeRect, Rect};
+#[doc(inline)]
+pub use meshbrush_mesh::mesh::{
     Changes, CoarseError, Element, Fingerprint, Forecast, InvalidTarget, Limits, MOST_TRIANGLES, MemoryLimit,
     Mesh, Progress, RefineError, Refiner, TargetChange, Updater, Violation, bisection_edge_length,
 };
-pub use raster::{PixelRect, Raster, RasterPyramid, TiledRaster};
 
 // Paint.
-pub use document::{
+#[doc(inline)]
+pub use meshbrush_core::document::{
     Background, Document, Example, Follower, KeepOut, MeshChange, PathCost, PathPlan, Picture, Setting,
     Settings, SettingsError, Stage,
 };
-pub use layers::{
+#[doc(inline)]
+pub use meshbrush_core::layers::{
     Combine, Decision, InvalidLayer, Layer, LayerId, LayerKind, LeastTarget, Mask, PaintLayers, Quantity,
     RasterReading, RasterSource, RiskField, SizeField, SizeFieldSpec,
 };
-pub use paint::{Brush, Medium};
-pub use text::LengthUnit;
+#[doc(inline)]
+pub use meshbrush_core::paint::{Brush, Medium};
+#[doc(inline)]
+pub use meshbrush_mesh::text::LengthUnit;
 
 // Find paths.
-pub use path::{
+#[doc(inline)]
+pub use meshbrush_core::path::{
     Certificate, CertificateEnd, CertificateTask, CostDensity, CostRange, FormulaCost, PathError, Placement,
     PlacementTest, Waypoint, WeightedCost, Weights,
 };
 
 // Query a mesh.
-pub use explain::{Bisections, Demand, Explanation, LevelFigures, Words};
-pub use mesh::{
+#[doc(inline)]
+pub use meshbrush_core::explain::{Bisections, Demand, Explanation, LevelFigures, Words};
+#[doc(inline)]
+pub use meshbrush_mesh::mesh::{
     Adjacency, Cause, Cleaning, KeptParts, Location, Locator, Neighbour, NodeId, Orientation, PatchedLocator,
     Removed, RemovedPart, Topology, TreeTriangle, Triangle, TriangleId, barycentric, interpolate,
 };
 
 // Read and write files.
-pub use colormap::{Colormap, Ground, LevelColors};
-pub use io::{Cancelled, MeshData, MeshFormat, MeshSource, Meter, NodeValues, Provenance, ReadError};
-pub use mesh::{
+#[doc(inline)]
+pub use meshbrush_core::outline::{DerivedMesh, DerivedViolation, OutlineFit};
+#[doc(inline)]
+pub use meshbrush_io::io::{
+    Cancelled, MeshData, MeshFormat, MeshSource, Meter, NodeValues, Provenance, ReadError,
+};
+#[doc(inline)]
+pub use meshbrush_mesh::mesh::{
     BoundaryEdge, Cell, Extract, MeshEdge, MeshPatch, MeshStatistics, MeshView, PatchPieces, PatchTriangle,
 };
-pub use outline::{DerivedMesh, DerivedViolation, OutlineFit};
-pub use render::Image;
-pub use render::export::{ExportFormat, LARGEST_PICTURE, Look, UnknownEnding};
+#[doc(inline)]
+pub use meshbrush_render::colormap::{Colormap, Ground, LevelColors};
+#[doc(inline)]
+pub use meshbrush_render::render::Image;
+#[doc(inline)]
+pub use meshbrush_render::render::export::{ExportFormat, LARGEST_PICTURE, Look, UnknownEnding};
 
-pub use io::asc::read as read_asc;
-pub use io::geojson::{read as read_geojson, read_named as read_named_geojson, write as write_geojson};
-pub use io::png::{Behind, read as read_png};
-pub use io::points::read as read_points;
-pub use io::project::{Project, read as read_project, write as write_project};
-pub use io::write_file;
+#[doc(inline)]
+pub use meshbrush_io::io::asc::read as read_asc;
+#[doc(inline)]
+pub use meshbrush_io::io::geojson::{
+    read as read_geojson, read_named as read_named_geojson, write as write_geojson,
+};
+#[doc(inline)]
+pub use meshbrush_io::io::png::{Behind, read as read_png};
+#[doc(inline)]
+pub use meshbrush_io::io::points::read as read_points;
+#[doc(inline)]
+pub use meshbrush_io::io::project::{Project, read as read_project, write as write_project};
+#[doc(inline)]
+pub use meshbrush_io::io::write_file;
 
 pub mod guide;
-#[cfg(feature = "internals")]
-#[doc(hidden)]
-pub mod internals;
 
 use std::ffi::OsString;
 use std::process::ExitCode;
@@ -120,7 +129,8 @@ const WINDOW: Option<cli::Window> = Some(cli::Window {
 #[cfg(not(feature = "gui"))]
 const WINDOW: Option<cli::Window> = None;
 
-pub use mesh::ProgramAllocator;
+#[doc(inline)]
+pub use meshbrush_mesh::mesh::ProgramAllocator;
 
 /// Runs the program: the command line or, with the feature `gui`, the window. The first argument is the
 /// program's name.

@@ -4,7 +4,7 @@
 
 use std::path::Path;
 
-use meshbrush::internals::io::asc;
+use meshbrush_io::io::asc;
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
     let Ok(raster) = asc::from_bytes(bytes, Path::new("fuzz.asc")) else { return };

@@ -2,7 +2,7 @@
 
 #![no_main]
 
-#[path = "../../tests/model/operations/mod.rs"]
+#[path = "../../crates/core/tests/model/operations/mod.rs"]
 mod operations;
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| operations::run_bytes(bytes));

@@ -2,7 +2,7 @@
 
 #![no_main]
 
-use meshbrush::internals::field::Formula;
+use meshbrush_core::field::Formula;
 
 /// Coordinates at which functions are most likely to fail.
 const ODD: [f64; 8] = [0.0, -0.0, 1.0, -2.5, 1e300, 5e-324, f64::INFINITY, f64::NAN];
@@ -19,7 +19,9 @@ libfuzzer_sys::fuzz_target!(|text: &str| match Formula::parse(text) {
     }
     Err(mistake) => {
         let span = mistake.span();
-        assert!(text.is_char_boundary(span.start) && text.is_char_boundary(span.end) && span.start <= span.end);
+        assert!(
+            text.is_char_boundary(span.start) && text.is_char_boundary(span.end) && span.start <= span.end
+        );
         assert!(!mistake.to_string().is_empty() && mistake.pointer().contains('^'));
     }
 });

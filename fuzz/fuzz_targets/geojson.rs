@@ -4,13 +4,13 @@
 
 use std::path::Path;
 
-use meshbrush::internals::build::{MeshBuilder, MeshSpec};
-use meshbrush::internals::domain::{BoundaryTreatment, Domain};
-use meshbrush::internals::field::{RefinementRule, Transfer};
-use meshbrush::internals::geometry::Lattice;
-use meshbrush::internals::io::geojson;
-use meshbrush::internals::layers::SizeFieldSpec;
-use meshbrush::internals::mesh::{Cleaning, Limits, Progress};
+use meshbrush_core::build::{MeshBuilder, MeshSpec};
+use meshbrush_core::domain::{BoundaryTreatment, Domain};
+use meshbrush_core::field::{RefinementRule, Transfer};
+use meshbrush_core::layers::SizeFieldSpec;
+use meshbrush_io::io::geojson;
+use meshbrush_mesh::geometry::Lattice;
+use meshbrush_mesh::mesh::{Cleaning, Limits, Progress};
 
 /// Few, so that many files are tried in a second.
 const MOST_TRIANGLES: usize = 3000;

@@ -7,7 +7,7 @@ mod packing;
 
 use std::fs;
 
-use meshbrush::internals::io::journal::{self, Left};
+use meshbrush_io::io::journal::{self, Left};
 use packing::{SAMPLE, change, hold, packed};
 
 const MAGIC: &[u8] = b"MBJOUR02";

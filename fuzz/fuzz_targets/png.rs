@@ -4,8 +4,8 @@
 
 use std::io::Cursor;
 
-use meshbrush::internals::geometry::Rect;
-use meshbrush::internals::io::png::{Behind, decode};
+use meshbrush_io::io::png::{Behind, decode};
+use meshbrush_mesh::geometry::Rect;
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
     for behind in [Behind::Black, Behind::White] {

@@ -4,7 +4,7 @@
 
 use std::path::Path;
 
-use meshbrush::internals::io::points;
+use meshbrush_io::io::points;
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
     if let Err(error) = points::read_from(bytes, Path::new("fuzz.csv")) {

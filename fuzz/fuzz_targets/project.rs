@@ -7,7 +7,7 @@ mod packing;
 
 use std::path::Path;
 
-use meshbrush::internals::io::project;
+use meshbrush_io::io::project;
 use packing::{SAMPLE, change, hold, packed};
 
 /// Separates the parts in the fuzzer's input.

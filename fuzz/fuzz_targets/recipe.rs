@@ -4,7 +4,7 @@
 
 use std::path::{Path, PathBuf};
 
-use meshbrush::internals::io::recipe;
+use meshbrush_io::io::recipe;
 
 libfuzzer_sys::fuzz_target!(|text: &str| {
     let found = |name: &str| Ok(PathBuf::from(name));

@@ -4,7 +4,7 @@
 
 use std::path::Path;
 
-use meshbrush::internals::io::threats;
+use meshbrush_io::io::threats;
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| match threats::read_from(bytes, Path::new("fuzz.csv")) {
     Ok(list) => {

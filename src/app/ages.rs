@@ -2,9 +2,9 @@
 
 use std::time::Instant;
 
-use crate::document::{Document, MeshChange};
-use crate::explain::{Ages, AgesNow};
-use crate::mesh::{Mesh, Progress};
+use meshbrush_core::document::{Document, MeshChange};
+use meshbrush_core::explain::{Ages, AgesNow};
+use meshbrush_mesh::mesh::{Mesh, Progress};
 
 /// Triangles that are looked at between two looks at the clock.
 const SLICE: usize = 1 << 16;

@@ -14,7 +14,7 @@ use super::command::{Command, Opened};
 use super::document_id::DocumentId;
 use super::home::Home;
 use super::threads::Threads;
-use crate::io::{self, Meter};
+use meshbrush_io::io::{self, Meter};
 
 /// How often an otherwise idle window shows the progress of work.
 const PACE: Duration = Duration::from_millis(150);

@@ -8,8 +8,8 @@ use eframe::egui::Context;
 
 use super::derivation::{self, Derived};
 use super::latest::Latest;
-use crate::document::{Document, Follower};
-use crate::domain::{BoundaryMarks, BoundaryPieces, Domain, MeshBoundary};
+use meshbrush_core::document::{Document, Follower};
+use meshbrush_core::domain::{BoundaryMarks, BoundaryPieces, Domain, MeshBoundary};
 
 /// What pieces were found for.
 #[derive(Clone, Debug, PartialEq)]

@@ -20,12 +20,12 @@ use super::stepping::StepCommand;
 use super::tools::{BoundaryToolMode, BrushMode, DomainToolMode, PaintKind, PenEffect, Tool};
 use super::view::{CanvasAid, FieldOverlay};
 use super::widgets::Answer;
-use crate::colormap::Colormap;
-use crate::document::{Document, Example, Setting};
-use crate::domain::{CutShape, Domain};
-use crate::geometry::Rect;
-use crate::layers::{Combine, DistanceTo, LayerId, LayerKind, Mask};
-use crate::mesh::TriangleId;
+use meshbrush_core::document::{Document, Example, Setting};
+use meshbrush_core::domain::{CutShape, Domain};
+use meshbrush_core::layers::{Combine, DistanceTo, LayerId, LayerKind, Mask};
+use meshbrush_mesh::geometry::Rect;
+use meshbrush_mesh::mesh::TriangleId;
+use meshbrush_render::colormap::Colormap;
 
 /// One thing to do. Lengths and points are in world units.
 #[derive(Clone, Debug, PartialEq)]

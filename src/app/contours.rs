@@ -6,10 +6,10 @@ use std::time::Duration;
 use eframe::egui::Context;
 
 use super::latest::{Latest, Wanted};
-use crate::document::Follower;
-use crate::field::{Contour, contours};
-use crate::geometry::Rect;
-use crate::layers::PaintLayers;
+use meshbrush_core::document::Follower;
+use meshbrush_core::field::{Contour, contours};
+use meshbrush_core::layers::PaintLayers;
+use meshbrush_mesh::geometry::Rect;
 
 /// Levels that have contour lines.
 const LEVELS: u32 = 63;

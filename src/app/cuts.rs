@@ -9,9 +9,9 @@ use std::time::{Duration, Instant};
 use eframe::egui::Context;
 
 use super::failures::caught;
-use crate::document::{Document, Setting, SettingsError};
-use crate::domain::{CutShape, Domain};
-use crate::geometry::Rect;
+use meshbrush_core::document::{Document, Setting, SettingsError};
+use meshbrush_core::domain::{CutShape, Domain};
+use meshbrush_mesh::geometry::Rect;
 
 /// How long a frame waits for an edit: that of a small outline is shown in the frame that it was made in.
 pub const PATIENCE: Duration = Duration::from_millis(3);

@@ -21,12 +21,12 @@ use eframe::egui::Context;
 use glam::DVec2;
 
 use super::failures::caught;
-use crate::document::{Follower, MeshChange};
-use crate::domain::{DomainOnLattice, FitQuality, Region};
-use crate::mesh::{
+use meshbrush_core::document::{Follower, MeshChange};
+use meshbrush_core::domain::{DomainOnLattice, FitQuality, Region};
+use meshbrush_core::outline::{DerivedMesh, OutlineFit};
+use meshbrush_mesh::mesh::{
     Cleaning, Extract, Location, Mesh, MeshView, PatchPieces, PatchedLocator, Removed, Topology, TriangleId,
 };
-use crate::outline::{DerivedMesh, OutlineFit};
 
 /// Most triangles of a mesh that is derived while a gesture goes on.
 const MOST_IN_GESTURE: usize = 50_000;

@@ -3,10 +3,10 @@
 use glam::DVec2;
 
 use super::session::Session;
-use crate::build::RefinementCriterion;
-use crate::explain::{Explanation, NodeFacts};
-use crate::geometry::LatticePoint;
-use crate::mesh::{Cause, Mesh, NodeId, TreeTriangle};
+use meshbrush_core::build::RefinementCriterion;
+use meshbrush_core::explain::{Explanation, NodeFacts};
+use meshbrush_mesh::geometry::LatticePoint;
+use meshbrush_mesh::mesh::{Cause, Mesh, NodeId, TreeTriangle};
 
 /// A step in the bisection tree, or along the chain of a cause.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

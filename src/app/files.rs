@@ -11,17 +11,17 @@ use super::command::{Command, Opened, OutlineChange};
 use super::session::Session;
 use super::view::View;
 use super::widgets::format;
-use crate::document::{self, Document, Example, Recording, Setting, Settings};
-use crate::domain::{BoundaryMarks, MeshBoundary, NamedPolygon};
-use crate::geometry::Rect;
-use crate::io::png::{Behind, decode};
-use crate::io::project::Project;
-use crate::io::recipe::{self, OpenedRecipe, RecipeFiles};
-use crate::io::{self, MeshData, MeshSource, Meter, Provenance, recording};
-use crate::outline::DerivedMesh;
-use crate::raster::Raster;
-use crate::render::export::ExportFormat;
-use crate::text::{Bytes, Grouped};
+use meshbrush_core::document::{self, Document, Example, Recording, Setting, Settings};
+use meshbrush_core::domain::{BoundaryMarks, MeshBoundary, NamedPolygon};
+use meshbrush_core::outline::DerivedMesh;
+use meshbrush_core::raster::Raster;
+use meshbrush_io::io::png::{Behind, decode};
+use meshbrush_io::io::project::Project;
+use meshbrush_io::io::recipe::{self, OpenedRecipe, RecipeFiles};
+use meshbrush_io::io::{self, MeshData, MeshSource, Meter, Provenance, recording};
+use meshbrush_mesh::geometry::Rect;
+use meshbrush_mesh::text::{Bytes, Grouped};
+use meshbrush_render::render::export::ExportFormat;
 
 /// Width and height in kilometres of the terrain that comes with the program: 403 × 344 pixels of 3″ at 36.6°
 /// N.

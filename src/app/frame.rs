@@ -36,8 +36,8 @@ use super::tools::Tools;
 use super::view::View;
 use super::walks::WalkMeter;
 use super::{failures, help, journal, keys, panels, replacing};
-use crate::document::ReportFigure;
-use crate::text::LengthUnit;
+use meshbrush_core::document::ReportFigure;
+use meshbrush_mesh::text::LengthUnit;
 
 /// The least time of a frame that goes into updating the mesh, and the most into the price of a stroke.
 const FRAME_BUDGET: Duration = Duration::from_millis(7);

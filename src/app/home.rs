@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use super::background::{Aim, Background, Outcome, cancelled};
 use super::command::Opened;
-use crate::io::project::Project;
-use crate::io::{self, Claim, FileStamp, Meter, Stamping};
+use meshbrush_io::io::project::Project;
+use meshbrush_io::io::{self, Claim, FileStamp, Meter, Stamping};
 
 /// The file of a document.
 #[derive(Clone, Debug, PartialEq, Eq)]

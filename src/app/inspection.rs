@@ -4,9 +4,9 @@ use super::readout::{Quantity, Readout, TriangleReadout};
 use super::session::Session;
 use super::view::View;
 use super::widgets::format;
-use crate::layers::{Layer, LayerId};
-use crate::mesh::{Location, NodeId, Orientation};
-use crate::text::LengthUnit;
+use meshbrush_core::layers::{Layer, LayerId};
+use meshbrush_mesh::mesh::{Location, NodeId, Orientation};
+use meshbrush_mesh::text::LengthUnit;
 
 /// The names of the three neighbours, in their order.
 pub const NEIGHBOURS: [&str; 3] = ["Bisection neighbour", "Second neighbour", "Third neighbour"];

@@ -13,10 +13,10 @@ use super::command::Command;
 use super::project::ProjectFile;
 use super::session::Session;
 use super::widgets::{Answer, ConfirmDialog};
-use crate::document::{Edits, Settings};
-use crate::io::journal::{self, Abandoned, Left};
-use crate::io::project::Project;
-use crate::layers::PaintLayers;
+use meshbrush_core::document::{Edits, Settings};
+use meshbrush_core::layers::PaintLayers;
+use meshbrush_io::io::journal::{self, Abandoned, Left};
+use meshbrush_io::io::project::Project;
 
 /// What the thread writes.
 enum Entry {

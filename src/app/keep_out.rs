@@ -7,7 +7,7 @@ use super::command::Command;
 use super::layer_files::with_mask;
 use super::paths::PathCommand;
 use super::session::Session;
-use crate::document::KeepOut;
+use meshbrush_core::document::KeepOut;
 
 /// One thing to do with keep-out regions.
 #[derive(Clone, Debug, PartialEq)]

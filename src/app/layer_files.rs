@@ -8,13 +8,13 @@ use super::command::{Command, LayerCommand};
 use super::session::Session;
 use super::tools::ThreatsTool;
 use super::widgets::format;
-use crate::document::{Settings, extent};
-use crate::domain::Polygon;
-use crate::geometry::Rect;
-use crate::io::png::Behind;
-use crate::io::{self, Meter};
-use crate::layers::{DistanceTo, LayerKind, Mask, RasterReading, RasterSource, Shapes, Threats};
-use crate::raster::{Raster, RasterPyramid};
+use meshbrush_core::document::{Settings, extent};
+use meshbrush_core::domain::Polygon;
+use meshbrush_core::layers::{DistanceTo, LayerKind, Mask, RasterReading, RasterSource, Shapes, Threats};
+use meshbrush_core::raster::{Raster, RasterPyramid};
+use meshbrush_io::io::png::Behind;
+use meshbrush_io::io::{self, Meter};
+use meshbrush_mesh::geometry::Rect;
 
 /// Reads a picture and adds it as a layer of risk.
 pub fn load_image(session: &Session, background: &mut Background, path: &Path) {

@@ -9,11 +9,11 @@ use super::document_id::DocumentId;
 use super::latest::Latest;
 use super::session::Session;
 use super::view::View;
-use crate::colormap::{LevelColors, category_color};
-use crate::document::Document;
-use crate::field::Transfer;
-use crate::geometry::Rect;
-use crate::layers::{Combine, Layer, LayerId, LayerKind, SizeField, SizeFieldSpec};
+use meshbrush_core::document::Document;
+use meshbrush_core::field::Transfer;
+use meshbrush_core::layers::{Combine, Layer, LayerId, LayerKind, SizeField, SizeFieldSpec};
+use meshbrush_mesh::geometry::Rect;
+use meshbrush_render::colormap::{LevelColors, category_color};
 
 /// Pixels along the longer side of a picture.
 const LONGER_SIDE: f64 = 52.0;

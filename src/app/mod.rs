@@ -90,8 +90,8 @@ use tools::Tools;
 use view::View;
 use walks::WalkMeter;
 
-use crate::document::{Document, Example};
-use crate::render::gpu::device_descriptor;
+use meshbrush_core::document::{Document, Example};
+use meshbrush_render::render::gpu::device_descriptor;
 
 /// Identifies the program to the desktop, and its folder there.
 const APP_ID: &str = "meshbrush";

@@ -2,9 +2,9 @@
 
 use super::command::Command;
 use super::widgets::format;
-use crate::build::BuildError;
-use crate::mesh::RefineError;
-use crate::text::Bytes;
+use meshbrush_core::build::BuildError;
+use meshbrush_mesh::mesh::RefineError;
+use meshbrush_mesh::text::Bytes;
 
 /// A message on the canvas. News disappears after some seconds; a failure stays until it is dismissed or its
 /// cause is gone.

@@ -9,10 +9,10 @@ use super::session::Session;
 use super::tools::PathTool;
 use super::view::View;
 use super::widgets::format;
-use crate::io::{self, MeshSource, Provenance};
-use crate::layers::RiskField;
-use crate::path::Solution;
-use crate::render::path_export::{MeshOfPath, PathExport, PathFormat};
+use meshbrush_core::layers::RiskField;
+use meshbrush_core::path::Solution;
+use meshbrush_io::io::{self, MeshSource, Provenance};
+use meshbrush_render::render::path_export::{MeshOfPath, PathExport, PathFormat};
 
 /// Writes the path of the panel: as GeoJSON, as a table, or as a picture over the mesh, as the ending says.
 ///

@@ -11,7 +11,7 @@ use super::command::{Command, PinsCommand};
 use super::readout::{Quantity, Readout, TriangleReadout};
 use super::session::Session;
 use super::widgets::format;
-use crate::io::{self, Meter};
+use meshbrush_io::io::{self, Meter};
 
 /// What the values of all pins depend on.
 #[derive(Clone, Debug, PartialEq)]

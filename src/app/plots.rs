@@ -12,11 +12,11 @@ use super::latest::Latest;
 use super::sequence::{Output, Sequence};
 use super::session::Session;
 use super::statistics::MeasuredMesh;
-use crate::build::RefinementCriterion;
-use crate::document::{Experiment, ExperimentMesh};
-use crate::explain::{LevelFigures, bisections_plot, diameters_plot, triangles_plot};
-use crate::io;
-use crate::plot::Plot;
+use meshbrush_core::build::RefinementCriterion;
+use meshbrush_core::document::{Experiment, ExperimentMesh};
+use meshbrush_core::explain::{LevelFigures, bisections_plot, diameters_plot, triangles_plot};
+use meshbrush_core::plot::Plot;
+use meshbrush_io::io;
 
 /// What can be plotted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

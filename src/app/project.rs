@@ -11,11 +11,11 @@ use super::replacing::{Loss, Replacing};
 use super::report::FigureCommand;
 use super::session::Session;
 use super::widgets::Answer;
-use crate::io;
-use crate::io::project::{ENDING, Project};
-use crate::io::recipe::{self, RecipeFiles};
-use crate::io::recording;
-use crate::render::export::ExportFormat;
+use meshbrush_io::io;
+use meshbrush_io::io::project::{ENDING, Project};
+use meshbrush_io::io::recipe::{self, RecipeFiles};
+use meshbrush_io::io::recording;
+use meshbrush_render::render::export::ExportFormat;
 
 /// Most files that are remembered.
 const MOST_RECENT: usize = 8;

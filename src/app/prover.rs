@@ -9,9 +9,11 @@ use eframe::egui::Context;
 use super::paths::FoundPath;
 use super::patience::Patience;
 use super::sequence::{Output, Sequence};
-use crate::domain::Domain;
-use crate::layers::Mask;
-use crate::path::{CertificateEnd, CertificateTask, CostDensity, PathCertificate, PathMesh, Solution};
+use meshbrush_core::domain::Domain;
+use meshbrush_core::layers::Mask;
+use meshbrush_core::path::{
+    CertificateEnd, CertificateTask, CostDensity, PathCertificate, PathMesh, Solution,
+};
 
 /// Certifies one path after the other.
 pub struct Prover {

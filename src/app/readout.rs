@@ -3,9 +3,11 @@
 use glam::DVec2;
 
 use super::session::Session;
-use crate::document::{Document, Follower};
-use crate::layers::Decision;
-use crate::mesh::{Location, MeshView, Neighbour, NodeId, Orientation, TriangleId, barycentric, interpolate};
+use meshbrush_core::document::{Document, Follower};
+use meshbrush_core::layers::Decision;
+use meshbrush_mesh::mesh::{
+    Location, MeshView, Neighbour, NodeId, Orientation, TriangleId, barycentric, interpolate,
+};
 
 /// A quantity known at every point, and interpolated from the nodes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

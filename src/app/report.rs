@@ -5,7 +5,7 @@ use super::frame::FrameState;
 use super::session::Session;
 use super::stepping::Stepping;
 use super::widgets::format;
-use crate::document::{Comparison, Experiment, ReportFigure};
+use meshbrush_core::document::{Comparison, Experiment, ReportFigure};
 
 /// One thing to do with the figures of the report.
 #[derive(Clone, Debug, PartialEq)]
@@ -52,7 +52,7 @@ pub fn comparisons(figure: ReportFigure, state: &FrameState<'_>) -> Vec<Comparis
 /// The triangles of each mesh, and the gradient of the line of best fit.
 fn of_experiment(figure: ReportFigure, experiment: &Experiment) -> Vec<Comparison> {
     let count = |count: usize| format::count(count as u64);
-    let row = |mesh: &crate::document::ExperimentMesh| {
+    let row = |mesh: &meshbrush_core::document::ExperimentMesh| {
         let stated = mesh.triangles_in_report.map_or_else(|| "–".into(), count);
         let ours = format!("{} in {}", count(mesh.triangles), format::time(mesh.seconds));
         Comparison::new(format!("Level {}", mesh.level), stated, ours)

@@ -15,13 +15,13 @@ use super::readout::{Quantity, Readout};
 use super::slices::{SLICE, follow_document};
 use super::statistics::{Measured, Statistician};
 use super::threads::Threads;
-use crate::build::BuildError;
-use crate::document::{Document, Follower, MeshChange, Pricer, Setting, Stage};
-use crate::domain::{BoundaryMarks, BoundaryPieces, CutShape};
-use crate::explain::AgesNow;
-use crate::geometry::Rect;
-use crate::mesh::{Location, Mesh, MeshView, Progress, TriangleId};
-use crate::paint::StrokePlan;
+use meshbrush_core::build::BuildError;
+use meshbrush_core::document::{Document, Follower, MeshChange, Pricer, Setting, Stage};
+use meshbrush_core::domain::{BoundaryMarks, BoundaryPieces, CutShape};
+use meshbrush_core::explain::AgesNow;
+use meshbrush_core::paint::StrokePlan;
+use meshbrush_mesh::geometry::Rect;
+use meshbrush_mesh::mesh::{Location, Mesh, MeshView, Progress, TriangleId};
 
 /// What changed on the screen.
 #[derive(Clone, Debug, Default)]

@@ -2,9 +2,9 @@
 
 use std::time::Instant;
 
-use crate::build::BuildError;
-use crate::document::{Document, Follower};
-use crate::mesh::Progress;
+use meshbrush_core::build::BuildError;
+use meshbrush_core::document::{Document, Follower};
+use meshbrush_mesh::mesh::Progress;
 
 /// Pixels or triangles in one slice of work: well below a millisecond.
 pub const SLICE: usize = 2048;

@@ -7,9 +7,9 @@ use eframe::egui::Context;
 
 use super::derivation::Derivation;
 use super::latest::Latest;
-use crate::build::RefinementCriterion;
-use crate::document::{Document, Follower};
-use crate::mesh::{MeshStatistics, TriangleId};
+use meshbrush_core::build::RefinementCriterion;
+use meshbrush_core::document::{Document, Follower};
+use meshbrush_mesh::mesh::{MeshStatistics, TriangleId};
 
 /// The figures of a mesh as files get it.
 pub struct Measured {

@@ -12,7 +12,7 @@ use eframe::egui::{
 use egui::epaint::text::{FontData, FontDefinitions, FontTweak};
 use egui::style::{HandleShape, ScrollStyle, WidgetVisuals, Widgets};
 
-use crate::colormap::Ground;
+use meshbrush_render::colormap::Ground;
 
 /// Colours by role. [`DARK`] and [`LIGHT`] are the two sets.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -365,7 +365,7 @@ fn widget_visuals(tokens: &Tokens) -> Widgets {
 mod tests {
     use super::*;
     use crate::app::canvas::marks::NUMBER_DISC;
-    use crate::colormap::{Colormap, LevelColors};
+    use meshbrush_render::colormap::{Colormap, LevelColors};
 
     /// Relative luminance as WCAG 2 defines it.
     fn luminance(color: Color32) -> f64 {

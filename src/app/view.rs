@@ -6,12 +6,12 @@ use glam::DVec2;
 use super::command::Command;
 use super::readout::Quantity;
 use super::widgets::format;
-use crate::colormap::{Colormap, Ground, LevelColors};
-use crate::document::Settings;
-use crate::geometry::{Lattice, Rect};
-use crate::mesh::{TriangleId, level_for_diameter};
-use crate::render::export::Look;
-use crate::scene::{Camera, Style};
+use meshbrush_core::document::Settings;
+use meshbrush_mesh::geometry::{Lattice, Rect};
+use meshbrush_mesh::mesh::{TriangleId, level_for_diameter};
+use meshbrush_render::colormap::{Colormap, Ground, LevelColors};
+use meshbrush_render::render::export::Look;
+use meshbrush_render::scene::{Camera, Style};
 
 /// What is drawn over the mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -7,12 +7,12 @@ use std::process::Command;
 use crate::runs::{prints_table, runs};
 use fastrand::Rng;
 use glam::{DVec2, dvec2};
-use meshbrush::internals::field::{Formula, Transfer};
-use meshbrush::internals::geometry::{Lattice, LatticePoint, Rect};
-use meshbrush::internals::layers::{
+use meshbrush_core::field::{Formula, Transfer};
+use meshbrush_core::layers::{
     Layer, LayerKind, PaintLayers, SizeField, SizeFieldSpec, Threat, ThreatLaw, Threats,
 };
-use meshbrush::internals::mesh::{Cause, Limits, Mesh, TreeTriangle, TriangleId};
+use meshbrush_mesh::geometry::{Lattice, LatticePoint, Rect};
+use meshbrush_mesh::mesh::{Cause, Limits, Mesh, TreeTriangle, TriangleId};
 use serde_json::Value;
 
 /// A mesh with holes, its coarse grid, and the field it satisfies.

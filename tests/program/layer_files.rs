@@ -6,18 +6,18 @@ use std::sync::Arc;
 
 use crate::folder::{Folder, Ran};
 use glam::{DVec2, dvec2};
-use meshbrush::internals::document::{Document, Settings};
-use meshbrush::internals::field::{Formula, Transfer};
-use meshbrush::internals::geometry::Rect;
-use meshbrush::internals::io::Meter;
-use meshbrush::internals::io::project::{Project, from_bytes, read, write};
-use meshbrush::internals::io::recipe::RecipeFiles;
-use meshbrush::internals::layers::{
+use meshbrush_core::document::{Document, Settings};
+use meshbrush_core::field::{Formula, Transfer};
+use meshbrush_core::layers::{
     Combine, DistanceTo, Layer, LayerId, LayerKind, Mask, Quantity, RasterReading, RasterSource, ShapeList,
     Shapes, Threat, ThreatLaw, Threats, ValueCurve,
 };
-use meshbrush::internals::paint::{Brush, DiameterChange, Medium};
-use meshbrush::internals::raster::{Raster, RasterPyramid};
+use meshbrush_core::paint::{Brush, DiameterChange, Medium};
+use meshbrush_core::raster::{Raster, RasterPyramid};
+use meshbrush_io::io::Meter;
+use meshbrush_io::io::project::{Project, from_bytes, read, write};
+use meshbrush_io::io::recipe::RecipeFiles;
+use meshbrush_mesh::geometry::Rect;
 
 /// The fingerprint of a mesh and the number of its triangles.
 fn fingerprint(folder: &Folder, arguments: &[&str]) -> String {
@@ -115,7 +115,7 @@ fn document() -> Document {
         layers,
         gradation: Some(0.6),
         transfer: Transfer { h_min: 0.12, h_max: 0.5, shape: 1.5 },
-        ..Settings::for_domain("All kinds".into(), meshbrush::internals::domain::Domain::rectangle(bounds()))
+        ..Settings::for_domain("All kinds".into(), meshbrush_core::domain::Domain::rectangle(bounds()))
     };
     let mut document = Document::new(settings, None).unwrap();
     for (medium, at) in [

@@ -6,14 +6,14 @@ use std::process::Command;
 use std::{fs, io};
 
 use glam::{DVec2, dvec2};
-use meshbrush::internals::document::{Document, Follower, Settings, Stage};
-use meshbrush::internals::domain::{BoundaryTreatment, CutShape, Domain, corners};
-use meshbrush::internals::field::{RefinementRule, Transfer};
-use meshbrush::internals::geometry::Rect;
-use meshbrush::internals::io::located::write_of_document;
-use meshbrush::internals::io::project::{self, Project};
-use meshbrush::internals::io::{Meter, Number};
-use meshbrush::internals::paint::{Brush, DiameterChange, Medium};
+use meshbrush_core::document::{Document, Follower, Settings, Stage};
+use meshbrush_core::domain::{BoundaryTreatment, CutShape, Domain, corners};
+use meshbrush_core::field::{RefinementRule, Transfer};
+use meshbrush_core::paint::{Brush, DiameterChange, Medium};
+use meshbrush_io::io::located::write_of_document;
+use meshbrush_io::io::project::{self, Project};
+use meshbrush_io::io::{Meter, Number};
+use meshbrush_mesh::geometry::Rect;
 
 /// Paints or erases at random.
 fn paint(document: &mut Document, random: &mut fastrand::Rng) {

@@ -6,7 +6,7 @@ use std::process::{Child, Command, Stdio};
 use std::time::Duration;
 
 use crate::folder::Folder;
-use meshbrush::internals::mesh::MemoryLimit;
+use meshbrush_mesh::mesh::MemoryLimit;
 
 /// What large pages at the ends of arrays and the stacks of threads take, in bytes.
 const ROUNDING: usize = 8 << 20;

@@ -5,23 +5,23 @@ use std::sync::Arc;
 use crate::folder::{Folder, Ran};
 use crate::runs::seeds;
 use glam::{DVec2, dvec2};
-use meshbrush::internals::document::{Document, Follower, Settings};
-use meshbrush::internals::domain::{BoundaryTreatment, Domain, DomainShape};
-use meshbrush::internals::field::{Formula, RefinementRule, Transfer};
-use meshbrush::internals::geometry::Rect;
-use meshbrush::internals::io::Meter;
-use meshbrush::internals::io::project::{Project, write as write_project};
-use meshbrush::internals::io::recipe::{OpenedRecipe, RecipeFiles, open};
-use meshbrush::internals::layers::{
+use meshbrush_core::document::{Document, Follower, Settings};
+use meshbrush_core::domain::{BoundaryTreatment, Domain, DomainShape};
+use meshbrush_core::field::{Formula, RefinementRule, Transfer};
+use meshbrush_core::layers::{
     Combine, DistanceTo, Layer, LayerId, LayerKind, Mask, Quantity, RasterReading, RasterSource, ShapeList,
     Shapes, Threat, ThreatLaw, Threats, ValueCurve,
 };
-use meshbrush::internals::mesh::{Cleaning, KeptParts};
-use meshbrush::internals::outline::DerivedMesh;
-use meshbrush::internals::paint::{Brush, DiameterChange, Medium};
-use meshbrush::internals::raster::{Raster, RasterPyramid};
-use meshbrush::internals::render::export::ExportFormat;
-use meshbrush::internals::text::LengthUnit;
+use meshbrush_core::outline::DerivedMesh;
+use meshbrush_core::paint::{Brush, DiameterChange, Medium};
+use meshbrush_core::raster::{Raster, RasterPyramid};
+use meshbrush_io::io::Meter;
+use meshbrush_io::io::project::{Project, write as write_project};
+use meshbrush_io::io::recipe::{OpenedRecipe, RecipeFiles, open};
+use meshbrush_mesh::geometry::Rect;
+use meshbrush_mesh::mesh::{Cleaning, KeptParts};
+use meshbrush_mesh::text::LengthUnit;
+use meshbrush_render::render::export::ExportFormat;
 
 #[test]
 fn every_file_is_the_same_for_any_number_of_threads() {

@@ -6,12 +6,12 @@ use std::sync::Arc;
 use crate::folder::{Folder, Ran};
 use glam::dvec2;
 use meshbrush::RiskField;
-use meshbrush::internals::build::MeshBuilder;
-use meshbrush::internals::document::{Document, KeepOut, PathCost, PathPlan, Settings};
-use meshbrush::internals::io::project::{self, Project};
-use meshbrush::internals::layers::Mask;
-use meshbrush::internals::mesh::Progress;
-use meshbrush::internals::path::{PathMesh, PathRequest, Planner, Weights};
+use meshbrush_core::build::MeshBuilder;
+use meshbrush_core::document::{Document, KeepOut, PathCost, PathPlan, Settings};
+use meshbrush_core::layers::Mask;
+use meshbrush_core::path::{PathMesh, PathRequest, Planner, Weights};
+use meshbrush_io::io::project::{self, Project};
+use meshbrush_mesh::mesh::Progress;
 use serde_json::Value;
 
 fn path(folder: &Folder, arguments: &str) -> Ran {

@@ -7,22 +7,20 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use glam::dvec2;
-use meshbrush::internals::document::{
-    Document, Example, Follower, KeepOut, PathCost, PathPlan, Settings, Stage,
-};
-use meshbrush::internals::domain::{
+use meshbrush_core::document::{Document, Example, Follower, KeepOut, PathCost, PathPlan, Settings, Stage};
+use meshbrush_core::domain::{
     BoundaryMarks, BoundaryPiece, BoundaryPieces, BoundaryTreatment, Domain, DomainShape,
 };
-use meshbrush::internals::field::{CostFormula, Formula, RefinementRule, Transfer};
-use meshbrush::internals::geometry::Rect;
-use meshbrush::internals::io::project::{self, Project};
-use meshbrush::internals::layers::{
+use meshbrush_core::field::{CostFormula, Formula, RefinementRule, Transfer};
+use meshbrush_core::layers::{
     Combine, Layer, LayerId, LayerKind, Mask, PaintLayers, Quantity, RasterReading, RasterSource,
 };
-use meshbrush::internals::paint::{Brush, DiameterChange, Medium};
-use meshbrush::internals::path::Weights;
-use meshbrush::internals::raster::{Raster, RasterPyramid, Tile, TilePlace};
-use meshbrush::internals::text::LengthUnit;
+use meshbrush_core::paint::{Brush, DiameterChange, Medium};
+use meshbrush_core::path::Weights;
+use meshbrush_core::raster::{Raster, RasterPyramid, Tile, TilePlace};
+use meshbrush_io::io::project::{self, Project};
+use meshbrush_mesh::geometry::Rect;
+use meshbrush_mesh::text::LengthUnit;
 
 const NAME: &str = "test.meshbrush";
 

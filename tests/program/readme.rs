@@ -6,7 +6,8 @@ use std::path::Path;
 use std::process::Command;
 
 use crate::folder::Folder;
-use meshbrush::internals::field::formula::functions;
+use meshbrush_core::field::formula::functions;
+use meshbrush_mesh::mesh::MemoryLimit;
 
 const README: &str = include_str!("../../README.md");
 const PROGRAM: &str = env!("CARGO_BIN_EXE_meshbrush");
@@ -78,9 +79,6 @@ fn commands() -> Vec<String> {
 
 #[test]
 fn the_page_of_options_is_the_help() {
-    if cfg!(not(feature = "gui")) {
-        return; // without a window there is no command for pictures of it
-    }
     let mut page =
         "# Commands and options\n\nWhat `meshbrush help COMMAND` prints. Written by a test.\n".to_owned();
     for command in commands().iter().filter(|command| *command != "help") {
@@ -164,5 +162,21 @@ fn every_link_leads_somewhere() {
             let folder = root.join(page).parent().unwrap().to_owned();
             assert!(elsewhere || folder.join(target).exists(), "{page}: {target}");
         }
+    }
+}
+
+#[test]
+fn the_help_and_the_documentation_name_the_bytes_of_a_triangle() {
+    let [one, two] = [MemoryLimit::ONE_MESH, MemoryLimit::TWO_MESHES];
+    for (text, words) in [
+        (include_str!("../../docs/options.md"), format!(": {one} bytes a triangle")),
+        (include_str!("../../docs/manual/limits.md"), format!("; {two} bytes a triangle")),
+        (
+            include_str!("../../ARCHITECTURE.md"),
+            format!("{two} bytes each in the window, and {one} on the command line"),
+        ),
+    ] {
+        let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(text.contains(&words), "{words}");
     }
 }

@@ -6,11 +6,11 @@ use std::path::Path;
 
 use crate::folder::{Folder, Ran};
 use glam::dvec2;
-use meshbrush::internals::io::recipe::{SavedRecipe, parse, read, to_text};
 use meshbrush::{
     BoundaryMarks, Document, Domain, DomainShape, Layer, LayerKind, LengthUnit, Project, Rect, Settings,
     write_geojson, write_project,
 };
+use meshbrush_io::io::recipe::{SavedRecipe, parse, read, to_text};
 
 /// A grid of 4 × 4 values over [0, 4]², the lower left one 0, the others 1, and one pixel without a value.
 const GRID: &str = "ncols 4\nnrows 4\nxllcorner 0\nyllcorner 0\ncellsize 1\nNODATA_value -9\n\

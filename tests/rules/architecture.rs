@@ -6,7 +6,7 @@
 use std::collections::BTreeSet;
 use std::fs;
 
-use crate::source::{Function, SourceFile, read_src, read_texts};
+use crate::source::{Function, SOURCES, SourceFile, read_src, read_texts};
 
 /// The modules, lowest first: each imports only from those before it.
 const MODULES: [&str; 20] = [
@@ -14,8 +14,8 @@ const MODULES: [&str; 20] = [
     "path", "explain", "document", "io", "colormap", "scene", "render", "cli", "app",
 ];
 
-/// What lib.rs declares besides: documentation, and the door for our own tests.
-const OTHER_MODULES: [&str; 2] = ["guide", "internals"];
+/// What `src/lib.rs` declares besides: documentation.
+const OTHER_MODULES: [&str; 1] = ["guide"];
 
 /// Largest number of lines of a file, without its tests.
 const LONGEST_FILE: usize = 450;
@@ -26,7 +26,7 @@ const LONG_FILES: [(&str, &str); 0] = [];
 const LONGEST_FUNCTION: usize = 60;
 /// Functions that may be longer: file, name and reason.
 const LONG_FUNCTIONS: [(&str, &str, &str); 1] = [(
-    "src/field/formula/program.rs",
+    "crates/core/src/field/formula/program.rs",
     "run_on",
     "one arm for each instruction, a line each, around one accumulator and one stack",
 )];
@@ -94,12 +94,19 @@ fn assert_needed(listed: &[String], met: &[String], list: &str) {
 }
 
 #[test]
-fn lib_rs_declares_the_modules_in_their_order() {
+fn the_packages_declare_the_modules_in_their_order() {
     let all = read_src();
-    let lib = all.iter().find(|file| file.path == "src/lib.rs").unwrap();
-    let names: Vec<&str> = lib.tokens.iter().map(|token| token.text.as_str()).collect();
-    let declared: Vec<&str> = names.windows(2).filter(|pair| pair[0] == "mod").map(|pair| pair[1]).collect();
-    assert_eq!(declared, [&MODULES[..], &OTHER_MODULES].concat(), "src/lib.rs declares the modules in order");
+    let mut declared = Vec::new();
+    for folder in SOURCES {
+        let lib = all.iter().find(|file| file.path == format!("{folder}/lib.rs")).unwrap();
+        let names = lib.tokens.windows(2).filter(|pair| pair[0].text == "mod");
+        declared.extend(names.map(|pair| pair[1].text.as_str()));
+    }
+    assert_eq!(
+        declared,
+        [&MODULES[..], &OTHER_MODULES].concat(),
+        "each lib.rs declares its modules in order"
+    );
     let strangers =
         files().into_iter().filter(|file| rank(file.top_module()).is_none()).map(|file| file.path);
     assert_none(strangers.collect(), "every file is in a listed module:");
@@ -234,7 +241,7 @@ fn egui_and_wgpu_meet_in_listed_files_only() {
     }
     let others = files()
         .into_iter()
-        .filter(|file| file.top_module() != "app" && !file.path.starts_with("src/render/gpu/"));
+        .filter(|file| file.top_module() != "app" && !file.path.starts_with("crates/render/src/render/gpu/"));
     assert_none(with_word(others, "wgpu"), "besides the window, only render/gpu uses wgpu:");
 }
 
@@ -284,7 +291,7 @@ fn a_tool_is_one_file_and_one_entry_of_the_table() {
 
 #[test]
 fn unsafe_code_is_in_one_file() {
-    let others = read_src().into_iter().filter(|file| file.path != "src/mesh/kernel/memory.rs");
+    let others = read_src().into_iter().filter(|file| file.path != "crates/mesh/src/mesh/kernel/memory.rs");
     assert_none(with_word(others, "unsafe"), "unsafe code is in mesh/kernel/memory.rs only:");
 }
 
@@ -395,7 +402,7 @@ fn last() { crate::paint::stamp::<u8>() }
 
 #[test]
 fn the_reader_handles_source_that_is_easy_to_misread() {
-    let file = SourceFile::new("src/field/formula/mod.rs", TRAPS);
+    let file = SourceFile::new("crates/core/src/field/formula/mod.rs", TRAPS);
     let paths: Vec<String> = file.paths().iter().map(|path| path.segments.join("::")).collect();
     let expected = [
         "std::fmt",

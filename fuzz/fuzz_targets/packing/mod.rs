@@ -7,13 +7,13 @@ use std::sync::{Arc, LazyLock};
 
 use flate2::read::DeflateDecoder;
 use glam::dvec2;
-use meshbrush::internals::document::{Document, Settings};
-use meshbrush::internals::domain::Domain;
-use meshbrush::internals::geometry::Rect;
-use meshbrush::internals::io::project::{self, Project};
-use meshbrush::internals::layers::{Layer, LayerKind, RasterReading, RasterSource};
-use meshbrush::internals::paint::{Brush, DiameterChange, Medium};
-use meshbrush::internals::raster::{Raster, RasterPyramid};
+use meshbrush_core::document::{Document, Settings};
+use meshbrush_core::domain::Domain;
+use meshbrush_core::layers::{Layer, LayerKind, RasterReading, RasterSource};
+use meshbrush_core::paint::{Brush, DiameterChange, Medium};
+use meshbrush_core::raster::{Raster, RasterPyramid};
+use meshbrush_io::io::project::{self, Project};
+use meshbrush_mesh::geometry::Rect;
 
 /// Name and content of each part.
 pub type Parts = Vec<(String, Vec<u8>)>;

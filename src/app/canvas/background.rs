@@ -5,8 +5,8 @@ use std::sync::Arc;
 use eframe::egui::{Color32, ColorImage, Context, Painter, Rect, TextureHandle, TextureOptions, pos2};
 
 use super::marks::point_from_px;
-use crate::document::{Background, Picture};
-use crate::scene::Camera;
+use meshbrush_core::document::{Background, Picture};
+use meshbrush_render::scene::Camera;
 
 /// The texture of the picture that was drawn last.
 #[derive(Default)]

@@ -6,7 +6,7 @@ use super::marks::{paint_line, paint_line_preview};
 use crate::app::frame::FrameState;
 use crate::app::paths::FoundPath;
 use crate::app::tools::{ALTERNATIVE_COLOR, OverMesh, PATH_COLOR, POINTED_COLOR, PathPlace, paint_place};
-use crate::path::Solution;
+use meshbrush_core::path::Solution;
 
 /// Width of a path, in points.
 const WIDTH: f32 = 2.5;

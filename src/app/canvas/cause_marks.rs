@@ -7,9 +7,9 @@ use glam::DVec2;
 use super::marks;
 use crate::app::frame::FrameState;
 use crate::app::tools::OverMesh;
-use crate::explain::{Demand, NodeFacts};
-use crate::geometry::LatticePoint;
-use crate::mesh::{Mesh, TreeTriangle};
+use meshbrush_core::explain::{Demand, NodeFacts};
+use meshbrush_mesh::geometry::LatticePoint;
+use meshbrush_mesh::mesh::{Mesh, TreeTriangle};
 
 /// Width of the outline of a triangle of the chain, in points.
 const LINK_WIDTH: f32 = 1.0;

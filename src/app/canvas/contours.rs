@@ -5,7 +5,7 @@ use eframe::egui::{Context, Painter, Rect};
 use super::{Canvas, marks};
 use crate::app::session::Session;
 use crate::app::view::View;
-use crate::scene::Camera;
+use meshbrush_render::scene::Camera;
 
 /// Most corners of contour lines that a frame draws.
 const MOST_CONTOUR_CORNERS: usize = 150_000;

@@ -4,8 +4,8 @@ use eframe::egui::{Align2, Pos2, Rect, Role, Sense, Stroke, Ui, Vec2, WidgetInfo
 
 use crate::app::theme::{font, tokens};
 use crate::app::widgets::{format, paint_floating};
-use crate::scene::Camera;
-use crate::text::LengthUnit;
+use meshbrush_mesh::text::LengthUnit;
+use meshbrush_render::scene::Camera;
 
 /// Width that the scale bar and its distance from other things take, in points.
 pub const BAR_ROOM: f32 = LONGEST_BAR + 2.0 * BAR_MARGIN.x + 8.0;

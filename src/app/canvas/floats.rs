@@ -10,7 +10,7 @@ use crate::app::command::Command;
 use crate::app::frame::FrameState;
 use crate::app::session::Session;
 use crate::app::widgets::{Banner, BannerAnswer, bytes_row, format, hint_pill, paint_floating, progress_row};
-use crate::document::Stage;
+use meshbrush_core::document::Stage;
 
 /// How long news is shown, in seconds.
 const NEWS_SECONDS: f64 = 5.0;

@@ -9,10 +9,10 @@ use eframe::wgpu;
 use crate::app::derivation::PiecesChange;
 use crate::app::session::{Session, ShownChange};
 use crate::app::software_window::CanvasImage;
-use crate::document::MeshChange;
-use crate::mesh::Progress;
-use crate::render::gpu::{GpuError, GpuRenderer, MeshMirror, emulates_gpu};
-use crate::scene::{Camera, Overlay, ShownMesh, ShownRevision, Style};
+use meshbrush_core::document::MeshChange;
+use meshbrush_mesh::mesh::Progress;
+use meshbrush_render::render::gpu::{GpuError, GpuRenderer, MeshMirror, emulates_gpu};
+use meshbrush_render::scene::{Camera, Overlay, ShownMesh, ShownRevision, Style};
 
 /// Bytes of a mesh that are sent to the GPU in one frame: about 2 ms.
 const BYTES_PER_FRAME: usize = 16 << 20;

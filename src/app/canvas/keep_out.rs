@@ -5,7 +5,7 @@ use eframe::egui::{Color32, Pos2, Rect, Shape, Stroke, pos2};
 use super::marks;
 use crate::app::frame::FrameState;
 use crate::app::tools::OverMesh;
-use crate::layers::Mask;
+use meshbrush_core::layers::Mask;
 
 /// The colour of hatching and outline.
 const COLOR: Color32 = Color32::from_rgb(0xff, 0x6b, 0x5a);

@@ -6,7 +6,7 @@ use glam::DVec2;
 use super::marks;
 use crate::app::frame::FrameState;
 use crate::app::tools::OverMesh;
-use crate::layers::{LayerKind, ShapeList};
+use meshbrush_core::layers::{LayerKind, ShapeList};
 
 /// Width of the outline of a mask and of shapes, in points.
 const WIDTH: f32 = 1.5;

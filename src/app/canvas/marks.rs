@@ -8,11 +8,11 @@ use glam::DVec2;
 use super::super::theme::font;
 use super::super::tools::Tools;
 use super::super::widgets::Icon;
-use crate::colormap::Ground;
-use crate::domain::CutShape;
-use crate::mesh::{MeshView, TriangleId};
-use crate::paint::Mirror;
-use crate::scene::{Camera, Highlights, Outline as HighlightOutline, highlight_outlines};
+use meshbrush_core::domain::CutShape;
+use meshbrush_core::paint::Mirror;
+use meshbrush_mesh::mesh::{MeshView, TriangleId};
+use meshbrush_render::colormap::Ground;
+use meshbrush_render::scene::{Camera, Highlights, Outline as HighlightOutline, highlight_outlines};
 
 /// Side of a triangle in points below which its number would not fit.
 const SMALLEST_NUMBERED: f64 = 26.0;
@@ -340,8 +340,8 @@ pub fn point_from_px(rect: Rect, px: DVec2, px_per_point: f32) -> Pos2 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::{Lattice, Rect as WorldRect};
-    use crate::mesh::{Element, Limits, Mesh};
+    use meshbrush_mesh::geometry::{Lattice, Rect as WorldRect};
+    use meshbrush_mesh::mesh::{Element, Limits, Mesh};
 
     #[test]
     fn names_of_corners_cover_no_number_of_a_neighbour_and_not_the_triangle() {

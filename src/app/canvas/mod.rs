@@ -38,10 +38,10 @@ use super::software_window::SoftwareWindow;
 use super::theme::tokens;
 use super::tools::{Gesture, OverMesh, PAN, Panning, Pointer, Press, Tools, picks};
 use super::view::View;
-use crate::geometry::{Lattice, Rect as WorldRect};
-use crate::mesh::Progress;
-use crate::paint::StrokePlan;
-use crate::scene::Highlights;
+use meshbrush_core::paint::StrokePlan;
+use meshbrush_mesh::geometry::{Lattice, Rect as WorldRect};
+use meshbrush_mesh::mesh::Progress;
+use meshbrush_render::scene::Highlights;
 
 /// Free space around the domain when it is fitted, in points.
 const FIT_MARGIN: f32 = 24.0;

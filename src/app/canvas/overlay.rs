@@ -11,13 +11,13 @@ use super::super::latest::{Latest, Wanted};
 use super::super::layer_pictures::layer_color32;
 use super::super::session::Session;
 use super::super::view::FieldOverlay;
-use crate::build::RefinementCriterion;
-use crate::colormap::LevelColors;
-use crate::explain::PixelTriangles;
-use crate::geometry::Rect;
-use crate::layers::{Layer, LayerId, PaintLayers, SizeField};
-use crate::raster::Raster;
-use crate::scene::Overlay;
+use meshbrush_core::build::RefinementCriterion;
+use meshbrush_core::explain::PixelTriangles;
+use meshbrush_core::layers::{Layer, LayerId, PaintLayers, SizeField};
+use meshbrush_core::raster::Raster;
+use meshbrush_mesh::geometry::Rect;
+use meshbrush_render::colormap::LevelColors;
+use meshbrush_render::scene::Overlay;
 
 /// How strongly h̄ covers the mesh, 0 to 1.
 const TARGET_OPACITY: f32 = 0.75;

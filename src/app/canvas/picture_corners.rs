@@ -6,9 +6,9 @@ use glam::DVec2;
 use super::marks::point_from_px;
 use crate::app::command::Command;
 use crate::app::frame::FrameState;
-use crate::document::{Background, Setting};
-use crate::geometry::Rect as WorldRect;
-use crate::scene::Camera;
+use meshbrush_core::document::{Background, Setting};
+use meshbrush_mesh::geometry::Rect as WorldRect;
+use meshbrush_render::scene::Camera;
 
 /// Names of the handles for tests and screen readers: the corner with the lowest coordinates first.
 pub const NAMES: [&str; 2] = ["Lower left corner of the picture", "Upper right corner of the picture"];

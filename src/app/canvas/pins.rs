@@ -10,7 +10,7 @@ use super::super::tools::{OverMesh, PIN_REACH_POINTS};
 use super::super::widgets::{format, paint_floating};
 use super::marks::{NUMBER_DISC, paint_number};
 use crate::app::pins::nearest_pin;
-use crate::text::LengthUnit;
+use meshbrush_mesh::text::LengthUnit;
 
 /// The most pins that are drawn: more would hide the mesh.
 const MOST_DRAWN: usize = 2_000;

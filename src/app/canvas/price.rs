@@ -7,9 +7,9 @@ use crate::app::readout::{Quantity, value_at};
 use crate::app::theme::{Tokens, tokens};
 use crate::app::tools::{PaintKind, picks};
 use crate::app::widgets::{floating_tag, format, tag_size};
-use crate::document::{NoChange, Price, Settings};
-use crate::mesh::Progress;
-use crate::paint::{DiameterChange, Medium};
+use meshbrush_core::document::{NoChange, Price, Settings};
+use meshbrush_core::paint::{DiameterChange, Medium};
+use meshbrush_mesh::mesh::Progress;
 
 /// Space between ring and tag, in points.
 const GAP: f32 = 14.0;

@@ -8,8 +8,8 @@ use crate::app::frame::FrameState;
 use crate::app::session::Session;
 use crate::app::theme::{font, tokens};
 use crate::app::widgets::paint_floating;
-use crate::geometry;
-use crate::scene::Camera;
+use meshbrush_mesh::geometry;
+use meshbrush_render::scene::Camera;
 
 /// Places along each side of the canvas where the mesh is looked for.
 const PROBES: u32 = 7;

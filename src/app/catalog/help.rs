@@ -6,7 +6,7 @@ use super::{CatalogItem, Menu};
 use crate::app::command::Command;
 use crate::app::help::HelpTopic;
 use crate::app::report::FigureCommand;
-use crate::document::{Example, ReportFigure};
+use meshbrush_core::document::{Example, ReportFigure};
 
 /// Documents that come with the program, and those of the figures of the report.
 pub fn examples() -> Vec<CatalogItem> {

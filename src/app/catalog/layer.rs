@@ -6,7 +6,7 @@ use super::{CatalogItem, Menu};
 use crate::app::command::{Command, LayerCommand};
 use crate::app::frame::FrameState;
 use crate::app::panels::{LAYER_KINDS, combine_name};
-use crate::layers::{Combine, Layer, LayerId};
+use meshbrush_core::layers::{Combine, Layer, LayerId};
 
 /// The stack of layers, and the selected one.
 pub fn layer(state: &FrameState<'_>) -> Vec<CatalogItem> {

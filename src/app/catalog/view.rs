@@ -6,7 +6,7 @@ use super::{CatalogItem, Menu};
 use crate::app::command::Command;
 use crate::app::frame::FrameState;
 use crate::app::view::{CanvasAid, FieldOverlay};
-use crate::colormap::Colormap;
+use meshbrush_render::colormap::Colormap;
 
 /// What is shown.
 pub fn view(state: &FrameState<'_>) -> Vec<CatalogItem> {

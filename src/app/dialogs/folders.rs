@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use super::FileRequest;
-use crate::io;
+use meshbrush_io::io;
 
 /// Name under which the window's own storage keeps the folders.
 const KEY: &str = "folders";

@@ -9,8 +9,8 @@ use crate::app::theme::{font, tokens};
 use crate::app::widgets::{
     ActionButton, ButtonKind, TextError, TextRow, dialog, dialog_title, format, typed,
 };
-use crate::mesh::TriangleId;
-use crate::text::LengthUnit;
+use meshbrush_mesh::mesh::TriangleId;
+use meshbrush_mesh::text::LengthUnit;
 
 /// What was typed.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -7,10 +7,10 @@ use crate::app::command::{Command, PinsCommand};
 use crate::app::keep_out::KeepOutCommand;
 use crate::app::paths::PathCommand;
 use crate::app::plots::PlotsCommand;
-use crate::io::project::ENDING;
-use crate::io::{plot, recipe, recording};
-use crate::render::export::ExportFormat;
-use crate::render::path_export::PathFormat;
+use meshbrush_io::io::project::ENDING;
+use meshbrush_io::io::{plot, recipe, recording};
+use meshbrush_render::render::export::ExportFormat;
+use meshbrush_render::render::path_export::PathFormat;
 
 /// Why a path is asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -3,8 +3,8 @@
 use crate::app::App;
 use crate::app::command::{Command, LayerCommand};
 use crate::app::paths::NO_PATH;
-use crate::document::Settings;
-use crate::layers::{DistanceTo, LayerId, LayerKind, ShapeList, Shapes};
+use meshbrush_core::document::Settings;
+use meshbrush_core::layers::{DistanceTo, LayerId, LayerKind, ShapeList, Shapes};
 
 impl App {
     /// Adds a corridor along the paths as they are.

@@ -5,7 +5,7 @@ use glam::DVec2;
 use crate::app::App;
 use crate::app::command::{BoundaryCommand, DomainCommand};
 use crate::app::tools::{BOUNDARY, BoundaryToolMode, DOMAIN};
-use crate::domain::{BoundaryPieces, CutShape};
+use meshbrush_core::domain::{BoundaryPieces, CutShape};
 
 impl App {
     pub(super) fn execute_on_domain(&mut self, command: DomainCommand) {

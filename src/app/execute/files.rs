@@ -12,7 +12,7 @@ use crate::app::dialogs::{Dialog, FileRequest};
 use crate::app::home::{self, Home};
 use crate::app::journal::JournalKeeper;
 use crate::app::{files, journal, layer_files, project};
-use crate::document::Document;
+use meshbrush_core::document::Document;
 
 impl App {
     /// Runs commands about files, windows and dialogs, and returns others.

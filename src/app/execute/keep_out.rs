@@ -2,7 +2,7 @@
 
 use crate::app::App;
 use crate::app::keep_out::{self, KeepOutCommand};
-use crate::document::KeepOut;
+use meshbrush_core::document::KeepOut;
 
 impl App {
     pub(super) fn execute_on_keep_out(&mut self, command: KeepOutCommand) {

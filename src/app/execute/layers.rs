@@ -8,8 +8,8 @@ use crate::app::dialogs::FileRequest;
 use crate::app::notices::Offer;
 use crate::app::panels::ask_layer_name;
 use crate::app::tools::{PaintKind, THREATS};
-use crate::document::{NoPaintLayer, Setting, Settings};
-use crate::layers::{DistanceTo, Layer, LayerId, LayerKind, Quantity};
+use meshbrush_core::document::{NoPaintLayer, Setting, Settings};
+use meshbrush_core::layers::{DistanceTo, Layer, LayerId, LayerKind, Quantity};
 
 impl App {
     pub(super) fn execute_on_layers(&mut self, command: LayerCommand, ctx: &Context) {

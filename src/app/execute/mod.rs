@@ -22,7 +22,7 @@ use super::dialogs::{Dialog, fill_in_place};
 use super::explore::TreeStep;
 use super::inspection::{Inspection, NEIGHBOURS};
 use super::tools::{QUERY, Tool};
-use crate::mesh::TriangleId;
+use meshbrush_mesh::mesh::TriangleId;
 
 /// A triangle that was asked for is shown at least so large, in pixels.
 const TRIANGLE_PX: f64 = 60.0;

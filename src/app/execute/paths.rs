@@ -10,10 +10,10 @@ use crate::app::command::Command;
 use crate::app::path_export;
 use crate::app::paths::{AlternativesCommand, CostKind, FrontCommand, FrontFinder, PathCommand};
 use crate::app::pins::nearest_within;
-use crate::document::{PathCost, PathPlan, Setting};
-use crate::field::CostFormula;
-use crate::path::Weights;
-use crate::render::path_export::PathFormat;
+use meshbrush_core::document::{PathCost, PathPlan, Setting};
+use meshbrush_core::field::CostFormula;
+use meshbrush_core::path::Weights;
+use meshbrush_render::render::path_export::PathFormat;
 
 impl App {
     pub(super) fn execute_on_paths(&mut self, command: PathCommand) {

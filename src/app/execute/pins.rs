@@ -10,7 +10,7 @@ use crate::app::App;
 use crate::app::command::{Command, PinsCommand};
 use crate::app::frame::NO_LIMIT;
 use crate::app::pins::{self, counted, nearest_pin};
-use crate::document::Setting;
+use meshbrush_core::document::Setting;
 
 /// The time of a frame that goes into the table of pins.
 const TABLE_BUDGET: Duration = Duration::from_millis(3);

@@ -7,7 +7,7 @@ use crate::app::plots::PlotKind;
 use crate::app::report::{FigureCommand, ShownFigure};
 use crate::app::stepping::Stepping;
 use crate::app::tools::QUERY;
-use crate::document::ReportFigure;
+use meshbrush_core::document::ReportFigure;
 
 impl App {
     pub(super) fn execute_on_report(&mut self, command: FigureCommand, ctx: &Context) {

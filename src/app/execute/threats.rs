@@ -6,7 +6,7 @@ use crate::app::App;
 use crate::app::command::{Command, LayerCommand, ThreatsCommand};
 use crate::app::notices::Offer;
 use crate::app::tools::{THREATS, ThreatGrip, ThreatsTool, grip_at};
-use crate::layers::{Layer, LayerId, LayerKind, Threat, ThreatLaw, Threats};
+use meshbrush_core::layers::{Layer, LayerId, LayerKind, Threat, ThreatLaw, Threats};
 
 /// Range of the first threat, as a share of the longer side of the domain.
 const USUAL_RANGE: f64 = 0.15;

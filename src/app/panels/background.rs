@@ -9,8 +9,8 @@ use crate::app::dialogs::FileRequest;
 use crate::app::frame::FrameState;
 use crate::app::view::CanvasAid;
 use crate::app::widgets::{ActionButton, NumberRow, Section, SliderRow, toggle_row, value_row};
-use crate::document::{Background, Setting};
-use crate::geometry::Rect;
+use meshbrush_core::document::{Background, Setting};
+use meshbrush_mesh::geometry::Rect;
 
 /// The background picture: opacity and place.
 pub static BACKGROUND: Panel = Panel { name: "background", only_with_tool: false, show };

@@ -7,9 +7,9 @@ use crate::app::command::{BoundaryCommand, Command};
 use crate::app::frame::FrameState;
 use crate::app::tools::BoundaryToolMode;
 use crate::app::widgets::{ActionButton, Section, TextRow, ValueRow, format, segmented, value_row};
-use crate::document::Setting;
-use crate::domain::BoundaryPieces;
-use crate::text::LengthUnit;
+use meshbrush_core::document::Setting;
+use meshbrush_core::domain::BoundaryPieces;
+use meshbrush_mesh::text::LengthUnit;
 
 /// The pieces, while the boundary tool is selected.
 pub static BOUNDARY: Panel = Panel { name: "boundary", only_with_tool: true, show };

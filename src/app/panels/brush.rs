@@ -7,7 +7,7 @@ use crate::app::command::{BrushCommand, Command};
 use crate::app::frame::FrameState;
 use crate::app::tools::{BrushMode, ERASER, PaintKind, PenEffect, Tools};
 use crate::app::widgets::{Section, SliderRow, format, segmented, toggle_row, value_row};
-use crate::field::{RiskToDiameter, Transfer};
+use meshbrush_core::field::{RiskToDiameter, Transfer};
 
 /// What the brush paints and how, its radius, strength and hardness, and how strokes are drawn.
 pub static BRUSH: Panel = Panel { name: "brush", only_with_tool: true, show };

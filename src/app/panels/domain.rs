@@ -12,11 +12,11 @@ use crate::app::tools::{DOMAIN as DOMAIN_TOOL, DomainToolMode};
 use crate::app::widgets::{
     ActionButton, NumberRow, Section, SliderRow, dropdown_row, format, segmented, toggle_row, value_row,
 };
-use crate::document::Setting;
-use crate::domain::{BoundaryTreatment, Domain, DomainShape};
-use crate::geometry::Rect;
-use crate::mesh::{Cleaning, KeptParts};
-use crate::text::LengthUnit;
+use meshbrush_core::document::Setting;
+use meshbrush_core::domain::{BoundaryTreatment, Domain, DomainShape};
+use meshbrush_mesh::geometry::Rect;
+use meshbrush_mesh::mesh::{Cleaning, KeptParts};
+use meshbrush_mesh::text::LengthUnit;
 
 /// Share of the area from which parts stay, to start with.
 const USUAL_SHARE: f64 = 0.01;

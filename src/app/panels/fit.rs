@@ -8,8 +8,8 @@ use crate::app::command::Command;
 use crate::app::derivation::Derived;
 use crate::app::frame::FrameState;
 use crate::app::widgets::{Section, ValueRow, format, value_row};
-use crate::domain::{FitQuality, Region};
-use crate::geometry::Rect;
+use meshbrush_core::domain::{FitQuality, Region};
+use meshbrush_mesh::geometry::Rect;
 
 /// Side of the area that is shown around a place, in diameters at the outline.
 const AREA_IN_DIAMETERS: f64 = 24.0;

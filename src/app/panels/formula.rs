@@ -7,7 +7,7 @@ use eframe::egui::{Id, Key, Ui};
 
 use crate::app::frame::FrameState;
 use crate::app::widgets::{TextError, TextRow};
-use crate::field::formula::ParseError;
+use meshbrush_core::field::formula::ParseError;
 
 /// Seconds without a key until a formula is applied: the beginning of `0.0005` is a valid formula, too.
 const PAUSE: f64 = 0.4;

@@ -12,7 +12,7 @@ use crate::app::view::CanvasAid;
 use crate::app::widgets::{
     ActionButton, Chip, Icon, Section, ValueRow, chips, empty_state, format, segmented, toggle_row, value_row,
 };
-use crate::mesh::{Location, TriangleId};
+use meshbrush_mesh::mesh::{Location, TriangleId};
 
 /// The queried triangle, its neighbours, and a quantity in it.
 pub static INSPECTOR: Panel = Panel { name: "inspector", only_with_tool: false, show };

@@ -7,7 +7,7 @@ use crate::app::command::Command;
 use crate::app::frame::FrameState;
 use crate::app::view::deepest_level;
 use crate::app::widgets::{ActionButton, LevelLegend, LevelRow, Section, format};
-use crate::colormap::LevelColors;
+use meshbrush_render::colormap::LevelColors;
 
 /// Height of the legend in points, for any number of levels: the sections below must not move while the
 /// pointer drags the coarse spacing or the smallest diameter.

@@ -10,8 +10,8 @@ use crate::app::command::Command;
 use crate::app::frame::FrameState;
 use crate::app::threads::Threads;
 use crate::app::widgets::{NumberRow, Section, SliderRow, format, segmented, value_row};
-use crate::document::{LEAST_MEMORY, Setting, Settings};
-use crate::field::RefinementRule;
+use meshbrush_core::document::{LEAST_MEMORY, Setting, Settings};
+use meshbrush_core::field::RefinementRule;
 
 /// The longest label of a number; the fields of the others are aligned with it.
 const TRIANGLE_BUDGET: &str = "Triangle budget";

@@ -42,7 +42,7 @@ use super::frame::FrameState;
 use super::theme::{font, metrics, tokens};
 use super::tools::Tool;
 use super::widgets::{self, ActionButton};
-use crate::document::Setting;
+use meshbrush_core::document::Setting;
 
 /// A section of the side panel.
 pub struct Panel {

@@ -8,7 +8,7 @@ use crate::app::dialogs::FileRequest;
 use crate::app::frame::FrameState;
 use crate::app::plots::{PlotKind, Plots, PlotsCommand};
 use crate::app::widgets::{ActionButton, NumberRow, Section, dropdown_row, plot_view, value_row};
-use crate::document::Experiment;
+use meshbrush_core::document::Experiment;
 
 /// A chosen plot, and what it takes to measure those of time.
 pub static PLOTS: Panel = Panel { name: "plots", only_with_tool: false, show };

@@ -9,7 +9,7 @@ use crate::app::plots::PlotKind;
 use crate::app::report::{FigureCommand, as_text, comparisons};
 use crate::app::theme::{font, tokens};
 use crate::app::widgets::{ActionButton, plot_view, tips};
-use crate::document::{Comparison, ReportFigure};
+use meshbrush_core::document::{Comparison, ReportFigure};
 
 /// The figure that is shown, above all other sections.
 pub fn section(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {

@@ -8,7 +8,7 @@ use crate::app::command::Command;
 use crate::app::frame::FrameState;
 use crate::app::statistics::Measured;
 use crate::app::widgets::{Section, ValueRow, format, value_row};
-use crate::mesh::MeshStatistics;
+use meshbrush_mesh::mesh::MeshStatistics;
 
 /// Connected parts with a row of their own.
 const MOST_PARTS: usize = 5;

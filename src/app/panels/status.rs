@@ -8,8 +8,8 @@ use crate::app::frame::FrameState;
 use crate::app::inspection::deciding_layer;
 use crate::app::readout::{Quantity, value_at};
 use crate::app::widgets::{StatusCell, format};
-use crate::document::Stage;
-use crate::field::RefinementRule;
+use meshbrush_core::document::Stage;
+use meshbrush_core::field::RefinementRule;
 
 /// Space between cells.
 const GAP: f32 = 16.0;

@@ -9,8 +9,8 @@ use crate::app::command::Command;
 use crate::app::frame::FrameState;
 use crate::app::readout::{Quantity, value_at};
 use crate::app::widgets::{CurveValues, Section, TransferCurve};
-use crate::document::{Setting, Settings};
-use crate::field::{RiskToDiameter, Transfer};
+use meshbrush_core::document::{Setting, Settings};
+use meshbrush_core::field::{RiskToDiameter, Transfer};
 
 /// The curve from risk to diameter.
 pub static TRANSFER: Panel = Panel { name: "transfer", only_with_tool: false, show };

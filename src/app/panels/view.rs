@@ -7,7 +7,7 @@ use crate::app::command::Command;
 use crate::app::frame::FrameState;
 use crate::app::view::{CanvasAid, FieldOverlay};
 use crate::app::widgets::{Section, dropdown_row, segmented, toggle_row};
-use crate::colormap::Colormap;
+use meshbrush_render::colormap::Colormap;
 
 /// Edges, colours, overlay and theme.
 pub static VIEW: Panel = Panel { name: "view", only_with_tool: false, show };

@@ -10,8 +10,8 @@ use crate::app::frame::FrameState;
 use crate::app::theme::{font, tokens};
 use crate::app::view::CanvasAid;
 use crate::app::widgets::{Chip, Icon, Section, ValueRow, chips, empty_state, format, segmented, toggle_row};
-use crate::explain::{Explanation, NodeFacts, Words};
-use crate::mesh::{Mesh, TreeTriangle, bisection_edge_length};
+use meshbrush_core::explain::{Explanation, NodeFacts, Words};
+use meshbrush_mesh::mesh::{Mesh, TreeTriangle, bisection_edge_length};
 
 /// The cause of the queried triangle, and its place in the tree.
 pub static WHY: Panel = Panel { name: "why", only_with_tool: true, show };

@@ -9,8 +9,8 @@ use super::Key;
 use crate::app::patience::Patience;
 use crate::app::prover::Known;
 use crate::app::sequence::{Output, Sequence};
-use crate::geometry::nearest_on_segment;
-use crate::path::{Alternatives, Difference, Solution};
+use meshbrush_core::path::{Alternatives, Difference, Solution};
+use meshbrush_mesh::geometry::nearest_on_segment;
 
 /// Alternatives of a path, at most.
 pub const MOST_ALTERNATIVES: usize = 5;

@@ -6,7 +6,7 @@ use glam::DVec2;
 
 use super::{AlternativesCommand, FrontCommand};
 use crate::app::keep_out::KeepOutCommand;
-use crate::document::PathCost;
+use meshbrush_core::document::PathCost;
 
 /// Why nothing can be done with a path of a document without one.
 pub const NO_PATH: &str = "There is no path: set its start and goal with the path tool (P).";

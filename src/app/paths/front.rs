@@ -10,9 +10,9 @@ use super::{Key, MeshKey};
 use crate::app::patience::Patience;
 use crate::app::sequence::{Output, Sequence};
 use crate::app::session::Session;
-use crate::document::KeepOut;
-use crate::layers::{Layer, PaintLayers, RiskField};
-use crate::path::{Front, FrontPoint, PathMesh, Weights};
+use meshbrush_core::document::KeepOut;
+use meshbrush_core::layers::{Layer, PaintLayers, RiskField};
+use meshbrush_core::path::{Front, FrontPoint, PathMesh, Weights};
 
 /// Paths of a front, at most.
 pub const FRONT_PATHS: usize = 20;

@@ -35,8 +35,8 @@ use super::patience::Patience;
 use super::prover::{Known, Prover};
 use super::session::Session;
 use super::statistics::MeasuredMesh;
-use crate::layers::RiskField;
-use crate::path::PathError;
+use meshbrush_core::layers::RiskField;
+use meshbrush_core::path::PathError;
 
 /// A mesh of one of the documents that were opened.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -4,14 +4,14 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use crate::document::PathPlan;
-use crate::domain::Domain;
-use crate::geometry::Rect;
-use crate::layers::RiskField;
-use crate::mesh::{Extract, Mesh};
-use crate::path::{
+use meshbrush_core::document::PathPlan;
+use meshbrush_core::domain::Domain;
+use meshbrush_core::layers::RiskField;
+use meshbrush_core::path::{
     CertificateEnd, Corridor, CostDensity, PathError, PathMesh, PathRequest, PathSample, Planner, Solution,
 };
+use meshbrush_mesh::geometry::Rect;
+use meshbrush_mesh::mesh::{Extract, Mesh};
 
 /// Places on a path at which its profile is known.
 const PROFILE_SAMPLES: usize = 200;

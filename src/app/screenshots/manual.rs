@@ -9,7 +9,7 @@ use super::{OffscreenWindow, boundary, look_at, make_folder, point_at, write_pic
 use crate::app::command::Command;
 use crate::app::theme::metrics::PANEL_WIDTH;
 use crate::app::view::FieldOverlay;
-use crate::render::Image;
+use meshbrush_render::render::Image;
 
 /// Size of the windows of which a picture shows the most part, in points.
 const WINDOW: Vec2 = vec2(980.0, 640.0);

@@ -18,12 +18,12 @@ use super::report::FigureCommand;
 use super::stepping::StepCommand;
 use super::tools::{BoundaryToolMode, DomainToolMode, PATH, PaintKind, QUERY};
 use super::view::FieldOverlay;
-use crate::document::{Example, ReportFigure, Setting};
-use crate::field::{Formula, RefinementRule};
-use crate::io;
-use crate::layers::{Layer, LayerKind};
-use crate::render::Image;
 pub use manual::write as write_manual;
+use meshbrush_core::document::{Example, ReportFigure, Setting};
+use meshbrush_core::field::{Formula, RefinementRule};
+use meshbrush_core::layers::{Layer, LayerKind};
+use meshbrush_io::io;
+use meshbrush_render::render::Image;
 use offscreen::OffscreenWindow;
 pub use tour::write as write_tour;
 

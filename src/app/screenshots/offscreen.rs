@@ -16,10 +16,10 @@ use glam::DVec2;
 use crate::app::App;
 use crate::app::canvas::marks::point_from_px;
 use crate::app::command::Command;
-use crate::layers::Layer;
-use crate::mesh::Progress;
-use crate::render::Image;
-use crate::render::gpu::{device_descriptor, read_back};
+use meshbrush_core::layers::Layer;
+use meshbrush_mesh::mesh::Progress;
+use meshbrush_render::render::Image;
+use meshbrush_render::render::gpu::{device_descriptor, read_back};
 
 /// Seconds from frame to frame. Time is counted, not measured, so that the same input gives the same picture.
 const FRAME: f64 = 1.0 / 60.0;

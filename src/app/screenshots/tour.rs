@@ -10,7 +10,7 @@ use crate::app::command::{BrushCommand, Command, DomainCommand};
 use crate::app::dialogs::FileRequest;
 use crate::app::files::AEGEAN_SEA;
 use crate::app::tools::{BrushMode, DomainToolMode, ERASER, QUERY};
-use crate::io;
+use meshbrush_io::io;
 
 /// Size of the window, in points.
 const WINDOW: Vec2 = vec2(980.0, 640.0);

@@ -5,7 +5,7 @@ use std::ops::Range;
 use eframe::egui::epaint::{ClippedPrimitive, Primitive, Vertex};
 use eframe::egui::{Mesh, Rect};
 
-use crate::render::software::Damage;
+use meshbrush_render::render::software::Damage;
 
 /// How far ahead a primitive that is not at its place is looked for.
 const LOOK_AHEAD: usize = 12;

@@ -6,7 +6,7 @@ use eframe::wgpu;
 
 use super::WindowImage;
 use crate::app::canvas::canvas_image;
-use crate::render::gpu::ShownImage;
+use meshbrush_render::render::gpu::ShownImage;
 
 /// Draws all shapes of a window itself, and leaves the driver one picture.
 pub struct SoftwareWindow {

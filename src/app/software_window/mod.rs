@@ -24,8 +24,8 @@ use self::changes::px_rect;
 pub use self::gpu::SoftwareWindow;
 use self::raster::{Strip, blend};
 use self::textures::Textures;
-use crate::render::Image;
-use crate::render::software::{BAND_ROWS, Damage, PxRect, on_drawing_threads};
+use meshbrush_render::render::Image;
+use meshbrush_render::render::software::{BAND_ROWS, Damage, PxRect, on_drawing_threads};
 
 /// The colour below all panels, which cover it.
 const GROUND: [u8; 4] = [0, 0, 0, 0xff];

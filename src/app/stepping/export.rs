@@ -9,8 +9,8 @@ use crate::app::files::listed;
 use crate::app::session::Session;
 use crate::app::view::View;
 use crate::app::widgets::format;
-use crate::colormap::Ground;
-use crate::io::{self, steps};
+use meshbrush_io::io::{self, steps};
+use meshbrush_render::colormap::Ground;
 
 /// Most steps that are exported at once.
 pub const MOST_FILES: usize = 500;

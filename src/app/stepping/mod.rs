@@ -20,9 +20,9 @@ use super::document_id::DocumentId;
 use super::latest::Latest;
 use super::session::Session;
 use super::tools::Tools;
-use crate::build::RefinementCriterion;
-use crate::document::ReportFigure;
-use crate::mesh::{Mesh, Progress, Recording, StepPlayer, StepRecorder};
+use meshbrush_core::build::RefinementCriterion;
+use meshbrush_core::document::ReportFigure;
+use meshbrush_mesh::mesh::{Mesh, Progress, Recording, StepPlayer, StepRecorder};
 
 /// A mesh with more triangles is recorded up to here: nobody follows more steps.
 pub const MOST_TRIANGLES: usize = 20_000;

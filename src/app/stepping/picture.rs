@@ -6,9 +6,9 @@ use super::Stepping;
 use crate::app::canvas::marks::{self, NUMBER_DISC, point_from_px};
 use crate::app::frame::FrameState;
 use crate::app::theme::font;
-use crate::colormap::{Ground, LevelColors};
-use crate::mesh::{StepPart, StepPlayer};
-use crate::scene::Camera;
+use meshbrush_mesh::mesh::{StepPart, StepPlayer};
+use meshbrush_render::colormap::{Ground, LevelColors};
+use meshbrush_render::scene::Camera;
 
 /// Shortest leg of a triangle, in points, at which its number is drawn.
 const NUMBERED_LEG: f32 = 44.0;

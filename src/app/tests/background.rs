@@ -15,7 +15,7 @@ use egui_kittest::kittest::Queryable as _;
 
 use super::{Window, document, paint, send, window};
 use crate::app::command::Command;
-use crate::io::project;
+use meshbrush_io::io::project;
 
 const QUESTION: &str = "Save changes to “Radar threats”?";
 

@@ -14,9 +14,9 @@ use super::{
 };
 use crate::app::canvas::picture_corners::NAMES;
 use crate::app::command::Command;
-use crate::document::{Background, Document, Setting};
-use crate::geometry::Rect;
-use crate::io::{self, project};
+use meshbrush_core::document::{Background, Document, Setting};
+use meshbrush_io::io::{self, project};
+use meshbrush_mesh::geometry::Rect;
 
 /// A picture of 4 × 2 pixels.
 fn picture(folder: PathBuf) -> PathBuf {

@@ -8,8 +8,8 @@ use glam::dvec2;
 use super::{
     Window, click, entries, fingerprint, key, send, settings, show, type_into, wait_until, window_of,
 };
-use crate::document::Settings;
-use crate::domain::{BoundaryPieces, Domain};
+use meshbrush_core::document::Settings;
+use meshbrush_core::domain::{BoundaryPieces, Domain};
 
 const SIZE: Vec2 = vec2(1440.0, 1200.0);
 

@@ -11,7 +11,7 @@ use super::{
 };
 use crate::app::command::{BrushCommand, Command};
 use crate::app::tools::{BRUSH, BrushMode, PaintKind, PenEffect};
-use crate::layers::LayerKind;
+use meshbrush_core::layers::LayerKind;
 
 fn risk_at(window: &Window, point: DVec2) -> f32 {
     painted(window, PAINTED_RISK, point)

@@ -13,9 +13,9 @@ use super::{
 };
 use crate::app::command::{BrushCommand, Command};
 use crate::app::tools::{BRUSH, DOMAIN, ERASER, PAN, QUERY};
-use crate::document::{Setting, Settings};
-use crate::field::RefinementRule;
-use crate::mesh::MemoryLimit;
+use meshbrush_core::document::{Setting, Settings};
+use meshbrush_core::field::RefinementRule;
+use meshbrush_mesh::mesh::MemoryLimit;
 
 /// The number on the tag for a dab at a place, and what a click there then does to the number of triangles.
 fn shown_and_actual(window: &mut Window, world: DVec2) -> (String, i64) {

@@ -15,8 +15,8 @@ use crate::app::command::Command;
 use crate::app::panels::PANELS;
 use crate::app::tools::TOOLS;
 use crate::app::view::FieldOverlay;
-use crate::document::Example;
-use crate::mesh::Location;
+use meshbrush_core::document::Example;
+use meshbrush_mesh::mesh::Location;
 
 #[test]
 fn commands_run_where_the_canvas_has_no_room() {

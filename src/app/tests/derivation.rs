@@ -8,11 +8,11 @@ use glam::{DVec2, dvec2};
 
 use super::{Window, key, send, show, wait_until, window};
 use crate::app::command::{Command, DomainCommand};
-use crate::document::{Document, Follower, Settings};
-use crate::domain::{CutShape, Domain};
-use crate::geometry::LatticePoint;
-use crate::mesh::{NodeId, TriangleId};
-use crate::outline::DerivedMesh;
+use meshbrush_core::document::{Document, Follower, Settings};
+use meshbrush_core::domain::{CutShape, Domain};
+use meshbrush_core::outline::DerivedMesh;
+use meshbrush_mesh::geometry::LatticePoint;
+use meshbrush_mesh::mesh::{NodeId, TriangleId};
 
 type Corners = [[u32; 2]; 3];
 

@@ -11,9 +11,9 @@ use super::{
     window_of,
 };
 use crate::app::command::{Command, DomainCommand};
-use crate::document::{Example, Setting, Settings};
-use crate::domain::{CutShape, Domain};
-use crate::mesh::Location;
+use meshbrush_core::document::{Example, Setting, Settings};
+use meshbrush_core::domain::{CutShape, Domain};
+use meshbrush_mesh::mesh::Location;
 
 #[test]
 fn a_frame_drawn_with_the_domain_tool_becomes_the_domain() {

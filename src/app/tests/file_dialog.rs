@@ -14,9 +14,9 @@ use super::{
 };
 use crate::app::command::Command;
 use crate::app::widgets::format;
-use crate::document::Example;
-use crate::io::project;
-use crate::render::export::ExportFormat;
+use meshbrush_core::document::Example;
+use meshbrush_io::io::project;
+use meshbrush_render::render::export::ExportFormat;
 
 /// A folder with files and folders.
 fn folder(name: &str) -> PathBuf {

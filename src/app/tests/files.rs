@@ -11,8 +11,8 @@ use super::{
     Window, fingerprint, has_raster, key, notice, scratch, send, stroke, wait_for_notice, wait_until, window,
 };
 use crate::app::command::Command;
-use crate::document::Example;
-use crate::layers::RasterReading;
+use meshbrush_core::document::Example;
+use meshbrush_core::layers::RasterReading;
 
 #[test]
 fn an_export_writes_the_file_and_tells() {

@@ -12,7 +12,7 @@ use super::{Window, document, notice, paint, send, wait_until, window};
 use crate::app::command::Command;
 use crate::app::keep_out::KeepOutCommand;
 use crate::app::paths::PathCommand;
-use crate::io::project;
+use meshbrush_io::io::project;
 
 const SQUARE: &str =
     r#"{"type": "Polygon", "coordinates": [[[0.2, 0.2], [0.8, 0.2], [0.8, 0.8], [0.2, 0.2]]]}"#;

@@ -11,7 +11,7 @@ use super::{
 };
 use crate::app::command::Command;
 use crate::app::tools::{BRUSH, QUERY};
-use crate::mesh::TriangleId;
+use meshbrush_mesh::mesh::TriangleId;
 
 fn neighbour(window: &Window, id: TriangleId, place: usize) -> Option<TriangleId> {
     window.state().session().mesh().neighbours(id)[place].triangle()

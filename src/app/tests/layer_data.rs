@@ -15,8 +15,8 @@ use super::{
     type_into, value_of, wait_for_notice, wait_until, window_of,
 };
 use crate::app::command::{Command, LayerCommand};
-use crate::document::Example;
-use crate::layers::{DistanceTo, LayerId, LayerKind, RasterReading, RasterSource};
+use meshbrush_core::document::Example;
+use meshbrush_core::layers::{DistanceTo, LayerId, LayerKind, RasterReading, RasterSource};
 
 /// Four pixels over the unit square; the last has no value.
 const DEPTHS: &str = "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 0.5\nNODATA_value -9999\n\

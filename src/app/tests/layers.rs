@@ -14,8 +14,8 @@ use super::{
 use crate::app::command::{BrushCommand, Command, LayerCommand};
 use crate::app::tools::PaintKind;
 use crate::app::view::FieldOverlay;
-use crate::document::Setting;
-use crate::layers::{Combine, Layer, LayerId, LayerKind, Quantity, RasterReading};
+use meshbrush_core::document::Setting;
+use meshbrush_core::layers::{Combine, Layer, LayerId, LayerKind, Quantity, RasterReading};
 
 /// A place in the first example where risk is painted.
 const PAINTED: glam::DVec2 = dvec2(0.245, 0.765);
@@ -344,7 +344,7 @@ fn another_selected_formula_layer_shows_its_own_formula() {
 #[test]
 fn a_raster_layer_shows_its_file_its_pixels_and_how_it_is_read() {
     let mut window = window_of(TALL);
-    send(&mut window, Command::OpenExample(crate::document::Example::Terrain));
+    send(&mut window, Command::OpenExample(meshbrush_core::document::Example::Terrain));
     select(&mut window, "Base");
     assert!(value_of(&window, Role::Definition, "Pixels").contains('×'));
     assert!(!value_of(&window, Role::Definition, "File").is_empty());

@@ -14,7 +14,7 @@ use super::{
 };
 use crate::app::busy::MOMENT;
 use crate::app::command::Command;
-use crate::document::{Document, Example, Follower, Setting, Stage};
+use meshbrush_core::document::{Document, Example, Follower, Setting, Stage};
 
 /// A smallest diameter that makes the first example's mesh have about two million triangles.
 const TWO_MILLIONS: f64 = 0.00025;

@@ -12,7 +12,7 @@ use super::{
 };
 use crate::app::App;
 use crate::app::command::Command;
-use crate::document::Setting;
+use meshbrush_core::document::Setting;
 
 /// Lets the window show frames for some seconds of its own time.
 fn wait_seconds(window: &mut Window, seconds: f32) {

@@ -72,9 +72,9 @@ use crate::app::stepping::Stepping;
 use crate::app::tools::Tools;
 use crate::app::view::View;
 use crate::app::widgets::format;
-use crate::document::{Document, Setting, Settings};
-use crate::layers::{LayerId, LayerKind, RasterReading};
-use crate::mesh::{Fingerprint, TriangleId};
+use meshbrush_core::document::{Document, Setting, Settings};
+use meshbrush_core::layers::{LayerId, LayerKind, RasterReading};
+use meshbrush_mesh::mesh::{Fingerprint, TriangleId};
 
 type Window = Harness<'static, App>;
 

@@ -9,8 +9,8 @@ use super::{
     TALL, Window, button_event, entries, fingerprint, key, notice, open_section, press_at, release_at, set,
     settings, type_into, value_of, wheel, window_with,
 };
-use crate::document::{Setting, Settings};
-use crate::layers::LayerKind;
+use meshbrush_core::document::{Setting, Settings};
+use meshbrush_core::layers::LayerKind;
 
 /// A tall window whose frames are as short as those on a screen, so that there is time within a double click.
 fn quick_window() -> Window {

@@ -10,9 +10,9 @@ use glam::dvec2;
 use super::{TALL, Window, choose, key, send, set, settings, triangles, type_into, wheel, window, window_of};
 use crate::app::command::Command;
 use crate::app::view::CanvasAid;
-use crate::document::{Example, Setting};
-use crate::domain::Domain;
-use crate::text::LengthUnit;
+use meshbrush_core::document::{Example, Setting};
+use meshbrush_core::domain::Domain;
+use meshbrush_mesh::text::LengthUnit;
 
 /// What the scale bar says.
 fn scale(window: &Window) -> Option<String> {

@@ -8,8 +8,8 @@ use egui_kittest::kittest::Queryable as _;
 
 use super::{Window, document, notice, paint, send, wait_until, window};
 use crate::app::command::Command;
-use crate::document::{Example, Settings};
-use crate::io::project::{self, Project};
+use meshbrush_core::document::{Example, Settings};
+use meshbrush_io::io::project::{self, Project};
 
 fn folder(name: &str) -> PathBuf {
     super::folder("app-other-window", name)
@@ -37,7 +37,7 @@ fn save(window: &mut Window, file: &Path) {
 }
 
 /// Paints, and returns what is painted.
-fn painted(window: &mut Window, x: f64) -> crate::layers::PaintLayers {
+fn painted(window: &mut Window, x: f64) -> meshbrush_core::layers::PaintLayers {
     paint(window, x);
     document(window).paint().clone()
 }

@@ -12,8 +12,8 @@ use super::{
     wait_for_notice, wait_until, window, window_of, window_with,
 };
 use crate::app::command::Command;
-use crate::geometry::Rect;
-use crate::layers::RasterReading;
+use meshbrush_core::layers::RasterReading;
+use meshbrush_mesh::geometry::Rect;
 
 /// Writes a file with a square that has a square hole.
 fn square(name: &str, min: DVec2, side: f64) -> PathBuf {

@@ -12,8 +12,8 @@ use super::{
 use crate::app::App;
 use crate::app::command::{Command, LayerCommand};
 use crate::app::view::FieldOverlay;
-use crate::document::{self, Setting};
-use crate::layers::{DistanceTo, LayerId, LayerKind, Mask, ShapeList, Shapes};
+use meshbrush_core::document::{self, Setting};
+use meshbrush_core::layers::{DistanceTo, LayerId, LayerKind, Mask, ShapeList, Shapes};
 
 /// A window whose canvas is drawn, on the software driver. Slower: only for what is judged by its picture.
 pub fn drawn_window() -> Window {
@@ -24,7 +24,7 @@ pub fn drawn_window() -> Window {
 pub fn window_drawn_by(ready: fn(&mut App, &Context)) -> Window {
     let mut setup = egui_kittest::wgpu::default_wgpu_setup();
     if let eframe::egui_wgpu::WgpuSetup::CreateNew(create) = &mut setup {
-        create.device_descriptor = Arc::new(crate::render::gpu::device_descriptor);
+        create.device_descriptor = Arc::new(meshbrush_render::render::gpu::device_descriptor);
     }
     let mut window = Harness::builder()
         .with_size(vec2(1100.0, 700.0))

@@ -13,8 +13,8 @@ use super::{
 };
 use crate::app::command::{Command, PinsCommand};
 use crate::app::tools::QUERY;
-use crate::io::Meter;
-use crate::io::located::write_of_document;
+use meshbrush_io::io::Meter;
+use meshbrush_io::io::located::write_of_document;
 
 const AT: DVec2 = dvec2(0.3, 0.6);
 
@@ -166,7 +166,7 @@ fn the_table_is_copied_and_exported_as_the_command_line_prints_it() {
 fn many_pins_are_read_over_several_frames_and_an_idle_window_reads_none() {
     let mut window = window_of(vec2(1440.0, 900.0));
     let many = (0..5000).map(|i| dvec2(f64::from(i) / 5000.0, 0.5)).collect();
-    send(&mut window, Command::Set(crate::document::Setting::Pins(std::sync::Arc::new(many))));
+    send(&mut window, Command::Set(meshbrush_core::document::Setting::Pins(std::sync::Arc::new(many))));
     send(&mut window, Command::EndGesture);
     send(&mut window, Command::Use(&QUERY));
     window.run();

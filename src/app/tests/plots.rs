@@ -13,8 +13,8 @@ use super::{
 use crate::app::command::Command;
 use crate::app::plots::{PlotKind, PlotsCommand};
 use crate::app::widgets::format;
-use crate::build::RefinementCriterion;
-use crate::explain::Bisections;
+use meshbrush_core::build::RefinementCriterion;
+use meshbrush_core::explain::Bisections;
 
 /// The note below a plot.
 fn note(window: &Window, plot: &str) -> Option<String> {

@@ -12,11 +12,11 @@ use glam::dvec2;
 
 use super::{Window, document, paint, send, show, window};
 use crate::app::command::{Command, LayerCommand};
-use crate::document::{Example, Setting, Settings, Stage};
-use crate::io::journal::{self, Journal, Left};
-use crate::io::project::{self, Project};
-use crate::io::{Meter, recipe, recording};
-use crate::mesh::Fingerprint;
+use meshbrush_core::document::{Example, Setting, Settings, Stage};
+use meshbrush_io::io::journal::{self, Journal, Left};
+use meshbrush_io::io::project::{self, Project};
+use meshbrush_io::io::{Meter, recipe, recording};
+use meshbrush_mesh::mesh::Fingerprint;
 
 /// The title of the first example once it is edited.
 const EDITED: &str = "Radar threats — edited";

@@ -11,9 +11,9 @@ use super::{
 };
 use crate::app::command::Command;
 use crate::app::tools::QUERY;
-use crate::document::Example;
-use crate::mesh::Location;
-use crate::outline::DerivedMesh;
+use meshbrush_core::document::Example;
+use meshbrush_core::outline::DerivedMesh;
+use meshbrush_mesh::mesh::Location;
 
 #[test]
 fn a_click_shows_the_triangle_and_each_chip_goes_to_its_neighbour() {

@@ -12,8 +12,8 @@ use glam::dvec2;
 use super::project::Dropped;
 use super::{Window, document, fingerprint, notice, send, stroke, wait_for_notice, wait_until, window};
 use crate::app::command::Command;
-use crate::document::{Document, Follower};
-use crate::io::{Meter, recipe};
+use meshbrush_core::document::{Document, Follower};
+use meshbrush_io::io::{Meter, recipe};
 
 /// A recipe in a folder of its own, whose layer reads a file beside it.
 fn recipe_in(name: &str, text: &str) -> PathBuf {

@@ -11,8 +11,8 @@ use super::{
 use crate::app::command::Command;
 use crate::app::plots::PlotsCommand;
 use crate::app::report::FigureCommand;
-use crate::document::ReportFigure;
-use crate::mesh::StepPlayer;
+use meshbrush_core::document::ReportFigure;
+use meshbrush_mesh::mesh::StepPlayer;
 
 fn open(window: &mut Window, figure: ReportFigure) {
     choose(window, "Examples", &format!("The report, {}", figure.name()));

@@ -10,10 +10,10 @@ use super::{
     settings, triangles, type_into, value_of, window, window_of,
 };
 use crate::app::command::Command;
-use crate::document::{Example, Setting};
-use crate::domain::{Domain, DomainShape};
-use crate::field::{Formula, RefinementRule};
-use crate::layers::{Layer, LayerKind};
+use meshbrush_core::document::{Example, Setting};
+use meshbrush_core::domain::{Domain, DomainShape};
+use meshbrush_core::field::{Formula, RefinementRule};
+use meshbrush_core::layers::{Layer, LayerKind};
 
 #[test]
 fn the_diamond_opens_by_menu_and_undo_stops_at_its_start() {
@@ -144,9 +144,9 @@ fn impossible_settings_are_refused_with_a_sentence() {
         Setting::Layers(Layer::usual(LayerKind::constant(-1.0))),
         Setting::Gradation(Some(0.0)),
         Setting::Gradation(Some(f64::NAN)),
-        Setting::Bounds(crate::geometry::Rect::new(DVec2::ONE, DVec2::ZERO)),
+        Setting::Bounds(meshbrush_mesh::geometry::Rect::new(DVec2::ONE, DVec2::ZERO)),
         Setting::Domain(Domain {
-            bounds: crate::geometry::Rect::UNIT,
+            bounds: meshbrush_mesh::geometry::Rect::UNIT,
             shape: DomainShape::Formula(Formula::parse("x > 9").unwrap()),
         }),
     ] {

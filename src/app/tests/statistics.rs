@@ -11,8 +11,8 @@ use super::{
     value_of, wait_until, window_of,
 };
 use crate::app::command::Command;
-use crate::document::{Example, Setting};
-use crate::mesh::Mesh;
+use meshbrush_core::document::{Example, Setting};
+use meshbrush_mesh::mesh::Mesh;
 
 /// The shortest and the longest edge, by looking at each triangle.
 fn edge_range(mesh: &Mesh) -> [f64; 2] {

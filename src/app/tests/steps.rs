@@ -12,8 +12,8 @@ use super::{
 };
 use crate::app::command::Command;
 use crate::app::stepping::{MOST_FILES, MOST_TRIANGLES, StepCommand};
-use crate::document::Setting;
-use crate::mesh::{StepAction, StepPlayer, fingerprint_of};
+use meshbrush_core::document::Setting;
+use meshbrush_mesh::mesh::{StepAction, StepPlayer, fingerprint_of};
 
 fn player(window: &Window) -> &StepPlayer {
     window.state().stepping().expect("the mode is on").player().expect("the steps are recorded")
@@ -164,7 +164,7 @@ fn the_step_is_seen_on_the_canvas() {
     coarse(&mut window);
     begin(&mut window);
     let steps = player(&window).recording().steps();
-    let updates = |step: &crate::mesh::Step| matches!(step.action, StepAction::UpdateNeighbours(_));
+    let updates = |step: &meshbrush_mesh::mesh::Step| matches!(step.action, StepAction::UpdateNeighbours(_));
     let deep = steps.iter().position(|step| updates(step) && step.level >= 3).unwrap();
     send(&mut window, Command::Steps(StepCommand::GoTo(deep + 1)));
     let image = window.render().unwrap();

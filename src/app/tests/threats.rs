@@ -13,7 +13,7 @@ use super::{
 };
 use crate::app::command::{Command, LayerCommand};
 use crate::app::tools::{BRUSH, QUERY, THREATS};
-use crate::layers::{LayerId, LayerKind, Threat, ThreatLaw};
+use meshbrush_core::layers::{LayerId, LayerKind, Threat, ThreatLaw};
 
 /// A window with a new, empty layer of threats, added by the menu of the panel.
 fn window_with_threats() -> Window {

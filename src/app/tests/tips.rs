@@ -11,11 +11,11 @@ use super::{FREE, TALL, Window, canvas, choose, entries, key, open_section, send
 use crate::app::command::{Command, LayerCommand, ThreatsCommand};
 use crate::app::stepping::StepCommand;
 use crate::app::tools::TOOLS;
-use crate::document::{Setting, Settings};
-use crate::field::Formula;
-use crate::geometry::Rect;
-use crate::layers::{DistanceTo, LayerKind, RasterSource, ShapeList, Shapes, Threats};
-use crate::raster::{Raster, RasterPyramid};
+use meshbrush_core::document::{Setting, Settings};
+use meshbrush_core::field::Formula;
+use meshbrush_core::layers::{DistanceTo, LayerKind, RasterSource, ShapeList, Shapes, Threats};
+use meshbrush_core::raster::{Raster, RasterPyramid};
+use meshbrush_mesh::geometry::Rect;
 
 const CONTROLS: [Role; 7] = [
     Role::Button,

@@ -11,8 +11,8 @@ use super::{
     triangles, type_into, value_of, wait_until, window_of,
 };
 use crate::app::command::Command;
-use crate::document::{Example, Setting};
-use crate::text::LengthUnit;
+use meshbrush_core::document::{Example, Setting};
+use meshbrush_mesh::text::LengthUnit;
 
 fn in_metres() -> Window {
     let mut window = window_of(TALL);

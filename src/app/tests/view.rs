@@ -10,7 +10,7 @@ use super::{
     press_tab, release_at, send, settings, wheel, window, window_of,
 };
 use crate::app::command::Command;
-use crate::colormap::Ground;
+use meshbrush_render::colormap::Ground;
 
 #[test]
 fn the_wheel_zooms_at_the_pointer() {

@@ -8,8 +8,8 @@ use glam::{DVec2, dvec2};
 use super::{TALL, Window, click, key, send, stroke, window_of};
 use crate::app::command::Command;
 use crate::app::tools::QUERY;
-use crate::explain::Explanation;
-use crate::mesh::{Cause, TriangleId};
+use meshbrush_core::explain::Explanation;
+use meshbrush_mesh::mesh::{Cause, TriangleId};
 
 fn explanation(window: &Window) -> &Explanation {
     window.state().explore().explanation().unwrap()

@@ -11,7 +11,7 @@ use crate::app::panels;
 use crate::app::theme::font;
 use crate::app::widgets::Hint::{self, Key as HintKey, Text};
 use crate::app::widgets::Icon;
-use crate::domain::{BoundaryPiece, BoundaryPieces};
+use meshbrush_core::domain::{BoundaryPiece, BoundaryPieces};
 
 /// Names and splits pieces of the boundary.
 pub static BOUNDARY: ToolSpec = ToolSpec {

@@ -10,7 +10,7 @@ use crate::app::frame::FrameState;
 use crate::app::panels;
 use crate::app::widgets::Hint::{self, Key as HintKey, Text};
 use crate::app::widgets::Icon;
-use crate::paint::{Brush, DiameterChange, Medium};
+use meshbrush_core::paint::{Brush, DiameterChange, Medium};
 
 /// Paints risk or target diameters.
 pub static BRUSH: ToolSpec = ToolSpec {

@@ -10,8 +10,8 @@ use crate::app::frame::FrameState;
 use crate::app::panels;
 use crate::app::widgets::Hint::{self, Key as HintKey, Text};
 use crate::app::widgets::Icon;
-use crate::domain::{CutShape, corners};
-use crate::geometry::Rect as WorldRect;
+use meshbrush_core::domain::{CutShape, corners};
+use meshbrush_mesh::geometry::Rect as WorldRect;
 
 /// Edits the domain.
 pub static DOMAIN: ToolSpec = ToolSpec {

@@ -7,7 +7,7 @@ use super::{ToolSpec, Tools};
 use crate::app::panels;
 use crate::app::widgets::Hint::{self, Key as HintKey, Text};
 use crate::app::widgets::Icon;
-use crate::paint::{Brush, Medium};
+use meshbrush_core::paint::{Brush, Medium};
 
 /// Removes paint.
 pub static ERASER: ToolSpec = ToolSpec {

@@ -7,7 +7,7 @@ use glam::{DVec2, dvec2};
 
 use super::Tools;
 use crate::app::command::Command;
-use crate::scene::Camera;
+use meshbrush_render::scene::Camera;
 
 /// A press of the primary button on the canvas.
 pub struct Press {

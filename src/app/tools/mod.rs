@@ -35,8 +35,8 @@ use super::command::Command;
 use super::frame::FrameState;
 use super::panels::Panel;
 use super::widgets::{Hint, Icon};
-use crate::geometry::Rect;
-use crate::paint::{Brush, Mirror, PathPoint};
+use meshbrush_core::paint::{Brush, Mirror, PathPoint};
+use meshbrush_mesh::geometry::Rect;
 
 /// All tools, in the order of the tool strip.
 pub static TOOLS: [Tool; 8] = [&BRUSH, &ERASER, &QUERY, &THREATS, &PATH, &DOMAIN, &BOUNDARY, &PAN];

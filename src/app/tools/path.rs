@@ -10,7 +10,7 @@ use crate::app::panels;
 use crate::app::paths::PathCommand;
 use crate::app::widgets::Hint::{self, Key as HintKey, Text};
 use crate::app::widgets::Icon;
-use crate::document::PathPlan;
+use meshbrush_core::document::PathPlan;
 
 /// Edits the places of paths.
 pub static PATH: ToolSpec = ToolSpec {

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use crate::paint::PathPoint;
+use meshbrush_core::paint::PathPoint;
 
 /// What the pressure of a pen changes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

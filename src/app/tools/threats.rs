@@ -9,8 +9,8 @@ use crate::app::frame::FrameState;
 use crate::app::pins::nearest_within;
 use crate::app::widgets::Hint::{self, Key as HintKey, Text};
 use crate::app::widgets::Icon;
-use crate::document::Document;
-use crate::layers::{Layer, LayerId, LayerKind, Threat, Threats};
+use meshbrush_core::document::Document;
+use meshbrush_core::layers::{Layer, LayerId, LayerKind, Threat, Threats};
 
 /// Edits the threats of the selected layer.
 pub static THREATS: ToolSpec = ToolSpec {

@@ -4,8 +4,8 @@
 //! Numbers that change while they are shown keep their number of decimals ([`fixed`], [`significant`]), so
 //! nothing jumps.
 
-use crate::text::{LengthUnit, group_digits};
-pub use crate::text::{digits, fixed, rounded, significant, with_unit};
+use meshbrush_mesh::text::{LengthUnit, group_digits};
+pub use meshbrush_mesh::text::{digits, fixed, rounded, significant, with_unit};
 
 /// A count, grouped by thousands: `37,987`.
 pub fn count(value: u64) -> String {

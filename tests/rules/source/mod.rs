@@ -16,7 +16,8 @@ pub struct Token {
     pub text: String,
 }
 
-/// A path such as `crate::mesh::Mesh`, complete even if part of it was written in braces.
+/// A path such as `crate::mesh::Mesh`, complete even if part of it was written in braces. The names of our other
+/// packages are replaced by `crate`: no two have a module of the same name.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PathInCode {
     pub line: usize,
@@ -30,7 +31,7 @@ pub struct Function {
     pub lines: RangeInclusive<usize>,
 }
 
-/// A file of `src` without comments, strings and tests.
+/// A source file without comments, strings and tests.
 #[derive(Clone, Debug)]
 pub struct SourceFile {
     /// Relative to the root of the repository, with `/`.
@@ -44,11 +45,15 @@ pub struct SourceFile {
     test_modules: Vec<Vec<String>>,
 }
 
-/// Path and text of all Rust files under `src`, with their tests.
+/// The folders of source, those of the packages that others depend on first.
+pub const SOURCES: [&str; 6] =
+    ["crates/mesh/src", "crates/core/src", "crates/io/src", "crates/render/src", "crates/cli/src", "src"];
+
+/// Path and text of all Rust files in [`SOURCES`], with their tests.
 pub fn read_texts() -> Vec<(String, String)> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut paths = Vec::new();
-    collect(&root.join("src"), &mut paths);
+    SOURCES.iter().for_each(|folder| collect(&root.join(folder), &mut paths));
     paths.sort();
     let relative = |path: &Path| {
         let parts: Vec<_> =
@@ -58,7 +63,7 @@ pub fn read_texts() -> Vec<(String, String)> {
     paths.iter().map(|path| (relative(path), fs::read_to_string(path).unwrap())).collect()
 }
 
-/// All Rust files under `src` in the order of their paths, without those that only tests use.
+/// All Rust files in [`SOURCES`] in the order of their paths, without those that only tests use.
 pub fn read_src() -> Vec<SourceFile> {
     let files: Vec<SourceFile> =
         read_texts().iter().map(|(path, text)| SourceFile::new(path, text)).collect();
@@ -86,7 +91,7 @@ impl SourceFile {
         Self { path: path.to_owned(), module, tokens, line_count, test_modules }
     }
 
-    /// The top-level module: the first folder or file under `src`; empty for `lib.rs` and `main.rs`.
+    /// The top-level module: the first folder or file in a folder `src`; empty for `lib.rs` and `main.rs`.
     pub fn top_module(&self) -> &str {
         self.module.first().map_or("", String::as_str)
     }
@@ -198,7 +203,8 @@ impl SourceFile {
 }
 
 fn module_of(path: &str) -> Vec<String> {
-    let inner = path.trim_start_matches("src/").trim_end_matches(".rs");
+    let (_, inner) = path.rsplit_once("src/").unwrap_or_else(|| panic!("{path} is in no folder src"));
+    let inner = inner.trim_end_matches(".rs");
     let mut module: Vec<String> = inner.split('/').map(str::to_owned).collect();
     if matches!(module.last().map(String::as_str), Some("mod" | "lib" | "main")) {
         module.pop();
@@ -206,7 +212,10 @@ fn module_of(path: &str) -> Vec<String> {
     module
 }
 
-fn resolved(path: PathInCode, module: &[String]) -> PathInCode {
+fn resolved(mut path: PathInCode, module: &[String]) -> PathInCode {
+    if path.segments.first().is_some_and(|first| first.starts_with("meshbrush_")) {
+        path.segments[0] = "crate".to_owned();
+    }
     let supers = path.segments.iter().take_while(|segment| *segment == "super").count();
     let first = path.segments.first().map_or("", String::as_str);
     let kept = if supers > 0 { module.len().saturating_sub(supers) } else { module.len() };

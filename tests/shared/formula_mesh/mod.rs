@@ -1,11 +1,11 @@
 //! Meshes as the program makes them, for a formula of the target diameter under the vertex rule.
 
-use meshbrush::internals::build::{BuiltMesh, MeshBuilder, MeshSpec};
-use meshbrush::internals::domain::{BoundaryTreatment, Domain};
-use meshbrush::internals::field::{Formula, RefinementRule, Transfer};
-use meshbrush::internals::geometry::Lattice;
-use meshbrush::internals::layers::{Layer, LayerKind, SizeFieldSpec};
-use meshbrush::internals::mesh::{Cleaning, Limits, Progress};
+use meshbrush_core::build::{BuiltMesh, MeshBuilder, MeshSpec};
+use meshbrush_core::domain::{BoundaryTreatment, Domain};
+use meshbrush_core::field::{Formula, RefinementRule, Transfer};
+use meshbrush_core::layers::{Layer, LayerKind, SizeFieldSpec};
+use meshbrush_mesh::geometry::Lattice;
+use meshbrush_mesh::mesh::{Cleaning, Limits, Progress};
 
 /// The mesh of a domain; `target` is a formula.
 pub fn formula_mesh(domain: &Domain, spacing: f64, boundary: BoundaryTreatment, target: &str) -> BuiltMesh {

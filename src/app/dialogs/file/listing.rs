@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use eframe::egui::Context;
 
-use crate::io::{self, FolderListing, MOST_ENTRIES};
+use meshbrush_io::io::{self, FolderListing, MOST_ENTRIES};
 
 /// How long a frame waits for a folder: most are read by then, and nothing flickers.
 const PATIENCE: Duration = Duration::from_millis(30);

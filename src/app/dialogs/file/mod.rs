@@ -12,9 +12,9 @@ use eframe::egui::Context;
 
 use super::FileRequest;
 use crate::app::busy::Busy;
-use crate::io::{self, FolderEntry};
-use crate::render::export::ExportFormat;
 use listing::{Contents, Listing};
+use meshbrush_io::io::{self, FolderEntry};
+use meshbrush_render::render::export::ExportFormat;
 pub use view::{FileAnswer, FileFacts};
 
 /// The state of the dialog.

@@ -16,8 +16,8 @@ use crate::app::widgets::{
     ActionButton, ButtonKind, FileRow, Icon, TextError, TextRow, ToolButton, bytes_row, dialog, dialog_title,
     dropdown_row, format,
 };
-use crate::io::FolderEntry;
-use crate::render::export::{ExportFormat, Look};
+use meshbrush_io::io::FolderEntry;
+use meshbrush_render::render::export::{ExportFormat, Look};
 
 const WIDTH: f32 = 600.0;
 /// Height of the list.

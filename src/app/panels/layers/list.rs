@@ -9,7 +9,7 @@ use crate::app::frame::FrameState;
 use crate::app::layer_pictures::layer_color32;
 use crate::app::theme::tokens;
 use crate::app::widgets::{LayerRow, LayerRowAnswer};
-use crate::layers::{Layer, LayerId};
+use meshbrush_core::layers::{Layer, LayerId};
 
 /// Rows that are shown at once; more scroll.
 const MOST_ROWS: f32 = 9.5;

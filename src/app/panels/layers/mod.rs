@@ -16,7 +16,7 @@ use crate::app::catalog::{CatalogItem, Menu};
 use crate::app::command::{Command, LayerCommand};
 use crate::app::frame::FrameState;
 use crate::app::widgets::{Icon, Section, SliderRow, ToolButton, toggle_row};
-use crate::document::{Setting, Settings};
+use meshbrush_core::document::{Setting, Settings};
 
 /// The stack, from the top, and the parameters of the selected layer.
 pub static LAYERS: Panel = Panel { name: "layers", only_with_tool: false, show };

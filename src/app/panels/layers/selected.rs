@@ -8,7 +8,7 @@ use crate::app::dialogs::FileRequest;
 use crate::app::frame::FrameState;
 use crate::app::panels::remark;
 use crate::app::widgets::{ActionButton, Section, ValueRow, format, segmented, tips};
-use crate::layers::{Combine, Layer};
+use meshbrush_core::layers::{Combine, Layer};
 
 /// The name of the group of choices.
 const COMBINE: &str = "How the layer combines";

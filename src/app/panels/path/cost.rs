@@ -10,8 +10,8 @@ use crate::app::panels::end_gesture_when_released;
 use crate::app::panels::formula::FormulaRow;
 use crate::app::paths::{CostKind, PathCommand};
 use crate::app::widgets::{NumberRow, SliderRow, segmented};
-use crate::document::PathCost;
-use crate::path::Weights;
+use meshbrush_core::document::PathCost;
+use meshbrush_core::path::Weights;
 
 /// The track of the slider from the shortest path to the safest, and what can be typed there.
 const CAUTION: RangeInclusive<f64> = 0.1..=1000.0;

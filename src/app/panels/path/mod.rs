@@ -13,8 +13,8 @@ use crate::app::frame::FrameState;
 use crate::app::paths::{FoundPath, PathCommand};
 use crate::app::theme::{font, tokens};
 use crate::app::widgets::{Icon, Section, ValueRow, dropdown_row, empty_state, format, plot_view};
-use crate::plot::{Axis, Mark, Plot, Scale, Series};
-use crate::text::percent_above;
+use meshbrush_core::plot::{Axis, Mark, Plot, Scale, Series};
+use meshbrush_mesh::text::percent_above;
 
 pub use others::OTHER_PATHS;
 

@@ -12,9 +12,9 @@ use crate::app::paths::{
 use crate::app::widgets::{
     ActionButton, Section, SliderRow, ValueRow, format, plot_picker, toggle_row, value_row,
 };
-use crate::document::PathCost;
-use crate::path::{FrontPoint, Solution};
-use crate::plot::{Axis, Mark, Plot, Scale, Series};
+use meshbrush_core::document::PathCost;
+use meshbrush_core::path::{FrontPoint, Solution};
+use meshbrush_core::plot::{Axis, Mark, Plot, Scale, Series};
 
 /// As long as there is a path.
 pub static OTHER_PATHS: Panel = Panel { name: "other paths", only_with_tool: false, show };

@@ -5,7 +5,7 @@ use std::ops::Range;
 use eframe::egui::{Align2, Role, Sense, Ui, WidgetInfo, pos2, vec2};
 
 use crate::app::theme::{font, tokens};
-use crate::mesh::Algorithm;
+use meshbrush_mesh::mesh::Algorithm;
 
 /// Height of a line, in points.
 const LINE: f32 = 16.0;

@@ -14,7 +14,7 @@ use crate::app::frame::FrameState;
 use crate::app::stepping::{MOST_TRIANGLES, StepCommand, Stepping};
 use crate::app::theme::{font, metrics, tokens};
 use crate::app::widgets::{ActionButton, Section, ValueRow, format, tips};
-use crate::mesh::{NeighbourCase, Step, StepAction, StepPlayer, bisection_edge_length};
+use meshbrush_mesh::mesh::{NeighbourCase, Step, StepAction, StepPlayer, bisection_edge_length};
 
 /// Width of the panel, in points: a line of pseudo-code fits.
 pub const WIDTH: f32 = 470.0;

@@ -5,7 +5,7 @@ use eframe::egui::{Align2, Color32, Role, Sense, Ui, WidgetInfo, pos2, vec2};
 use crate::app::frame::FrameState;
 use crate::app::theme::{font, tokens};
 use crate::app::widgets::format;
-use crate::mesh::{ReportRow, RowChange, StepPlayer};
+use meshbrush_mesh::mesh::{ReportRow, RowChange, StepPlayer};
 
 /// Height of a row, in points.
 const ROW: f32 = 17.0;

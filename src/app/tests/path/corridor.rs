@@ -9,7 +9,7 @@ use super::super::{choose, entries, move_to, notice, press, release, send, setti
 use super::{GOAL, Window, shown, wait_for_paths, window_with_path};
 use crate::app::command::{Command, LayerCommand};
 use crate::app::paths::PathCommand;
-use crate::layers::{DistanceTo, LayerKind};
+use meshbrush_core::layers::{DistanceTo, LayerKind};
 
 const ADD: &str = "Add layer: corridor along the paths";
 

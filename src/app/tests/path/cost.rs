@@ -8,8 +8,8 @@ use glam::dvec2;
 use super::super::{click, entries, key, send, settings, tips, type_into, wait_until};
 use super::{Window, is_complete, shown, wait_for_paths, window_with_path};
 use crate::app::command::Command;
-use crate::document::PathCost;
-use crate::path::{Solution, Weights};
+use meshbrush_core::document::PathCost;
+use meshbrush_core::path::{Solution, Weights};
 
 fn solution(window: &Window) -> Solution {
     shown(window)[0].found.clone().unwrap().solution

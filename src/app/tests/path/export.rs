@@ -18,8 +18,8 @@ use super::super::{
 use super::{GOAL, shown, wait_for_paths, window_with_path};
 use crate::app::command::Command;
 use crate::app::paths::PathCommand;
-use crate::document::PathCost;
-use crate::path::{Solution, Weights};
+use meshbrush_core::document::PathCost;
+use meshbrush_core::path::{Solution, Weights};
 
 fn solution(window: &Window) -> Solution {
     shown(window)[0].found.as_ref().unwrap().solution.clone()
@@ -80,7 +80,7 @@ fn the_table_is_that_of_the_command_line() {
     let [project, written] = [&project, &there].map(|file| file.to_str().unwrap());
     let files = ["--project", project, "-o", written];
     let typed = [&["meshbrush", "path", "--simplify", "0.01", "--from", &from, "--to", &to][..], &files[..]];
-    assert_eq!(crate::cli::run(typed.concat().into_iter().map(Into::into), None), ExitCode::SUCCESS);
+    assert_eq!(meshbrush_cli::cli::run(typed.concat().into_iter().map(Into::into), None), ExitCode::SUCCESS);
     let table = text(exported(&mut window, &here));
     assert_eq!(table, fs::read_to_string(there).unwrap());
     assert!(table.lines().count() - 1 < solution(&window).points.len(), "points were left out");

@@ -17,10 +17,10 @@ use super::{GOAL, START, shown, wait_for_paths, window_with_path};
 use crate::app::command::{Command, LayerCommand};
 use crate::app::keep_out::KeepOutCommand;
 use crate::app::paths::PathCommand;
-use crate::document::{KeepOut, PathCost, PathPlan, Settings};
-use crate::domain::Domain;
-use crate::layers::Mask;
-use crate::path::Weights;
+use meshbrush_core::document::{KeepOut, PathCost, PathPlan, Settings};
+use meshbrush_core::domain::Domain;
+use meshbrush_core::layers::Mask;
+use meshbrush_core::path::Weights;
 
 /// A wall between start and goal, open above.
 const WALL: [DVec2; 4] = [dvec2(0.45, -0.1), dvec2(0.6, -0.1), dvec2(0.6, 0.95), dvec2(0.45, 0.95)];

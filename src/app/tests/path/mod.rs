@@ -19,7 +19,7 @@ use super::{
 use crate::app::command::Command;
 use crate::app::paths::{PathCommand, ShownPath};
 use crate::app::tools::PATH;
-use crate::document::{Example, Setting};
+use meshbrush_core::document::{Example, Setting};
 
 const START: DVec2 = dvec2(0.05, 0.1);
 const GOAL: DVec2 = dvec2(0.95, 0.9);

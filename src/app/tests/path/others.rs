@@ -11,7 +11,7 @@ use super::super::{RESTING_PLACE, key, press_at, release_at, send, settings, tip
 use super::{Window, shown, wait_for_paths, window_with_path};
 use crate::app::command::Command;
 use crate::app::paths::{AlternativesCommand, FrontCommand, PathCommand, PathFinder};
-use crate::document::PathCost;
+use meshbrush_core::document::PathCost;
 
 fn paths(window: &Window) -> &PathFinder {
     window.state().paths()

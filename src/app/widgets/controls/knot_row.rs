@@ -9,7 +9,7 @@ use super::number_input::NumberInput;
 use super::tool_button::ToolButton;
 use super::{Icon, format, paint};
 use crate::app::theme::metrics;
-use crate::text::LengthUnit;
+use meshbrush_mesh::text::LengthUnit;
 
 /// Width of the name.
 const NAME: f32 = 56.0;

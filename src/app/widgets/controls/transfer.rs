@@ -15,7 +15,7 @@ use super::transfer_plot::{Axis, Plot, area_under};
 use super::{format, paint};
 use crate::app::theme::{font, metrics, tokens};
 use crate::app::widgets::tips;
-use crate::text::LengthUnit;
+use meshbrush_mesh::text::LengthUnit;
 
 /// Height of the plot; the numbers are in a row below it.
 const HEIGHT: f32 = 104.0;

@@ -6,7 +6,7 @@ use eframe::egui::{
 
 use super::{format, paint};
 use crate::app::theme::{font, tokens};
-use crate::text::LengthUnit;
+use meshbrush_mesh::text::LengthUnit;
 
 /// Height of a row where all fit.
 const ROW: f32 = 18.0;

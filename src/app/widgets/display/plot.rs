@@ -10,7 +10,7 @@ use egui_plot::{
 
 use super::paint;
 use crate::app::theme::{Tokens, font, tokens};
-use crate::plot::{Axis, AxisRange, Mark, Plot, Series, Tick};
+use meshbrush_core::plot::{Axis, AxisRange, Mark, Plot, Series, Tick};
 
 /// Room for a number along each axis, in points.
 const TICK_ROOM: Vec2 = vec2(46.0, 28.0);

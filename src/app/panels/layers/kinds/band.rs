@@ -8,7 +8,7 @@ use crate::app::command::{Command, LayerCommand};
 use crate::app::dialogs::FileRequest;
 use crate::app::frame::FrameState;
 use crate::app::widgets::{Icon, NumberRow};
-use crate::layers::{Layer, LayerKind};
+use meshbrush_core::layers::{Layer, LayerKind};
 
 /// A band of the values of a raster.
 pub const BAND: KindPanel = KindPanel {

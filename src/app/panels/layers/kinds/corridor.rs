@@ -8,7 +8,7 @@ use crate::app::command::{Command, LayerCommand};
 use crate::app::frame::FrameState;
 use crate::app::panels::{button_rows, remark};
 use crate::app::widgets::{Icon, NumberRow};
-use crate::layers::{DistanceTo, Layer, LayerKind};
+use meshbrush_core::layers::{DistanceTo, Layer, LayerKind};
 
 /// A strip along the paths as they were when they were taken.
 pub const CORRIDOR: KindPanel = KindPanel {

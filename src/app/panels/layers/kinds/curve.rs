@@ -6,8 +6,8 @@ use eframe::egui::Ui;
 
 use crate::app::panels::remark;
 use crate::app::widgets::{ActionButton, KnotAnswer, KnotRow};
-use crate::layers::ValueCurve;
-use crate::text::LengthUnit;
+use meshbrush_core::layers::ValueCurve;
+use meshbrush_mesh::text::LengthUnit;
 
 /// Shows the knots of a curve. Returns the curve once it was changed.
 pub fn curve_rows(ui: &mut Ui, curve: &ValueCurve, unit: LengthUnit) -> Option<ValueCurve> {

@@ -7,8 +7,8 @@ use crate::app::command::{Command, LayerCommand};
 use crate::app::dialogs::FileRequest;
 use crate::app::frame::FrameState;
 use crate::app::widgets::{ActionButton, Icon, NumberRow, ValueRow, toggle_row};
-use crate::document::Settings;
-use crate::layers::{DistanceTo, Layer, LayerKind};
+use meshbrush_core::document::Settings;
+use meshbrush_core::layers::{DistanceTo, Layer, LayerKind};
 
 /// The distance to shapes or to the outline of the domain.
 pub const DISTANCE: KindPanel = KindPanel {

@@ -7,8 +7,8 @@ use crate::app::command::Command;
 use crate::app::frame::FrameState;
 use crate::app::panels::formula::FormulaRow;
 use crate::app::widgets::{Icon, NumberRow, segmented};
-use crate::field::Formula;
-use crate::layers::{Layer, LayerKind, Quantity};
+use meshbrush_core::field::Formula;
+use meshbrush_core::layers::{Layer, LayerKind, Quantity};
 
 /// A formula in x and y.
 pub const FORMULA: KindPanel = KindPanel {

@@ -14,7 +14,7 @@ use eframe::egui::Ui;
 use crate::app::command::{Command, LayerCommand};
 use crate::app::frame::FrameState;
 use crate::app::widgets::Icon;
-use crate::layers::{Layer, LayerKind, Quantity};
+use meshbrush_core::layers::{Layer, LayerKind, Quantity};
 
 /// What the window knows of a kind of layer.
 pub struct KindPanel {

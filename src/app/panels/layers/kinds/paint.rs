@@ -6,8 +6,8 @@ use super::{Addition, KindPanel, add, quantity_name};
 use crate::app::command::{Command, LayerCommand};
 use crate::app::frame::FrameState;
 use crate::app::widgets::{ActionButton, Icon, ValueRow};
-use crate::layers::{Layer, LayerKind, Quantity};
-use crate::text::Bytes;
+use meshbrush_core::layers::{Layer, LayerKind, Quantity};
+use meshbrush_mesh::text::Bytes;
 
 /// Painted risk and painted diameters.
 pub const PAINT: KindPanel = KindPanel {

@@ -10,9 +10,9 @@ use crate::app::command::Command;
 use crate::app::dialogs::FileRequest;
 use crate::app::frame::FrameState;
 use crate::app::widgets::{Icon, ValueRow, format, segmented};
-use crate::field::Transfer;
-use crate::io;
-use crate::layers::{Layer, LayerKind, RasterReading, RasterSource, ValueCurve};
+use meshbrush_core::field::Transfer;
+use meshbrush_core::layers::{Layer, LayerKind, RasterReading, RasterSource, ValueCurve};
+use meshbrush_io::io;
 
 /// A picture or a grid.
 pub const RASTER: KindPanel = KindPanel {

@@ -8,7 +8,7 @@ use crate::app::dialogs::FileRequest;
 use crate::app::frame::FrameState;
 use crate::app::panels::button_rows;
 use crate::app::widgets::{Icon, NumberRow, ValueRow, format, segmented};
-use crate::layers::{Layer, LayerKind, Threat, ThreatLaw, Threats};
+use meshbrush_core::layers::{Layer, LayerKind, Threat, ThreatLaw, Threats};
 
 /// Places with a risk around them.
 pub const THREATS: KindPanel = KindPanel {

@@ -1,0 +1,186 @@
+//! Builds the mesh of a request, with progress on the terminal.
+
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use glam::DVec2;
+
+use super::failure::Failure;
+use super::request::MeshRequest;
+use super::sources::{ToMesh, read};
+use super::terminal::Terminal;
+use meshbrush_core::build::{BuildStage, BuiltMesh, MeshBuilder, RefinementCriterion};
+use meshbrush_core::domain::{BoundaryMarks, Domain, MeshBoundary, Region};
+use meshbrush_core::explain::Explanation;
+use meshbrush_core::field::RefinementRule;
+use meshbrush_core::layers::{Layer, NODES_AT_A_TIME, PaintLayers, RiskField};
+use meshbrush_core::outline::DerivedMesh;
+use meshbrush_io::io::Meter;
+use meshbrush_mesh::mesh::{
+    CoarseError, Extract, InvalidTarget, Limits, Mesh, Progress, TreeTriangle, TriangleId,
+};
+use meshbrush_mesh::text::{Grouped, LengthUnit};
+
+/// Triangles visited between two updates of the progress line.
+const SLICE: usize = 1 << 18;
+
+/// A mesh that was asked for, and how it was made.
+pub struct FinishedMesh {
+    built: BuiltMesh,
+    /// What differs from the mesh in files.
+    pub derived: DerivedMesh,
+    /// What is painted on the layers.
+    paint: PaintLayers,
+    limits: Limits,
+    domain: Domain,
+    marks: Arc<BoundaryMarks>,
+    /// The unit of coordinates and lengths.
+    pub unit: LengthUnit,
+    /// Time spent on refinement alone.
+    pub refinement: Duration,
+    /// Triangles that the level cap left coarser than their target.
+    pub capped: usize,
+}
+
+impl FinishedMesh {
+    /// The mesh.
+    pub fn mesh(&self) -> &Mesh {
+        &self.built.mesh
+    }
+
+    /// The mesh as files get it.
+    pub fn extract(&self) -> Extract<'_> {
+        self.derived.extract(self.mesh())
+    }
+
+    /// The polygons of the domain, if it has some.
+    pub fn region(&self) -> Option<&Region> {
+        self.domain.region().map(|region| &**region)
+    }
+
+    /// The boundary of the mesh as files get it, in named pieces.
+    pub fn boundary(&self, extract: &Extract) -> MeshBoundary {
+        MeshBoundary::new(extract, &self.domain, &self.marks)
+    }
+
+    /// Names and splits of the boundary that are not on it, a sentence each.
+    pub fn misplaced_marks(&self, boundary: &MeshBoundary) -> Vec<String> {
+        let pieces = boundary.pieces();
+        let is_off = |place: &DVec2| pieces.nearest(*place, pieces.tolerance()).is_none();
+        let names = self.marks.names.iter().filter(|(place, _)| is_off(place)).map(|(place, name)| {
+            format!("The name “{name}” at {}, {} is not on the boundary: it names nothing.", place.x, place.y)
+        });
+        let splits = self.marks.splits.iter().filter(|place| is_off(place)).map(|place| {
+            format!("The split at {}, {} is not on the boundary: it splits nothing.", place.x, place.y)
+        });
+        names.chain(splits).collect()
+    }
+
+    /// Which points of a triangle count.
+    pub fn rule(&self) -> RefinementRule {
+        self.built.rule
+    }
+
+    /// h̄ at a point of the domain, both in world units, as the rule sees it. Where it is impossible, the
+    /// impossible value.
+    pub fn target_at(&self, point: DVec2) -> f64 {
+        self.built.field.target_by_rule(self.built.rule, &self.paint, point)
+    }
+
+    /// h̄ at every node, in world units.
+    pub fn target_at_nodes(&self, extract: &Extract, terminal: &mut Terminal) -> Vec<f64> {
+        let BuiltMesh { field, rule, .. } = &self.built;
+        let meter = Meter::default();
+        meter.expect(extract.nodes().len() as u64);
+        let count = || meter.add(NODES_AT_A_TIME);
+        let targets = terminal.while_metered("target diameters at nodes", &meter, || {
+            field.targets_at_nodes(*rule, &self.paint, extract, count)
+        });
+        targets.expect("nobody cancels this meter")
+    }
+
+    /// The risk of the layers.
+    pub fn risk(&self) -> RiskField {
+        RiskField::new(self.layers(), &self.paint)
+    }
+
+    /// The domain, in world units.
+    pub fn domain(&self) -> &Domain {
+        &self.domain
+    }
+
+    /// Why a triangle is in the mesh.
+    pub fn explanation(&self, id: TriangleId) -> Explanation {
+        let BuiltMesh { domain, field, rule, mesh, .. } = &self.built;
+        let criterion = RefinementCriterion::new(domain, field, *rule, Some(&self.paint));
+        Explanation::new(mesh, TreeTriangle::of(mesh, id), &criterion, &self.limits)
+    }
+
+    /// The layers of the size field, from the bottom to the top.
+    pub fn layers(&self) -> &[Layer] {
+        &self.built.field.spec().layers
+    }
+
+    /// The triangles whose diameter exceeds their target.
+    ///
+    /// # Errors
+    /// When a target is impossible.
+    pub fn unsatisfied(&self) -> Result<Vec<TriangleId>, InvalidTarget> {
+        self.built.unsatisfied(Some(&self.paint))
+    }
+}
+
+/// Reads what the request names, and builds the mesh.
+///
+/// # Errors
+/// When a file is of no use, the target is impossible somewhere, or a limit is reached.
+pub fn build(request: &MeshRequest, terminal: &mut Terminal) -> Result<FinishedMesh, Failure> {
+    build_from(read(request, terminal)?, terminal)
+}
+
+/// Builds the mesh of what was read.
+///
+/// # Errors
+/// When the target is impossible somewhere, or a limit is reached.
+pub fn build_from(read: ToMesh, terminal: &mut Terminal) -> Result<FinishedMesh, Failure> {
+    let ToMesh { spec, paint, marks, unit, .. } = read;
+    let (cleaning, limits, domain) = (spec.cleaning, spec.limits, spec.domain.clone());
+    let mut builder = MeshBuilder::new(spec);
+    let refinement = run(&mut builder, &paint, terminal);
+    terminal.clear();
+    let (refinement, capped) = (refinement?, builder.capped());
+    let built = builder.finish();
+    let derive = || DerivedMesh::new(&built.mesh, &built.domain, &cleaning);
+    let derived = terminal.while_working("fitting the mesh to its domain", derive);
+    if derived.patch().leaves_nothing_of(&built.mesh) {
+        return Err(CoarseError::EmptyDomain { spacing: built.mesh.lattice().spacing() }.into());
+    }
+    Ok(FinishedMesh { built, derived, paint, limits, domain, marks, unit, refinement, capped })
+}
+
+/// Builds in slices. Returns the time spent on refinement.
+fn run(builder: &mut MeshBuilder, paint: &PaintLayers, terminal: &mut Terminal) -> Result<Duration, Failure> {
+    let start = Instant::now();
+    let mut refinement = Duration::ZERO;
+    loop {
+        let (stage, slice_start) = (builder.stage(), Instant::now());
+        let progress = builder.advance(Some(paint), SLICE)?;
+        if matches!(stage, BuildStage::Refining { .. }) {
+            refinement += slice_start.elapsed();
+        }
+        if progress == Progress::Done {
+            return Ok(refinement);
+        }
+        terminal.progress(start, || describe(builder.stage()));
+    }
+}
+
+fn describe(stage: BuildStage) -> String {
+    match stage {
+        BuildStage::Indexing => "indexing the outline".into(),
+        BuildStage::Checking => "checking the layers".into(),
+        BuildStage::Refining { triangles } | BuildStage::Classifying { triangles } => {
+            format!("{} triangles", Grouped(triangles))
+        }
+    }
+}

@@ -1,0 +1,136 @@
+//! What files and the JSON summary say about a mesh besides its triangles.
+
+use serde::Serialize;
+
+use super::build::FinishedMesh;
+use super::request::MeshRequest;
+use meshbrush_core::domain::{HoleFigures, MeshBoundary, PieceFigures};
+use meshbrush_io::io::{MeshSource, Provenance};
+use meshbrush_mesh::mesh::Extract;
+
+/// The boundary in named pieces, the parts, and where the mesh comes from.
+pub struct MeshDetails {
+    /// The pieces, and the piece of each boundary edge.
+    pub boundary: MeshBoundary,
+    /// For each triangle the number of its part, from the largest.
+    pub parts: Vec<u32>,
+    /// Where the mesh comes from.
+    pub provenance: Provenance,
+}
+
+impl MeshDetails {
+    /// Those of a mesh as files get it, which the command `line` asked for.
+    pub fn of(finished: &FinishedMesh, extract: &Extract, line: &str, request: &MeshRequest) -> Self {
+        let coordinates = match request.mesh.region.as_ref().or(request.project.as_ref()) {
+            Some(file) => format!("x, y as in {}", file.display()),
+            None => "x, y".to_owned(),
+        };
+        let fingerprint = finished.mesh().fingerprint();
+        let provenance = Provenance::new(MeshSource::Command(line), fingerprint, &coordinates);
+        let provenance = provenance.with_unit(finished.unit);
+        Self { boundary: finished.boundary(extract), parts: extract.part_numbers(), provenance }
+    }
+
+    /// The number of triangles of each part.
+    pub fn part_triangles(&self) -> Vec<usize> {
+        let mut counts = Vec::new();
+        for &part in &self.parts {
+            let part = part as usize;
+            counts.resize(counts.len().max(part + 1), 0);
+            counts[part] += 1;
+        }
+        counts
+    }
+}
+
+/// A piece of the boundary of which the mesh has edges.
+#[derive(Clone, Debug, Serialize)]
+pub struct PieceSummary {
+    /// Its number among all pieces of the domain's boundary. Markers in files are one higher.
+    pub id: usize,
+    /// Its name, which no other piece has.
+    pub name: String,
+    /// "open", "mainland" or "island".
+    pub kind: &'static str,
+    /// Edges of the mesh.
+    pub edges: usize,
+    /// Their length in world units.
+    pub length: f64,
+}
+
+impl PieceSummary {
+    /// Those of the pieces of which the mesh has edges, by number.
+    pub fn of_present(boundary: &MeshBoundary) -> Vec<Self> {
+        let summary = |id: usize| {
+            let (piece, figures) = (&boundary.pieces().list()[id], boundary.figures()[id]);
+            let PieceFigures { edges, length } = figures;
+            Self { id, name: piece.name.clone(), kind: piece.kind.name(), edges, length }
+        };
+        boundary.present().map(summary).collect()
+    }
+}
+
+/// A piece of the domain's boundary of which the mesh has no edge.
+#[derive(Clone, Debug, Serialize)]
+pub struct LostPiece {
+    /// Its number among all pieces.
+    pub id: usize,
+    /// Its name.
+    pub name: String,
+    /// "open", "mainland" or "island".
+    pub kind: &'static str,
+    /// The point halfway along it.
+    pub place: [f64; 2],
+}
+
+impl LostPiece {
+    /// Those of a mesh, by number.
+    pub fn all(boundary: &MeshBoundary) -> Vec<Self> {
+        let lost = |id: usize| {
+            let piece = &boundary.pieces().list()[id];
+            let (name, kind) = (piece.name.clone(), piece.kind.name());
+            Self { id, name, kind, place: piece.middle().into() }
+        };
+        boundary.lost().map(lost).collect()
+    }
+}
+
+/// A hole of the polygons that lies wholly under triangles.
+#[derive(Clone, Debug, Serialize)]
+pub struct LostIsland {
+    /// One of its corners.
+    pub place: [f64; 2],
+    /// Its area in square world units.
+    pub area: f64,
+    /// Its name.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub name: Option<String>,
+}
+
+impl LostIsland {
+    /// The island with its name, where the pieces of the boundary are known.
+    pub fn new(island: HoleFigures, boundary: Option<&MeshBoundary>) -> Self {
+        let HoleFigures { place, area } = island;
+        let pieces = boundary.map(MeshBoundary::pieces);
+        let name = pieces.and_then(|pieces| {
+            let (piece, _) = pieces.nearest(place, pieces.tolerance())?;
+            Some(pieces.list()[piece].name.clone())
+        });
+        Self { place: place.into(), area, name }
+    }
+}
+
+/// A hole of the mesh that the polygons do not have.
+#[derive(Clone, Debug, Serialize)]
+pub struct NewHole {
+    /// A point in it.
+    pub place: [f64; 2],
+    /// Its area in square world units.
+    pub area: f64,
+}
+
+impl From<HoleFigures> for NewHole {
+    fn from(HoleFigures { place, area }: HoleFigures) -> Self {
+        Self { place: place.into(), area }
+    }
+}

@@ -1,0 +1,79 @@
+//! `meshbrush locate`: build, then answer where each point lies.
+
+use std::io::{self, BufWriter, Write};
+use std::path::Path;
+
+use glam::DVec2;
+
+use super::args::LocateArguments;
+use super::build::{FinishedMesh, build};
+use super::failure::Failure;
+use super::mesh::note_capped;
+use super::output::{check_place, is_standard_stream};
+use super::request::{MeshRequest, parse_formula};
+use super::terminal::Terminal;
+use meshbrush_core::field::Formula;
+use meshbrush_io::io::located::LocatedIn;
+use meshbrush_io::io::{Interruption, points, write_file_metered};
+use meshbrush_mesh::mesh::Extract;
+
+/// Runs the command. `out` is standard output.
+///
+/// # Errors
+/// With the reason, when the arguments make no sense or the work failed.
+pub fn run(typed: &LocateArguments, out: &mut dyn Write, terminal: &mut Terminal) -> Result<(), Failure> {
+    let request = MeshRequest::new(&typed.input)?;
+    let quantity = typed.quantity.as_deref().map(|text| parse_formula("--quantity", text)).transpose()?;
+    let output = typed.output.as_ref().filter(|path| !is_standard_stream(path));
+    if let Some(path) = output {
+        let inputs = [request.input_files(), vec![typed.points.clone()]].concat();
+        check_place(path, &inputs)?;
+    }
+    request.options_without_effect(&typed.input).iter().for_each(|note| terminal.note(note));
+    let points = read_points(&typed.points, &request)?;
+    let finished = build(&request, terminal)?;
+    note_capped(&finished, terminal);
+    let extract = finished.extract();
+    let answers = Answers { finished: &finished, extract, quantity: quantity.as_ref() };
+    let Some(path) = output else {
+        let mut out = BufWriter::new(out);
+        return answers.write(&points, &mut out).and_then(|()| out.flush()).map_err(Failure::Print);
+    };
+    let interruption = Interruption::listen().map_err(|error| Failure::Work(format!("{error}.")))?;
+    let meter = interruption.meter();
+    let written = terminal.while_metered(&format!("writing {}", path.display()), &meter, || {
+        write_file_metered(path, &meter, |out| answers.write(&points, &mut meter.count(out)))
+    });
+    interruption.end_program();
+    written.map_err(|error| Failure::Write { file: path.clone(), problem: error.to_string() })
+}
+
+fn read_points(path: &Path, request: &MeshRequest) -> Result<Vec<DVec2>, Failure> {
+    if !is_standard_stream(path) {
+        return Ok(points::read(path)?);
+    }
+    if request.mesh.region.as_deref().is_some_and(is_standard_stream) {
+        let problem = "--region - and --points - both read standard input";
+        return Err(Failure::Usage(format!("{problem}. Name a file for one of them.")));
+    }
+    Ok(points::read_from(io::stdin().lock(), Path::new("standard input"))?)
+}
+
+/// What the answers are computed from.
+struct Answers<'a> {
+    finished: &'a FinishedMesh,
+    extract: Extract<'a>,
+    /// What to interpolate instead of h̄.
+    quantity: Option<&'a Formula>,
+}
+
+impl Answers<'_> {
+    fn write(&self, points: &[DVec2], out: &mut dyn Write) -> io::Result<()> {
+        let value_at = |node: DVec2| match self.quantity {
+            Some(formula) => formula.eval(node.x, node.y),
+            None => self.finished.target_at(node),
+        };
+        let (mesh, patch) = (self.finished.mesh(), self.finished.derived.patch());
+        LocatedIn { mesh, patch, extract: &self.extract, value_at: &value_at }.write(points, out)
+    }
+}

@@ -1,0 +1,159 @@
+//! `meshbrush mesh`: build, check, write, summarise.
+
+use std::io::Write;
+
+use super::args::MeshArguments;
+use super::build::{FinishedMesh, build};
+use super::details::MeshDetails;
+use super::failure::Failure;
+use super::output::Output;
+use super::request::MeshRequest;
+use super::requested_files::{RequestedFiles, write_files};
+use super::summary::Summary;
+use super::terminal::Terminal;
+use meshbrush_mesh::mesh::{Extract, TriangleId};
+use meshbrush_mesh::text::Grouped;
+
+/// How many broken invariants are printed one by one; the rest are counted.
+const SHOWN_VIOLATIONS: usize = 20;
+
+/// Runs the command. `line` is how it was typed, and `out` is standard output.
+///
+/// # Errors
+/// With the reason, when the arguments make no sense or the work failed.
+pub fn run(
+    typed: &MeshArguments,
+    line: &str,
+    out: &mut dyn Write,
+    terminal: &mut Terminal,
+) -> Result<(), Failure> {
+    let request = MeshRequest::new(&typed.input)?;
+    let by_options = RequestedFiles::of_options(typed)?;
+    let outputs = &by_options.outputs;
+    check_stdout(typed, outputs)?;
+    note_without_effect(typed, &request, outputs, terminal);
+    let mut files = request.recipe.as_ref().map(RequestedFiles::of_recipe).transpose()?.unwrap_or_default();
+    files.push(by_options);
+    let inputs = request.input_files();
+    let mut outputs = files.iter().flat_map(|files| &files.outputs);
+    outputs.try_for_each(|output| output.check_places(&inputs))?;
+    let finished = build(&request, terminal)?;
+    let extract = finished.extract();
+    let violations = match typed.checks {
+        true => Some(report_violations(&finished, &extract, request.mesh.max_level, terminal)?),
+        false => None,
+    };
+    let writes = files.iter().any(|files| !files.outputs.is_empty());
+    let wants_details = typed.json || writes;
+    let (details, summary) = terminal.while_working("measuring the mesh", || {
+        let details = wants_details.then(|| MeshDetails::of(&finished, &extract, line, &request));
+        let summary = Summary::of(&finished, &extract, details.as_ref(), violations);
+        (details, summary)
+    });
+    if !typed.json {
+        terminal.say(&summary.for_people());
+    }
+    note_capped(&finished, terminal);
+    note_misplaced_marks(&request, &finished, &extract, terminal);
+    if let Some(details) = &details {
+        write_files(&files, &finished, &extract, details, terminal)?;
+    }
+    if typed.json {
+        let json = serde_json::to_string(&summary).map_err(|e| Failure::Print(e.into()))?;
+        writeln!(out, "{json}").and_then(|()| out.flush()).map_err(Failure::Print)?;
+    }
+    match violations {
+        Some(broken) if broken > 0 => Err(Failure::Work(format!(
+            "The mesh breaks {} rules. Please report this, with the command.",
+            Grouped(broken)
+        ))),
+        _ => Ok(()),
+    }
+}
+
+/// Tells the user when triangles are coarser than asked for, because of the level cap.
+pub fn note_capped(finished: &FinishedMesh, terminal: &mut Terminal) {
+    if finished.capped > 0 {
+        let count = Grouped(finished.capped);
+        terminal.note(&format!("--max-level left {count} triangles coarser than their target."));
+    }
+}
+
+/// Tells the user about names and splits of a recipe that are not on the boundary.
+fn note_misplaced_marks(
+    request: &MeshRequest,
+    finished: &FinishedMesh,
+    extract: &Extract,
+    terminal: &mut Terminal,
+) {
+    if request.mesh.marks.is_some() {
+        let notes = finished.misplaced_marks(&finished.boundary(extract));
+        notes.iter().for_each(|note| terminal.note(note));
+    }
+}
+
+/// Checks every invariant, prints the violations, and returns their number.
+fn report_violations(
+    finished: &FinishedMesh,
+    extract: &Extract,
+    max_level: Option<u32>,
+    terminal: &mut Terminal,
+) -> Result<usize, Failure> {
+    let mesh = finished.mesh();
+    // Triangles at the level cap count as satisfied.
+    let below_cap = |id: &TriangleId| max_level.is_none_or(|cap| mesh.triangle(*id).level() < cap);
+    let (broken, unsatisfied, in_derived) = terminal.while_working("checking the mesh", || {
+        (mesh.violations(), finished.unsatisfied(), finished.derived.violations(extract))
+    });
+    for violation in broken.iter().take(SHOWN_VIOLATIONS) {
+        terminal.say(&format!("check: {violation}"));
+    }
+    let too_coarse = unsatisfied?.iter().filter(|id| below_cap(id)).count();
+    if too_coarse > 0 {
+        let count = Grouped(too_coarse);
+        terminal.say(&format!("check: {count} triangles exceed their target diameter (Eq. 14)"));
+    }
+    for violation in in_derived.iter().take(SHOWN_VIOLATIONS) {
+        terminal.say(&format!("check: {violation}"));
+    }
+    let count = broken.len() + in_derived.len() + too_coarse;
+    if count == 0 {
+        terminal.say("check: every invariant of the mesh holds");
+    }
+    Ok(count)
+}
+
+/// Names the options that change nothing.
+fn note_without_effect(
+    typed: &MeshArguments,
+    request: &MeshRequest,
+    outputs: &[Output],
+    terminal: &mut Terminal,
+) {
+    let mut notes = request.options_without_effect(&typed.input);
+    if !typed.quantity.is_empty() && !outputs.iter().any(Output::wants_node_data) {
+        notes.push("--quantity changes nothing: no file with data is written (-o).".into());
+    }
+    if typed.format.is_some() && !outputs.iter().any(Output::is_stdout) {
+        notes.push("--format changes nothing without -o -: the ending of a file chooses its format.".into());
+    }
+    if typed.binary && !outputs.iter().any(Output::is_binary) {
+        notes.push(
+            "--binary changes nothing: no .msh is written (-o), and other formats have one form.".into(),
+        );
+    }
+    if typed.picture.differs_from_default() && !outputs.iter().any(Output::is_picture) {
+        notes.push("The options on pictures change nothing: no .svg or .png is written (-o).".into());
+    }
+    notes.iter().for_each(|note| terminal.note(note));
+}
+
+/// Standard output is for one result.
+fn check_stdout(typed: &MeshArguments, outputs: &[Output]) -> Result<(), Failure> {
+    let results = outputs.iter().filter(|output| output.is_stdout()).count() + usize::from(typed.json);
+    if results > 1 {
+        let problem = "-o - and --json both print on standard output, and -o - can be there once";
+        return Err(Failure::Usage(format!("{problem}. Write all but one to files.")));
+    }
+    Ok(())
+}

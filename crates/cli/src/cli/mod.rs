@@ -1,0 +1,132 @@
+//! The command line: arguments as typed (`args`), the request that they make (`request`), running it.
+//!
+//! Results go to standard output, everything else to standard error. Exit status 0: done; 1: the work failed,
+//! with a sentence; 2: wrong usage.
+
+mod args;
+mod build;
+mod command_line;
+mod details;
+mod failure;
+mod layer_options;
+mod locate;
+mod mesh;
+mod more_args;
+mod output;
+mod path;
+mod path_args;
+mod quantities;
+mod recipe;
+mod replay;
+mod report;
+mod request;
+mod requested_files;
+mod sources;
+mod summary;
+mod terminal;
+mod why;
+
+use std::ffi::OsString;
+use std::io::{self, Write};
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use clap::CommandFactory;
+
+use args::{Arguments, Command};
+use command_line::command_line;
+use failure::Failure;
+use terminal::Terminal;
+
+/// What the command line can ask of the window. Errors are sentences.
+pub struct Window {
+    /// Opens it, on a file or the first example, and returns when it is closed.
+    pub open: fn(Option<PathBuf>) -> Result<(), String>,
+    /// Writes pictures of it into a folder, without a display, and returns the files.
+    pub write_screenshots: fn(&Path) -> Result<Vec<PathBuf>, String>,
+    /// Writes the pictures of the manual likewise.
+    pub write_manual_pictures: fn(&Path) -> Result<Vec<PathBuf>, String>,
+    /// Writes pictures of the steps of a first session likewise.
+    pub write_tour: fn(&Path) -> Result<Vec<PathBuf>, String>,
+}
+
+/// Runs the program. `arguments` begin with its name; `window` is `None` in a build without one.
+pub fn run(arguments: impl IntoIterator<Item = OsString>, window: Option<Window>) -> ExitCode {
+    let typed: Vec<OsString> = arguments.into_iter().collect();
+    let arguments = match Arguments::read(&typed) {
+        Ok(arguments) => arguments,
+        Err(answer) => {
+            // Help and version too come as an "error", with status 0. A closed pipe is no error.
+            let _ = answer.print();
+            return ExitCode::from(answer.exit_code() as u8);
+        }
+    };
+    if let Some(threads) = arguments.threads {
+        limit_threads(threads);
+    }
+    let mut terminal = Terminal::new();
+    match run_command(arguments, &command_line(&typed), window, &mut terminal) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) if failure.is_closed_pipe() => ExitCode::SUCCESS,
+        Err(failure) => {
+            terminal.say(&format!("meshbrush: {failure}"));
+            ExitCode::from(failure.exit_status())
+        }
+    }
+}
+
+/// Limits the threads that refine meshes, for the whole process.
+fn limit_threads(threads: NonZeroUsize) {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.get());
+    // It fails where threads were started before: only tests run two commands in one process.
+    let _ = pool.build_global();
+}
+
+/// Runs a command; `line` is how it was typed.
+fn run_command(
+    arguments: Arguments,
+    line: &str,
+    window: Option<Window>,
+    terminal: &mut Terminal,
+) -> Result<(), Failure> {
+    let mut out = io::stdout().lock();
+    match (arguments.command, window) {
+        (Some(Command::Mesh(typed)), _) => mesh::run(&typed, line, &mut out, terminal),
+        (Some(Command::Locate(typed)), _) => locate::run(&typed, &mut out, terminal),
+        (Some(Command::Why(typed)), _) => why::run(&typed, &mut out, terminal),
+        (Some(Command::Path(typed)), _) => path::run(&typed, line, &mut out, terminal),
+        (Some(Command::Replay(typed)), _) => replay::run(&typed, &mut out, terminal),
+        (Some(Command::Report(typed)), _) => report::run(&typed, &mut out, terminal),
+        (Some(Command::Recipe(typed)), _) => recipe::write(&typed, terminal),
+        (Some(Command::Completions(typed)), _) => {
+            let mut script = Vec::new();
+            clap_complete::generate(typed.shell, &mut Arguments::command(), "meshbrush", &mut script);
+            out.write_all(&script).and_then(|()| out.flush()).map_err(Failure::Print)
+        }
+        (Some(Command::Screenshots(typed)), window) => {
+            let Some(window) = window else { return Err(without_window()) };
+            let write = match (typed.manual, typed.tour) {
+                (true, _) => window.write_manual_pictures,
+                (_, true) => window.write_tour,
+                _ => window.write_screenshots,
+            };
+            for file in write(&typed.folder).map_err(Failure::Work)? {
+                terminal.say(&file.display().to_string());
+            }
+            Ok(())
+        }
+        (None, Some(window)) => {
+            drop(out);
+            (window.open)(arguments.file).map_err(Failure::Work)
+        }
+        (None, None) => Err(without_window()),
+    }
+}
+
+fn without_window() -> Failure {
+    let problem = "This meshbrush was built without its window (feature `gui`). Its commands are `mesh`,";
+    Failure::Usage(format!(
+        "{problem} `locate`, `why`, `path`, `recipe`, `replay` and `report`; `meshbrush --help` lists them."
+    ))
+}

@@ -1,0 +1,207 @@
+//! Output files: checks before the work, and the look of pictures.
+
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+use std::str::FromStr;
+
+use super::args::{PICTURE_COLORMAP, PICTURE_SIZE, PictureArguments};
+use super::failure::Failure;
+use meshbrush_io::io::layers::KeyFault;
+use meshbrush_io::io::recipe::SavedOutput;
+use meshbrush_io::io::{MeshData, Meter, obstacle};
+use meshbrush_mesh::mesh::{Extract, Mesh};
+use meshbrush_mesh::text::Grouped;
+use meshbrush_render::colormap::{Colormap, Ground, LevelColors};
+use meshbrush_render::render::export::{ExportFormat, LARGEST_PICTURE, Look};
+
+/// A file to be written, or standard output.
+#[derive(Debug)]
+pub struct Output {
+    /// `None` for standard output.
+    path: Option<PathBuf>,
+    format: ExportFormat,
+    /// Whether it is the binary form of a format that is text otherwise.
+    is_binary: bool,
+}
+
+impl Output {
+    /// A file, whose extension decides the format; or `-`, standard output, in the format of the extension
+    /// `stdout_format`. A format that has a binary form takes it where `is_binary`.
+    ///
+    /// # Errors
+    /// When the extension is unknown, or no format is given for standard output.
+    pub fn new(path: &Path, stdout_format: Option<&str>, is_binary: bool) -> Result<Self, Failure> {
+        let mut output = Self::in_usual_form(path, stdout_format)?;
+        if let (true, Some(binary)) = (is_binary, output.format.binary()) {
+            (output.format, output.is_binary) = (binary, true);
+        }
+        Ok(output)
+    }
+
+    fn in_usual_form(path: &Path, stdout_format: Option<&str>) -> Result<Self, Failure> {
+        if !is_standard_stream(path) {
+            let format = ExportFormat::of(path).map_err(|error| Failure::Usage(format!("-o {error}")))?;
+            return Ok(Self { path: Some(path.to_owned()), format, is_binary: false });
+        }
+        let Some(ending) = stdout_format else {
+            let problem = "-o -: standard output has no ending that chooses a format; name one with --format";
+            return Err(Failure::Usage(format!("{problem}, as in --format vtu.")));
+        };
+        let file = PathBuf::from(format!("stdout.{}", ending.trim_start_matches('.')));
+        let format = ExportFormat::of(&file).map_err(|_| {
+            let endings: String = ExportFormat::endings().map(|ending| format!(" {ending}")).collect();
+            Failure::Usage(format!("--format {ending}: use one of{endings}."))
+        })?;
+        match format.files(&file).len() {
+            1 => Ok(Self { path: None, format, is_binary: false }),
+            files => {
+                let problem = format!("--format {ending}: this format has {files} files");
+                Err(Failure::Usage(format!("{problem}, and standard output is one. Name a file with -o.")))
+            }
+        }
+    }
+
+    /// Whether it is standard output.
+    pub fn is_stdout(&self) -> bool {
+        self.path.is_none()
+    }
+
+    /// Checks before the work whether its files can be written there.
+    ///
+    /// # Errors
+    /// Those of [`check_place`], for each of its files.
+    pub fn check_places(&self, inputs: &[PathBuf]) -> Result<(), Failure> {
+        let files = self.path.iter().flat_map(|path| self.format.files(path));
+        files.into_iter().try_for_each(|file| check_place(&file, inputs))
+    }
+
+    /// Whether it is the binary form of a format that is text otherwise.
+    pub fn is_binary(&self) -> bool {
+        self.is_binary
+    }
+
+    /// Whether some node data is written.
+    pub fn wants_node_data(&self) -> bool {
+        self.format.wants_node_data()
+    }
+
+    /// Whether it is a picture.
+    pub fn is_picture(&self) -> bool {
+        !matches!(self.format, ExportFormat::Mesh(_))
+    }
+
+    /// What messages call it.
+    pub fn name(&self) -> String {
+        self.path.as_deref().map_or("standard output".into(), |path| path.display().to_string())
+    }
+
+    /// Writes the file, or the four files of `.node`, and returns their names. `extract` is that of `mesh`,
+    /// and `data` is in the order of its nodes.
+    ///
+    /// # Errors
+    /// When the file cannot be written. What was there before is kept then.
+    pub fn write(
+        &self,
+        mesh: &Mesh,
+        extract: &Extract,
+        data: &MeshData,
+        look: &Look,
+        meter: &Meter,
+    ) -> Result<Vec<PathBuf>, Failure> {
+        let Some(path) = &self.path else {
+            let mut out = BufWriter::new(io::stdout().lock());
+            let written = self.format.write_to(&mut out, mesh, extract, data, look, meter);
+            return written.and_then(|()| out.flush()).map(|()| Vec::new()).map_err(Failure::Print);
+        };
+        let written = self.format.write(path, mesh, extract, data, look, meter);
+        written.map_err(|error| failed(path, error.to_string()))
+    }
+}
+
+/// Whether a path stands for standard input or standard output.
+pub fn is_standard_stream(path: &Path) -> bool {
+    path == Path::new("-")
+}
+
+fn failed(path: &Path, problem: String) -> Failure {
+    Failure::Write { file: path.to_owned(), problem }
+}
+
+/// Checks before the work whether a file can be written there.
+///
+/// # Errors
+/// When its folder does not exist, it is a folder itself, or it is one of the input files.
+pub fn check_place(path: &Path, inputs: &[PathBuf]) -> Result<(), Failure> {
+    if let Some(obstacle) = obstacle(path) {
+        return Err(failed(path, obstacle));
+    }
+    let same = |input: &PathBuf| match (input.canonicalize(), path.canonicalize()) {
+        (Ok(input), Ok(output)) => input == output,
+        _ => false,
+    };
+    if inputs.iter().any(same) {
+        return Err(Failure::Usage(format!("{} is an input file; write to another name.", path.display())));
+    }
+    Ok(())
+}
+
+/// The look that is asked for, before there is a mesh.
+#[derive(Debug)]
+pub struct RequestedLook {
+    width: u32,
+    height: Option<u32>,
+    edges: bool,
+    colormap: Colormap,
+    ground: Ground,
+}
+
+impl RequestedLook {
+    /// The look that the arguments describe.
+    ///
+    /// # Errors
+    /// When the size or the name of the colour map is invalid.
+    pub fn new(typed: &PictureArguments) -> Result<Self, Failure> {
+        let size = parse_size(&typed.size);
+        let size = size.map_err(|rule| Failure::Usage(format!("--size {}: {rule}", typed.size)))?;
+        let colormap = typed.colormap.parse();
+        let colormap = colormap.map_err(|error| Failure::Usage(format!("--colormap: {error}")))?;
+        Ok(Self::of(size, !typed.no_edges, colormap, typed.light))
+    }
+
+    /// The look that an output of a recipe describes.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn of_saved(saved: &SavedOutput) -> Result<Self, KeyFault> {
+        let size = parse_size(saved.size.as_deref().unwrap_or(PICTURE_SIZE));
+        let size = size.map_err(|rule| KeyFault::value("size", rule))?;
+        let colormap = saved.colormap.as_deref().unwrap_or(PICTURE_COLORMAP).parse();
+        let colormap = colormap
+            .map_err(|error: <Colormap as FromStr>::Err| KeyFault::value("colormap", error.to_string()))?;
+        Ok(Self::of(size, saved.edges.unwrap_or(true), colormap, saved.light.unwrap_or(false)))
+    }
+
+    fn of((width, height): (u32, Option<u32>), edges: bool, colormap: Colormap, is_light: bool) -> Self {
+        let ground = if is_light { Ground::Light } else { Ground::Dark };
+        Self { width, height, edges, colormap, ground }
+    }
+
+    /// The look, with the colours spread over the levels of a mesh.
+    pub fn for_mesh(&self, mesh: &Mesh) -> Look {
+        let Self { width, height, edges, colormap, ground } = *self;
+        let deepest = mesh.level_counts().len() as u8 - 1;
+        Look { width, height, edges, ground, level_colors: LevelColors::new(colormap, ground, deepest) }
+    }
+}
+
+fn parse_size(text: &str) -> Result<(u32, Option<u32>), String> {
+    let side = |text: &str| text.trim().parse().ok().filter(|side| (1..=LARGEST_PICTURE).contains(side));
+    let parsed = match text.split_once(['x', 'X', '×']) {
+        Some((width, height)) => side(width).zip(side(height)).map(|(w, h)| (w, Some(h))),
+        None => side(text).map(|width| (width, None)),
+    };
+    parsed.ok_or_else(|| {
+        let rule = "write a width, or width x height, as in 1600 or 1600x900";
+        format!("{rule}; each from 1 to {} pixels.", Grouped(LARGEST_PICTURE as usize))
+    })
+}

@@ -1,0 +1,360 @@
+//! `meshbrush path`: build, then find the path of least cost.
+
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::{Duration, Instant};
+
+use glam::DVec2;
+use serde::Serialize;
+
+use super::build::{FinishedMesh, build_from};
+use super::details::MeshDetails;
+use super::failure::Failure;
+use super::mesh::note_capped;
+use super::output::{RequestedLook, check_place};
+use super::path_args::PathArguments;
+use super::request::MeshRequest;
+use super::sources::{ToMesh, read};
+use super::terminal::Terminal;
+use super::why::point;
+use meshbrush_core::document::{PathCost, PathPlan};
+use meshbrush_core::field::CostFormula;
+use meshbrush_core::layers::Mask;
+use meshbrush_core::path::{
+    CertificateEnd, CertificateTask, CostDensity, PathCertificate, PathError, PathMesh, PathRequest,
+    PathSample, Planner, Solution, Weights,
+};
+use meshbrush_io::io::{self as files, Interruption, Provenance};
+use meshbrush_mesh::mesh::MeshView;
+use meshbrush_mesh::text::{Grouped, Number, percent_above, rounded};
+use meshbrush_render::render::path_export::{MeshOfPath, PathExport, PathFormat};
+
+/// Runs the command. `line` is how it was typed, and `out` is standard output.
+///
+/// # Errors
+/// With the reason, when the arguments make no sense, the work failed, or there is no path.
+pub fn run(
+    typed: &PathArguments,
+    line: &str,
+    out: &mut dyn Write,
+    terminal: &mut Terminal,
+) -> Result<(), Failure> {
+    let within = typed.within.as_deref().map(share).transpose()?;
+    let formula = typed.cost.as_deref().map(cost_formula).transpose()?;
+    let places = places(typed)?;
+    let look = RequestedLook::new(&typed.picture)?;
+    let outputs = typed.output.iter().map(|path| PathOutput::new(path)).collect::<Result<Vec<_>, _>>()?;
+    let request = MeshRequest::new(&typed.input)?;
+    let inputs = [request.input_files(), typed.keep_out.clone()].concat();
+    outputs.iter().try_for_each(|output| check_place(&output.path, &inputs))?;
+    request.options_without_effect(&typed.input).iter().for_each(|note| terminal.note(note));
+    let (read, asked) = read_and_ask(&request, terminal, |saved| Asked::new(typed, places, formula, saved))?;
+    let finished = build_from(read, terminal)?;
+    note_capped(&finished, terminal);
+    let extract = finished.extract();
+    let density = asked.cost.density(finished.risk())?;
+    let start = Instant::now();
+    let search = || asked.path(&*density, extract.view());
+    let (mut solution, mesh) = terminal
+        .while_working("finding the path", search)
+        .map_err(|error| error.in_domain(finished.domain(), &asked.places))?;
+    if let Some(width) = within.filter(|&width| solution.gap() > width) {
+        let task = task(&finished, density.clone(), &asked.keep_out, &solution, width);
+        let end = prove(&mut solution, &task, mesh, terminal);
+        note_end(end, &solution, width, terminal);
+    }
+    let seconds = start.elapsed().as_secs_f64();
+    let export = PathExport::new(&solution, &*density, typed.simplify)?;
+    let provenance = MeshDetails::of(&finished, &extract, line, &request).provenance;
+    let look = look.for_mesh(finished.mesh());
+    let over = MeshOfPath { mesh: finished.mesh(), extract: &extract, look: &look };
+    outputs.iter().try_for_each(|output| output.write(&export, &over, &provenance, terminal))?;
+    let answer = Answer::new(export.solution(), export.samples(), extract.triangles().len(), seconds);
+    match typed.json {
+        true => {
+            let json = serde_json::to_string(&answer).map_err(|error| Failure::Print(error.into()))?;
+            writeln!(out, "{json}").and_then(|()| out.flush()).map_err(Failure::Print)
+        }
+        false => writeln!(out, "{}", answer.for_people(export.solution().gap())).map_err(Failure::Print),
+    }
+}
+
+/// What path is asked for: by options, and where these say nothing, by the project.
+struct Asked {
+    places: Vec<DVec2>,
+    cost: PathCost,
+    keep_out: Vec<Mask>,
+}
+
+impl Asked {
+    /// Reads the keep-out regions. `places` are those of the options, `saved` what the project says.
+    fn new(
+        typed: &PathArguments,
+        places: Option<Vec<DVec2>>,
+        formula: Option<CostFormula>,
+        saved: &PathPlan,
+    ) -> Result<Self, Failure> {
+        let keep_out = match typed.keep_out.is_empty() {
+            true => saved.keep_out_masks(),
+            false => typed.keep_out.iter().map(|path| mask(path)).collect::<Result<_, _>>()?,
+        };
+        let places = places.map_or_else(|| saved_places(typed, saved), Ok)?;
+        Ok(Self { places, cost: cost(typed, formula, &saved.cost), keep_out })
+    }
+
+    /// The path, and the triangles that it was sought in.
+    fn path(
+        &self,
+        density: &dyn CostDensity,
+        view: MeshView,
+    ) -> Result<(Solution, Arc<PathMesh>), PathError> {
+        let mesh = PathMesh::with_keep_out(view, &self.keep_out);
+        let mut planner = Planner::new(mesh, density)?;
+        let solution = planner.solve(density, &self.places, PathRequest::FULL)?;
+        Ok((solution, Arc::clone(planner.mesh())))
+    }
+}
+
+/// Reads what the request names, and with the paths of its project, what path is asked for. Without a project
+/// that is known before: a mistake in it should not wait for large files.
+fn read_and_ask(
+    request: &MeshRequest,
+    terminal: &mut Terminal,
+    ask: impl FnOnce(&PathPlan) -> Result<Asked, Failure>,
+) -> Result<(ToMesh, Asked), Failure> {
+    if request.project.is_none() {
+        let asked = ask(&PathPlan::default())?;
+        return Ok((read(request, terminal)?, asked));
+    }
+    let read = read(request, terminal)?;
+    let asked = ask(&read.paths)?;
+    Ok((read, asked))
+}
+
+/// The start, the via points and the goal, where they are given.
+fn places(typed: &PathArguments) -> Result<Option<Vec<DVec2>>, Failure> {
+    let Some((from, to)) = typed.from.as_ref().zip(typed.to.as_ref()) else { return Ok(None) };
+    let texts = std::iter::once(from).chain(&typed.via).chain([to]);
+    texts.map(|text| point(text)).collect::<Result<_, _>>().map(Some)
+}
+
+/// The places of a path of the project.
+fn saved_places(typed: &PathArguments, saved: &PathPlan) -> Result<Vec<DVec2>, Failure> {
+    let number = typed.route.unwrap_or(1);
+    if let Some(places) = number.checked_sub(1).and_then(|n| saved.routes.get(n)) {
+        return Ok(places.clone());
+    }
+    Err(Failure::Usage(match (&typed.input.project, saved.routes.len()) {
+        (None, _) => "A path needs a start and a goal: give --from X,Y and --to X,Y.".to_owned(),
+        (Some(project), 0) => {
+            format!(
+                "{} has no path: give --from X,Y and --to X,Y, or set one in the window.",
+                project.display()
+            )
+        }
+        (Some(project), count) => {
+            format!("--route {number}: the paths of {} are numbered from 1 to {count}.", project.display())
+        }
+    }))
+}
+
+/// What the path costs. A weight that is not given is that of the project, or the usual one.
+fn cost(typed: &PathArguments, formula: Option<CostFormula>, saved: &PathCost) -> PathCost {
+    if let Some(formula) = formula {
+        return PathCost::Formula(formula);
+    }
+    if typed.length_weight.is_none() && typed.risk_weight.is_none() {
+        return saved.clone();
+    }
+    let usual = match saved {
+        PathCost::Weighted(weights) => *weights,
+        PathCost::Formula(_) => Weights::default(),
+    };
+    PathCost::Weighted(Weights {
+        length: typed.length_weight.unwrap_or(usual.length),
+        risk: typed.risk_weight.unwrap_or(usual.risk),
+    })
+}
+
+/// Reads "1%" or "0.01".
+fn share(text: &str) -> Result<f64, Failure> {
+    let (number, unit) = match text.trim().strip_suffix('%') {
+        Some(number) => (number, 0.01),
+        None => (text, 1.0),
+    };
+    let share = number.trim().parse::<f64>().ok().map(|number| number * unit);
+    share.filter(|share| (1e-7..1.0).contains(share)).ok_or_else(|| {
+        Failure::Usage(format!("--within {text}: write a share from 0.00001% up to 100%, as in 1% or 0.01."))
+    })
+}
+
+fn cost_formula(text: &str) -> Result<CostFormula, Failure> {
+    CostFormula::parse(text).map_err(|mistake| {
+        let pointer = mistake.pointer().replace('\n', "\n    ");
+        Failure::Usage(format!("--cost: {mistake}\n    {pointer}"))
+    })
+}
+
+fn mask(path: &Path) -> Result<Mask, Failure> {
+    let polygons = files::geojson::read(path)?;
+    Mask::new(&polygons).map_err(|error| Failure::Work(format!("{}: {error}", path.display())))
+}
+
+/// What is to be proved of a path.
+fn task(
+    finished: &FinishedMesh,
+    cost: Arc<dyn CostDensity>,
+    keep_out: &[Mask],
+    solution: &Solution,
+    width: f64,
+) -> CertificateTask {
+    let domain = finished.domain();
+    CertificateTask::in_rectangle(domain.bounds, cost, solution.points.clone(), solution.upper, width)
+        .expect("the bounds of a domain are a rectangle")
+        .in_domain(domain)
+        .outside_of(keep_out.to_vec())
+}
+
+/// Raises the lower bound, and takes better paths. Returns why that ended.
+///
+/// # Errors
+/// When there is no proof, or none beyond what the solution has then.
+fn prove(
+    solution: &mut Solution,
+    task: &CertificateTask,
+    mesh: Arc<PathMesh>,
+    terminal: &mut Terminal,
+) -> Result<Option<CertificateEnd>, PathError> {
+    let gap = AtomicU64::new(solution.gap().to_bits());
+    let line = |elapsed: Duration| {
+        let reached = percent_above(f64::from_bits(gap.load(Ordering::Relaxed)));
+        format!("within {reached} of the best, {} s", elapsed.as_secs())
+    };
+    terminal.while_shown(line, || {
+        let mut certificate = PathCertificate::new(solution, task)?.with_search(mesh);
+        let mut end = certificate.end();
+        while end.is_none() {
+            end = certificate.advance()?;
+            solution.take(certificate.solution());
+            gap.store(solution.gap().to_bits(), Ordering::Relaxed);
+        }
+        Ok(end)
+    })
+}
+
+/// Says why a path is not proved to be as good as asked for. The path itself is there all the same.
+fn note_end(
+    end: Result<Option<CertificateEnd>, PathError>,
+    solution: &Solution,
+    width: f64,
+    terminal: &mut Terminal,
+) {
+    let asked = percent_above(width);
+    match end {
+        Ok(Some(end)) if solution.gap() > width => {
+            let reached = percent_above(solution.gap());
+            terminal
+                .note(&format!("The path is proved to be within {reached} of the best, not {asked}. {end}"));
+        }
+        Ok(_) => {}
+        Err(error) => {
+            terminal.note(&format!("The path is not proved to be within {asked} of the best. {error}"));
+        }
+    }
+}
+
+/// A file of the path.
+struct PathOutput {
+    path: PathBuf,
+    format: PathFormat,
+}
+
+impl PathOutput {
+    fn new(path: &Path) -> Result<Self, Failure> {
+        let format = PathFormat::of(path).map_err(|error| Failure::Usage(format!("-o {error}.")))?;
+        Ok(Self { path: path.to_owned(), format })
+    }
+
+    fn write(
+        &self,
+        export: &PathExport<'_>,
+        over: &MeshOfPath<'_>,
+        provenance: &Provenance,
+        terminal: &mut Terminal,
+    ) -> Result<(), Failure> {
+        let Self { path, format } = self;
+        let interruption = Interruption::listen().map_err(|error| Failure::Work(format!("{error}.")))?;
+        let meter = interruption.meter();
+        let written = terminal.while_metered(&format!("writing {}", path.display()), &meter, || {
+            export.write(path, *format, over, provenance, &meter)
+        });
+        interruption.end_program();
+        let failed = |error: io::Error| Failure::Write { file: path.clone(), problem: error.to_string() };
+        written.map_err(failed)?;
+        terminal.say(&format!("wrote {}", path.display()));
+        Ok(())
+    }
+}
+
+/// The answer of `--json`.
+#[derive(Serialize)]
+struct Answer {
+    /// What the path costs.
+    cost: f64,
+    /// No path costs less; 0 where no bound is known.
+    lower: f64,
+    /// The best path costs no more.
+    upper: f64,
+    /// In world units.
+    length: f64,
+    /// The integral of the risk.
+    risk: f64,
+    highest_risk: f64,
+    points: Vec<[f64; 2]>,
+    /// Triangles of the mesh.
+    triangles: usize,
+    /// Time for path and bounds.
+    seconds: f64,
+}
+
+impl Answer {
+    fn new(solution: &Solution, samples: &[PathSample], triangles: usize, seconds: f64) -> Self {
+        let Solution { cost, lower, upper, length, risk, highest_risk, .. } = *solution;
+        let points = samples.iter().map(|sample| sample.point.to_array()).collect();
+        Self { cost, lower, upper, length, risk, highest_risk, points, triangles, seconds }
+    }
+
+    fn for_people(&self, gap: f64) -> String {
+        let bound = match self.lower > 0.0 || self.upper == 0.0 {
+            true => {
+                format!(
+                    "within {} of the best: no path costs less than {}",
+                    percent_above(gap),
+                    short(self.lower)
+                )
+            }
+            false => {
+                "no lower bound is known: the mesh does not cover the whole domain. --within 1% looks for one"
+                    .to_owned()
+            }
+        };
+        format!(
+            "cost {}, {bound}\n\
+             length {}, accumulated risk {}, highest risk {}\n\
+             {} triangles, {:.2} s",
+            short(self.cost),
+            short(self.length),
+            short(self.risk),
+            short(self.highest_risk),
+            Grouped(self.triangles),
+            self.seconds
+        )
+    }
+}
+
+/// Six significant digits.
+fn short(value: f64) -> Number {
+    Number(rounded(value, 6))
+}

@@ -1,0 +1,109 @@
+//! Named values at the nodes: `--quantity NAME=EXPR`.
+
+use glam::DVec2;
+
+use super::failure::Failure;
+use meshbrush_core::field::Formula;
+use meshbrush_core::field::formula::ParseError;
+use meshbrush_io::io::NodeValues;
+use meshbrush_mesh::mesh::Extract;
+
+/// The name of a value that is given without one.
+const USUAL_NAME: &str = "quantity";
+/// Names that files use for other data.
+const TAKEN: [&str; 3] = ["target_diameter", "boundary", "level"];
+
+/// A value at the nodes, before there is a mesh.
+#[derive(Debug)]
+pub struct NamedQuantity {
+    name: String,
+    formula: Formula,
+}
+
+/// The values that are asked for, in their order.
+///
+/// # Errors
+/// When a formula or a name is wrong, or a name comes twice; with the number of the quantity, from 0.
+pub fn parse_quantities(typed: &[String]) -> Result<Vec<NamedQuantity>, (usize, QuantityError)> {
+    let mut quantities: Vec<NamedQuantity> = Vec::new();
+    for (index, text) in typed.iter().enumerate() {
+        let (name, expression) = split(text);
+        if TAKEN.contains(&name) || quantities.iter().any(|other| other.name == name) {
+            return Err((index, QuantityError::Name(name.to_owned())));
+        }
+        let formula = Formula::parse(expression).map_err(|mistake| (index, mistake.into()))?;
+        quantities.push(NamedQuantity { name: name.to_owned(), formula });
+    }
+    Ok(quantities)
+}
+
+/// Why a quantity cannot be written.
+#[derive(Debug, thiserror::Error)]
+pub enum QuantityError {
+    /// Files use the name for something else.
+    #[error("the name {0} is taken. Give another one, as in depth=EXPR.")]
+    Name(String),
+    /// The formula has a mistake.
+    #[error(transparent)]
+    Formula(#[from] ParseError),
+}
+
+/// Name and formula. A comparison (`==`) is part of the formula.
+fn split(text: &str) -> (&str, &str) {
+    if let Some((name, expression)) = text.split_once('=')
+        && !expression.starts_with('=')
+        && is_name(name.trim())
+    {
+        return (name.trim(), expression);
+    }
+    (USUAL_NAME, text)
+}
+
+/// Letters, digits and underscores, not beginning with a digit: what all formats can hold.
+fn is_name(text: &str) -> bool {
+    let is_word = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    text.chars().all(is_word) && text.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_')
+}
+
+impl NamedQuantity {
+    /// Its values at the nodes of a mesh.
+    ///
+    /// # Errors
+    /// When one is not finite.
+    pub fn at_nodes(&self, mesh: &Extract) -> Result<NodeValues, Failure> {
+        let Self { name, formula } = self;
+        let value = |p: DVec2| {
+            let value = formula.eval(p.x, p.y);
+            if value.is_finite() {
+                return Ok(value);
+            }
+            let called = if name == USUAL_NAME { "quantity".into() } else { format!("quantity {name}") };
+            Err(Failure::Work(format!(
+                "The {called} is {value} at x = {}, y = {}: files need a finite number at every node.",
+                p.x, p.y
+            )))
+        };
+        let values = mesh.world_nodes().map(value).collect::<Result<_, _>>()?;
+        Ok(NodeValues { name: name.clone(), values })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_name_comes_before_one_equals_sign() {
+        for (text, name, expression) in [
+            ("x*y", "quantity", "x*y"),
+            ("depth=x*y", "depth", "x*y"),
+            ("n_2 = 3", "n_2", " 3"),
+            ("x == y", "quantity", "x == y"),
+            ("x <= y", "quantity", "x <= y"),
+            ("depth=x == y", "depth", "x == y"),
+            ("2a=x", "quantity", "2a=x"),
+        ] {
+            assert_eq!(split(text), (name, expression), "{text}");
+        }
+    }
+}

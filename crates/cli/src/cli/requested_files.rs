@@ -1,0 +1,147 @@
+//! The files that the options and a recipe ask for.
+
+use std::path::PathBuf;
+
+use super::args::MeshArguments;
+use super::build::FinishedMesh;
+use super::details::MeshDetails;
+use super::failure::Failure;
+use super::output::{Output, RequestedLook};
+use super::quantities::{NamedQuantity, QuantityError, parse_quantities};
+use super::terminal::Terminal;
+use meshbrush_io::io::layers::{KeyFault, Step};
+use meshbrush_io::io::recipe::{OutputSpec, Recipe, SavedOutput};
+use meshbrush_io::io::{Interruption, MeshData};
+use meshbrush_mesh::mesh::Extract;
+use meshbrush_render::render::export::ExportFormat;
+
+/// Files with one look and the same values at the nodes.
+#[derive(Debug)]
+pub struct RequestedFiles {
+    /// The files.
+    pub outputs: Vec<Output>,
+    look: RequestedLook,
+    quantities: Vec<NamedQuantity>,
+}
+
+impl RequestedFiles {
+    /// Those of the options.
+    ///
+    /// # Errors
+    /// With a sentence that names the option, the value and the rule.
+    pub fn of_options(typed: &MeshArguments) -> Result<Self, Failure> {
+        let look = RequestedLook::new(&typed.picture)?;
+        let quantities = parse_quantities(&typed.quantity).map_err(|(index, error)| match error {
+            QuantityError::Name(_) => {
+                Failure::Usage(format!("--quantity {}: {error}", typed.quantity[index]))
+            }
+            QuantityError::Formula(mistake) => {
+                let pointer = mistake.pointer().replace('\n', "\n    ");
+                Failure::Usage(format!("--quantity: {mistake}\n    {pointer}"))
+            }
+        })?;
+        let format = typed.format.as_deref();
+        let output = |path: &PathBuf| Output::new(path, format, typed.binary);
+        let outputs = typed.output.iter().map(output).collect::<Result<_, _>>()?;
+        Ok(Self { outputs, look, quantities })
+    }
+
+    /// Those of a recipe, in its order.
+    ///
+    /// # Errors
+    /// With the line and column of a value that cannot be used.
+    pub fn of_recipe(recipe: &Recipe) -> Result<Vec<Self>, Failure> {
+        let files = |(index, output): (usize, &OutputSpec)| {
+            Self::of_output(output).map_err(|fault| recipe.output_error(index, fault).into())
+        };
+        recipe.outputs.iter().enumerate().map(files).collect()
+    }
+
+    fn of_output(output: &OutputSpec) -> Result<Self, KeyFault> {
+        let OutputSpec { path, saved } = output;
+        ExportFormat::of(path).map_err(|error| KeyFault::value("file", error.to_string()))?;
+        let file = Output::new(path, None, saved.binary);
+        let file = file.map_err(|failure| KeyFault::value("file", failure.to_string()))?;
+        check_use(saved, &file)?;
+        let look = RequestedLook::of_saved(saved)?;
+        let quantities = parse_quantities(&saved.quantities).map_err(|(index, error)| {
+            let pointer = match &error {
+                QuantityError::Name(_) => None,
+                QuantityError::Formula(mistake) => Some(mistake.pointer().to_owned()),
+            };
+            let fault = KeyFault::value("quantities", error.to_string()).at(Step::Index(index));
+            KeyFault { pointer, ..fault }
+        })?;
+        Ok(Self { outputs: vec![file], look, quantities })
+    }
+
+    fn wants_node_data(&self) -> bool {
+        self.outputs.iter().any(Output::wants_node_data)
+    }
+}
+
+/// Refuses keys that mean nothing for the format of an output.
+fn check_use(saved: &SavedOutput, output: &Output) -> Result<(), KeyFault> {
+    let SavedOutput { file: _, binary, quantities, size, edges, colormap, light } = saved;
+    if *binary && !output.is_binary() {
+        let sentence = "only .msh has a text form and a binary form; leave it out.";
+        return Err(KeyFault::key("binary", sentence));
+    }
+    if !quantities.is_empty() && !output.wants_node_data() {
+        let sentence = "this format holds no values at the nodes; leave it out, or take another format.";
+        return Err(KeyFault::key("quantities", sentence));
+    }
+    let of_pictures = [
+        ("size", size.is_some()),
+        ("edges", edges.is_some()),
+        ("colormap", colormap.is_some()),
+        ("light", light.is_some()),
+    ];
+    match of_pictures.iter().find(|(_, is_given)| *is_given && !output.is_picture()) {
+        Some(&(key, _)) => Err(KeyFault::key(key, "this is for pictures, .png and .svg; leave it out.")),
+        None => Ok(()),
+    }
+}
+
+/// Writes files, and says which.
+///
+/// # Errors
+/// When a quantity is not finite somewhere, or a file cannot be written.
+pub fn write_files(
+    requested: &[RequestedFiles],
+    finished: &FinishedMesh,
+    extract: &Extract,
+    details: &MeshDetails,
+    terminal: &mut Terminal,
+) -> Result<(), Failure> {
+    let mesh = finished.mesh();
+    let target_diameter = match requested.iter().any(RequestedFiles::wants_node_data) {
+        true => finished.target_at_nodes(extract, terminal),
+        false => Vec::new(),
+    };
+    let MeshDetails { boundary, parts, provenance } = details;
+    let interruption = Interruption::listen().map_err(|error| Failure::Work(format!("{error}.")))?;
+    for files in requested {
+        let look = files.look.for_mesh(mesh);
+        let quantities = match files.wants_node_data() {
+            true => files
+                .quantities
+                .iter()
+                .map(|quantity| quantity.at_nodes(extract))
+                .collect::<Result<_, _>>()?,
+            false => Vec::new(),
+        };
+        let (target_diameter, quantities) = (&target_diameter, &quantities);
+        let data = MeshData { target_diameter, quantities, boundary, parts, provenance };
+        for output in &files.outputs {
+            let meter = interruption.meter();
+            let write = || output.write(mesh, extract, &data, &look, &meter);
+            let written = terminal.while_metered(&format!("writing {}", output.name()), &meter, write);
+            interruption.end_program();
+            for path in written? {
+                terminal.say(&format!("wrote {}", path.display()));
+            }
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,163 @@
+//! What a person reads while and after the work: standard error.
+
+use std::io::{self, IsTerminal, Write};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use meshbrush_io::io::Meter;
+use meshbrush_mesh::text::Bytes;
+
+/// Work shorter than this shows no progress.
+const PATIENCE: Duration = Duration::from_secs(1);
+/// Time between two lines of progress.
+const PACE: Duration = Duration::from_millis(100);
+
+/// Goes to the start of the line, and erases it.
+const ERASE: &str = "\r\x1b[K";
+/// Most characters of a line of progress.
+const LONGEST_LINE: usize = 78;
+
+/// Messages and progress on standard error. Nothing that goes wrong here stops the work.
+pub struct Terminal {
+    show_progress: bool,
+    last_shown: Option<Instant>,
+}
+
+impl Terminal {
+    /// Standard error; progress is shown if a person is watching.
+    pub fn new() -> Self {
+        Self { show_progress: io::stderr().is_terminal(), last_shown: None }
+    }
+
+    /// One line.
+    pub fn say(&mut self, line: &str) {
+        self.clear();
+        let _ = writeln!(io::stderr(), "{line}");
+    }
+
+    /// A sentence that the user should know, though the work goes well.
+    pub fn note(&mut self, sentence: &str) {
+        self.say(&format!("meshbrush: note: {sentence}"));
+    }
+
+    /// What has been done so far, in work that began at `start`; shown a few times a second, on one line.
+    pub fn progress(&mut self, start: Instant, done: impl FnOnce() -> String) {
+        let due = start.elapsed() > PATIENCE && self.last_shown.is_none_or(|last| last.elapsed() > PACE);
+        if self.show_progress && due {
+            let _ = write!(io::stderr(), "{ERASE}{}", progress_line(&done()));
+            self.last_shown = Some(Instant::now());
+        }
+    }
+
+    /// Does work on a file, or on parts of a whole that a meter counts, while another thread shows the
+    /// progress of the meter.
+    pub fn while_metered<T>(&mut self, what: &str, meter: &Meter, work: impl FnOnce() -> T) -> T {
+        self.while_shown(|_| format!("{what}, {}", share(meter)), work)
+    }
+
+    /// Does work of which nobody knows how far it is, while another thread shows how long it has taken.
+    pub fn while_working<T>(&mut self, what: &str, work: impl FnOnce() -> T) -> T {
+        self.while_shown(|elapsed| format!("{what}, {} s", elapsed.as_secs()), work)
+    }
+
+    /// Does work while another thread shows a line about it, made from the time that it has taken.
+    pub fn while_shown<T>(
+        &mut self,
+        line: impl Fn(Duration) -> String + Sync,
+        work: impl FnOnce() -> T,
+    ) -> T {
+        let (start, done) = (Instant::now(), AtomicBool::new(false));
+        thread::scope(|scope| {
+            // Where memory is so short that there is no thread, nothing is shown.
+            let watcher = thread::Builder::new().spawn_scoped(scope, || {
+                while !done.load(Ordering::Relaxed) {
+                    self.progress(start, || line(start.elapsed()));
+                    thread::park_timeout(PACE);
+                }
+                self.clear();
+            });
+            // The watcher ends with the work, also where that panics: the scope waits for it.
+            let ends = Ends { done: &done, watcher: watcher.as_ref().ok().map(|watcher| watcher.thread()) };
+            let result = work();
+            drop(ends);
+            result
+        })
+    }
+
+    /// Takes the line of progress away.
+    pub fn clear(&mut self) {
+        if self.last_shown.take().is_some() {
+            let _ = write!(io::stderr(), "{ERASE}");
+        }
+    }
+}
+
+/// Ends the thread that shows progress.
+struct Ends<'a> {
+    done: &'a AtomicBool,
+    watcher: Option<&'a thread::Thread>,
+}
+
+impl Drop for Ends<'_> {
+    fn drop(&mut self) {
+        self.done.store(true, Ordering::Relaxed);
+        self.watcher.inspect(|watcher| watcher.unpark());
+    }
+}
+
+/// What is written of a line of progress: at most so much that no terminal breaks it. A broken line could not
+/// be erased.
+fn progress_line(text: &str) -> String {
+    // The end says how far the work is: it stays.
+    let (count, most) = (text.chars().count(), LONGEST_LINE - 2);
+    if count <= most {
+        return format!("{text} …");
+    }
+    let start: String = text.chars().take(most / 2 - 1).collect();
+    let end: String = text.chars().skip(count - most / 2).collect();
+    format!("{start}…{end} …")
+}
+
+/// How much of a file is done: percent, or bytes where the number in all is not known.
+fn share(meter: &Meter) -> String {
+    let done = meter.done();
+    match meter.total() {
+        Some(total) => format!("{:.0} %", (100.0 * done as f64 / total as f64).min(100.0)),
+        None => Bytes(done as usize).to_string(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::panic::{AssertUnwindSafe, catch_unwind};
+
+    use super::*;
+
+    #[test]
+    fn a_panic_in_shown_work_does_not_wait_for_ever() {
+        let mut terminal = Terminal { show_progress: false, last_shown: None };
+        let work = AssertUnwindSafe(|| terminal.while_working("failing", || panic!("on purpose")));
+        assert!(catch_unwind(work).is_err());
+    }
+
+    #[test]
+    fn a_line_of_progress_fits_on_a_line_and_keeps_its_end() {
+        assert_eq!(progress_line("writing a.vtu, 12 %"), "writing a.vtu, 12 % …");
+        let file = "ä".repeat(200);
+        let line = progress_line(&format!("writing {file}.vtu, 12 %"));
+        assert!(line.chars().count() <= LONGEST_LINE, "{line}");
+        assert!(line.starts_with("writing ää") && line.ends_with("ä.vtu, 12 % …"), "{line}");
+    }
+
+    #[test]
+    fn work_gives_its_result_and_a_meter_its_share() {
+        let mut terminal = Terminal { show_progress: false, last_shown: None };
+        let meter = Meter::default();
+        assert_eq!(share(&meter), "0 MB");
+        meter.expect(400);
+        assert!(terminal.while_metered("reading", &meter, || meter.add(100).is_ok()));
+        assert_eq!(share(&meter), "25 %");
+        assert_eq!(terminal.while_working("checking", || 7), 7);
+    }
+}

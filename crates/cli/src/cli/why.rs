@@ -1,0 +1,152 @@
+//! `meshbrush why`: build, then say why the triangle at a point is there.
+
+use std::io::Write;
+
+use glam::DVec2;
+use serde::Serialize;
+
+use super::args::WhyArguments;
+use super::build::{FinishedMesh, build};
+use super::failure::Failure;
+use super::mesh::note_capped;
+use super::request::MeshRequest;
+use super::terminal::Terminal;
+use meshbrush_core::explain::{Demand, Explanation, Words};
+use meshbrush_mesh::mesh::{Cause, Location, Mesh, TreeTriangle, TriangleId, bisection_edge_length};
+
+/// Runs the command. `out` is standard output.
+///
+/// # Errors
+/// With the reason, when the arguments make no sense, the work failed, or no triangle is at the point.
+pub fn run(typed: &WhyArguments, out: &mut dyn Write, terminal: &mut Terminal) -> Result<(), Failure> {
+    let point = point(&typed.point)?;
+    let request = MeshRequest::new(&typed.input)?;
+    request.options_without_effect(&typed.input).iter().for_each(|note| terminal.note(note));
+    let finished = build(&request, terminal)?;
+    note_capped(&finished, terminal);
+    let mesh = finished.mesh();
+    let location = mesh.locate(point);
+    let id = location.triangle().ok_or_else(|| nowhere(&typed.point, &location, mesh))?;
+    let explanation = terminal.while_working("looking for the cause", || finished.explanation(id));
+    let text = if typed.json {
+        let answer = Answer::new(&finished, id, &explanation);
+        serde_json::to_string(&answer).expect("numbers and texts are valid JSON")
+    } else {
+        sentences(&finished, id, &explanation)
+    };
+    writeln!(out, "{text}").map_err(Failure::Print)
+}
+
+/// Reads "X,Y".
+///
+/// # Errors
+/// When these are not two finite numbers.
+pub fn point(text: &str) -> Result<DVec2, Failure> {
+    let numbers: Option<Vec<f64>> = text.split(',').map(|part| part.trim().parse().ok()).collect();
+    match numbers.as_deref() {
+        Some(&[x, y]) if x.is_finite() && y.is_finite() => Ok(DVec2::new(x, y)),
+        _ => Err(Failure::Usage(format!(
+            "“{text}” is no point. Write two numbers and a comma, as in 0.5,0.25."
+        ))),
+    }
+}
+
+fn nowhere(point: &str, location: &Location, mesh: &Mesh) -> Failure {
+    let bounds = mesh.lattice().bounds();
+    Failure::Work(match location {
+        Location::OutsideBounds => format!(
+            "No triangle is at {point}: the domain goes from {},{} to {},{}.",
+            bounds.min.x, bounds.min.y, bounds.max.x, bounds.max.y
+        ),
+        _ => format!(
+            "No triangle is at {point}: the point lies in a hole of the domain, or beyond its outline."
+        ),
+    })
+}
+
+fn sentences(finished: &FinishedMesh, id: TriangleId, explanation: &Explanation) -> String {
+    let words = Words { mesh: finished.mesh(), layers: finished.layers(), unit: finished.unit };
+    let level = explanation.triangle.level();
+    let mut lines = vec![match number(finished, id) {
+        Some(number) => format!("Triangle {number} is of level {level}."),
+        None => format!("The triangle is of level {level}."),
+    }];
+    lines.extend(words.sentences(explanation));
+    lines.join("\n")
+}
+
+/// The number of a triangle in files. None where it was changed along the outline.
+fn number(finished: &FinishedMesh, id: TriangleId) -> Option<usize> {
+    finished.extract().place_of(id).map(TriangleId::index)
+}
+
+/// The answer of `--json`.
+#[derive(Serialize)]
+struct Answer<'a> {
+    /// The number in files.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    triangle: Option<usize>,
+    level: u32,
+    /// The corners in world units: the apex, then the ends of the bisection edge.
+    corners: [[f64; 2]; 3],
+    /// "coarse", "rule", "compatibility", or "unneeded" where the mesh is not up to date.
+    cause: &'static str,
+    /// From the triangle that exceeds its target to the parent.
+    chain: Vec<Link>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    demand: Option<SavedDemand<'a>>,
+}
+
+/// A triangle of the chain.
+#[derive(Serialize)]
+struct Link {
+    level: u32,
+    diameter: f64,
+    corners: [[f64; 2]; 3],
+}
+
+/// What the first triangle of the chain exceeds.
+#[derive(Serialize)]
+#[serde(tag = "by", rename_all = "lowercase")]
+enum SavedDemand<'a> {
+    Outline,
+    Target { target: f64, at: [f64; 2], from: [f64; 2], layer: Option<&'a str> },
+}
+
+impl<'a> Answer<'a> {
+    fn new(finished: &'a FinishedMesh, id: TriangleId, explanation: &Explanation) -> Self {
+        let mesh = finished.mesh();
+        let (cause, chain) = match &explanation.cause {
+            Cause::Coarse => ("coarse", Vec::new()),
+            Cause::OwnRule { parent } => ("rule", vec![Link::new(mesh, parent)]),
+            Cause::Compatibility { chain } => {
+                ("compatibility", chain.iter().map(|triangle| Link::new(mesh, triangle)).collect())
+            }
+            _ => ("unneeded", Vec::new()),
+        };
+        let name = |id| finished.layers().iter().find(|layer| Some(layer.id) == id);
+        let demand = explanation.demand.map(|demand| match demand {
+            Demand::Outline => SavedDemand::Outline,
+            Demand::Target(least) => SavedDemand::Target {
+                target: least.target,
+                at: least.at.to_array(),
+                from: least.from.to_array(),
+                layer: name(least.layer).map(|layer| layer.name.as_str()),
+            },
+        });
+        let triangle = number(finished, id);
+        let Link { level, corners, .. } = Link::new(mesh, &explanation.triangle);
+        Self { triangle, level, corners, cause, chain, demand }
+    }
+}
+
+impl Link {
+    fn new(mesh: &Mesh, triangle: &TreeTriangle) -> Self {
+        let world = |corner| mesh.lattice().world_from_lattice(corner).to_array();
+        Self {
+            level: triangle.level(),
+            diameter: bisection_edge_length(mesh.lattice().spacing(), triangle.level()),
+            corners: triangle.corners().map(world),
+        }
+    }
+}

@@ -1,0 +1,203 @@
+//! The layers of a document: which one a brush paints on, and blank pixels for it.
+
+use glam::DVec2;
+
+use super::{Document, Edit, Settings, SettingsError};
+use crate::layers::{Layer, LayerId, PaintLayers, Quantity};
+use crate::paint::Medium;
+use crate::raster::{PixelGrid, TiledRaster};
+
+/// Pixels of depth 0 along the longer side of the domain. Strokes choose their depth by their radius.
+const COARSEST_PIXELS: f64 = 1024.0;
+
+/// Why nothing can be painted with a brush.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum NoPaintLayer {
+    /// There is no paint layer for the brush.
+    #[error("No layer for painted {}: add a paint layer to paint on.", noun(*.0))]
+    Missing(Option<Quantity>),
+    /// The layer is locked.
+    #[error("The layer “{name}” is locked: unlock it to paint on it, or select another layer.")]
+    Locked {
+        /// The layer.
+        id: LayerId,
+        /// Its name.
+        name: String,
+    },
+    /// The layer is hidden.
+    #[error("The layer “{name}” is hidden: show it to paint on it, or select another layer.")]
+    Hidden {
+        /// The layer.
+        id: LayerId,
+        /// Its name.
+        name: String,
+    },
+}
+
+fn noun(quantity: Option<Quantity>) -> &'static str {
+    match quantity {
+        Some(Quantity::Risk) => "risk",
+        Some(Quantity::Diameter) => "diameters",
+        None => "risk or diameters",
+    }
+}
+
+impl Settings {
+    /// A layer by its identifier.
+    pub fn layer(&self, id: LayerId) -> Option<&Layer> {
+        self.layers.iter().find(|layer| layer.id == id)
+    }
+
+    /// A raster for a paint layer, with nothing painted. Its pixels are square, and lie at the lower left
+    /// corner of the domain.
+    pub fn blank_raster(&self, id: LayerId) -> TiledRaster {
+        let bounds = self.domain.bounds;
+        let pixel = DVec2::splat(bounds.size().max_element() / COARSEST_PIXELS);
+        let quantity = self.layer(id).and_then(Layer::paints).unwrap_or(Quantity::Diameter);
+        TiledRaster::new(PixelGrid { origin: bounds.min, pixel }, quantity.blank())
+    }
+
+    /// Checks that each paint layer has pixels of its own quantity: a risk of 0 asks for nothing, and a
+    /// diameter of 0 cannot be met.
+    pub(super) fn check_paint(&self, paint: &PaintLayers) -> Result<(), SettingsError> {
+        for layer in &self.layers {
+            if let (Some(quantity), Some(raster)) = (layer.paints(), paint.get(layer.id))
+                && raster.blank() != quantity.blank()
+            {
+                let other = match quantity {
+                    Quantity::Risk => Quantity::Diameter,
+                    Quantity::Diameter => Quantity::Risk,
+                };
+                let [is, read_as] = [other, quantity].map(|quantity| noun(Some(quantity)));
+                return Err(SettingsError::PaintedOther { layer: layer.name.clone(), is, read_as });
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Document {
+    /// The risk at a point in world units, 0 to 1: the highest of all visible layers of risk; `None` where
+    /// none has a value, and beyond the domain's rectangle.
+    pub fn risk_at(&self, point: DVec2) -> Option<f64> {
+        if !self.settings.domain.bounds.contains(point) {
+            return None;
+        }
+        let visible = self.settings.layers.iter().filter(|layer| layer.visible);
+        visible.filter_map(|layer| layer.risk_at(&self.paint, point)).reduce(f64::max)
+    }
+
+    /// Removes the paint of a layer, as one gesture.
+    pub fn clear_layer(&mut self, id: LayerId) {
+        self.clear_layers(&[id], "clear layer");
+    }
+
+    /// The layer that brush and eraser were last used on, or that was selected since.
+    pub fn active_layer(&self) -> Option<&Layer> {
+        self.active.and_then(|id| self.settings.layer(id))
+    }
+
+    /// An identifier for a new layer: no layer has it, and no pixels of a deleted layer are kept under it.
+    pub fn unused_layer_id(&self) -> LayerId {
+        let is_used = |id: LayerId| self.settings.layer(id).is_some() || self.paint.get(id).is_some();
+        (0..=u32::MAX).map(LayerId).find(|id| !is_used(*id)).expect("there are fewer layers than numbers")
+    }
+
+    /// Selects the layer that brush and eraser are used on. This is no edit.
+    pub fn activate_layer(&mut self, id: LayerId) {
+        self.active = Some(id);
+    }
+
+    /// Gives a new layer the pixels of another one. The layer itself is added by a setting.
+    pub fn copy_paint(&mut self, from: LayerId, to: LayerId) {
+        self.end_gesture();
+        if let Some(raster) = self.paint.get(from).cloned() {
+            self.paint.insert(to, raster);
+            self.edits.layers.insert(to);
+            self.note_edit("copy paint", || Edit::CopyPaint { from, to });
+        }
+    }
+
+    /// The layer that a brush with this medium paints on: the active one if it takes the medium, otherwise
+    /// the highest that does.
+    ///
+    /// # Errors
+    /// When there is none, or it is locked or hidden.
+    pub fn layer_for(&self, medium: &Medium) -> Result<LayerId, NoPaintLayer> {
+        let wanted = match medium {
+            Medium::Risk(_) => Some(Quantity::Risk),
+            Medium::Diameter(..) => Some(Quantity::Diameter),
+            Medium::Eraser => None,
+        };
+        let takes = |layer: &&Layer| match (layer.paints(), wanted) {
+            (Some(quantity), Some(wanted)) => quantity == wanted,
+            (quantity, None) => quantity.is_some(),
+            (None, Some(_)) => false,
+        };
+        let highest = || self.settings.layers.iter().rev().find(takes);
+        let layer = self.active_layer().filter(takes).or_else(highest);
+        match layer {
+            None => Err(NoPaintLayer::Missing(wanted)),
+            Some(Layer { id, locked: true, name, .. }) => {
+                Err(NoPaintLayer::Locked { id: *id, name: name.clone() })
+            }
+            Some(Layer { id, visible: false, name, .. }) => {
+                Err(NoPaintLayer::Hidden { id: *id, name: name.clone() })
+            }
+            Some(layer) => Ok(layer.id),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::dvec2;
+
+    use super::*;
+    use crate::document::Setting;
+    use crate::field::Formula;
+    use crate::layers::LayerKind;
+    use crate::paint::Brush;
+
+    #[test]
+    fn painted_pixels_are_not_read_as_another_quantity() {
+        let stack = |quantity| Layer::stack([LayerKind::Paint(quantity)]);
+        let [risk, diameter] = [Quantity::Risk, Quantity::Diameter].map(stack);
+        let with = |layers: &Vec<Layer>| Settings { layers: layers.clone(), ..Settings::default() };
+        let mut document = Document::new(with(&risk), None).unwrap();
+        // Nothing is painted yet.
+        document.set(Setting::Layers(diameter.clone())).unwrap();
+        document.set(Setting::Layers(risk.clone())).unwrap();
+        document.begin_stroke(Brush { medium: Medium::Risk(1.0), radius: 0.1, hardness: 1.0, strength: 1.0 });
+        document.draw_to(dvec2(0.5, 0.5));
+        document.end_stroke();
+        let before = (document.settings().clone(), document.version());
+        let error = document.set(Setting::Layers(diameter.clone())).unwrap_err().to_string();
+        let said = "The pixels of the layer “Painted diameter” are risk, and cannot be read as diameters.";
+        assert_eq!(error, format!("{said} Add another paint layer."));
+        assert_eq!((document.settings().clone(), document.version()), before);
+        assert_eq!(document.risk_at(dvec2(0.5, 0.5)), Some(1.0));
+        // Nor does a document open with them.
+        let paint = document.paint().clone();
+        assert!(Document::new(with(&diameter), Some(paint.clone())).is_err());
+        assert!(Document::new(with(&risk), Some(paint)).is_ok());
+    }
+
+    #[test]
+    fn a_constant_of_infinity_asks_for_nothing_and_one_below_it_must_be_positive() {
+        let with = |text: &str| {
+            let layers = Layer::stack([LayerKind::target(Formula::parse(text).unwrap())]);
+            Settings { layers, ..Settings::default() }.checked()
+        };
+        for text in ["1/0", "inf", "1e-9"] {
+            assert!(with(text).is_ok(), "{text}");
+        }
+        for text in ["0", "-1", "-1/0", "0/0"] {
+            let error = with(text).unwrap_err().to_string();
+            assert!(
+                error.ends_with("cannot be met: it must be positive; write inf to ask for nothing."),
+                "{error}"
+            );
+        }
+    }
+}

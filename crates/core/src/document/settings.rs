@@ -1,0 +1,312 @@
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+use glam::DVec2;
+
+use super::{Background, PathPlan};
+use crate::build::MeshSpec;
+use crate::domain::{BoundaryMarks, BoundaryTreatment, Domain};
+use crate::field::{RefinementRule, Transfer, TransferError, checked_target};
+use crate::geometry::{GridError, Lattice, Rect};
+use crate::layers::{Layer, LayerKind, Quantity, Shapes, SizeFieldSpec};
+use crate::mesh::{Cleaning, KeptParts, Limits, MemoryLimit};
+use crate::path::PathError;
+use crate::text::{Bytes, Grouped, LengthUnit, Number};
+
+/// Everything about a document that is not paint.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Settings {
+    /// What the document is called.
+    pub name: String,
+    /// The unit of coordinates and lengths. It does not change the mesh.
+    pub unit: LengthUnit,
+    /// The picture behind the mesh. It does not change the mesh.
+    pub background: Option<Background>,
+    /// Ω.
+    pub domain: Domain,
+    /// How the mesh meets the boundary of a domain of polygons.
+    pub boundary: BoundaryTreatment,
+    /// Which triangles of a domain of polygons stay in the derived mesh.
+    pub cleaning: Cleaning,
+    /// Names of pieces of the boundary, and where it is split. They do not change the mesh.
+    pub boundary_marks: Arc<BoundaryMarks>,
+    /// Points whose triangles and values are followed, in world units. They do not change the mesh.
+    pub pins: Arc<Vec<DVec2>>,
+    /// Between which places paths are sought, and what they cost. They do not change the mesh.
+    pub paths: Arc<PathPlan>,
+    /// Largest side δ̄ of a coarse cell, in world units.
+    pub spacing: f64,
+    /// From risk to diameter; its ends bound h̄ everywhere.
+    pub transfer: Transfer,
+    /// What asks for h̄, from the bottom to the top; their identifiers differ.
+    pub layers: Vec<Layer>,
+    /// Largest change of h̄ per unit of length, or `None` for any.
+    pub gradation: Option<f64>,
+    /// Which points of a triangle count.
+    pub rule: RefinementRule,
+    /// Most triangles.
+    pub max_triangles: usize,
+    /// Most memory for the mesh and the next one made beside it, in bytes.
+    pub max_memory: usize,
+}
+
+/// Why settings cannot be met.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SettingsError {
+    /// The coarse grid is impossible.
+    #[error(transparent)]
+    Grid(#[from] GridError),
+    /// The transfer curve is impossible.
+    #[error(transparent)]
+    Transfer(#[from] TransferError),
+    /// The diameter at the boundary is not a length.
+    #[error("A diameter of {} at the boundary cannot be met: it must be positive and finite.", Number(*.0))]
+    BoundaryDiameter(f64),
+    /// The share of the area is none.
+    #[error("Parts with a share of {} of the area cannot be kept: a share is between 0 and 1.", Number(*.0))]
+    PartShare(f64),
+    /// The background picture would have no extent.
+    #[error(
+        "The background picture cannot be placed there: its right side is right of the left one, and its top is \
+         above the bottom."
+    )]
+    BackgroundBounds,
+    /// A pin is nowhere.
+    #[error("A pin at x = {}, y = {} cannot be kept: both must be finite numbers.", Number(_0.x), Number(_0.y))]
+    Pin(DVec2),
+    /// A path is impossible.
+    #[error(transparent)]
+    Path(#[from] PathError),
+    /// The domain is empty.
+    #[error("Nothing would be left of the domain: keep some of it.")]
+    EmptyDomain,
+    /// The gradation is not a slope.
+    #[error("A gradation of {} cannot be met: it must be positive. Without a limit, h̄ may change abruptly.", Number(*.0))]
+    Gradation(f64),
+    /// Two layers have the same identifier.
+    #[error("There are two layers with the identifier {0}: each layer needs its own.")]
+    SameLayer(u32),
+    /// A constant layer asks for a diameter that no mesh can meet.
+    #[error("A target diameter of {} cannot be met: it must be positive; write inf to ask for nothing.", Number(*.0))]
+    Constant(f64),
+    /// A paint layer has pixels of the other quantity.
+    #[error(
+        "The pixels of the layer “{layer}” are {is}, and cannot be read as {read_as}. Add another paint layer."
+    )]
+    PaintedOther {
+        /// The name of the layer.
+        layer: String,
+        /// What its pixels are.
+        is: &'static str,
+        /// What they would be read as.
+        read_as: &'static str,
+    },
+    /// The rasters of all layers are too large together.
+    #[error(
+        "The rasters of all layers have {} pixels, and {} are possible in a document. Remove a layer with a raster, or \
+         make the rasters coarser.",
+        Grouped(*pixels as usize), Grouped(MOST_RASTER_PIXELS as usize)
+    )]
+    RasterPixels {
+        /// The pixels of all rasters, each counted once.
+        pixels: u64,
+    },
+    /// The memory budget is too small for any mesh.
+    #[error("A memory budget of {} cannot be kept: choose {} at least.", Bytes(*bytes), Bytes(LEAST_MEMORY))]
+    Memory {
+        /// As given.
+        bytes: usize,
+    },
+}
+
+/// Most coarse triangles of a document: the coarse grid is made in one go, and must not delay a frame.
+pub const MAX_COARSE_TRIANGLES: usize = 130_000;
+
+/// Most pixels of the rasters of all layers, each raster counted once. A project with more is not read:
+/// pixels without a value pack to a thousandth, so that a small file could fill the memory.
+pub const MOST_RASTER_PIXELS: u64 = 500_000_000;
+
+/// Least memory budget, in bytes: the program without a mesh takes a hundred times as much.
+pub const LEAST_MEMORY: usize = 1_000_000;
+
+impl Settings {
+    /// Checks every number, and returns the settings when all can be met.
+    ///
+    /// # Errors
+    /// For the first number that cannot be met. A formula is not evaluated here: a value that is not a
+    /// positive length is found when the field is sampled.
+    pub fn checked(self) -> Result<Self, SettingsError> {
+        self.lattice()?;
+        self.transfer.checked()?;
+        if let Some(Background { bounds, .. }) = self.background
+            && !(bounds.is_proper() && bounds.size().is_finite())
+        {
+            return Err(SettingsError::BackgroundBounds);
+        }
+        if let Some(diameter) = self.boundary.diameter() {
+            checked_target(diameter, self.domain.bounds.center())
+                .map_err(|e| SettingsError::BoundaryDiameter(e.value))?;
+        }
+        if self.domain.region().is_some_and(|region| region.is_empty()) {
+            return Err(SettingsError::EmptyDomain);
+        }
+        if let KeptParts::Share(share) = self.cleaning.parts
+            && !(0.0..=1.0).contains(&share)
+        {
+            return Err(SettingsError::PartShare(share));
+        }
+        self.paths.check()?;
+        if let Some(&pin) = self.pins.iter().find(|pin| !pin.is_finite()) {
+            return Err(SettingsError::Pin(pin));
+        }
+        self.check_layers()?;
+        if let Some(slope) = self.gradation
+            && !(slope > 0.0 && slope.is_finite())
+        {
+            return Err(SettingsError::Gradation(slope));
+        }
+        if self.max_memory < LEAST_MEMORY {
+            return Err(SettingsError::Memory { bytes: self.max_memory });
+        }
+        Ok(self)
+    }
+
+    fn check_layers(&self) -> Result<(), SettingsError> {
+        let mut ids = BTreeSet::new();
+        for layer in &self.layers {
+            if !ids.insert(layer.id) {
+                return Err(SettingsError::SameLayer(layer.id.0));
+            }
+            if let LayerKind::Formula { quantity: Quantity::Diameter, formula } = &layer.kind
+                && let Some(value) = formula.constant()
+                && (value.is_nan() || value <= 0.0)
+            {
+                // Infinity asks for nothing, as it does where a formula has it in some places only.
+                return Err(SettingsError::Constant(value));
+            }
+        }
+        let pixels = self.raster_pixels();
+        if pixels > MOST_RASTER_PIXELS { Err(SettingsError::RasterPixels { pixels }) } else { Ok(()) }
+    }
+
+    /// The pixels of the rasters of all layers. A raster that two layers read counts once.
+    fn raster_pixels(&self) -> u64 {
+        let rasters = self.layers.iter().filter_map(|layer| layer.kind.raster_source());
+        let sizes: BTreeMap<usize, u64> = rasters
+            .map(|source| (Arc::as_ptr(&source.raster).addr(), source.raster.raster().values().len() as u64))
+            .collect();
+        sizes.values().sum()
+    }
+
+    /// The coarse grid and its lattice.
+    ///
+    /// # Errors
+    /// When the grid is impossible or too fine.
+    pub fn lattice(&self) -> Result<Lattice, GridError> {
+        Lattice::covering(self.domain.bounds, self.spacing, MAX_COARSE_TRIANGLES)
+    }
+
+    /// The gradation of meshes for most solvers: neighbouring triangles differ little in size.
+    pub const USUAL_GRADATION: f64 = 0.3;
+
+    /// What the field is made from, but for the paint.
+    pub fn field_spec(&self) -> SizeFieldSpec {
+        let Self { layers, transfer, gradation, .. } = self;
+        SizeFieldSpec {
+            layers: layers.clone(),
+            transfer: *transfer,
+            unasked: transfer.h_max,
+            outline: self.outline_shapes(),
+            gradation: *gradation,
+        }
+    }
+
+    /// The boundary of the domain, if a layer asks for the distance to it.
+    fn outline_shapes(&self) -> Option<Shapes> {
+        let is_asked = self.layers.iter().any(|layer| layer.visible && layer.is_of_outline());
+        let region = if is_asked { self.domain.as_region()? } else { return None };
+        Shapes::outline(&region).ok()
+    }
+
+    /// What to mesh, but for the paint.
+    ///
+    /// # Errors
+    /// As [`Self::lattice`].
+    pub fn mesh_spec(&self) -> Result<MeshSpec, GridError> {
+        Ok(self.mesh_spec_on(self.lattice()?, self.limits()))
+    }
+
+    /// What to mesh on the lattice of a coarse grid, where the mesh may cost other than in a window.
+    pub fn mesh_spec_on(&self, lattice: Lattice, limits: Limits) -> MeshSpec {
+        MeshSpec {
+            domain: self.domain.clone(),
+            boundary: self.boundary,
+            lattice,
+            field: self.field_spec(),
+            rule: self.rule,
+            cleaning: self.derived_cleaning(),
+            limits,
+        }
+    }
+
+    /// Which triangles stay in the derived mesh: all, unless the mesh is fitted to polygons.
+    pub fn derived_cleaning(&self) -> Cleaning {
+        let is_fitted = self.domain.region().is_some() && self.boundary != BoundaryTreatment::Report;
+        if is_fitted { self.cleaning } else { Cleaning::NONE }
+    }
+
+    /// What the mesh may cost.
+    pub fn limits(&self) -> Limits {
+        let max_memory = Some(MemoryLimit::for_two_meshes(self.max_memory));
+        Limits { max_triangles: self.max_triangles, max_level: None, max_memory }
+    }
+}
+
+impl Settings {
+    /// Most triangles unless the user says otherwise: 760 MB.
+    pub const MAX_TRIANGLES: usize = 20_000_000;
+    /// Most memory for meshes unless the user says otherwise, in bytes: enough for a little more than
+    /// [`Self::MAX_TRIANGLES`].
+    pub const MAX_MEMORY: usize = 2_600_000_000;
+
+    /// The usual settings for a domain: lengths in proportion to its longer side.
+    pub fn for_domain(name: String, domain: Domain) -> Self {
+        let (usual, extent) = (Self::default(), domain.bounds.size().max_element());
+        let Transfer { h_min, h_max, shape } = usual.transfer;
+        let spacing = usual.spacing * extent;
+        Self {
+            name,
+            domain,
+            spacing,
+            boundary: BoundaryTreatment::usual(spacing),
+            transfer: Transfer { h_min: h_min * extent, h_max: h_max * extent, shape },
+            layers: Layer::usual(LayerKind::constant(h_max * extent)),
+            ..usual
+        }
+    }
+}
+
+impl Default for Settings {
+    /// The unit square, 24 coarse cells a side, nothing refined but what is painted.
+    fn default() -> Self {
+        Self {
+            name: "Untitled".into(),
+            unit: LengthUnit::None,
+            background: None,
+            domain: Domain::rectangle(Rect::UNIT),
+            spacing: 1.0 / 24.0,
+            boundary: BoundaryTreatment::usual(1.0 / 24.0),
+            cleaning: Cleaning::FOR_SOLVERS,
+            boundary_marks: Arc::default(),
+            pins: Arc::default(),
+            paths: Arc::default(),
+            transfer: Transfer { h_min: 0.0024, h_max: 0.2, shape: 1.0 },
+            layers: Layer::usual(LayerKind::constant(0.2)),
+            gradation: None,
+            rule: RefinementRule::Area,
+            max_triangles: Self::MAX_TRIANGLES,
+            max_memory: Self::MAX_MEMORY,
+        }
+    }
+}

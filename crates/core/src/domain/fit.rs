@@ -1,0 +1,255 @@
+//! How a mesh meets the boundary of its domain.
+
+use std::convert::Infallible;
+use std::sync::Arc;
+
+use glam::DVec2;
+
+use super::region_builder::RegionOnLatticeBuilder;
+use super::{Domain, RegionOnLattice};
+use crate::field::Formula;
+use crate::geometry::{Lattice, LatticePoint, Rect};
+use crate::mesh::{Element, LevelsWithin, Progress, bisection_edge_length, level_for_diameter};
+
+/// How the mesh meets the boundary of a region.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum BoundaryTreatment {
+    /// Appendix A: a coarse triangle belongs to the mesh when its three nodes lie inside.
+    Report,
+    /// The mesh is refined towards the boundary; then a triangle belongs to it when its centroid lies inside.
+    Fitted {
+        /// Largest diameter of a triangle that the boundary passes through, in world units.
+        diameter: f64,
+    },
+    /// The mesh is refined as for [`Self::Fitted`]. What is exported along the boundary is derived from it,
+    /// with nodes on the polygons.
+    OnOutline {
+        /// Largest diameter of a triangle of the mesh that the boundary passes through, in world units.
+        diameter: f64,
+    },
+}
+
+impl BoundaryTreatment {
+    /// The same treatment at another diameter, in world units, where it has one.
+    pub fn with_diameter(self, diameter: f64) -> Self {
+        match self {
+            Self::Report => Self::Report,
+            Self::Fitted { .. } => Self::Fitted { diameter },
+            Self::OnOutline { .. } => Self::OnOutline { diameter },
+        }
+    }
+
+    /// Largest diameter of a triangle that the boundary passes through, in world units; `None` where the
+    /// mesh is not refined along it.
+    pub fn diameter(&self) -> Option<f64> {
+        match *self {
+            Self::Report => None,
+            Self::Fitted { diameter } | Self::OnOutline { diameter } => Some(diameter),
+        }
+    }
+
+    /// Nodes on the outline, and a diameter that is quick and shows the shape.
+    pub fn usual(spacing: f64) -> Self {
+        Self::OnOutline { diameter: Self::usual_diameter(spacing) }
+    }
+
+    /// The diameter of level 7: an eighth of the spacing δ̄. Both are in world units.
+    pub fn usual_diameter(spacing: f64) -> f64 {
+        bisection_edge_length(spacing, 7)
+    }
+}
+
+/// Indexes a domain on a lattice, in slices.
+#[derive(Clone, Debug)]
+pub struct DomainOnLatticeBuilder {
+    /// All but the region.
+    indexed: DomainOnLattice,
+    boundary: BoundaryTreatment,
+    region: Option<RegionOnLatticeBuilder>,
+}
+
+impl DomainOnLatticeBuilder {
+    /// The work for a domain on a lattice that covers its bounds.
+    pub fn new(domain: &Domain, boundary: BoundaryTreatment, lattice: &Lattice) -> Self {
+        let formula = domain.formula().cloned();
+        let indexed = DomainOnLattice {
+            bounds: domain.bounds,
+            lattice: *lattice,
+            formula,
+            region: None,
+            fitted: None,
+            on_outline: false,
+        };
+        let region = domain.region().map(|region| RegionOnLatticeBuilder::new(region, lattice));
+        Self { indexed, boundary, region }
+    }
+
+    /// One slice of work: about `budget` edges of the outline.
+    pub fn advance(&mut self, budget: usize) -> Progress {
+        self.region.as_mut().map_or(Progress::Done, |region| region.advance(budget))
+    }
+
+    /// The domain. Work that is left is done in one go.
+    pub fn finish(self) -> DomainOnLattice {
+        let region = self.region.map(|region| Arc::new(region.finish()));
+        DomainOnLattice { region, ..self.indexed }.with_boundary(self.boundary)
+    }
+}
+
+/// A domain on the lattice of a mesh: what the coarse grid, the refinement criterion and
+/// [`Mesh::classify`](crate::mesh::Mesh::classify) ask.
+#[derive(Clone, Debug)]
+pub struct DomainOnLattice {
+    bounds: Rect,
+    lattice: Lattice,
+    formula: Option<Formula>,
+    /// Shared, so that a copy costs nothing.
+    region: Option<Arc<RegionOnLattice>>,
+    /// The level that triangles on the boundary must have, where the mesh is fitted to it.
+    fitted: Option<u32>,
+    /// Whether nodes along the boundary are moved onto it.
+    on_outline: bool,
+}
+
+impl DomainOnLattice {
+    /// Indexes a domain on a lattice that covers its bounds, in one go. Only a region can be fitted; a
+    /// formula is met as in the report.
+    pub fn new(domain: &Domain, boundary: BoundaryTreatment, lattice: &Lattice) -> Self {
+        DomainOnLatticeBuilder::new(domain, boundary, lattice).finish()
+    }
+
+    /// The same domain on the same lattice, with another treatment of its boundary.
+    pub fn with_boundary(&self, boundary: BoundaryTreatment) -> Self {
+        let level = |diameter| level_for_diameter(self.lattice.spacing(), diameter).unwrap_or(u32::MAX);
+        let fitted = boundary.diameter().filter(|_| self.region.is_some()).map(level);
+        let on_outline = fitted.is_some() && matches!(boundary, BoundaryTreatment::OnOutline { .. });
+        Self { fitted, on_outline, ..self.clone() }
+    }
+
+    /// The lattice that the domain is indexed on.
+    pub fn lattice(&self) -> &Lattice {
+        &self.lattice
+    }
+
+    /// Whether no point of an element belongs to the domain itself, whatever the boundary treatment. Of the
+    /// domain of a formula, this is known where interval arithmetic shows it.
+    pub fn has_none_of(&self, element: &Element) -> bool {
+        match (&self.region, &self.formula) {
+            (Some(region), _) => region.lies_outside(element.corners, element.triangle.level()),
+            (None, Some(formula)) => {
+                let bounds = formula.bounds(&element.world_rectangle());
+                bounds.least == 0.0 && bounds.greatest == 0.0
+            }
+            (None, None) => false,
+        }
+    }
+
+    /// Whether the boundary of the domain itself may pass through an element.
+    pub fn may_cut(&self, element: &Element) -> bool {
+        match (&self.region, &self.formula) {
+            (Some(region), _) => region.outline_crosses(element.corners, element.triangle.level()),
+            (None, Some(formula)) => {
+                let bounds = formula.bounds(&element.world_rectangle());
+                !bounds.valid || (bounds.least <= 0.0 && bounds.greatest >= 0.0)
+            }
+            (None, None) => false,
+        }
+    }
+
+    /// The region, where nodes along its outline are moved onto it ([`BoundaryTreatment::OnOutline`]).
+    pub fn region_on_outline(&self) -> Option<&RegionOnLattice> {
+        self.region.as_deref().filter(|_| self.on_outline)
+    }
+
+    /// Whether the mesh is fitted to the boundary: refined along it, with the triangles outside marked.
+    pub fn is_fitted(&self) -> bool {
+        self.fitted.is_some()
+    }
+
+    /// Whether a node of the coarse grid, in world units, is in the domain: the report's `DomainQ`. A coarse
+    /// triangle stays when its three nodes are. Where the mesh is fitted to the boundary every node counts as
+    /// inside.
+    pub fn admits(&self, node: DVec2) -> bool {
+        if self.is_fitted() {
+            return true;
+        }
+        if let Some(formula) = &self.formula {
+            let value = formula.eval(node.x, node.y);
+            return value != 0.0 && !value.is_nan() && self.bounds.contains(node);
+        }
+        match &self.region {
+            Some(region) => region.contains(self.lattice.nearest(node)),
+            None => self.bounds.contains(node),
+        }
+    }
+
+    /// Whether an element's diameter exceeds its target, given whether it exceeds h̄. A triangle outside the
+    /// domain never does; one that the boundary crosses does until it is as small as the boundary treatment
+    /// asks.
+    ///
+    /// Monotone if `by_field` is: a triangle inside one that is outside the domain, or that the boundary does
+    /// not cross, is so too.
+    ///
+    /// # Errors
+    /// Those of `by_field`.
+    #[inline]
+    pub fn exceeds<E>(
+        &self,
+        element: &Element,
+        by_field: impl FnOnce(&Element) -> Result<bool, E>,
+    ) -> Result<bool, E> {
+        self.exceeds_at(element.corners, element.triangle.level(), || by_field(element))
+    }
+
+    /// Whether an element lies outside a fitted domain, that is, its centroid does.
+    #[inline]
+    pub fn excludes(&self, element: &Element) -> bool {
+        self.excludes_at(element.corners)
+    }
+
+    /// As [`Self::exceeds`], for a triangle by its corners and level; it need not be in the mesh.
+    ///
+    /// # Errors
+    /// Those of `by_field`.
+    #[inline]
+    pub fn exceeds_at<E>(
+        &self,
+        corners: [LatticePoint; 3],
+        level: u32,
+        by_field: impl FnOnce() -> Result<bool, E>,
+    ) -> Result<bool, E> {
+        let (Some(fitted), Some(region)) = (self.fitted, &self.region) else { return by_field() };
+        if level < fitted && region.outline_crosses(corners, level) {
+            return Ok(true);
+        }
+        Ok(by_field()? && !region.lies_outside(corners, level))
+    }
+
+    /// As [`Self::exceeds_at`], with what is known of all triangles within.
+    pub(crate) fn levels_within(
+        &self,
+        corners: [LatticePoint; 3],
+        level: u32,
+        by_field: impl FnOnce() -> LevelsWithin,
+    ) -> LevelsWithin {
+        let Some(region) = self.region.as_ref().filter(|_| self.is_fitted()) else { return by_field() };
+        match region.side_of(corners, level) {
+            Some(true) => by_field(),
+            Some(false) => LevelsWithin::of_one(level, false),
+            None => {
+                let by_field = || Ok::<_, Infallible>(by_field().exceeds(level) == Some(true));
+                let Ok(exceeds) = self.exceeds_at(corners, level, by_field);
+                LevelsWithin::of_one(level, exceeds)
+            }
+        }
+    }
+
+    /// As [`Self::excludes`], for a triangle by its corners.
+    #[inline]
+    pub fn excludes_at(&self, corners: [LatticePoint; 3]) -> bool {
+        match &self.region {
+            Some(region) if self.is_fitted() => !region.has_centroid_of(corners),
+            _ => false,
+        }
+    }
+}

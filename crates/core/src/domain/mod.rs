@@ -1,0 +1,171 @@
+//! Ω, the domain: a rectangle or a part of it, given by a formula or by polygons; and how the mesh meets its
+//! boundary.
+
+mod boundary;
+mod comparison;
+mod outline_edge;
+mod fit;
+mod fit_quality;
+mod on_lattice;
+mod outline_query;
+mod region;
+mod region_builder;
+mod cut_shape;
+mod complexity;
+mod segments;
+mod farthest;
+mod holes;
+
+use std::sync::Arc;
+
+use crate::field::Formula;
+use crate::geometry::Rect;
+use crate::text::Grouped;
+
+pub use boundary::{
+    BoundaryKind, BoundaryMarks, BoundaryPiece, BoundaryPieces, FrameSide, LONGEST_NAME, MeshBoundary,
+    NamedPolygon, PieceFigures, PieceRun,
+};
+pub use comparison::RegionComparison;
+use complexity::check_complexity;
+pub use complexity::{MOST_CORNERS, MOST_CROSSINGS};
+pub use cut_shape::CutShape;
+pub use fit::{BoundaryTreatment, DomainOnLattice, DomainOnLatticeBuilder};
+pub use fit_quality::FitQuality;
+pub use holes::HoleFigures;
+pub use on_lattice::RegionOnLattice;
+pub use region::{Polygon, Region, Ring, corners, signed_area};
+
+/// A domain in world units.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Domain {
+    /// The rectangle that the coarse grid covers.
+    pub bounds: Rect,
+    /// The part of the rectangle.
+    pub shape: DomainShape,
+}
+
+/// Why polygons are not a valid domain.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum RegionError {
+    /// They cover no area.
+    #[error("The polygons cover no area: a ring needs three corners that are not on one line.")]
+    NoArea,
+    /// Their width or height is not finite.
+    #[error("The polygons reach too far: their width and height must be finite numbers.")]
+    TooLarge,
+    /// Too many corners.
+    #[error(
+        "The polygons have {} corners, and the limit is {}. Simplify the outline first, to the detail that the \
+         mesh needs.",
+        Grouped(*corners), Grouped(MOST_CORNERS)
+    )]
+    TooManyCorners {
+        /// Corners of all rings.
+        corners: usize,
+    },
+    /// Too many crossings of edges.
+    #[error(
+        "The rings cross themselves or each other more than {} times, which is the limit. Check that the points are in \
+         the order of the outline.",
+        Grouped(MOST_CROSSINGS)
+    )]
+    TooManyCrossings,
+    /// Too many long edges: the overlay would take too much memory.
+    #[error(
+        "Too many of the {} edges of the polygons are long compared with the width. Simplify the outline first, or \
+         divide it into several domains.",
+        Grouped(*edges)
+    )]
+    TooManyLongEdges {
+        /// Edges of all rings.
+        edges: usize,
+    },
+}
+
+/// A part of a rectangle.
+#[derive(Clone, Debug, PartialEq)]
+pub enum DomainShape {
+    /// All of it.
+    Whole,
+    /// Where the formula is neither zero nor NaN.
+    Formula(Formula),
+    /// The part that polygons cover.
+    Region(Arc<Region>),
+}
+
+impl Domain {
+    /// The whole of a rectangle.
+    pub fn rectangle(bounds: Rect) -> Self {
+        Self { bounds, shape: DomainShape::Whole }
+    }
+
+    /// The domain that polygons cover. Its bounds are their bounding rectangle, so that the mesh meets
+    /// straight sides along it exactly.
+    ///
+    /// # Errors
+    /// When they cover no area, or are too large or too complex.
+    pub fn of_polygons(polygons: &[Polygon]) -> Result<Self, RegionError> {
+        let points = polygons.iter().flatten().flatten().map(|&p| Rect::new(p, p));
+        let bounds = points.reduce(|a, b| a.union(&b)).filter(Rect::is_proper).ok_or(RegionError::NoArea)?;
+        if !bounds.size().is_finite() {
+            return Err(RegionError::TooLarge);
+        }
+        check_complexity(polygons, &bounds)?;
+        Self::of_region(Region::new(polygons, bounds))
+    }
+
+    /// The domain with exactly these polygons in `bounds`, which must be proper, if they are the
+    /// [`Region::polygons`] of a region. Other polygons are overlaid as in [`Self::of_polygons`].
+    ///
+    /// # Errors
+    /// As [`Self::of_polygons`].
+    pub fn of_stored_polygons(polygons: Vec<Polygon>, bounds: Rect) -> Result<Self, RegionError> {
+        check_complexity(&polygons, &bounds)?;
+        Self::of_region(Region::stored(polygons, bounds))
+    }
+
+    fn of_region(region: Region) -> Result<Self, RegionError> {
+        if region.is_empty() {
+            return Err(RegionError::NoArea);
+        }
+        Ok(Self { bounds: *region.frame(), shape: DomainShape::Region(Arc::new(region)) })
+    }
+
+    /// The region, if the domain is given by polygons.
+    pub fn region(&self) -> Option<&Arc<Region>> {
+        match &self.shape {
+            DomainShape::Region(region) => Some(region),
+            DomainShape::Whole | DomainShape::Formula(_) => None,
+        }
+    }
+
+    /// The region, or the whole rectangle as one; `None` for a formula.
+    pub fn as_region(&self) -> Option<Arc<Region>> {
+        match &self.shape {
+            DomainShape::Region(region) => Some(region.clone()),
+            DomainShape::Whole => Some(Arc::new(Region::new(&[vec![corners(&self.bounds)]], self.bounds))),
+            DomainShape::Formula(_) => None,
+        }
+    }
+
+    /// The formula, if the domain is given by one.
+    pub fn formula(&self) -> Option<&Formula> {
+        match &self.shape {
+            DomainShape::Formula(formula) => Some(formula),
+            DomainShape::Whole | DomainShape::Region(_) => None,
+        }
+    }
+
+    /// The domain with other bounds. Polygons are clipped to them.
+    pub fn with_bounds(&self, bounds: Rect) -> Self {
+        let shape = match &self.shape {
+            DomainShape::Region(region) if bounds.is_proper() => {
+                DomainShape::Region(Arc::new(region.reframed(bounds)))
+            }
+            other => other.clone(),
+        };
+        Self { bounds, shape }
+    }
+}

@@ -1,0 +1,88 @@
+use std::fmt;
+use std::str::FromStr;
+use std::sync::Arc;
+
+use super::{Op, ParseError, Program, derivatives, gradient, interval, parser};
+use crate::field::Bounds;
+use crate::geometry::Rect;
+
+/// A formula in x, y and `risk`: a cost per unit of length.
+///
+/// The language is that of [`Formula`](super::Formula). Clones share the compiled program.
+///
+/// ```
+/// use meshbrush_core::field::CostFormula;
+///
+/// let cost = CostFormula::parse("1 + 20*risk^2")?;
+/// assert_eq!(cost.eval(0.0, 0.0, 0.5), 6.0);
+/// # Ok::<(), meshbrush_core::field::formula::ParseError>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct CostFormula {
+    source: Arc<str>,
+    program: Arc<Program>,
+}
+
+impl CostFormula {
+    /// Reads and compiles a formula.
+    ///
+    /// # Errors
+    /// The first mistake in reading order, as for [`Formula::parse`](super::Formula::parse).
+    pub fn parse(source: &str) -> Result<Self, ParseError> {
+        let program = parser::compile(source, true)?;
+        Ok(Self { source: source.into(), program: Arc::new(program) })
+    }
+
+    /// The value at the point (x, y), in world units, with the risk there. The caller must check it.
+    pub fn eval(&self, x: f64, y: f64, risk: f64) -> f64 {
+        self.program.run_with_risk(x, y, risk)
+    }
+
+    /// Bounds of [`Self::eval`] over a closed rectangle in world units with the given risks, by interval
+    /// arithmetic.
+    pub fn bounds(&self, rect: &Rect, risk: Bounds) -> Bounds {
+        interval::bounds(&self.program, rect, risk)
+    }
+
+    /// Bounds of the derivatives along x and y over a closed rectangle in world units, with the given risks
+    /// and bounds of their derivatives. `None` where the formula may jump, or a derivative is not known.
+    pub fn derivatives(
+        &self,
+        rect: &Rect,
+        risk: Bounds,
+        risk_slopes: Option<[Bounds; 2]>,
+    ) -> Option<[Bounds; 2]> {
+        let needs_risk = self.program.code().iter().any(|op| matches!(op, Op::Risk));
+        let slopes = match risk_slopes {
+            Some(slopes) => slopes,
+            None if needs_risk && !risk.is_one() => return None,
+            None => [gradient::ZERO; 2],
+        };
+        derivatives::derivatives(&self.program, rect, (risk, slopes))
+    }
+
+    /// The text as it was typed.
+    pub fn source(&self) -> &str {
+        &self.source
+    }
+}
+
+impl PartialEq for CostFormula {
+    fn eq(&self, other: &Self) -> bool {
+        self.source == other.source
+    }
+}
+
+impl fmt::Display for CostFormula {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.source)
+    }
+}
+
+impl FromStr for CostFormula {
+    type Err = ParseError;
+
+    fn from_str(source: &str) -> Result<Self, ParseError> {
+        Self::parse(source)
+    }
+}

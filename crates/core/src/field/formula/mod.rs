@@ -1,0 +1,206 @@
+//! Formulas in x and y, as a person types them: `if(abs(x)+abs(y)<0.4, 0.0125, 1)`.
+//!
+//! # The language
+//!
+//! From the loosest binding to the tightest:
+//!
+//! | written | meaning |
+//! |---|---|
+//! | `a or b`, `a \|\| b` | 1 if either is true, else 0; `b` is not evaluated if `a` decides |
+//! | `a and b`, `a && b` | 1 if both are true, else 0; `b` is not evaluated if `a` decides |
+//! | `not a` | 1 if `a` is 0, else 0; binds loosely: `not x < 1` is `not (x < 1)` |
+//! | `<` `<=` `>` `>=` `==` `!=` | 1 or 0; a chain such as `0 < x <= 1` is `0 < x and x <= 1` |
+//! | `+` `-` | from left to right |
+//! | `*` `/` `%` | from left to right; `%` takes the sign of its right side, as in Python |
+//! | `-a` `+a` `!a` | `-2^2` is −4; `!` is `not`, and binds like a sign |
+//! | `a^b`, `a**b` | from right to left: `2^3^2` is 512 |
+//!
+//! A *value* is a number (`1`, `.5`, `1e-3`), a coordinate (`x`, `y`, and the polar `r` and `theta`),
+//! a constant (`pi`, `tau`, `e`, `inf`), a function call ([`functions`] lists them), or a formula in
+//! parentheses. Everything but 0 counts as true, NaN too. The signs `×` `·` `÷` `−` `≤` `≥` `≠`
+//! `π` `τ` `θ`, as pasted from a document, are understood.
+//!
+//! # Exactness
+//!
+//! Every operation is one operation of f64, done in the order written: nothing is re-associated,
+//! fused or approximated. Roots and rounding are exact by IEEE 754; every other function comes from
+//! `libm`, so a formula has the same bits on every machine.
+
+#[cfg(test)]
+mod bounds_tests;
+mod cost;
+mod derivatives;
+mod error;
+mod function_bounds;
+mod functions;
+mod gradient;
+#[cfg(test)]
+mod gradient_tests;
+mod interval;
+mod lexer;
+mod machine;
+#[cfg(test)]
+mod model_tests;
+mod models;
+mod parser;
+mod program;
+mod slopes;
+#[cfg(test)]
+mod tests;
+
+use std::fmt;
+use std::str::FromStr;
+use std::sync::Arc;
+
+pub use cost::CostFormula;
+pub use error::ParseError;
+pub use functions::functions;
+pub use parser::{MAX_LENGTH, MAX_NESTING};
+use program::{Op, Program};
+
+use crate::field::{Bounds, Quadratic};
+use crate::geometry::Rect;
+
+/// A formula in x and y, compiled once and evaluated many times.
+///
+/// Cloning shares the compiled program. Two formulas are equal when their texts are.
+///
+/// ```
+/// use meshbrush_core::field::Formula;
+///
+/// let target = Formula::parse("if(abs(x)+abs(y)<0.4, 0.0125, 1)")?;
+/// assert_eq!(target.eval(0.1, -0.2), 0.0125);
+/// assert_eq!(target.eval(0.4, 0.0), 1.0); // the line itself is outside: `<` is strict
+/// # Ok::<(), meshbrush_core::field::formula::ParseError>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Formula {
+    source: Arc<str>,
+    program: Arc<Program>,
+}
+
+impl Formula {
+    /// Reads and compiles a formula.
+    ///
+    /// # Errors
+    ///
+    /// The first mistake in reading order, with its place and what would help. Texts longer than
+    /// 64 KiB and expressions nested deeper than 200 are mistakes too.
+    ///
+    /// ```
+    /// use meshbrush_core::field::Formula;
+    ///
+    /// let mistake = Formula::parse("1 + 2*sqr(x)").unwrap_err();
+    /// assert_eq!(mistake.to_string(), "There is no `sqr`; write `v^2`.");
+    /// assert_eq!(mistake.pointer(), "1 + 2*sqr(x)\n      ^^^");
+    /// ```
+    pub fn parse(source: &str) -> Result<Self, ParseError> {
+        let program = parser::compile(source, false)?;
+        Ok(Self { source: source.into(), program: Arc::new(program) })
+    }
+
+    /// The value at the point (x, y), in world units.
+    ///
+    /// The caller must check the value: `sqrt(-1)` is NaN, `1/0` is infinite, and both are returned. `min`,
+    /// `max` and `clamp` of NaN are NaN; a comparison with NaN is 0, except `!=`, which is 1.
+    pub fn eval(&self, x: f64, y: f64) -> f64 {
+        self.program.run(x, y)
+    }
+
+    /// Bounds of [`Self::eval`] over a closed rectangle in world units, by interval arithmetic.
+    ///
+    /// They hold for every point of the rectangle with coordinates in f64. A coordinate that occurs several
+    /// times makes them wider than the values are; over smaller rectangles they are closer. At a single point
+    /// other than on an axis they are the value.
+    ///
+    /// ```
+    /// use glam::dvec2;
+    /// use meshbrush_core::field::Formula;
+    /// use meshbrush_mesh::geometry::Rect;
+    ///
+    /// let bounds = Formula::parse("x^2 + y")?.bounds(&Rect::new(dvec2(-1.0, 2.0), dvec2(3.0, 5.0)));
+    /// assert_eq!((bounds.least, bounds.greatest), (2.0, 14.0));
+    /// assert!(bounds.valid); // no value is NaN
+    /// # Ok::<(), meshbrush_core::field::formula::ParseError>(())
+    /// ```
+    pub fn bounds(&self, rect: &Rect) -> Bounds {
+        interval::bounds(&self.program, rect, Bounds::ANYTHING)
+    }
+
+    /// Bounds of the derivatives along x and y over a closed rectangle in world units. `None` where the
+    /// formula may jump, or a derivative is not known.
+    pub(crate) fn derivatives(&self, rect: &Rect) -> Option<[Bounds; 2]> {
+        derivatives::derivatives(&self.program, rect, (Bounds::ANYTHING, [gradient::ZERO; 2]))
+    }
+
+    /// The largest slope in any direction over a closed rectangle in world units; infinite where the formula
+    /// may jump, or a derivative is not known.
+    pub(crate) fn steepness(&self, rect: &Rect) -> f64 {
+        derivatives::steepness(&self.program, rect)
+    }
+
+    /// A model of [`Self::eval`] over a rectangle, from models of the coordinates.
+    pub(crate) fn model(&self, [x, y]: [Quadratic; 2]) -> Quadratic {
+        machine::run(&self.program, [x, y, Quadratic::UNKNOWN])
+    }
+
+    /// The number of instructions.
+    pub(crate) fn length(&self) -> usize {
+        self.program.code().len()
+    }
+
+    /// The formula of a number: its shortest text.
+    pub fn constant_of(value: f64) -> Self {
+        let source = format!("{value}");
+        Self { program: Arc::new(Program::new(vec![Op::Number(value)], 1)), source: source.into() }
+    }
+
+    /// The text as it was typed.
+    pub fn source(&self) -> &str {
+        &self.source
+    }
+
+    /// Where the compiled formula lies in memory: equal for clones, which share it.
+    pub fn address(&self) -> usize {
+        Arc::as_ptr(&self.program).addr()
+    }
+
+    /// Memory that clones share, in bytes.
+    pub fn bytes(&self) -> usize {
+        self.source.len() + self.program.bytes()
+    }
+
+    /// The value, if the formula uses no coordinate.
+    ///
+    /// ```
+    /// # use meshbrush_core::field::Formula;
+    /// assert_eq!(Formula::parse("0.05/2^3")?.constant(), Some(0.00625));
+    /// assert_eq!(Formula::parse("0*x")?.constant(), None);
+    /// # Ok::<(), meshbrush_core::field::formula::ParseError>(())
+    /// ```
+    pub fn constant(&self) -> Option<f64> {
+        self.program.constant()
+    }
+}
+
+impl PartialEq for Formula {
+    fn eq(&self, other: &Self) -> bool {
+        self.source == other.source
+    }
+}
+
+impl Eq for Formula {}
+
+impl fmt::Display for Formula {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.source)
+    }
+}
+
+impl FromStr for Formula {
+    type Err = ParseError;
+
+    fn from_str(source: &str) -> Result<Self, ParseError> {
+        Self::parse(source)
+    }
+}

@@ -1,0 +1,193 @@
+use glam::{DVec2, dvec2};
+
+use crate::field::f32_not_below;
+use crate::geometry::nearest_share;
+use crate::mesh::TargetChange;
+
+/// What a brush does to the pixels under it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Medium {
+    /// Moves the risk towards this value, 0 to 1: with each stroke by the brush's strength.
+    Risk(f64),
+    /// Changes the target diameter to this value, in world units, where the change is of the given kind.
+    Diameter(f64, DiameterChange),
+    /// Removes risk and target diameter.
+    Eraser,
+}
+
+impl Medium {
+    /// What it does to the diameters that pixels ask for. `h_max` is the largest, in world units.
+    pub fn change(&self, h_max: f64) -> TargetChange {
+        match *self {
+            Self::Risk(aim) if aim >= 1.0 => TargetChange::Finer,
+            // Towards the rim the new diameter grows to the largest, and beyond it where that is smaller.
+            Self::Diameter(target, DiameterChange::Finer) if target <= h_max => TargetChange::Finer,
+            Self::Risk(aim) if aim <= 0.0 => TargetChange::Coarser,
+            Self::Diameter(_, DiameterChange::Coarser) | Self::Eraser => TargetChange::Coarser,
+            Self::Risk(_) | Self::Diameter(..) => TargetChange::Any,
+        }
+    }
+}
+
+/// The changes of a painted target diameter that a brush makes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DiameterChange {
+    /// Only to a smaller diameter. Towards the soft rim the new diameter grows to the document's largest.
+    Finer,
+    /// Only to a larger diameter: what is not painted stays so.
+    Coarser,
+    /// To any other diameter. Towards the soft rim the new diameter approaches the old one.
+    Any,
+}
+
+/// A round brush.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Brush {
+    /// What it does to a pixel.
+    pub medium: Medium,
+    /// Radius in world units.
+    pub radius: f64,
+    /// Fraction of the radius with full coverage, 0 to 1; from there the coverage falls to 0 at the rim.
+    pub hardness: f64,
+    /// How far one stroke moves a pixel towards the full effect, 0 to 1.
+    pub strength: f64,
+}
+
+impl Brush {
+    /// Coverage at a distance from the brush's centre, in world units: 1 in the core, 0 at the rim and
+    /// beyond.
+    pub fn coverage(&self, distance: f64) -> f64 {
+        let core = self.radius * self.hardness.clamp(0.0, 1.0);
+        if distance <= core {
+            1.0
+        } else if distance >= self.radius {
+            0.0
+        } else {
+            // Smoothstep from the rim to the core.
+            let t = (self.radius - distance) / (self.radius - core);
+            t * t * (3.0 - 2.0 * t)
+        }
+    }
+
+    /// Coverage of a pixel at `point` by the segment of a path, times the strength of the path there.
+    ///
+    /// Size and strength change linearly along the segment; those at the place nearest to the pixel count.
+    pub(super) fn coverage_of_segment(&self, point: DVec2, [from, to]: [PathPoint; 2]) -> f64 {
+        let (share, distance) = nearest_on_path(point, [from.at, to.at]);
+        let between = |a: f64, b: f64| a + share * (b - a);
+        let radius = self.radius * between(from.size, to.size);
+        between(from.strength, to.strength) * Self { radius, ..*self }.coverage(distance)
+    }
+
+    /// New value of a pixel from the old one, in a raster whose blank pixels have the value `blank`: 0 in a
+    /// raster of risks, infinite in one of diameters. `coverage` is that of the stroke, 0 to 1; `h_max` the
+    /// largest target diameter, in world units. A brush for the other kind of raster changes nothing.
+    pub(super) fn painted_value(&self, coverage: f32, old: f32, blank: f32, h_max: f64) -> f32 {
+        let amount = f64::from(coverage) * self.strength;
+        match (self.medium, blank.is_infinite()) {
+            (Medium::Risk(aim), false) => moved_risk(old, aim, amount),
+            (Medium::Diameter(target, change), true) => changed_diameter(old, target, change, amount, h_max),
+            (Medium::Eraser, false) => moved_risk(old, 0.0, amount),
+            (Medium::Eraser, true) => raised_diameter(old, h_max, amount, h_max),
+            _ => old,
+        }
+    }
+}
+
+/// A risk moved towards `aim`. A remainder below a hundredth on the way to 0 becomes 0: it would keep the
+/// mesh refined without being visible.
+fn moved_risk(risk: f32, aim: f64, amount: f64) -> f32 {
+    if aim == 0.0 {
+        let left = f64::from(risk) * (1.0 - amount);
+        return if left < 0.01 { 0.0 } else { left as f32 };
+    }
+    if amount >= 1.0 { aim as f32 } else { (f64::from(risk) + amount * (aim - f64::from(risk))) as f32 }
+}
+
+fn changed_diameter(old: f32, target: f64, change: DiameterChange, amount: f64, h_max: f64) -> f32 {
+    match change {
+        DiameterChange::Finer => {
+            let graded = if amount >= 1.0 { target } else { h_max * libm::pow(target / h_max, amount) };
+            old.min(f32_not_below(graded))
+        }
+        DiameterChange::Coarser => raised_diameter(old, target, amount, h_max),
+        DiameterChange::Any if f64::from(old) < target => raised_diameter(old, target, amount, h_max),
+        DiameterChange::Any => {
+            let old = f64::from(old).min(h_max);
+            let graded = if amount >= 1.0 { target } else { old * libm::pow(target / old, amount) };
+            painted_or_blank(f32_not_below(graded), h_max)
+        }
+    }
+}
+
+/// A diameter moved up towards `target`, on a logarithmic scale.
+fn raised_diameter(old: f32, target: f64, amount: f64, h_max: f64) -> f32 {
+    let diameter = f64::from(old);
+    let raised = diameter * libm::pow((target / diameter).max(1.0), amount);
+    let raised = if amount >= 1.0 { raised.max(target) } else { raised };
+    painted_or_blank(f32_not_below(raised), h_max)
+}
+
+/// What is almost as large as everywhere else becomes blank.
+fn painted_or_blank(diameter: f32, h_max: f64) -> f32 {
+    if f64::from(diameter) >= 0.99 * h_max { f32::INFINITY } else { diameter }
+}
+
+/// A point of a stroke's path, with the brush there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PathPoint {
+    /// In world units.
+    pub at: DVec2,
+    /// Radius in proportion to that of the brush.
+    pub size: f64,
+    /// Strength in proportion to that of the brush, 0 to 1.
+    pub strength: f64,
+}
+
+impl From<DVec2> for PathPoint {
+    /// A point with the whole brush.
+    fn from(at: DVec2) -> Self {
+        Self { at, size: 1.0, strength: 1.0 }
+    }
+}
+
+impl PathPoint {
+    /// Whether all its numbers are finite.
+    pub fn is_finite(&self) -> bool {
+        self.at.is_finite() && self.size.is_finite() && self.strength.is_finite()
+    }
+}
+
+/// The lines in which a stroke is repeated.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Mirror {
+    /// The x of a vertical line, in world units.
+    pub x: Option<f64>,
+    /// The y of a horizontal line, in world units.
+    pub y: Option<f64>,
+}
+
+impl Mirror {
+    /// The point itself, and its images: one, two or four points.
+    pub fn images(&self, point: DVec2) -> impl Iterator<Item = DVec2> + use<> {
+        let x = self.x.map(|x| 2.0 * x - point.x);
+        let y = self.y.map(|y| 2.0 * y - point.y);
+        let columns = [Some(point.x), x].into_iter().flatten();
+        columns.flat_map(move |x| [Some(point.y), y].into_iter().flatten().map(move |y| dvec2(x, y)))
+    }
+
+    /// A segment of a path, and its images.
+    pub(super) fn segments(
+        &self,
+        [from, to]: [PathPoint; 2],
+    ) -> impl Iterator<Item = [PathPoint; 2]> + use<> {
+        let ends = self.images(from.at).zip(self.images(to.at));
+        ends.map(move |(a, b)| [PathPoint { at: a, ..from }, PathPoint { at: b, ..to }])
+    }
+}
+
+/// The place on a segment that is nearest to `point`: its share of the segment, 0 to 1, and its distance.
+pub(super) fn nearest_on_path(point: DVec2, [a, b]: [DVec2; 2]) -> (f64, f64) {
+    let share = nearest_share(point, [a, b]);
+    (share, (point - a - (b - a) * share).length())
+}

@@ -1,0 +1,367 @@
+//! A proven lower bound of what any path costs: the best path is within so many percent.
+//!
+//! For a function v with |∇v| ≤ c, no path from start to goal costs less than v(goal) − v(start). The
+//! greatest such difference is the least cost: that is the dual. [`Certificate`] maximizes it over
+//! continuous, piecewise quadratic functions on a small mesh of its own, as a second-order cone programme,
+//! and refines that mesh where the solution says that the bound loses most.
+//!
+//! ```text
+//! setup       mesh with h ≤ max(h_min, 0.7 · distance from the path)
+//!   ↓
+//! minorant    for each triangle an affine function ℓ ≤ c     ◀──────────┐
+//! edges       on each edge, too, by one of the triangles beside it      │
+//! programme   max v(goal) − v(start), |∇v| ≤ ℓ at all corners           │
+//! proof       λ = min ℓ / |∇v|, bound = λ (v(goal) − v(start))          │
+//! marking     what each triangle loses, from the flow of the dual ──────┘ bisect
+//! ```
+//!
+//! # Why it is a bound
+//!
+//! 1. v is continuous and a polynomial on each closed triangle. Along a Lipschitz path γ, v∘γ is Lipschitz,
+//!    and for almost every τ with γ(τ) in a triangle t, (v∘γ)′ = ∇v·γ′ with the gradient in t. Finitely many
+//!    triangles cover γ, so its cost is at least ∫ |(v∘γ)′| ≥ v(goal) − v(start). This includes paths along
+//!    edges and boundaries and through nodes where two parts meet.
+//! 2. The gradient of v is affine, so |∇v| is convex, and with an affine ℓ ≤ c the corners decide.
+//! 3. Where γ stays on an edge, its direction is that of the edge, and there the gradients of both triangles
+//!    agree. So on an edge it suffices that one of the two ℓ is at most c there: a jump that follows the mesh
+//!    costs nothing, and a cost that is smaller on the edge alone counts.
+//!    An edge stands for a strip of some ulps, because a jump that lies on an edge in one formula lies beside
+//!    it in another. Consider v∘φ, where φ moves each point by some ulps such that all strips go to their
+//!    edges, and those around a node to the node. Its gradient in a strip is that along the edge, and
+//!    elsewhere at most the share of ulps in a triangle greater: the bound is rounded down by that share.
+//! 4. Only triangles wholly outside the domain are left out. The others allow more paths than the domain has:
+//!    the bound is still one. The known path must stay in the domain for its cost to be an upper bound.
+//!
+//! Nothing is taken from the solver on trust: λ and the difference are computed from the values of v, and
+//! rounded down. A programme that fails leaves the bound of those before.
+
+mod edges;
+mod legs;
+mod marking;
+mod minorant;
+mod programme;
+mod proof;
+mod quadratic;
+mod setup;
+mod task;
+mod triangle;
+
+use std::convert::Infallible;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use glam::DVec2;
+
+use super::{Passage, PathError, PathMesh};
+use crate::geometry::Rect;
+use crate::mesh::{Limits, Mesh};
+use edges::lower_at_edges;
+use marking::{bisections, estimates};
+use minorant::Minorant;
+use programme::Programme;
+use proof::proven_gain;
+use quadratic::{QuadraticElement, QuadraticSpace};
+use triangle::FlatTriangle;
+
+pub use legs::PathCertificate;
+pub use task::{CertificateEnd, CertificateTask, Placement, PlacementTest};
+
+/// One round aims at losing this part of the requested width.
+const AIM: f64 = 0.65;
+/// The accuracy of a programme, as a part of the requested width.
+const ACCURACY: f64 = 0.05;
+/// So many triangles are added at most to a mesh on which a better path is sought.
+const MOST_ADDED: usize = 60_000;
+/// A triangle beside a keep-out region is small for a path if its diameter is this part of the requested
+/// width times the length of the path.
+const SHORT_DETOUR: f64 = 0.1;
+/// The strips around edges are so many ulps of the largest coordinate wide on each side.
+const STRIP_ULPS: f64 = 16.0;
+/// The gradient grows by at most so many times the width of a strip as a part of the smallest triangle.
+const STRIP_LOSS: f64 = 20.0;
+/// The most work of a certificate, in nodes times steps of the solver: some ten seconds. A programme that
+/// would exceed it is not started. It is a count, so that every machine proves the same.
+const MOST_WORK: u64 = 700_000;
+/// The number of steps that the solver usually takes for a programme.
+const USUAL_STEPS: u64 = 25;
+/// After so many programmes in a row that hardly raise the bound, it ends.
+const MOST_IDLE: usize = 3;
+
+/// Raises the lower bound of what any path costs, programme by programme.
+///
+/// The state is kept between two programmes, so that it can run on a thread with progress, be told to stop,
+/// and go on when a better path is known.
+///
+/// ```
+/// use std::sync::Arc;
+/// use glam::{DVec2, dvec2};
+/// use meshbrush_core::path::{Certificate, CertificateEnd, CertificateTask, CostDensity, CostRange};
+/// use meshbrush_mesh::geometry::Rect;
+///
+/// /// 1 everywhere: the least cost is the distance.
+/// struct One;
+/// impl CostDensity for One {
+///     fn at(&self, _: DVec2) -> f64 { 1.0 }
+///     fn range(&self, _: &Rect) -> CostRange { CostRange { least: 1.0, greatest: 1.0 } }
+/// }
+/// let path = vec![dvec2(0.1, 0.2), dvec2(0.9, 0.8)];
+/// let task = CertificateTask::in_rectangle(Rect::UNIT, Arc::new(One), path, 1.0, 0.001)?;
+/// let mut certificate = Certificate::new(task)?;
+/// while certificate.advance()?.is_none() {}
+/// assert_eq!(certificate.end(), Some(CertificateEnd::Reached));
+/// assert!(certificate.lower() <= 1.0 && certificate.lower() >= 0.999);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone)]
+pub struct Certificate {
+    task: CertificateTask,
+    mesh: Mesh,
+    /// What is known of each triangle, by its id, with the level that it had then.
+    minorants: Vec<Option<(u32, Minorant)>>,
+    lower: f64,
+    programmes: usize,
+    nodes: usize,
+    /// The work of all programmes so far: nodes times steps of the solver.
+    work: u64,
+    /// Programmes in a row that hardly raised the bound.
+    idle: usize,
+    end: Option<CertificateEnd>,
+    stop: Arc<AtomicBool>,
+}
+
+impl Certificate {
+    /// The work for a task. The first bound comes with the first programme.
+    ///
+    /// # Errors
+    /// When start or goal lie outside the domain or apart, or the grid is too fine for a certificate.
+    pub fn new(task: CertificateTask) -> Result<Self, PathError> {
+        task.check()?;
+        let end = (task.start() == task.goal()).then_some(CertificateEnd::Reached);
+        let mesh = setup::graded_mesh(&task)?;
+        setup::reachable(&mesh, &task)?;
+        Ok(Self {
+            task,
+            mesh,
+            minorants: Vec::new(),
+            lower: 0.0,
+            programmes: 0,
+            nodes: 0,
+            work: 0,
+            idle: 0,
+            end,
+            stop: Arc::default(),
+        })
+    }
+
+    /// No path costs less.
+    pub fn lower(&self) -> f64 {
+        self.lower
+    }
+
+    /// The cost of the known path.
+    pub fn upper(&self) -> f64 {
+        self.task.upper
+    }
+
+    /// By what part of its cost the known path can be improved at most: (upper − lower) / upper.
+    pub fn width(&self) -> f64 {
+        if self.task.upper > 0.0 { (self.task.upper - self.lower).max(0.0) / self.task.upper } else { 0.0 }
+    }
+
+    /// How many programmes were solved.
+    pub fn programmes(&self) -> usize {
+        self.programmes
+    }
+
+    /// How many nodes the mesh of the last programme had.
+    pub fn nodes(&self) -> usize {
+        self.nodes
+    }
+
+    /// Why it ended; `None` while there is more to do.
+    pub fn end(&self) -> Option<CertificateEnd> {
+        self.end
+    }
+
+    /// Set to true from any thread, it stops the programme under way within one of its iterations.
+    /// [`Self::advance`] then returns at once, and does nothing until it is false again.
+    pub fn stop_signal(&self) -> Arc<AtomicBool> {
+        Arc::clone(&self.stop)
+    }
+
+    /// A better path is known: it becomes the upper bound, and work that had ended may go on.
+    pub fn improve(&mut self, path: Vec<DVec2>, upper: f64) {
+        let joins = [path.first(), path.last()] == [self.task.path.first(), self.task.path.last()];
+        if joins && upper < self.task.upper && upper > 0.0 {
+            self.task.path = path;
+            self.task.upper = upper;
+            self.idle = 0;
+            self.end = (self.width() <= self.task.width).then_some(CertificateEnd::Reached);
+        }
+    }
+
+    /// Solves one programme, and refines the mesh for the next. Returns why it ended, or `None` if it goes
+    /// on.
+    ///
+    /// # Errors
+    /// When the cost has no positive lower bound somewhere, or the finer mesh shows that no path leads from
+    /// start to goal.
+    pub fn advance(&mut self) -> Result<Option<CertificateEnd>, PathError> {
+        if self.end.is_some() || self.stop.load(Ordering::Relaxed) {
+            return Ok(self.end);
+        }
+        let kept = setup::reachable(&self.mesh, &self.task)?;
+        let space = QuadraticSpace::new(&self.mesh, &kept.triangles);
+        if self.work + (space.nodes as u64) * USUAL_STEPS > MOST_WORK {
+            self.end = Some(CertificateEnd::TooLarge);
+            return Ok(self.end);
+        }
+        let minorants = self.minorants_of(&space)?;
+        let (start, goal) = (&space.elements[kept.start], &space.elements[kept.goal]);
+        let gain = gain_weights(start, goal, &self.task);
+        let programme = Programme {
+            space: &space,
+            minorants: &minorants,
+            gain: &gain,
+            pinned: start.values[0],
+            unit: self.task.upper,
+            accuracy: (ACCURACY * self.task.width).clamp(1e-8, 1e-4),
+        };
+        let Some(solution) = programme.solve(&self.stop) else {
+            if !self.stop.load(Ordering::Relaxed) {
+                self.end = Some(CertificateEnd::SolverFailed);
+            }
+            return Ok(self.end);
+        };
+        self.programmes += 1;
+        self.nodes = space.nodes;
+        self.work += (space.nodes as u64) * u64::from(solution.steps);
+        let before = self.width();
+        let lower = proven_gain(&space, &minorants, &solution.function, &gain) * self.without_strips(&space);
+        self.lower = self.lower.max(lower.min(self.task.upper));
+        let estimates = estimates(&space, &minorants, &solution, &kept);
+        let lost = estimates.iter().sum::<f64>() / self.task.upper;
+        self.end = self.reason_to_end(before, lost);
+        if self.end.is_none() {
+            self.refine(&space, &minorants, &estimates, lost);
+        }
+        Ok(self.end)
+    }
+
+    /// `before` is the width before the last programme, `lost` what the estimates say of the width now.
+    fn reason_to_end(&mut self, before: f64, lost: f64) -> Option<CertificateEnd> {
+        let width = self.width();
+        if width <= self.task.width {
+            return Some(CertificateEnd::Reached);
+        }
+        self.idle = if width < 0.98 * before { 0 } else { self.idle + 1 };
+        // Even a bound that loses nothing would not reach the width; estimates may be off by a factor of 2.
+        let upper_limits = width - 2.0 * lost > self.task.width;
+        if self.idle >= MOST_IDLE || (upper_limits && lost < 0.5 * self.task.width) {
+            let reason =
+                if upper_limits { CertificateEnd::UpperBoundLimits } else { CertificateEnd::NoMoreGain };
+            return Some(reason);
+        }
+        (self.nodes >= self.task.most_nodes).then_some(CertificateEnd::TooLarge)
+    }
+
+    /// Bisects the triangles that lose most. `lost` is what all lose, as a part of the upper bound.
+    fn refine(&mut self, space: &QuadraticSpace, minorants: &[Minorant], estimates: &[f64], lost: f64) {
+        // What no refinement changes, as far as the estimates can be trusted.
+        let fixed = (self.width() - lost).clamp(0.0, 0.5 * self.task.width);
+        let aim = (AIM * (self.task.width - fixed)).min(0.5 * lost);
+        let deepest = self.mesh.lattice().deepest_level();
+        let mut wanted: Vec<u32> = self.mesh.raw_triangles().iter().map(|t| t.level()).collect();
+        // There are twice as many triangles as nodes, and the last programme may have some more.
+        let most = 5 * self.task.most_nodes / 2;
+        let bisections = bisections(estimates, minorants, aim * self.task.upper, most);
+        for (element, more) in space.elements.iter().zip(bisections) {
+            let level = &mut wanted[element.id.index()];
+            *level = (*level + more).min(deepest);
+        }
+        let before = self.mesh.clone();
+        let limits = Limits { max_triangles: 8 * self.task.most_nodes, ..Limits::default() };
+        let refined = self.mesh.refine(&limits, |element| {
+            let ancestor = before.locate(FlatTriangle::new(element.world_corners()).centroid()).triangle();
+            Ok(ancestor.is_some_and(|id| element.triangle.level() < wanted[id.index()]))
+        });
+        if refined.is_err() {
+            self.end = Some(CertificateEnd::TooLarge);
+        }
+    }
+
+    /// Bisects a mesh for paths until it is as fine everywhere as the certificate's mesh, which is fine where
+    /// paths that nearly are the best may go. Where the known path passes a keep-out region, it is bisected
+    /// until a detour around the triangles that the region touches is short for the requested width.
+    fn refine_like(&self, mesh: &mut PathMesh) {
+        let length: f64 = self.task.path.windows(2).map(|pair| pair[0].distance(pair[1])).sum();
+        let short = SHORT_DETOUR * self.task.width * length;
+        let excess = |mesh: &PathMesh, triangle: u32| {
+            let centroid = FlatTriangle::new(mesh.corners(triangle)).centroid();
+            let within = self.mesh.locate(centroid).triangle();
+            let mut enough = within.map_or(f64::INFINITY, |id| {
+                FlatTriangle::new(self.mesh.world_corners(id)).diameter() * (1.0 + 1e-9)
+            });
+            let diameter = mesh.diameter(triangle);
+            if mesh.passage(triangle) == Passage::Partly
+                && diameter > short
+                && setup::distance_from(&self.task.path, centroid) <= 2.0 * diameter
+            {
+                enough = enough.min(short);
+            }
+            if diameter > enough { diameter - enough } else { 0.0 }
+        };
+        let all = 0..mesh.triangle_count() as u32;
+        let wanted = all.map(|t| (excess(mesh, t), t)).filter(|wanted| wanted.0 > 0.0).collect();
+        let Ok(()) = mesh.bisect(wanted, MOST_ADDED, |mesh, t| Ok::<_, Infallible>(excess(mesh, t)));
+    }
+
+    /// Half the width of the strips around edges, in world units.
+    fn inset(&self) -> f64 {
+        let Rect { min, max } = self.mesh.lattice().bounds();
+        let largest = min.abs().max(max.abs()).max_element();
+        STRIP_ULPS * (largest.next_up() - largest)
+    }
+
+    /// The factor that rounds a bound down for the strips around edges.
+    fn without_strips(&self, space: &QuadraticSpace) -> f64 {
+        let diameters = space.elements.iter().map(|element| element.flat.diameter());
+        (1.0 - STRIP_LOSS * self.inset() / diameters.fold(f64::INFINITY, f64::min)).max(0.0)
+    }
+
+    /// An affine function below the cost for each triangle of the space.
+    fn minorants_of(&mut self, space: &QuadraticSpace) -> Result<Vec<Minorant>, PathError> {
+        self.minorants.resize(self.mesh.raw_triangle_count(), None);
+        let inset = self.inset();
+        let mut all = Vec::with_capacity(space.elements.len());
+        for element in &space.elements {
+            let level = self.mesh.triangle(element.id).level();
+            let known = &mut self.minorants[element.id.index()];
+            let minorant = match *known {
+                Some((at, minorant)) if at == level => minorant,
+                _ => Minorant::new(&*self.task.cost, &element.flat, inset),
+            };
+            *known = Some((level, minorant));
+            all.push(minorant.at_most(100.0 * self.task.upper / element.flat.diameter()));
+        }
+        lower_at_edges(&*self.task.cost, space, &mut all, inset);
+        for (element, minorant) in space.elements.iter().zip(&all) {
+            if minorant.least.is_nan() || minorant.least <= 0.0 {
+                return Err(PathError::UnboundedCost { at: element.flat.centroid() });
+            }
+        }
+        Ok(all)
+    }
+}
+
+/// The functional v(goal) − v(start), as weights of values.
+fn gain_weights(
+    start: &QuadraticElement,
+    goal: &QuadraticElement,
+    task: &CertificateTask,
+) -> Vec<(u32, f64)> {
+    let weights = |element: &QuadraticElement, point, sign: f64| {
+        element.values.into_iter().zip(element.weights_at(point).map(|weight| sign * weight))
+    };
+    weights(goal, task.goal(), 1.0).chain(weights(start, task.start(), -1.0)).collect()
+}

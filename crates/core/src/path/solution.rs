@@ -1,0 +1,220 @@
+use std::sync::Arc;
+
+use glam::DVec2;
+
+use super::integral::PathFigures;
+use super::{CostDensity, PathError, Walls};
+use crate::geometry::nearest_on_segment;
+
+/// A path, and how far from the best it can be.
+#[derive(Clone, Debug, Default)]
+#[non_exhaustive]
+pub struct Solution {
+    /// What the path costs, as computed.
+    pub cost: f64,
+    /// No path costs less: a bound of the best.
+    pub lower: f64,
+    /// No less than what this path costs, so the best costs no more.
+    pub upper: f64,
+    /// Length in world units.
+    pub length: f64,
+    /// The integral of the risk over the length.
+    pub risk: f64,
+    /// The highest risk on the way.
+    pub highest_risk: f64,
+    /// The path from the start to the goal, in world units.
+    pub points: Vec<DVec2>,
+    /// The places in `points` of the start, the via points and the goal.
+    pub stops: Vec<usize>,
+    /// For each leg between stops, the walls of the mesh on which it was found: they admit it.
+    pub(super) walls: Vec<Arc<Walls>>,
+}
+
+impl PartialEq for Solution {
+    /// Where a path was found does not make it another one.
+    fn eq(&self, other: &Self) -> bool {
+        let figures = |one: &Self| [one.cost, one.lower, one.upper, one.length, one.risk, one.highest_risk];
+        figures(self) == figures(other) && self.points == other.points && self.stops == other.stops
+    }
+}
+
+/// A place on a path, for a profile.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PathSample {
+    /// Distance from the start along the path, in world units.
+    pub distance: f64,
+    /// The place, in world units.
+    pub point: DVec2,
+    /// What the path costs up to there.
+    pub cost: f64,
+    /// The risk there.
+    pub risk: f64,
+    /// The cost per unit of length there.
+    pub density: f64,
+}
+
+impl Solution {
+    /// The width of the interval as a share of its upper end: how much better than this path the best can
+    /// be. 0 for a path that costs nothing.
+    pub fn gap(&self) -> f64 {
+        if self.upper > 0.0 { ((self.upper - self.lower) / self.upper).max(0.0) } else { 0.0 }
+    }
+
+    /// Raises the lower bound to another one, for example that of a certificate.
+    pub fn tighten(&mut self, lower: f64) {
+        self.lower = self.lower.max(lower).min(self.upper);
+    }
+
+    /// Takes what a certificate found out: a better path between the same stops, or a greater lower bound.
+    /// Returns whether the path is another one.
+    pub fn take(&mut self, proved: Self) -> bool {
+        let is_other = proved.upper < self.upper && proved.points != self.points;
+        let lower = self.lower.max(proved.lower);
+        if proved.upper < self.upper {
+            *self = proved;
+        }
+        self.tighten(lower);
+        is_other
+    }
+
+    /// The solution of a polyline. `tolerance` is that of [`PathFigures::of`].
+    pub(super) fn of(points: Vec<DVec2>, density: &dyn CostDensity, tolerance: f64) -> Self {
+        let PathFigures { cost, upper, length, risk, highest_risk } =
+            PathFigures::of(&points, density, tolerance);
+        let stops = vec![0, points.len() - 1];
+        Self { cost, lower: 0.0, upper, length, risk, highest_risk, points, stops, walls: Vec::new() }
+    }
+
+    /// The path along several, each of which begins where the last ends.
+    pub fn joined(legs: impl IntoIterator<Item = Self>) -> Self {
+        let mut solution = Self::default();
+        legs.into_iter().for_each(|leg| solution.append(leg));
+        solution
+    }
+
+    /// Places at equal distances along the path, at least two.
+    pub(super) fn evenly(&self, count: usize) -> Vec<DVec2> {
+        let (mut piece, mut walked) = (0, 0.0);
+        let mut places = Vec::with_capacity(count);
+        for n in 0..count {
+            let distance = self.length * n as f64 / (count - 1) as f64;
+            let length = |piece: usize| self.points[piece].distance(self.points[piece + 1]);
+            while piece + 2 < self.points.len() && walked + length(piece) < distance {
+                walked += length(piece);
+                piece += 1;
+            }
+            let share = ((distance - walked) / length(piece).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+            places.push(self.points[piece].lerp(self.points[piece + 1], share));
+        }
+        places
+    }
+
+    /// Continues the path with one that begins where it ends.
+    pub(super) fn append(&mut self, next: Self) {
+        if self.points.is_empty() {
+            *self = next;
+            return;
+        }
+        self.cost += next.cost;
+        self.lower += next.lower;
+        self.upper += next.upper;
+        self.length += next.length;
+        self.risk += next.risk;
+        self.highest_risk = self.highest_risk.max(next.highest_risk);
+        let end = self.points.len() - 1;
+        self.points.extend(&next.points[1..]);
+        self.stops.extend(next.stops[1..].iter().map(|stop| end + stop));
+        self.walls.extend(next.walls);
+    }
+
+    /// Cost, risk and density at all points.
+    pub fn samples(&self, density: &dyn CostDensity) -> Vec<PathSample> {
+        let (mut distance, mut cost) = (0.0, 0.0);
+        let mut samples = Vec::with_capacity(self.points.len());
+        for (n, &point) in self.points.iter().enumerate() {
+            if n > 0 {
+                distance += self.points[n - 1].distance(point);
+                let piece = [self.points[n - 1], point];
+                cost += PathFigures::of(&piece, density, PROFILE_TOLERANCE).cost;
+            }
+            let (risk, density) = (density.risk_at(point), density.at(point));
+            samples.push(PathSample { distance, point, cost, risk, density });
+        }
+        samples
+    }
+
+    /// Cost, risk and density at `count` places at equal distances along the path, its ends among them.
+    pub fn profile(&self, density: &dyn CostDensity, count: usize) -> Vec<PathSample> {
+        let count = count.max(2);
+        let mut samples = Vec::with_capacity(count);
+        let (mut piece, mut walked, mut cost) = (0, 0.0, 0.0);
+        let mut last = self.points.first().copied().unwrap_or_default();
+        for n in 0..count {
+            let distance = self.length * n as f64 / (count - 1) as f64;
+            let length = |piece: usize| self.points[piece].distance(self.points[piece + 1]);
+            while piece + 2 < self.points.len() && walked + length(piece) < distance {
+                walked += length(piece);
+                cost += PathFigures::of(&[last, self.points[piece + 1]], density, PROFILE_TOLERANCE).cost;
+                last = self.points[piece + 1];
+                piece += 1;
+            }
+            let point = match piece + 1 < self.points.len() && length(piece) > 0.0 {
+                true => {
+                    let share = ((distance - walked) / length(piece)).clamp(0.0, 1.0);
+                    self.points[piece].lerp(self.points[piece + 1], share)
+                }
+                false => last,
+            };
+            cost += PathFigures::of(&[last, point], density, PROFILE_TOLERANCE).cost;
+            last = point;
+            let (risk, density) = (density.risk_at(point), density.at(point));
+            samples.push(PathSample { distance, point, cost, risk, density });
+        }
+        samples
+    }
+
+    /// A path with fewer points: none of those left out is farther than `tolerance` from it, in world units.
+    /// Stops stay, and so do points without which it would leave the domain or enter a keep-out region
+    /// (Douglas and Peucker's method). The figures are those of the new path. The lower bound holds for it,
+    /// too.
+    ///
+    /// # Errors
+    /// When the tolerance is negative or NaN.
+    pub fn simplified(&self, density: &dyn CostDensity, tolerance: f64) -> Result<Self, PathError> {
+        if tolerance < 0.0 || tolerance.is_nan() {
+            return Err(PathError::InvalidTolerance { tolerance });
+        }
+        let leg = |(number, ends): (usize, &[usize])| {
+            let walls = self.walls.get(number);
+            let points = simplified(&self.points[ends[0]..=ends[1]], tolerance, walls.map(|walls| &**walls));
+            let figures = Self::of(points, density, UPPER_TOLERANCE);
+            Self { walls: walls.into_iter().cloned().collect(), ..figures }
+        };
+        let mut solution = Self::joined(self.stops.windows(2).enumerate().map(leg));
+        solution.lower = self.lower.min(solution.upper);
+        Ok(solution)
+    }
+}
+
+/// A polyline with fewer points, all of whose pieces the walls admit, as they admit the given one.
+fn simplified(points: &[DVec2], tolerance: f64, walls: Option<&Walls>) -> Vec<DVec2> {
+    let mut keeps = vec![false; points.len()];
+    (keeps[0], keeps[points.len() - 1]) = (true, true);
+    let mut parts = vec![[0, points.len() - 1]];
+    while let Some([first, last]) = parts.pop() {
+        let [a, b] = [points[first], points[last]];
+        let distances =
+            (first + 1..last).map(|n| (n, points[n].distance(nearest_on_segment(points[n], [a, b]))));
+        let Some((farthest, distance)) = distances.max_by(|p, q| p.1.total_cmp(&q.1)) else { continue };
+        if distance > tolerance || walls.is_some_and(|walls| !walls.admit(a, b)) {
+            keeps[farthest] = true;
+            parts.extend([[first, farthest], [farthest, last]]);
+        }
+    }
+    points.iter().zip(keeps).filter_map(|(&point, keeps)| keeps.then_some(point)).collect()
+}
+
+/// The upper bound of a simplified path is above its cost by about this share.
+const UPPER_TOLERANCE: f64 = 2e-5;
+/// Bounds of the cost of a piece of a profile differ by this share.
+const PROFILE_TOLERANCE: f64 = 1e-3;

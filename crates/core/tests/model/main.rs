@@ -1,0 +1,39 @@
+//! Fields, layers, domains, outlines, paths and documents.
+
+mod blocks;
+mod boundary;
+mod certificate;
+mod cleaning;
+#[path = "../../../../tests/shared/closure/mod.rs"]
+mod closure;
+mod document;
+mod edits;
+mod exact_paths;
+mod exact_segments;
+mod fit_quality;
+mod fitted;
+mod follower;
+#[path = "../../../../tests/shared/formula_mesh/mod.rs"]
+mod formula_mesh;
+mod golden;
+mod layers;
+mod many_directions;
+mod mirrored;
+mod operations;
+mod outline;
+mod path;
+mod path_bounds;
+mod path_choices;
+mod path_random;
+mod path_referees;
+mod path_valleys;
+mod path_walls;
+mod random_coast;
+mod random_costs;
+mod replay;
+#[path = "../../../../tests/shared/runs.rs"]
+mod runs;
+mod size_field;
+mod slabs;
+mod stacks;
+mod symmetry;

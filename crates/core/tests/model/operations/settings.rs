@@ -1,0 +1,89 @@
+//! Changes of other settings.
+
+use glam::{DVec2, dvec2};
+use meshbrush_core::document::Setting;
+use meshbrush_core::domain::{BoundaryTreatment, Domain, DomainShape};
+use meshbrush_core::field::{Formula, RefinementRule};
+use meshbrush_core::layers::{Layer, LayerKind};
+use meshbrush_mesh::geometry::Rect;
+use meshbrush_mesh::mesh::{Cleaning, KeptParts};
+
+use super::{Choices, Scale};
+
+pub fn setting(choices: &mut impl Choices, scale: Scale) -> Setting {
+    let diameter = scale.diameter * (1.0 + 9.0 * choices.share());
+    match choices.below(16) {
+        0 if choices.below(2) == 0 => Setting::SmallestDiameter(scale.smallest * (1.0 + choices.share())),
+        0 | 1 => Setting::SmallestDiameter(diameter),
+        2 => Setting::LargestDiameter(8.0 * diameter),
+        3 => Setting::TransferShape(0.5 + 2.0 * choices.share()),
+        4 | 5 => Setting::Spacing([0.3, 0.25, 0.2, 0.15][choices.below(4)]),
+        6 | 7 => Setting::RefinementRule(if choices.below(4) == 0 {
+            RefinementRule::Vertex
+        } else {
+            RefinementRule::Area
+        }),
+        8 => Setting::Gradation([None, Some(0.1 + choices.share())][choices.below(2)]),
+        9 => Setting::Cleaning(cleaning(choices.share())),
+        10 => Setting::MaxTriangles(scale.triangles * [1, 4, 20, 100][choices.below(4)]),
+        11 | 12 => Setting::Bounds(bounds(choices)),
+        13 => Setting::Domain(inside(choices)),
+        14 if choices.below(4) == 0 => Setting::Boundary(BoundaryTreatment::Report),
+        14 if diameter < 4.0 * scale.diameter => {
+            Setting::Boundary(BoundaryTreatment::Fitted { diameter: 2.0 * diameter })
+        }
+        14 => Setting::Boundary(BoundaryTreatment::OnOutline { diameter: 2.0 * diameter }),
+        _ => impossible(choices),
+    }
+}
+
+fn cleaning(share: f64) -> Cleaning {
+    let parts = match share {
+        ..0.3 => KeptParts::All,
+        ..0.6 => KeptParts::Largest,
+        _ => KeptParts::Share(share - 0.6),
+    };
+    Cleaning { parts, keeps_pinches: (100.0 * share) % 2.0 < 1.0 }
+}
+
+fn bounds(choices: &mut impl Choices) -> Rect {
+    let size = dvec2(0.4 + choices.share(), 0.4 + choices.share());
+    let min = dvec2(choices.share(), choices.share()) - 0.5;
+    if choices.below(2) == 0 { Rect::UNIT } else { Rect::new(min, min + size) }
+}
+
+/// A hole and a bite out of the rim, a strip, two parts that do not touch, nothing at all.
+const INSIDES: [&str; 4] =
+    ["not(hypot(x - 0.4, y - 0.6) < 0.2 or x + y > 1.7)", "abs(x - y) < 0.4", "x < 0.25 or x > 0.7", "x > 9"];
+
+fn inside(choices: &mut impl Choices) -> Domain {
+    let chosen = choices.below(1 + 2 * INSIDES.len()).checked_sub(1).and_then(|n| INSIDES.get(n));
+    let formula = chosen.map(|text| Formula::parse(text).unwrap());
+    Domain { bounds: Rect::UNIT, shape: formula.map_or(DomainShape::Whole, DomainShape::Formula) }
+}
+
+/// What no document can meet.
+fn impossible(choices: &mut impl Choices) -> Setting {
+    let bad = [0.0, -1.0, f64::NAN, f64::INFINITY, 1e-300][choices.below(5)];
+    match choices.below(6) {
+        0 => Setting::Spacing(bad),
+        1 => Setting::SmallestDiameter(bad),
+        2 => Setting::TransferShape(bad),
+        3 => Setting::Gradation(Some(if bad == 1e-300 { -bad } else { bad })),
+        4 => Setting::Layers(Layer::usual(LayerKind::constant(if bad == 1e-300 { 0.0 } else { bad }))),
+        _ => Setting::Bounds(Rect::new(DVec2::ZERO, dvec2(bad, 1.0))),
+    }
+}
+
+/// A square, a rectangle, a domain with a hole and a bite out of its rim by a formula, and a slanted one with
+/// a hole.
+pub fn domains() -> [Domain; 4] {
+    let outline = vec![dvec2(0.0, 0.1), dvec2(0.9, 0.0), dvec2(1.0, 0.8), dvec2(0.3, 1.0)];
+    let hole = vec![dvec2(0.3, 0.3), dvec2(0.6, 0.35), dvec2(0.5, 0.7)];
+    [
+        Domain::rectangle(Rect::UNIT),
+        Domain::rectangle(Rect::new(DVec2::ZERO, dvec2(1.0, 0.7))),
+        Domain { bounds: Rect::UNIT, shape: DomainShape::Formula(Formula::parse(INSIDES[0]).unwrap()) },
+        Domain::of_polygons(&[vec![outline, hole]]).unwrap(),
+    ]
+}

@@ -1,0 +1,228 @@
+//! `.geojson`: polygons with holes, as geographic programs write them (RFC 7946).
+
+use std::fs::File;
+use std::io::{self, BufReader, Read, Take, Write};
+use std::path::Path;
+
+use super::coordinates;
+use super::error::{Flaw, PlacedFlaw, ReadError};
+use super::features::{Object, Wanted};
+use super::{Counted, Meter};
+use meshbrush_core::domain::{NamedPolygon, Polygon};
+use meshbrush_mesh::text::LengthUnit;
+
+/// Largest file read.
+const MOST_BYTES: u64 = 256 << 20;
+
+/// What a file says of a domain.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Outline {
+    /// The polygons with their names.
+    pub polygons: Vec<NamedPolygon>,
+    /// The unit of their coordinates.
+    pub unit: LengthUnit,
+}
+
+impl Outline {
+    /// Whether the polygons end at the antimeridian on both sides of it: coordinates are degrees, and edges
+    /// along the longitudes 180° and −180° lie at the same latitudes. Files are cut there (RFC 7946, section
+    /// 3.1.9), and a mesh does not join the halves.
+    pub fn is_cut_at_antimeridian(&self) -> bool {
+        let rings = || self.polygons.iter().flat_map(|named| &named.polygon);
+        self.unit == LengthUnit::Degree && coordinates::meet_at_antimeridian(rings())
+    }
+}
+
+/// Reads every polygon of a file: of a geometry, a feature, or a collection of either. Other geometries are
+/// ignored.
+///
+/// Coordinates are not projected: the first is x and the second y. Rings come without the repeated last
+/// position.
+///
+/// # Errors
+/// When the file cannot be read, is not GeoJSON, has no polygon, or more than
+/// [`MOST_CORNERS`](meshbrush_core::domain::MOST_CORNERS) corners.
+pub fn read(path: &Path) -> Result<Vec<Polygon>, ReadError> {
+    read_named(path).map(without_names)
+}
+
+/// Reads as [`read`] does, with the name of each polygon: the first of the properties `name`, `NAME`, `Name`,
+/// `title` and `id` of its feature that is text or a number.
+///
+/// # Errors
+/// As [`read`].
+pub fn read_named(path: &Path) -> Result<Vec<NamedPolygon>, ReadError> {
+    read_named_metered(path, &Meter::default())
+}
+
+/// Reads as [`read_named`] does, and counts the bytes of the file.
+///
+/// # Errors
+/// As [`read_outline`].
+pub fn read_named_metered(path: &Path, meter: &Meter) -> Result<Vec<NamedPolygon>, ReadError> {
+    read_outline(path, meter).map(|outline| outline.polygons)
+}
+
+/// Reads polygons with their names and their unit, and counts the bytes of the file.
+///
+/// # Errors
+/// As [`read`], and when the work was cancelled.
+pub fn read_outline(path: &Path, meter: &Meter) -> Result<Outline, ReadError> {
+    read_metered(path, meter, parse)
+}
+
+/// A file whose bytes are counted, up to the limit of its size.
+pub(super) type Metered = BufReader<Counted<Take<File>>>;
+
+/// Opens a file for a parser, within the limit of its size, and counts its bytes.
+pub(super) fn read_metered<T>(
+    path: &Path,
+    meter: &Meter,
+    parse: fn(Metered) -> Result<T, PlacedFlaw>,
+) -> Result<T, ReadError> {
+    let read = || -> Result<T, PlacedFlaw> {
+        let file = File::open(path)?;
+        let bytes = file.metadata()?.len();
+        if bytes > MOST_BYTES {
+            return Err(too_long(bytes));
+        }
+        meter.expect(bytes);
+        let parsed = parse(BufReader::new(meter.count(file.take(MOST_BYTES))))?;
+        meter.check()?;
+        Ok(parsed)
+    };
+    read().map_err(|flaw| flaw.in_file(path))
+}
+
+/// Reads as [`read`] does, from any input, such as bytes. Errors call the file `name`.
+///
+/// # Errors
+/// As [`read`].
+pub fn read_from(input: impl Read, name: &Path) -> Result<Vec<Polygon>, ReadError> {
+    read_named_from(input, name).map(without_names)
+}
+
+/// Reads as [`read_named`] does, from any input, such as standard input. Errors call the file `name`.
+///
+/// # Errors
+/// As [`read`].
+pub fn read_named_from(input: impl Read, name: &Path) -> Result<Vec<NamedPolygon>, ReadError> {
+    read_outline_from(input, name).map(|outline| outline.polygons)
+}
+
+/// Reads as [`read_outline`] does, from any input. Errors call the file `name`.
+///
+/// # Errors
+/// As [`read`].
+pub fn read_outline_from(input: impl Read, name: &Path) -> Result<Outline, ReadError> {
+    read_limited(input, name, |input| parse(input))
+}
+
+/// Parses an input within the limit of its size.
+pub(super) fn read_limited<T, R: Read>(
+    input: R,
+    name: &Path,
+    parse: fn(&mut BufReader<Take<R>>) -> Result<T, PlacedFlaw>,
+) -> Result<T, ReadError> {
+    // One byte more shows that there is more.
+    let mut input = BufReader::new(input.take(MOST_BYTES + 1));
+    let read = parse(&mut input);
+    let flaw = if input.get_ref().limit() == 0 { Some(too_long(MOST_BYTES + 1)) } else { None };
+    flaw.map_or(read, Err).map_err(|flaw| flaw.in_file(name))
+}
+
+/// The polygons alone.
+pub(super) fn without_names(polygons: Vec<NamedPolygon>) -> Vec<Polygon> {
+    polygons.into_iter().map(|named| named.polygon).collect()
+}
+
+fn too_long(bytes: u64) -> PlacedFlaw {
+    let limit = MOST_BYTES >> 20;
+    Flaw::Syntax(format!(
+        "the file has {} MiB, and the limit for an outline is {limit} MiB. Keep only the polygons, and simplify them.",
+        bytes.div_ceil(1 << 20)
+    ))
+    .into()
+}
+
+/// Reads as [`read_outline`] does, from any input.
+pub(super) fn parse(input: impl Read) -> Result<Outline, PlacedFlaw> {
+    let object = Object::parse(input)?;
+    let crs = object.crs_name();
+    let mut polygons = Vec::new();
+    let mut others = Vec::new();
+    collect(object, "", &mut polygons, &mut others).map_err(Flaw::Syntax)?;
+    if polygons.is_empty() {
+        return Err(Flaw::Syntax(no_polygon(&others)).into());
+    }
+    let corners = polygons.iter().flat_map(|named: &NamedPolygon| named.polygon.iter().flatten());
+    let unit = coordinates::unit(crs.as_deref(), corners.copied());
+    Ok(Outline { polygons, unit })
+}
+
+/// Writes polygons as one geometry with one line for each ring. [`read`] returns the same polygons bit for
+/// bit.
+///
+/// # Errors
+/// Errors of `out`.
+pub fn write(out: &mut dyn Write, polygons: &[Polygon]) -> io::Result<()> {
+    writeln!(out, "{{\"type\":\"MultiPolygon\",\"coordinates\":[")?;
+    for (i, polygon) in polygons.iter().enumerate() {
+        writeln!(out, "{}[", if i == 0 { "" } else { "," })?;
+        for (j, ring) in polygon.iter().enumerate() {
+            // The format repeats the first position at the end.
+            let closed: Vec<[f64; 2]> = ring.iter().chain(ring.first()).map(|p| p.to_array()).collect();
+            write!(out, "{}", if j == 0 { "" } else { "," })?;
+            serde_json::to_writer(&mut *out, &closed)?;
+            writeln!(out)?;
+        }
+        writeln!(out, "]")?;
+    }
+    writeln!(out, "]}}")
+}
+
+fn no_polygon(others: &[String]) -> String {
+    let found = match others.first() {
+        Some(kind) => format!("it has {kind}"),
+        None => "it has no geometry".into(),
+    };
+    format!(
+        "a domain needs a Polygon or a MultiPolygon, and {found}. Export the area, not its points or lines."
+    )
+}
+
+/// A reader of polygons.
+struct Polygons;
+
+impl Wanted for Polygons {
+    fn is_wanted(kind: &str) -> bool {
+        kind.ends_with("Polygon")
+    }
+}
+
+/// Collects polygons with their names, and the kind of the first other geometry. `name` is that of the
+/// object around this one. The recursion is bounded, as the parser bounds the nesting.
+fn collect(
+    mut object: Object<Polygons>,
+    name: &str,
+    polygons: &mut Vec<NamedPolygon>,
+    others: &mut Vec<String>,
+) -> Result<(), String> {
+    let (kind, coordinates) = (std::mem::take(&mut object.kind), object.coordinates.take());
+    let own_name = std::mem::take(&mut object.name);
+    let name = if own_name.is_empty() { name } else { &own_name };
+    let named = |polygon| NamedPolygon { polygon, name: name.to_owned() };
+    match (kind.as_str(), coordinates) {
+        ("Polygon", Some(coordinates)) => {
+            polygons.extend(coordinates.polygons(&kind, 3)?.into_iter().map(named));
+        }
+        ("MultiPolygon", Some(coordinates)) => {
+            polygons.extend(coordinates.polygons(&kind, 4)?.into_iter().map(named));
+        }
+        ("Polygon" | "MultiPolygon", None) => return Err(format!("a {kind} has no \"coordinates\".")),
+        (_, Some(_)) if others.is_empty() => others.push(kind),
+        (_, Some(_)) => {}
+        (_, None) => {}
+    }
+    object.into_inner().try_for_each(|object| collect(object, name, polygons, others))
+}

@@ -1,0 +1,67 @@
+//! Checks of single values. Errors are sentences without the name of the value.
+
+use glam::DVec2;
+
+use meshbrush_mesh::geometry::Rect;
+use meshbrush_mesh::text::Number;
+
+/// A length in world units.
+///
+/// # Errors
+/// When it is not positive or not finite.
+pub fn positive_length(value: f64) -> Result<f64, String> {
+    let rule = "a length must be positive and finite";
+    if value > 0.0 && value.is_finite() { Ok(value) } else { Err(refused(value, rule)) }
+}
+
+/// A number in a range, which the sentence describes.
+pub(super) fn number_where(value: f64, holds: bool, rule: &str) -> Result<f64, String> {
+    if holds && value.is_finite() { Ok(value) } else { Err(refused(value, rule)) }
+}
+
+fn refused(value: f64, rule: &str) -> String {
+    format!("{} cannot be used: {rule}.", Number(value))
+}
+
+/// The rectangle of x₀, y₀, x₁, y₁.
+///
+/// # Errors
+/// When a number is not finite, or the first corner is not the lower left one.
+pub fn rect_of([x0, y0, x1, y1]: [f64; 4]) -> Result<Rect, String> {
+    let rect = Rect::new(DVec2::new(x0, y0), DVec2::new(x1, y1));
+    if rect.is_proper() && rect.size().is_finite() {
+        return Ok(rect);
+    }
+    Err("these are no rectangle: write [x0, y0, x1, y1] with finite numbers, x0 less than x1 and y0 less \
+         than y1."
+        .into())
+}
+
+/// A point of finite coordinates.
+pub(super) fn point([x, y]: [f64; 2]) -> Result<DVec2, String> {
+    let point = DVec2::new(x, y);
+    if point.is_finite() { Ok(point) } else { Err("both coordinates of a point must be finite.".into()) }
+}
+
+/// The points of a line or a ring.
+pub(super) fn points(coordinates: &[[f64; 2]], least: usize, what: &str) -> Result<Vec<DVec2>, String> {
+    if coordinates.len() < least {
+        return Err(format!("{what} needs {least} points at least, and this one has {}.", coordinates.len()));
+    }
+    coordinates.iter().copied().map(point).collect()
+}
+
+/// A polygon from its rings, the outer one first, with the first point repeated at the end of a ring or not.
+///
+/// # Errors
+/// A sentence, when there is no ring, a ring has too few points, or a coordinate is not finite.
+pub fn rings(rings: &[Vec<[f64; 2]>]) -> Result<Vec<Vec<DVec2>>, String> {
+    if rings.is_empty() {
+        return Err("a polygon needs its outer ring, a list of points.".into());
+    }
+    let open = |ring: &Vec<[f64; 2]>| {
+        let closed = ring.len() > 1 && ring.first() == ring.last();
+        points(&ring[..ring.len() - usize::from(closed)], 3, "a ring")
+    };
+    rings.iter().map(open).collect()
+}

@@ -1,0 +1,424 @@
+use glam::DVec2;
+use serde::{Deserialize, Serialize};
+
+use meshbrush_core::domain::Polygon;
+use meshbrush_core::layers::{
+    Combine, DistanceTo, Layer, LayerKind, Quantity, RasterReading, ShapeList, Threat, ThreatLaw,
+};
+
+/// A layer as a text has it. Which keys it may have depends on its kind.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, expecting = "a table")]
+pub struct SavedLayer {
+    /// What it asks for, and which keys follow.
+    pub kind: SavedKind,
+    /// What a person calls it; without one, it is named after its kind.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub name: Option<String>,
+    /// A hidden layer asks for nothing.
+    #[serde(default = "yes", skip_serializing_if = "is_yes")]
+    pub visible: bool,
+    /// A locked layer cannot be edited.
+    #[serde(default, skip_serializing_if = "is_no")]
+    pub locked: bool,
+    /// How it is combined with the layers below.
+    #[serde(default, skip_serializing_if = "SavedCombine::is_usual")]
+    pub combine: SavedCombine,
+    /// Where it counts: polygons, each a list of rings, the outer one first.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mask: Option<Vec<SavedPolygon>>,
+    /// Where it counts: a file with polygons.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mask_file: Option<String>,
+    /// What the values of paint or of a formula mean.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub quantity: Option<SavedQuantity>,
+    /// A formula in x and y.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub formula: Option<String>,
+    /// The file that holds the data.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub file: Option<String>,
+    /// The name of a paint layer in `file`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub layer: Option<String>,
+    /// Where a raster lies, in place of what its file says: x₀, y₀, x₁, y₁.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub bounds: Option<[f64; 4]>,
+    /// What the values of a raster mean.
+    #[serde(default, rename = "as", skip_serializing_if = "Option::is_none")]
+    pub read_as: Option<SavedQuantity>,
+    /// Pairs of a raster's value and the target diameter there.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub curve: Option<Vec<[f64; 2]>>,
+    /// Threats in place.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub threats: Option<Vec<SavedThreat>>,
+    /// What the distance is to, if that is no file and no list of shapes.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub to: Option<SavedDistanceTo>,
+    /// What the distance is to, in place.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shapes: Option<Vec<SavedShape>>,
+    /// The width of a corridor.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub width: Option<f64>,
+    /// The target diameter at distance 0.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub at_zero: Option<f64>,
+    /// How much the target diameter grows with the distance, by unit of length.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub slope: Option<f64>,
+    /// The distance beyond which nothing is asked for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub range: Option<f64>,
+    /// The least and the greatest value of a band.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub between: Option<[f64; 2]>,
+    /// The target diameter in a band.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub diameter: Option<f64>,
+}
+
+/// A polygon: its rings, the outer one first, and their points.
+pub type SavedPolygon = Vec<Vec<[f64; 2]>>;
+
+/// The kinds of layers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum SavedKind {
+    /// What is painted.
+    Paint,
+    /// A formula in x and y.
+    Formula,
+    /// Values by pixel.
+    Raster,
+    /// Points with a range.
+    Threats,
+    /// The distance to shapes.
+    Distance,
+    /// The distance to a strip along lines.
+    Corridor,
+    /// One diameter where a raster's value lies between two numbers.
+    Band,
+}
+
+/// See [`Combine`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum SavedCombine {
+    /// The smaller target diameter counts.
+    #[default]
+    Finest,
+    /// Nothing below gets finer.
+    Floor,
+    /// The layer alone counts.
+    Replace,
+}
+
+/// See [`Quantity`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum SavedQuantity {
+    /// Risk, 0 to 1.
+    Risk,
+    /// Target diameter in world units.
+    Diameter,
+}
+
+/// What a distance is to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum SavedDistanceTo {
+    /// The boundary of the domain.
+    Outline,
+}
+
+/// A threat.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, expecting = "a table such as { x = 1, y = 2, range = 3 }")]
+pub struct SavedThreat {
+    /// Its place.
+    pub x: f64,
+    /// Its place.
+    pub y: f64,
+    /// The distance beyond which there is no risk.
+    pub range: f64,
+    /// The risk at its place.
+    #[serde(default = "one")]
+    pub peak: f64,
+    /// How the risk falls with the distance.
+    #[serde(default)]
+    pub law: SavedLaw,
+}
+
+/// How the risk of a threat falls with the distance.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum SavedLaw {
+    /// See [`ThreatLaw::Radar`].
+    #[default]
+    Radar,
+    /// See [`ThreatLaw::Gaussian`].
+    Gaussian,
+    /// See [`ThreatLaw::Disc`].
+    Disc,
+}
+
+/// A point, line or polygon.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum SavedShape {
+    /// x and y.
+    Point([f64; 2]),
+    /// Points joined by segments.
+    Line(Vec<[f64; 2]>),
+    /// Rings, the outer one first.
+    Polygon(SavedPolygon),
+}
+
+impl SavedKind {
+    /// Its word.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Paint => "paint",
+            Self::Formula => "formula",
+            Self::Raster => "raster",
+            Self::Threats => "threats",
+            Self::Distance => "distance",
+            Self::Corridor => "corridor",
+            Self::Band => "band",
+        }
+    }
+
+    /// The keys of this kind alone.
+    pub fn keys(self) -> &'static [&'static str] {
+        match self {
+            Self::Paint => &["quantity", "file", "layer"],
+            Self::Formula => &["quantity", "formula"],
+            Self::Raster => &["file", "bounds", "as", "curve"],
+            Self::Threats => &["file", "threats"],
+            Self::Distance => &["to", "file", "shapes", "at_zero", "slope", "range"],
+            Self::Corridor => &["file", "shapes", "width", "at_zero", "slope", "range"],
+            Self::Band => &["file", "bounds", "between", "diameter"],
+        }
+    }
+}
+
+impl SavedLayer {
+    /// A visible layer of a kind, with no other key.
+    pub fn of_kind(kind: SavedKind) -> Self {
+        Self {
+            kind,
+            name: None,
+            visible: true,
+            locked: false,
+            combine: SavedCombine::Finest,
+            mask: None,
+            mask_file: None,
+            quantity: None,
+            formula: None,
+            file: None,
+            layer: None,
+            bounds: None,
+            read_as: None,
+            curve: None,
+            threats: None,
+            to: None,
+            shapes: None,
+            width: None,
+            at_zero: None,
+            slope: None,
+            range: None,
+            between: None,
+            diameter: None,
+        }
+    }
+
+    /// A layer of a stack, but for data that has no form as text: `file` names where that is.
+    pub fn of(layer: &Layer, file: Option<String>) -> Self {
+        let kind = match &layer.kind {
+            LayerKind::Paint(quantity) => {
+                Self { quantity: Some((*quantity).into()), ..Self::of_kind(SavedKind::Paint) }
+            }
+            LayerKind::Formula { quantity, formula } => Self {
+                quantity: Some((*quantity).into()),
+                formula: Some(formula.source().to_owned()),
+                ..Self::of_kind(SavedKind::Formula)
+            },
+            LayerKind::Raster { reading, .. } => Self {
+                read_as: match reading {
+                    RasterReading::Risk => Some(SavedQuantity::Risk),
+                    RasterReading::Diameter => Some(SavedQuantity::Diameter),
+                    RasterReading::Curve(_) => None,
+                },
+                curve: match reading {
+                    RasterReading::Curve(curve) => Some(curve.knots().to_vec()),
+                    _ => None,
+                },
+                ..Self::of_kind(SavedKind::Raster)
+            },
+            LayerKind::Threats(threats) => {
+                let threats = threats.list().iter().map(SavedThreat::of).collect();
+                Self { threats: Some(threats), ..Self::of_kind(SavedKind::Threats) }
+            }
+            LayerKind::Distance { to, at_zero, slope, range } => Self {
+                to: matches!(to, DistanceTo::Outline).then_some(SavedDistanceTo::Outline),
+                shapes: to.shapes().map(|shapes| SavedShape::of_list(shapes.list())),
+                width: if let DistanceTo::Corridor { width, .. } = to { Some(*width) } else { None },
+                at_zero: Some(*at_zero),
+                slope: Some(*slope),
+                range: range.is_finite().then_some(*range),
+                ..Self::of_kind(match to {
+                    DistanceTo::Corridor { .. } => SavedKind::Corridor,
+                    DistanceTo::Outline | DistanceTo::Shapes { .. } => SavedKind::Distance,
+                })
+            },
+            LayerKind::Band { between, diameter, .. } => {
+                Self { between: Some(*between), diameter: Some(*diameter), ..Self::of_kind(SavedKind::Band) }
+            }
+        };
+        let mask = layer.mask.as_ref().map(|mask| mask.polygons().iter().map(saved_polygon).collect());
+        Self {
+            name: Some(layer.name.clone()),
+            visible: layer.visible,
+            locked: layer.locked,
+            combine: layer.combine.into(),
+            file,
+            mask,
+            ..kind
+        }
+    }
+
+    /// The keys that are given and belong to some kinds only.
+    pub fn given(&self) -> impl Iterator<Item = &'static str> {
+        let given = [
+            ("quantity", self.quantity.is_some()),
+            ("formula", self.formula.is_some()),
+            ("file", self.file.is_some()),
+            ("layer", self.layer.is_some()),
+            ("bounds", self.bounds.is_some()),
+            ("as", self.read_as.is_some()),
+            ("curve", self.curve.is_some()),
+            ("threats", self.threats.is_some()),
+            ("to", self.to.is_some()),
+            ("shapes", self.shapes.is_some()),
+            ("width", self.width.is_some()),
+            ("at_zero", self.at_zero.is_some()),
+            ("slope", self.slope.is_some()),
+            ("range", self.range.is_some()),
+            ("between", self.between.is_some()),
+            ("diameter", self.diameter.is_some()),
+        ];
+        given.into_iter().filter_map(|(key, is_given)| is_given.then_some(key))
+    }
+}
+
+impl SavedThreat {
+    fn of(threat: &Threat) -> Self {
+        let law = match threat.law {
+            ThreatLaw::Radar => SavedLaw::Radar,
+            ThreatLaw::Gaussian => SavedLaw::Gaussian,
+            ThreatLaw::Disc => SavedLaw::Disc,
+        };
+        Self { x: threat.at.x, y: threat.at.y, range: threat.range, peak: threat.peak, law }
+    }
+}
+
+impl SavedShape {
+    fn of_list(list: &ShapeList) -> Vec<Self> {
+        let points = list.points.iter().map(|point| Self::Point(point.to_array()));
+        let line = |line: &Vec<DVec2>| Self::Line(line.iter().map(DVec2::to_array).collect());
+        let polygons = list.polygons.iter().map(|polygon| Self::Polygon(saved_polygon(polygon)));
+        points.chain(list.lines.iter().map(line)).chain(polygons).collect()
+    }
+}
+
+/// A polygon as a text has it.
+pub fn saved_polygon(polygon: &Polygon) -> SavedPolygon {
+    polygon.iter().map(|ring| ring.iter().map(DVec2::to_array).collect()).collect()
+}
+
+impl SavedCombine {
+    fn is_usual(&self) -> bool {
+        *self == Self::default()
+    }
+}
+
+impl From<SavedCombine> for Combine {
+    fn from(saved: SavedCombine) -> Self {
+        match saved {
+            SavedCombine::Finest => Self::Finest,
+            SavedCombine::Floor => Self::Floor,
+            SavedCombine::Replace => Self::Replace,
+        }
+    }
+}
+
+impl From<Combine> for SavedCombine {
+    fn from(combine: Combine) -> Self {
+        match combine {
+            Combine::Finest => Self::Finest,
+            Combine::Floor => Self::Floor,
+            Combine::Replace => Self::Replace,
+        }
+    }
+}
+
+impl From<SavedQuantity> for Quantity {
+    fn from(saved: SavedQuantity) -> Self {
+        match saved {
+            SavedQuantity::Risk => Self::Risk,
+            SavedQuantity::Diameter => Self::Diameter,
+        }
+    }
+}
+
+impl From<Quantity> for SavedQuantity {
+    fn from(quantity: Quantity) -> Self {
+        match quantity {
+            Quantity::Risk => Self::Risk,
+            Quantity::Diameter => Self::Diameter,
+        }
+    }
+}
+
+impl From<SavedThreat> for Threat {
+    fn from(saved: SavedThreat) -> Self {
+        let SavedThreat { x, y, range, peak, law } = saved;
+        let law = match law {
+            SavedLaw::Radar => ThreatLaw::Radar,
+            SavedLaw::Gaussian => ThreatLaw::Gaussian,
+            SavedLaw::Disc => ThreatLaw::Disc,
+        };
+        Self { at: DVec2::new(x, y), range, peak, law }
+    }
+}
+
+impl From<Threat> for SavedThreat {
+    fn from(threat: Threat) -> Self {
+        let Threat { at, range, peak, law } = threat;
+        let law = match law {
+            ThreatLaw::Radar => SavedLaw::Radar,
+            ThreatLaw::Gaussian => SavedLaw::Gaussian,
+            ThreatLaw::Disc => SavedLaw::Disc,
+        };
+        Self { x: at.x, y: at.y, range, peak, law }
+    }
+}
+
+fn yes() -> bool {
+    true
+}
+
+fn is_yes(value: &bool) -> bool {
+    *value
+}
+
+fn is_no(value: &bool) -> bool {
+    !value
+}
+
+fn one() -> f64 {
+    1.0
+}

@@ -1,0 +1,185 @@
+use std::path::PathBuf;
+
+use super::*;
+
+/// Every file is there but those whose name begins with "gone".
+fn find(name: &str) -> Result<PathBuf, String> {
+    if name.starts_with("gone") { Err(format!("{name} is not there.")) } else { Ok(name.into()) }
+}
+
+fn saved(json: &str) -> SavedLayer {
+    serde_json::from_str(json).unwrap_or_else(|error| panic!("{json}: {error}"))
+}
+
+fn checked(json: &str) -> Result<LayerSpec, String> {
+    saved(json).checked(&find).map_err(|fault| fault.to_string())
+}
+
+#[test]
+fn every_kind_is_read_from_its_keys() {
+    let full = r#"{ "kind": "formula", "quantity": "risk", "formula": "x", "name": "Storm", "visible": false,
+        "locked": true, "combine": "replace", "mask": [[[[0, 0], [4, 0], [4, 3], [0, 0]]]] }"#;
+    let layer = checked(full).unwrap();
+    assert_eq!((layer.name.as_str(), layer.visible, layer.locked), ("Storm", false, true));
+    assert_eq!(layer.combine, meshbrush_core::layers::Combine::Replace);
+    let Some(MaskSpec::Polygons(polygons)) = &layer.mask else { panic!("{layer:?}") };
+    assert_eq!(polygons[0][0].len(), 3, "the repeated first point is removed");
+    for (json, expected) in [
+        (r#"{ "kind": "paint", "quantity": "diameter" }"#, "Paint { quantity: Diameter, from: None }"),
+        (
+            r#"{ "kind": "raster", "file": "depth.asc", "curve": [[0, 0.1], [50, 2]] }"#,
+            "Raster { raster: RasterFile { path: \"depth.asc\", format: Asc, bounds: None }, reading: Curve([[0.0, 0.1], [50.0, 2.0]]) }",
+        ),
+        (
+            r#"{ "kind": "threats", "threats": [{ "x": 1, "y": 2, "range": 3 }] }"#,
+            "Threats(List([Threat { at: DVec2(1.0, 2.0), range: 3.0, peak: 1.0, law: Radar }]))",
+        ),
+        (
+            r#"{ "kind": "distance", "to": "outline", "at_zero": 0.1, "slope": 0.2 }"#,
+            "Distance { to: Outline, at_zero: 0.1, slope: 0.2, range: None }",
+        ),
+        (
+            r#"{ "kind": "distance", "shapes": [{ "point": [1, 2] }], "at_zero": 0.1, "slope": 0, "range": 5 }"#,
+            "Distance { to: Shapes { name: \"\", shapes: [Point(DVec2(1.0, 2.0))] }, at_zero: 0.1, slope: 0.0, range: Some(5.0) }",
+        ),
+        (
+            r#"{ "kind": "band", "file": "depth.asc", "between": [-20, 0], "diameter": 0.5 }"#,
+            "Band { raster: RasterFile { path: \"depth.asc\", format: Asc, bounds: None }, between: [-20.0, 0.0], diameter: 0.5 }",
+        ),
+    ] {
+        assert_eq!(format!("{:?}", checked(json).unwrap().kind), expected, "{json}");
+    }
+}
+
+#[test]
+fn a_layer_is_saved_as_it_was_read() {
+    for json in [
+        r#"{"kind":"formula","name":"A","visible":false,"locked":true,"combine":"floor","quantity":"diameter","formula":"x"}"#,
+        r#"{"kind":"threats","mask_file":"m.geojson","threats":[{"x":1.0,"y":2.0,"range":3.0,"peak":0.5,"law":"disc"}]}"#,
+        r#"{"kind":"raster","file":"r.png","bounds":[0.0,0.0,1.0,2.0],"as":"risk"}"#,
+        r#"{"kind":"distance","to":"outline","at_zero":0.1,"slope":0.2,"range":3.0}"#,
+        r#"{"kind":"distance","shapes":[{"line":[[0.0,0.0],[1.0,1.0]]},{"polygon":[[[0.0,0.0],[1.0,0.0],[0.0,1.0]]]}],"at_zero":0.1,"slope":0.2}"#,
+    ] {
+        assert_eq!(serde_json::to_string(&saved(json)).unwrap(), json);
+    }
+}
+
+#[test]
+fn values_that_cannot_be_used_are_named_with_their_key() {
+    for (json, expected) in [
+        (r#"{ "kind": "paint" }"#, "kind: a layer of the kind \"paint\" needs `quantity`."),
+        (
+            r#"{ "kind": "paint", "quantity": "risk", "slope": 1 }"#,
+            "slope: a layer of the kind \"paint\" has no `slope`",
+        ),
+        (r#"{ "kind": "formula", "quantity": "risk", "formula": "sqr(x)" }"#, "formula: There is no `sqr`"),
+        (r#"{ "kind": "raster", "file": "gone.asc", "as": "risk" }"#, "file: gone.asc is not there."),
+        (
+            r#"{ "kind": "raster", "file": "a.asc" }"#,
+            "kind: a layer of the kind \"raster\" says what its values mean",
+        ),
+        (
+            r#"{ "kind": "raster", "file": "a.asc", "as": "risk", "curve": [[0, 1]] }"#,
+            "curve: a raster has `as` or",
+        ),
+        (
+            r#"{ "kind": "raster", "file": "a.asc", "curve": [[0, 1], [0, 2]] }"#,
+            "curve 2: the values of a curve must ascend",
+        ),
+        (r#"{ "kind": "raster", "file": "a.asc", "curve": [[0, 1], [1, 0]] }"#, "curve 2: 0 cannot be used"),
+        (r#"{ "kind": "raster", "file": "a.asc", "curve": [] }"#, "curve: a curve needs one pair"),
+        (
+            r#"{ "kind": "raster", "file": "a.png", "as": "risk", "bounds": [0, 0, 0, 1] }"#,
+            "bounds: these are no rectangle",
+        ),
+        (
+            r#"{ "kind": "threats", "threats": [{ "x": 0, "y": 0, "range": 0 }] }"#,
+            "threats 1, range: A threat has the range 0",
+        ),
+        (
+            r#"{ "kind": "threats", "threats": [{ "x": 0, "y": 0, "range": 1, "peak": 2 }] }"#,
+            "threats 1, peak: A threat has the peak 2",
+        ),
+        (r#"{ "kind": "threats" }"#, "kind: a layer of the kind \"threats\" needs `file`"),
+        (
+            r#"{ "kind": "distance", "at_zero": 1, "slope": 0 }"#,
+            "kind: a layer of the kind \"distance\" needs to",
+        ),
+        (
+            r#"{ "kind": "distance", "to": "outline", "file": "a", "at_zero": 1, "slope": 0 }"#,
+            "to: a distance has one of",
+        ),
+        (
+            r#"{ "kind": "distance", "to": "outline", "at_zero": 0, "slope": 0 }"#,
+            "at_zero: 0 cannot be used: a length",
+        ),
+        (r#"{ "kind": "distance", "to": "outline", "at_zero": 1, "slope": -1 }"#, "slope: -1 cannot be used"),
+        (
+            r#"{ "kind": "distance", "shapes": [{ "line": [[0, 0]] }], "at_zero": 1, "slope": 1 }"#,
+            "shapes 1: a line needs 2 points",
+        ),
+        (
+            r#"{ "kind": "band", "file": "a.asc", "between": [1, 0], "diameter": 1 }"#,
+            "between: write two finite numbers",
+        ),
+        (r#"{ "kind": "paint", "quantity": "risk", "mask": [] }"#, "mask: a mask needs a polygon"),
+        (
+            r#"{ "kind": "paint", "quantity": "risk", "mask": [[[[0, 0], [1, 0]]]] }"#,
+            "mask 1: a ring needs 3 points",
+        ),
+        (
+            r#"{ "kind": "paint", "quantity": "risk", "mask": [[[[0, 0], [1, 0], [1, 1]]]], "mask_file": "a" }"#,
+            "mask_file: a layer has",
+        ),
+    ] {
+        let message = checked(json).unwrap_err();
+        assert!(message.starts_with(expected), "{json} gave {message}");
+    }
+}
+
+/// Every key of every kind is a key of the table, and each kind refuses the keys of the others.
+#[test]
+fn the_kinds_and_their_keys_agree() {
+    use super::saved::SavedKind::*;
+    let all = [Paint, Formula, Raster, Threats, Distance, Band];
+    let value = |key: &str| match key {
+        "quantity" | "as" => r#""risk""#,
+        "formula" => r#""x""#,
+        "to" => r#""outline""#,
+        "bounds" => "[0, 0, 1, 1]",
+        "curve" => "[[0, 1]]",
+        "threats" | "shapes" => "[]",
+        "between" => "[0, 1]",
+        "file" | "layer" => r#""a""#,
+        _ => "1",
+    };
+    for key in all.iter().flat_map(|kind| kind.keys()) {
+        for kind in all {
+            let json = format!(r#"{{ "kind": "{}", "{key}": {} }}"#, kind.word(), value(key));
+            assert_eq!(saved(&json).given().collect::<Vec<_>>(), [*key]);
+            let refused = checked(&json).is_err_and(|message| message.contains(&format!("has no `{key}`")));
+            assert_eq!(refused, !kind.keys().contains(key), "{json}");
+        }
+    }
+}
+
+#[test]
+fn a_layer_of_a_stack_is_saved() {
+    use meshbrush_core::layers::{Combine, Layer, LayerId, LayerKind, Quantity};
+    let formula = meshbrush_core::field::Formula::parse("x + 1").unwrap();
+    let kind = LayerKind::Formula { quantity: Quantity::Diameter, formula };
+    let layer = Layer {
+        mask: None,
+        id: LayerId(3),
+        name: "Open sea".into(),
+        visible: false,
+        locked: true,
+        combine: Combine::Floor,
+        kind,
+    };
+    let json = serde_json::to_string(&SavedLayer::of(&layer, None)).unwrap();
+    let expected = r#"{"kind":"formula","name":"Open sea","visible":false,"locked":true,"combine":"floor","quantity":"diameter","formula":"x + 1"}"#;
+    assert_eq!(json, expected);
+    let spec = checked(&json).unwrap();
+    assert_eq!((spec.name, spec.combine, spec.locked), (layer.name, Combine::Floor, true));
+}

@@ -1,0 +1,116 @@
+//! Files, one module per format.
+//!
+//! A mesh writer is a function `write(out, mesh, data)`; the mesh is an
+//! [`Extract`](meshbrush_mesh::mesh::Extract).
+//! All formats agree on this:
+//!
+//! - nodes and triangles are in the order of the extract, unless the format says otherwise;
+//! - a triangle's vertices run anticlockwise, the first two being the ends of its bisection edge;
+//! - coordinates and h̄ are in world units; a number is the shortest text that reads back as the same f64;
+//! - numbers of nodes and triangles start at zero, except in `.msh`, `.obj` and `.2dm`, which start at one.
+//!
+//! A function that can take longer than a frame takes a [`Meter`], or has a variant `…_metered` that does: it
+//! counts bytes, and fails with [`Cancelled`] once the meter is cancelled.
+
+pub mod asc;
+mod atomic;
+mod blocks;
+mod claim;
+mod coordinates;
+pub mod csv;
+mod error;
+mod features;
+mod folder;
+mod interrupt;
+mod mesh_file;
+mod meter;
+pub mod geojson;
+pub mod journal;
+pub mod layers;
+pub mod located;
+pub mod msh;
+pub mod node;
+pub mod obj;
+mod parallel_rows;
+pub mod path;
+pub mod png;
+pub mod points;
+pub mod plot;
+mod positions;
+pub mod project;
+mod provenance;
+pub mod recipe;
+pub mod recording;
+mod rows;
+pub mod shapes;
+pub mod sms;
+mod stamp;
+pub mod steps;
+pub mod stl;
+pub mod svg;
+mod table;
+pub mod threats;
+mod triangle_pieces;
+pub mod vtu;
+mod words;
+pub mod world_file;
+
+use std::io::{self, Write};
+
+pub use atomic::{exists, make_folder, obstacle, remove_new, write_file, write_file_metered};
+pub use claim::Claim;
+pub use error::{Flaw, Place, ReadError};
+pub use folder::{FolderEntry, FolderListing, MOST_ENTRIES, is_folder, list_folder, resolve};
+pub use interrupt::Interruption;
+pub use mesh_file::{FormatSpec, MeshFormat, TypicalSize};
+use meshbrush_core::domain::MeshBoundary;
+pub use meshbrush_mesh::text::Number;
+pub use meter::{Cancelled, Counted, Meter};
+use parallel_rows::write_rows;
+pub use provenance::{MeshSource, Provenance};
+pub use stamp::{FileStamp, Stamping};
+
+/// The formats of meshes. A new one is a module and an entry here.
+static MESH_FORMATS: [&FormatSpec; 7] =
+    [&vtu::FORMAT, &msh::FORMAT, &obj::FORMAT, &stl::FORMAT, &node::FORMAT, &sms::FORMAT, &csv::FORMAT];
+
+/// The data that is written with a mesh. The level of each triangle comes from the mesh.
+///
+/// In files a piece of the boundary has the marker 1 + its number.
+#[derive(Clone, Copy, Debug)]
+pub struct MeshData<'a> {
+    /// h̄ at each node, in world units, in the order of the extract's nodes.
+    pub target_diameter: &'a [f64],
+    /// Further values at the nodes, in the same order.
+    pub quantities: &'a [NodeValues],
+    /// The boundary in named pieces.
+    pub boundary: &'a MeshBoundary,
+    /// The number of each triangle's part, from 0 for the largest: [`Extract::part_numbers`].
+    ///
+    /// [`Extract::part_numbers`]: meshbrush_mesh::mesh::Extract::part_numbers
+    pub parts: &'a [u32],
+    /// Where the mesh comes from: in all formats but `.csv`, whose readers take no comments.
+    pub provenance: &'a Provenance,
+}
+
+/// A value at each node, and its name in files.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NodeValues {
+    /// Letters, digits and underscores.
+    pub name: String,
+    /// One value for each node.
+    pub values: Vec<f64>,
+}
+
+impl MeshData<'_> {
+    /// Where the mesh comes from, in lines that a format takes for comments.
+    fn write_comments(&self, out: &mut impl Write) -> io::Result<()> {
+        self.provenance.lines().try_for_each(|line| writeln!(out, "# {line}"))
+    }
+
+    /// h̄ and then the quantities, each with its name.
+    fn node_values(&self) -> impl Iterator<Item = (&str, &[f64])> + Clone {
+        let further = self.quantities.iter().map(|q| (q.name.as_str(), q.values.as_slice()));
+        std::iter::once(("target_diameter", self.target_diameter)).chain(further)
+    }
+}

@@ -1,0 +1,245 @@
+//! `.msh`: Gmsh 4.1, as text or in binary form, with the physical groups that solvers need.
+//!
+//! The triangles are the physical surface `domain` (1). Each piece of the boundary of which the mesh has
+//! edges is a physical curve with the name of the piece and its marker, with the domain on the left. h̄ and
+//! the quantities are node data; `level` and `part` (the number of the connected part, from 0 for the
+//! largest) are element data. Tags count from one, triangles first: the tag of a triangle is its id plus one.
+//!
+//! Both forms hold the same numbers. The binary one is quicker to write and to read, and not smaller. It is
+//! little-endian on every machine.
+
+use std::io::{self, Write};
+
+use super::{FormatSpec, MeshData, Number, TypicalSize, write_rows};
+use meshbrush_mesh::geometry::Rect;
+use meshbrush_mesh::mesh::{BoundaryEdge, Extract, NodeId, TriangleId};
+
+/// Gmsh 4.1.
+pub static FORMAT: FormatSpec = FormatSpec {
+    ending: "msh",
+    purpose: "Gmsh 4.1: with h̄ and the boundary as named groups",
+    size: TypicalSize { bytes: 65.0, bytes_per_digit: 5.5 },
+    beside: &[],
+    write: |out, mesh, data, meter| write(&mut meter.count(out), mesh, data),
+    write_binary: Some(|out, mesh, data, meter| write_binary(&mut meter.count(out), mesh, data)),
+};
+
+/// Gmsh's numbers for an element of two and of three nodes.
+const LINE: i32 = 1;
+const TRIANGLE: i32 = 2;
+/// The tag of the surface and of its physical group.
+const SURFACE: i32 = 1;
+
+/// Writes the mesh with its boundary as text.
+///
+/// # Errors
+/// Errors of `out`.
+pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Result<()> {
+    Writer { out, is_binary: false }.write(mesh, data)
+}
+
+/// Writes the mesh with its boundary in binary form.
+///
+/// # Errors
+/// Errors of `out`.
+pub fn write_binary(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Result<()> {
+    Writer { out, is_binary: true }.write(mesh, data)
+}
+
+/// A number of the file.
+#[derive(Clone, Copy)]
+enum Value {
+    Int(i32),
+    Size(usize),
+    Real(f64),
+}
+
+use Value::{Int, Real, Size};
+
+struct Writer<'a, W> {
+    out: &'a mut W,
+    is_binary: bool,
+}
+
+impl<W: Write> Writer<'_, W> {
+    fn write(mut self, mesh: &Extract, data: &MeshData) -> io::Result<()> {
+        let curves = Curve::all(mesh, data);
+        self.write_head(data)?;
+        self.write_names(data, &curves)?;
+        self.write_entities(mesh, &curves)?;
+        self.write_nodes(mesh)?;
+        self.write_elements(mesh, &curves)?;
+        for (name, values) in data.node_values() {
+            self.write_values("NodeData", name, values.len(), |node| values[node])?;
+        }
+        // meshio requires element data for all elements or none: a boundary edge gets that of its triangle.
+        let lines: Vec<usize> =
+            curves.iter().flat_map(|curve| &curve.edges).map(|edge| edge.triangle).collect();
+        let triangles = mesh.triangles().len();
+        let triangle_of =
+            |element: usize| if element < triangles { element } else { lines[element - triangles] };
+        let level = |element| f64::from(mesh.triangles()[triangle_of(element)].level());
+        self.write_values("ElementData", "level", triangles + lines.len(), level)?;
+        let part = |element| f64::from(data.parts[triangle_of(element)]);
+        self.write_values("ElementData", "part", triangles + lines.len(), part)
+    }
+
+    fn write_head(&mut self, data: &MeshData) -> io::Result<()> {
+        let bytes = size_of::<u64>();
+        writeln!(self.out, "$MeshFormat\n4.1 {} {bytes}", u8::from(self.is_binary))?;
+        if self.is_binary {
+            self.row(&[Int(1)])?; // tells readers the order of bytes
+            writeln!(self.out)?;
+        }
+        writeln!(self.out, "$EndMeshFormat\n$Comments")?;
+        data.provenance.lines().try_for_each(|line| writeln!(self.out, "{line}"))?;
+        writeln!(self.out, "$EndComments")
+    }
+
+    fn write_names(&mut self, data: &MeshData, curves: &[Curve]) -> io::Result<()> {
+        writeln!(self.out, "$PhysicalNames\n{}", curves.len() + 1)?;
+        for curve in curves {
+            let name = &data.boundary.pieces().list()[curve.piece].name;
+            writeln!(self.out, "1 {} \"{name}\"", curve.tag())?;
+        }
+        writeln!(self.out, "2 {SURFACE} \"domain\"\n$EndPhysicalNames")
+    }
+
+    /// A curve for each piece, and the surface that they bound: tag, bounds, physical group, boundary.
+    fn write_entities(&mut self, mesh: &Extract, curves: &[Curve]) -> io::Result<()> {
+        writeln!(self.out, "$Entities")?;
+        self.row(&[Size(0), Size(curves.len()), Size(1), Size(0)])?;
+        for curve in curves {
+            let group = [Size(1), Int(curve.tag()), Size(0)];
+            self.row(&[&[Int(curve.tag())], &box_values(&curve.bounds)[..], &group].concat())?;
+        }
+        let boundary: Vec<Value> = curves.iter().map(|curve| Int(curve.tag())).collect();
+        let group = [Size(1), Int(SURFACE), Size(curves.len())];
+        let bounds = box_values(&mesh.lattice().bounds());
+        self.row(&[&[Int(SURFACE)], &bounds[..], &group, &boundary].concat())?;
+        self.end("Entities")
+    }
+
+    fn write_nodes(&mut self, mesh: &Extract) -> io::Result<()> {
+        let count = mesh.nodes().len();
+        writeln!(self.out, "$Nodes")?;
+        self.row(&[Size(1), Size(count), Size(1), Size(count)])?;
+        self.row(&[Int(2), Int(SURFACE), Int(0), Size(count)])?;
+        self.rows(count, |node| [Size(node + 1)])?;
+        self.rows(count, |node| {
+            let p = mesh.world(NodeId::from_index(node));
+            [Real(p.x), Real(p.y), Real(0.0)]
+        })?;
+        self.end("Nodes")
+    }
+
+    fn write_elements(&mut self, mesh: &Extract, curves: &[Curve]) -> io::Result<()> {
+        let triangles = mesh.triangles().len();
+        let all = triangles + curves.iter().map(|curve| curve.edges.len()).sum::<usize>();
+        writeln!(self.out, "$Elements")?;
+        self.row(&[Size(curves.len() + 1), Size(all), Size(1), Size(all)])?;
+        self.row(&[Int(2), Int(SURFACE), Int(TRIANGLE), Size(triangles)])?;
+        self.rows(triangles, |id| {
+            let [a, b, c] = mesh.cell(TriangleId::from_index(id)).corners.map(|node| Size(node + 1));
+            [Size(id + 1), a, b, c]
+        })?;
+        let mut tag = triangles;
+        for curve in curves {
+            self.row(&[Int(1), Int(curve.tag()), Int(LINE), Size(curve.edges.len())])?;
+            for edge in &curve.edges {
+                tag += 1;
+                let [from, to] = edge.ends.map(|node| Size(node + 1));
+                self.row(&[Size(tag), from, to])?;
+            }
+        }
+        self.end("Elements")
+    }
+
+    /// A view of Gmsh: one number for each node or element.
+    fn write_values(
+        &mut self,
+        section: &str,
+        name: &str,
+        count: usize,
+        value: impl Fn(usize) -> f64 + Sync,
+    ) -> io::Result<()> {
+        // One string (the name), one real number (the time), three whole numbers (step, components, count).
+        // They are text in both forms.
+        writeln!(self.out, "${section}\n1\n\"{name}\"\n1\n0\n3\n0\n1\n{count}")?;
+        self.rows(count, |number| [Int(number as i32 + 1), Real(value(number))])?;
+        self.end(section)
+    }
+
+    fn row(&mut self, values: &[Value]) -> io::Result<()> {
+        write_row(self.out, values, self.is_binary)
+    }
+
+    /// Many rows, by their numbers from 0.
+    fn rows<const N: usize>(
+        &mut self,
+        count: usize,
+        values: impl Fn(usize) -> [Value; N] + Sync,
+    ) -> io::Result<()> {
+        let is_binary = self.is_binary;
+        write_rows(self.out, count, |out, number| write_row(out, &values(number), is_binary))
+    }
+
+    fn end(&mut self, section: &str) -> io::Result<()> {
+        let line_break = if self.is_binary { "\n" } else { "" };
+        writeln!(self.out, "{line_break}$End{section}")
+    }
+}
+
+/// A line of text, or the bytes of the numbers.
+fn write_row(out: &mut impl Write, values: &[Value], is_binary: bool) -> io::Result<()> {
+    if is_binary {
+        return values.iter().try_for_each(|value| match value {
+            Int(n) => out.write_all(&n.to_le_bytes()),
+            Size(n) => out.write_all(&(*n as u64).to_le_bytes()),
+            Real(x) => out.write_all(&x.to_le_bytes()),
+        });
+    }
+    for (n, value) in values.iter().enumerate() {
+        let blank = if n == 0 { "" } else { " " };
+        match value {
+            Int(n) => write!(out, "{blank}{n}")?,
+            Size(n) => write!(out, "{blank}{n}")?,
+            Real(x) => write!(out, "{blank}{}", Number(*x))?,
+        }
+    }
+    writeln!(out)
+}
+
+/// The edges of a piece of the boundary.
+struct Curve {
+    piece: usize,
+    edges: Vec<BoundaryEdge>,
+    bounds: Rect,
+}
+
+impl Curve {
+    /// Those of all pieces of which the mesh has edges, by number.
+    fn all(mesh: &Extract, data: &MeshData) -> Vec<Self> {
+        let mut edges = vec![Vec::new(); data.boundary.pieces().list().len()];
+        for (edge, &piece) in mesh.boundary_edges().zip(data.boundary.piece_of_edge()) {
+            edges[piece as usize].push(edge);
+        }
+        let curve = |(piece, edges): (usize, Vec<BoundaryEdge>)| {
+            let nodes = edges.iter().flat_map(|edge| edge.ends);
+            let points = nodes.map(|node| mesh.world(NodeId::from_index(node)));
+            let bounds = points.map(|p| Rect::new(p, p)).reduce(|a, b| a.union(&b))?;
+            Some(Self { piece, edges, bounds })
+        };
+        edges.into_iter().enumerate().filter_map(curve).collect()
+    }
+
+    fn tag(&self) -> i32 {
+        self.piece as i32 + 1
+    }
+}
+
+/// The lower and the upper corner of a box that is flat.
+fn box_values(bounds: &Rect) -> [Value; 6] {
+    let Rect { min, max } = bounds;
+    [Real(min.x), Real(min.y), Real(0.0), Real(max.x), Real(max.y), Real(0.0)]
+}

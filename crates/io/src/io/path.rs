@@ -1,0 +1,55 @@
+//! Paths as files: GeoJSON, and a table with the cost up to each point.
+
+use std::io::{self, Write};
+
+use super::Provenance;
+use meshbrush_core::path::{PathSample, Solution};
+use meshbrush_mesh::text::Number;
+
+/// Writes a path as a GeoJSON feature with its figures. `samples` are the points to write.
+///
+/// # Errors
+/// Errors of `out`.
+pub fn write_geojson(
+    out: &mut dyn Write,
+    solution: &Solution,
+    samples: &[PathSample],
+    provenance: &Provenance,
+) -> io::Result<()> {
+    let Solution { cost, lower, upper, length, risk, highest_risk, .. } = solution;
+    let mut properties = serde_json::Map::new();
+    let figures = [
+        ("cost", cost),
+        ("lower", lower),
+        ("upper", upper),
+        ("length", length),
+        ("risk", risk),
+        ("highest_risk", highest_risk),
+    ];
+    properties.extend(figures.map(|(name, &figure)| (name.to_owned(), figure.into())));
+    properties.extend(provenance.entries().map(|(key, text)| (key.to_owned(), text.into())));
+    write!(out, "{{\"type\":\"Feature\",\"properties\":")?;
+    serde_json::to_writer(&mut *out, &properties)?;
+    writeln!(out, ",\n\"geometry\":{{\"type\":\"LineString\",\"coordinates\":[")?;
+    for (n, sample) in samples.iter().enumerate() {
+        let end = if n + 1 < samples.len() { "," } else { "" };
+        writeln!(out, "[{},{}]{end}", Number(sample.point.x), Number(sample.point.y))?;
+    }
+    writeln!(out, "]}}}}")
+}
+
+/// Writes a table with a row for each point: where it is, its distance from the start along the path, what
+/// the path costs up to there, the risk, and the cost per unit of length.
+///
+/// # Errors
+/// Errors of `out`.
+pub fn write_csv(out: &mut dyn Write, samples: &[PathSample]) -> io::Result<()> {
+    writeln!(out, "x,y,distance,cost,risk,density")?;
+    for sample in samples {
+        let PathSample { point, distance, cost, risk, density } = *sample;
+        let [x, y, distance, cost, risk, density] =
+            [point.x, point.y, distance, cost, risk, density].map(Number);
+        writeln!(out, "{x},{y},{distance},{cost},{risk},{density}")?;
+    }
+    Ok(())
+}

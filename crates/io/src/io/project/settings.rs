@@ -1,0 +1,351 @@
+//! `settings.json`: the part of a project in readable text.
+
+use std::sync::Arc;
+
+use glam::DVec2;
+use serde::{Deserialize, Serialize};
+
+use super::super::Flaw;
+use super::super::error::PlacedFlaw;
+use super::super::words::{SavedName, SavedRule, SavedUnit, marks_of, saved_marks};
+use super::old_version::SavedBase;
+use super::part_names::PartNames;
+use super::paths::SavedPaths;
+use super::saved_background::SavedBackground;
+use super::stored_layers::{StoredLayer, check_raster_sizes};
+use super::{FORMAT, VERSION};
+use meshbrush_core::document::{Picture, Settings};
+use meshbrush_core::domain::{BoundaryMarks, BoundaryTreatment, Domain, DomainShape, Polygon};
+use meshbrush_core::field::{Formula, Transfer};
+use meshbrush_core::layers::RasterReading;
+use meshbrush_core::raster::{Raster, RasterPyramid, is_raster_size};
+use meshbrush_mesh::geometry::Rect;
+use meshbrush_mesh::mesh::{Cleaning, KeptParts, MOST_TRIANGLES};
+use meshbrush_mesh::text::{Grouped, Number, excerpt};
+
+/// The fields that every version of the format has.
+#[derive(Deserialize)]
+struct Head {
+    format: String,
+    version: u64,
+    #[serde(default)]
+    written_by: String,
+}
+
+/// The content of the file; lengths are in world units.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Saved {
+    format: String,
+    version: u64,
+    written_by: String,
+    name: String,
+    /// Missing in files of older versions, and where there is none.
+    #[serde(default, skip_serializing_if = "SavedUnit::is_none")]
+    unit: SavedUnit,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    background: Option<SavedBackground>,
+    pub(super) domain: SavedDomain,
+    boundary: SavedBoundary,
+    /// Missing in files of older versions.
+    #[serde(default)]
+    cleaning: SavedCleaning,
+    #[serde(default, skip_serializing_if = "SavedMarks::is_empty")]
+    boundary_marks: SavedMarks,
+    /// x and y of each.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pins: Vec<[f64; 2]>,
+    /// Missing in files of older versions.
+    #[serde(default, skip_serializing_if = "SavedPaths::is_empty")]
+    paths: SavedPaths,
+    spacing: f64,
+    transfer: SavedTransfer,
+    /// In version 1: the field under the paint, and the pixels of the paint along the longer side.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    base: Option<SavedBase>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) resolution: Option<u32>,
+    /// Since version 2, from the bottom to the top.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    layers: Option<Vec<StoredLayer>>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    gradation: Option<f64>,
+    rule: SavedRule,
+    max_triangles: usize,
+    /// In bytes.
+    max_memory: usize,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct SavedDomain {
+    /// x and y of the lower left corner, then of the upper right one.
+    pub(super) bounds: [f64; 4],
+    shape: SavedShape,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum SavedShape {
+    Whole,
+    Formula(String),
+    /// Polygons, which are in the part `domain.geojson`.
+    Polygons,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum SavedBoundary {
+    Report,
+    #[serde(rename = "fitted_with_diameter")]
+    Fitted(f64),
+    #[serde(rename = "on_outline_with_diameter")]
+    OnOutline(f64),
+}
+
+#[derive(Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SavedMarks {
+    /// x and y of each place.
+    splits: Vec<[f64; 2]>,
+    names: Vec<SavedName>,
+}
+
+impl SavedMarks {
+    fn of(marks: &BoundaryMarks) -> Self {
+        let (splits, names) = saved_marks(marks);
+        Self { splits, names }
+    }
+
+    fn is_empty(&self) -> bool {
+        self.splits.is_empty() && self.names.is_empty()
+    }
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SavedCleaning {
+    parts: SavedParts,
+    keep_pinches: bool,
+}
+
+/// A share is a table here and a plain number in recipes.
+#[derive(Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum SavedParts {
+    All,
+    Largest,
+    WithShare(f64),
+}
+
+impl Default for SavedCleaning {
+    fn default() -> Self {
+        Self { parts: SavedParts::Largest, keep_pinches: false }
+    }
+}
+
+impl From<Cleaning> for SavedCleaning {
+    fn from(cleaning: Cleaning) -> Self {
+        let parts = match cleaning.parts {
+            KeptParts::All => SavedParts::All,
+            KeptParts::Largest => SavedParts::Largest,
+            KeptParts::Share(share) => SavedParts::WithShare(share),
+        };
+        Self { parts, keep_pinches: cleaning.keeps_pinches }
+    }
+}
+
+impl From<SavedCleaning> for Cleaning {
+    fn from(saved: SavedCleaning) -> Self {
+        let parts = match saved.parts {
+            SavedParts::All => KeptParts::All,
+            SavedParts::Largest => KeptParts::Largest,
+            SavedParts::WithShare(share) => KeptParts::Share(share),
+        };
+        Self { parts, keeps_pinches: saved.keep_pinches }
+    }
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SavedTransfer {
+    h_min: f64,
+    h_max: f64,
+    shape: f64,
+}
+
+pub(super) fn checked_size(size: [u32; 2]) -> Result<[u32; 2], Flaw> {
+    let [columns, rows] = size.map(u64::from);
+    if is_raster_size(size) { Ok(size) } else { Err(Flaw::Size { columns, rows }) }
+}
+
+/// Access to the other parts that the settings refer to.
+pub(super) trait Parts {
+    /// The polygons of the domain.
+    fn polygons(&mut self) -> Result<Vec<Polygon>, PlacedFlaw>;
+    /// The picture behind the mesh.
+    fn background(&mut self, part: &str) -> Result<Arc<Picture>, PlacedFlaw>;
+    /// The pixels of a raster of [columns, rows], which layers read.
+    fn raster(&mut self, part: &str, bounds: Rect, size: [u32; 2]) -> Result<Arc<RasterPyramid>, PlacedFlaw>;
+    /// The pixels of the base field in version 1, likewise.
+    fn base(&mut self, bounds: Rect, size: [u32; 2], reading: &RasterReading) -> Result<Raster, PlacedFlaw>;
+}
+
+impl Saved {
+    /// The settings, whose rasters and pictures have the given names.
+    pub(super) fn of(settings: &Settings, names: &PartNames) -> Self {
+        let Transfer { h_min, h_max, shape } = settings.transfer;
+        Self {
+            format: FORMAT.into(),
+            version: VERSION,
+            written_by: concat!("Meshbrush ", env!("CARGO_PKG_VERSION")).into(),
+            name: settings.name.clone(),
+            unit: settings.unit.into(),
+            background: settings.background.as_ref().map(|background| SavedBackground::of(background, names)),
+            domain: SavedDomain {
+                bounds: corners(settings.domain.bounds),
+                shape: match &settings.domain.shape {
+                    DomainShape::Whole => SavedShape::Whole,
+                    DomainShape::Formula(formula) => SavedShape::Formula(formula.source().into()),
+                    DomainShape::Region(_) => SavedShape::Polygons,
+                },
+            },
+            boundary: match settings.boundary {
+                BoundaryTreatment::Report => SavedBoundary::Report,
+                BoundaryTreatment::Fitted { diameter } => SavedBoundary::Fitted(diameter),
+                BoundaryTreatment::OnOutline { diameter } => SavedBoundary::OnOutline(diameter),
+            },
+            cleaning: settings.cleaning.into(),
+            boundary_marks: SavedMarks::of(&settings.boundary_marks),
+            pins: settings.pins.iter().map(DVec2::to_array).collect(),
+            paths: SavedPaths::of(&settings.paths),
+            spacing: settings.spacing,
+            transfer: SavedTransfer { h_min, h_max, shape },
+            base: None,
+            resolution: None,
+            layers: Some(settings.layers.iter().map(|layer| StoredLayer::of(layer, names)).collect()),
+            gradation: settings.gradation,
+            rule: settings.rule.into(),
+            max_triangles: settings.max_triangles,
+            max_memory: settings.max_memory,
+        }
+    }
+
+    /// Reads the text.
+    ///
+    /// # Errors
+    /// When it is not valid, or of a newer version: then the error says by which program.
+    pub(super) fn parse(text: &[u8]) -> Result<Self, PlacedFlaw> {
+        let head: Head = serde_json::from_slice(text).map_err(placed)?;
+        if head.format != FORMAT {
+            return Err(Flaw::Syntax(format!(
+                "its format is \"{}\" instead of {FORMAT:?}.",
+                excerpt(40, &head.format)
+            ))
+            .into());
+        }
+        if head.version > VERSION {
+            let by = if head.written_by.is_empty() {
+                "a newer program".into()
+            } else {
+                excerpt(40, &head.written_by)
+            };
+            return Err(Flaw::Syntax(format!(
+                "the project was written by {by} in version {} of its format, and this program ({}) reads up to version \
+                 {VERSION}. Open it with a newer Meshbrush.",
+                head.version,
+                env!("CARGO_PKG_VERSION"),
+            ))
+            .into());
+        }
+        serde_json::from_slice(text).map_err(placed)
+    }
+
+    /// The settings, after all checks.
+    pub(super) fn into_settings(self, parts: &mut impl Parts) -> Result<Settings, PlacedFlaw> {
+        if !(2..=MOST_TRIANGLES).contains(&self.max_triangles) {
+            return Err(Flaw::Syntax(format!(
+                "\"max_triangles\" is {}, and a budget must be between 2 and {}.",
+                Grouped(self.max_triangles),
+                Grouped(MOST_TRIANGLES)
+            ))
+            .into());
+        }
+        let bounds = rect("domain", self.domain.bounds)?;
+        let shape = match self.domain.shape {
+            SavedShape::Whole => DomainShape::Whole,
+            SavedShape::Formula(text) => DomainShape::Formula(formula("domain", &text)?),
+            SavedShape::Polygons => {
+                Domain::of_stored_polygons(parts.polygons()?, bounds).map_err(sentence)?.shape
+            }
+        };
+        let layers = match (self.layers, self.base) {
+            (Some(layers), _) => {
+                check_raster_sizes(&layers)?;
+                layers.into_iter().map(|layer| layer.into_layer(parts)).collect()
+            }
+            (None, Some(base)) => base.into_layers(parts),
+            (None, None) => Err(sentence("the settings are not valid: there are no layers.")),
+        }?;
+        let background = self.background.map(|saved| saved.load(parts)).transpose()?;
+        let settings = Settings {
+            name: self.name,
+            unit: self.unit.into(),
+            background,
+            domain: Domain { bounds, shape },
+            boundary: match self.boundary {
+                SavedBoundary::Report => BoundaryTreatment::Report,
+                SavedBoundary::Fitted(diameter) => BoundaryTreatment::Fitted { diameter },
+                SavedBoundary::OnOutline(diameter) => BoundaryTreatment::OnOutline { diameter },
+            },
+            cleaning: self.cleaning.into(),
+            boundary_marks: Arc::new(marks_of(&self.boundary_marks.splits, &self.boundary_marks.names)),
+            pins: Arc::new(self.pins.into_iter().map(DVec2::from_array).collect()),
+            paths: self.paths.load()?,
+            spacing: self.spacing,
+            transfer: Transfer {
+                h_min: self.transfer.h_min,
+                h_max: self.transfer.h_max,
+                shape: self.transfer.shape,
+            },
+            layers,
+            gradation: self.gradation,
+            rule: self.rule.into(),
+            max_triangles: self.max_triangles,
+            max_memory: self.max_memory,
+        };
+        settings.checked().map_err(sentence)
+    }
+}
+
+pub(super) fn corners(rect: Rect) -> [f64; 4] {
+    [rect.min.x, rect.min.y, rect.max.x, rect.max.y]
+}
+
+pub(super) fn rect(of: &str, [x0, y0, x1, y1]: [f64; 4]) -> Result<Rect, PlacedFlaw> {
+    let rect = Rect::new(DVec2::new(x0, y0), DVec2::new(x1, y1));
+    if rect.is_proper() && rect.size().is_finite() {
+        return Ok(rect);
+    }
+    let [x0, y0, x1, y1] = [x0, y0, x1, y1].map(Number);
+    Err(Flaw::Syntax(format!(
+        "the bounds {x0}, {y0}, {x1}, {y1} of \"{of}\" are not a rectangle: the first corner is the lower left one."
+    ))
+    .into())
+}
+
+pub(super) fn formula(of: &str, text: &str) -> Result<Formula, PlacedFlaw> {
+    Formula::parse(text)
+        .map_err(|mistake| Flaw::Syntax(format!("the formula of \"{of}\" is not valid. {mistake}")).into())
+}
+
+fn sentence(error: impl std::fmt::Display) -> PlacedFlaw {
+    Flaw::Syntax(error.to_string()).into()
+}
+
+/// The error of serde_json with its line.
+fn placed(error: serde_json::Error) -> PlacedFlaw {
+    let text = error.to_string();
+    let problem = text.split(" at line ").next().unwrap_or(&text);
+    Flaw::Syntax(format!("the settings are not valid: {problem}.")).at(error.line().max(1))
+}

@@ -1,0 +1,63 @@
+//! Where a file comes from, as text for the formats that have a place for it.
+
+use meshbrush_mesh::mesh::Fingerprint;
+use meshbrush_mesh::text::LengthUnit;
+
+/// Where a file comes from. It has no time and no path that nobody typed: the same input gives the same
+/// file.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Provenance {
+    lines: Vec<(&'static str, String)>,
+}
+
+/// What a mesh was made from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum MeshSource<'a> {
+    /// A command, as it was typed.
+    Command(&'a str),
+    /// A document in the window, by its name.
+    Document(&'a str),
+}
+
+impl Provenance {
+    /// That of a mesh: the program with its version, the source, the fingerprint, and what the coordinates
+    /// are, such as `x, y`.
+    pub fn new(source: MeshSource, fingerprint: Fingerprint, coordinates: &str) -> Self {
+        let (key, source) = match source {
+            MeshSource::Command(command) => ("command", command),
+            MeshSource::Document(name) => ("document", name),
+        };
+        let program = concat!("Meshbrush ", env!("CARGO_PKG_VERSION")).to_owned();
+        let lines = [
+            ("program", program),
+            (key, one_line(source)),
+            ("fingerprint", fingerprint.to_string()),
+            ("coordinates", one_line(coordinates)),
+        ];
+        Self { lines: lines.into() }
+    }
+
+    /// With the unit of coordinates and lengths, if there is one.
+    #[must_use]
+    pub fn with_unit(mut self, unit: LengthUnit) -> Self {
+        if unit != LengthUnit::None {
+            self.lines.push(("unit", unit.name().to_owned()));
+        }
+        self
+    }
+
+    /// What is known, as pairs of a word and one line of text.
+    pub fn entries(&self) -> impl Iterator<Item = (&'static str, &str)> {
+        self.lines.iter().map(|(key, text)| (*key, text.as_str()))
+    }
+
+    /// The entries as lines, `word: text`.
+    pub fn lines(&self) -> impl Iterator<Item = String> {
+        self.entries().map(|(key, text)| format!("{key}: {text}"))
+    }
+}
+
+fn one_line(text: &str) -> String {
+    text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect()
+}

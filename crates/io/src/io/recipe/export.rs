@@ -1,0 +1,275 @@
+//! A document as a recipe, with files beside it for what is long or has no form as text.
+
+use std::collections::BTreeSet;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use super::super::atomic::{Draft, put_in_place};
+use super::super::layers::SavedLayer;
+use super::super::project::{self, Project};
+use super::super::{Meter, asc, geojson, shapes, threats};
+use super::{SavedRecipe, to_text};
+use meshbrush_core::document::{PathCost, Settings};
+use meshbrush_core::domain::Polygon;
+use meshbrush_core::layers::{
+    DistanceTo, Layer, LayerKind, PaintLayers, RasterReading, RasterSource, ShapeList, Shapes, Threats,
+};
+use meshbrush_core::raster::{Raster, RasterPyramid};
+use meshbrush_mesh::geometry::Rect;
+
+/// Most threats, and most points of shapes or of a mask, that are written into the recipe itself.
+const MOST_IN_PLACE: usize = 20;
+
+/// The extension of polygons and shapes.
+const GEOJSON: &str = "geojson";
+
+/// A recipe and the files beside it that it names.
+#[derive(Debug)]
+pub struct RecipeFiles {
+    /// The recipe is the last: it is put in place when the files are there.
+    files: Vec<(PathBuf, Content)>,
+    left_out: Vec<&'static str>,
+}
+
+#[derive(Debug)]
+enum Content {
+    Recipe(String),
+    Polygons(Vec<Polygon>),
+    Shapes(Shapes),
+    Threats(Threats),
+    Grid(Arc<RasterPyramid>, AtInfinity),
+    Paint(Box<Project>),
+}
+
+/// What the value ∞ of a raster means.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum AtInfinity {
+    /// The layer asks for nothing, as where there is no value.
+    Nothing,
+    /// The end of the layer's curve.
+    EndOfCurve,
+}
+
+impl RecipeFiles {
+    /// The recipe of a document, at `path`. Files beside it are named after it and the layers: `coast.toml`
+    /// has `coast-slopes.asc`. Blank paint layers, which ask for nothing, are left out.
+    pub fn new(project: &Project, path: &Path) -> Self {
+        let mut plan = Plan::new(path);
+        let Project { settings, paint } = project;
+        let region = settings.domain.region().map(|region| {
+            let polygons = Content::Polygons(region.polygons().to_vec());
+            plan.add("domain", GEOJSON, polygons)
+        });
+        let painted: Vec<Layer> = settings.layers.iter().filter(|l| is_painted(l, paint)).cloned().collect();
+        let paint_file = (!painted.is_empty()).then(|| {
+            let stored = Content::Paint(Box::new(paint_project(settings, painted.clone(), paint)));
+            plan.add("paint", project::ENDING, stored)
+        });
+        let mut layers = Vec::new();
+        for layer in &settings.layers {
+            match (layer.paints(), painted.iter().position(|other| other.id == layer.id)) {
+                (None, _) => layers.push(plan.layer(layer)),
+                (Some(_), Some(number)) => {
+                    let layer_there = unique_names(&painted).swap_remove(number);
+                    let saved = plan.layer(layer);
+                    layers.push(SavedLayer { file: paint_file.clone(), layer: Some(layer_there), ..saved });
+                }
+                (Some(_), None) => {}
+            }
+        }
+        let recipe = SavedRecipe::of_settings(settings, region.as_deref().unwrap_or_default(), layers);
+        plan.files.push((path.to_owned(), Content::Recipe(to_text(&recipe))));
+        Self { files: plan.files, left_out: left_out(settings) }
+    }
+
+    /// What of the document is in no recipe, as a sentence; none where nothing is left out.
+    pub fn left_out(&self) -> Option<String> {
+        let (last, others) = self.left_out.split_last()?;
+        let list =
+            if others.is_empty() { (*last).into() } else { format!("{} and {last}", others.join(", ")) };
+        Some(format!("Not saved in the recipe: {list}. They do not change the mesh; a project keeps them."))
+    }
+
+    /// The files, the recipe last.
+    pub fn paths(&self) -> impl Iterator<Item = &Path> {
+        self.files.iter().map(|(path, _)| path.as_path())
+    }
+
+    /// Writes all files, or none if that fails or is cancelled. Existing files are replaced.
+    ///
+    /// # Errors
+    /// Errors of the file system, and when the work was cancelled.
+    pub fn write(&self, meter: &Meter) -> io::Result<()> {
+        let draft = |(path, content): &(PathBuf, Content)| {
+            Draft::write(path, meter, |out| content.write(&mut meter.count(out)))
+        };
+        let drafts: Vec<Draft> = self.files.iter().map(draft).collect::<io::Result<_>>()?;
+        put_in_place(drafts, meter)
+    }
+}
+
+/// What recipes have no keys for.
+fn left_out(settings: &Settings) -> Vec<&'static str> {
+    let Settings { pins, paths, background, .. } = settings;
+    [
+        (!pins.is_empty(), "pins"),
+        (!paths.routes.is_empty(), "paths"),
+        (paths.cost != PathCost::default(), "the cost of paths"),
+        (!paths.keep_out.is_empty(), "keep-out regions"),
+        (background.is_some(), "the background picture"),
+    ]
+    .into_iter()
+    .filter_map(|(is_there, name)| is_there.then_some(name))
+    .collect()
+}
+
+impl Content {
+    fn write(&self, out: &mut dyn Write) -> io::Result<()> {
+        match self {
+            Self::Recipe(text) => out.write_all(text.as_bytes()),
+            Self::Polygons(polygons) => geojson::write(out, polygons),
+            Self::Shapes(list) => shapes::write(out, list.list()),
+            Self::Threats(list) => threats::write(out, list.list()),
+            Self::Grid(raster, infinity) => asc::write(out, &finite(raster.raster(), *infinity)),
+            Self::Paint(project) => project::write(out, project),
+        }
+    }
+}
+
+/// The raster without infinite values, which the format does not have.
+fn finite(raster: &Raster, infinity: AtInfinity) -> Raster {
+    let value = |&value: &f32| match infinity {
+        AtInfinity::Nothing if value == f32::INFINITY => f32::NAN,
+        _ if value.is_infinite() => f32::MAX.copysign(value),
+        _ => value,
+    };
+    Raster::from_values(raster.bounds(), raster.size(), raster.values().iter().map(value).collect())
+}
+
+/// The files of a recipe, as they are found.
+struct Plan {
+    folder: PathBuf,
+    stem: String,
+    taken: BTreeSet<String>,
+    grids: Vec<(Arc<RasterPyramid>, AtInfinity, String)>,
+    files: Vec<(PathBuf, Content)>,
+}
+
+impl Plan {
+    fn new(path: &Path) -> Self {
+        let folder = path.parent().map_or_else(PathBuf::new, Path::to_owned);
+        let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        Self { folder, stem, taken: BTreeSet::new(), grids: Vec::new(), files: Vec::new() }
+    }
+
+    /// Adds a file, and returns its name.
+    fn add(&mut self, what: &str, ending: &str, content: Content) -> String {
+        let word = file_word(what);
+        let candidates = std::iter::once(word.clone()).chain((2..).map(|n| format!("{word}-{n}")));
+        let mut names = candidates.map(|word| format!("{}-{word}.{ending}", self.stem));
+        let name = names.find(|name| !self.taken.contains(name)).expect("there are names without end");
+        self.taken.insert(name.clone());
+        self.files.push((self.folder.join(&name), content));
+        name
+    }
+
+    /// A layer as the recipe has it, with its data in place or in files.
+    fn layer(&mut self, layer: &Layer) -> SavedLayer {
+        let mut saved = SavedLayer::of(layer, None);
+        match &layer.kind {
+            LayerKind::Raster { source, reading } => {
+                let infinity = match reading {
+                    RasterReading::Curve(_) => AtInfinity::EndOfCurve,
+                    _ => AtInfinity::Nothing,
+                };
+                self.put_grid(&mut saved, layer, source, infinity);
+            }
+            LayerKind::Band { source, .. } => {
+                self.put_grid(&mut saved, layer, source, AtInfinity::Nothing);
+            }
+            LayerKind::Threats(threats) if threats.list().len() > MOST_IN_PLACE => {
+                saved.threats = None;
+                saved.file = Some(self.add(&layer.name, "csv", Content::Threats(threats.clone())));
+            }
+            LayerKind::Distance {
+                to: DistanceTo::Shapes { shapes, .. } | DistanceTo::Corridor { lines: shapes, .. },
+                ..
+            } if point_count(shapes.list()) > MOST_IN_PLACE => {
+                saved.shapes = None;
+                saved.file = Some(self.add(&layer.name, GEOJSON, Content::Shapes(shapes.clone())));
+            }
+            _ => {}
+        }
+        if let Some(mask) = &layer.mask
+            && mask.polygons().iter().flatten().flatten().count() > MOST_IN_PLACE
+        {
+            let polygons = Content::Polygons(mask.polygons().to_vec());
+            let name = format!("{} mask", layer.name);
+            saved.mask = None;
+            saved.mask_file = Some(self.add(&name, GEOJSON, polygons));
+        }
+        saved
+    }
+
+    /// Layers that read the same raster name the same file.
+    fn put_grid(
+        &mut self,
+        saved: &mut SavedLayer,
+        layer: &Layer,
+        source: &RasterSource,
+        infinity: AtInfinity,
+    ) {
+        let is_same = |(raster, other, _): &&(Arc<RasterPyramid>, AtInfinity, String)| {
+            Arc::ptr_eq(raster, &source.raster) && *other == infinity
+        };
+        let known = self.grids.iter().find(is_same).map(|(_, _, name)| name.clone());
+        let name = known.unwrap_or_else(|| {
+            let grid = Content::Grid(source.raster.clone(), infinity);
+            let name = self.add(&layer.name, "asc", grid);
+            self.grids.push((source.raster.clone(), infinity, name.clone()));
+            name
+        });
+        let raster = source.raster.raster();
+        let Rect { min, max } = raster.bounds();
+        saved.file = Some(name);
+        saved.bounds =
+            (asc::bounds_as_written(raster) != raster.bounds()).then_some([min.x, min.y, max.x, max.y]);
+    }
+}
+
+/// A name as a part of a file name: lower-case letters, digits and hyphens.
+fn file_word(name: &str) -> String {
+    let parts = name.split(|c: char| !c.is_alphanumeric()).filter(|part| !part.is_empty());
+    let word = parts.collect::<Vec<_>>().join("-").to_lowercase();
+    let word: String = word.chars().take(60).collect();
+    if word.is_empty() { "layer".to_owned() } else { word }
+}
+
+fn point_count(list: &ShapeList) -> usize {
+    let lines: usize = list.lines.iter().map(Vec::len).sum();
+    list.points.len() + lines + list.polygons.iter().flatten().map(Vec::len).sum::<usize>()
+}
+
+fn is_painted(layer: &Layer, paint: &PaintLayers) -> bool {
+    layer.paints().is_some() && paint.get(layer.id).is_some_and(|raster| !raster.is_blank())
+}
+
+/// A project with the paint alone, on layers of different names.
+fn paint_project(settings: &Settings, painted: Vec<Layer>, paint: &PaintLayers) -> Project {
+    let names = unique_names(&painted);
+    let layers = painted.into_iter().zip(names).map(|(layer, name)| Layer { name, mask: None, ..layer });
+    let settings = Settings { layers: layers.collect(), background: None, ..settings.clone() };
+    Project { settings, paint: paint.clone() }
+}
+
+/// The names of layers, with numbers where they would be alike.
+fn unique_names(layers: &[Layer]) -> Vec<String> {
+    let mut names: Vec<String> = Vec::new();
+    for layer in layers {
+        let numbered = (2..).map(|n| format!("{} {n}", layer.name));
+        let mut candidates = std::iter::once(layer.name.clone()).chain(numbered);
+        names.extend(candidates.find(|name| !names.contains(name)));
+    }
+    names
+}

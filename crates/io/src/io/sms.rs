@@ -1,0 +1,65 @@
+//! `.2dm`: the mesh format of SMS, read by TUFLOW, BASEMENT, QGIS and other programs for hydraulics.
+//!
+//! z is the first quantity, usually the height of the ground, and 0 without quantities. All elements have
+//! material 1: a solver needs a description of each material, so levels are not written as materials.
+//!
+//! Nodestrings are the pieces of the boundary with the domain on the left. One of a whole ring ends with its
+//! first node. A piece that is interrupted in the mesh has several nodestrings. The format has no place for
+//! names: comments give them by the numbers of the nodestrings. Numbers start at one.
+
+use std::io::{self, Write};
+
+use super::{FormatSpec, MeshData, Number, TypicalSize, write_rows};
+use meshbrush_mesh::mesh::{Extract, NodeId, TriangleId};
+
+/// SMS.
+pub static FORMAT: FormatSpec = FormatSpec {
+    ending: "2dm",
+    purpose: "SMS, TUFLOW, BASEMENT, QGIS: the boundary as nodestrings",
+    size: TypicalSize { bytes: 44.0, bytes_per_digit: 4.5 },
+    beside: &[],
+    write: |out, mesh, data, meter| write(&mut meter.count(out), mesh, data),
+    write_binary: None,
+};
+
+/// Nodes of a nodestring in one line.
+const NODES_A_LINE: usize = 10;
+
+/// Writes elements, nodes, and a nodestring for each piece of the boundary.
+///
+/// # Errors
+/// Errors of `out`.
+pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Result<()> {
+    writeln!(out, "MESH2D\nMESHNAME \"Meshbrush\"\nNUM_MATERIALS_PER_ELEM 1")?;
+    data.write_comments(out)?;
+    write_rows(out, mesh.triangles().len(), |out, id| {
+        let [a, b, c] = mesh.cell(TriangleId::from_index(id)).corners.map(|node| node + 1);
+        writeln!(out, "E3T {} {a} {b} {c} 1", id + 1)
+    })?;
+    write_rows(out, mesh.nodes().len(), |out, node| {
+        let p = mesh.world(NodeId::from_index(node));
+        let z = data.quantities.first().map_or(0.0, |quantity| quantity.values[node]);
+        writeln!(out, "ND {} {} {} {}", node + 1, Number(p.x), Number(p.y), Number(z))
+    })?;
+    let runs = data.boundary.runs(mesh);
+    for (id, run) in (1..).zip(&runs) {
+        writeln!(out, "# nodestring {id}: {}", data.boundary.pieces().list()[run.piece].name)?;
+    }
+    (1..).zip(&runs).try_for_each(|(id, run)| write_nodestring(out, id, &run.nodes))
+}
+
+/// The last node is negative, and the number of the nodestring follows it. py2dm requires two nodes in the
+/// first line.
+fn write_nodestring(out: &mut impl Write, id: usize, nodes: &[usize]) -> io::Result<()> {
+    let lines = nodes.len().div_ceil(NODES_A_LINE);
+    for (number, line) in (1..).zip(nodes.chunks(NODES_A_LINE)) {
+        let Some((last, others)) = line.split_last() else { continue };
+        write!(out, "NS")?;
+        others.iter().try_for_each(|node| write!(out, " {}", node + 1))?;
+        match number == lines {
+            true => writeln!(out, " -{} {id}", last + 1)?,
+            false => writeln!(out, " {}", last + 1)?,
+        }
+    }
+    Ok(())
+}

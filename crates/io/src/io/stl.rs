@@ -1,0 +1,76 @@
+//! `.stl` in binary form, for printing and for programs that read only this. The mesh lies in the plane z =
+//! 0, facing up.
+//!
+//! The format has triangles only: no shared nodes, no level, no h̄. Its numbers have seven digits; a mesh
+//! with triangles too small for that is refused.
+
+use std::io::{self, Write};
+
+use glam::Vec2;
+
+use super::{FormatSpec, MeshData, TypicalSize, write_rows};
+use meshbrush_mesh::mesh::{Extract, NodeId, TriangleId};
+
+/// Triangles without shared nodes.
+pub static FORMAT: FormatSpec = FormatSpec {
+    ending: "stl",
+    purpose: "CAD and 3D printing: triangles only, without h̄",
+    size: TypicalSize { bytes: 50.0, bytes_per_digit: 0.0 },
+    beside: &[],
+    write: |out, mesh, data, meter| {
+        meter.expect(bytes(mesh));
+        write(&mut meter.count(out), mesh, data)
+    },
+    write_binary: None,
+};
+
+/// Bytes of the header (title and number of triangles), and of a triangle.
+const HEAD: u64 = 84;
+const TRIANGLE: u64 = 50;
+
+/// The size of the file in bytes.
+pub fn bytes(mesh: &Extract) -> u64 {
+    HEAD + TRIANGLE * mesh.triangles().len() as u64
+}
+
+/// Writes the triangles, in the mesh's order, each anticlockwise.
+///
+/// # Errors
+/// Errors of `out`, when f32 is too coarse for the coordinates, and when there are more triangles than `u32`
+/// counts.
+pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Result<()> {
+    let count = u32::try_from(mesh.triangles().len()).map_err(io::Error::other)?;
+    out.write_all(&title(data))?;
+    out.write_all(&count.to_le_bytes())?;
+    write_rows(out, mesh.triangles().len(), |out, id| {
+        let corners = mesh.cell(TriangleId::from_index(id)).corners;
+        write_triangle(out, corners.map(|node| mesh.world(NodeId::from_index(node)).as_vec2()))
+    })
+}
+
+fn write_triangle(out: &mut impl Write, corners: [Vec2; 3]) -> io::Result<()> {
+    let [a, b, c] = corners.map(|corner| corner.as_dvec2());
+    if (b - a).perp_dot(c - a) <= 0.0 {
+        let problem =
+            format!("the numbers of .stl have seven digits, and the triangle near x = {}, y = {}", a.x, a.y);
+        return Err(io::Error::other(
+            problem + " would vanish; choose another format, or move the domain to the origin",
+        ));
+    }
+    out.write_all(bytemuck::bytes_of(&[0.0, 0.0, 1.0].map(f32::to_le_bytes)))?;
+    for corner in corners {
+        out.write_all(bytemuck::bytes_of(&[corner.x, corner.y, 0.0].map(f32::to_le_bytes)))?;
+    }
+    out.write_all(&[0, 0]) // no attributes
+}
+
+/// Program and fingerprint: there is no room for more.
+///
+/// It must not begin with "solid", which marks the text form.
+fn title(data: &MeshData) -> [u8; 80] {
+    let kept = data.provenance.entries().filter(|(key, _)| matches!(*key, "program" | "fingerprint"));
+    let text = kept.map(|(_, text)| text).collect::<Vec<_>>().join(", fingerprint ");
+    let mut title = [b' '; 80];
+    title.iter_mut().zip(text.bytes()).for_each(|(place, byte)| *place = byte);
+    title
+}

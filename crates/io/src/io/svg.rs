@@ -1,0 +1,250 @@
+//! `.svg`: the mesh as an exact vector drawing in a small file.
+//!
+//! One path for the triangles of each level and one for their edges. Coordinates are whole numbers relative
+//! to the previous point: lattice coordinates divided by the largest power of two that divides all nodes of
+//! the path, which takes few digits and is exact at any magnification. Edges get thinner with their
+//! triangles, so that a dense region shows the colour of its level and not black.
+
+use std::io::{self, Write};
+
+use glam::DVec2;
+
+use super::Provenance;
+use meshbrush_mesh::geometry::LatticePoint;
+use meshbrush_mesh::mesh::{Extract, NodeId, bisection_edge_length};
+
+/// Size and colours of the drawing.
+#[derive(Clone, Copy, Debug)]
+pub struct SvgStyle<'a> {
+    /// Width and height in pixels.
+    pub size: [u32; 2],
+    /// Red, green, blue and opacity by level.
+    pub level_colors: &'a [[u8; 4]; 64],
+    /// Red, green and blue behind the mesh.
+    pub background: [u8; 3],
+    /// Whether edges are drawn, in black with an opacity of one half.
+    pub edges: bool,
+    /// A line over the mesh, in world units; none without points.
+    pub path: &'a [DVec2],
+    /// Red, green and blue of that line, and of the wider line below it.
+    pub path_colors: [[u8; 3]; 2],
+}
+
+/// Writes the drawing. The colours come from the caller: `io` does not depend on the colour tables.
+///
+/// # Errors
+/// Errors of `out`.
+pub fn write(
+    out: &mut impl Write,
+    mesh: &Extract,
+    style: &SvgStyle,
+    provenance: &Provenance,
+) -> io::Result<()> {
+    let page = Page::of(mesh);
+    let [width, height] = style.size;
+    writeln!(
+        out,
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
+         viewBox=\"0 0 {} {}\" preserveAspectRatio=\"none\">",
+        page.width, page.height
+    )?;
+    let triangles = mesh.triangles().len();
+    writeln!(out, "<title>{triangles} triangles, {} nodes</title>", mesh.nodes().len())?;
+    write!(out, "<desc>")?;
+    provenance.lines().try_for_each(|line| writeln!(out, "{}", escaped(&line)))?;
+    writeln!(out, "</desc>")?;
+    let [r, g, b] = style.background;
+    writeln!(
+        out,
+        "<rect width=\"{}\" height=\"{}\" fill=\"#{r:02x}{g:02x}{b:02x}\"/>",
+        page.width, page.height
+    )?;
+    write_levels(out, mesh, &page, style)?;
+    if style.edges {
+        write_edges(out, mesh, &page, style)?;
+    }
+    write_path(out, mesh, &page, style)?;
+    writeln!(out, "</svg>")
+}
+
+/// Widths of the line and of the one below it, in pixels.
+const PATH_WIDTHS: [f64; 2] = [4.0, 8.0];
+
+fn write_path(out: &mut impl Write, mesh: &Extract, page: &Page, style: &SvgStyle) -> io::Result<()> {
+    if style.path.is_empty() {
+        return Ok(());
+    }
+    let units_per_px = f64::from(page.width) / f64::from(style.size[0]);
+    let unit = f64::from(1u32 << page.shift);
+    for n in [1, 0] {
+        let [r, g, b] = style.path_colors[n];
+        let width = PATH_WIDTHS[n] * units_per_px;
+        write!(
+            out,
+            "<polyline fill=\"none\" stroke=\"#{r:02x}{g:02x}{b:02x}\" stroke-width=\"{width:.4}\" \
+             stroke-linecap=\"round\" stroke-linejoin=\"round\" points=\""
+        )?;
+        for &point in style.path {
+            let at = mesh.lattice().lattice_from_world(point) / unit;
+            write!(out, "{:.3},{:.3} ", at.x, f64::from(page.height) - at.y)?;
+        }
+        writeln!(out, "\"/>")?;
+    }
+    Ok(())
+}
+
+/// Text without the characters that are markup.
+pub(super) fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
+}
+
+fn write_levels(out: &mut impl Write, mesh: &Extract, page: &Page, style: &SvgStyle) -> io::Result<()> {
+    // One pass over the mesh for each level: lists by level would be a second copy of it.
+    for (level, _) in mesh.level_counts().into_iter().enumerate().filter(|(_, count)| *count > 0) {
+        let [r, g, b, _] = style.level_colors[level.min(63)];
+        let triangles = mesh.triangles().iter().filter(|triangle| triangle.level() as usize == level);
+        let scale = page.scale_for(mesh, triangles.clone().flat_map(|triangle| triangle.vertices));
+        write!(out, "<path id=\"level-{level}\"{} fill=\"#{r:02x}{g:02x}{b:02x}\" d=\"", Transform(scale))?;
+        let mut pen = Pen::default();
+        for triangle in triangles {
+            let [a, b] = triangle.bisection_edge();
+            // The two legs are drawn and the bisection edge closes the path: legs are often horizontal or
+            // vertical, which is shorter.
+            let [a, apex, b] = [a, triangle.apex(), b].map(|node| page.place(mesh, node, scale));
+            pen.move_to(out, a)?;
+            pen.line_to(out, apex)?;
+            pen.line_to(out, b)?;
+            pen.close(out, a)?;
+        }
+        writeln!(out, "\"/>")?;
+    }
+    Ok(())
+}
+
+/// Writes each edge once, at the level of the finer one of its triangles. Widths are chosen in pixels and
+/// written in units of the path, as programs disagree on the width of lines in a scaled path.
+fn write_edges(out: &mut impl Write, mesh: &Extract, page: &Page, style: &SvgStyle) -> io::Result<()> {
+    writeln!(
+        out,
+        "<g id=\"edges\" fill=\"none\" stroke=\"#000\" stroke-opacity=\"0.5\" stroke-linecap=\"round\" \
+         stroke-linejoin=\"round\">"
+    )?;
+    let spacing = mesh.lattice().spacing();
+    let units_per_px = f64::from(page.width) / f64::from(style.size[0]);
+    let units_per_world = f64::from(page.width) / mesh.lattice().bounds().size().x;
+    for (level, _) in mesh.level_counts().into_iter().enumerate().filter(|(_, count)| *count > 0) {
+        let edges = edges(mesh).filter(|edge| edge.0 as usize == level).map(|(_, ends)| ends);
+        let scale = page.scale_for(mesh, edges.clone().flatten());
+        let width = 0.04 * bisection_edge_length(spacing, level as u32) * units_per_world;
+        let width = width.clamp(0.01 * units_per_px, 0.7 * units_per_px) / f64::from(scale);
+        write!(out, "<path{} stroke-width=\"{width:.2e}\" d=\"", Transform(scale))?;
+        let mut pen = Pen::default();
+        for ends in edges {
+            pen.join(out, ends.map(|node| page.place(mesh, node, scale)))?;
+        }
+        writeln!(out, "\"/>")?;
+    }
+    writeln!(out, "</g>")
+}
+
+/// Every edge once, with its level.
+fn edges<'a>(mesh: &'a Extract) -> impl Iterator<Item = (u32, [NodeId; 2])> + Clone + 'a {
+    mesh.triangles().iter().enumerate().flat_map(move |(index, triangle)| {
+        let edges = triangle.edge_nodes().into_iter().zip(triangle.raw_neighbours);
+        edges.filter_map(move |((from, to), across)| match across.triangle() {
+            Some(other) if other.index() < index => None, // listed with the other triangle
+            Some(other) => Some((triangle.level().max(mesh.triangles()[other.index()].level()), [from, to])),
+            None => Some((triangle.level(), [from, to])),
+        })
+    })
+}
+
+/// The lattice as a page: y grows downwards, and the unit is the largest that all nodes are multiples of.
+struct Page {
+    width: u32,
+    height: u32,
+    shift: u32,
+}
+
+impl Page {
+    fn of(mesh: &Extract) -> Self {
+        let bits = mesh.nodes().iter().fold(0, |bits, node| bits | node.x | node.y);
+        let LatticePoint { x, y } = mesh.lattice().extent();
+        let shift = (bits | x | y).trailing_zeros();
+        Self { width: x >> shift, height: y >> shift, shift }
+    }
+
+    /// The largest power of two, in units of the page, that all these nodes are multiples of.
+    fn scale_for(&self, mesh: &Extract, nodes: impl Iterator<Item = NodeId>) -> u32 {
+        let bits = nodes.map(|node| mesh.node(node)).fold(0, |bits, node| bits | node.x | node.y);
+        let common = (bits >> self.shift) | self.width | self.height;
+        1 << common.trailing_zeros()
+    }
+
+    /// The place of a node, in units of `scale` units of the page.
+    fn place(&self, mesh: &Extract, node: NodeId, scale: u32) -> [i64; 2] {
+        let LatticePoint { x, y } = mesh.node(node);
+        [x >> self.shift, self.height - (y >> self.shift)].map(|place| i64::from(place / scale))
+    }
+}
+
+/// The attribute that scales a path; nothing for a scale of one.
+struct Transform(u32);
+
+impl std::fmt::Display for Transform {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        if self.0 == 1 { Ok(()) } else { write!(f, " transform=\"scale({})\"", self.0) }
+    }
+}
+
+/// Writes a path in relative coordinates, which are short.
+#[derive(Default)]
+struct Pen {
+    at: [i64; 2],
+    moved: bool,
+}
+
+impl Pen {
+    fn move_to(&mut self, out: &mut impl Write, to: [i64; 2]) -> io::Result<()> {
+        let [dx, dy] = [to[0] - self.at[0], to[1] - self.at[1]];
+        self.at = to;
+        match std::mem::replace(&mut self.moved, true) {
+            false => write!(out, "M{dx} {dy}"),
+            true => write!(out, "m{dx}{}", Next(dy)),
+        }
+    }
+
+    fn line_to(&mut self, out: &mut impl Write, to: [i64; 2]) -> io::Result<()> {
+        let [dx, dy] = [to[0] - self.at[0], to[1] - self.at[1]];
+        self.at = to;
+        match (dx, dy) {
+            (dx, 0) => write!(out, "h{dx}"),
+            (0, dy) => write!(out, "v{dy}"),
+            (dx, dy) => write!(out, "l{dx}{}", Next(dy)),
+        }
+    }
+
+    /// Draws a line between two places, from the pen's own place if that is one of them.
+    fn join(&mut self, out: &mut impl Write, ends: [[i64; 2]; 2]) -> io::Result<()> {
+        let [from, to] = if self.at == ends[1] { [ends[1], ends[0]] } else { ends };
+        if !self.moved || self.at != from {
+            self.move_to(out, from)?;
+        }
+        self.line_to(out, to)
+    }
+
+    /// Closes the path with a line back to `start`, its first place.
+    fn close(&mut self, out: &mut impl Write, start: [i64; 2]) -> io::Result<()> {
+        self.at = start;
+        write!(out, "z")
+    }
+}
+
+/// A number after another: a minus sign separates them, too, and a space is not needed.
+struct Next(i64);
+
+impl std::fmt::Display for Next {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        if self.0 < 0 { write!(f, "{}", self.0) } else { write!(f, " {}", self.0) }
+    }
+}

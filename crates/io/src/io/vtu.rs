@@ -1,0 +1,228 @@
+//! `.vtu`: an unstructured grid for VTK and ParaView, as XML with appended binary data, compressed by zlib.
+//!
+//! Point data: `target_diameter` (h̄), the quantities, and `boundary`, the marker of the piece of the
+//! boundary (the lower one where pieces meet), 0 elsewhere. Cell data: `level`, and `part`, the number of the
+//! connected part, from 0 for the largest. ParaView, VTK, PyVista and meshio read it.
+//!
+//! Field data: `boundary_names`, the names of the pieces in the order of their markers, a line for each, as
+//! bytes of UTF-8; the line of a piece that has no edge in the mesh is empty. (VTK has arrays of strings, but
+//! meshio refuses them.) A processing instruction `<?meshbrush …?>` says where the mesh comes from; a comment
+//! could not hold the `--` of a command.
+//!
+//! The header has the offset of each array, and so depends on the compressed sizes of the arrays before it.
+//! Therefore every array is compressed twice, first to measure and then to write: that costs time, but only
+//! one block is in memory, and the output may be a pipe.
+//!
+//! The arrays are stored in the reverse order of the header. meshio (up to 5.3.5) replaces the offsets in the
+//! header one by one, in the order of the data, and looks the next array up by its old offset. A new offset
+//! can be equal to an old one; the lookup takes the first in the header, which in this order is the right
+//! one.
+
+use std::io::{self, Write};
+
+use super::blocks::{BLOCK, Blocks};
+use super::{FormatSpec, MeshData, Meter, TypicalSize};
+use meshbrush_mesh::mesh::Extract;
+
+/// VTK's unstructured grid.
+pub static FORMAT: FormatSpec = FormatSpec {
+    ending: "vtu",
+    purpose: "ParaView and VTK, compressed: with h̄, levels and boundary",
+    size: TypicalSize { bytes: 10.5, bytes_per_digit: 0.6 },
+    beside: &[],
+    write: |mut out, mesh, data, meter| write_metered(&mut out, mesh, data, meter),
+    write_binary: None,
+};
+
+/// Bytes of names in one line.
+const BYTES_A_LINE: usize = 24;
+/// VTK's number for a triangle.
+const VTK_TRIANGLE: u8 = 5;
+
+type WriteBytes<'a> = Box<dyn Fn(&mut dyn Write) -> io::Result<()> + 'a>;
+
+/// One array of the file: its description in the header, and a function that writes its bytes.
+struct Array<'a> {
+    name: &'a str,
+    kind: &'static str,
+    components: usize,
+    bytes: usize,
+    write: WriteBytes<'a>,
+    /// Bytes of each block after compression, once measured.
+    compressed: Vec<u64>,
+}
+
+impl<'a> Array<'a> {
+    fn new<const N: usize, I: Iterator<Item = [u8; N]>>(
+        name: &'a str,
+        kind: &'static str,
+        components: usize,
+        values: usize,
+        items: impl Fn() -> I + 'a,
+    ) -> Self {
+        let write = Box::new(move |out: &mut dyn Write| items().try_for_each(|item| out.write_all(&item)));
+        Self { name, kind, components, bytes: values * N, write, compressed: Vec::new() }
+    }
+
+    /// Compresses the array to find the sizes of its blocks.
+    fn measure(&mut self, meter: &Meter) -> io::Result<()> {
+        let mut sizes = Vec::new();
+        self.compress(meter, |block| {
+            sizes.push(block.len() as u64);
+            Ok(())
+        })?;
+        self.compressed = sizes;
+        Ok(())
+    }
+
+    fn compress(&self, meter: &Meter, take: impl FnMut(&[u8]) -> io::Result<()>) -> io::Result<()> {
+        let mut blocks = Blocks::new(meter, take);
+        (self.write)(&mut blocks)?;
+        blocks.finish()
+    }
+
+    /// The table before the blocks: the number of blocks, the size of a block and of the last one (0 if it is
+    /// full) before compression, and the size of each block after compression.
+    fn table(&self) -> impl Iterator<Item = u64> {
+        let start = [self.compressed.len(), BLOCK, self.bytes % BLOCK].map(|n| n as u64);
+        start.into_iter().chain(self.compressed.iter().copied())
+    }
+
+    /// Bytes in the file, the table included.
+    fn length(&self) -> u64 {
+        (size_of::<u64>() * self.table().count()) as u64 + self.compressed.iter().sum::<u64>()
+    }
+
+    /// Writes the element of the header; `offset` is in bytes from the start of the appended data.
+    fn describe(&self, out: &mut impl Write, offset: u64) -> io::Result<()> {
+        let Self { name, kind, components, .. } = self;
+        let components =
+            if *components == 1 { String::new() } else { format!(" NumberOfComponents=\"{components}\"") };
+        writeln!(
+            out,
+            "        <DataArray type=\"{kind}\" Name=\"{name}\"{components} format=\"appended\" offset=\"{offset}\"/>"
+        )
+    }
+
+    fn append(&self, out: &mut impl Write, meter: &Meter) -> io::Result<()> {
+        self.table().try_for_each(|size| out.write_all(&size.to_le_bytes()))?;
+        self.compress(meter, |block| out.write_all(block))
+    }
+}
+
+/// Writes the mesh as a VTK unstructured grid.
+///
+/// # Errors
+/// Errors of `out`.
+pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Result<()> {
+    write_metered(out, mesh, data, &Meter::default())
+}
+
+/// Writes as [`write()`] does, and counts the bytes of the arrays before compression, once in each of the two
+/// passes.
+///
+/// # Errors
+/// As [`write()`], and when the work was cancelled.
+pub fn write_metered(out: &mut impl Write, mesh: &Extract, data: &MeshData, meter: &Meter) -> io::Result<()> {
+    let markers = data.boundary.node_markers(mesh);
+    let mut sections = [
+        ("PointData", point_data(data, &markers)),
+        ("CellData", vec![levels(mesh), parts(data)]),
+        ("Points", vec![points(mesh)]),
+        ("Cells", topology(mesh)),
+    ];
+    let bytes: usize = sections.iter().flat_map(|(_, arrays)| arrays).map(|array| array.bytes).sum();
+    meter.expect(2 * bytes as u64);
+    sections.iter_mut().flat_map(|(_, arrays)| arrays).try_for_each(|array| array.measure(meter))?;
+    write_header(out, mesh, data, &sections)?;
+    sections.iter().flat_map(|(_, arrays)| arrays).rev().try_for_each(|array| array.append(out, meter))?;
+    writeln!(out, "\n  </AppendedData>\n</VTKFile>")
+}
+
+fn write_header(
+    out: &mut impl Write,
+    mesh: &Extract,
+    data: &MeshData,
+    sections: &[(&str, Vec<Array<'_>>)],
+) -> io::Result<()> {
+    let (nodes, triangles) = (mesh.nodes().len(), mesh.triangles().len());
+    writeln!(out, "<?xml version=\"1.0\"?>")?;
+    writeln!(out, "<?meshbrush")?;
+    // What would end the instruction is taken apart.
+    data.provenance.lines().try_for_each(|line| writeln!(out, "{}", line.replace("?>", "? >")))?;
+    writeln!(out, "?>")?;
+    writeln!(
+        out,
+        "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" \
+         header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">"
+    )?;
+    writeln!(out, "  <UnstructuredGrid>")?;
+    write_names(out, data)?;
+    writeln!(out, "    <Piece NumberOfPoints=\"{nodes}\" NumberOfCells=\"{triangles}\">")?;
+    let mut offset: u64 = sections.iter().flat_map(|(_, arrays)| arrays).map(Array::length).sum();
+    for (section, arrays) in sections {
+        writeln!(out, "      <{section}>")?;
+        for array in arrays {
+            offset -= array.length();
+            array.describe(out, offset)?;
+        }
+        writeln!(out, "      </{section}>")?;
+    }
+    writeln!(out, "    </Piece>\n  </UnstructuredGrid>\n  <AppendedData encoding=\"raw\">")?;
+    write!(out, "_")
+}
+
+fn write_names(out: &mut impl Write, data: &MeshData) -> io::Result<()> {
+    let mut names = vec![""; data.boundary.pieces().list().len()];
+    for id in data.boundary.present() {
+        names[id] = &data.boundary.pieces().list()[id].name;
+    }
+    let bytes = names.join("\n").into_bytes();
+    writeln!(out, "    <FieldData>")?;
+    let count = bytes.len();
+    write!(
+        out,
+        "      <DataArray type=\"UInt8\" Name=\"boundary_names\" NumberOfTuples=\"{count}\" format=\"ascii\">"
+    )?;
+    for line in bytes.chunks(BYTES_A_LINE) {
+        writeln!(out)?;
+        line.iter().try_for_each(|byte| write!(out, "{byte} "))?;
+    }
+    writeln!(out, "\n      </DataArray>\n    </FieldData>")
+}
+
+fn point_data<'a>(data: &'a MeshData<'a>, markers: &'a [u32]) -> Vec<Array<'a>> {
+    let array = |(name, values): (&'a str, &'a [f64])| {
+        Array::new(name, "Float64", 1, values.len(), move || values.iter().map(|v| v.to_le_bytes()))
+    };
+    let boundary = || markers.iter().map(|marker| marker.to_le_bytes());
+    let mut arrays: Vec<Array> = data.node_values().map(array).collect();
+    arrays.push(Array::new("boundary", "UInt32", 1, markers.len(), boundary));
+    arrays
+}
+
+fn levels<'a>(mesh: &'a Extract) -> Array<'a> {
+    let levels = || mesh.triangles().iter().map(|t| [t.level() as u8]);
+    Array::new("level", "UInt8", 1, mesh.triangles().len(), levels)
+}
+
+fn parts<'a>(data: &'a MeshData<'a>) -> Array<'a> {
+    let parts = || data.parts.iter().map(|part| part.to_le_bytes());
+    Array::new("part", "UInt32", 1, data.parts.len(), parts)
+}
+
+fn points<'a>(mesh: &'a Extract) -> Array<'a> {
+    let coordinates = || mesh.world_nodes().flat_map(|p| [p.x, p.y, 0.0]).map(f64::to_le_bytes);
+    Array::new("Points", "Float64", 3, 3 * mesh.nodes().len(), coordinates)
+}
+
+fn topology<'a>(mesh: &'a Extract) -> Vec<Array<'a>> {
+    let count = mesh.triangles().len();
+    let corners = || mesh.cells().flat_map(|cell| cell.corners).map(|node| (node as i64).to_le_bytes());
+    let ends = move || (1..=count as i64).map(|n| (3 * n).to_le_bytes());
+    vec![
+        Array::new("connectivity", "Int64", 1, 3 * count, corners),
+        Array::new("offsets", "Int64", 1, count, ends),
+        Array::new("types", "UInt8", 1, count, move || std::iter::repeat_n([VTK_TRIANGLE], count)),
+    ]
+}

@@ -1,0 +1,77 @@
+//! World files (`.pgw`, `.wld`): six lines that say where a picture lies.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use glam::dvec2;
+
+use super::error::{Flaw, PlacedFlaw, ReadError};
+use meshbrush_mesh::geometry::Rect;
+
+/// Endings of the world file beside a picture, in the order of search.
+const ENDINGS: [&str; 4] = ["pgw", "pngw", "wld", "PGW"];
+/// Most bytes of a world file: six numbers take fewer.
+const MOST_BYTES: u64 = 4096;
+
+/// The rectangle of a picture of `size` = [columns, rows] from the world file beside it; `None` if there is
+/// no such file.
+///
+/// # Errors
+/// When the file cannot be read, has no six numbers, or turns or mirrors the picture.
+pub fn bounds_beside(picture: &Path, size: [u32; 2]) -> Result<Option<Rect>, ReadError> {
+    let files = ENDINGS.iter().map(|ending| picture.with_extension(ending));
+    let Some(file) = files.into_iter().find(|file: &PathBuf| file.is_file()) else { return Ok(None) };
+    let read = || -> Result<Rect, PlacedFlaw> {
+        if fs::metadata(&file)?.len() > MOST_BYTES {
+            return Err(Flaw::Syntax("a world file has six lines, and this one is far longer.".into()).into());
+        }
+        let text = fs::read_to_string(&file)?;
+        Ok(bounds(&text, size).map_err(Flaw::Syntax)?)
+    };
+    read().map(Some).map_err(|flaw| flaw.in_file(&file))
+}
+
+/// The rectangle from the text of a world file: width of a pixel, two rotations, minus its height, and x and
+/// y of the centre of the upper left pixel.
+fn bounds(text: &str, [columns, rows]: [u32; 2]) -> Result<Rect, String> {
+    let numbers: Vec<f64> = text.split_whitespace().filter_map(|word| word.parse().ok()).collect();
+    let [width, turn_y, turn_x, minus_height, x, y] = numbers[..] else {
+        return Err("a world file has six lines with a number each.".into());
+    };
+    if turn_x != 0.0 || turn_y != 0.0 {
+        return Err(
+            "it turns the picture, and only pictures with north up can be shown. Warp it first.".into()
+        );
+    }
+    let height = -minus_height;
+    if !(width > 0.0 && height > 0.0 && numbers.iter().all(|number| number.is_finite())) {
+        return Err("the first line must be positive and the fourth negative: the size of a pixel.".into());
+    }
+    let corner = dvec2(x - width / 2.0, y + height / 2.0);
+    let size = dvec2(width * f64::from(columns), height * f64::from(rows));
+    Ok(Rect::new(dvec2(corner.x, corner.y - size.y), dvec2(corner.x + size.x, corner.y)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_six_lines_are_those_of_the_upper_left_pixel() {
+        let placed = bounds("0.5\n0\n0\n-0.25\n10.25\n39.875\n", [4, 8]).unwrap();
+        assert_eq!(placed, Rect::new(dvec2(10.0, 38.0), dvec2(12.0, 40.0)));
+    }
+
+    #[test]
+    fn turned_mirrored_and_broken_files_are_refused_with_a_sentence() {
+        for (text, says) in [
+            ("1\n0.1\n0\n-1\n0\n0", "turns"),
+            ("1\n0\n0\n1\n0\n0", "negative"),
+            ("1\n0\n0", "six lines"),
+            ("a b c", "six lines"),
+        ] {
+            let problem = bounds(text, [2, 2]).unwrap_err();
+            assert!(problem.contains(says), "{text}: {problem}");
+        }
+    }
+}

@@ -1,0 +1,262 @@
+//! Exports a mesh: with its data, or as a picture of the whole mesh.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use glam::DVec2;
+
+use super::{Image, software};
+use crate::colormap::{Ground, LevelColors};
+use crate::scene::{Camera, Style};
+use meshbrush_io::io::{MeshData, MeshFormat, Meter, Provenance, png, svg, write_file_metered};
+use meshbrush_mesh::geometry::Lattice;
+use meshbrush_mesh::mesh::{Extract, Mesh};
+
+/// Most pixels along a side of a picture.
+pub const LARGEST_PICTURE: u32 = 16_384;
+
+/// A file format.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum ExportFormat {
+    /// The mesh with its data.
+    Mesh(MeshFormat),
+    /// A vector picture.
+    Svg,
+    /// A pixel picture.
+    Png,
+}
+
+/// The ending of a file name is not that of a format.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{}: the ending chooses the format; use one of{}", .0.display(), with_dots())]
+pub struct UnknownEnding(pub PathBuf);
+
+fn with_dots() -> String {
+    ExportFormat::endings().map(|ending| format!(" .{ending}")).collect()
+}
+
+impl ExportFormat {
+    /// The format that the ending of a file name chooses; upper and lower case are the same.
+    ///
+    /// # Errors
+    /// When the ending is none of [`Self::endings`].
+    pub fn of(path: &Path) -> Result<Self, UnknownEnding> {
+        let ending = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
+        match ending.as_str() {
+            "svg" => Ok(Self::Svg),
+            "png" => Ok(Self::Png),
+            _ => {
+                MeshFormat::from_ending(&ending).map(Self::Mesh).ok_or_else(|| UnknownEnding(path.to_owned()))
+            }
+        }
+    }
+
+    /// The binary form of a format that is text otherwise, if there is one.
+    pub fn binary(self) -> Option<Self> {
+        match self {
+            Self::Mesh(format) => format.binary().map(Self::Mesh),
+            Self::Svg | Self::Png => None,
+        }
+    }
+
+    /// All formats, those of meshes first.
+    pub fn all() -> impl Iterator<Item = Self> {
+        MeshFormat::all().map(Self::Mesh).chain([Self::Svg, Self::Png])
+    }
+
+    /// The ending of its file names, without the dot.
+    pub fn ending(self) -> &'static str {
+        match self {
+            Self::Mesh(format) => format.ending(),
+            Self::Svg => "svg",
+            Self::Png => "png",
+        }
+    }
+
+    /// The programs that read it, and what it holds, in a few words.
+    pub fn purpose(self) -> &'static str {
+        match self {
+            Self::Mesh(format) => format.purpose(),
+            Self::Svg => "A vector picture of the whole mesh in the present colours",
+            Self::Png => "A picture of the whole mesh in the present colours",
+        }
+    }
+
+    /// About how many bytes the export of a mesh takes, in all its files; `None` for a picture, whose size
+    /// depends on what it shows.
+    pub fn approximate_bytes(self, triangles: usize) -> Option<u64> {
+        match self {
+            Self::Mesh(format) => Some(format.approximate_bytes(triangles)),
+            Self::Svg | Self::Png => None,
+        }
+    }
+
+    /// All endings, without their dots.
+    pub fn endings() -> impl Iterator<Item = &'static str> {
+        Self::all().map(Self::ending)
+    }
+
+    /// Whether the format contains data at the nodes.
+    pub fn wants_node_data(self) -> bool {
+        matches!(self, Self::Mesh(_))
+    }
+
+    /// All files that an export to `path` writes, `path` first.
+    pub fn files(self, path: &Path) -> Vec<PathBuf> {
+        match self {
+            Self::Mesh(format) => format.files(path),
+            Self::Svg | Self::Png => vec![path.to_owned()],
+        }
+    }
+
+    /// Writes the file, or the four files of `.node`, and returns their names. `extract` must be that of
+    /// `mesh`, and `data` belongs to its nodes; a picture needs only the provenance.
+    ///
+    /// # Errors
+    /// When the file cannot be written, the format cannot hold the mesh, or the meter was cancelled. Existing
+    /// files are then unchanged.
+    pub fn write(
+        self,
+        path: &Path,
+        mesh: &Mesh,
+        extract: &Extract,
+        data: &MeshData,
+        look: &Look,
+        meter: &Meter,
+    ) -> io::Result<Vec<PathBuf>> {
+        if let Self::Mesh(format) = self {
+            return format.write(path, extract, data, meter);
+        }
+        write_file_metered(path, meter, |out| self.write_to(out, mesh, extract, data, look, meter))?;
+        Ok(vec![path.to_owned()])
+    }
+
+    /// Writes to a stream, as [`Self::write`] does to a file.
+    ///
+    /// # Errors
+    /// When the format has several files, errors of the stream, and when the meter was cancelled.
+    pub fn write_to(
+        self,
+        out: &mut dyn io::Write,
+        mesh: &Mesh,
+        extract: &Extract,
+        data: &MeshData,
+        look: &Look,
+        meter: &Meter,
+    ) -> io::Result<()> {
+        match self {
+            Self::Mesh(format) => {
+                let several = || io::Error::other("the format has several files");
+                format.write_to(out, extract, data, meter).ok_or_else(several)?
+            }
+            Self::Svg => {
+                svg::write(&mut meter.count(out), extract, &look.for_svg(mesh.lattice()), data.provenance)
+            }
+            Self::Png => {
+                let picture = look.draw(mesh, extract);
+                meter.check()?;
+                png::write_described(&mut meter.count(out), picture.size, &picture.rgba, data.provenance)
+            }
+        }
+    }
+}
+
+/// Colours of a path over a mesh, and of the wider line below it.
+const PATH_COLORS: [[u8; 3]; 2] = [[0xff, 0xff, 0xff], [0xc8, 0x1e, 0x4a]];
+/// Widths of these lines in pixels.
+const PATH_WIDTHS: [f32; 2] = [4.0, 8.0];
+
+impl ExportFormat {
+    /// Writes a picture of a mesh with a path over it, in world units.
+    ///
+    /// # Errors
+    /// When this is no format of a picture, errors of the stream, and when the meter was cancelled.
+    pub fn write_path_to(
+        self,
+        out: &mut dyn io::Write,
+        (mesh, extract): (&Mesh, &Extract),
+        path: &[DVec2],
+        look: &Look,
+        provenance: &Provenance,
+        meter: &Meter,
+    ) -> io::Result<()> {
+        match self {
+            Self::Mesh(_) => Err(io::Error::other("the format is no picture")),
+            Self::Svg => {
+                let style = look.for_svg(mesh.lattice());
+                let style = svg::SvgStyle { path, path_colors: PATH_COLORS, ..style };
+                svg::write(&mut meter.count(out), extract, &style, provenance)
+            }
+            Self::Png => {
+                let mut picture = look.draw(mesh, extract);
+                let camera = look.camera(mesh.lattice());
+                let points: Vec<_> = path.iter().map(|&p| camera.screen_from_world(p).as_vec2()).collect();
+                for n in [1, 0] {
+                    software::draw_line(&mut picture, &points, PATH_COLORS[n], PATH_WIDTHS[n]);
+                }
+                meter.check()?;
+                png::write_described(&mut meter.count(out), picture.size, &picture.rgba, provenance)
+            }
+        }
+    }
+}
+
+/// The appearance of a picture of a whole mesh.
+#[derive(Clone, Debug)]
+pub struct Look {
+    /// In pixels, at most [`LARGEST_PICTURE`].
+    pub width: u32,
+    /// In pixels, at most [`LARGEST_PICTURE`]; `None` follows the proportions of the domain.
+    pub height: Option<u32>,
+    /// Whether edges are drawn.
+    pub edges: bool,
+    /// The background.
+    pub ground: Ground,
+    /// Colour of each level.
+    pub level_colors: LevelColors,
+}
+
+impl Look {
+    /// Default width in pixels.
+    pub const WIDTH: u32 = 1600;
+
+    fn size(&self, lattice: &Lattice) -> [u32; 2] {
+        let extent = lattice.bounds().size();
+        let in_proportion = || (f64::from(self.width) * extent.y / extent.x).round();
+        let height =
+            self.height.unwrap_or_else(|| in_proportion().clamp(1.0, f64::from(LARGEST_PICTURE)) as u32);
+        [self.width, height]
+    }
+
+    fn camera(&self, lattice: &Lattice) -> Camera {
+        Camera::fit(lattice, lattice.bounds(), self.size(lattice), 0.0)
+    }
+
+    fn draw(&self, mesh: &Mesh, extract: &Extract) -> Image {
+        let lattice = mesh.lattice();
+        let camera = self.camera(lattice);
+        let colors = self.level_colors.clone();
+        let style = match self.ground {
+            Ground::Dark => Style::dark(colors),
+            Ground::Light => Style::light(colors),
+        };
+        let style = Style { edges: self.edges, ..style };
+        if extract.is_patched() {
+            software::draw_extract(extract, &camera, &style)
+        } else {
+            software::draw(mesh, &camera, &style, None, &[])
+        }
+    }
+
+    fn for_svg(&self, lattice: &Lattice) -> svg::SvgStyle<'_> {
+        svg::SvgStyle {
+            size: self.size(lattice),
+            level_colors: self.level_colors.as_table(),
+            background: self.ground.canvas(),
+            edges: self.edges,
+            path: &[],
+            path_colors: [[0; 3]; 2],
+        }
+    }
+}

@@ -1,0 +1,415 @@
+//! One copy of a mesh and of the pieces in place of some of its triangles.
+
+use std::ops::Range;
+
+use super::GpuError;
+use super::chunks::{ChunkLimits, ChunkedArray, NODE_BUFFERS, new_buffer};
+use super::mesh_pass::{uniform_buffer, uniform_entry};
+use crate::render::draw_flags::DrawFlags;
+use meshbrush_mesh::geometry::{Lattice, LatticePoint};
+use meshbrush_mesh::mesh::{Changes, Mesh, PatchPieces, Triangle, TriangleId};
+
+/// Storage buffers that the shader reads: triangles, nodes and flags.
+pub(super) const STORAGE_BUFFERS: u32 = 2 + NODE_BUFFERS as u32;
+
+/// Changed ranges with at most this many entries between them are written as one.
+const SMALL_GAP: usize = 32;
+/// The same for words of flags, of which a write of many is as fast as one of a few.
+const SMALL_GAP_OF_WORDS: usize = 4096;
+
+/// More words of flags than a mesh can have: they are all in one buffer.
+const MOST_WORDS: usize = 1 << 28;
+
+/// Size of the uniform `Part` of mesh.wgsl: one u32, and padding that some drivers want.
+const PART_BYTES: usize = 16;
+
+/// What is needed to make buffers, fill them and bind them.
+pub(super) struct Gpu {
+    device: wgpu::Device,
+    queue: wgpu::Queue,
+    pub(super) layout: wgpu::BindGroupLayout,
+    limits: ChunkLimits,
+    /// Bound in place of buffers that are not needed.
+    nothing: wgpu::Buffer,
+}
+
+impl Gpu {
+    pub(super) fn new(
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        limits: ChunkLimits,
+    ) -> Result<Self, GpuError> {
+        Ok(Self {
+            device: device.clone(),
+            queue: queue.clone(),
+            layout: bind_group_layout(device),
+            limits,
+            nothing: new_buffer(device, "nothing", size_of::<LatticePoint>() as u64)?,
+        })
+    }
+
+    pub(super) fn limits(&self) -> ChunkLimits {
+        self.limits
+    }
+
+    pub(super) fn check_nodes(&self, nodes: usize) -> Result<(), GpuError> {
+        let limit = self.limits.max_nodes();
+        if nodes > limit { Err(GpuError::TooManyNodes { nodes, limit }) } else { Ok(()) }
+    }
+}
+
+fn bind_group_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
+    let storage = |binding| wgpu::BindGroupLayoutEntry {
+        binding,
+        visibility: wgpu::ShaderStages::VERTEX,
+        ty: wgpu::BindingType::Buffer {
+            ty: wgpu::BufferBindingType::Storage { read_only: true },
+            has_dynamic_offset: false,
+            min_binding_size: None,
+        },
+        count: None,
+    };
+    let entries: Vec<_> = (0..STORAGE_BUFFERS).map(storage).chain([uniform_entry(STORAGE_BUFFERS)]).collect();
+    device
+        .create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some("mesh"), entries: &entries })
+}
+
+/// Numbers of entries in the two arrays of a mesh.
+#[derive(Clone, Copy)]
+pub(super) struct Counts {
+    pub(super) nodes: usize,
+    pub(super) triangles: usize,
+}
+
+impl Counts {
+    pub(super) const NONE: Self = Self { nodes: 0, triangles: 0 };
+    pub(super) const ALL: Self = Self { nodes: usize::MAX, triangles: usize::MAX };
+
+    pub(super) fn at_most(self, mesh: &Mesh) -> Self {
+        Self {
+            nodes: self.nodes.min(mesh.raw_nodes().len()),
+            triangles: self.triangles.min(mesh.raw_triangle_count()),
+        }
+    }
+}
+
+/// A mesh, the flags that say which of its triangles are drawn, and the pieces.
+pub(super) struct MeshCopy {
+    mesh: Arrays,
+    flags: FlagArray,
+    pieces: Arrays,
+    /// The triangles that the pieces replace, retired ones included.
+    replaced: Vec<TriangleId>,
+    pub(super) lattice: Option<Lattice>,
+}
+
+impl MeshCopy {
+    pub(super) fn new(limits: ChunkLimits) -> Self {
+        Self {
+            mesh: Arrays::new(limits),
+            flags: FlagArray {
+                flags: DrawFlags::default(),
+                words: ChunkedArray::new::<u32>("flags", MOST_WORDS),
+            },
+            pieces: Arrays::new(limits),
+            replaced: Vec::new(),
+            lattice: None,
+        }
+    }
+
+    /// Prepares for a mesh of which nothing was sent yet.
+    pub(super) fn begin(&mut self, gpu: &Gpu, mesh: &Mesh) -> Result<(), GpuError> {
+        self.pieces.triangle_count = 0;
+        self.replaced.clear();
+        self.flags.flags.clear();
+        self.mesh.bind_groups.clear();
+        self.fit(gpu, mesh, Counts::NONE)
+    }
+
+    /// Makes the buffers large enough for a mesh. The first `kept` entries keep their contents.
+    pub(super) fn fit(&mut self, gpu: &Gpu, mesh: &Mesh, kept: Counts) -> Result<(), GpuError> {
+        let count = mesh.raw_triangle_count();
+        let flags = self.flags.fit(gpu, count)?;
+        let arrays = self.mesh.fit(gpu, mesh.raw_nodes().len(), count, kept)?;
+        // No bind groups: a failed call may have replaced buffers without binding them.
+        if flags || arrays || self.mesh.bind_groups.is_empty() {
+            let flags = self.flags.words.chunks().first();
+            self.mesh.bind(gpu, flags);
+        }
+        self.lattice = Some(*mesh.lattice());
+        Ok(())
+    }
+
+    /// Sends about `byte_budget` bytes from the entries `sent` on.
+    pub(super) fn send(&mut self, gpu: &Gpu, mesh: &Mesh, sent: &mut Counts, byte_budget: usize) {
+        debug_assert_eq!(
+            self.mesh.triangle_count,
+            mesh.raw_triangle_count(),
+            "the mesh changed during its upload without apply_changes"
+        );
+        let queue = &gpu.queue;
+        let bytes = send(queue, &self.mesh.nodes, mesh.raw_nodes(), &mut sent.nodes, byte_budget);
+        let left = byte_budget.saturating_sub(bytes);
+        let first = sent.triangles;
+        send(queue, &self.mesh.triangles, mesh.raw_triangles(), &mut sent.triangles, left);
+        self.flags.classify(queue, mesh, std::slice::from_ref(&(first..sent.triangles)));
+    }
+
+    /// Writes the changed entries among the first `present` ones, and the flags of all.
+    pub(super) fn write(&mut self, gpu: &Gpu, mesh: &Mesh, present: Counts, changes: &Changes) {
+        let (queue, arrays) = (&gpu.queue, &self.mesh);
+        send_ranges(queue, &arrays.nodes, &mesh.raw_nodes()[..present.nodes], &changes.nodes);
+        let triangles = &mesh.raw_triangles()[..present.triangles];
+        send_ranges(queue, &arrays.triangles, triangles, &changes.triangles);
+        self.flags.classify(queue, mesh, &changes.triangles);
+    }
+
+    /// Shows other pieces, or none.
+    pub(super) fn set_pieces(&mut self, gpu: &Gpu, pieces: Option<&PatchPieces>) -> Result<(), GpuError> {
+        self.pieces.triangle_count = 0;
+        let former = std::mem::take(&mut self.replaced);
+        former.iter().for_each(|id| self.flags.flags.restore(*id));
+        // The buffers first: without them, the triangles of the mesh stay.
+        let fitted = pieces.map_or(Ok(()), |pieces| self.send_pieces(gpu, pieces));
+        if let (Ok(()), Some(pieces)) = (&fitted, pieces) {
+            for (id, range) in pieces.replacements() {
+                self.flags.flags.replace(id, !range.is_empty());
+                self.replaced.push(id);
+            }
+        }
+        self.flags.send_ids(&gpu.queue, former.into_iter());
+        self.flags.send_ids(&gpu.queue, self.replaced.iter().copied());
+        fitted
+    }
+
+    fn send_pieces(&mut self, gpu: &Gpu, pieces: &PatchPieces) -> Result<(), GpuError> {
+        let (nodes, triangles) = (pieces.nodes(), pieces.triangles());
+        gpu.check_nodes(nodes.len())?;
+        self.pieces.fit(gpu, nodes.len(), triangles.len(), Counts::NONE)?;
+        self.pieces.bind(gpu, None);
+        self.pieces.nodes.write(&gpu.queue, 0, bytemuck::cast_slice(nodes));
+        self.pieces.triangles.write(&gpu.queue, 0, bytemuck::cast_slice(triangles));
+        Ok(())
+    }
+
+    /// Draws triangles of the mesh again in place of their pieces, or provisional pieces. Returns false when
+    /// other pieces are shown.
+    pub(super) fn retire(
+        &mut self,
+        gpu: &Gpu,
+        pieces: &PatchPieces,
+        touched: &[(TriangleId, Range<usize>)],
+    ) -> Result<bool, GpuError> {
+        if self.replaced.is_empty() || self.pieces.triangle_count > pieces.triangles().len() {
+            return Ok(false);
+        }
+        self.append_pieces(gpu, pieces)?;
+        let mut ids: Vec<TriangleId> = touched.iter().map(|(id, _)| *id).collect();
+        ids.sort_unstable();
+        ids.dedup();
+        for &id in &ids {
+            match pieces.replacement(id) {
+                Some(range) => {
+                    self.flags.flags.replace(id, !range.is_empty());
+                    self.replaced.push(id);
+                }
+                None => self.flags.flags.restore(id),
+            }
+        }
+        let mut ranges: Vec<_> = touched.iter().map(|(_, range)| range.clone()).collect();
+        ranges.sort_unstable_by_key(|range| range.start);
+        send_ranges(&gpu.queue, &self.pieces.triangles, pieces.triangles(), &ranges);
+        self.flags.send_ids(&gpu.queue, ids.into_iter());
+        Ok(true)
+    }
+
+    /// Makes room for pieces that were appended, and sends their nodes.
+    fn append_pieces(&mut self, gpu: &Gpu, pieces: &PatchPieces) -> Result<(), GpuError> {
+        let (nodes, triangles) = (pieces.nodes(), pieces.triangles());
+        let kept = Counts { nodes: self.pieces.node_count, triangles: self.pieces.triangle_count };
+        gpu.check_nodes(nodes.len())?;
+        if self.pieces.fit(gpu, nodes.len(), triangles.len(), kept)? {
+            self.pieces.bind(gpu, None);
+        }
+        let added = bytemuck::cast_slice(&nodes[kept.nodes..]);
+        self.pieces.nodes.write(&gpu.queue, kept.nodes, added);
+        Ok(())
+    }
+
+    /// The buffers of the mesh, each with its number of triangles.
+    pub(super) fn mesh_draws(&self) -> impl Iterator<Item = (&wgpu::BindGroup, usize)> {
+        self.mesh.draws()
+    }
+
+    /// The buffers of the pieces.
+    pub(super) fn piece_draws(&self) -> impl Iterator<Item = (&wgpu::BindGroup, usize)> {
+        self.pieces.draws()
+    }
+}
+
+/// Triangles and their nodes.
+struct Arrays {
+    triangles: ChunkedArray,
+    nodes: ChunkedArray,
+    node_count: usize,
+    triangle_count: usize,
+    bind_groups: Vec<wgpu::BindGroup>,
+}
+
+impl Arrays {
+    fn new(limits: ChunkLimits) -> Self {
+        Self {
+            triangles: ChunkedArray::new::<Triangle>("triangles", limits.triangles),
+            nodes: ChunkedArray::new::<LatticePoint>("nodes", limits.nodes()),
+            node_count: 0,
+            triangle_count: 0,
+            bind_groups: Vec::new(),
+        }
+    }
+
+    /// Makes the buffers large enough. Returns whether any was replaced.
+    fn fit(
+        &mut self,
+        gpu: &Gpu,
+        node_count: usize,
+        triangle_count: usize,
+        kept: Counts,
+    ) -> Result<bool, GpuError> {
+        let (device, queue) = (&gpu.device, &gpu.queue);
+        let nodes = self.nodes.reserve(device, queue, node_count, kept.nodes)?;
+        let triangles = self.triangles.reserve(device, queue, triangle_count, kept.triangles)?;
+        (self.node_count, self.triangle_count) = (node_count, triangle_count);
+        Ok(nodes || triangles)
+    }
+
+    /// One group for each chunk of triangles, with all nodes and all flags.
+    fn bind(&mut self, gpu: &Gpu, flags: Option<&wgpu::Buffer>) {
+        let nodes: [&wgpu::Buffer; NODE_BUFFERS] =
+            std::array::from_fn(|i| self.nodes.chunks().get(i).unwrap_or(&gpu.nothing));
+        let bind = |(chunk, triangles): (usize, &wgpu::Buffer)| {
+            let part = uniform_buffer(&gpu.device, "part of a mesh", PART_BYTES);
+            let first = (chunk * gpu.limits.triangles) as u32;
+            gpu.queue.write_buffer(&part, 0, bytemuck::bytes_of(&first));
+            let buffers = [triangles].into_iter().chain(nodes).chain([flags.unwrap_or(&gpu.nothing), &part]);
+            let entries: Vec<_> = (0..)
+                .zip(buffers)
+                .map(|(binding, buffer)| wgpu::BindGroupEntry {
+                    binding,
+                    resource: buffer.as_entire_binding(),
+                })
+                .collect();
+            gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+                label: Some("mesh"),
+                layout: &gpu.layout,
+                entries: &entries,
+            })
+        };
+        self.bind_groups = self.triangles.chunks().iter().enumerate().map(bind).collect();
+    }
+
+    fn draws(&self) -> impl Iterator<Item = (&wgpu::BindGroup, usize)> {
+        self.bind_groups.iter().zip(self.triangles.items_in_chunks(self.triangle_count))
+    }
+}
+
+/// The flags of a mesh, and their words on the GPU.
+struct FlagArray {
+    flags: DrawFlags,
+    words: ChunkedArray,
+}
+
+impl FlagArray {
+    /// Makes the buffer large enough. Returns whether it was replaced.
+    fn fit(&mut self, gpu: &Gpu, triangles: usize) -> Result<bool, GpuError> {
+        self.flags.resize(triangles);
+        let words = self.flags.words();
+        let replaced = self.words.reserve(&gpu.device, &gpu.queue, words.len(), 0)?;
+        if replaced {
+            self.words.write(&gpu.queue, 0, bytemuck::cast_slice(words));
+        }
+        Ok(replaced)
+    }
+
+    /// Marks which of the triangles in ascending ranges are outside the domain.
+    fn classify(&mut self, queue: &wgpu::Queue, mesh: &Mesh, ranges: &[Range<usize>]) {
+        let triangles = mesh.raw_triangles();
+        for range in ranges {
+            let end = range.end.min(triangles.len());
+            self.flags.classify(range.start.min(end)..end, triangles);
+        }
+        self.send(queue, ranges.iter().cloned());
+    }
+
+    /// Sends the flags of triangles in ascending order.
+    fn send_ids(&self, queue: &wgpu::Queue, ids: impl Iterator<Item = TriangleId>) {
+        self.send(queue, ids.map(|id| id.index()..id.index() + 1));
+    }
+
+    fn send(&self, queue: &wgpu::Queue, triangles: impl Iterator<Item = Range<usize>>) {
+        let words = joined(triangles.map(DrawFlags::words_of), SMALL_GAP_OF_WORDS);
+        send_joined(queue, &self.words, self.flags.words(), words);
+    }
+}
+
+/// Sends items from `*next` on: as many as the budget allows, at least one. Returns the bytes sent.
+fn send<T: bytemuck::Pod>(
+    queue: &wgpu::Queue,
+    array: &ChunkedArray,
+    items: &[T],
+    next: &mut usize,
+    byte_budget: usize,
+) -> usize {
+    if byte_budget == 0 {
+        return 0;
+    }
+    let end = next.saturating_add((byte_budget / size_of::<T>()).max(1)).min(items.len());
+    let bytes: &[u8] = bytemuck::cast_slice(&items[*next..end]);
+    array.write(queue, *next, bytes);
+    *next = end;
+    bytes.len()
+}
+
+fn send_ranges<T: bytemuck::Pod>(
+    queue: &wgpu::Queue,
+    array: &ChunkedArray,
+    items: &[T],
+    ranges: &[Range<usize>],
+) {
+    send_joined(queue, array, items, joined(ranges.iter().cloned(), SMALL_GAP));
+}
+
+fn send_joined<T: bytemuck::Pod>(
+    queue: &wgpu::Queue,
+    array: &ChunkedArray,
+    items: &[T],
+    ranges: Vec<Range<usize>>,
+) {
+    for range in ranges {
+        let range = range.start.min(items.len())..range.end.min(items.len());
+        array.write(queue, range.start, bytemuck::cast_slice(&items[range]));
+    }
+}
+
+/// Joins ascending ranges across small gaps, for fewer and longer writes.
+fn joined(ranges: impl IntoIterator<Item = Range<usize>>, small_gap: usize) -> Vec<Range<usize>> {
+    let mut joined: Vec<Range<usize>> = Vec::new();
+    for range in ranges {
+        match joined.last_mut() {
+            Some(last) if range.start <= last.end + small_gap => last.end = last.end.max(range.end),
+            _ => joined.push(range),
+        }
+    }
+    joined
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn near_ranges_are_joined() {
+        assert_eq!(joined([0..3, 4..6, 6..9, 500..501], 32), [0..9, 500..501]);
+        assert_eq!(joined([0..30, 5..7, 100..101], 32), [0..30, 100..101]);
+        assert_eq!(joined([], 32), []);
+    }
+}

@@ -1,0 +1,249 @@
+//! Draws a scene on the GPU. The arrays of the mesh are the vertex data.
+//!
+//! A window keeps a [`GpuRenderer`]. It contains a [`MeshMirror`], the copy of the mesh and of
+//! the pieces in place of some of its triangles, and keeps the
+//! picture of the mesh as a texture, so that the mesh is redrawn only when the mesh, the camera or the style
+//! changed.
+
+mod chunks;
+mod layout;
+mod mesh_copy;
+mod mesh_pass;
+mod mirror;
+mod offscreen;
+mod overlay_pass;
+mod picture;
+mod shown_image;
+
+pub use chunks::{ChunkLimits, NODE_BUFFERS};
+pub use mirror::MeshMirror;
+pub use offscreen::{Offscreen, offscreen, read_back};
+pub use shown_image::ShownImage;
+
+use self::overlay_pass::OverlayPass;
+use self::picture::MeshPicture;
+use crate::render::Image;
+use crate::render::software::{KeptPicture, PxRect};
+use crate::scene::{Camera, Overlay, ShownMesh, ShownRevision, Style};
+use meshbrush_mesh::text::Bytes;
+use meshbrush_mesh::text::Grouped;
+
+/// Why the graphics driver cannot draw.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum GpuError {
+    /// No graphics driver at all.
+    #[error(
+        "No usable graphics driver ({reason}). Install a Vulkan or OpenGL driver, such as mesa-vulkan-drivers."
+    )]
+    NoAdapter {
+        /// The driver loader's message.
+        reason: String,
+    },
+    /// The driver refused to be opened.
+    #[error("The graphics driver {adapter} cannot be used: {reason}.")]
+    NoDevice {
+        /// Name of the driver.
+        adapter: String,
+        /// Its message.
+        reason: String,
+    },
+    /// Vertex shaders cannot read enough buffers for a mesh.
+    #[error(
+        "The graphics driver lets a shader read {available} storage buffers, but drawing a mesh needs {needed}. Update \
+         the driver, or choose another one with WGPU_BACKEND=vulkan."
+    )]
+    TooFewStorageBuffers {
+        /// Buffers that a shader may read.
+        available: u32,
+        /// Buffers that the mesh needs.
+        needed: u32,
+    },
+    /// The nodes do not fit into the buffers that a shader can read.
+    #[error(
+        "The mesh has {} nodes, and this graphics driver can show {}. Raise the smallest diameter or paint \
+         less; the command line can draw and export the mesh as it is.",
+        Grouped(*nodes), Grouped(*limit)
+    )]
+    TooManyNodes {
+        /// Nodes of the mesh.
+        nodes: usize,
+        /// Most nodes that can be shown.
+        limit: usize,
+    },
+    /// The graphics memory is used up.
+    #[error(
+        "The graphics memory is used up: {} more for the mesh were refused. Raise the smallest diameter or \
+         paint less, or close other programs that draw.",
+        Bytes(*bytes as usize)
+    )]
+    OutOfMemory {
+        /// Bytes that were asked for.
+        bytes: u64,
+    },
+    /// A picture or a raster is larger than the largest texture.
+    #[error(
+        "{what} of {} × {} pixels is larger than this graphics driver can hold: at most {limit} along each side. \
+         Choose a lower resolution.", size[0], size[1]
+    )]
+    TooLarge {
+        /// What is too large, as the subject of a sentence.
+        what: &'static str,
+        /// Its width and height in pixels.
+        size: [u32; 2],
+        /// Most pixels along a side.
+        limit: u32,
+    },
+    /// The device was lost while a picture was read back.
+    #[error("The picture could not be read back from the graphics driver: {reason}.")]
+    ReadBack {
+        /// The driver's message.
+        reason: String,
+    },
+}
+
+/// Requests the adapter's own limits: the default ones allow no large meshes and, on OpenGL, no storage
+/// buffers.
+pub fn device_descriptor(adapter: &wgpu::Adapter) -> wgpu::DeviceDescriptor<'static> {
+    wgpu::DeviceDescriptor {
+        label: Some("meshbrush"),
+        required_limits: adapter.limits(),
+        ..wgpu::DeviceDescriptor::default()
+    }
+}
+
+/// Whether the driver emulates a GPU. [`GpuRenderer::prepare_in_software`] is then faster.
+pub fn emulates_gpu(adapter: &wgpu::Adapter) -> bool {
+    adapter.get_info().device_type == wgpu::DeviceType::Cpu
+}
+
+/// Everything that a canvas needs on the GPU.
+///
+/// For each frame, bring [`Self::mirror_mut`] and the overlay up to date, then call [`Self::prepare`] and
+/// [`Self::paint`].
+pub struct GpuRenderer {
+    mirror: MeshMirror,
+    picture: MeshPicture,
+    overlay: OverlayPass,
+}
+
+impl GpuRenderer {
+    /// A renderer for canvases of `target_format`, which must be in gamma space: `Rgba8Unorm` or
+    /// `Bgra8Unorm`.
+    ///
+    /// # Errors
+    /// When the device cannot draw a mesh at all.
+    pub fn new(
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        target_format: wgpu::TextureFormat,
+    ) -> Result<Self, GpuError> {
+        Self::with_chunks(device, queue, target_format, ChunkLimits::of_device(&device.limits()))
+    }
+
+    /// As [`Self::new`], with buffers of the given size.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn with_chunks(
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        target_format: wgpu::TextureFormat,
+        chunks: ChunkLimits,
+    ) -> Result<Self, GpuError> {
+        debug_assert!(!target_format.is_srgb(), "colours are sRGB bytes, written as they are");
+        let mirror = MeshMirror::new(device, queue, chunks)?;
+        let picture = MeshPicture::new(device, target_format, &mirror);
+        let overlay = OverlayPass::new(device, target_format);
+        Ok(Self { mirror, picture, overlay })
+    }
+
+    /// The copy of the mesh.
+    pub fn mirror(&self) -> &MeshMirror {
+        &self.mirror
+    }
+
+    /// The copy of the mesh, for updates.
+    pub fn mirror_mut(&mut self) -> &mut MeshMirror {
+        &mut self.mirror
+    }
+
+    /// Shows or hides the overlay. Its colours are uploaded only when its size or revision changed.
+    ///
+    /// # Errors
+    /// When the raster is larger than the largest texture.
+    pub fn set_overlay(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        overlay: Option<&Overlay>,
+    ) -> Result<(), GpuError> {
+        self.overlay.set(device, queue, overlay)
+    }
+
+    /// Redraws the picture of the mesh with `encoder` if the mesh, the camera or the style changed, and
+    /// prepares [`Self::paint`].
+    ///
+    /// # Errors
+    /// When the canvas is larger than the largest texture.
+    pub fn prepare(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        encoder: &mut wgpu::CommandEncoder,
+        camera: &Camera,
+        style: &Style,
+    ) -> Result<(), GpuError> {
+        self.picture.prepare(device, queue, encoder, &self.mirror, camera, style)?;
+        self.overlay.prepare(queue, camera);
+        Ok(())
+    }
+
+    /// As [`Self::prepare`], but the [software renderer](crate::render::software) draws the picture. This is
+    /// several times as fast where the driver emulates a GPU. It needs no mirror. After an edit of which
+    /// [`Self::picture_in_software_mut`] was told, only the part that changed is drawn.
+    ///
+    /// # Errors
+    /// As [`Self::prepare`].
+    pub fn prepare_in_software(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        shown: ShownMesh,
+        revision: ShownRevision,
+        camera: &Camera,
+        style: &Style,
+    ) -> Result<(), GpuError> {
+        self.picture.prepare_in_software(device, queue, shown, revision, camera, style)?;
+        self.overlay.prepare(queue, camera);
+        Ok(())
+    }
+
+    /// Draws the picture in software for whoever draws the whole window: see [`Self::take_image`].
+    pub fn draw_image(&mut self, shown: ShownMesh, revision: ShownRevision, camera: &Camera, style: &Style) {
+        self.picture.draw_image(shown, revision, camera, style);
+    }
+
+    /// The picture of [`Self::draw_image`], the part that is new since the last call, and whether nothing
+    /// below can be seen. `None` if another function drew last.
+    pub fn take_image(&mut self) -> Option<(&Image, Option<PxRect>, bool)> {
+        self.picture.take_image()
+    }
+
+    /// The picture that the software renderer draws, to be told of every edit of the mesh.
+    pub fn picture_in_software_mut(&mut self) -> &mut KeptPicture {
+        self.picture.kept_mut()
+    }
+
+    /// Draws the picture and the overlay on the canvas. The viewport of `pass` must be the canvas.
+    ///
+    /// The pass must have a target of the renderer's format, no depth buffer and no multisampling.
+    pub fn paint(&self, pass: &mut wgpu::RenderPass<'_>) {
+        self.picture.paint(pass);
+        self.overlay.paint(pass);
+    }
+
+    /// How often the picture was redrawn.
+    pub fn redraws(&self) -> u64 {
+        self.picture.redraws()
+    }
+}

@@ -1,0 +1,57 @@
+//! Draws a scene: [`software`] everywhere, and on the GPU with the feature `gui`.
+//!
+//! Both renderers colour a pixel by the same rule: the fill of the triangle that contains its centre, mixed
+//! with the colour of the edge by `edge_alpha · clamp(reach − d, 0, 1)`, where d is the distance to the
+//! nearest edge of that triangle in pixels. All numbers of the rule come from
+//! [`LevelPaint`](crate::scene::LevelPaint) and [`Style`](crate::scene::Style). Fills are not antialiased,
+//! since adjacent triangles would show bright seams.
+
+mod draw_flags;
+pub mod export;
+#[cfg(feature = "gpu")]
+pub mod gpu;
+pub mod path_export;
+pub mod software;
+
+/// Triangles of at least this size in pixels are drawn pixel by pixel from the exact lines through their
+/// edges. Rasterizing such triangles from their corners in f32 or fixed-point numbers would shift an edge. At
+/// most a few of them intersect the canvas.
+const HUGE_PX: f32 = 4096.0;
+
+/// How far huge triangles are drawn beyond their edges, in pixels. A rasterized neighbour ends on a grid of
+/// 1/256 px; the overlap closes the gap.
+const SEAM_SLACK_PX: f32 = 1.0 / 64.0;
+
+/// An opaque picture.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Image {
+    /// Width and height in pixels.
+    pub size: [u32; 2],
+    /// Red, green, blue and alpha as sRGB bytes, row by row from the upper left.
+    pub rgba: Vec<u8>,
+}
+
+impl Image {
+    /// A picture of one colour.
+    pub fn filled(size: [u32; 2], color: [u8; 4]) -> Self {
+        Self { size, rgba: color.repeat(size[0] as usize * size[1] as usize) }
+    }
+
+    /// The colour at a column and row, from the upper left.
+    ///
+    /// # Panics
+    /// When there is no such pixel.
+    pub fn pixel(&self, column: u32, row: u32) -> [u8; 4] {
+        self.pixels()[row as usize * self.size[0] as usize + column as usize]
+    }
+
+    /// All pixels, row by row from the upper left.
+    pub fn pixels(&self) -> &[[u8; 4]] {
+        bytemuck::cast_slice(&self.rgba)
+    }
+
+    /// All pixels, to be drawn on.
+    pub fn pixels_mut(&mut self) -> &mut [[u8; 4]] {
+        bytemuck::cast_slice_mut(&mut self.rgba)
+    }
+}

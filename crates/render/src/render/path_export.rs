@@ -1,0 +1,118 @@
+//! Exports a path: as GeoJSON, as a table, or as a picture over its mesh.
+
+use std::borrow::Cow;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use glam::DVec2;
+
+use super::export::{ExportFormat, Look};
+use meshbrush_core::path::{CostDensity, PathError, PathSample, Solution};
+use meshbrush_io::io::path::{write_csv, write_geojson};
+use meshbrush_io::io::{Meter, Provenance, write_file_metered};
+use meshbrush_mesh::mesh::{Extract, Mesh};
+
+/// A format of files with a path.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PathFormat {
+    /// A feature with the figures of the path.
+    GeoJson,
+    /// A table with the cost up to each point.
+    Csv,
+    /// A picture of the mesh with the path over it.
+    Picture(ExportFormat),
+}
+
+/// The ending of a file name is not that of a format for paths.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{}: the ending decides the format; use .geojson, .csv, .svg or .png", .0.display())]
+pub struct UnknownPathEnding(pub PathBuf);
+
+impl PathFormat {
+    /// All endings, without their dots, the usual one first.
+    pub const ENDINGS: [&'static str; 5] = ["geojson", "csv", "svg", "png", "json"];
+
+    /// The format that the ending of a file name chooses; upper and lower case are the same.
+    ///
+    /// # Errors
+    /// When the ending is none of [`Self::ENDINGS`].
+    pub fn of(path: &Path) -> Result<Self, UnknownPathEnding> {
+        let ending = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
+        match ending.as_str() {
+            "geojson" | "json" => Ok(Self::GeoJson),
+            "csv" => Ok(Self::Csv),
+            "svg" => Ok(Self::Picture(ExportFormat::Svg)),
+            "png" => Ok(Self::Picture(ExportFormat::Png)),
+            _ => Err(UnknownPathEnding(path.to_owned())),
+        }
+    }
+}
+
+/// A path as files get it.
+pub struct PathExport<'a> {
+    solution: Cow<'a, Solution>,
+    samples: Vec<PathSample>,
+}
+
+/// The mesh of a path, and its appearance in pictures.
+pub struct MeshOfPath<'a> {
+    /// The mesh.
+    pub mesh: &'a Mesh,
+    /// Its part in the domain.
+    pub extract: &'a Extract<'a>,
+    /// The appearance of both.
+    pub look: &'a Look,
+}
+
+impl<'a> PathExport<'a> {
+    /// A path with all its points, or simplified with a tolerance in world units ([`Solution::simplified`]).
+    /// `density` is what paths cost.
+    ///
+    /// # Errors
+    /// When the tolerance is negative or NaN.
+    pub fn new(
+        solution: &'a Solution,
+        density: &dyn CostDensity,
+        tolerance: Option<f64>,
+    ) -> Result<Self, PathError> {
+        let solution = match tolerance {
+            Some(tolerance) => Cow::Owned(solution.simplified(density, tolerance)?),
+            None => Cow::Borrowed(solution),
+        };
+        let samples = solution.samples(density);
+        Ok(Self { solution, samples })
+    }
+
+    /// The path that is written, with its figures.
+    pub fn solution(&self) -> &Solution {
+        &self.solution
+    }
+
+    /// The points that are written, with the cost up to each.
+    pub fn samples(&self) -> &[PathSample] {
+        &self.samples
+    }
+
+    /// Writes the path to a file.
+    ///
+    /// # Errors
+    /// When the file cannot be written, and when the meter was cancelled. An existing file is then unchanged.
+    pub fn write(
+        &self,
+        file: &Path,
+        format: PathFormat,
+        over: &MeshOfPath<'_>,
+        provenance: &Provenance,
+        meter: &Meter,
+    ) -> io::Result<()> {
+        write_file_metered(file, meter, |out: &mut dyn Write| match format {
+            PathFormat::GeoJson => write_geojson(out, &self.solution, &self.samples, provenance),
+            PathFormat::Csv => write_csv(out, &self.samples),
+            PathFormat::Picture(format) => {
+                let points: Vec<DVec2> = self.samples.iter().map(|sample| sample.point).collect();
+                let MeshOfPath { mesh, extract, look } = *over;
+                format.write_path_to(out, (mesh, extract), &points, look, provenance, meter)
+            }
+        })
+    }
+}

@@ -1,0 +1,167 @@
+//! Draws triangles as one camera sees them, on all cores.
+
+use std::ops::Range;
+
+use glam::{DVec2, I64Vec2, Vec2Swizzles};
+use rayon::prelude::*;
+
+use super::corners::Corners;
+use super::damage::{BAND_ROWS, Damage};
+use super::groups::TriangleGroups;
+use super::rasterizer::{self, LevelShader, Rasterizer};
+use crate::colormap::LEVELS;
+use crate::render::Image;
+use crate::render::draw_flags::DrawFlags;
+use crate::scene::{Camera, LevelPaint, Style};
+use meshbrush_mesh::geometry::{LatticePoint, LatticeRect};
+use meshbrush_mesh::mesh::{Orientation, Triangle};
+
+/// Triangles and their nodes. A neighbour that is one of `triangles` shares an edge.
+pub(super) struct TriangleArrays<'a> {
+    pub(super) nodes: &'a [LatticePoint],
+    /// Where the nodes are on the screen.
+    pub(super) corners: &'a Corners,
+    pub(super) triangles: &'a [Triangle],
+    /// Where the triangles are.
+    pub(super) groups: &'a TriangleGroups,
+    /// The triangles that are replaced by others.
+    pub(super) flags: &'a DrawFlags,
+}
+
+impl TriangleArrays<'_> {
+    /// For each vertex whether the opposite edge is on the boundary: nothing is drawn across it.
+    fn boundary_opposite(&self, triangle: &Triangle) -> [bool; 3] {
+        let mut boundary = [false; 3];
+        for ((from, to), across) in triangle.edges().into_iter().zip(triangle.raw_neighbours) {
+            boundary[3 - from - to] = across.triangle().is_none_or(|id| self.is_vacant(id.index()));
+        }
+        boundary
+    }
+
+    fn is_vacant(&self, index: usize) -> bool {
+        self.flags.is_vacant(index) || self.flags.is_drawn(index) && self.triangles[index].is_outside()
+    }
+
+    /// For each band the groups of triangles that can be seen in its damaged part, in their order.
+    fn groups_in_bands(&self, camera: &Camera, damage: &Damage) -> Vec<Vec<Range<usize>>> {
+        let mut bands = vec![Vec::new(); damage.bands().len()];
+        for (group, rect) in self.groups.iter() {
+            let [columns, rows] = pixels_around(camera, &rect);
+            for band in damage.bands_meeting(&columns, &rows) {
+                bands[band].push(group.start..group.end.min(self.triangles.len()));
+            }
+        }
+        bands
+    }
+}
+
+/// Columns and rows of the pixels that triangles within `rect` can colour.
+fn pixels_around(camera: &Camera, rect: &LatticeRect) -> [Range<i32>; 2] {
+    let corners = [rect.min, rect.max].map(|p| rasterizer::snapped(camera.screen_from_lattice(p)));
+    rasterizer::pixels_around(&corners, 0)
+}
+
+/// Draws triangles as one camera sees them, in one style.
+pub(super) struct Painter {
+    camera: Camera,
+    ground: [u8; 4],
+    shaders: [LevelShader; LEVELS],
+}
+
+impl Painter {
+    /// A painter of meshes on the lattice of the camera.
+    pub(super) fn new(camera: Camera, style: &Style) -> Self {
+        let shaders = LevelPaint::all(&camera, style).map(|paint| LevelShader::new(&paint, style));
+        Self { camera, ground: ground(style), shaders }
+    }
+
+    /// Draws the damaged part of a picture again: the ground, and the arrays one above the other.
+    ///
+    /// A pixel takes its colour from the last triangle that covers it. Each band draws its triangles in the
+    /// order of the arrays, so the picture does not depend on the threads, nor on what of it is drawn again.
+    pub(super) fn draw(&self, image: &mut Image, damage: &Damage, arrays: &[TriangleArrays]) {
+        let groups: Vec<_> = arrays.iter().map(|each| each.groups_in_bands(&self.camera, damage)).collect();
+        let width = image.size[0];
+        let bands = image.pixels_mut().par_chunks_mut(width as usize * BAND_ROWS).with_max_len(1);
+        bands.zip(damage.bands()).enumerate().for_each(|(band, (pixels, columns))| {
+            if columns.is_empty() {
+                return;
+            }
+            let mut rasterizer = Rasterizer::new(pixels, width, columns.clone(), band * BAND_ROWS);
+            rasterizer.fill(self.ground);
+            for (arrays, groups) in arrays.iter().zip(&groups) {
+                groups[band].iter().for_each(|group| self.draw_group(&mut rasterizer, arrays, group.clone()));
+            }
+        });
+    }
+
+    fn draw_group(&self, rasterizer: &mut Rasterizer, arrays: &TriangleArrays, group: Range<usize>) {
+        for index in group {
+            let triangle = &arrays.triangles[index];
+            if triangle.is_outside() || !arrays.flags.is_drawn(index) {
+                continue;
+            }
+            let shader = &self.shaders[triangle.level() as usize];
+            let at_boundary = || arrays.boundary_opposite(triangle);
+            let corners = triangle.vertices.map(|v| arrays.corners.of_node(v.index()));
+            if rasterizer::is_huge(corners) {
+                let half_planes = half_planes(triangle, arrays.nodes, &self.camera);
+                rasterizer.fill_half_planes(&half_planes, at_boundary, shader);
+            } else {
+                rasterizer.fill_snapped(corners, at_boundary, shader);
+            }
+        }
+    }
+}
+
+/// The colour beside the mesh.
+pub(super) fn ground(style: &Style) -> [u8; 4] {
+    style.clear_color().map(|c| (255.0 * c).round() as u8)
+}
+
+/// One side of a line. The signed distance of the pixel position p from the line is `normal · p + offset` in
+/// pixels, with |normal| = 1; it is positive inside.
+pub(super) struct HalfPlane {
+    pub(super) normal: DVec2,
+    pub(super) offset: f64,
+}
+
+impl HalfPlane {
+    #[inline]
+    pub(super) fn distance_px(&self, px: DVec2) -> f64 {
+        self.normal.dot(px) + self.offset
+    }
+
+    /// The half-plane to the left of the line from one node to another.
+    ///
+    /// The part of the cross product that consists of lattice coordinates is calculated in integers. They
+    /// have 30 bits, so the sum of two products has 61. The remainder, of the camera's place within a lattice
+    /// step, is as large as the length of the edge at most, so its rounding errors are below 2⁻⁵⁰ steps.
+    fn left_of(from: LatticePoint, to: LatticePoint, camera: &Camera) -> Self {
+        let steps = |p: LatticePoint| I64Vec2::new(i64::from(p.x), i64::from(p.y));
+        let (anchor, fraction) = camera.anchor();
+        let along = steps(to) - steps(from);
+        let to_anchor = anchor.as_i64vec2() - steps(from);
+        let whole = along.perp_dot(to_anchor);
+        let cross = whole as f64 + along.as_dvec2().perp_dot(fraction);
+        let scale = camera.px_per_step();
+        let along_px = along.as_dvec2() * scale;
+        let length_px = along_px.length();
+        // The y axis points up on the lattice and down on the screen.
+        let normal = -along_px.yx() / length_px;
+        let at_middle = cross * scale.element_product() / length_px;
+        Self { normal, offset: at_middle - normal.dot(camera.half_size_px()) }
+    }
+}
+
+/// The half-planes that intersect in a triangle. Each is that of the edge opposite the vertex.
+fn half_planes(triangle: &Triangle, nodes: &[LatticePoint], camera: &Camera) -> [HalfPlane; 3] {
+    let corners = triangle.vertices.map(|v| nodes[v.index()]);
+    std::array::from_fn(|i| {
+        let [from, to] = [corners[(i + 1) % 3], corners[(i + 2) % 3]];
+        match triangle.orientation() {
+            Orientation::Anticlockwise => HalfPlane::left_of(from, to, camera),
+            Orientation::Clockwise => HalfPlane::left_of(to, from, camera),
+        }
+    })
+}

@@ -1,0 +1,44 @@
+use glam::{DVec2, dvec2};
+
+use super::Camera;
+use meshbrush_mesh::geometry::Rect;
+
+/// A raster of colours drawn over the mesh, such as the painted field.
+///
+/// It is sampled at the nearest pixel, so that its own resolution is visible.
+#[derive(Clone, Copy, Debug)]
+pub struct Overlay<'a> {
+    /// The rectangle it covers, in world units.
+    pub bounds: Rect,
+    /// Pixels in a row.
+    pub columns: u32,
+    /// Number of rows.
+    pub rows: u32,
+    /// Red, green, blue, alpha, not premultiplied, row by row from the lower left.
+    pub rgba: &'a [[u8; 4]],
+    /// Opacity from 0 to 1.
+    pub opacity: f32,
+    /// Changes with the contents. Renderers that keep a copy compare it.
+    pub revision: u64,
+}
+
+/// Maps screen positions to pixels (texels) of an overlay.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TexelMap {
+    /// Column and row at the middle of the canvas, as real numbers.
+    pub at_center: DVec2,
+    /// Columns per pixel to the right, and rows per pixel upwards.
+    pub per_px: DVec2,
+}
+
+impl Overlay<'_> {
+    /// The position of its pixels on the screen.
+    pub fn texels(&self, camera: &Camera) -> TexelMap {
+        let per_world = dvec2(f64::from(self.columns), f64::from(self.rows)) / self.bounds.size();
+        let middle = camera.world_from_screen(camera.half_size_px());
+        TexelMap {
+            at_center: (middle - self.bounds.min) * per_world,
+            per_px: per_world / camera.px_per_world(),
+        }
+    }
+}
