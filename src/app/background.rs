@@ -1,11 +1,8 @@
 //! Files being read and written off the window's thread: how far each is, and how it is cancelled.
 
 use std::num::NonZeroUsize;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
-use std::sync::mpsc::{Receiver, Sender, channel};
-use std::thread;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use eframe::egui::Context;
 
@@ -13,14 +10,12 @@ use super::busy::Busy;
 use super::command::{Command, Opened};
 use super::document_id::DocumentId;
 use super::home::Home;
+use super::jobs::{Job, Jobs, Kind, Taken};
 use super::threads::Threads;
 use meshbrush_io::io::{self, Meter};
 
 /// How often an otherwise idle window shows the progress of work.
 const PACE: Duration = Duration::from_millis(150);
-/// How long a window that is being closed waits for files that are being written.
-const LAST_WAIT: Duration = Duration::from_secs(5);
-
 /// What a piece of work came to. `execute::files` applies it to the window.
 pub enum Outcome {
     /// A file was read that becomes a document of its own.
@@ -105,8 +100,7 @@ pub struct Finished {
 /// A file being read or written.
 struct Work {
     id: WorkId,
-    /// The document that was open when it began.
-    document: DocumentId,
+    job: Job<Outcome>,
     aim: Aim,
     /// Of the file.
     name: String,
@@ -127,11 +121,8 @@ pub struct Row {
 /// All work on other threads.
 pub struct Background {
     ctx: Context,
-    sender: Sender<(WorkId, Outcome)>,
-    receiver: Receiver<(WorkId, Outcome)>,
+    jobs: Jobs,
     works: Vec<Work>,
-    /// The document that is open.
-    document: DocumentId,
     started: u64,
     /// Most threads of each.
     threads: NonZeroUsize,
@@ -139,15 +130,9 @@ pub struct Background {
 
 impl Background {
     /// Nothing yet, in the window of `ctx`.
-    pub fn new(ctx: &Context) -> Self {
-        let (sender, receiver) = channel();
-        let (works, document) = (Vec::new(), DocumentId::default());
-        Self { ctx: ctx.clone(), sender, receiver, works, document, started: 0, threads: Threads::most() }
-    }
-
-    /// Another document was opened: what is started from now on is for that one.
-    pub fn work_for(&mut self, document: DocumentId) {
-        self.document = document;
+    pub fn new(ctx: &Context, jobs: &Jobs) -> Self {
+        let (ctx, jobs) = (ctx.clone(), jobs.clone());
+        Self { ctx, jobs, works: Vec::new(), started: 0, threads: Threads::most() }
     }
 
     /// Limits the threads of what is started from now on.
@@ -160,32 +145,26 @@ impl Background {
     pub fn start(&mut self, aim: Aim, path: &Path, work: impl FnOnce(&Meter) -> Outcome + Send + 'static) {
         self.started += 1;
         let (id, meter, name) = (WorkId(self.started), Meter::default(), name_of(path));
-        let (sender, ctx, watched) = (self.sender.clone(), self.ctx.clone(), meter.clone());
-        let (what, threads) = (format!("{} {name}", aim.doing()), self.threads);
-        self.works.push(Work { id, document: self.document, aim, name, meter, busy: Busy::now() });
-        thread::spawn(move || {
-            // A panic must not leave the window waiting for ever.
-            let outcome = catch_unwind(AssertUnwindSafe(|| Threads::new(threads).run(|| work(&watched))))
-                .unwrap_or_else(|_| {
-                    let problem =
-                        format!("{what} failed because of a bug in Meshbrush. The document is unchanged.");
-                    Outcome::NotWritten(problem)
-                });
-            // The window may have closed in the meantime.
-            let _ = sender.send((id, outcome));
-            ctx.request_repaint();
+        let (watched, threads) = (meter.clone(), self.threads);
+        let job = self.jobs.start(Kind::File, move |output| {
+            output.send(Threads::new(threads).run(|| work(&watched)));
         });
+        self.works.push(Work { id, job, aim, name, meter, busy: Busy::now() });
     }
 
     /// Removes one finished piece of work from the list, and returns it.
     pub fn take_finished(&mut self) -> Option<Finished> {
-        loop {
-            let (id, outcome) = self.receiver.try_recv().ok()?;
-            if let Some(at) = self.works.iter().position(|work| work.id == id) {
-                let Work { document, name, .. } = self.works.remove(at);
-                return Some(Finished { document, name, outcome });
-            }
+        for at in 0..self.works.len() {
+            let work = &self.works[at];
+            let outcome = match work.job.take_ready() {
+                Taken::Working => continue,
+                Taken::Value(outcome) => outcome,
+                Taken::Ended => work.failed(),
+            };
+            let Work { job, name, .. } = self.works.remove(at);
+            return Some(Finished { document: job.document(), name, outcome });
         }
+        None
     }
 
     /// Cancels work. What was being read is forgotten at once; what is being written ends once nothing is
@@ -198,11 +177,6 @@ impl Background {
             self.works.remove(at);
         }
         Some((aim, name))
-    }
-
-    /// Whether anything is being written.
-    fn writes(&self) -> bool {
-        self.works.iter().any(|work| work.aim != Aim::Read)
     }
 
     /// Names of files that are being written, without cancelled ones.
@@ -218,7 +192,8 @@ impl Background {
 
     /// Whether this version of the document that is open is being saved.
     pub fn saves_version(&self, version: u64) -> bool {
-        let saves = |work: &Work| work.aim == Aim::Save(version) && work.document == self.document;
+        let saves =
+            |work: &Work| work.aim == Aim::Save(version) && work.job.document() == self.jobs.document();
         self.works.iter().any(|work| saves(work) && !work.meter.is_cancelled())
     }
 
@@ -244,14 +219,23 @@ impl Background {
         }
     }
 
-    /// Waits a little for the next outcome, while anything is being written and `start` is not too long ago.
-    /// Returns whether to go on waiting.
-    pub fn wait_for_writing(&self, start: Instant) -> bool {
-        let waits = self.writes() && start.elapsed() < LAST_WAIT;
-        if waits {
-            thread::sleep(Duration::from_millis(5));
+    /// Forgets what is being read, and waits up to `longest` for what is being written: the window is being
+    /// closed.
+    pub fn end(&mut self, longest: Duration) {
+        self.works.retain(|work| work.aim != Aim::Read);
+        if !self.works.is_empty() {
+            self.jobs.wait_for_files(longest);
         }
-        waits
+    }
+}
+
+impl Work {
+    /// The outcome of work that panicked.
+    fn failed(&self) -> Outcome {
+        let (doing, name) = (self.aim.doing(), &self.name);
+        Outcome::NotWritten(format!(
+            "{doing} {name} failed because of a bug in Meshbrush. The document is unchanged."
+        ))
     }
 }
 

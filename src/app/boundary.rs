@@ -2,12 +2,9 @@
 //! mesh lacks. Both are found on another thread: an outline of many corners takes longer than a frame.
 
 use std::sync::Arc;
-use std::time::Duration;
-
-use eframe::egui::Context;
 
 use super::derivation::{self, Derived};
-use super::latest::Latest;
+use super::jobs::{Jobs, Slot};
 use meshbrush_core::document::{Document, Follower};
 use meshbrush_core::domain::{BoundaryMarks, BoundaryPieces, Domain, MeshBoundary};
 
@@ -26,8 +23,8 @@ type LostKey = (Key, derivation::Key);
 /// Finds the pieces of the boundary.
 #[derive(Default)]
 pub struct BoundaryFinder {
-    pieces: Latest<Key, BoundaryPieces>,
-    lost: Latest<LostKey, Vec<usize>>,
+    pieces: Slot<Key, BoundaryPieces>,
+    lost: Slot<LostKey, Vec<usize>>,
 }
 
 impl BoundaryFinder {
@@ -43,51 +40,38 @@ impl BoundaryFinder {
         (is_current(key, document) && of == derived.key()).then_some(lost)
     }
 
-    /// Finds the pieces of the document, and which of them a derived mesh lacks, and waits for them up to
-    /// `patience`. Returns whether some are being found.
+    /// Finds the pieces of the document, and which of them a derived mesh lacks, and waits for them as long as the
+    /// frame may. Returns whether some are being found.
     pub fn advance(
         &mut self,
         document: &Document,
         follower: &Follower,
         derived: Option<&Derived>,
-        patience: Duration,
-        ctx: &Context,
+        jobs: &Jobs,
     ) -> bool {
-        let is_finding = self.find_pieces(document, follower, patience, ctx);
+        let is_finding = self.find_pieces(document, follower, jobs);
         if let (false, Some(derived)) = (is_finding, derived) {
-            self.find_lost(document, derived, patience, ctx)
+            self.find_lost(document, derived, jobs)
         } else {
             is_finding
         }
     }
 
-    fn find_lost(
-        &mut self,
-        document: &Document,
-        derived: &Derived,
-        patience: Duration,
-        ctx: &Context,
-    ) -> bool {
-        self.lost.take(Duration::ZERO);
+    fn find_lost(&mut self, document: &Document, derived: &Derived, jobs: &Jobs) -> bool {
+        self.lost.take_ready(jobs);
         let Some((key, pieces)) = self.pieces.last().filter(|(key, _)| is_current(key, document)) else {
             return false;
         };
         let key = (key.clone(), derived.key().clone());
         if !self.lost.has(&key) {
             let (pieces, extract) = (pieces.clone(), derived.shared_extract());
-            self.lost.start(key, move || MeshBoundary::of_pieces(&extract, pieces).lost().collect(), ctx);
+            self.lost.start(key, move || MeshBoundary::of_pieces(&extract, pieces).lost().collect(), jobs);
         }
-        self.lost.take(patience)
+        self.lost.take(jobs)
     }
 
-    fn find_pieces(
-        &mut self,
-        document: &Document,
-        follower: &Follower,
-        patience: Duration,
-        ctx: &Context,
-    ) -> bool {
-        self.pieces.take(Duration::ZERO);
+    fn find_pieces(&mut self, document: &Document, follower: &Follower, jobs: &Jobs) -> bool {
+        self.pieces.take_ready(jobs);
         let is_of_mesh = document.settings().domain.formula().is_some();
         if is_of_mesh && !follower.is_in_step(document) {
             return false;
@@ -102,9 +86,9 @@ impl BoundaryFinder {
                 Some(mesh) => BoundaryPieces::of_mesh(&mesh.extract(), &marks),
                 None => BoundaryPieces::of_domain(&domain, &marks).expect("it is given by no formula"),
             };
-            self.pieces.start(key, find, ctx);
+            self.pieces.start(key, find, jobs);
         }
-        self.pieces.take(patience)
+        self.pieces.take(jobs)
     }
 }
 

@@ -1,11 +1,7 @@
 //! The contour lines of h̄ on the canvas. They are computed on another thread: a large field takes longer
 //! than a frame.
 
-use std::time::Duration;
-
-use eframe::egui::Context;
-
-use super::latest::{Latest, Wanted};
+use super::jobs::{Jobs, Slot, Wanted};
 use meshbrush_core::document::Follower;
 use meshbrush_core::field::{Contour, contours};
 use meshbrush_core::layers::PaintLayers;
@@ -32,7 +28,7 @@ struct FieldState {
 
 /// Computes contour lines.
 #[derive(Default)]
-pub struct ContourFinder(Latest<FieldState, Vec<PlacedContour>>);
+pub struct ContourFinder(Slot<FieldState, Vec<PlacedContour>>);
 
 impl ContourFinder {
     /// The lines of the field, or of its last state until the new ones are computed.
@@ -41,13 +37,13 @@ impl ContourFinder {
     }
 
     /// Drops the lines, and ends the work on others.
-    pub fn clear(&mut self) {
-        self.0.stop();
+    pub fn clear(&mut self, jobs: &Jobs) {
+        self.0.stop(jobs);
     }
 
     /// Takes the lines that are ready, and computes those of a field at `revision`.
-    pub fn advance(&mut self, follower: &Follower, paint: &PaintLayers, revision: u64, ctx: &Context) {
-        self.0.take(Duration::ZERO);
+    pub fn advance(&mut self, follower: &Follower, paint: &PaintLayers, revision: u64, jobs: &Jobs) {
+        self.0.take_ready(jobs);
         let state = FieldState { revision, bounds: follower.field().lattice().bounds() };
         // Lines of another domain are of no use.
         self.0.keep_if(|found| found.bounds == state.bounds);
@@ -61,7 +57,7 @@ impl ContourFinder {
             let (target, _) = field.sampled_while(&paint, bounds, size, &|| wanted.goes_on())?;
             Some(contours(&target, &diameters).into_iter().map(placed).collect())
         };
-        self.0.start_wanted(state, find, ctx);
+        self.0.start_wanted(state, find, jobs);
     }
 }
 

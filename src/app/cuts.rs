@@ -2,19 +2,11 @@
 //! an outline of many corners takes longer than a frame.
 
 use std::collections::VecDeque;
-use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
-use std::thread;
-use std::time::{Duration, Instant};
 
-use eframe::egui::Context;
-
-use super::failures::caught;
+use super::jobs::{Job, Jobs, Kind, Taken};
 use meshbrush_core::document::{Document, Setting, SettingsError};
 use meshbrush_core::domain::{CutShape, Domain};
 use meshbrush_mesh::geometry::Rect;
-
-/// How long a frame waits for an edit: that of a small outline is shown in the frame that it was made in.
-pub const PATIENCE: Duration = Duration::from_millis(3);
 
 /// One edit of the outline.
 #[derive(Clone, Debug, PartialEq)]
@@ -56,7 +48,7 @@ struct Running {
     edit: OutlineEdit,
     /// The domain that is edited.
     domain: Domain,
-    result: Receiver<Option<Domain>>,
+    job: Job<Option<Domain>>,
 }
 
 /// Edits of the outline that have not reached the document.
@@ -128,38 +120,29 @@ impl CutQueue {
     ///
     /// # Errors
     /// When the document refuses an edit; the others are dropped.
-    pub fn advance(
-        &mut self,
-        document: &mut Document,
-        patience: Duration,
-        ctx: &Context,
-    ) -> Result<bool, SettingsError> {
-        let deadline = Instant::now() + patience;
+    pub fn advance(&mut self, document: &mut Document, jobs: &Jobs) -> Result<bool, SettingsError> {
         loop {
             if let Some(running) = &self.running {
-                let patience = deadline.saturating_duration_since(Instant::now());
-                match running.result.recv_timeout(patience) {
-                    Err(RecvTimeoutError::Timeout) => return Ok(true),
-                    result => self.finish(document, result.ok().flatten())?,
+                match running.job.take(jobs) {
+                    Taken::Working => return Ok(true),
+                    Taken::Value(domain) => self.finish(document, domain)?,
+                    Taken::Ended => self.finish(document, None)?,
                 }
             }
             match self.waiting.pop_front() {
                 None => return Ok(false),
                 Some(Step::EndGesture) => document.end_gesture(),
-                Some(Step::Edit(edit)) => self.start(edit, &document.settings().domain, ctx),
+                Some(Step::Edit(edit)) => self.start(edit, &document.settings().domain, jobs),
             }
         }
     }
 
-    fn start(&mut self, edit: OutlineEdit, domain: &Domain, ctx: &Context) {
-        let (sender, result) = channel();
-        let (edit_there, before, ctx) = (edit.clone(), domain.clone(), ctx.clone());
-        thread::spawn(move || {
-            // The receiver is gone where the edit was discarded.
-            let _ = sender.send(caught(&ctx, || edit_there.apply(&before)).flatten());
-            ctx.request_repaint();
+    fn start(&mut self, edit: OutlineEdit, domain: &Domain, jobs: &Jobs) {
+        let (edit_there, before) = (edit.clone(), domain.clone());
+        let job = jobs.start(Kind::Compute, move |output| {
+            output.send(edit_there.apply(&before));
         });
-        self.running = Some(Running { edit, domain: domain.clone(), result });
+        self.running = Some(Running { edit, domain: domain.clone(), job });
     }
 
     /// Replaces the domain by the edited one. If it is no longer the one that was edited, all edits are

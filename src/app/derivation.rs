@@ -13,14 +13,10 @@
 
 use std::ops::Range;
 use std::sync::Arc;
-use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
-use std::thread;
-use std::time::{Duration, Instant};
 
-use eframe::egui::Context;
 use glam::DVec2;
 
-use super::failures::caught;
+use super::jobs::{Job, Jobs, Kind, Output, Taken};
 use meshbrush_core::document::{Follower, MeshChange};
 use meshbrush_core::domain::{DomainOnLattice, FitQuality, Region};
 use meshbrush_core::outline::{DerivedMesh, OutlineFit};
@@ -117,7 +113,7 @@ pub struct Derivation {
 /// A mesh that is being derived.
 struct Running {
     key: Key,
-    results: Receiver<Outcome>,
+    job: Job<Outcome>,
     /// What became of the follower's mesh since.
     since: Option<MeshChange>,
 }
@@ -182,23 +178,15 @@ impl Derivation {
         self.pieces_change = Some(PiecesChange::Replaced);
     }
 
-    /// Takes finished meshes, waiting for them up to `patience`, and starts to derive the next one where that
-    /// is due. Returns whether one is being derived.
-    pub fn advance(
-        &mut self,
-        follower: &Follower,
-        in_gesture: bool,
-        patience: Duration,
-        ctx: &Context,
-    ) -> bool {
-        let deadline = Instant::now() + patience;
+    /// Takes finished meshes, waiting for them as long as the frame may, and starts to derive the next one
+    /// where that is due. Returns whether one is being derived.
+    pub fn advance(&mut self, follower: &Follower, in_gesture: bool, jobs: &Jobs) -> bool {
         loop {
             if let Some(running) = &self.running {
-                let left = deadline.saturating_duration_since(Instant::now());
-                match running.results.recv_timeout(left) {
-                    Err(RecvTimeoutError::Timeout) => return true,
-                    Err(RecvTimeoutError::Disconnected) => self.end(),
-                    Ok(outcome) => self.take(outcome, follower),
+                match running.job.take(jobs) {
+                    Taken::Working => return true,
+                    Taken::Ended => self.end(),
+                    Taken::Value(outcome) => self.take(outcome, follower),
                 }
                 continue;
             }
@@ -207,7 +195,7 @@ impl Derivation {
                 Some(key)
                     if self.is_new(&key) && follower.stage().is_settled() && (is_small || !in_gesture) =>
                 {
-                    self.start(key, follower, ctx);
+                    self.start(key, follower, jobs);
                 }
                 Some(_) => return false,
                 None => {
@@ -254,22 +242,16 @@ impl Derivation {
         }
     }
 
-    fn start(&mut self, key: Key, follower: &Follower, ctx: &Context) {
-        let (sender, results) = channel();
-        let (mesh, domain, ctx) = (follower.shared_mesh(), follower.domain().clone(), ctx.clone());
+    fn start(&mut self, key: Key, follower: &Follower, jobs: &Jobs) {
+        let (mesh, domain) = (follower.shared_mesh(), follower.domain().clone());
         let key_there = key.clone();
-        thread::spawn(move || {
-            caught(&ctx, || derive(key_there, mesh, &domain, &sender));
-            // The window then finds that the thread has ended.
-            drop(sender);
-            ctx.request_repaint();
-        });
-        self.running = Some(Running { key, results, since: None });
+        let job = jobs.start(Kind::Compute, move |output| derive(key_there, mesh, &domain, output));
+        self.running = Some(Running { key, job, since: None });
     }
 }
 
-/// Derives a mesh and compares it with the outline. The receiver may be gone, when the window closes.
-fn derive(key: Key, mesh: Arc<Mesh>, domain: &DomainOnLattice, sender: &Sender<Outcome>) {
+/// Derives a mesh and compares it with the outline.
+fn derive(key: Key, mesh: Arc<Mesh>, domain: &DomainOnLattice, output: &Output<Outcome>) {
     let derived_mesh = DerivedMesh::new(&mesh, domain, &key.cleaning);
     let extract = Arc::new(derived_mesh.extract(&mesh).into_owned());
     let pieces = PatchPieces::new(&mesh, derived_mesh.patch(), &extract);
@@ -284,8 +266,8 @@ fn derive(key: Key, mesh: Arc<Mesh>, domain: &DomainOnLattice, sender: &Sender<O
         quality: None,
         extract: extract.clone(),
     };
-    if sender.send(Outcome::Derived(Box::new(derived), pieces)).is_ok() {
+    if output.send(Outcome::Derived(Box::new(derived), pieces)) {
         let quality = FitQuality::of(&extract, &region);
-        let _ = sender.send(Outcome::Quality(quality));
+        output.send(Outcome::Quality(quality));
     }
 }

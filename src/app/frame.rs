@@ -19,7 +19,6 @@ use glam::DVec2;
 use super::App;
 use super::catalog::catalog;
 use super::command::Command;
-use super::cuts::PATIENCE;
 use super::dialogs::FileFacts;
 use super::explore::Explore;
 use super::journal::JournalKeeper;
@@ -35,7 +34,7 @@ use super::threads::Threads;
 use super::tools::Tools;
 use super::view::View;
 use super::walks::WalkMeter;
-use super::{failures, help, journal, keys, panels, replacing};
+use super::{help, journal, keys, panels, replacing};
 use meshbrush_core::document::ReportFigure;
 use meshbrush_mesh::text::LengthUnit;
 
@@ -105,13 +104,13 @@ impl App {
         while self.finish_next_work() {
             self.run_commands(ctx);
         }
-        failures::take(ctx).into_iter().for_each(|problem| self.session.report(problem));
+        self.jobs.take_problems().into_iter().for_each(|problem| self.session.report(problem));
         if let Some(problem) = self.journal.as_mut().and_then(JournalKeeper::offer_next) {
             self.session.report(problem);
         }
         let close = self.project.handle_close_request(&mut self.session, &self.background, ctx);
         self.commands.extend(close);
-        self.take_chosen_file(ctx);
+        self.take_chosen_file();
         self.take_input(ctx);
         self.run_commands(ctx);
         self.project.forget_saving(&self.background, self.dialogs.asks_for_file());
@@ -181,23 +180,22 @@ impl App {
     /// Brings the mesh and the price of a stroke closer to the document, until the frame's time is spent.
     fn follow(&mut self, ctx: &Context) {
         // With a time limit, what is shown on the way would depend on the machine's speed.
-        let [budget, price_budget, patience] = if self.reproducible {
-            [NO_LIMIT; 3]
-        } else {
-            [self.mesh_budget(ctx), self.price_budget(ctx), PATIENCE]
-        };
+        let [budget, price_budget] =
+            if self.reproducible { [NO_LIMIT; 2] } else { [self.mesh_budget(ctx), self.price_budget(ctx)] };
+        let jobs = &self.jobs;
+        jobs.begin_frame();
         let start = Instant::now();
         let deadline = start + budget;
-        let cuts = self.session.advance_cuts(patience, ctx);
+        let cuts = self.session.advance_cuts(jobs);
         let follows = self.session.follow(&self.threads, deadline);
-        let derives = self.session.advance_derivation(patience, ctx);
-        let finds = self.tools.tool.finds_boundary && self.session.find_boundary(patience, ctx);
-        let measures = self.session.take_figures(patience) | self.walks.take(patience);
-        let plots = self.take_plots(patience);
+        let derives = self.session.advance_derivation(jobs);
+        let finds = self.tools.tool.finds_boundary && self.session.find_boundary(jobs);
+        let measures = self.session.take_figures(jobs) | self.walks.take(jobs);
         let route = self.tools.path.route_in(&self.session.document().settings().paths);
-        self.paths.advance(&self.session, route, patience, ctx);
+        self.paths.advance(&self.session, route, jobs);
+        let plots = self.take_plots();
         let bounds = self.session.document().settings().domain.bounds;
-        let steps = self.advance_steps(patience, ctx);
+        let steps = self.advance_steps(ctx);
         let plan = self.canvas.planned_stroke(ctx, self.shown_tools(), bounds);
         let plan = plan.filter(|_| !self.asks_something());
         let prices = self.session.price_stroke(plan, start + price_budget);
@@ -228,8 +226,7 @@ impl App {
     pub(super) fn draw(&mut self, ui: &mut Ui) {
         let readout = self.session.readout(self.view.quantity);
         if self.view.panels {
-            let patience = if self.reproducible { NO_LIMIT } else { Duration::ZERO };
-            self.layer_pictures.advance(&self.session, &self.view, patience, ui.ctx());
+            self.layer_pictures.advance(&self.session, &self.view, &self.jobs, ui.ctx());
         }
         let mut commands = Vec::new();
         panels::show(ui, &self.state(readout.as_ref()), &mut commands);

@@ -4,12 +4,12 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel, sync_channel};
-use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
 use eframe::egui::Context;
 
 use super::command::Command;
+use super::jobs::{Job, Jobs, Kind, Output, Taken};
 use super::project::ProjectFile;
 use super::session::Session;
 use super::widgets::{Answer, ConfirmDialog};
@@ -37,11 +37,13 @@ enum Entry {
 /// Keeps a journal of the document.
 pub struct JournalKeeper {
     sender: Sender<Entry>,
-    thread: Option<JoinHandle<()>>,
+    /// They write entries and wait for the disk, and send problems, until the end.
+    writing: [Option<Job<String>>; 2],
+    /// Looks for what earlier runs left behind.
+    _finding: Job<()>,
     found: Receiver<Left>,
     /// Journals of earlier runs that cannot be read.
     unreadable: Vec<String>,
-    problems: Receiver<String>,
     /// The journal is so long that it should start again with the whole document.
     wants_whole: Arc<AtomicBool>,
     /// The work of an earlier run that the user is asked about.
@@ -53,41 +55,35 @@ pub struct JournalKeeper {
 
 impl JournalKeeper {
     /// Starts a journal in a folder, and looks there for what earlier runs left behind.
-    pub fn new(folder: PathBuf, ctx: &Context) -> Self {
+    pub fn new(folder: PathBuf, jobs: &Jobs) -> Self {
         let (sender, entries) = channel();
-        let (problem_sender, problems) = channel();
+        let (disk, written) = channel();
         // A journal can be large: the next one is read when the one before it is looked at.
         let (found_sender, found) = sync_channel(1);
         let wants_whole = Arc::new(AtomicBool::new(false));
-        let (wants, place, window) = (wants_whole.clone(), folder.clone(), ctx.clone());
-        thread::spawn(move || {
+        let (wants, place) = (wants_whole.clone(), folder.clone());
+        let finding = jobs.start(Kind::Journal, move |output| {
             for left in journal::left(&place) {
                 if found_sender.send(left).is_err() {
                     // The window has closed in the meantime.
                     return;
                 }
-                window.request_repaint();
+                output.wake();
             }
         });
-        let window = ctx.clone();
-        let report = move |result: std::io::Result<()>| {
+        let report = |output: &Output<String>, result: std::io::Result<()>| {
             if let Err(problem) = result {
-                let _ = problem_sender.send(problem.to_string());
-                window.request_repaint();
+                output.send(problem.to_string());
             }
         };
-        let thread = thread::spawn(move || {
-            let (disk, written) = channel();
-            let also_report = report.clone();
-            let waiting = thread::spawn(move || also_report(wait_for_disk(&written)));
-            report(keep(&folder, &entries, &wants, disk));
-            let _ = waiting.join(); // a panic there changes nothing here
-        });
+        let keeping =
+            jobs.start(Kind::Journal, move |output| report(output, keep(&folder, &entries, &wants, disk)));
+        let waiting = jobs.start(Kind::Journal, move |output| report(output, wait_for_disk(&written)));
         Self {
             sender,
-            thread: Some(thread),
+            writing: [Some(keeping), Some(waiting)],
+            _finding: finding,
             found,
-            problems,
             wants_whole,
             offered: None,
             unreadable: Vec::new(),
@@ -148,6 +144,14 @@ impl JournalKeeper {
         self.enter(Entry::Clean(project.path().map(Path::to_owned)));
     }
 
+    /// What went wrong since the last call.
+    fn problem(&self) -> Option<String> {
+        self.writing.iter().flatten().find_map(|job| match job.take_ready() {
+            Taken::Value(problem) => Some(problem),
+            Taken::Working | Taken::Ended => None,
+        })
+    }
+
     fn enter(&self, entry: Entry) {
         // A thread that ended has reported its problem.
         let _ = self.sender.send(entry);
@@ -156,9 +160,7 @@ impl JournalKeeper {
     /// Waits until everything is written; then deletes the journal, or leaves it for the next start.
     pub fn end(&mut self, remove: bool) {
         self.enter(Entry::End { remove });
-        if let Some(thread) = self.thread.take() {
-            let _ = thread.join(); // a panic there changes nothing here
-        }
+        self.writing.iter_mut().filter_map(Option::take).for_each(Job::wait_for_end);
     }
 }
 
@@ -242,7 +244,7 @@ fn now() -> u64 {
 /// Hands finished gestures to the journal.
 pub fn record(keeper: &mut JournalKeeper, session: &mut Session, project: &ProjectFile) {
     let edited = project.is_edited(session);
-    if let Ok(problem) = keeper.problems.try_recv() {
+    if let Some(problem) = keeper.problem() {
         keeper.broken = true;
         let text = "Unsaved work is no longer kept in case of a crash";
         session.report(format!("{text}: {problem}. Save the project from time to time."));

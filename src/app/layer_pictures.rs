@@ -1,12 +1,11 @@
 //! Small pictures of what each layer asks for. They are computed on other threads.
 
 use std::collections::BTreeMap;
-use std::time::Duration;
 
 use eframe::egui::{Color32, ColorImage, Context, TextureHandle, TextureOptions};
 
 use super::document_id::DocumentId;
-use super::latest::Latest;
+use super::jobs::{Jobs, Slot};
 use super::session::Session;
 use super::view::View;
 use meshbrush_core::document::Document;
@@ -39,7 +38,7 @@ struct PictureKey {
 
 #[derive(Default)]
 struct LayerPicture {
-    latest: Latest<PictureKey, ColorImage>,
+    latest: Slot<PictureKey, ColorImage>,
     texture: Option<TextureHandle>,
 }
 
@@ -57,9 +56,9 @@ impl LayerPictures {
         self.pictures.get(&id)?.texture.as_ref()
     }
 
-    /// Takes pictures that are ready, waiting for each up to `patience`, and computes those that are out of
-    /// date. A stroke is shown once it has ended.
-    pub fn advance(&mut self, session: &Session, view: &View, patience: Duration, ctx: &Context) {
+    /// Takes pictures that are ready, and computes those that are out of date. No frame waits for them, unless
+    /// it waits for everything. A stroke is shown once it has ended.
+    pub fn advance(&mut self, session: &Session, view: &View, jobs: &Jobs, ctx: &Context) {
         let document = session.document();
         let colors = view.level_colors(document.settings());
         let state = (session.document_id(), document.revision(), colors);
@@ -72,7 +71,7 @@ impl LayerPictures {
         for layer in layers {
             let key = key(layer, session.document_id(), document, &state.2);
             all_current &=
-                self.pictures.entry(layer.id).or_default().advance(key, layer, document, patience, ctx);
+                self.pictures.entry(layer.id).or_default().advance(key, layer, document, jobs, ctx);
         }
         self.current = all_current.then_some(state);
     }
@@ -97,21 +96,25 @@ impl LayerPicture {
         key: PictureKey,
         layer: &Layer,
         document: &Document,
-        patience: Duration,
+        jobs: &Jobs,
         ctx: &Context,
     ) -> bool {
-        self.take(layer.id, Duration::ZERO, ctx);
+        self.take(layer.id, jobs, ctx);
         if !self.latest.has(&key)
             && let Some(draw) = picture_of(layer, document, key.colors.clone())
         {
-            self.latest.start(key.clone(), draw, ctx);
+            self.latest.start(key.clone(), draw, jobs);
         }
-        self.take(layer.id, patience, ctx);
+        self.take(layer.id, jobs, ctx);
         self.latest.last().is_some_and(|(of, _)| *of == key)
     }
 
-    fn take(&mut self, id: LayerId, patience: Duration, ctx: &Context) {
-        if !self.latest.is_running() || self.latest.take(patience) {
+    fn take(&mut self, id: LayerId, jobs: &Jobs, ctx: &Context) {
+        if !self.latest.is_running() {
+            return;
+        }
+        let works = if jobs.waits_for_all() { self.latest.take(jobs) } else { self.latest.take_ready(jobs) };
+        if works {
             return;
         }
         let Some((_, image)) = self.latest.last() else { return };

@@ -24,15 +24,14 @@ mod frame_log;
 mod help;
 mod home;
 mod inspection;
+mod jobs;
 mod journal;
 mod keep_out;
 mod keys;
-mod latest;
 mod layer_files;
 mod layer_pictures;
 mod notices;
 mod panels;
-mod patience;
 mod path_export;
 mod paths;
 mod pins;
@@ -40,12 +39,10 @@ mod plots;
 mod project;
 mod prover;
 mod explore;
-mod failures;
 pub mod readout;
 mod replacing;
 mod report;
 mod screenshots;
-mod sequence;
 pub mod session;
 mod slices;
 mod software_window;
@@ -63,7 +60,7 @@ pub mod widgets;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::sync::Arc;
-use std::time::Instant;
+use std::time::Duration;
 
 use eframe::egui::{self, Context, Ui, vec2};
 use eframe::egui_wgpu;
@@ -75,6 +72,7 @@ use dialogs::Dialogs;
 use explore::Explore;
 use frame_log::FrameLog;
 use help::HelpTopic;
+use jobs::Jobs;
 use journal::JournalKeeper;
 use layer_pictures::LayerPictures;
 use paths::PathFinder;
@@ -93,6 +91,8 @@ use walks::WalkMeter;
 use meshbrush_core::document::{Document, Example};
 use meshbrush_render::render::gpu::device_descriptor;
 
+/// How long a window that is being closed waits for files that are being written.
+const LAST_WAIT: Duration = Duration::from_secs(5);
 /// Identifies the program to the desktop, and its folder there.
 const APP_ID: &str = "meshbrush";
 /// Key of the theme in the window's own storage.
@@ -127,6 +127,7 @@ pub struct App {
     dialogs: Dialogs,
     /// What the help window shows, while it is open.
     help: Option<HelpTopic>,
+    jobs: Jobs,
     background: Background,
     /// Absent in tests and screenshots.
     journal: Option<JournalKeeper>,
@@ -174,13 +175,14 @@ impl App {
         let settings = session.document().settings();
         let extent = settings.domain.bounds.size().max_element();
         let tools = Tools::for_domain(extent, settings.transfer.h_min);
+        let jobs = Jobs::new(ctx);
         let gpu = render_state.map(CanvasGpu::new).transpose().map_err(|error| error.to_string())?;
         Ok(Self {
             project: ProjectFile::new(session.document().version()),
             session,
             tools,
             view,
-            canvas: Canvas::new(gpu),
+            canvas: Canvas::new(gpu, &jobs),
             stepping: None,
             layer_pictures: LayerPictures::default(),
             explore: Explore::default(),
@@ -192,7 +194,8 @@ impl App {
             threads: Threads::default(),
             dialogs: Dialogs::default(),
             help: None,
-            background: Background::new(ctx),
+            background: Background::new(ctx, &jobs),
+            jobs,
             journal: None,
             commands: Vec::new(),
             starts_with_file: false,
@@ -214,14 +217,14 @@ impl App {
             }
         }
         if let Some(folder) = eframe::storage_dir(APP_ID) {
-            self.keep_journal_in(folder.join("journals"), &cc.egui_ctx);
+            self.keep_journal_in(folder.join("journals"));
             self.project.keep_claims_in(folder.join("open"));
         }
     }
 
     /// Keeps unsaved work in a folder from now on, and offers what earlier runs left there.
-    fn keep_journal_in(&mut self, folder: PathBuf, ctx: &Context) {
-        self.journal = Some(JournalKeeper::new(folder, ctx));
+    fn keep_journal_in(&mut self, folder: PathBuf) {
+        self.journal = Some(JournalKeeper::new(folder, &self.jobs));
     }
 
     /// Computes on so many threads from now on, or on as many as there may be.
@@ -233,6 +236,7 @@ impl App {
     /// Shows the same on every machine from now on: no times, and the mesh drawn in software.
     fn be_reproducible(&mut self) {
         self.reproducible = true;
+        self.jobs.wait_for_all();
         self.canvas.draw_in_software();
     }
 
@@ -260,10 +264,8 @@ impl eframe::App for App {
     }
 
     fn on_exit(&mut self) {
-        let start = Instant::now();
-        while self.background.wait_for_writing(start) {
-            while self.finish_next_work() {}
-        }
+        self.background.end(LAST_WAIT);
+        while self.finish_next_work() {}
         // Where the desktop closes the window, the user was not asked.
         let remove = self.project.may_leave(&self.session);
         if let Some(keeper) = &mut self.journal {

@@ -2,14 +2,10 @@
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::sync::mpsc::TryRecvError;
-use std::time::{Duration, Instant};
-
-use eframe::egui::Context;
+use std::time::Instant;
 
 use super::background::{Aim, Background, exported};
-use super::latest::Latest;
-use super::sequence::{Output, Sequence};
+use super::jobs::{Job, Jobs, Kind, Output, Slot, Taken};
 use super::session::Session;
 use super::statistics::MeasuredMesh;
 use meshbrush_core::build::RefinementCriterion;
@@ -93,10 +89,10 @@ struct Key {
 pub struct Plots {
     kind: PlotKind,
     reveals: bool,
-    levels: Latest<Key, Vec<LevelFigures>>,
+    levels: Slot<Key, Vec<LevelFigures>>,
     experiment: Experiment,
     /// The meshes of an experiment in progress.
-    measuring: Option<Sequence<Result<ExperimentMesh, String>>>,
+    measuring: Option<Job<Result<ExperimentMesh, String>>>,
     /// The deepest level of the experiment that is measured next, or is being measured.
     pub last_level: u32,
     /// How often each of its meshes is made.
@@ -108,7 +104,7 @@ impl Default for Plots {
         Self {
             kind: PlotKind::Triangles,
             reveals: false,
-            levels: Latest::default(),
+            levels: Slot::default(),
             experiment: Experiment::default(),
             measuring: None,
             last_level: Experiment::LAST_LEVEL,
@@ -174,7 +170,7 @@ impl Plots {
     }
 
     /// Computes the figures of the levels on another thread, where that is due.
-    pub fn compute(&mut self, session: &Session, ctx: &Context) {
+    pub fn compute(&mut self, session: &Session, jobs: &Jobs) {
         if !self.is_due(session) {
             return;
         }
@@ -189,27 +185,27 @@ impl Plots {
             let extract = extract.unwrap_or_else(|| Arc::new(mesh.extract().into_owned()));
             LevelFigures::of(&mesh, &extract, &criterion, &limits)
         };
-        self.levels.start(Key::of(session), compute, ctx);
+        self.levels.start(Key::of(session), compute, jobs);
     }
 
-    /// Takes what was computed and measured, waiting for figures of levels up to `patience`. Returns whether
-    /// some are being computed.
+    /// Takes what was computed and measured, waiting for figures of levels as long as the frame may. Returns
+    /// whether some are being computed.
     ///
     /// # Errors
     /// A sentence, when the experiment failed.
-    pub fn take(&mut self, patience: Duration) -> Result<bool, String> {
+    pub fn take(&mut self, jobs: &Jobs) -> Result<bool, String> {
         while let Some(measuring) = &self.measuring {
-            match measuring.values.try_recv() {
-                Ok(Ok(mesh)) => self.experiment.meshes.push(mesh),
-                Ok(Err(problem)) => {
+            match measuring.take_ready() {
+                Taken::Value(Ok(mesh)) => self.experiment.meshes.push(mesh),
+                Taken::Value(Err(problem)) => {
                     self.measuring = None;
                     return Err(problem);
                 }
-                Err(TryRecvError::Empty) => break,
-                Err(TryRecvError::Disconnected) => self.measuring = None,
+                Taken::Working => break,
+                Taken::Ended => self.measuring = None,
             }
         }
-        Ok(self.levels.take(patience))
+        Ok(self.levels.take(jobs))
     }
 
     /// What was measured so far.
@@ -223,7 +219,7 @@ impl Plots {
     }
 
     /// Measures the experiment on another thread. Nothing happens while it is being measured.
-    pub fn measure(&mut self, ctx: &Context) {
+    pub fn measure(&mut self, jobs: &Jobs) {
         if self.is_measuring() {
             return;
         }
@@ -233,15 +229,15 @@ impl Plots {
             let start = Instant::now();
             for level in 1..=last_level {
                 let clock = || start.elapsed().as_secs_f64();
-                let mesh = ExperimentMesh::measure(level, runs, clock, || output.goes_on());
+                let mesh = ExperimentMesh::measure(level, runs, clock, || output.is_wanted());
                 let Some(mesh) = mesh.map_err(|error| error.to_string()).transpose() else { break };
                 let failed = mesh.is_err();
-                if !output.goes_on() || !output.send(mesh) || failed {
+                if !output.is_wanted() || !output.send(mesh) || failed {
                     break;
                 }
             }
         };
-        self.measuring = Some(Sequence::start(measure, ctx));
+        self.measuring = Some(jobs.start(Kind::Compute, measure));
     }
 
     /// Ends the experiment. What was measured stays.

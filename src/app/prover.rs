@@ -2,13 +2,9 @@
 //! reached.
 
 use std::sync::Arc;
-use std::sync::mpsc::RecvTimeoutError;
 
-use eframe::egui::Context;
-
+use super::jobs::{Job, Jobs, Kind, Output, Taken};
 use super::paths::FoundPath;
-use super::patience::Patience;
-use super::sequence::{Output, Sequence};
 use meshbrush_core::domain::Domain;
 use meshbrush_core::layers::Mask;
 use meshbrush_core::path::{
@@ -21,7 +17,7 @@ pub struct Prover {
     /// The requested width of the interval, as a share of the cost.
     pub width: f64,
     /// What is known of the path that is certified, each better than the one before.
-    running: Option<Sequence<Proof>>,
+    running: Option<Job<Proof>>,
     /// How many of the paths were certified, or as well as possible.
     done: usize,
 }
@@ -72,33 +68,27 @@ impl Prover {
         self.known = known;
     }
 
-    /// Takes what was proved, waiting as long as `patience` lasts, and begins the next certificate.
-    pub fn advance(
-        &mut self,
-        mut paths: Vec<&mut FoundPath>,
-        domain: &Domain,
-        patience: &Patience,
-        ctx: &Context,
-    ) {
+    /// Takes what was proved, waiting as long as the frame may, and begins the next certificate.
+    pub fn advance(&mut self, mut paths: Vec<&mut FoundPath>, domain: &Domain, jobs: &Jobs) {
         while let Some(path) = paths.get_mut(self.done) {
             let Some(proof) = &self.running else {
                 if path.solution.gap() <= self.width {
                     self.done += 1;
                 } else {
-                    self.running = self.start(&path.solution, domain, ctx);
+                    self.running = self.start(&path.solution, domain, jobs);
                     self.done += usize::from(self.running.is_none());
                 }
                 continue;
             };
-            match proof.values.recv_timeout(patience.left()) {
-                Ok(Proof { solution, end }) => {
+            match proof.take(jobs) {
+                Taken::Value(Proof { solution, end }) => {
                     path.end = end;
                     if let Some(known) = &self.known {
                         path.take(solution, &*known.density);
                     }
                 }
-                Err(RecvTimeoutError::Timeout) => return,
-                Err(RecvTimeoutError::Disconnected) => {
+                Taken::Working => return,
+                Taken::Ended => {
                     self.running = None;
                     self.done += 1;
                 }
@@ -106,7 +96,7 @@ impl Prover {
         }
     }
 
-    fn start(&self, solution: &Solution, domain: &Domain, ctx: &Context) -> Option<Sequence<Proof>> {
+    fn start(&self, solution: &Solution, domain: &Domain, jobs: &Jobs) -> Option<Job<Proof>> {
         let Known { density, mesh, keep_out } = self.known.clone()?;
         let (path, upper) = (solution.points.clone(), solution.upper);
         let task = CertificateTask::in_rectangle(domain.bounds, density, path, upper, self.width).ok()?;
@@ -115,13 +105,13 @@ impl Prover {
             let task = task.in_domain(&domain).outside_of(keep_out);
             let Ok(certificate) = PathCertificate::new(&solution, &task) else { return };
             let mut certificate = certificate.with_search(mesh);
-            while output.goes_on() {
+            while output.is_wanted() {
                 let Ok(end) = certificate.advance() else { break };
                 if !output.send(Proof { solution: certificate.solution(), end }) || end.is_some() {
                     break;
                 }
             }
         };
-        Some(Sequence::start(prove, ctx))
+        Some(jobs.start(Kind::Compute, prove))
     }
 }

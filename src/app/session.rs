@@ -2,7 +2,6 @@
 
 use std::time::{Duration, Instant};
 
-use eframe::egui::Context;
 use glam::DVec2;
 
 use super::ages::AgeKeeper;
@@ -10,6 +9,7 @@ use super::boundary::BoundaryFinder;
 use super::cuts::CutQueue;
 use super::derivation::{Derivation, Derived, PiecesChange};
 use super::document_id::DocumentId;
+use super::jobs::Jobs;
 use super::notices::{self, Notices};
 use super::readout::{Quantity, Readout};
 use super::slices::{SLICE, follow_document};
@@ -142,11 +142,11 @@ impl Session {
         &self.derivation
     }
 
-    /// Takes and starts work on the derived mesh, waiting for it up to `patience`. Returns whether some is
+    /// Takes and starts work on the derived mesh, waiting for it as long as the frame may. Returns whether some is
     /// left.
-    pub fn advance_derivation(&mut self, patience: Duration, ctx: &Context) -> bool {
+    pub fn advance_derivation(&mut self, jobs: &Jobs) -> bool {
         let in_gesture = self.document.is_in_gesture() || self.is_cutting();
-        self.derivation.advance(&self.follower, in_gesture, patience, ctx)
+        self.derivation.advance(&self.follower, in_gesture, jobs)
     }
 
     /// The pieces of the boundary; `None` until [`Self::find_boundary`] has found them.
@@ -159,11 +159,11 @@ impl Session {
         self.boundary.lost(&self.document, self.derived()?)
     }
 
-    /// Finds the pieces of the boundary, waiting for them up to `patience`. Returns whether some are being
+    /// Finds the pieces of the boundary, waiting for them as long as the frame may. Returns whether some are being
     /// found.
-    pub fn find_boundary(&mut self, patience: Duration, ctx: &Context) -> bool {
+    pub fn find_boundary(&mut self, jobs: &Jobs) -> bool {
         let derived = self.derivation.current(&self.follower);
-        self.boundary.advance(&self.document, &self.follower, derived, patience, ctx)
+        self.boundary.advance(&self.document, &self.follower, derived, jobs)
     }
 
     /// The figures of the mesh that were computed last, and whether they are those of the mesh as it is.
@@ -177,14 +177,14 @@ impl Session {
     }
 
     /// Computes the figures of the mesh on another thread.
-    pub fn measure(&mut self, ctx: &Context) {
-        self.statistician.measure(&self.document, &self.follower, &self.derivation, ctx);
+    pub fn measure(&mut self, jobs: &Jobs) {
+        self.statistician.measure(&self.document, &self.follower, &self.derivation, jobs);
     }
 
-    /// Takes the figures that are ready, waiting for them up to `patience`. Returns whether some are being
+    /// Takes the figures that are ready, waiting for them as long as the frame may. Returns whether some are being
     /// computed.
-    pub fn take_figures(&mut self, patience: Duration) -> bool {
-        self.statistician.take(patience)
+    pub fn take_figures(&mut self, jobs: &Jobs) -> bool {
+        self.statistician.take(jobs)
     }
 
     /// What a change makes of the names and splits of the boundary.
@@ -289,10 +289,10 @@ impl Session {
         self.cuts.shapes()
     }
 
-    /// Takes finished cuts into the document, waiting for them up to `patience`. Returns whether any are
+    /// Takes finished cuts into the document, waiting for them as long as the frame may. Returns whether any are
     /// left.
-    pub fn advance_cuts(&mut self, patience: Duration, ctx: &Context) -> bool {
-        match self.cuts.advance(&mut self.document, patience, ctx) {
+    pub fn advance_cuts(&mut self, jobs: &Jobs) -> bool {
+        match self.cuts.advance(&mut self.document, jobs) {
             Ok(left) => left,
             Err(error) => {
                 self.report_edit(error);

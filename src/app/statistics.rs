@@ -1,12 +1,9 @@
 //! The figures of the mesh, which are computed on another thread: a large mesh takes longer than a frame.
 
 use std::sync::Arc;
-use std::time::Duration;
-
-use eframe::egui::Context;
 
 use super::derivation::Derivation;
-use super::latest::Latest;
+use super::jobs::{Jobs, Slot};
 use meshbrush_core::build::RefinementCriterion;
 use meshbrush_core::document::{Document, Follower};
 use meshbrush_mesh::mesh::{MeshStatistics, TriangleId};
@@ -36,7 +33,7 @@ pub struct MeasuredMesh {
 
 /// Measures meshes, and keeps the figures of the last one.
 #[derive(Default)]
-pub struct Statistician(Latest<MeasuredMesh, Measured>);
+pub struct Statistician(Slot<MeasuredMesh, Measured>);
 
 impl Statistician {
     /// The last figures, and whether they are those of the mesh as it is.
@@ -45,10 +42,10 @@ impl Statistician {
         self.0.last().map(|(key, measured)| (measured, *key == now))
     }
 
-    /// Takes figures that are ready, waiting for them up to `patience`. Returns whether a mesh is being
-    /// measured.
-    pub fn take(&mut self, patience: Duration) -> bool {
-        self.0.take(patience)
+    /// Takes figures that are ready, waiting for them as long as the frame may. Returns whether a mesh is
+    /// being measured.
+    pub fn take(&mut self, jobs: &Jobs) -> bool {
+        self.0.take(jobs)
     }
 
     /// Whether the mesh is settled and was not measured yet.
@@ -63,7 +60,7 @@ impl Statistician {
         document: &Document,
         follower: &Follower,
         derivation: &Derivation,
-        ctx: &Context,
+        jobs: &Jobs,
     ) {
         if !self.is_due(document, follower, derivation) {
             return;
@@ -84,7 +81,7 @@ impl Statistician {
                 too_coarse: mesh.unsatisfied(|element| criterion.exceeds(element)).ok(),
             }
         };
-        self.0.start(MeasuredMesh::now(follower, derivation), measure, ctx);
+        self.0.start(MeasuredMesh::now(follower, derivation), measure, jobs);
     }
 }
 

@@ -1,10 +1,6 @@
 //! How many steps point location takes in the mesh, which is measured on another thread.
 
-use std::time::Duration;
-
-use eframe::egui::Context;
-
-use super::latest::Latest;
+use super::jobs::{Jobs, Slot};
 use super::session::Session;
 
 /// Points that are located: the mean is then known to a few percent.
@@ -12,7 +8,7 @@ const SAMPLES: usize = 1000;
 
 /// Measures the walks of point location (Algorithm 15), and keeps the last mean.
 #[derive(Default)]
-pub struct WalkMeter(Latest<u64, f64>);
+pub struct WalkMeter(Slot<u64, f64>);
 
 impl WalkMeter {
     /// The mean number of steps that was measured last; it may be that of an earlier mesh.
@@ -27,15 +23,16 @@ impl WalkMeter {
     }
 
     /// Measures the mesh, where that is due.
-    pub fn measure(&mut self, session: &Session, ctx: &Context) {
+    pub fn measure(&mut self, session: &Session, jobs: &Jobs) {
         if self.is_due(session) {
             let mesh = session.follower().shared_mesh();
-            self.0.start(session.follower().revision(), move || mesh.mean_walk_steps(SAMPLES), ctx);
+            self.0.start(session.follower().revision(), move || mesh.mean_walk_steps(SAMPLES), jobs);
         }
     }
 
-    /// Takes a mean that is ready, waiting for it up to `patience`. Returns whether one is being measured.
-    pub fn take(&mut self, patience: Duration) -> bool {
-        self.0.take(patience)
+    /// Takes a mean that is ready, waiting for it as long as the frame may. Returns whether one is being
+    /// measured.
+    pub fn take(&mut self, jobs: &Jobs) -> bool {
+        self.0.take(jobs)
     }
 }

@@ -253,6 +253,31 @@ fn only_the_window_uses_egui() {
     }
 }
 
+/// Files of the window that may wait by themselves: the file, and why.
+const WAITS: [(&str, &str); 2] = [
+    ("src/app/journal.rs", "its job waits for the next gesture, beside the window"),
+    ("src/app/screenshots/offscreen.rs", "no window is open"),
+];
+
+#[test]
+fn only_jobs_start_threads_wait_and_catch_panics() {
+    let window = files().into_iter().filter(|file| file.top_module() == "app");
+    let others: Vec<SourceFile> = window.filter(|file| !file.path.starts_with("src/app/jobs/")).collect();
+    let listed: Vec<String> = WAITS.iter().map(|(file, _)| (*file).to_owned()).collect();
+    let (mut found, mut met) = (Vec::new(), Vec::new());
+    for word in ["spawn", "catch_unwind", "recv_timeout", "sleep"] {
+        for file in others.iter().filter(|file| file.tokens.iter().any(|token| token.text == word)) {
+            if listed.contains(&file.path) && ["recv_timeout", "sleep"].contains(&word) {
+                met.push(file.path.clone());
+            } else {
+                found.push(format!("{} names {word}", file.path));
+            }
+        }
+    }
+    assert_none(found, "work that takes longer than a frame is a job:");
+    assert_needed(&listed, &met, "WAITS");
+}
+
 /// Files of the window that may name a tool: the file, and why. All others read the table of tools.
 const NAMES_A_TOOL: [(&str, &str); 11] = [
     ("src/app/canvas/mod.rs", "Space and the middle button pan with every tool"),

@@ -1,6 +1,6 @@
 //! Contour lines of h̄ on the canvas.
 
-use eframe::egui::{Context, Painter, Rect};
+use eframe::egui::{Painter, Rect};
 
 use super::{Canvas, marks};
 use crate::app::session::Session;
@@ -12,12 +12,12 @@ const MOST_CONTOUR_CORNERS: usize = 150_000;
 
 impl Canvas {
     /// Brings the contour lines closer to the field, while they are shown.
-    pub(super) fn follow_contours(&mut self, ctx: &Context, session: &Session, view: &View) {
+    pub(super) fn follow_contours(&mut self, session: &Session, view: &View) {
         if !view.aids.contours {
-            return self.contours.clear();
+            return self.contours.clear(&self.jobs);
         }
         let revision = session.document().revision() + session.follower().revision();
-        self.contours.advance(session.follower(), session.document().paint(), revision, ctx);
+        self.contours.advance(session.follower(), session.document().paint(), revision, &self.jobs);
     }
 
     /// Draws the contour lines that are in view.

@@ -33,6 +33,7 @@ use super::busy::Busy;
 use super::command::{BrushCommand, Command};
 use super::contours::ContourFinder;
 use super::frame::FrameState;
+use super::jobs::Jobs;
 use super::session::Session;
 use super::software_window::SoftwareWindow;
 use super::theme::tokens;
@@ -55,6 +56,7 @@ pub const CANVAS_NAME: &str = "Mesh canvas";
 /// What the canvas keeps from frame to frame.
 pub struct Canvas {
     gpu: Option<CanvasGpu>,
+    jobs: Jobs,
     overlay_colors: OverlayColors,
     background: BackgroundTexture,
     contours: ContourFinder,
@@ -69,9 +71,10 @@ pub struct Canvas {
 
 impl Canvas {
     /// A canvas. Without `gpu` it stays empty.
-    pub fn new(gpu: Option<CanvasGpu>) -> Self {
+    pub fn new(gpu: Option<CanvasGpu>, jobs: &Jobs) -> Self {
         Self {
             gpu,
+            jobs: jobs.clone(),
             overlay_colors: OverlayColors::default(),
             background: BackgroundTexture::default(),
             contours: ContourFinder::default(),
@@ -83,9 +86,8 @@ impl Canvas {
         }
     }
 
-    /// Draws in software from now on, and waits for everything that is computed on other threads.
+    /// Draws in software from now on.
     pub fn draw_in_software(&mut self) {
-        self.overlay_colors.wait();
         if let Some(gpu) = &mut self.gpu {
             gpu.draw_in_software();
         }
@@ -319,14 +321,14 @@ impl Canvas {
 
     /// Sends the changes of the mesh to the GPU, and draws it.
     pub fn draw_mesh(&mut self, ui: &Ui, session: &mut Session, view: &View, commands: &mut Vec<Command>) {
-        self.follow_contours(ui.ctx(), session, view);
+        self.follow_contours(session, view);
         let change = session.take_shown_change();
         let (Some(gpu), Some(camera), Some((_, rect))) = (&mut self.gpu, view.camera, self.shown) else {
             return self.draw_ground(ui);
         };
         let settings = session.follower().settings();
         let colors = view.level_colors(settings);
-        let overlay = self.overlay_colors.overlay(view.overlay, session, colors, ui.ctx());
+        let overlay = self.overlay_colors.overlay(view.overlay, session, colors, &self.jobs);
         let style = view.style(settings, ui.pixels_per_point());
         match gpu.sync(session, change, overlay.as_ref(), &camera, &style) {
             Ok(Progress::Done) => {}

@@ -1,13 +1,8 @@
 //! The field as colours, drawn over the mesh. They are computed on another thread: sampling many layers takes
 //! longer than a frame.
 
-use std::time::Duration;
-
-use eframe::egui::Context;
-
 use super::super::contours::pixels_over;
-use super::super::frame::NO_LIMIT;
-use super::super::latest::{Latest, Wanted};
+use super::super::jobs::{Jobs, Slot, Wanted};
 use super::super::layer_pictures::layer_color32;
 use super::super::session::Session;
 use super::super::view::FieldOverlay;
@@ -23,9 +18,6 @@ use meshbrush_render::scene::Overlay;
 const TARGET_OPACITY: f32 = 0.75;
 /// How strongly the colours of layers do: the mesh stays readable.
 const LAYER_OPACITY: f32 = 0.55;
-
-/// How long a frame waits for colours: those of a simple field appear at once.
-const PATIENCE: Duration = Duration::from_millis(8);
 
 /// What colours are made from.
 #[derive(Clone, Debug, PartialEq)]
@@ -47,42 +39,36 @@ struct Pixels {
 /// The colours of an overlay, computed again only when what they show has changed.
 #[derive(Default)]
 pub struct OverlayColors {
-    latest: Latest<OverlayState, Pixels>,
+    latest: Slot<OverlayState, Pixels>,
     /// Grows with each new colours.
     revision: u64,
-    /// Whether a frame waits for its colours as long as they take.
-    waits: bool,
 }
 
 impl OverlayColors {
-    /// Waits for the colours from now on: pictures must be the same every time.
-    pub fn wait(&mut self) {
-        self.waits = true;
-    }
-
     /// The overlay to draw, if any: the last one that was computed.
     pub fn overlay<'a>(
         &'a mut self,
         kind: FieldOverlay,
         session: &Session,
         colors: LevelColors,
-        ctx: &Context,
+        jobs: &Jobs,
     ) -> Option<Overlay<'a>> {
         if kind == FieldOverlay::None {
-            self.latest.stop();
+            self.latest.stop(jobs);
             return None;
         }
         let (document, follower) = (session.document(), session.follower());
         let bounds = document.settings().domain.bounds;
         let (document_state, mesh) = (document.revision(), follower.revision());
         let state = OverlayState { kind, document: document_state, mesh, bounds, colors };
-        self.take(Duration::ZERO);
+        self.take_ready(jobs);
         // Those of another domain or another kind are of no use.
         self.latest.keep_if(|found| found.kind == kind && found.bounds == bounds);
         if !self.latest.has(&state) {
             let compute = colors_of(state.clone(), session);
-            self.latest.start_wanted(state, compute, ctx);
-            self.take(if self.waits { NO_LIMIT } else { PATIENCE });
+            self.latest.start_wanted(state, compute, jobs);
+            let has_ended = self.latest.is_running() && !self.latest.take(jobs);
+            self.note(has_ended);
         }
         let (_, Pixels { rgba, size: [columns, rows] }) = self.latest.last()?;
         let opacity = match kind {
@@ -95,11 +81,14 @@ impl OverlayColors {
         Some(Overlay { bounds, columns: *columns, rows: *rows, rgba, opacity, revision: self.revision })
     }
 
-    fn take(&mut self, patience: Duration) {
-        let was_running = self.latest.is_running();
-        if was_running && !self.latest.take(patience) {
-            self.revision += 1;
-        }
+    fn take_ready(&mut self, jobs: &Jobs) {
+        let has_ended = self.latest.is_running() && !self.latest.take_ready(jobs);
+        self.note(has_ended);
+    }
+
+    /// Notes whether other colours may have come.
+    fn note(&mut self, has_changed: bool) {
+        self.revision += u64::from(has_changed);
     }
 }
 

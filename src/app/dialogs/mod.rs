@@ -15,6 +15,7 @@ use super::catalog::{CatalogItem, catalog};
 use super::command::Command;
 use super::document_id::DocumentId;
 use super::frame::FrameState;
+use super::jobs::Jobs;
 use super::widgets::{self, ActionButton, PaletteAnswer, PaletteItem, dialog, dialog_title};
 pub use file::FileFacts;
 use file::{FileAnswer, FileDialog};
@@ -91,20 +92,20 @@ impl Dialogs {
         request: FileRequest,
         (document, name): (DocumentId, &str),
         beside: Option<&Path>,
-        ctx: &Context,
+        jobs: &Jobs,
     ) {
         let folder = self.folders.of(request, beside);
         let question = Question { request, document, folder, name: name.to_owned() };
         if self.uses_system {
-            self.system.ask(question, ctx);
+            self.system.ask(question, jobs);
         } else {
-            self.open_file_dialog(&question, ctx);
+            self.open_file_dialog(&question, jobs);
         }
     }
 
-    fn open_file_dialog(&mut self, question: &Question, ctx: &Context) {
+    fn open_file_dialog(&mut self, question: &Question, jobs: &Jobs) {
         self.open = None;
-        self.file = Some(FileDialog::new(question.request, &question.folder, &question.name, ctx));
+        self.file = Some(FileDialog::new(question.request, &question.folder, &question.name, jobs));
     }
 
     /// Takes the answer of the desktop's own dialog, and returns the command to run. Where there is no such
@@ -115,7 +116,7 @@ impl Dialogs {
     pub fn take_answer(
         &mut self,
         document: DocumentId,
-        ctx: &Context,
+        jobs: &Jobs,
     ) -> Result<Option<Command>, &'static str> {
         let Some((question, answer)) = self.system.take() else { return Ok(None) };
         let request = question.request;
@@ -130,7 +131,7 @@ impl Dialogs {
             Answer::Cancelled => Ok(None),
             Answer::NoDialog => {
                 self.uses_system = false;
-                self.open_file_dialog(&question, ctx);
+                self.open_file_dialog(&question, jobs);
                 Ok(None)
             }
         }

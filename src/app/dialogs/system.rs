@@ -1,13 +1,10 @@
 //! The desktop's own file dialog, on another thread.
 
 use std::path::PathBuf;
-use std::sync::mpsc::{Receiver, Sender, channel};
-use std::thread;
 use std::time::{Duration, Instant};
 
-use eframe::egui::Context;
-
 use super::{DocumentId, FileRequest};
+use crate::app::jobs::{Job, Jobs, Kind, Taken};
 
 /// A dialog that is answered faster than this has not opened.
 const FASTEST_CANCEL: Duration = Duration::from_millis(150);
@@ -37,44 +34,34 @@ pub enum Answer {
 }
 
 /// Asks one question at a time.
-pub struct SystemDialog {
-    asking: bool,
-    sender: Sender<(Question, Answer)>,
-    receiver: Receiver<(Question, Answer)>,
-}
-
-impl Default for SystemDialog {
-    fn default() -> Self {
-        let (sender, receiver) = channel();
-        Self { asking: false, sender, receiver }
-    }
-}
+#[derive(Default)]
+pub struct SystemDialog(Option<Job<(Question, Answer)>>);
 
 impl SystemDialog {
     /// Whether a question has not been answered yet.
     pub fn is_asking(&self) -> bool {
-        self.asking
+        self.0.is_some()
     }
 
     /// Asks a question, unless another one is open.
-    pub fn ask(&mut self, question: Question, ctx: &Context) {
-        if std::mem::replace(&mut self.asking, true) {
+    pub fn ask(&mut self, question: Question, jobs: &Jobs) {
+        if self.is_asking() {
             return;
         }
-        let (sender, ctx) = (self.sender.clone(), ctx.clone());
-        thread::spawn(move || {
+        self.0 = Some(jobs.start(Kind::Ask, move |output| {
             let answer = answer(&question);
-            // The window may have closed in the meantime.
-            let _ = sender.send((question, answer));
-            ctx.request_repaint();
-        });
+            output.send((question, answer));
+        }));
     }
 
     /// The answer, once it is there.
     pub fn take(&mut self) -> Option<(Question, Answer)> {
-        let answer = self.receiver.try_recv().ok();
-        self.asking &= answer.is_none();
-        answer
+        let taken = self.0.as_ref()?.take_ready();
+        if matches!(taken, Taken::Working) {
+            return None;
+        }
+        self.0 = None;
+        if let Taken::Value(answer) = taken { Some(answer) } else { None }
     }
 }
 

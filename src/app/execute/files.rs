@@ -59,7 +59,7 @@ impl App {
                 self.commands.extend(self.journal.as_mut().and_then(|keeper| keeper.answer(answer)));
             }
             Command::Restore => self.restore(),
-            Command::Ask(request) => self.ask_for_file(request, ctx),
+            Command::Ask(request) => self.ask_for_file(request),
             Command::Palette => self.dialogs.open(Dialog::Palette),
             Command::About => self.dialogs.open(Dialog::About),
             Command::CloseDialog => self.dialogs.close(),
@@ -119,11 +119,11 @@ impl App {
         self.commands.extend(self.project.save_recipe_as(path, &recipe));
     }
 
-    fn ask_for_file(&mut self, request: FileRequest, ctx: &Context) {
+    fn ask_for_file(&mut self, request: FileRequest) {
         let name = self.project.document_name(&self.session);
         // A document that was not saved yet is often made from the last file that was opened.
         let beside = self.project.path().or(self.project.recent().first().map(PathBuf::as_path));
-        self.dialogs.ask(request, (self.session.document_id(), &name), beside, ctx);
+        self.dialogs.ask(request, (self.session.document_id(), &name), beside, &self.jobs);
     }
 
     /// Says that a file was not read or written: in the dialog that asked for it, or else on the canvas.
@@ -178,7 +178,7 @@ impl App {
     /// undone: [`super::project::ProjectFile::ask_before_leaving`] asks before edits are lost.
     fn show_document(&mut self, document: Document) {
         self.session.replace_document(document);
-        self.background.work_for(self.session.document_id());
+        self.jobs.work_for(self.session.document_id());
         let settings = self.session.document().settings();
         let extent = settings.domain.bounds.size().max_element();
         self.tools.fit_to(extent, settings.transfer.h_min);
@@ -311,8 +311,8 @@ impl App {
 
     /// Takes the answer of the desktop's own file dialog. It is about the document that was open when it was
     /// asked for.
-    pub(in crate::app) fn take_chosen_file(&mut self, ctx: &Context) {
-        match self.dialogs.take_answer(self.session.document_id(), ctx) {
+    pub(in crate::app) fn take_chosen_file(&mut self) {
+        match self.dialogs.take_answer(self.session.document_id(), &self.jobs) {
             Ok(command) => self.commands.extend(command),
             Err(question) => self.session.report(format!(
                 "“{question}” was asked for the document that was open before, so nothing was done."

@@ -1,7 +1,5 @@
 //! Commands about plots.
 
-use std::time::Duration;
-
 use eframe::egui::Context;
 
 use crate::app::App;
@@ -13,7 +11,7 @@ impl App {
         match command {
             PlotsCommand::Show(kind) => self.show_plot(kind),
             PlotsCommand::Choose(kind) => self.plots.choose(kind),
-            PlotsCommand::Compute => self.plots.compute(&self.session, ctx),
+            PlotsCommand::Compute => self.plots.compute(&self.session, &self.jobs),
             PlotsCommand::SetUp { last_level, runs } => {
                 (self.plots.last_level, self.plots.runs) = (last_level, runs);
             }
@@ -21,7 +19,7 @@ impl App {
                 if !self.plots.kind().is_of_experiment() {
                     self.show_plot(PlotKind::Time);
                 }
-                self.plots.measure(ctx);
+                self.plots.measure(&self.jobs);
             }
             PlotsCommand::CancelMeasuring => self.plots.cancel(),
             PlotsCommand::Copy => {
@@ -40,8 +38,8 @@ impl App {
     }
 
     /// Takes what was computed for plots. Returns whether some is being computed.
-    pub(in crate::app) fn take_plots(&mut self, patience: Duration) -> bool {
-        self.plots.take(patience).unwrap_or_else(|problem| {
+    pub(in crate::app) fn take_plots(&mut self) -> bool {
+        self.plots.take(&self.jobs).unwrap_or_else(|problem| {
             self.session.report(problem);
             false
         })

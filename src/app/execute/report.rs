@@ -12,7 +12,7 @@ use meshbrush_core::document::ReportFigure;
 impl App {
     pub(super) fn execute_on_report(&mut self, command: FigureCommand, ctx: &Context) {
         match command {
-            FigureCommand::Open(figure) => self.open_figure(figure, ctx),
+            FigureCommand::Open(figure) => self.open_figure(figure),
             FigureCommand::Close => self.report = None,
             FigureCommand::Copy(text) => {
                 ctx.copy_text(text);
@@ -22,7 +22,7 @@ impl App {
     }
 
     /// Opens the document of a figure, and shows of it what the figure shows.
-    fn open_figure(&mut self, figure: ReportFigure, ctx: &Context) {
+    fn open_figure(&mut self, figure: ReportFigure) {
         self.stepping = None;
         self.open(figure.document());
         self.report = Some(ShownFigure::new(figure, &self.session));
@@ -40,7 +40,7 @@ impl App {
         }
         // Its entry says that the meshes are made; Figure 5 waits for its button.
         if figure == ReportFigure::Experiment {
-            self.plots.measure(ctx);
+            self.plots.measure(&self.jobs);
         }
     }
 }

@@ -1,7 +1,6 @@
 //! Commands of the mode that steps through the refinement.
 
 use std::path::{Path, PathBuf};
-use std::time::Duration;
 
 use eframe::egui::Context;
 
@@ -51,14 +50,14 @@ impl App {
 
     /// Records or plays steps. The mode ends when the document is edited. Returns whether anything is being
     /// recorded.
-    pub(in crate::app) fn advance_steps(&mut self, patience: Duration, ctx: &Context) -> bool {
+    pub(in crate::app) fn advance_steps(&mut self, ctx: &Context) -> bool {
         let Some(stepping) = &mut self.stepping else { return false };
         if !stepping.belongs_to(&self.session) {
             self.stepping = None;
             self.session.tell("The document was edited, so that its mesh is shown again.".into());
             return false;
         }
-        stepping.advance(&self.session, patience, ctx).unwrap_or_else(|problem| {
+        stepping.advance(&self.session, &self.jobs, ctx).unwrap_or_else(|problem| {
             self.stepping = None;
             self.session.report(problem);
             false

@@ -1,14 +1,10 @@
 //! The next best paths that differ substantially, found on another thread.
 
-use std::sync::mpsc::RecvTimeoutError;
-
-use eframe::egui::Context;
 use glam::DVec2;
 
 use super::Key;
-use crate::app::patience::Patience;
+use crate::app::jobs::{Job, Jobs, Kind, Output, Taken};
 use crate::app::prover::Known;
-use crate::app::sequence::{Output, Sequence};
 use meshbrush_core::path::{Alternatives, Difference, Solution};
 use meshbrush_mesh::geometry::nearest_on_segment;
 
@@ -37,7 +33,7 @@ pub struct AlternativesFinder {
     pub pointed: Option<usize>,
     best: Option<Solution>,
     paths: Vec<Solution>,
-    running: Option<Sequence<Solution>>,
+    running: Option<Job<Solution>>,
     /// The paths and the route that they belong to.
     of: Option<(Key, usize)>,
 }
@@ -91,15 +87,14 @@ impl AlternativesFinder {
         }
     }
 
-    /// Takes what was found, waiting as long as `patience` lasts, and begins the search for those of
+    /// Takes what was found, waiting as long as the frame may, and begins the search for those of
     /// another path.
     pub(super) fn advance(
         &mut self,
         of: (Key, usize),
         (best, places): (&Solution, &[DVec2]),
         basis: &Known,
-        patience: &Patience,
-        ctx: &Context,
+        jobs: &Jobs,
     ) {
         if !self.is_on {
             *self = Self::default();
@@ -107,27 +102,27 @@ impl AlternativesFinder {
         }
         if self.of != Some(of) {
             self.of = Some(of);
-            self.start(best, places.to_vec(), basis, ctx);
+            self.start(best, places.to_vec(), basis, jobs);
         }
         while let Some(running) = &self.running {
-            match running.values.recv_timeout(patience.left()) {
-                Ok(path) => {
+            match running.take(jobs) {
+                Taken::Value(path) => {
                     let place = self.paths.partition_point(|other| other.cost < path.cost);
                     self.paths.insert(place, path);
                     self.pointed = None;
                 }
-                Err(RecvTimeoutError::Timeout) => return,
-                Err(RecvTimeoutError::Disconnected) => self.running = None,
+                Taken::Working => return,
+                Taken::Ended => self.running = None,
             }
         }
     }
 
-    fn start(&mut self, best: &Solution, places: Vec<DVec2>, basis: &Known, ctx: &Context) {
+    fn start(&mut self, best: &Solution, places: Vec<DVec2>, basis: &Known, jobs: &Jobs) {
         (self.paths, self.pointed, self.best) = (Vec::new(), None, Some(best.clone()));
         let (mesh, best, density) = (basis.mesh.clone(), best.clone(), basis.density.clone());
         let find = move |output: &Output<Solution>| {
             let mut search = Alternatives::new(mesh, places, best, Difference::default());
-            while output.goes_on() && !search.is_done() && search.paths().len() <= MOST_ALTERNATIVES {
+            while output.is_wanted() && !search.is_done() && search.paths().len() <= MOST_ALTERNATIVES {
                 match search.advance(&*density) {
                     Ok(Some(path)) if !output.send(path.clone()) => break,
                     Ok(_) => {}
@@ -135,6 +130,6 @@ impl AlternativesFinder {
                 }
             }
         };
-        self.running = Some(Sequence::start(find, ctx));
+        self.running = Some(jobs.start(Kind::Compute, find));
     }
 }

@@ -1,14 +1,11 @@
 //! The front of length against risk, found on another thread.
 
 use std::sync::Arc;
-use std::sync::mpsc::RecvTimeoutError;
 
-use eframe::egui::Context;
 use glam::DVec2;
 
 use super::{Key, MeshKey};
-use crate::app::patience::Patience;
-use crate::app::sequence::{Output, Sequence};
+use crate::app::jobs::{Job, Jobs, Kind, Output, Taken};
 use crate::app::session::Session;
 use meshbrush_core::document::KeepOut;
 use meshbrush_core::layers::{Layer, PaintLayers, RiskField};
@@ -59,7 +56,7 @@ pub struct FrontFinder {
     pub pointed: Option<usize>,
     points: Vec<FrontPoint>,
     remaining: usize,
-    running: Option<Sequence<News>>,
+    running: Option<Job<News>>,
     of: Option<FrontKey>,
     /// The paths and the route for which `of` was checked last.
     checked: Option<(Key, usize)>,
@@ -104,15 +101,14 @@ impl FrontFinder {
         }
     }
 
-    /// Takes what was found, waiting as long as `patience` lasts, and begins the front of a route where it
+    /// Takes what was found, waiting as long as the frame may, and begins the front of a route where it
     /// is not known.
     pub(super) fn advance(
         &mut self,
         session: &Session,
         (key, route): (Key, usize),
         mesh: &Arc<PathMesh>,
-        patience: &Patience,
-        ctx: &Context,
+        jobs: &Jobs,
     ) {
         if !self.is_on {
             *self = Self::default();
@@ -125,26 +121,26 @@ impl FrontFinder {
             let (layers, paint) = (settings.layers.clone(), session.document().paint().clone());
             let of = FrontKey { mesh: key.mesh, places, keep_out, layers, paint };
             if self.of.as_ref() != Some(&of) {
-                self.start(mesh.clone(), of, ctx);
+                self.start(mesh.clone(), of, jobs);
             }
         }
         while let Some(running) = &self.running {
-            match running.values.recv_timeout(patience.left()) {
-                Ok(news) => (self.points, self.remaining) = (news.points, news.remaining),
-                Err(RecvTimeoutError::Timeout) => return,
-                Err(RecvTimeoutError::Disconnected) => self.running = None,
+            match running.take(jobs) {
+                Taken::Value(news) => (self.points, self.remaining) = (news.points, news.remaining),
+                Taken::Working => return,
+                Taken::Ended => self.running = None,
             }
         }
     }
 
-    fn start(&mut self, mesh: Arc<PathMesh>, of: FrontKey, ctx: &Context) {
+    fn start(&mut self, mesh: Arc<PathMesh>, of: FrontKey, jobs: &Jobs) {
         (self.points, self.pointed, self.remaining) = (Vec::new(), None, FRONT_PATHS);
         let places = of.places.clone();
         let risk = RiskField::new(&of.layers, &of.paint);
         self.of = Some(of);
         let find = move |output: &Output<News>| {
             let mut front = Front::new(mesh, risk, places, FRONT_PATHS);
-            while output.goes_on() {
+            while output.is_wanted() {
                 let goes_on = front.advance().unwrap_or(false);
                 let news = News { points: front.points().to_vec(), remaining: front.remaining() };
                 if !output.send(news) || !goes_on {
@@ -152,6 +148,6 @@ impl FrontFinder {
                 }
             }
         };
-        self.running = Some(Sequence::start(find, ctx));
+        self.running = Some(jobs.start(Kind::Compute, find));
     }
 }

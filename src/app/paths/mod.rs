@@ -18,9 +18,6 @@ mod front;
 mod work;
 
 use std::sync::Arc;
-use std::time::Duration;
-
-use eframe::egui::Context;
 
 pub use alternatives::{AlternativesCommand, AlternativesFinder, MOST_ALTERNATIVES};
 pub use command::{CostKind, NO_PATH, PathCommand};
@@ -30,8 +27,7 @@ pub use work::{FoundPath, ShownPath};
 use work::{KnownPlanner, PlannedMesh, Work, WorkResult, find, find_corridor};
 
 use super::document_id::DocumentId;
-use super::latest::Latest;
-use super::patience::Patience;
+use super::jobs::{Jobs, Slot};
 use super::prover::{Known, Prover};
 use super::session::Session;
 use super::statistics::MeasuredMesh;
@@ -57,7 +53,7 @@ struct Key {
 /// Finds the paths of the document, and keeps the last ones.
 #[derive(Default)]
 pub struct PathFinder {
-    work: Latest<Key, Option<Work>>,
+    work: Slot<Key, Option<Work>>,
     /// A planner, and the mesh that it knows.
     planner: Option<(KnownPlanner, MeshKey)>,
     key: Option<Key>,
@@ -101,13 +97,11 @@ impl PathFinder {
         self.key.as_ref().is_some_and(|key| key.document == session.document().revision() && !key.is_live)
     }
 
-    /// Takes what was found, waiting for all of it together up to `patience`, and begins what is to be found
-    /// next. The threads wake the window: no frame needs to wait for them. Alternatives and the front are
+    /// Takes what was found, waiting as long as the frame may, and begins what is to be found next. The threads wake the window: no frame needs to wait for them. Alternatives and the front are
     /// those of `route`.
-    pub fn advance(&mut self, session: &Session, route: Option<usize>, patience: Duration, ctx: &Context) {
-        let patience = &Patience::new(patience);
+    pub fn advance(&mut self, session: &Session, route: Option<usize>, jobs: &Jobs) {
         if self.work.is_running() {
-            if self.work.take(patience.left()) {
+            if self.work.take(jobs) {
                 return;
             }
             self.take_work(session);
@@ -118,17 +112,17 @@ impl PathFinder {
             self.prover.cancel();
             self.alternatives.pause();
             self.front.pause();
-            self.start(key, session, ctx);
+            self.start(key, session, jobs);
             return;
         }
         if key.is_live {
             return;
         }
         if self.corridor.is_due(key) {
-            self.start_corridor(key, session, ctx);
+            self.start_corridor(key, session, jobs);
         }
-        self.find_others(session, (key, route), patience, ctx);
-        self.prove(session, patience, ctx);
+        self.find_others(session, (key, route), jobs);
+        self.prove(session, jobs);
     }
 
     /// Forgets all paths: the document has none.
@@ -159,7 +153,7 @@ impl PathFinder {
         is_of_document.then_some(Key { document: document.revision(), mesh, is_live: !is_settled })
     }
 
-    fn start(&mut self, key: Key, session: &Session, ctx: &Context) {
+    fn start(&mut self, key: Key, session: &Session, jobs: &Jobs) {
         let document = session.document();
         let risk = RiskField::new(&document.settings().layers, document.paint());
         let (plan, is_live) = (document.settings().paths.clone(), key.is_live);
@@ -180,17 +174,17 @@ impl PathFinder {
                 let planner = mesh.planner(&density, (plan.clone(), risk), domain.bounds, is_live);
                 Some(find(planner, density, (&plan.routes, &domain), is_live))
             },
-            ctx,
+            jobs,
         );
     }
 
     /// Finds the corridor with the planner of the paths.
-    fn start_corridor(&mut self, key: Key, session: &Session, ctx: &Context) {
+    fn start_corridor(&mut self, key: Key, session: &Session, jobs: &Jobs) {
         let share = self.corridor.share;
         self.corridor.of = Some((key, share));
         let Some((planner, _)) = self.planner.take() else { return self.corridor.lines = Arc::default() };
         let plan = session.document().settings().paths.clone();
-        self.work.start(key, move || Some(find_corridor(planner, &plan.routes, share)), ctx);
+        self.work.start(key, move || Some(find_corridor(planner, &plan.routes, share)), jobs);
     }
 
     /// Takes the work that has ended.
@@ -232,23 +226,23 @@ impl PathFinder {
     }
 
     /// Looks for the front and the alternatives of a complete path.
-    fn find_others(&mut self, session: &Session, of: (Key, usize), patience: &Patience, ctx: &Context) {
+    fn find_others(&mut self, session: &Session, of: (Key, usize), jobs: &Jobs) {
         let Some(basis) = &self.basis else { return self.alternatives.clear() };
-        self.front.advance(session, of, &basis.mesh, patience, ctx);
+        self.front.advance(session, of, &basis.mesh, jobs);
         let shown = self.shown.get(of.1).filter(|shown| shown.problem.is_none());
         match shown.and_then(|shown| shown.found.as_ref()) {
             Some(found) => {
                 let places = &session.document().settings().paths.routes[of.1];
-                self.alternatives.advance(of, (&found.solution, places), basis, patience, ctx);
+                self.alternatives.advance(of, (&found.solution, places), basis, jobs);
             }
             None => self.alternatives.clear(),
         }
     }
 
     /// Raises the lower bounds of complete paths.
-    fn prove(&mut self, session: &Session, patience: &Patience, ctx: &Context) {
+    fn prove(&mut self, session: &Session, jobs: &Jobs) {
         let found = self.shown.iter_mut().filter(|shown| shown.problem.is_none());
         let found = found.filter_map(|shown| shown.found.as_mut()).collect();
-        self.prover.advance(found, &session.document().settings().domain, patience, ctx);
+        self.prover.advance(found, &session.document().settings().domain, jobs);
     }
 }

@@ -17,7 +17,7 @@ pub use export::MOST_FILES;
 pub use picture::paint;
 
 use super::document_id::DocumentId;
-use super::latest::Latest;
+use super::jobs::{Jobs, Slot};
 use super::session::Session;
 use super::tools::Tools;
 use meshbrush_core::build::RefinementCriterion;
@@ -57,7 +57,7 @@ pub struct Stepping {
     /// Tools that only move the view.
     tools: Tools,
     document: DocumentState,
-    recording: Latest<(), Result<Recording, String>>,
+    recording: Slot<(), Result<Recording, String>>,
     /// The figure of the report that the first step shown is to show.
     figure: Option<ReportFigure>,
     player: Option<StepPlayer>,
@@ -87,7 +87,7 @@ impl Stepping {
         Self {
             tools: tools.panning(),
             document: DocumentState::of(session),
-            recording: Latest::default(),
+            recording: Slot::default(),
             figure: None,
             player: None,
             played_until: None,
@@ -126,18 +126,18 @@ impl Stepping {
         self.document == DocumentState::of(session)
     }
 
-    /// Takes what was recorded, waiting for it up to `patience`, and plays. Returns whether anything is being
-    /// recorded.
+    /// Takes what was recorded, waiting for it as long as the frame may, and plays. Returns whether anything is
+    /// being recorded.
     ///
     /// # Errors
     /// A sentence, when there are no steps to show.
-    pub fn advance(&mut self, session: &Session, patience: Duration, ctx: &Context) -> Result<bool, String> {
+    pub fn advance(&mut self, session: &Session, jobs: &Jobs, ctx: &Context) -> Result<bool, String> {
         if self.player.is_some() {
             self.play(ctx);
             return Ok(false);
         }
         if self.recording.has(&()) {
-            let works = self.recording.take(patience);
+            let works = self.recording.take(jobs);
             if let Some((_, recorded)) = self.recording.last() {
                 let mut player = StepPlayer::new(Arc::new(recorded.clone()?));
                 let shown = player
@@ -147,12 +147,12 @@ impl Stepping {
                     .position(|step| self.figure.is_some_and(|figure| figure.shows(step)));
                 player.go_to(shown.map_or(0, |index| index + 1));
                 self.player = Some(player);
-                self.recording = Latest::default();
+                self.recording = Slot::default();
             }
             return Ok(works);
         }
         if session.follower().is_in_step(session.document()) {
-            self.recording.start((), record(session)?, ctx);
+            self.recording.start((), record(session)?, jobs);
         } else if session.stage().is_settled() {
             return Err("There are no steps to show, as the mesh is not up to date with the document.".into());
         }

@@ -144,8 +144,7 @@ fn edits_are_asked_about_before_unsaved_work_is_restored() {
     let journal = Journal::begin(&folder, &Project::of(&left), None, 1).unwrap();
     drop(journal);
     let mut window = window();
-    let ctx = window.ctx.clone();
-    window.state_mut().keep_journal_in(folder, &ctx);
+    window.state_mut().keep_journal_in(folder);
     let (offer, question) = ("Restore unsaved work?", "Save changes to “Radar threats”?");
     wait(&mut window, "the offer", |window| shows(window, offer));
     paint(&mut window, 0.9);
@@ -168,8 +167,7 @@ fn a_journal_that_cannot_be_read_is_named() {
     let file = folder.join("1-0.journal");
     fs::write(&file, "MBJOUR01 of an older program").unwrap();
     let mut window = window();
-    let ctx = window.ctx.clone();
-    window.state_mut().keep_journal_in(folder, &ctx);
+    window.state_mut().keep_journal_in(folder);
     let told = |window: &Window| window.state().session().notices().shown().map(|shown| shown.text.clone());
     wait(&mut window, "the message", |window| told(window).is_some());
     let text = told(&window).unwrap();
@@ -181,8 +179,7 @@ fn a_journal_that_cannot_be_read_is_named() {
 fn the_journal_keeps_edits_while_the_painted_layer_is_hidden() {
     let (live, copied) = (folder("hidden"), folder("hidden-copy"));
     let mut window = window();
-    let ctx = window.ctx.clone();
-    window.state_mut().keep_journal_in(live.clone(), &ctx);
+    window.state_mut().keep_journal_in(live.clone());
     send(&mut window, Command::New);
     paint(&mut window, 0.9);
     let painted = document(&window).active_layer().unwrap().id;

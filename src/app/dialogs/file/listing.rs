@@ -1,16 +1,9 @@
 //! The contents of a folder, read on another thread: a folder on a network can take long.
 
 use std::path::{Path, PathBuf};
-use std::sync::mpsc::{Receiver, channel};
-use std::thread;
-use std::time::Duration;
 
-use eframe::egui::Context;
-
+use crate::app::jobs::{Job, Jobs, Kind, Taken};
 use meshbrush_io::io::{self, FolderListing, MOST_ENTRIES};
-
-/// How long a frame waits for a folder: most are read by then, and nothing flickers.
-const PATIENCE: Duration = Duration::from_millis(30);
 
 /// What is known of the contents of a folder.
 pub enum Contents {
@@ -24,39 +17,36 @@ pub enum Contents {
 
 /// The contents of the folder that was asked for last.
 pub struct Listing {
-    ctx: Context,
+    jobs: Jobs,
     folder: PathBuf,
     contents: Contents,
-    answers: Receiver<std::io::Result<FolderListing>>,
+    job: Job<std::io::Result<FolderListing>>,
 }
 
 impl Listing {
     /// Reads a folder.
-    pub fn of(folder: &Path, ctx: &Context) -> Self {
-        let (sender, answers) = channel();
-        let (path, waker) = (folder.to_owned(), ctx.clone());
-        thread::spawn(move || {
-            // The dialog may have gone on to another folder.
-            let _ = sender.send(io::list_folder(&path));
-            waker.request_repaint();
+    pub fn of(folder: &Path, jobs: &Jobs) -> Self {
+        let path = folder.to_owned();
+        let job = jobs.start(Kind::Ask, move |output| {
+            output.send(io::list_folder(&path));
         });
-        let mut listing =
-            Self { ctx: ctx.clone(), folder: folder.to_owned(), contents: Contents::Reading, answers };
-        listing.take(PATIENCE);
+        let (jobs, folder) = (jobs.clone(), folder.to_owned());
+        let mut listing = Self { jobs, folder, contents: Contents::Reading, job };
+        listing.take();
         listing
     }
 
     /// Goes to a folder, and takes what has been read.
     pub fn show(&mut self, folder: &Path) {
         if self.folder != folder {
-            *self = Self::of(folder, &self.ctx);
+            *self = Self::of(folder, &self.jobs);
         }
-        self.take(Duration::ZERO);
+        self.take();
     }
 
     /// Reads the folder again: a file may have been added.
     pub fn read_again(&mut self) {
-        *self = Self::of(&self.folder, &self.ctx);
+        *self = Self::of(&self.folder, &self.jobs);
     }
 
     /// What is known.
@@ -70,8 +60,9 @@ impl Listing {
         is_cut.then(|| format!("Only {MOST_ENTRIES} entries are listed. Type the name of another one."))
     }
 
-    fn take(&mut self, patience: Duration) {
-        if let Ok(answer) = self.answers.recv_timeout(patience) {
+    /// Most folders are read within the time that a frame may wait, so that nothing flickers.
+    fn take(&mut self) {
+        if let Taken::Value(answer) = self.job.take(&self.jobs) {
             self.contents = match answer {
                 Ok(listing) => Contents::Read(listing),
                 Err(error) => {

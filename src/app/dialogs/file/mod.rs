@@ -8,10 +8,9 @@ mod view;
 
 use std::path::{Path, PathBuf};
 
-use eframe::egui::Context;
-
 use super::FileRequest;
 use crate::app::busy::Busy;
+use crate::app::jobs::Jobs;
 use listing::{Contents, Listing};
 use meshbrush_io::io::{self, FolderEntry};
 use meshbrush_render::render::export::ExportFormat;
@@ -39,7 +38,7 @@ pub struct FileDialog {
 
 impl FileDialog {
     /// Asks for a file in a folder. `name` is the proposed name, without an ending.
-    pub fn new(request: FileRequest, folder: &Path, name: &str, ctx: &Context) -> Self {
+    pub fn new(request: FileRequest, folder: &Path, name: &str, jobs: &Jobs) -> Self {
         let format = ExportFormat::all().next().expect("there are formats");
         let mut dialog = Self {
             request,
@@ -48,7 +47,7 @@ impl FileDialog {
             text: String::new(),
             is_typed: false,
             selected: None,
-            listing: Listing::of(folder, ctx),
+            listing: Listing::of(folder, jobs),
             format,
             problem: None,
             waits: None,
