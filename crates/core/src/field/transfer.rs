@@ -92,6 +92,11 @@ pub struct TransferTable {
 }
 
 const STEPS: usize = 2048;
+/// Ranges of so many steps or fewer are bounded by the curve itself.
+const NARROW: usize = 8;
+/// The curve is rounded by less than this share: `pow` by an ulp, and the exponent in it by another one,
+/// times a logarithm below 710.
+const ROUNDING: f64 = 1e-12;
 
 impl TransferTable {
     /// Samples the curve at equal steps of risk.
@@ -101,11 +106,17 @@ impl TransferTable {
     }
 
     /// A diameter that no risk of at most `greatest` goes below, and one that no risk of at least `least`
-    /// exceeds: those of the knots around.
+    /// exceeds: those of the knots around. Where few knots are between, those of the curve itself, which the
+    /// table is made from: a search must see that smaller and smaller places have less and less between.
     #[inline]
-    pub fn enclosing(&self, least: f64, greatest: f64) -> [f64; 2] {
+    pub fn enclosing(&self, curve: &Transfer, least: f64, greatest: f64) -> [f64; 2] {
         let place = |risk: f64| risk.clamp(0.0, 1.0) * STEPS as f64;
-        [self.knots[place(greatest).ceil() as usize], self.knots[place(least) as usize]]
+        let [low, high] = [place(least) as usize, place(greatest).ceil() as usize];
+        if high - low > NARROW {
+            return [self.knots[high], self.knots[low]];
+        }
+        let [least, greatest] = [curve.diameter(greatest), curve.diameter(least)];
+        [self.knots[high].max(least * (1.0 - ROUNDING)), self.knots[low].min(greatest * (1.0 + ROUNDING))]
     }
 }
 
@@ -132,12 +143,20 @@ mod tests {
             let table = TransferTable::new(&curve);
             for i in 0..=10_000 {
                 let (risk, more) = (f64::from(i) / 10_000.0, (f64::from(i) / 10_000.0 + 0.01).min(1.0));
-                let [least, greatest] = table.enclosing(risk, more);
+                let [least, greatest] = table.enclosing(&curve, risk, more);
                 assert!(least <= curve.diameter(more) && curve.diameter(risk) <= greatest, "{shape} {risk}");
                 // Near 0 a curve of a small shape is steep.
                 assert!(i < 50 || greatest < 1.1 * curve.diameter(risk), "{shape} {risk}");
             }
-            assert_eq!((table.enclosing(0.0, 0.0), table.enclosing(1.0, 1.0)), ([1.0; 2], [0.01; 2]));
+            // Near values have near bounds.
+            for risk in [0.2, 0.6, 0.9] {
+                let [least, greatest] = table.enclosing(&curve, risk, risk + 1e-9);
+                assert!(greatest < least * (1.0 + 1e-7), "{shape} {risk}: {least} {greatest}");
+            }
+            assert_eq!(
+                (table.enclosing(&curve, 0.0, 0.0), table.enclosing(&curve, 1.0, 1.0)),
+                ([1.0; 2], [0.01; 2])
+            );
         }
     }
 

@@ -17,6 +17,7 @@
 //! A rectangle around the core is divided, and the parts without such points are left out.
 
 use super::engine::cells::Cells;
+use super::engine::counting::Counting;
 use super::{PaintLayers, SizeField};
 use crate::geometry::Lattice;
 
@@ -33,7 +34,7 @@ pub struct Reach<'a> {
 /// How often the rectangle around the core is made smaller as a whole.
 const MOST_ROUNDS: usize = 8;
 /// How often the rectangle is divided in quarters.
-const DEEPEST: u32 = 4;
+const DEEPEST: u32 = 6;
 
 impl Reach<'_> {
     /// The cells that an edit of a core can affect. `least` is the least diameter within the core before and
@@ -93,7 +94,7 @@ impl Reach<'_> {
     /// The least and the greatest diameter before gradation in some cells, in world units.
     fn bounds(&self, cells: &Cells) -> [f64; 2] {
         let [old, new] = self.fields;
-        let [low, high] = old.diameters(self.paint, cells).0;
+        let [low, high] = old.diameters(self.paint, cells, Counting::ALL).0;
         if std::ptr::eq(old, new) {
             return [low, high];
         }

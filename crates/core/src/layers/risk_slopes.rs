@@ -4,6 +4,7 @@ use std::ops::ControlFlow;
 
 use glam::DVec2;
 
+use super::engine::cone::Cone;
 use super::risk::{RiskField, RiskSource};
 use super::{Combine, Coverage, Threat, ThreatLaw, Threats};
 use crate::field::Bounds;
@@ -99,6 +100,22 @@ impl Threats {
         }
         let margin = ROUNDING * (near.len() + 1) as f64;
         slopes.map(|slope| slope.expanded(margin * slope.least.abs().max(slope.greatest.abs())))
+    }
+
+    /// Directions along which the combined risk does not grow, among them all those in which it falls most,
+    /// in a closed rectangle in world units: away from the threats. `None` where they are too different, or
+    /// there is no threat.
+    pub(super) fn outward(&self, rect: &Rect) -> Option<Cone> {
+        let mut all = None;
+        let is_cut = self.visit_meeting(rect, |threat| {
+            let own = Cone::from_point(threat.at, rect);
+            all = match (all, own) {
+                (Some(all), Some(own)) => Cone::with(all, own),
+                _ => own,
+            };
+            if all.is_none() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        });
+        all.filter(|_| is_cut.is_continue())
     }
 }
 

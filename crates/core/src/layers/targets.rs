@@ -4,8 +4,9 @@ use glam::DVec2;
 
 use super::engine::asked::Share;
 use super::engine::cells::{Cells, Cut};
+use super::engine::counting::Counting;
 use super::engine::reading::Diameters;
-use super::engine::{KnownSquares, gradation};
+use super::engine::{CompiledLayer, KnownSquares, gradation};
 use super::{Combine, LayerId, PaintLayers, SizeField};
 use crate::field::{RefinementRule, Transfer};
 use crate::mesh::level_for_diameter;
@@ -135,8 +136,14 @@ impl SizeField {
     }
 
     /// The least and the greatest h̄ of some cells before gradation, and where to divide them to know more.
-    pub(super) fn diameters(&self, paint: &PaintLayers, cells: &Cells) -> ([f64; 2], Option<Cut>) {
-        let (asked, cut) = self.asked_diameters(paint, cells);
+    /// No other layers than those `counting` can count there.
+    pub(super) fn diameters(
+        &self,
+        paint: &PaintLayers,
+        cells: &Cells,
+        counting: Counting,
+    ) -> ([f64; 2], Option<Cut>) {
+        let (asked, cut) = self.asked_by(counting, paint, cells);
         let [low, high] = self.limited_diameters(asked);
         ([low, high], cut.filter(|_| low < high))
     }
@@ -152,11 +159,21 @@ impl SizeField {
         [low, high]
     }
 
+    /// Those of the visible layers that can count, from the bottom to the top, with their numbers.
+    pub(super) fn counting(&self, counting: Counting) -> impl Iterator<Item = (usize, &CompiledLayer)> {
+        self.compiled().iter().enumerate().filter(move |&(number, _)| counting.has(number))
+    }
+
     /// The least and the greatest diameter that the layers ask for in some cells, infinite where nothing is
     /// asked for, and where to divide them to know more.
     pub(super) fn asked_diameters(&self, paint: &PaintLayers, cells: &Cells) -> ([f64; 2], Option<Cut>) {
+        self.asked_by(Counting::ALL, paint, cells)
+    }
+
+    /// The same, if no other layers than those `counting` can count there.
+    fn asked_by(&self, counting: Counting, paint: &PaintLayers, cells: &Cells) -> ([f64; 2], Option<Cut>) {
         let (mut least, mut greatest, mut cut) = (f64::INFINITY, f64::INFINITY, None);
-        for layer in self.compiled() {
+        for (_, layer) in self.counting(counting) {
             let (diameters, layer_cut) = layer.diameters(paint, cells, self.lattice());
             let Diameters { least: low, greatest: high, present } = diameters;
             match (layer.combine, present) {

@@ -34,11 +34,10 @@ pub(super) fn derivatives(
     gradient.is_known().then_some(gradient.along)
 }
 
-/// The largest slope in any direction over a rectangle; infinite where the program may jump, or has a
-/// function whose derivative is not known here.
-pub(super) fn steepness(program: &Program, rect: &Rect) -> f64 {
-    let gradient = gradient(program, rect, (Bounds::ANYTHING, [ZERO; 2]));
-    gradient.map_or(f64::INFINITY, |gradient| gradient.length)
+/// The same without risks, and the largest slope in any direction.
+pub(super) fn slopes(program: &Program, rect: &Rect) -> Option<([Bounds; 2], f64)> {
+    let gradient = gradient(program, rect, (Bounds::ANYTHING, [ZERO; 2]))?;
+    gradient.is_known().then_some((gradient.along, gradient.length))
 }
 
 fn gradient(program: &Program, rect: &Rect, (risk, risk_slopes): (Bounds, [Bounds; 2])) -> Option<Gradient> {

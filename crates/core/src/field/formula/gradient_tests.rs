@@ -40,6 +40,11 @@ fn random_formula(random: &mut fastrand::Rng, depth: usize) -> String {
     }
 }
 
+/// The largest slope in any direction; infinite where it is not known.
+fn steepness(formula: &Formula, rect: &Rect) -> f64 {
+    formula.slopes(rect).map_or(f64::INFINITY, |(_, length)| length)
+}
+
 #[test]
 fn no_formula_rises_faster_than_its_steepness() {
     let mut random = fastrand::Rng::with_seed(71);
@@ -51,7 +56,7 @@ fn no_formula_rises_faster_than_its_steepness() {
             let corner = dvec2(random.f64(), random.f64()) * 2.0 - 1.0;
             let side = [1e-3, 0.05, 0.3, 1.0][random.usize(..4)];
             let rect = Rect::new(corner, corner + side * (0.1 + dvec2(random.f64(), random.f64())));
-            let most = formula.steepness(&rect);
+            let most = steepness(&formula, &rect);
             if !most.is_finite() {
                 continue;
             }
@@ -101,7 +106,7 @@ fn distances_have_their_slope_over_any_rectangle() {
                 0 => Rect::new(dvec2(-1.0, -1.0), dvec2(2.0, 2.0)),
                 _ => Rect::new(corner, corner + dvec2(random.f64(), random.f64())),
             };
-            let steepness = formula.steepness(&rect);
+            let steepness = steepness(&formula, &rect);
             let off = if round == 0 { (steepness - slope).abs() } else { steepness - slope };
             assert!(off < 1e-12, "{source}: {steepness} over {rect:?}");
         }
@@ -113,7 +118,7 @@ fn jumps_and_poles_are_steep_without_limit() {
     for source in ["if(x > 0, 1, 2)", "floor(x)", "1/x", "sqrt(x)", "sqrt(abs(x))", "x % 0.5", "ln(x)"] {
         let formula: Formula = source.parse().unwrap();
         assert_eq!(
-            formula.steepness(&Rect::new(dvec2(-1.0, 0.0), dvec2(1.0, 1.0))),
+            steepness(&formula, &Rect::new(dvec2(-1.0, 0.0), dvec2(1.0, 1.0))),
             f64::INFINITY,
             "{source}"
         );

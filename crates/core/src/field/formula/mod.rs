@@ -133,10 +133,9 @@ impl Formula {
         derivatives::derivatives(&self.program, rect, (Bounds::ANYTHING, [gradient::ZERO; 2]))
     }
 
-    /// The largest slope in any direction over a closed rectangle in world units; infinite where the formula
-    /// may jump, or a derivative is not known.
-    pub(crate) fn steepness(&self, rect: &Rect) -> f64 {
-        derivatives::steepness(&self.program, rect)
+    /// The same, and the largest slope in any direction.
+    pub(crate) fn slopes(&self, rect: &Rect) -> Option<([Bounds; 2], f64)> {
+        derivatives::slopes(&self.program, rect)
     }
 
     /// A model of [`Self::eval`] over a rectangle, from models of the coordinates.

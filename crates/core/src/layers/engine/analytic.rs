@@ -9,7 +9,8 @@ use crate::layers::{Quantity, Shapes, Threats};
 use crate::raster::ValueRange;
 
 use super::cells::{Cells, Cut};
-use super::steepness::steepest;
+use super::cone::Cone;
+use super::steepness::Slopes;
 
 /// A function of the point, and what its values mean.
 #[derive(Clone, Debug)]
@@ -165,12 +166,17 @@ impl Function {
         Some((profile.at(distance), from))
     }
 
-    /// The greatest slope over a rectangle; infinite where the function may jump, or the slope is not known.
-    pub fn steepness(&self, rect: &Rect) -> f64 {
+    /// Bounds of the gradient over a rectangle; unknown where the function may jump, or they are not known.
+    pub fn slopes(&self, rect: &Rect) -> Slopes {
         match self {
-            Self::Formula(formula) => formula.steepness(rect),
-            Self::Threats(threats) => steepest(threats.slopes(rect)),
-            Self::Distance { profile, .. } => profile.steepness(),
+            Self::Formula(formula) => {
+                formula.slopes(rect).map_or(Slopes::UNKNOWN, |(along, length)| Slopes::new(along, length))
+            }
+            // The risk falls away from each threat.
+            Self::Threats(threats) => {
+                Slopes::within(threats.slopes(rect), threats.outward(rect).map(Cone::opposite))
+            }
+            Self::Distance { profile, .. } => Slopes::up_to(profile.steepness()),
         }
     }
 }

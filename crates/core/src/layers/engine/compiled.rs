@@ -17,6 +17,7 @@ use super::asked::Share;
 use super::cells::{Cells, Cut, GridOnLattice};
 use super::reading::{Answer, Diameters, Reading, lengths};
 use super::search::{RasterSearch, any_cell};
+use super::steepness::Slopes;
 
 /// A visible layer, prepared for questions on one lattice.
 #[derive(Clone, Debug)]
@@ -277,21 +278,29 @@ impl CompiledLayer {
         Some(log_steps.clamp(0, 30) as u32)
     }
 
-    /// How fast the diameters of some cells change at most, where the layer asks for one; infinite where they
-    /// may jump. `diameters` are those of the cells.
-    pub fn steepness(&self, cells: &Cells, diameters: &Diameters, lattice: &Lattice) -> f64 {
+    /// Whether the diameters of some cells may jump because they are those of pixels. `diameters` are those
+    /// of the cells.
+    pub fn jumps(&self, diameters: &Diameters) -> bool {
+        self.has_pixels() && diameters.least < diameters.greatest
+    }
+
+    /// Bounds of the gradient of the diameters of some cells, where the layer asks for one; unknown where
+    /// they may jump. `diameters` are those of the cells.
+    pub fn slopes(&self, cells: &Cells, diameters: &Diameters, lattice: &Lattice) -> Slopes {
         if diameters.least == diameters.greatest {
-            return 0.0;
+            return Slopes::FLAT;
         }
         match &self.values {
-            Values::Nothing | Values::Constant(_) => 0.0,
-            Values::Paint | Values::Raster { .. } => f64::INFINITY,
+            Values::Nothing | Values::Constant(_) => Slopes::FLAT,
+            Values::Paint | Values::Raster { .. } => Slopes::UNKNOWN,
             Values::Analytic(analytic) => {
                 let analytic = self.graded.as_ref().unwrap_or(analytic);
-                let rect = cells.world_rect(lattice);
-                let of_values = analytic.function.steepness(&rect);
+                let of_values = analytic.function.slopes(&cells.world_rect(lattice));
                 let (ValueRange { least, greatest }, _) = analytic.range(cells, lattice);
-                of_values * self.reading.steepness(least.into(), greatest.into())
+                let slopes = of_values.times(self.reading.slopes(least.into(), greatest.into()));
+                // Risks beyond 0 and 1 count as these.
+                let is_cut = analytic.quantity == Quantity::Risk && (least <= 0.0 || greatest >= 1.0);
+                if is_cut { slopes.or(Slopes::FLAT) } else { slopes }
             }
         }
     }

@@ -11,6 +11,10 @@
 //! **Only steep places matter.** Where h changes by at most g per unit of length, a step from y towards x
 //! does not increase h(y) + g |x − y|. So from any y one gets without loss to x itself, or to the border of
 //! a rectangle in which h is steeper than g, or jumps. Only such rectangles are divided.
+//!
+//! **Of those, only where h + g d can be least.** Where h + g d falls along one direction all over a
+//! rectangle, steps in this direction lead out of it without loss, too. So of a smooth hill that is steeper
+//! than g, only the surroundings of places are divided at which the slope towards x is g, and no other.
 
 use glam::DVec2;
 
@@ -18,9 +22,10 @@ use crate::geometry::{BestFirst, LatticePoint, Octagon, Rect};
 use crate::layers::{PaintLayers, SizeField};
 
 use super::cells::{Cells, Cut};
+use super::counting::Counting;
 use super::place::{Place, Point, TriangleInWorld, gap, rect_of};
 use super::squares::{KnownSquares, LEAST_BITS, Square};
-use super::steepness::is_steep;
+use super::steepness::{Slopes, slopes};
 
 /// A comparison that has not ended after so many rectangles says that h̄ is not below.
 const MOST_COMPARED: usize = 1 << 16;
@@ -59,6 +64,8 @@ pub struct Part {
     pub greatest: f64,
     /// From the place.
     pub distance: f64,
+    /// The layers that can count in it.
+    pub counting: Counting,
 }
 
 #[derive(Clone, Copy)]
@@ -91,12 +98,13 @@ impl<P: Place> Search<'_, P> {
             return None;
         }
         let cells = square.cells(self.field.lattice().extent())?;
-        self.bounded(Area::Square(square), &cells, [least, greatest], limit)
+        let counting = known.counting(self.field, self.paint, square);
+        self.bounded(Area::Square(square), &cells, [least, greatest], counting, limit)
     }
 
-    fn cells(&self, cells: Cells, limit: f64) -> Option<(f64, Part)> {
-        let (diameters, cut) = self.field.diameters(self.paint, &cells);
-        self.bounded(Area::Cells(cells, cut), &cells, diameters, limit)
+    fn cells(&self, cells: Cells, counting: Counting, limit: f64) -> Option<(f64, Part)> {
+        let (diameters, cut) = self.field.diameters(self.paint, &cells, counting);
+        self.bounded(Area::Cells(cells, cut), &cells, diameters, counting, limit)
     }
 
     #[inline]
@@ -105,6 +113,7 @@ impl<P: Place> Search<'_, P> {
         area: Area,
         cells: &Cells,
         [least, greatest]: [f64; 2],
+        counting: Counting,
         limit: f64,
     ) -> Option<(f64, Part)> {
         let rect = rect_of(cells, self.field.lattice());
@@ -114,25 +123,56 @@ impl<P: Place> Search<'_, P> {
         }
         let distance = self.place.distance(cells, &rect);
         let bound = least + self.slope * distance;
-        (bound < limit).then_some((bound, Part { area, rect, least, greatest, distance }))
+        (bound < limit).then_some((bound, Part { area, rect, least, greatest, distance, counting }))
     }
 
-    /// Whether h may change faster than g in a part, so that it matters.
+    /// The layers that can count in a part, if a least value of h + g d can lie inside it, and not only at
+    /// the place or on the border of the part.
     #[inline]
-    pub fn is_steep(&self, known: &mut KnownSquares, part: &Part) -> bool {
-        match &part.area {
-            Area::Square(square) => known.is_steep(self.field, self.paint, *square),
-            Area::Cells(cells, _) => is_steep(self.field, self.paint, cells),
-        }
+    pub fn steep(&self, known: &mut KnownSquares, part: &Part) -> Option<Counting> {
+        let (slopes, counting) = match &part.area {
+            Area::Square(square) => known.slopes(self.field, self.paint, *square),
+            Area::Cells(cells, _) => slopes(self.field, self.paint, cells, part.counting),
+        };
+        let matters = slopes.exceed(self.slope) && !self.falls_throughout(&slopes, &part.rect);
+        matters.then_some(counting)
     }
 
-    /// Visits what a part is divided into and can have a value below `limit`, until `visit` returns true.
-    /// Returns whether it did.
+    /// Whether h + g d falls along one direction all over a rectangle. The direction does not lead out of the
+    /// lattice.
+    ///
+    /// The gradient of h + g d is that of h, and g times the unit vector u away from the nearest point of the
+    /// place. The vector from the nearest point to y changes by at most |y − c| between the centre c of the
+    /// rectangle and y, so that u changes by at most 2 r / (2 d − r) within the radius r.
+    fn falls_throughout(&self, slopes: &Slopes, rect: &Rect) -> bool {
+        let (center, radius) = (rect.center(), 0.5 * rect.size().length());
+        let away = center - self.place.nearest(center);
+        let distance = away.length();
+        let (away, spread) = match distance > 1.5 * radius {
+            true => (away / distance, 2.0 * radius / (2.0 * distance - radius)),
+            false => (DVec2::ZERO, 1.0),
+        };
+        let all = rect_of(&Cells::all(self.field.lattice().extent()), self.field.lattice());
+        let within_lattice = |mut rise: DVec2| {
+            for axis in 0..2 {
+                let leaves = match rise[axis] > 0.0 {
+                    true => rect.min[axis] <= 0.0,
+                    false => rect.max[axis] >= all.max[axis],
+                };
+                rise[axis] = if leaves { 0.0 } else { rise[axis] };
+            }
+            rise
+        };
+        slopes.fall_with(self.slope * away, self.slope * spread, within_lattice)
+    }
+
+    /// Visits what a part, in which these layers can count, is divided into and can have a value below
+    /// `limit`, until `visit` returns true. Returns whether it did.
     #[inline]
     pub fn divide(
         &self,
         known: &mut KnownSquares,
-        part: &Part,
+        (part, counting): (&Part, Counting),
         limit: f64,
         mut visit: impl FnMut(f64, Part) -> bool,
     ) -> bool {
@@ -147,10 +187,10 @@ impl<P: Place> Search<'_, P> {
             }
             Area::Square(square) => square
                 .cells(self.field.lattice().extent())
-                .and_then(|cells| halves(cells, self.field.diameters(self.paint, &cells).1)),
+                .and_then(|cells| halves(cells, self.field.diameters(self.paint, &cells, counting).1)),
             Area::Cells(cells, cut) => halves(cells, cut),
         };
-        halves.into_iter().flatten().any(|cells| offer(self.cells(cells, limit)))
+        halves.into_iter().flatten().any(|cells| offer(self.cells(cells, counting, limit)))
     }
 
     /// Whether a cell, at distance d from the place, has h + g d < `length`. Cells at the place itself must
@@ -173,8 +213,8 @@ impl<P: Place> Search<'_, P> {
         }
         for _ in 0..MOST_COMPARED {
             let Some((_, part)) = parts.pop() else { return false };
-            let steep = self.is_steep(known, &part);
-            if steep && self.divide(known, &part, length, |bound, part| offer(bound, part, &mut parts)) {
+            let Some(counting) = self.steep(known, &part) else { continue };
+            if self.divide(known, (&part, counting), length, |bound, part| offer(bound, part, &mut parts)) {
                 return true;
             }
         }
@@ -216,12 +256,16 @@ pub fn least(
     slope: f64,
     start: (f64, DVec2),
 ) -> (f64, DVec2) {
+    let h_min = field.spec().transfer.h_min;
+    if start.0 <= h_min {
+        return start;
+    }
     let origin = field.lattice().bounds().min;
     let place = Point(point - origin);
     let finest = field.pixel_bits(paint).max(LEAST_BITS);
     let search = Search { field, paint, place, slope, finest };
     let (mut best, mut parts) = (start, BestFirst::default());
-    for square in search.start(field.spec().transfer.h_min, start.0) {
+    for square in search.start(h_min, start.0) {
         if let Some((bound, part)) = search.square(known, square, best.0 * (1.0 - TIGHT)) {
             parts.push(bound, part);
         }
@@ -235,7 +279,7 @@ pub fn least(
         let is_one = part.least == part.greatest;
         let center = part.rect.center();
         // One value all over counts at the nearest place.
-        let at = if is_one { search.nearest(&part.rect) } else { center };
+        let at = if is_one { search.place.0.clamp(part.rect.min, part.rect.max) } else { center };
         let carried = slope * at.distance(search.place.0);
         if part.least + carried < best.0 {
             let value = field.ungraded_at(paint, origin + center).0 + carried;
@@ -243,23 +287,17 @@ pub fn least(
                 best = (value, origin + at);
             }
         }
-        if is_one || !search.is_steep(known, &part) {
+        if is_one {
             continue;
         }
+        let Some(counting) = search.steep(known, &part) else { continue };
         let limit = best.0 * (1.0 - TIGHT);
-        search.divide(known, &part, limit, |bound, part| {
+        search.divide(known, (&part, counting), limit, |bound, part| {
             parts.push(bound, part);
             false
         });
     }
     best
-}
-
-impl Search<'_, Point> {
-    /// The point of a rectangle that is nearest to the place.
-    fn nearest(&self, rect: &Rect) -> DVec2 {
-        self.place.0.clamp(rect.min, rect.max)
-    }
 }
 
 /// What bounds of h̄ are put farther by, as a share: sums of distances are rounded.
@@ -311,7 +349,7 @@ pub fn graded_bounds(
             break;
         }
         // Places of the cells themselves are known to have at least `least`.
-        if !search.is_steep(known, &part) {
+        if search.steep(known, &part).is_none() {
             continue;
         }
         for quarter in square.quarters() {

@@ -6,7 +6,7 @@ use crate::geometry::{BestFirst, LatticePoint, Octagon, Rect};
 use crate::layers::{PaintLayers, SizeField};
 
 use super::gradation::{Part, Search, quarter_bits};
-use super::place::TriangleInWorld;
+use super::place::{Place, TriangleInWorld};
 use super::squares::KnownSquares;
 
 /// The least h̄ in a closed triangle.
@@ -69,12 +69,12 @@ impl Search<'_, TriangleInWorld> {
             let Some((bound, part)) = parts.pop().filter(|(bound, _)| *bound < limit) else { break };
             debug_assert!(bound <= part.greatest + self.slope * part.distance);
             // At the triangle itself, all cells count.
-            if part.distance == 0.0 || self.is_steep(known, &part) {
-                self.divide(known, &part, limit, |bound, part| {
-                    offer((bound, part), &mut parts, &mut best);
-                    false
-                });
-            }
+            let steep = if part.distance == 0.0 { Some(part.counting) } else { self.steep(known, &part) };
+            let Some(counting) = steep else { continue };
+            self.divide(known, (&part, counting), limit, |bound, part| {
+                offer((bound, part), &mut parts, &mut best);
+                false
+            });
         }
         best.0.is_finite().then_some(best)
     }

@@ -4,7 +4,11 @@ pub mod analytic;
 pub mod asked;
 pub mod cells;
 mod compiled;
+pub mod cone;
+pub mod counting;
 pub mod gradation;
+#[cfg(test)]
+mod gradation_tests;
 pub mod least;
 mod place;
 pub mod reading;

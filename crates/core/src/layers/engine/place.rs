@@ -11,6 +11,9 @@ pub trait Place {
     /// The smallest rectangle around the set.
     fn bounds(&self) -> Rect;
 
+    /// The point of the set that is nearest to `p`.
+    fn nearest(&self, p: DVec2) -> DVec2;
+
     /// The distance to the closed rectangle of some cells, which covers `rect`.
     fn distance(&self, cells: &Cells, rect: &Rect) -> f64;
 }
@@ -36,6 +39,10 @@ impl Place for Point {
         Rect::new(self.0, self.0)
     }
 
+    fn nearest(&self, _: DVec2) -> DVec2 {
+        self.0
+    }
+
     #[inline]
     fn distance(&self, _: &Cells, rect: &Rect) -> f64 {
         self.0.distance(self.0.clamp(rect.min, rect.max))
@@ -46,6 +53,10 @@ impl Place for Point {
 impl Place for Rect {
     fn bounds(&self) -> Rect {
         *self
+    }
+
+    fn nearest(&self, p: DVec2) -> DVec2 {
+        p.clamp(self.min, self.max)
     }
 
     #[inline]
@@ -69,9 +80,15 @@ impl TriangleInWorld {
     pub fn centroid(&self) -> DVec2 {
         self.corners.iter().sum::<DVec2>() / 3.0
     }
+}
 
-    /// The point of the closed triangle that is nearest to `p`.
-    pub fn nearest(&self, p: DVec2) -> DVec2 {
+impl Place for TriangleInWorld {
+    fn bounds(&self) -> Rect {
+        let [a, b, c] = self.corners;
+        Rect::new(a.min(b).min(c), a.max(b).max(c))
+    }
+
+    fn nearest(&self, p: DVec2) -> DVec2 {
         let [a, b, c] = self.corners;
         let edges = [[a, b], [b, c], [c, a]];
         let sides = edges.map(|[from, to]| (to - from).perp_dot(p - from));
@@ -81,13 +98,6 @@ impl TriangleInWorld {
         let nearest = edges.map(|edge| nearest_on_segment(p, edge));
         let closer = |a: DVec2, b: DVec2| if b.distance_squared(p) < a.distance_squared(p) { b } else { a };
         nearest.into_iter().fold(nearest[0], closer)
-    }
-}
-
-impl Place for TriangleInWorld {
-    fn bounds(&self) -> Rect {
-        let [a, b, c] = self.corners;
-        Rect::new(a.min(b).min(c), a.max(b).max(c))
     }
 
     fn distance(&self, cells: &Cells, rect: &Rect) -> f64 {

@@ -152,7 +152,7 @@ impl Reading {
                 let present = share(greatest > *nothing, least > *nothing);
                 let [low, high] = match least == greatest {
                     true => [transfer.diameter(f64::from(least)); 2],
-                    false => table.enclosing(f64::from(least), f64::from(greatest)),
+                    false => table.enclosing(transfer, f64::from(least), f64::from(greatest)),
                 };
                 Diameters {
                     least: if present == Share::None { f64::INFINITY } else { low },
@@ -222,19 +222,22 @@ impl Question<'_> {
 }
 
 impl Reading {
-    /// How much the diameter changes at most with the value, between two values; 1 for diameters, infinite
-    /// for readings that may jump.
-    pub fn steepness(&self, least: f64, greatest: f64) -> f64 {
+    /// Bounds of the derivative of the diameter by the value, between two values; 1 for diameters, and not
+    /// known for readings that may jump.
+    pub fn slopes(&self, least: f64, greatest: f64) -> Bounds {
         match self {
-            // h̄ |log(h_min / h_max)| k risk^(k − 1)
+            // h̄ log(h_min / h_max) k risk^(k − 1), which is negative
             Self::Risk { transfer, .. } => {
                 let Transfer { h_min, h_max, shape } = *transfer;
-                let power = |risk: f64| libm::pow(risk, shape - 1.0);
-                let power = if shape >= 1.0 { power(greatest) } else { power(least) };
-                transfer.diameter(least) * libm::log(h_max / h_min) * shape * power * (1.0 + 1e-12)
+                let [low, high] = [least, greatest].map(|risk| libm::pow(risk, shape - 1.0));
+                let power = Bounds::new(low.min(high), low.max(high));
+                let diameter = Bounds::new(transfer.diameter(greatest), transfer.diameter(least));
+                let factor = libm::log(h_min / h_max) * shape;
+                let factor = Bounds::new(factor * (1.0 + 1e-12), factor * (1.0 - 1e-12));
+                diameter.times(power).times(factor)
             }
-            Self::Diameter { .. } => 1.0,
-            Self::Curve { .. } | Self::Band { .. } => f64::INFINITY,
+            Self::Diameter { .. } => Bounds::one(1.0),
+            Self::Curve { .. } | Self::Band { .. } => Bounds::ANYTHING,
         }
     }
 }

@@ -4,7 +4,8 @@ use crate::geometry::LatticePoint;
 use crate::layers::{PaintLayers, SizeField};
 
 use super::cells::Cells;
-use super::steepness::is_steep;
+use super::counting::Counting;
+use super::steepness::{Slopes, slopes};
 
 /// The square of 2^bits lattice steps in a column and a row of such squares.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,6 +31,13 @@ impl Square {
             (min[axis] + (1i64 << self.bits)).min(i64::from(end))
         });
         (min[0] < max[0] && min[1] < max[1]).then_some(Cells { min, max })
+    }
+
+    /// The square of twice the side around it, unless this one covers the whole lattice.
+    fn around(&self, extent: LatticePoint) -> Option<Self> {
+        let covers_all = extent.x.max(extent.y) <= 1 << self.bits.min(MOST_BITS);
+        let around = Self { bits: self.bits + 1, column: self.column / 2, row: self.row / 2 };
+        (!covers_all).then_some(around)
     }
 
     /// The four squares of half the side.
@@ -60,8 +68,10 @@ struct Known {
     key: u64,
     /// The least and the greatest h̄ before gradation, in world units.
     diameters: [f64; 2],
-    /// Whether h̄ may change faster than the gradation; `None` until somebody asks.
-    is_steep: Option<bool>,
+    /// The layers that can count in the square around.
+    counting: Counting,
+    /// Of h̄ before gradation, and the layers that can count; `None` until somebody asks.
+    slopes: Option<(Slopes, Counting)>,
 }
 
 /// What h̄ before gradation is known to be in dyadic squares.
@@ -77,7 +87,7 @@ pub struct KnownSquares {
     kept_bits: u32,
 }
 
-/// For many searches: 160 KB.
+/// For many searches: 800 KB.
 impl Default for KnownSquares {
     fn default() -> Self {
         Self { squares: Vec::new(), kept_bits: 12 }
@@ -87,25 +97,33 @@ impl Default for KnownSquares {
 impl KnownSquares {
     /// For a single search.
     pub fn few() -> Self {
-        Self { squares: Vec::new(), kept_bits: 6 }
+        Self { squares: Vec::new(), kept_bits: 8 }
     }
 
     #[inline]
     fn known(&mut self, field: &SizeField, paint: &PaintLayers, square: Square) -> &mut Known {
-        const EMPTY: Known = Known { key: u64::MAX, diameters: [0.0; 2], is_steep: None };
+        let key = square.key();
+        let place = (key.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> (64 - self.kept_bits)) as usize;
+        if self.squares.get(place).is_none_or(|known| known.key != key) {
+            let found = self.find(field, paint, square);
+            self.squares[place] = found;
+        }
+        &mut self.squares[place]
+    }
+
+    #[cold]
+    fn find(&mut self, field: &SizeField, paint: &PaintLayers, square: Square) -> Known {
+        const EMPTY: Known =
+            Known { key: u64::MAX, diameters: [f64::INFINITY; 2], counting: Counting::ALL, slopes: None };
         if self.squares.is_empty() {
             self.squares = vec![EMPTY; 1 << self.kept_bits];
         }
-        let key = square.key();
-        let place = key.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> (64 - self.kept_bits);
-        let known = &mut self.squares[place as usize];
-        if known.key != key {
-            let nothing = [f64::INFINITY; 2];
-            let cells = square.cells(field.lattice().extent());
-            let diameters = cells.map_or(nothing, |cells| field.diameters(paint, &cells).0);
-            *known = Known { key, diameters, is_steep: None };
-        }
-        known
+        let extent = field.lattice().extent();
+        let Some(cells) = square.cells(extent) else { return Known { key: square.key(), ..EMPTY } };
+        let around = square.around(extent);
+        let counting = around.map_or(Counting::ALL, |around| self.slopes(field, paint, around).1);
+        let diameters = field.diameters(paint, &cells, counting).0;
+        Known { key: square.key(), diameters, counting, slopes: None }
     }
 
     /// The least and the greatest h̄ before gradation, in world units; infinite beside the lattice.
@@ -114,11 +132,18 @@ impl KnownSquares {
         self.known(field, paint, square).diameters
     }
 
-    /// Whether h̄ before gradation may change faster than the gradation of the field allows.
-    pub fn is_steep(&mut self, field: &SizeField, paint: &PaintLayers, square: Square) -> bool {
+    /// The layers that can count in the square around.
+    pub fn counting(&mut self, field: &SizeField, paint: &PaintLayers, square: Square) -> Counting {
+        self.known(field, paint, square).counting
+    }
+
+    /// Bounds of the gradient of h̄ before gradation, in world units, and the layers that can count.
+    pub fn slopes(&mut self, field: &SizeField, paint: &PaintLayers, square: Square) -> (Slopes, Counting) {
         let known = self.known(field, paint, square);
-        *known.is_steep.get_or_insert_with(|| {
-            square.cells(field.lattice().extent()).is_some_and(|cells| is_steep(field, paint, &cells))
+        let counting = known.counting;
+        *known.slopes.get_or_insert_with(|| match square.cells(field.lattice().extent()) {
+            Some(cells) => slopes(field, paint, &cells, counting),
+            None => (Slopes::FLAT, counting),
         })
     }
 }

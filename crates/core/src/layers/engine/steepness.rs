@@ -3,52 +3,169 @@
 use glam::DVec2;
 
 use crate::field::Bounds;
-use crate::layers::{Combine, PaintLayers, SizeField};
+use crate::layers::{PaintLayers, SizeField};
 
 use super::asked::Share;
 use super::cells::Cells;
+use super::compiled::CompiledLayer;
+use super::cone::Cone;
+use super::counting::Counting;
+use super::reading::Diameters;
 
 /// Bounds of slopes are rounded up. Where h is steeper than g by this share of g alone, gradation takes at
 /// most this share of h̄ away: it carries values of at least 0 over distances up to h̄ / g.
 const MARGIN: f64 = 1e-9;
 
-/// Whether h̄ before gradation may change by more than the gradation per unit of length in some cells, or
-/// jumps there or at their border. Without gradation it never does.
+/// What falls more slowly than by this share of the slopes is not taken to fall: they are rounded.
+const DIRECTION_MARGIN: f64 = 1e-6;
+
+/// Bounds of the gradient of a function in a rectangle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Slopes {
+    /// Of the derivatives along x and y.
+    along: [Bounds; 2],
+    /// No gradient is longer; infinite where the function may jump, or a bound is not known.
+    length: f64,
+    /// Each gradient is also the sum of a vector of the cone and one that `beside` bounds.
+    cone: Option<Cone>,
+    beside: [Bounds; 2],
+}
+
+const NONE: [Bounds; 2] = [Bounds::new(0.0, 0.0); 2];
+
+impl Slopes {
+    /// Those of a constant.
+    pub const FLAT: Self = Self { along: NONE, length: 0.0, cone: None, beside: NONE };
+
+    /// Those of a function that may jump.
+    pub const UNKNOWN: Self = Self {
+        along: [Bounds::ANYTHING; 2],
+        length: f64::INFINITY,
+        cone: None,
+        beside: [Bounds::ANYTHING; 2],
+    };
+
+    /// From bounds along the axes and the largest length. All must be numbers.
+    pub fn new(along: [Bounds; 2], length: f64) -> Self {
+        Self { along, length, cone: None, beside: along }
+    }
+
+    /// From bounds along the axes, and a cone of all gradients if one is known.
+    pub fn within(along: [Bounds; 2], cone: Option<Cone>) -> Self {
+        let most = |slope: Bounds| slope.least.abs().max(slope.greatest.abs());
+        let length = DVec2::new(most(along[0]), most(along[1])).length();
+        Self { along, length, cone, beside: if cone.is_some() { NONE } else { along } }
+    }
+
+    /// In any direction, up to a length.
+    pub fn up_to(length: f64) -> Self {
+        Self::new([Bounds::new(-length, length); 2], length)
+    }
+
+    /// Those of a function of the function, from the bounds of its derivative.
+    pub fn times(self, factor: Bounds) -> Self {
+        let length = self.length * factor.least.abs().max(factor.greatest.abs());
+        let scaled = |slopes: [Bounds; 2]| slopes.map(|slope| slope.times(factor));
+        let is_number = |slope: &Bounds| slope.valid && slope.least.is_finite() && slope.greatest.is_finite();
+        let along = scaled(self.along);
+        if !(along.iter().all(is_number) && length.is_finite()) {
+            return Self::UNKNOWN;
+        }
+        let cone = match self.cone {
+            Some(cone) if factor.least >= 0.0 => Some(cone),
+            Some(cone) if factor.greatest <= 0.0 => Some(cone.opposite()),
+            _ => None,
+        };
+        Self { along, length, cone, beside: if cone.is_some() { scaled(self.beside) } else { along } }
+    }
+
+    /// Those of two functions of which either counts.
+    pub fn or(self, other: Self) -> Self {
+        let union = |a: [Bounds; 2], b: [Bounds; 2]| [0, 1].map(|axis: usize| a[axis].union(b[axis]));
+        let cone = match (self.cone, other.cone) {
+            (Some(a), Some(b)) => a.with(b),
+            (a, b) => a.or(b),
+        };
+        let along = union(self.along, other.along);
+        let beside = if cone.is_some() { union(self.beside, other.beside) } else { along };
+        Self { along, length: self.length.max(other.length), cone, beside }
+    }
+
+    /// No gradient is longer.
+    #[cfg(test)]
+    pub fn longest(&self) -> f64 {
+        self.length
+    }
+
+    /// Whether the function may change by more than `slope` per unit of length.
+    pub fn exceed(&self, slope: f64) -> bool {
+        self.length > slope * (1.0 + MARGIN)
+    }
+
+    /// Whether the function falls along one direction all over the rectangle, if a gradient is added to its
+    /// own: one that differs from `added` by at most `spread`. `permitted` changes a direction into one that
+    /// the step may have.
+    pub fn fall_with(&self, added: DVec2, spread: f64, permitted: impl Fn(DVec2) -> DVec2) -> bool {
+        let falls = |bounds: &[Bounds; 2], cone: Option<Cone>| {
+            let [least, greatest] = [bounds.map(|slope| slope.least), bounds.map(|slope| slope.greatest)];
+            let [least, greatest] = [least, greatest].map(DVec2::from);
+            let (middle, half) = (least.midpoint(greatest) + added, 0.5 * (greatest - least));
+            let rise = permitted(cone.map_or(middle, |cone| cone.turned(middle)));
+            let length = rise.length();
+            let margin = DIRECTION_MARGIN * (half.element_sum() + middle.length() + spread);
+            let is_permitted = cone.is_none_or(|cone| cone.rises_along(rise));
+            is_permitted && middle.dot(rise) > rise.abs().dot(half) + (spread + margin) * length
+        };
+        falls(&self.along, None) || (self.cone.is_some() && falls(&self.beside, self.cone))
+    }
+}
+
+/// Bounds of the gradient of h̄ before gradation in some cells and on their border, unknown where it may
+/// jump; and which layers can count there, of those that can count around.
 ///
 /// A layer whose values are above those of another one all over does not count where the finest counts.
-pub fn is_steep(field: &SizeField, paint: &PaintLayers, cells: &Cells) -> bool {
-    let Some(slope) = field.spec().gradation else { return false };
+pub fn slopes(
+    field: &SizeField,
+    paint: &PaintLayers,
+    cells: &Cells,
+    mut counting: Counting,
+) -> (Slopes, Counting) {
     // Values on both sides of the border count.
     let cells = &cells.with_neighbours(field.lattice().extent());
     let asked: Vec<_> = field
-        .compiled()
-        .iter()
-        .map(|layer| (layer, layer.diameters(paint, cells, field.lattice()).0))
-        .filter(|(_, diameters)| diameters.present != Share::None)
+        .counting(counting)
+        .map(|(number, layer)| (number, layer, layer.diameters(paint, cells, field.lattice()).0))
         .collect();
-    let is_minimum = asked.iter().all(|(layer, _)| layer.combine == Combine::Finest);
-    let h_max = field.spec().transfer.h_max;
-    // Where nothing asks, h̄ is h_max: as if a layer asked for it.
-    let mut decides = if field.spec().unasked >= h_max { h_max } else { f64::INFINITY };
-    let is_background = decides < f64::INFINITY;
-    for (_, diameters) in asked.iter().filter(|(_, diameters)| diameters.present == Share::All) {
-        decides = decides.min(diameters.greatest);
+    let is_asked = |diameters: &Diameters| diameters.present != Share::None;
+    let is_minimum = asked.iter().all(|(_, layer, diameters)| !is_asked(diameters) || layer.is_plain());
+    let all = asked.iter().filter(|(_, _, diameters)| diameters.present == Share::All);
+    let decides = all.map(|(_, _, diameters)| diameters.greatest).fold(f64::INFINITY, f64::min);
+    for (number, _, diameters) in &asked {
+        if !is_asked(diameters) || (is_minimum && diameters.least > decides) {
+            counting = counting.without(*number);
+        }
     }
-    asked.iter().any(|(layer, diameters)| {
-        if is_minimum && diameters.least >= decides {
-            return false;
-        }
-        let fades = is_minimum && is_background && layer.fades_to(h_max, cells, field.lattice());
-        if diameters.present != Share::All && !fades {
-            return true;
-        }
-        let steepness = layer.steepness(cells, diameters, field.lattice());
-        steepness > slope * (1.0 + MARGIN) || steepness.is_nan()
-    })
-}
-
-/// The largest slope in any direction, from bounds of the derivatives along x and y.
-pub fn steepest([x, y]: [Bounds; 2]) -> f64 {
-    let most = |slope: Bounds| slope.least.abs().max(slope.greatest.abs());
-    DVec2::new(most(x), most(y)).length()
+    // Where nothing asks, h̄ is h_max: as if a layer asked for it.
+    let h_max = field.spec().transfer.h_max;
+    let background = is_minimum.then_some(h_max).filter(|&h_max| field.spec().unasked >= h_max);
+    let decides = background.map_or(decides, |h_max| decides.min(h_max));
+    let deciding = asked.iter().filter(|(_, _, diameters)| is_asked(diameters));
+    let deciding = deciding.filter(|(_, _, diameters)| !is_minimum || diameters.least < decides);
+    let deciding = || deciding.clone().map(|(_, layer, diameters)| (*layer, diameters));
+    let is_smooth = |layer: &CompiledLayer, diameters: &Diameters| match background {
+        _ if diameters.present == Share::All => !layer.jumps(diameters),
+        Some(h_max) => layer.fades_to(h_max, cells, field.lattice()),
+        None => false,
+    };
+    if !deciding().all(|(layer, diameters)| is_smooth(layer, diameters)) {
+        return (Slopes::UNKNOWN, counting);
+    }
+    let limits = field.spec().transfer.h_min..=h_max;
+    let slopes = deciding().map(|(layer, diameters)| {
+        let own = layer.slopes(cells, diameters, field.lattice());
+        // Beyond the limits, h̄ is a limit.
+        let is_within = limits.contains(&diameters.least) && limits.contains(&diameters.greatest);
+        if is_within { own } else { own.or(Slopes::FLAT) }
+    });
+    (slopes.reduce(Slopes::or).unwrap_or(Slopes::FLAT), counting)
 }

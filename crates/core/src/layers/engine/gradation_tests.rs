@@ -1,0 +1,122 @@
+use glam::{DVec2, dvec2};
+
+use super::KnownSquares;
+use super::counting::Counting;
+use super::gradation::Search;
+use super::place::{Place, Point};
+use super::squares::Square;
+use super::steepness::slopes;
+use crate::field::{Formula, Transfer};
+use crate::geometry::{Lattice, Rect};
+use crate::layers::{Layer, LayerKind, PaintLayers, SizeField, SizeFieldSpec, Threat, ThreatLaw, Threats};
+
+const TRANSFER: Transfer = Transfer { h_min: 0.001, h_max: 0.2, shape: 1.0 };
+
+fn field(kinds: impl IntoIterator<Item = LayerKind>, slope: f64) -> SizeField {
+    let lattice = Lattice::covering(Rect::UNIT, 0.1, 1 << 30).unwrap();
+    let layers = Layer::stack(kinds);
+    let spec =
+        SizeFieldSpec { layers, transfer: TRANSFER, unasked: 0.2, outline: None, gradation: Some(slope) };
+    SizeField::new(spec, &lattice)
+}
+
+fn random_threat(random: &mut fastrand::Rng) -> Threat {
+    Threat {
+        at: dvec2(0.3 + 0.4 * random.f64(), 0.3 + 0.4 * random.f64()),
+        range: 0.02 + 0.2 * random.f64(),
+        peak: 0.5 + 0.5 * random.f64(),
+        law: ThreatLaw::ALL[random.usize(..3)].0,
+    }
+}
+
+/// The least of h(ρ) + g |distance − ρ| over the distances ρ from a threat, by looking closer and closer.
+fn radial_referee(field: &SizeField, threat: &Threat, distance: f64, slope: f64) -> f64 {
+    let carried = |radius: f64| {
+        let at = threat.at + dvec2(radius, 0.0);
+        field.ungraded_at(PaintLayers::blank(), at).0 + slope * (distance - radius).abs()
+    };
+    let (mut low, mut high) = (0.0, threat.range.min(distance));
+    let mut best = carried(distance);
+    for _ in 0..6 {
+        let step = (high - low) / 2000.0;
+        let radii = (0..=2000).map(|n| low + f64::from(n) * step);
+        let (value, radius) = radii
+            .map(|radius| (carried(radius), radius))
+            .fold((best, low), |a, b| if b.0 <= a.0 { b } else { a });
+        best = value;
+        (low, high) = ((radius - 20.0 * step).max(0.0), (radius + 20.0 * step).min(distance));
+    }
+    best
+}
+
+#[test]
+fn what_a_threat_carries_is_found_up_to_the_tolerance() {
+    let mut random = fastrand::Rng::with_seed(41);
+    let mut carried = 0;
+    for _ in 0..150 {
+        let (threat, slope) = (random_threat(&mut random), [0.5, 0.1][random.usize(..2)]);
+        let field = field([LayerKind::Threats(Threats::new(vec![threat]).unwrap())], slope);
+        let angle = 6.0 * random.f64();
+        let distance = threat.range * (0.3 + 1.2 * random.f64());
+        let point = threat.at + distance * dvec2(angle.cos(), angle.sin());
+        let found = field.target_at(PaintLayers::blank(), point);
+        let expected = radial_referee(&field, &threat, distance, slope);
+        assert!((found / expected - 1.0).abs() < 2e-6, "{threat:?} {point}: {found}, not {expected}");
+        carried += usize::from(found < 0.99 * field.ungraded_at(PaintLayers::blank(), point).0);
+    }
+    assert!(carried > 60, "{carried}");
+}
+
+/// The least value at places along the border of a rectangle, and how far it can be above the least one.
+fn least_on_border(rect: &Rect, value: impl Fn(DVec2) -> f64, steepest: f64) -> f64 {
+    const COUNT: u32 = 300;
+    let share = |n: u32| f64::from(n) / f64::from(COUNT);
+    let sides = (0..=COUNT).flat_map(|n| {
+        [dvec2(share(n), 0.0), dvec2(share(n), 1.0), dvec2(0.0, share(n)), dvec2(1.0, share(n))]
+    });
+    let values = sides.map(|at| value(rect.min + at * rect.size()));
+    values.fold(f64::INFINITY, f64::min) - steepest * rect.size().max_element() / f64::from(COUNT)
+}
+
+#[test]
+fn squares_that_are_left_out_have_no_least_value_inside() {
+    let mut random = fastrand::Rng::with_seed(42);
+    let paint = PaintLayers::blank();
+    let mut steep_ones = 0;
+    for _ in 0..40 {
+        let threats = (0..random.usize(1..4)).map(|_| random_threat(&mut random)).collect();
+        let formula = "0.02 + 0.1*abs(sin(7*x + 3*y)) + 0.2*x*y";
+        let kinds = [
+            LayerKind::target(Formula::parse(formula).unwrap()),
+            LayerKind::Threats(Threats::new(threats).unwrap()),
+        ];
+        let (count, slope) = (random.usize(1..3), 0.05 + 0.5 * random.f64());
+        let field = field(kinds.into_iter().skip(2 - count), slope);
+        let origin = field.lattice().bounds().min;
+        let place = Point(dvec2(random.f64(), random.f64()));
+        let value = |p: DVec2| field.ungraded_at(paint, origin + p).0 + slope * p.distance(place.nearest(p));
+        let search = Search { field: &field, paint, place: Point(place.0), slope, finest: 4 };
+        let known = &mut KnownSquares::default();
+        for _ in 0..300 {
+            let bits = random.u32(22..30);
+            let [column, row] = [0, 0].map(|_| random.u32(0..1 << (30 - bits)));
+            let square = Square { bits, column, row };
+            let Some((_, part)) = search.square(known, square, f64::INFINITY) else { continue };
+            if search.steep(known, &part).is_some() {
+                continue;
+            }
+            let cells = square.cells(field.lattice().extent()).unwrap();
+            let (of_square, _) = slopes(&field, paint, &cells, Counting::ALL);
+            steep_ones += usize::from(of_square.exceed(slope));
+            let mut least = least_on_border(&part.rect, value, of_square.longest() + slope);
+            if part.distance == 0.0 {
+                least = least.min(value(place.0));
+            }
+            for _ in 0..100 {
+                let at = part.rect.min + part.rect.size() * dvec2(random.f64(), random.f64());
+                assert!(value(at) >= least * (1.0 - 1e-6), "{square:?} {at}: {} {least}", value(at));
+            }
+        }
+    }
+    assert!(steep_ones > 300, "{steep_ones}");
+}
