@@ -61,8 +61,9 @@ pub struct PathArguments {
 
     /// Leave out points that are no farther than this from the path
     ///
-    /// Points without which the path would leave the domain or enter a keep-out region stay. Cost and bounds
-    /// are those of the path that is written.
+    /// Points without which the path would leave the domain or enter a keep-out region stay, and so do those
+    /// without which a part of it would cost more than 1 % more. Cost and bounds are those of the path that
+    /// is written.
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, help_heading = "Output")]
     pub simplify: Option<f64>,
 

@@ -7,6 +7,7 @@
 //!   March                  → distance to each node: fast marching on triangles
 //!   trace, refine          → a polyline, and a better one near it
 //!   Lines                  → one along lines that are cheaper than the triangles around them
+//!   Shortcuts              → fewer points, for about the same cost
 //!   PathFigures            → its cost, rounded up: no path needs to cost more
 //!   LowerBound             → no path costs less
 //!   Certificate            → a better bound, on a mesh of its own, as close as asked for
@@ -32,6 +33,7 @@ mod planner;
 mod queue;
 mod refine;
 mod resolve;
+mod shortcuts;
 mod solution;
 mod trace;
 mod triangle_costs;

@@ -3,8 +3,8 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::integral::PathFigures;
+use super::shortcuts::{SHORTCUT_TOLERANCE, Shortcuts};
 use super::{CostDensity, PathError, Walls};
-use crate::geometry::nearest_on_segment;
 
 /// A path, and how far from the best it can be.
 #[derive(Clone, Debug, Default)]
@@ -173,10 +173,13 @@ impl Solution {
         samples
     }
 
-    /// A path with fewer points: none of those left out is farther than `tolerance` from it, in world units.
-    /// Stops stay, and so do points without which it would leave the domain or enter a keep-out region
-    /// (Douglas and Peucker's method). The figures are those of the new path. The lower bound holds for it,
-    /// too.
+    /// A path with fewer points: none of those left out is farther than `tolerance` from it, in world units
+    /// (Douglas and Peucker's method).
+    ///
+    /// A shortcut stands for a part of the path only where it stays in the domain and out of keep-out
+    /// regions, and costs at most 1 % more than that part; neither may its upper bound be larger by more.
+    /// So the simplified path costs at most 1 % more, beside jumps of the cost too. Stops stay. The figures
+    /// are those of the new path. The lower bound holds for it, too.
     ///
     /// # Errors
     /// When the tolerance is negative or NaN.
@@ -186,8 +189,9 @@ impl Solution {
         }
         let leg = |(number, ends): (usize, &[usize])| {
             let walls = self.walls.get(number);
-            let points = simplified(&self.points[ends[0]..=ends[1]], tolerance, walls.map(|walls| &**walls));
-            let figures = Self::of(points, density, UPPER_TOLERANCE);
+            let shortcuts = Shortcuts { tolerance, walls: walls.map(|walls| &**walls), density };
+            let points = shortcuts.taken(&self.points[ends[0]..=ends[1]]);
+            let figures = Self::of(points, density, SHORTCUT_TOLERANCE);
             Self { walls: walls.into_iter().cloned().collect(), ..figures }
         };
         let mut solution = Self::joined(self.stops.windows(2).enumerate().map(leg));
@@ -196,25 +200,5 @@ impl Solution {
     }
 }
 
-/// A polyline with fewer points, all of whose pieces the walls admit, as they admit the given one.
-fn simplified(points: &[DVec2], tolerance: f64, walls: Option<&Walls>) -> Vec<DVec2> {
-    let mut keeps = vec![false; points.len()];
-    (keeps[0], keeps[points.len() - 1]) = (true, true);
-    let mut parts = vec![[0, points.len() - 1]];
-    while let Some([first, last]) = parts.pop() {
-        let [a, b] = [points[first], points[last]];
-        let distances =
-            (first + 1..last).map(|n| (n, points[n].distance(nearest_on_segment(points[n], [a, b]))));
-        let Some((farthest, distance)) = distances.max_by(|p, q| p.1.total_cmp(&q.1)) else { continue };
-        if distance > tolerance || walls.is_some_and(|walls| !walls.admit(a, b)) {
-            keeps[farthest] = true;
-            parts.extend([[first, farthest], [farthest, last]]);
-        }
-    }
-    points.iter().zip(keeps).filter_map(|(&point, keeps)| keeps.then_some(point)).collect()
-}
-
-/// The upper bound of a simplified path is above its cost by about this share.
-const UPPER_TOLERANCE: f64 = 2e-5;
 /// Bounds of the cost of a piece of a profile differ by this share.
 const PROFILE_TOLERANCE: f64 = 1e-3;
