@@ -23,6 +23,7 @@ mod size_field;
 mod targets;
 mod targets_in_order;
 mod threat_models;
+mod threat_series;
 mod threats;
 mod usual;
 

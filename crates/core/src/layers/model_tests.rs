@@ -53,6 +53,38 @@ fn the_risk_lies_within_its_model() {
     assert!(narrow > 2500, "{narrow}");
 }
 
+/// Places of all sizes at all distances, and around the kinks at 1/2, 3/4 and 1 of the range.
+#[test]
+fn the_risk_of_one_threat_lies_within_its_model() {
+    let mut random = fastrand::Rng::with_seed(54);
+    let mut narrow = 0;
+    for round in 0..30_000 {
+        let law = ThreatLaw::ALL[round % 3].0;
+        let range = [1e-3, 0.3, 40.0][random.usize(..3)];
+        let at = dvec2(random.f64(), random.f64());
+        let peak = [1.0, 1e-4, random.f64()][random.usize(..3)];
+        let threats = Threats::new(vec![Threat { at, range, peak, law }]).unwrap();
+        let half = range
+            * [1e-6, 1e-3, 0.03, 0.1, 0.4][random.usize(..5)]
+            * (0.5 + dvec2(random.f64(), random.f64()));
+        let distance = [0.5, 0.75, 1.0, 1.2 * random.f64()][random.usize(..4)] * range;
+        let beside = half * (2.0 * dvec2(random.f64(), random.f64()) - 1.0);
+        let middle = at + distance * DVec2::from_angle(6.3 * random.f64()) + beside;
+        let model = threats.model(&place(middle, half));
+        let bounds = model.bounds();
+        narrow += usize::from(model.rest() < 1e-3 * peak);
+        for n in 0..8 {
+            let corner = 2.0 * dvec2(f64::from(n & 1), f64::from(n >> 1 & 1)) - 1.0;
+            let share = if n < 4 { corner } else { 2.0 * dvec2(random.f64(), random.f64()) - 1.0 };
+            let risk = threats.risk_at(middle + share * half);
+            let at_point = model.bounds_over(share.to_array(), [1e-15; 2]);
+            let message = format!("{law:?} {risk} {bounds:?} {at_point:?} {middle} {half}");
+            assert!(bounds.contains(risk) && at_point.contains(risk), "{message}");
+        }
+    }
+    assert!(narrow > 12_000, "{narrow}");
+}
+
 const LONG: [&str; 6] = [
     "0.004+0.003*(sin(17*x+3*y)^2+sin(5*x-31*y)^2+cos(11*x*y)+gauss(hypot(x-0.4,y-0.3),0.1))",
     "if(sin(9*x)+cos(7*y)>0.3, 0.01+0.02*x*y+0.03*abs(x-y), 0.05*max(0.2, sin(20*x)*cos(13*y)+1))",

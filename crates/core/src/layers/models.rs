@@ -96,13 +96,14 @@ thread_local! {
 ///   +---------------+
 /// ```
 ///
-/// `model` gives the model of the function over a place, and `bounds` its bounds over the rectangle.
+/// `model` gives the model of the function over a place, and `bounds` its bounds over the rectangle, from
+/// those of a model.
 pub fn bounds(
     function: ModelId,
     cells: &Cells,
     lattice: &Lattice,
     model: impl Fn(&Place) -> Quadratic,
-    bounds: impl FnOnce() -> Bounds,
+    bounds: impl FnOnce(Bounds) -> Bounds,
 ) -> Bounds {
     let middle = [0, 1].map(|axis: usize| 0.5 * (cells.min[axis] + cells.max[axis]) as f64);
     let half = [0, 1].map(|axis: usize| 0.5 * (cells.max[axis] - cells.min[axis]) as f64 - 0.5);
@@ -111,7 +112,9 @@ pub fn bounds(
     let whole = extent.x.max(extent.y).next_power_of_two().ilog2();
     let around = |bits: u32| Square { bits, at: middle.map(|v| v as i64 >> bits) };
     let fits = |bits: &u32| around(*bits).part(middle, half).is_some();
-    let Some(least_bits) = (side.ilog2()..=whole).find(fits) else { return bounds() };
+    let Some(least_bits) = (side.ilog2()..=whole).find(fits) else {
+        return bounds(Bounds::ANYTHING);
+    };
     let mut square_bits = (least_bits + WIDEST).min(whole);
     loop {
         let (square, mut skipped) = (around(square_bits), 1);
@@ -126,7 +129,7 @@ pub fn bounds(
             if is_least {
                 #[cfg(test)]
                 MADE.with(|made| made.set(made.get() + 1));
-                let own = bounds();
+                let own = bounds(found);
                 return Bounds { valid: own.valid || found.valid, ..own.intersection(found) };
             }
             skipped = halvings(rest / (GOOD * change));

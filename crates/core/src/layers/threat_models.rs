@@ -1,119 +1,140 @@
-//! Models of the risk of threats.
+//! Models of the combined risk of threats.
 
 use std::ops::ControlFlow;
 
+use super::Threats;
 use super::models::Place;
+use super::threat_series::{Series, Squared};
 use super::threats::NO_SURVIVAL;
-use super::{Threat, ThreatLaw, Threats};
 use crate::field::{Bounds, Quadratic};
-
-/// More than the rounding errors in a share of the peak.
-const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 impl Threats {
     /// A model of the combined risk.
     pub(super) fn model(&self, place: &Place) -> Quadratic {
-        let one = Quadratic::constant(1.0);
-        let mut survival = one;
+        let mut survival = Survival::default();
         let certain = self.visit_meeting(&place.rect(), |threat| {
-            let risk = threat.model(place);
-            if !(risk.is_constant() && risk.middle() == 0.0) {
-                survival = survival.times(&one.minus(&risk));
-            }
-            if survival.size() < NO_SURVIVAL { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            let squared = Squared::new(threat, place);
+            let Some(risk) = threat.series(&squared) else { return ControlFlow::Continue(()) };
+            survival.meet(&squared, &risk);
+            if survival.is_lost() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         });
-        if certain.is_break() { one } else { one.minus(&survival) }
+        let one = Quadratic::constant(1.0);
+        if certain.is_break() { one } else { one.minus(&survival.model()) }
     }
 }
 
-impl Threat {
-    /// A model of the risk.
-    fn model(&self, place: &Place) -> Quadratic {
-        let share = self.law.model(&self.squared_share(place));
-        share.times(&Quadratic::constant(self.peak)).or_bounds(|| self.bounds(&place.rect()))
+/// How much a logarithm may change over a place to be added up: beyond, the series of ln (1 − z) converges
+/// slowly.
+const MOST_CHANGE: f64 = 0.5;
+
+/// A smaller product may have lost digits.
+const LEAST_PRODUCT: f64 = 1e-290;
+
+/// What is survived of all threats: Π (1 − pᵢ).
+///
+/// Most threats vary little over a place, and there are many: of them, the values in the middle are
+/// multiplied, and the changes of the logarithms ln (1 − pᵢ) from there are added up as polynomials of the
+/// coordinates u and v in the place. This takes one division a threat, and no logarithm. The others are
+/// multiplied as models.
+struct Survival {
+    /// What is survived in the middle of the place.
+    middle: f64,
+    /// The coefficients of u, v, u², uv and v² of the logarithm.
+    change: [f64; 5],
+    /// The largest distance from that polynomial.
+    rest: f64,
+    /// Of threats that vary much.
+    others: Quadratic,
+    /// No value of that is greater.
+    most_of_others: f64,
+}
+
+impl Default for Survival {
+    fn default() -> Self {
+        Self {
+            middle: 1.0,
+            change: [0.0; 5],
+            rest: 0.0,
+            others: Quadratic::constant(1.0),
+            most_of_others: 1.0,
+        }
+    }
+}
+
+impl Survival {
+    /// Joins a threat.
+    ///
+    /// With y = p − p(middle) = slope · d + bend · d² ± rest for a step d of the square of distance / range,
+    /// and z = y / (1 − p(middle)): ln (1 − p) − ln (1 − p(middle)) = ln (1 − z) = −z − z²/2 − …, where what
+    /// follows is |z|³ / (3 (1 − |z|)) at most.
+    fn meet(&mut self, squared: &Squared, risk: &Series) {
+        let step = squared.step();
+        let inverse = 1.0 / (1.0 - risk.value);
+        let (slope, bend, rest) = (inverse * risk.slope, inverse * risk.bend, inverse * risk.rest);
+        let linear_change = slope.abs() * step;
+        let change = linear_change + bend.abs() * step * step + rest;
+        if !(inverse > 0.0 && change <= MOST_CHANGE) {
+            let risk = squared.model().composed([risk.value, risk.slope, risk.bend], 0.0, risk.rest);
+            self.others = self.others.times(&Quadratic::constant(1.0).minus(&risk));
+            self.most_of_others = self.others.size();
+            return;
+        }
+        self.middle *= 1.0 - risk.value;
+        let beyond_square = 0.5 * (change * change - linear_change * linear_change);
+        let beyond = rest + beyond_square + change * change * change / (3.0 * (1.0 - change));
+        self.add(squared, -slope, -bend - 0.5 * slope * slope, beyond);
     }
 
-    /// The square of distance / range.
-    fn squared_share(&self, place: &Place) -> Quadratic {
-        let share = (place.middle - self.at) / self.range;
-        let half = place.half / self.range;
-        let coefficients = [
-            share.length_squared(),
-            2.0 * share.x * half.x,
-            2.0 * share.y * half.y,
-            half.x * half.x,
-            0.0,
-            half.y * half.y,
+    /// Adds slope · d + bend · d² ± rest to the logarithm, for d = L + C with L = au + bv, C = pu² + qv² ± r.
+    ///
+    /// Of d², the product 2LC is of degree 3. As u³ = ¾u ± ¼ and uv² = ½u ± ½, it is near a line, too:
+    /// LC = a (¾p + ½q) u + b (½p + ¾q) v, up to |a| (¼p + ½q) + |b| (½p + ¼q).
+    fn add(&mut self, squared: &Squared, slope: f64, bend: f64, rest: f64) {
+        let ([a, b], [p, q], r) = (squared.linear, squared.bend, squared.rest);
+        let twice = 2.0 * bend;
+        let terms = [
+            a * (slope + twice * (0.75 * p + 0.5 * q)),
+            b * (slope + twice * (0.5 * p + 0.75 * q)),
+            slope * p + bend * a * a,
+            twice * a * b,
+            slope * q + bend * b * b,
         ];
-        // The coordinates are off by `rest`, and each operation by a few ulps.
-        let farthest = share.abs() + half;
-        let off = place.rest / self.range + 8.0 * f64::EPSILON * farthest;
-        Quadratic::new(coefficients, 4.0 * farthest.dot(off))
+        for (sum, term) in self.change.iter_mut().zip(terms) {
+            *sum += term;
+        }
+        let (slope, bend, [a, b]) = (slope.abs(), bend.abs(), [a.abs(), b.abs()]);
+        let product = a * (0.25 * p + 0.5 * q) + b * (0.5 * p + 0.25 * q);
+        let curved = p + q + r;
+        let step = a + b + curved;
+        let cut_off = slope * r + bend * (2.0 * product + 2.0 * (a + b) * r + curved * curved);
+        // Rounding in the terms, in their sum, and in the factors of the product, here and in the risk.
+        let rounding = 64.0 * f64::EPSILON * (0.25 + (slope + bend * step) * step);
+        self.rest += rest + cut_off + rounding;
     }
-}
 
-impl ThreatLaw {
-    /// A model of the share of the peak, from one of the square of distance / range.
-    fn model(self, squared: &Quadratic) -> Quadratic {
-        let Bounds { least, greatest, valid } = squared.bounds();
-        let (one, zero) = (Quadratic::constant(1.0), Quadratic::constant(0.0));
-        let flat = match self {
-            Self::Radar => 0.25,
-            Self::Gaussian => 0.0,
-            Self::Disc => 0.5625,
-        };
-        if !valid {
+    /// No logarithm is farther from that in the middle.
+    fn most_change(&self) -> f64 {
+        self.change.iter().map(|term| term.abs()).sum::<f64>() + self.rest
+    }
+
+    /// Whether nothing is survived anywhere in the place.
+    fn is_lost(&self) -> bool {
+        let most = self.middle * self.most_of_others;
+        most < NO_SURVIVAL && 2.0 * most * libm::exp(self.most_change()) < NO_SURVIVAL
+    }
+
+    /// As a model.
+    fn model(&self) -> Quadratic {
+        let [u, v, uu, uv, vv] = self.change;
+        let logarithm = Quadratic::new([0.0, u, v, uu, uv, vv], self.rest);
+        let Bounds { least, greatest, valid } = logarithm.bounds();
+        if !valid || self.middle < LEAST_PRODUCT {
             return Quadratic::UNKNOWN;
         }
-        if greatest < flat * (1.0 - 1e-12) {
-            return one;
-        }
-        if least > 1.0 + 1e-12 {
-            return zero;
-        }
-        let s = squared.middle();
-        let is_within = least >= flat && greatest <= 1.0;
-        let cut_off = |share: Quadratic| if is_within { share } else { share.min(&one).max(&zero) };
-        match self {
-            Self::Radar if least <= 0.1 => Quadratic::UNKNOWN,
-            Self::Radar => {
-                // (s⁻² − 1) / 15
-                let power = 1.0 / (15.0 * s * s);
-                let third = 4.0 / (15.0 * least * least * least * least * least);
-                let series = [power - 1.0 / 15.0, -2.0 * power / s, 3.0 * power / (s * s)];
-                cut_off(squared.composed(series, third, ROUNDING))
-            }
-            Self::Gaussian => {
-                let rim = libm::exp(-4.5);
-                let scale = 1.0 / (1.0 - rim);
-                let value = scale * libm::exp(-4.5 * s);
-                // 4.5³ = 91.125
-                let third = scale * 91.125 / 6.0 * libm::exp(-4.5 * least);
-                let series = [value - scale * rim, -4.5 * value, 10.125 * value];
-                cut_off(squared.composed(series, third, ROUNDING))
-            }
-            Self::Disc => disc(squared, is_within),
-        }
+        let [least, greatest] = [libm::exp(least), libm::exp(greatest)];
+        let factor = logarithm
+            .composed([1.0, 1.0, 0.5], greatest / 6.0, 0.0)
+            .or_bounds(|| Bounds::new(least, greatest).widened(4));
+        factor.times(&Quadratic::constant(self.middle)).times(&self.others)
     }
-}
-
-/// t² (3 − 2t) for t = 4 (1 − √s) within 0 and 1. `on_rim` says that t stays within.
-fn disc(squared: &Quadratic, on_rim: bool) -> Quadratic {
-    let s = squared.middle();
-    let t = (4.0 * (1.0 - s.max(0.0).sqrt())).clamp(0.0, 1.0);
-    let root = s.max(0.5625).sqrt();
-    let value = t * t * (3.0 - 2.0 * t);
-    let (fall, fall_bend) = (-2.0 / root, 1.0 / (root * root * root));
-    let rise = 6.0 * t * (1.0 - t);
-    let slope = rise * fall;
-    if on_rim {
-        // The third derivative is 12 · 8 s^−1.5 + 3 · 6 · 2 s^−2 + 1.5 · 1.5 s^−2.5 at most, for s ≥ 9/16.
-        let bend = 0.5 * ((6.0 - 12.0 * t) * fall * fall + rise * fall_bend);
-        return squared.composed([value, slope, bend], 59.0, ROUNDING);
-    }
-    // At both ends of the rim the derivative is continuous. The second derivative is at most 6 · 4 / s +
-    // 1.5 s^−1.5, for s ≥ 9/16.
-    let Bounds { least, greatest, .. } = squared.bounds();
-    let step = (greatest - s).max(s - least);
-    squared.composed([value, slope, 0.0], 0.0, 23.2 * step * step + ROUNDING)
 }

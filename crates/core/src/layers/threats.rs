@@ -42,7 +42,7 @@ impl ThreatLaw {
     }
 
     /// The share of the peak at a distance, from the square of distance / range.
-    fn share(self, squared: f64) -> f64 {
+    pub(super) fn share(self, squared: f64) -> f64 {
         if squared >= 1.0 {
             return 0.0;
         }

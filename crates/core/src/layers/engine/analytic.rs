@@ -248,9 +248,13 @@ impl Analytic {
 
     /// Bounds of the numbers at the centres of some cells.
     fn bounds(&self, cells: &Cells, lattice: &Lattice) -> Bounds {
-        let own = || self.function.bounds(&cells.centers(lattice));
+        // A model of threats already has the bounds of each that varies much.
+        let own = |model: Bounds| match self.function {
+            Function::Threats(_) if model.valid => model,
+            _ => self.function.bounds(&cells.centers(lattice)),
+        };
         match self.models {
-            None => own(),
+            None => own(Bounds::ANYTHING),
             Some(id) => models::bounds(id, cells, lattice, |place| self.function.model(place), own),
         }
     }
