@@ -34,7 +34,7 @@ pub struct Reach<'a> {
 /// How often the rectangle around the core is made smaller as a whole.
 const MOST_ROUNDS: usize = 8;
 /// How often the rectangle is divided in quarters.
-const DEEPEST: u32 = 6;
+const DEEPEST: u32 = 4;
 
 impl Reach<'_> {
     /// The cells that an edit of a core can affect. `least` is the least diameter within the core before and
