@@ -13,9 +13,15 @@ use crate::app::view::FieldOverlay;
 /// A channel may differ by this much: the driver dithers, and rounds in other places.
 const TOLERANCE: u8 = 10;
 
+/// Each frame waits for its jobs: two pictures of one state would differ where one of them shows more.
+fn with_its_mesh_in_software(app: &mut App) {
+    app.canvas.draw_in_software();
+    app.jobs.wait_for_all();
+}
+
 fn in_software() -> Window {
     window_drawn_by(|app: &mut App, ctx: &Context| {
-        app.canvas.draw_in_software();
+        with_its_mesh_in_software(app);
         ctx.add_plugin(app.canvas.software_window().expect("it has a driver"));
     })
 }
@@ -44,7 +50,7 @@ fn difference(a: &Picture, b: &Picture) -> (f64, Option<[usize; 2]>) {
 
 #[test]
 fn it_looks_like_a_window_that_the_driver_draws() {
-    let mut windows = [window_drawn_by(|app, _| app.canvas.draw_in_software()), in_software()];
+    let mut windows = [window_drawn_by(|app, _| with_its_mesh_in_software(app)), in_software()];
     for (number, act) in ACTIONS.iter().enumerate() {
         let [driver, software] = windows.each_mut().map(|window| {
             act(window);
