@@ -40,8 +40,8 @@ impl BoundaryFinder {
         (is_current(key, document) && of == derived.key()).then_some(lost)
     }
 
-    /// Finds the pieces of the document, and which of them a derived mesh lacks, and waits for them as long as the
-    /// frame may. Returns whether some are being found.
+    /// Finds the pieces of the document, and which of them a derived mesh lacks, and waits for them as long
+    /// as the frame may. Returns whether some are being found.
     pub fn advance(
         &mut self,
         document: &Document,

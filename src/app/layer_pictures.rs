@@ -56,8 +56,8 @@ impl LayerPictures {
         self.pictures.get(&id)?.texture.as_ref()
     }
 
-    /// Takes pictures that are ready, and computes those that are out of date. No frame waits for them, unless
-    /// it waits for everything. A stroke is shown once it has ended.
+    /// Takes pictures that are ready, and computes those that are out of date. No frame waits for them,
+    /// unless it waits for everything. A stroke is shown once it has ended.
     pub fn advance(&mut self, session: &Session, view: &View, jobs: &Jobs, ctx: &Context) {
         let document = session.document();
         let colors = view.level_colors(document.settings());

@@ -27,8 +27,8 @@ pub use slot::Slot;
 
 use super::document_id::DocumentId;
 
-/// How long a frame waits for jobs, all of them together: what takes a moment is shown in the frame that asked
-/// for it.
+/// How long a frame waits for jobs, all of them together: what takes a moment is shown in the frame that
+/// asked for it.
 const PATIENCE: Duration = Duration::from_millis(3);
 
 /// The purpose of a job. There are so many threads for each at most; more jobs wait their turn.

@@ -54,8 +54,8 @@ impl<K: PartialEq, T: Send + 'static> Slot<K, T> {
             || self.failed.as_ref() == Some(key)
     }
 
-    /// Computes the value for a key. Nothing happens while another one is being computed, which is shown until
-    /// then, and for a key whose value could not be computed.
+    /// Computes the value for a key. Nothing happens while another one is being computed, which is shown
+    /// until then, and for a key whose value could not be computed.
     pub fn start(&mut self, key: K, compute: impl FnOnce() -> T + Send + 'static, jobs: &Jobs) {
         self.start_wanted(key, |_| Some(compute()), jobs);
     }
