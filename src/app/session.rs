@@ -142,8 +142,8 @@ impl Session {
         &self.derivation
     }
 
-    /// Takes and starts work on the derived mesh, waiting for it as long as the frame may. Returns whether some is
-    /// left.
+    /// Takes and starts work on the derived mesh, waiting for it as long as the frame may. Returns whether
+    /// some is left.
     pub fn advance_derivation(&mut self, jobs: &Jobs) -> bool {
         let in_gesture = self.document.is_in_gesture() || self.is_cutting();
         self.derivation.advance(&self.follower, in_gesture, jobs)
@@ -159,8 +159,8 @@ impl Session {
         self.boundary.lost(&self.document, self.derived()?)
     }
 
-    /// Finds the pieces of the boundary, waiting for them as long as the frame may. Returns whether some are being
-    /// found.
+    /// Finds the pieces of the boundary, waiting for them as long as the frame may. Returns whether some are
+    /// being found.
     pub fn find_boundary(&mut self, jobs: &Jobs) -> bool {
         let derived = self.derivation.current(&self.follower);
         self.boundary.advance(&self.document, &self.follower, derived, jobs)
@@ -181,8 +181,8 @@ impl Session {
         self.statistician.measure(&self.document, &self.follower, &self.derivation, jobs);
     }
 
-    /// Takes the figures that are ready, waiting for them as long as the frame may. Returns whether some are being
-    /// computed.
+    /// Takes the figures that are ready, waiting for them as long as the frame may. Returns whether some are
+    /// being computed.
     pub fn take_figures(&mut self, jobs: &Jobs) -> bool {
         self.statistician.take(jobs)
     }
@@ -289,8 +289,8 @@ impl Session {
         self.cuts.shapes()
     }
 
-    /// Takes finished cuts into the document, waiting for them as long as the frame may. Returns whether any are
-    /// left.
+    /// Takes finished cuts into the document, waiting for them as long as the frame may. Returns whether any
+    /// are left.
     pub fn advance_cuts(&mut self, jobs: &Jobs) -> bool {
         match self.cuts.advance(&mut self.document, jobs) {
             Ok(left) => left,

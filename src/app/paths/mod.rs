@@ -98,7 +98,8 @@ impl PathFinder {
     }
 
     /// Takes what was found, waiting as long as the frame may, and begins what is to be found next. The
-    /// jobs wake the window: no frame needs to wait for them. Alternatives and the front are those of `route`.
+    /// jobs wake the window: no frame needs to wait for them. Alternatives and the front are those of
+    /// `route`.
     pub fn advance(&mut self, session: &Session, route: Option<usize>, jobs: &Jobs) {
         if self.work.is_running() {
             if self.work.take(jobs) {

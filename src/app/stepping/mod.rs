@@ -126,8 +126,8 @@ impl Stepping {
         self.document == DocumentState::of(session)
     }
 
-    /// Takes what was recorded, waiting for it as long as the frame may, and plays. Returns whether anything is
-    /// being recorded.
+    /// Takes what was recorded, waiting for it as long as the frame may, and plays. Returns whether anything
+    /// is being recorded.
     ///
     /// # Errors
     /// A sentence, when there are no steps to show.
