@@ -146,7 +146,8 @@ impl Background {
         self.started += 1;
         let (id, meter, name) = (WorkId(self.started), Meter::default(), name_of(path));
         let (watched, threads) = (meter.clone(), self.threads);
-        let job = self.jobs.start(Kind::File, move |output| {
+        let kind = if aim == Aim::Read { Kind::Read } else { Kind::Write };
+        let job = self.jobs.start(kind, move |output| {
             output.send(Threads::new(threads).run(|| work(&watched)));
         });
         self.works.push(Work { id, job, aim, name, meter, busy: Busy::now() });
@@ -219,13 +220,14 @@ impl Background {
         }
     }
 
-    /// Forgets what is being read, and waits up to `longest` for what is being written: the window is being
-    /// closed.
-    pub fn end(&mut self, longest: Duration) {
-        self.works.retain(|work| work.aim != Aim::Read);
-        if !self.works.is_empty() {
-            self.jobs.wait_for_files(longest);
+    /// Waits until nothing is being written, or the time is over. Returns whether anything was: its
+    /// outcome may begin the next save.
+    pub fn wait_for_writing(&self, longest: Duration) -> bool {
+        let writes = self.works.iter().any(|work| work.aim != Aim::Read);
+        if writes {
+            self.jobs.wait_for_writing(longest);
         }
+        writes
     }
 }
 

@@ -60,7 +60,7 @@ pub mod widgets;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::sync::Arc;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use eframe::egui::{self, Context, Ui, vec2};
 use eframe::egui_wgpu;
@@ -264,8 +264,11 @@ impl eframe::App for App {
     }
 
     fn on_exit(&mut self) {
-        self.background.end(LAST_WAIT);
-        while self.finish_next_work() {}
+        let deadline = Instant::now() + LAST_WAIT;
+        let left = || deadline.saturating_duration_since(Instant::now());
+        while !left().is_zero() && self.background.wait_for_writing(left()) {
+            while self.finish_next_work() {}
+        }
         // Where the desktop closes the window, the user was not asked.
         let remove = self.project.may_leave(&self.session);
         if let Some(keeper) = &mut self.journal {

@@ -14,7 +14,7 @@ use crate::app::document_id::DocumentId;
 pub struct Wanted(Arc<AtomicBool>);
 
 impl Wanted {
-    /// Ask this between the steps of long work, and end the work if not.
+    /// Whether they are. Long work checks this between its steps, and ends where they are not.
     pub fn goes_on(&self) -> bool {
         self.0.load(Ordering::Relaxed)
     }

@@ -14,7 +14,7 @@ mod job;
 mod queue;
 mod slot;
 
-use std::cell::{Cell, RefCell};
+use std::cell::Cell;
 use std::rc::Rc;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::time::{Duration, Instant};
@@ -36,8 +36,11 @@ const PATIENCE: Duration = Duration::from_millis(3);
 pub enum Kind {
     /// It computes what the window shows, or an edit of the document.
     Compute,
-    /// It reads or writes a file. Whoever started it says what a panic means.
-    File,
+    /// It reads a file. Whoever started it says what a panic means.
+    Read,
+    /// It writes a file: a window that is being closed waits for it. Whoever started it says what a panic
+    /// means.
+    Write,
     /// It waits for a person or for the system.
     Ask,
     /// It keeps the journal, as long as the window is open.
@@ -45,13 +48,13 @@ pub enum Kind {
 }
 
 impl Kind {
-    const ALL: [Self; 4] = [Self::Compute, Self::File, Self::Ask, Self::Journal];
+    const ALL: [Self; 5] = [Self::Compute, Self::Read, Self::Write, Self::Ask, Self::Journal];
 
     /// The most threads.
     fn most(self) -> usize {
         match self {
             Self::Compute => 6,
-            Self::File | Self::Ask => 4,
+            Self::Read | Self::Write | Self::Ask => 4,
             Self::Journal => 3,
         }
     }
@@ -71,7 +74,7 @@ struct Shared {
     /// Whether a frame waits as long as its jobs take: pictures must be the same every time.
     waits_for_all: Cell<bool>,
     problem_sender: Sender<String>,
-    problems: RefCell<Receiver<String>>,
+    problems: Receiver<String>,
 }
 
 impl Jobs {
@@ -85,7 +88,7 @@ impl Jobs {
             patience: Cell::new(PATIENCE),
             waits_for_all: Cell::new(false),
             problem_sender,
-            problems: RefCell::new(problems),
+            problems,
         }))
     }
 
@@ -121,7 +124,7 @@ impl Jobs {
         work: impl FnOnce(&Output<T>) + Send + 'static,
     ) -> Job<T> {
         let (job, output) = Job::new(&self.0.ctx, self.document());
-        let problems = (kind != Kind::File).then(|| self.0.problem_sender.clone());
+        let problems = (!matches!(kind, Kind::Read | Kind::Write)).then(|| self.0.problem_sender.clone());
         self.0.queue.push(kind, move || {
             if output.is_wanted()
                 && let Err(problem) = failure::caught(|| work(&output))
@@ -137,12 +140,12 @@ impl Jobs {
 
     /// Messages about jobs that ended with a panic, since the last call.
     pub fn take_problems(&self) -> Vec<String> {
-        self.0.problems.borrow().try_iter().collect()
+        self.0.problems.try_iter().collect()
     }
 
-    /// Waits until no file is read or written any more, or the time is over.
-    pub fn wait_for_files(&self, longest: Duration) {
-        self.0.queue.wait(Kind::File, longest);
+    /// Waits until no file is being written, or the time is over: for a window that is being closed.
+    pub fn wait_for_writing(&self, longest: Duration) {
+        self.0.queue.wait(Kind::Write, longest);
     }
 
     /// Receives a value, and waits for it as long as the frame may still wait. No other code of the window
@@ -165,23 +168,21 @@ mod tests {
 
     use super::*;
 
+    /// Goes on until nobody wants it any more.
+    fn endless(output: &Output<()>) {
+        while output.is_wanted() {
+            std::thread::yield_now();
+        }
+    }
+
     #[test]
     fn a_frame_waits_for_all_its_jobs_together_no_longer_than_its_patience() {
         let jobs = Jobs::new(&Context::default());
-        let endless = |output: &Output<()>| {
-            while output.is_wanted() {
-                std::thread::yield_now();
-            }
-        };
         let running: Vec<Job<()>> =
             (0..Kind::Compute.most()).map(|_| jobs.start(Kind::Compute, endless)).collect();
         jobs.begin_frame();
         assert!(running.iter().all(|job| matches!(job.take(&jobs), Taken::Working)));
-        assert_eq!(
-            jobs.0.patience.get(),
-            Duration::ZERO,
-            "the patience was used up, and by all of them once"
-        );
+        assert_eq!(jobs.0.patience.get(), Duration::ZERO, "the jobs used up one patience together");
     }
 
     #[test]
@@ -210,12 +211,7 @@ mod tests {
     #[test]
     fn a_job_that_nobody_wants_any_more_does_not_begin() {
         let jobs = Jobs::new(&Context::default());
-        let holds = |output: &Output<()>| {
-            while output.is_wanted() {
-                std::thread::yield_now();
-            }
-        };
-        let holding: Vec<Job<()>> = (0..Kind::Ask.most()).map(|_| jobs.start(Kind::Ask, holds)).collect();
+        let holding: Vec<Job<()>> = (0..Kind::Ask.most()).map(|_| jobs.start(Kind::Ask, endless)).collect();
         let begun = Arc::new(AtomicUsize::new(0));
         let begins = begun.clone();
         drop(jobs.start(Kind::Ask, move |_: &Output<()>| {
@@ -224,5 +220,17 @@ mod tests {
         drop(holding);
         jobs.0.queue.wait(Kind::Ask, Duration::from_secs(30));
         assert_eq!(begun.load(Ordering::SeqCst), 0);
+    }
+
+    #[test]
+    fn a_window_that_is_closed_waits_for_writing_and_not_for_reading() {
+        let jobs = Jobs::new(&Context::default());
+        let _reading = jobs.start(Kind::Read, endless);
+        let writing = jobs.start(Kind::Write, |output: &Output<u32>| {
+            output.send(7);
+        });
+        // The reading never ends by itself: waiting for it would take an hour.
+        jobs.wait_for_writing(Duration::from_secs(3600));
+        assert!(matches!(writing.take_ready(), Taken::Value(7)));
     }
 }

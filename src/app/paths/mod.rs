@@ -105,7 +105,7 @@ impl PathFinder {
             if self.work.take(jobs) {
                 return;
             }
-            self.take_work(session);
+            self.take_work();
         }
         let Some(route) = route else { return self.forget() };
         let Some(key) = self.wanted(session) else { return };
@@ -189,7 +189,7 @@ impl PathFinder {
     }
 
     /// Takes the work that has ended.
-    fn take_work(&mut self, session: &Session) {
+    fn take_work(&mut self) {
         let Some((key, work)) = self.work.take_last() else { return };
         let Some(work) = work else {
             // The settings are checked: weights that make no cost are refused there.
@@ -201,9 +201,6 @@ impl PathFinder {
             (mesh, keep_out)
         });
         self.planner = work.planner.map(|planner| (planner, key.mesh));
-        if key.mesh.document_id != session.document_id() {
-            return;
-        }
         match work.result {
             WorkResult::Corridor(lines) => self.corridor.lines = lines.into(),
             WorkResult::Paths { density, routes } => {

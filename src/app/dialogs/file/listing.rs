@@ -32,7 +32,8 @@ impl Listing {
         });
         let (jobs, folder) = (jobs.clone(), folder.to_owned());
         let mut listing = Self { jobs, folder, contents: Contents::Reading, job };
-        listing.take();
+        // Most folders are read within the time that a frame may wait, so that nothing flickers.
+        listing.keep(listing.job.take(&listing.jobs));
         listing
     }
 
@@ -41,7 +42,7 @@ impl Listing {
         if self.folder != folder {
             *self = Self::of(folder, &self.jobs);
         }
-        self.take();
+        self.keep(self.job.take_ready());
     }
 
     /// Reads the folder again: a file may have been added.
@@ -60,9 +61,9 @@ impl Listing {
         is_cut.then(|| format!("Only {MOST_ENTRIES} entries are listed. Type the name of another one."))
     }
 
-    /// Most folders are read within the time that a frame may wait, so that nothing flickers.
-    fn take(&mut self) {
-        if let Taken::Value(answer) = self.job.take(&self.jobs) {
+    /// Keeps what the job found.
+    fn keep(&mut self, taken: Taken<std::io::Result<FolderListing>>) {
+        if let Taken::Value(answer) = taken {
             self.contents = match answer {
                 Ok(listing) => Contents::Read(listing),
                 Err(error) => {
