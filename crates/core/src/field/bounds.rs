@@ -105,7 +105,7 @@ impl Bounds {
         Self { least: -self.greatest, greatest: -self.least, ..self }
     }
 
-    pub(super) fn abs(self) -> Self {
+    pub(crate) fn abs(self) -> Self {
         let least = if self.has_zero() { 0.0 } else { self.least.abs().min(self.greatest.abs()) };
         Self { least, greatest: self.least.abs().max(self.greatest.abs()), ..self }
     }

@@ -170,7 +170,7 @@ impl SizeField {
         self.asked_by(Counting::ALL, paint, cells)
     }
 
-    /// The same, if no other layers than those `counting` can count there.
+    /// As [`Self::asked_diameters`], where only the layers of `counting` can count.
     fn asked_by(&self, counting: Counting, paint: &PaintLayers, cells: &Cells) -> ([f64; 2], Option<Cut>) {
         let (mut least, mut greatest, mut cut) = (f64::INFINITY, f64::INFINITY, None);
         for (_, layer) in self.counting(counting) {

@@ -55,7 +55,7 @@ impl Squared {
         }
     }
 
-    /// The same as a model.
+    /// The square of distance / range as a model.
     pub fn model(&self) -> Quadratic {
         let ([u, v], [uu, vv]) = (self.linear, self.bend);
         Quadratic::new([self.middle, u, v, uu, 0.0, vv], self.rest)

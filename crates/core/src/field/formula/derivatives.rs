@@ -34,7 +34,8 @@ pub(super) fn derivatives(
     gradient.is_known().then_some(gradient.along)
 }
 
-/// The same without risks, and the largest slope in any direction.
+/// Bounds of the derivatives along x and y, with any risk and no slope of it, and the largest slope in any
+/// direction; `None` where one of them is not known.
 pub(super) fn slopes(program: &Program, rect: &Rect) -> Option<([Bounds; 2], f64)> {
     let gradient = gradient(program, rect, (Bounds::ANYTHING, [ZERO; 2]))?;
     gradient.is_known().then_some((gradient.along, gradient.length))

@@ -130,10 +130,11 @@ impl Formula {
     /// Bounds of the derivatives along x and y over a closed rectangle in world units. `None` where the
     /// formula may jump, or a derivative is not known.
     pub(crate) fn derivatives(&self, rect: &Rect) -> Option<[Bounds; 2]> {
-        derivatives::derivatives(&self.program, rect, (Bounds::ANYTHING, [gradient::ZERO; 2]))
+        self.slopes(rect).map(|(along, _)| along)
     }
 
-    /// The same, and the largest slope in any direction.
+    /// Bounds of the derivatives along x and y over a closed rectangle in world units, and the largest slope
+    /// in any direction; `None` where the formula may jump, or one of them is not known.
     pub(crate) fn slopes(&self, rect: &Rect) -> Option<([Bounds; 2], f64)> {
         derivatives::slopes(&self.program, rect)
     }

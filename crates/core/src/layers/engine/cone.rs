@@ -28,6 +28,16 @@ impl Cone {
         (distance > 1.5 * radius).then(|| Self { toward: away / distance, spread: spread + ROUNDING })
     }
 
+    /// The unit vector in the middle.
+    pub fn toward(self) -> DVec2 {
+        self.toward
+    }
+
+    /// The largest length of the difference between a unit vector of the cone and the one in the middle.
+    pub fn spread(self) -> f64 {
+        self.spread
+    }
+
     /// The opposite directions.
     pub fn opposite(self) -> Self {
         Self { toward: -self.toward, ..self }

@@ -17,7 +17,7 @@ impl Counting {
         number >= 64 || self.0 >> number & 1 == 1
     }
 
-    /// The same without a layer.
+    /// These layers without one.
     pub fn without(self, number: usize) -> Self {
         if number < 64 { Self(self.0 & !(1 << number)) } else { self }
     }

@@ -22,6 +22,7 @@ use crate::geometry::{BestFirst, LatticePoint, Octagon, Rect};
 use crate::layers::{PaintLayers, SizeField};
 
 use super::cells::{Cells, Cut};
+use super::cone::Cone;
 use super::counting::Counting;
 use super::place::{Place, Point, TriangleInWorld, gap, rect_of};
 use super::squares::{KnownSquares, LEAST_BITS, Square};
@@ -143,15 +144,10 @@ impl<P: Place> Search<'_, P> {
     ///
     /// The gradient of h + g d is that of h, and g times the unit vector u away from the nearest point of the
     /// place. The vector from the nearest point to y changes by at most |y − c| between the centre c of the
-    /// rectangle and y, so that u changes by at most 2 r / (2 d − r) within the radius r.
+    /// rectangle and y, as that from a fixed point does.
     fn falls_throughout(&self, slopes: &Slopes, rect: &Rect) -> bool {
-        let (center, radius) = (rect.center(), 0.5 * rect.size().length());
-        let away = center - self.place.nearest(center);
-        let distance = away.length();
-        let (away, spread) = match distance > 1.5 * radius {
-            true => (away / distance, 2.0 * radius / (2.0 * distance - radius)),
-            false => (DVec2::ZERO, 1.0),
-        };
+        let away = Cone::from_point(self.place.nearest(rect.center()), rect);
+        let (away, spread) = away.map_or((DVec2::ZERO, 1.0), |cone| (cone.toward(), cone.spread()));
         let all = rect_of(&Cells::all(self.field.lattice().extent()), self.field.lattice());
         let within_lattice = |mut rise: DVec2| {
             for axis in 0..2 {

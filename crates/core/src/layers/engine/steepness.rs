@@ -52,8 +52,7 @@ impl Slopes {
 
     /// From bounds along the axes, and a cone of all gradients if one is known.
     pub fn within(along: [Bounds; 2], cone: Option<Cone>) -> Self {
-        let most = |slope: Bounds| slope.least.abs().max(slope.greatest.abs());
-        let length = DVec2::new(most(along[0]), most(along[1])).length();
+        let length = DVec2::from(along.map(|slope| slope.abs().greatest)).length();
         Self { along, length, cone, beside: if cone.is_some() { NONE } else { along } }
     }
 
@@ -64,7 +63,7 @@ impl Slopes {
 
     /// Those of a function of the function, from the bounds of its derivative.
     pub fn times(self, factor: Bounds) -> Self {
-        let length = self.length * factor.least.abs().max(factor.greatest.abs());
+        let length = self.length * factor.abs().greatest;
         let scaled = |slopes: [Bounds; 2]| slopes.map(|slope| slope.times(factor));
         let is_number = |slope: &Bounds| slope.valid && slope.least.is_finite() && slope.greatest.is_finite();
         let along = scaled(self.along);
