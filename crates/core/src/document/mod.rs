@@ -13,6 +13,7 @@ mod layer_titles;
 mod layers;
 mod outline;
 mod path_plan;
+mod pending;
 mod pricer;
 mod rebuild;
 mod recording;
@@ -42,8 +43,7 @@ pub use settings::{LEAST_MEMORY, MAX_COARSE_TRIANGLES, MOST_RASTER_PIXELS, Setti
 pub use stage::Stage;
 
 use crate::layers::{LayerId, PaintChange, PaintLayers};
-use crate::mesh::TargetChange;
-use crate::paint::{Medium, Patch, Repaint};
+use crate::paint::{Patch, Repaint};
 use change::Change;
 use history::{Entry, EntryData};
 use strokes::LayerStroke;
@@ -181,8 +181,7 @@ impl Document {
             let mut patch = Patch::clearing(raster);
             if !patch.is_empty() {
                 let areas = patch.exchange(raster);
-                let change = Medium::Eraser.change(self.settings.transfer.h_max);
-                self.note_repainted(layer, areas, change);
+                self.note_repainted(layer, areas);
                 patches.push((layer, patch));
             }
         }
@@ -306,7 +305,7 @@ impl Document {
                 for (layer, patch) in patches {
                     let Some(raster) = self.paint.get_mut(*layer) else { continue };
                     let areas = patch.exchange(raster);
-                    self.note_repainted(*layer, areas, TargetChange::Any);
+                    self.note_repainted(*layer, areas);
                 }
             }
             EntryData::Settings(settings) => {
@@ -333,13 +332,8 @@ impl Document {
         self.history.last_done().map(|entry| &entry.data)
     }
 
-    fn note_repainted(
-        &mut self,
-        layer: LayerId,
-        areas: impl IntoIterator<Item = Repaint>,
-        change: TargetChange,
-    ) {
-        for Repaint { area, before } in areas {
+    fn note_repainted(&mut self, layer: LayerId, areas: impl IntoIterator<Item = Repaint>) {
+        for Repaint { area, before, change } in areas {
             self.edits.layers.insert(layer);
             if let Repainted::Within(earlier) = &mut self.repainted {
                 earlier.push(PaintChange { layer, area, before, change });

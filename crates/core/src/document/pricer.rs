@@ -167,13 +167,13 @@ fn paint_more(
     }
     let mut paint = document.paint().clone();
     paint.insert(question.layer, raster);
-    let field = follower.field();
-    let h_max = document.settings().transfer.h_max;
-    let (layer, change) = (question.layer, question.plan.brush.medium.change(h_max));
-    let affected = changed.iter().flat_map(|&Repaint { area, before }| {
-        field.changes_by_paint(&PaintChange { layer, area, before, change }, &paint)
-    });
-    match affected.map(|area| area.rect).reduce(|a, b| union(&a, &b)) {
+    let (field, layer) = (follower.field(), question.layer);
+    let painted: Vec<PaintChange> = changed
+        .iter()
+        .map(|&Repaint { area, before, change }| PaintChange { layer, area, before, change })
+        .collect();
+    let affected = field.changes_by_paint(&painted, &paint);
+    match affected.into_iter().map(|area| area.rect).reduce(|a, b| union(&a, &b)) {
         None if changed.iter().all(|repaint| !meets(&repaint.area, field)) => {
             Work::Known(Price::Nothing(NoChange::OutsideField))
         }

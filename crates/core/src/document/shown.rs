@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::change::Change;
 use super::following::{Followed, Following};
+use super::pending::Pending;
 use super::rebuild::Rebuild;
 use super::{Document, Settings};
 use crate::build::{BuildError, BuiltMesh, Parts, RefinementCriterion};
@@ -23,6 +24,8 @@ pub(super) struct Shown {
     pub(super) mesh: Arc<Mesh>,
     /// Updates of the mesh; idle under the vertex rule.
     updater: Updater,
+    /// What the updates are for.
+    pending: Pending,
     upkeep: Upkeep,
 }
 
@@ -67,8 +70,8 @@ impl Shown {
     ) -> Self {
         let BuiltMesh { domain, field, mesh, .. } = built;
         let updater = Updater::new(settings.limits());
-        let upkeep = Upkeep::InPlace;
-        let mut shown = Self { settings, domain, field, mesh: Arc::new(mesh), updater, upkeep };
+        let (pending, upkeep) = (Pending::default(), Upkeep::InPlace);
+        let mut shown = Self { settings, domain, field, mesh: Arc::new(mesh), updater, pending, upkeep };
         shown.repaint(repainted, paint);
         shown
     }
@@ -80,10 +83,9 @@ impl Shown {
         }
         match self.settings.rule {
             RefinementRule::Area => {
-                for change in changes {
-                    let areas = self.field.changes_by_paint(change, paint);
-                    areas.into_iter().for_each(|area| self.updater.add_area(area));
-                }
+                self.pending.paint(self.updater.is_done(), changes, &self.field);
+                let areas = self.field.changes_by_paint(changes, paint);
+                areas.into_iter().for_each(|area| self.updater.add_area(area));
             }
             RefinementRule::Vertex => self.upkeep = Upkeep::NewMesh,
         }
@@ -153,6 +155,15 @@ impl Shown {
                 return;
             }
         }
+        let was_in_step = self.updater.is_done();
+        match &field {
+            _ if outline.is_some() => self.pending.anything(),
+            Some(field) => {
+                let layers = field.finer_layers_since(&self.field, paint, outline_areas);
+                self.pending.field_changed(was_in_step, layers, field);
+            }
+            None => {}
+        }
         changes.into_iter().for_each(|area| self.updater.add_area(area));
         match outline {
             None => self.domain = self.domain.with_boundary(settings.boundary),
@@ -191,9 +202,9 @@ impl Shown {
         if self.updater.is_done() || self.unshare_mesh(copy, budget) == Progress::More {
             return Ok(());
         }
-        let Self { domain, field, mesh, updater, .. } = self;
+        let Self { domain, field, mesh, updater, pending, .. } = self;
         let mesh = Arc::get_mut(mesh).expect("it is not shared, see above");
-        let mut criterion = RefinementCriterion::by_area(domain, field, paint);
+        let mut criterion = RefinementCriterion::by_area(domain, pending.field(field), paint);
         updater.advance(mesh, |element| criterion.exceeds(element), budget).map(|_| ())
     }
 

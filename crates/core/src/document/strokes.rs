@@ -5,7 +5,7 @@ use glam::DVec2;
 use super::history::EntryData;
 use super::{Document, RecordedStroke};
 use crate::layers::LayerId;
-use crate::mesh::{Progress, TargetChange};
+use crate::mesh::Progress;
 use crate::paint::{Brush, Medium, Mirror, PathPoint, Stroke};
 
 /// A stroke, and the layer that it paints on.
@@ -13,8 +13,6 @@ use crate::paint::{Brush, Medium, Mirror, PathPoint, Stroke};
 pub(super) struct LayerStroke {
     layer: LayerId,
     stroke: Stroke,
-    /// What it does to the diameters that the pixels ask for.
-    change: TargetChange,
     /// Its path and brush, if it is recorded.
     recorded: Option<RecordedStroke>,
     /// Whether the layer had no pixels before.
@@ -43,11 +41,10 @@ impl Document {
         let settings = &self.settings;
         let is_first = self.paint.get(layer).is_none();
         self.paint.get_or_insert(layer, || settings.blank_raster(layer));
-        let change = brush.medium.change(settings.transfer.h_max);
         let stroke = Stroke::new(brush, settings.transfer.h_max, settings.domain.bounds).mirrored(mirror);
         let recorded =
             self.recording.is_some().then(|| RecordedStroke { layer, brush, mirror, path: Vec::new() });
-        self.stroke = Some(LayerStroke { layer, stroke, change, recorded, is_first });
+        self.stroke = Some(LayerStroke { layer, stroke, recorded, is_first });
         self.finishing = false;
     }
 
@@ -71,12 +68,12 @@ impl Document {
     /// Draws at most one segment of the current stroke, and about `pixels` of it. A stroke that was finished
     /// ends with its last segment.
     pub fn advance_stroke(&mut self, pixels: usize) -> Progress {
-        let Some(LayerStroke { layer, stroke, change, .. }) = &mut self.stroke else { return Progress::Done };
-        let (layer, change) = (*layer, *change);
+        let Some(LayerStroke { layer, stroke, .. }) = &mut self.stroke else { return Progress::Done };
+        let layer = *layer;
         let area = self.paint.get_mut(layer).and_then(|raster| stroke.advance(raster, pixels));
         let progress = if stroke.is_drawn() { Progress::Done } else { Progress::More };
         if let Some(area) = area {
-            self.note_repainted(layer, [area], change);
+            self.note_repainted(layer, [area]);
         }
         if self.finishing && progress == Progress::Done {
             self.end_stroke();
@@ -119,7 +116,7 @@ impl Document {
         let Some(LayerStroke { layer, stroke, recorded, is_first, .. }) = self.stroke.take() else { return };
         let Some(raster) = self.paint.get_mut(layer) else { return };
         let areas = stroke.finish(raster).exchange(raster);
-        self.note_repainted(layer, areas, TargetChange::Any);
+        self.note_repainted(layer, areas);
         let without_path =
             recorded.filter(|_| is_first).map(|stroke| RecordedStroke { path: Vec::new(), ..stroke });
         self.note_stroke("cancelled stroke", without_path);

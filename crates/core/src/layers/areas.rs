@@ -2,6 +2,7 @@
 
 use super::difference::Circumstances;
 use super::engine::cells::Cells;
+use super::extent::joined;
 use super::reach::Reach;
 use super::{Combine, LayerId, PaintLayers, SizeField};
 use crate::geometry::{LatticeRect, Rect};
@@ -10,6 +11,8 @@ use crate::raster::ValueRange;
 
 /// Most rectangles of one step of an edit, where gradation carries each of them farther.
 const MOST_GRADED: usize = 8;
+/// Rectangles are joined to one where it is at most so many times as large as they are together.
+const MOST_EMPTY: f64 = 2.0;
 
 /// A part of a paint layer that was painted.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,6 +25,37 @@ pub struct PaintChange {
     pub before: ValueRange,
     /// What happened to the diameters that the pixels ask for.
     pub change: TargetChange,
+}
+
+/// Few rectangles that cover others: those whose reaches overlap would be searched several times.
+fn near_joined(rects: Vec<Rect>) -> Vec<Rect> {
+    let area = |rect: &Rect| rect.size().element_product();
+    let covered: f64 = rects.iter().map(area).sum();
+    match rects.iter().copied().reduce(|a, b| a.union(&b)) {
+        Some(around) if area(&around) <= MOST_EMPTY * covered => vec![around],
+        _ => joined(rects, MOST_GRADED),
+    }
+}
+
+/// Few changes that cover others, each of one layer and in one direction.
+fn near_changes_joined(painted: &[PaintChange]) -> Vec<PaintChange> {
+    let mut groups: Vec<Vec<PaintChange>> = Vec::new();
+    for one in painted {
+        let is_alike = |group: &&mut Vec<PaintChange>| {
+            group.first().is_some_and(|first| first.layer == one.layer && first.change == one.change)
+        };
+        match groups.iter_mut().find(is_alike) {
+            Some(group) => group.push(*one),
+            None => groups.push(vec![*one]),
+        }
+    }
+    let of_group = |group: Vec<PaintChange>| {
+        let all = group.iter().copied().reduce(|a, b| PaintChange { before: a.before.union(b.before), ..a });
+        let rects = near_joined(group.iter().map(|one| one.area).collect());
+        all.into_iter()
+            .flat_map(move |all| rects.clone().into_iter().map(move |area| PaintChange { area, ..all }))
+    };
+    groups.into_iter().flat_map(of_group).collect()
 }
 
 impl SizeField {
@@ -39,9 +73,8 @@ impl SizeField {
         let circumstances = Circumstances { paint, longest: self.longest(), outline_areas };
         let mut changes = Vec::new();
         for step in self.spec().difference(old.spec(), &circumstances) {
-            // Rectangles whose reaches overlap would be searched several times.
-            let most = if old.spec().gradation.is_some() { MOST_GRADED } else { usize::MAX };
-            let rects = step.area.rects_within(self.lattice().bounds(), most);
+            let rects = step.area.rects_within(self.lattice().bounds());
+            let rects = if old.spec().gradation.is_some() { near_joined(rects) } else { rects };
             for core in rects.iter().filter_map(|rect| self.core(rect)) {
                 let asked = [old, self].map(|field| field.least_asked(step.layer, core, paint));
                 let least = self.least_diameter(asked[0].min(asked[1]), old);
@@ -53,12 +86,33 @@ impl SizeField {
         changes
     }
 
-    /// Where and how h̄ can have changed after pixels changed; nowhere if the field has no such layer.
-    /// `paint` has the pixels as they are now.
+    /// The layers that ask for smaller diameters than in an earlier field, if nothing else differs; see
+    /// [`Self::of_layers_alone`].
+    pub fn finer_layers_since(
+        &self,
+        old: &Self,
+        paint: &PaintLayers,
+        outline_areas: Option<&[Rect]>,
+    ) -> Option<Vec<LayerId>> {
+        let circumstances = Circumstances { paint, longest: self.longest(), outline_areas };
+        let steps = self.spec().difference(old.spec(), &circumstances);
+        steps.iter().map(|step| step.layer.filter(|_| step.change == TargetChange::Finer)).collect()
+    }
+
+    /// Where and how h̄ can have changed after pixels changed. `paint` has the pixels as they are now.
+    pub fn changes_by_paint(&self, painted: &[PaintChange], paint: &PaintLayers) -> Vec<ChangedArea> {
+        let changes = match self.spec().gradation {
+            Some(_) => near_changes_joined(painted),
+            None => painted.to_vec(),
+        };
+        changes.iter().flat_map(|painted| self.changes_by_one(painted, paint)).collect()
+    }
+
+    /// As [`Self::changes_by_paint`], of one change; nowhere if the field has no such layer.
     ///
     /// A change to smaller diameters ends, and one to larger diameters begins, with what is asked for now and
     /// before.
-    pub fn changes_by_paint(&self, painted: &PaintChange, paint: &PaintLayers) -> Vec<ChangedArea> {
+    fn changes_by_one(&self, painted: &PaintChange, paint: &PaintLayers) -> Vec<ChangedArea> {
         let PaintChange { layer, area, before, change } = painted;
         let stack = self.spec().layers.iter();
         let Some(layer) =

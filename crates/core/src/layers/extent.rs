@@ -35,12 +35,11 @@ impl Extent {
         Self::Within(joined(rects.into_iter().collect(), MOST_RECTS))
     }
 
-    /// The rectangles of the part of the plane in `bounds`, of which some are joined if there are more than
-    /// `most`.
-    pub fn rects_within(self, bounds: Rect, most: usize) -> Vec<Rect> {
+    /// The rectangles of the part of the plane in `bounds`.
+    pub fn rects_within(self, bounds: Rect) -> Vec<Rect> {
         match self {
             Self::Everywhere => vec![bounds],
-            Self::Within(rects) => joined(rects, most),
+            Self::Within(rects) => rects,
         }
     }
 
@@ -58,7 +57,7 @@ impl Extent {
 }
 
 /// At most so many rectangles: near ones are joined.
-fn joined(mut rects: Vec<Rect>, most: usize) -> Vec<Rect> {
+pub fn joined(mut rects: Vec<Rect>, most: usize) -> Vec<Rect> {
     let bounds = rects.iter().copied().reduce(|a, b| a.union(&b));
     let Some(bounds) = bounds.filter(|_| rects.len() > most) else { return rects };
     rects.sort_by_key(|rect| z_order(rect.center(), &bounds));

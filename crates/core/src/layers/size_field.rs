@@ -3,7 +3,7 @@ use super::engine::cells::{Cells, Cut};
 use super::engine::reading::{Answer, lengths};
 use super::engine::search::any_cell;
 use super::engine::{CompiledLayer, KnownSquares, LEVELS, gradation};
-use super::{Combine, Layer, PaintLayers, Shapes, settled};
+use super::{Combine, Layer, LayerId, PaintLayers, Shapes, settled};
 use crate::field::Transfer;
 use crate::geometry::{Lattice, LatticePoint, Octagon};
 use crate::mesh::Element;
@@ -61,6 +61,36 @@ impl SizeField {
         }
         let (lengths, square_bits) = (lengths(lattice.spacing()), Box::new(settled::square_bits(lattice)));
         Self { lattice: *lattice, lengths, square_bits, layers, is_minimum, spec }
+    }
+
+    /// The field of some layers alone.
+    ///
+    /// Let nothing have changed since a triangle met its target, but that these layers ask for smaller
+    /// diameters in places. Then the triangle exceeds its target exactly where it exceeds that of these layers
+    /// alone: h̄ is the minimum of what they ask for and of the rest, which the triangle meets.
+    ///
+    /// `None` where that is not so: a floor or a replacement changes what one of them asks for, or one of them
+    /// is not visible.
+    pub fn of_layers_alone(&self, ids: &[LayerId]) -> Option<Self> {
+        let is_one = |layer: &CompiledLayer| ids.contains(&layer.id);
+        let first = self.layers.iter().position(is_one)?;
+        let above = &self.layers[first..];
+        let decide = above.iter().all(CompiledLayer::is_plain)
+            && above.iter().filter(|layer| is_one(layer)).count() == ids.len();
+        if !decide || !self.spec.is_ordered(self.longest()) {
+            return None;
+        }
+        let SizeFieldSpec { layers, transfer, unasked, outline, gradation } = &self.spec;
+        let layers = layers.iter().filter(|layer| ids.contains(&layer.id)).cloned().collect();
+        let (outline, transfer) = (outline.clone(), *transfer);
+        Some(Self {
+            spec: SizeFieldSpec { layers, transfer, unasked: *unasked, outline, gradation: *gradation },
+            lattice: self.lattice,
+            lengths: self.lengths.clone(),
+            square_bits: self.square_bits.clone(),
+            layers: above.iter().filter(|layer| is_one(layer)).cloned().collect(),
+            is_minimum: true,
+        })
     }
 
     /// The same, with functions asked by their own bounds only.

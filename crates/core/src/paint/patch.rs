@@ -2,6 +2,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use crate::geometry::Rect;
+use crate::mesh::TargetChange;
 use crate::raster::{Tile, TilePlace, TiledRaster, ValueRange, ValueRanges};
 
 /// What was before a stroke at each place that it changed: enough to undo the stroke and to redo it.
@@ -18,12 +19,15 @@ pub struct Repaint {
     pub area: Rect,
     /// The range of the values before, there and perhaps around it.
     pub before: ValueRange,
+    /// What happened to the diameters that the pixels ask for.
+    pub change: TargetChange,
 }
 
 impl Repaint {
     /// Both changes as one.
-    pub(super) fn union(&self, other: &Self) -> Self {
-        Self { area: self.area.union(&other.area), before: self.before.union(other.before) }
+    pub fn union(&self, other: &Self) -> Self {
+        let change = if self.change == other.change { self.change } else { TargetChange::Any };
+        Self { area: self.area.union(&other.area), before: self.before.union(other.before), change }
     }
 }
 
@@ -52,11 +56,13 @@ impl Patch {
             // Where there is no tile, the parent counts; where the parent changes, it has its own rectangle.
             let values =
                 |tile: &Option<Arc<Tile>>| tile.clone().unwrap_or_else(|| Arc::new(raster.inherited(place)));
-            let before = values(&present);
-            let difference = values(&kept).difference(&before);
-            changed.extend(difference.map(|pixels| Repaint {
+            let [before, after] = [&present, &kept].map(values);
+            let pixels = after.difference(&before);
+            let change = change_of_pixels(&before, &after, raster.blank());
+            changed.extend(pixels.zip(change).map(|(pixels, (before, change))| Repaint {
                 area: place.area_of_pixels(pixels, raster.grid()),
-                before: range_of(&before),
+                before,
+                change,
             }));
             *tile = raster.exchange(place, kept);
         }
@@ -77,6 +83,23 @@ impl Patch {
     pub fn bytes(&self) -> usize {
         self.tiles.values().flatten().count() * size_of::<Tile>()
     }
+}
+
+/// The range of the values of those pixels that change, before they do, and what happens to the diameters
+/// that they ask for; `None` if no pixel changes.
+///
+/// The blank value asks for nothing, and all others lie on one side of it: the farther a value is from it,
+/// the smaller is the diameter that it asks for.
+fn change_of_pixels(before: &Tile, after: &Tile, blank: f32) -> Option<(ValueRange, TargetChange)> {
+    let pairs = before.values().iter().zip(after.values()).filter(|(before, after)| before != after);
+    let changes = pairs.map(|(&before, &after)| {
+        let leaves_blank = if blank <= before.min(after) { after > before } else { after < before };
+        let change = if leaves_blank { TargetChange::Finer } else { TargetChange::Coarser };
+        (ValueRange::one(before), change)
+    });
+    changes.reduce(|(range, change), (one, other)| {
+        (range.union(one), if change == other { change } else { TargetChange::Any })
+    })
 }
 
 /// The range of the values of a tile.

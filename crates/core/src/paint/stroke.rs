@@ -124,7 +124,8 @@ impl Stroke {
         let coverage = coverage_of_tile(segment, place, raster)?;
         self.deepen(raster, place);
         let before = self.stamp(raster, place, &coverage)?;
-        Some(Repaint { area: segment.area_on(place, raster.grid()), before })
+        let change = self.brush.medium.change(self.h_max);
+        Some(Repaint { area: segment.area_on(place, raster.grid()), before, change })
     }
 
     /// Whether the path is drawn to its last point.
