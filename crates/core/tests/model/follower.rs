@@ -7,9 +7,10 @@ use meshbrush_core::document::{Document, Follower, MeshChange, Setting, Settings
 use meshbrush_core::domain::{Domain, corners};
 use meshbrush_core::field::{Formula, Transfer};
 use meshbrush_core::layers::{
-    Combine, DistanceTo, Layer, LayerId, LayerKind, Mask, ShapeList, Shapes, Threat, ThreatLaw, Threats,
+    Combine, DistanceTo, Layer, LayerId, LayerKind, Mask, Quantity, ShapeList, Shapes, Threat, ThreatLaw,
+    Threats,
 };
-use meshbrush_core::paint::{Brush, Medium};
+use meshbrush_core::paint::{Brush, DiameterChange, Medium};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::mesh::Mesh;
 
@@ -316,5 +317,43 @@ fn layers_as_small_as_the_squares_of_functions_leave_nothing_behind() {
             settle(&mut follower, &mut document);
             assert_as_from_scratch(&follower, &document);
         }
+    }
+}
+
+/// Paint that asks for more is followed by questions about the painted layers alone. A floor above one of
+/// them changes what it asks for, also while the mesh still follows paint on another one.
+#[test]
+fn paint_below_a_floor_is_followed_as_the_whole_stack_asks() {
+    let mut layers = Layer::stack([
+        LayerKind::constant(0.2),
+        LayerKind::Paint(Quantity::Risk),
+        LayerKind::constant(0.03),
+        LayerKind::Paint(Quantity::Diameter),
+    ]);
+    layers[2].combine = Combine::Floor;
+    layers[2].mask = Some(Mask::new(&[vec![square(dvec2(0.4, 0.5), 0.1)]]).unwrap());
+    let risk = Brush { medium: Medium::Risk(1.0), radius: 0.06, hardness: 0.5, strength: 1.0 };
+    let diameter = Brush { medium: Medium::Diameter(0.01, DiameterChange::Finer), ..risk };
+    for (gradation, brushes) in
+        [(None, [diameter, risk]), (Some(0.2), [diameter, risk]), (Some(0.2), [risk, diameter])]
+    {
+        let (mut document, mut follower) = with_layers(layers.clone());
+        document.set(Setting::Gradation(gradation)).unwrap();
+        settle(&mut follower, &mut document);
+        for brush in brushes {
+            document.begin_stroke(brush);
+            document.draw_to(dvec2(0.3, 0.5));
+            document.draw_to(dvec2(0.6, 0.55));
+            document.end_stroke();
+            follower.advance(&mut document, 1).unwrap();
+        }
+        settle(&mut follower, &mut document);
+        assert_as_from_scratch(&follower, &document);
+        for _ in brushes {
+            document.undo();
+            follower.advance(&mut document, 1).unwrap();
+        }
+        settle(&mut follower, &mut document);
+        assert_as_from_scratch(&follower, &document);
     }
 }
