@@ -5,15 +5,16 @@ use std::sync::Arc;
 use crate::folder::{Folder, Ran};
 use crate::runs::seeds;
 use glam::{DVec2, dvec2};
-use meshbrush_core::document::{Document, Follower, Settings};
+use meshbrush_core::document::{Document, Follower, KeepOut, PathCost, PathPlan, Settings};
 use meshbrush_core::domain::{BoundaryTreatment, Domain, DomainShape};
-use meshbrush_core::field::{Formula, RefinementRule, Transfer};
+use meshbrush_core::field::{CostFormula, Formula, RefinementRule, Transfer};
 use meshbrush_core::layers::{
     Combine, DistanceTo, Layer, LayerId, LayerKind, Mask, Quantity, RasterReading, RasterSource, ShapeList,
     Shapes, Threat, ThreatLaw, Threats, ValueCurve,
 };
 use meshbrush_core::outline::DerivedMesh;
 use meshbrush_core::paint::{Brush, DiameterChange, Medium};
+use meshbrush_core::path::Weights;
 use meshbrush_core::raster::{Raster, RasterPyramid};
 use meshbrush_io::io::Meter;
 use meshbrush_io::io::project::{Project, write as write_project};
@@ -175,6 +176,25 @@ fn layer(random: &mut fastrand::Rng, kind: LayerKind) -> Layer {
     Layer { combine, mask, visible: random.u8(..6) > 0, locked: random.u8(..6) == 0, ..layer }
 }
 
+/// Random paths, and regions of few and of many corners that they stay out of.
+fn paths(random: &mut fastrand::Rng) -> PathPlan {
+    let cost = match random.u8(..3) {
+        0 => PathCost::default(),
+        1 => PathCost::Weighted(Weights { length: random.f64(), risk: 20.0 * random.f64() }),
+        _ => PathCost::Formula(CostFormula::parse("1 + 5*risk^2 + x").unwrap()),
+    };
+    let route = |random: &mut fastrand::Rng| (0..random.usize(2..5)).map(|_| point(random)).collect();
+    let keep_out = |number: usize, random: &mut fastrand::Rng| {
+        let polygons = [vec![circle(point(random), 0.2, random.usize(3..50))]];
+        KeepOut { name: format!("Zone {number}"), mask: Mask::new(&polygons).unwrap() }
+    };
+    PathPlan {
+        routes: (0..random.usize(..3)).map(|_| route(random)).collect(),
+        cost,
+        keep_out: (0..random.usize(..3)).map(|number| keep_out(number, random)).collect(),
+    }
+}
+
 fn settings(random: &mut fastrand::Rng) -> Settings {
     let domain = domain(random);
     let has_outline = domain.as_region().is_some();
@@ -201,6 +221,8 @@ fn settings(random: &mut fastrand::Rng) -> Settings {
         _ => KeptParts::Share(between(random, 0.0, 0.2)),
     };
     let settings = Settings {
+        pins: Arc::new((0..random.usize(..4)).map(|_| point(random)).collect()),
+        paths: Arc::new(paths(random)),
         boundary,
         cleaning: Cleaning { parts, keeps_pinches: random.bool() },
         spacing,
@@ -267,6 +289,9 @@ fn window_project_recipe_and_opened_recipe_have_one_mesh() {
         assert_eq!(by_command(&folder, &["a.toml"]), expected, "recipe, seed {seed}");
         let OpenedRecipe { document: mut opened, .. } = open(&path, &Meter::default()).unwrap();
         assert_eq!(opened.settings().name, "a");
+        let (of_recipe, of_project) = (opened.settings(), &project.settings);
+        assert_eq!(of_recipe.paths, of_project.paths, "paths, seed {seed}");
+        assert_eq!(of_recipe.pins, of_project.pins, "pins, seed {seed}");
         assert_eq!(in_window(&mut opened), expected, "opened recipe, seed {seed}");
     }
 }

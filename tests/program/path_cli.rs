@@ -10,7 +10,9 @@ use meshbrush_core::build::MeshBuilder;
 use meshbrush_core::document::{Document, KeepOut, PathCost, PathPlan, Settings};
 use meshbrush_core::layers::Mask;
 use meshbrush_core::path::{PathMesh, PathRequest, Planner, Weights};
+use meshbrush_io::io::Meter;
 use meshbrush_io::io::project::{self, Project};
+use meshbrush_io::io::recipe::RecipeFiles;
 use meshbrush_mesh::mesh::Progress;
 use serde_json::Value;
 
@@ -193,7 +195,7 @@ fn each_obstacle_has_an_error_of_its_own() {
 }
 
 #[test]
-fn a_project_decides_places_cost_and_regions_unless_options_do() {
+fn a_project_or_its_recipe_decides_places_cost_and_regions_unless_options_do() {
     let folder = Folder::new("project");
     let ring = [(0.4, -0.1), (0.6, -0.1), (0.6, 0.7), (0.4, 0.7)].map(|(x, y)| dvec2(x, y));
     let region = |name: &str, low: f64| KeepOut {
@@ -210,8 +212,15 @@ fn a_project_decides_places_cost_and_regions_unless_options_do() {
     let mut bytes = Vec::new();
     project::write(&mut bytes, &project).unwrap();
     fs::write(folder.0.join("p.meshbrush"), bytes).unwrap();
+    RecipeFiles::new(&project, &folder.0.join("p.toml")).write(&Meter::default()).unwrap();
     let number = |options: &str| {
-        folder.json("path", format!("--project p.meshbrush {options}"))["cost"].as_f64().unwrap()
+        let [stored, text] = ["--project p.meshbrush", "p.toml"].map(|file| {
+            let mut answer = folder.json("path", format!("{file} {options}"));
+            answer.as_object_mut().unwrap().remove("seconds");
+            answer
+        });
+        assert_eq!(stored, text, "the project and its recipe with {options}");
+        stored["cost"].as_f64().unwrap()
     };
     // What the window does: the derived mesh, and a planner for the plan.
     let spec = document.settings().mesh_spec().unwrap();
@@ -239,7 +248,11 @@ fn a_project_decides_places_cost_and_regions_unless_options_do() {
         let ran = path(&folder, arguments);
         assert!(ran.status == 2 && ran.err.contains(message), "{arguments}: {}", ran.err);
     };
-    refused("--project p.meshbrush --route 3", "are numbered from 1 to 2");
+    refused("--project p.meshbrush --route 3", "the paths of p.meshbrush are numbered from 1 to 2");
+    refused("p.toml --route 3", "the paths of p.toml are numbered from 1 to 2");
+    fs::write(folder.0.join("bare.toml"), "[mesh]\nspacing = 0.1\n").unwrap();
+    refused("bare.toml", "bare.toml has no path: give --from X,Y and --to X,Y, or add `routes` to [paths].");
+    refused("--spacing 0.1 --route 1", "give --from X,Y and --to X,Y");
     refused("--spacing 0.1", "give --from X,Y and --to X,Y");
 }
 

@@ -61,8 +61,19 @@ fn the_reference_has_an_example_that_is_valid_and_every_key() {
     let find = |name: &str| Ok(name.into());
     let recipe = parse(Path::new("strait.toml"), example.into(), &find).unwrap();
     assert_eq!((recipe.mesh.layers.len(), recipe.outputs.len()), (4, 2));
+    assert_eq!((recipe.mesh.paths.routes.len(), recipe.mesh.paths.keep_out.len()), (1, 1));
     // The message about a key that does not exist lists those that do.
-    for table in ["[{}]", "[domain]", "[mesh]", "[limits]", "[[layer]]", "[[output]]"] {
+    for table in [
+        "[{}]",
+        "[domain]",
+        "[mesh]",
+        "[limits]",
+        "[[layer]]",
+        "[paths]",
+        "[[keep_out]]",
+        "[pins]",
+        "[[output]]",
+    ] {
         let text = table.replace("[{}]", "") + "\nqqqqqqqqqqqqqqqqqqqq = 1";
         let error = parse(Path::new("a.toml"), text, &find).unwrap_err().to_string();
         let (_, keys) = error.split_once("the keys here are ").expect(table);
@@ -277,7 +288,7 @@ fn the_recipe_of_a_document_gives_its_mesh() {
         };
         let base = "{ \"kind\": \"formula\", \"quantity\": \"diameter\", \"formula\": \"0.3\" }";
         let layers = vec![serde_json::from_str(base).unwrap()];
-        let recipe = to_text(&SavedRecipe::of_settings(&settings, "rock.geojson", layers));
+        let recipe = to_text(&SavedRecipe::of_settings(&settings, "rock.geojson", layers, Vec::new()));
         folder.file("rock.toml", &recipe);
         if let Some(region) = settings.domain.region() {
             let mut text = Vec::new();

@@ -50,7 +50,8 @@ pub fn run(
     let inputs = [request.input_files(), typed.keep_out.clone()].concat();
     outputs.iter().try_for_each(|output| check_place(&output.path, &inputs))?;
     request.options_without_effect(&typed.input).iter().for_each(|note| terminal.note(note));
-    let (read, asked) = read_and_ask(&request, terminal, |saved| Asked::new(typed, places, formula, saved))?;
+    let ask = |saved: &PathPlan| Asked::new(typed, places, formula, saved);
+    let (read, asked) = read_and_ask(&request, terminal, ask)?;
     let finished = build_from(read, terminal)?;
     note_capped(&finished, terminal);
     let extract = finished.extract();
@@ -81,7 +82,7 @@ pub fn run(
     }
 }
 
-/// What path is asked for: by options, and where these say nothing, by the project.
+/// What path is asked for: by options, and where these say nothing, by the project or the recipe.
 struct Asked {
     places: Vec<DVec2>,
     cost: PathCost,
@@ -89,7 +90,7 @@ struct Asked {
 }
 
 impl Asked {
-    /// Reads the keep-out regions. `places` are those of the options, `saved` what the project says.
+    /// Reads the keep-out regions. `places` are those of the options, `saved` what the file says.
     fn new(
         typed: &PathArguments,
         places: Option<Vec<DVec2>>,
@@ -117,14 +118,14 @@ impl Asked {
     }
 }
 
-/// Reads what the request names, and with the paths of its project, what path is asked for. Without a project
-/// that is known before: a mistake in it should not wait for large files.
+/// Reads what the request names, and with the paths of its project or recipe, what path is asked for. Without
+/// either that is known before: a mistake in it should not wait for large files.
 fn read_and_ask(
     request: &MeshRequest,
     terminal: &mut Terminal,
     ask: impl FnOnce(&PathPlan) -> Result<Asked, Failure>,
 ) -> Result<(ToMesh, Asked), Failure> {
-    if request.project.is_none() {
+    if request.project.is_none() && request.recipe.is_none() {
         let asked = ask(&PathPlan::default())?;
         return Ok((read(request, terminal)?, asked));
     }
@@ -140,27 +141,26 @@ fn places(typed: &PathArguments) -> Result<Option<Vec<DVec2>>, Failure> {
     texts.map(|text| point(text)).collect::<Result<_, _>>().map(Some)
 }
 
-/// The places of a path of the project.
+/// The places of a path of the project or the recipe.
 fn saved_places(typed: &PathArguments, saved: &PathPlan) -> Result<Vec<DVec2>, Failure> {
     let number = typed.route.unwrap_or(1);
     if let Some(places) = number.checked_sub(1).and_then(|n| saved.routes.get(n)) {
         return Ok(places.clone());
     }
-    Err(Failure::Usage(match (&typed.input.project, saved.routes.len()) {
+    let file = typed.input.project.as_ref().map(|project| (project, "set one in the window"));
+    let file = file.or(typed.input.recipe.as_ref().map(|recipe| (recipe, "add `routes` to [paths]")));
+    Err(Failure::Usage(match (file, saved.routes.len()) {
         (None, _) => "A path needs a start and a goal: give --from X,Y and --to X,Y.".to_owned(),
-        (Some(project), 0) => {
-            format!(
-                "{} has no path: give --from X,Y and --to X,Y, or set one in the window.",
-                project.display()
-            )
+        (Some((file, how)), 0) => {
+            format!("{} has no path: give --from X,Y and --to X,Y, or {how}.", file.display())
         }
-        (Some(project), count) => {
-            format!("--route {number}: the paths of {} are numbered from 1 to {count}.", project.display())
+        (Some((file, _)), count) => {
+            format!("--route {number}: the paths of {} are numbered from 1 to {count}.", file.display())
         }
     }))
 }
 
-/// What the path costs. A weight that is not given is that of the project, or the usual one.
+/// What the path costs. A weight that is not given is that of the file, or the usual one.
 fn cost(typed: &PathArguments, formula: Option<CostFormula>, saved: &PathCost) -> PathCost {
     if let Some(formula) = formula {
         return PathCost::Formula(formula);

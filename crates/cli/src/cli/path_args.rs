@@ -12,11 +12,11 @@ pub struct PathArguments {
     #[command(flatten)]
     pub input: InputArguments,
 
-    /// Where the path begins [default: where that of the project does]
+    /// Where the path begins [default: where that of the project or recipe does]
     #[arg(long, value_name = "X,Y", allow_hyphen_values = true, requires = "to", help_heading = "Path")]
     pub from: Option<String>,
 
-    /// Where the path ends [default: where that of the project does]
+    /// Where the path ends [default: where that of the project or recipe does]
     #[arg(long, value_name = "X,Y", allow_hyphen_values = true, requires = "from", help_heading = "Path")]
     pub to: Option<String>,
 
@@ -24,15 +24,17 @@ pub struct PathArguments {
     #[arg(long, value_name = "X,Y", allow_hyphen_values = true, requires = "from", help_heading = "Path")]
     pub via: Vec<String>,
 
-    /// Which of the project's paths, from 1 [default: 1]
-    #[arg(long, value_name = "N", requires = "project", conflicts_with = "from", help_heading = "Path")]
+    /// Which path of the project or recipe, from 1 [default: 1]
+    #[arg(long, value_name = "N", conflicts_with = "from", help_heading = "Path")]
     pub route: Option<usize>,
 
-    /// Polygons that the path stays out of, in place of those of the project; may be repeated
+    /// Polygons that the path stays out of, in place of those of the project or recipe; may be repeated
     #[arg(long, value_name = "FILE.geojson", help_heading = "Path")]
     pub keep_out: Vec<PathBuf>,
 
-    /// Cost per unit of length as a formula of x, y and risk, in place of the weights or the project's cost
+    /// Cost per unit of length as a formula of x, y and risk, in place of the weights
+    ///
+    /// Without this and without weights, the cost is that of the project or recipe.
     #[arg(
         long,
         value_name = "EXPR",
@@ -42,11 +44,11 @@ pub struct PathArguments {
     )]
     pub cost: Option<String>,
 
-    /// What a unit of length costs where there is no risk [default: that of the project, or 1]
+    /// What a unit of length costs where there is no risk [default: that of the file, or 1]
     #[arg(long, value_name = "L", allow_hyphen_values = true, help_heading = "Path")]
     pub length_weight: Option<f64>,
 
-    /// What a unit of length costs at risk 1, beside that [default: that of the project, or 10]
+    /// What a unit of length costs at risk 1, beside that [default: that of the file, or 10]
     #[arg(long, value_name = "K", allow_hyphen_values = true, help_heading = "Path")]
     pub risk_weight: Option<f64>,
 

@@ -11,7 +11,7 @@ use super::layer_options::layers;
 use meshbrush_core::document::LEAST_MEMORY;
 use meshbrush_core::field::Formula;
 use meshbrush_io::io::layers::LayerSpec;
-use meshbrush_io::io::recipe::{self, MeshDescription, Recipe, SavedTreatment, checked_gradation};
+use meshbrush_io::io::recipe::{self, MeshDescription, PathsSpec, Recipe, SavedTreatment, checked_gradation};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::mesh::{KeptParts, MOST_TRIANGLES};
 use meshbrush_mesh::text::{Bytes, Grouped};
@@ -157,6 +157,8 @@ fn description(typed: &InputArguments) -> Result<MeshDescription, Failure> {
         shape: typed.transfer_shape,
         gradation: typed.gradation.map(gradation).transpose()?,
         layers: layers(typed)?,
+        paths: PathsSpec::default(),
+        pins: Vec::new(),
     })
 }
 

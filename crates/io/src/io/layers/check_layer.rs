@@ -244,7 +244,10 @@ pub fn compiled(key: &'static str, text: &str) -> Result<Formula, KeyFault> {
 }
 
 /// Checks each entry of a list.
-fn each<T, U>(
+///
+/// # Errors
+/// For the first one that cannot be used, with its place in the list.
+pub fn each<T, U>(
     key: &'static str,
     list: &[T],
     check: impl Fn(&T) -> Result<U, String>,

@@ -37,14 +37,20 @@ pub fn rect_of([x0, y0, x1, y1]: [f64; 4]) -> Result<Rect, String> {
         .into())
 }
 
-/// A point of finite coordinates.
-pub(super) fn point([x, y]: [f64; 2]) -> Result<DVec2, String> {
+/// A point of finite coordinates, in world units.
+///
+/// # Errors
+/// When a coordinate is not finite.
+pub fn point([x, y]: [f64; 2]) -> Result<DVec2, String> {
     let point = DVec2::new(x, y);
     if point.is_finite() { Ok(point) } else { Err("both coordinates of a point must be finite.".into()) }
 }
 
-/// The points of a line or a ring.
-pub(super) fn points(coordinates: &[[f64; 2]], least: usize, what: &str) -> Result<Vec<DVec2>, String> {
+/// The points of a line, a ring or a path, in world units. `what` begins the sentence of an error.
+///
+/// # Errors
+/// When there are fewer than `least`, or a coordinate is not finite.
+pub fn points(coordinates: &[[f64; 2]], least: usize, what: &str) -> Result<Vec<DVec2>, String> {
     if coordinates.len() < least {
         return Err(format!("{what} needs {least} points at least, and this one has {}.", coordinates.len()));
     }

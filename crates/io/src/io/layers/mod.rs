@@ -25,8 +25,8 @@ mod spec;
 mod tests;
 mod values;
 
-pub use check_layer::compiled;
-pub use checks::{positive_length, rect_of, rings};
+pub use check_layer::{compiled, each};
+pub use checks::{point, points, positive_length, rect_of, rings};
 pub use fault::{KeyFault, Mark, Step};
 pub use files::{GridFiles, LayerError, LayerFiles};
 pub use load::{LayerData, TextError};

@@ -64,7 +64,7 @@ impl Recipe {
         saved: &SavedRecipe,
         find: &FindFile,
     ) -> Result<(MeshDescription, Vec<OutputSpec>), KeyFault> {
-        let SavedRecipe { domain, mesh, limits, layer, output: outputs } = saved;
+        let SavedRecipe { domain, mesh, limits, layer, paths: _, keep_out: _, pins, output: outputs } = saved;
         let in_table = |table: &'static str| move |fault: KeyFault| fault.within(Step::Key(table));
         let region = domain.region_file(find).map_err(in_table("domain"))?;
         check_domain(domain).map_err(in_table("domain"))?;
@@ -100,6 +100,8 @@ impl Recipe {
             shape: limits.shape,
             gradation: limits.gradation,
             layers: layer.iter().enumerate().map(spec).collect::<Result<_, _>>()?,
+            paths: saved.paths_spec(find)?,
+            pins: pins.checked().map_err(in_table("pins"))?,
         };
         Ok((mesh, outputs.iter().map(output).collect()))
     }

@@ -1,8 +1,10 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use glam::DVec2;
+
 use super::super::layers::{KindSpec, LayerSpec};
-use super::SavedTreatment;
+use super::{PathsSpec, SavedTreatment};
 use meshbrush_core::document::Settings;
 use meshbrush_core::domain::{BoundaryMarks, BoundaryTreatment};
 use meshbrush_core::field::{Formula, RefinementRule, Transfer, TransferError};
@@ -54,13 +56,17 @@ pub struct MeshDescription {
     pub gradation: Option<f64>,
     /// The size field, from the bottom layer to the top one.
     pub layers: Vec<LayerSpec>,
+    /// Between which places paths are sought, what they cost, and where they do not go.
+    pub paths: PathsSpec,
+    /// Points that the window follows, in world units.
+    pub pins: Vec<DVec2>,
 }
 
 impl MeshDescription {
-    /// The description with the values of `options` in place of its own. Domain and layers are its own: no
-    /// option goes with them.
+    /// The description with the values of `options` in place of its own. Domain, layers, paths and pins are its
+    /// own: no option goes with them.
     pub fn overridden_by(self, options: &Self) -> Self {
-        let Self { bounds, inside, region, unit, marks, layers, .. } = self;
+        let Self { bounds, inside, region, unit, marks, layers, paths, pins, .. } = self;
         Self {
             bounds,
             inside,
@@ -68,6 +74,8 @@ impl MeshDescription {
             unit,
             marks,
             layers,
+            paths,
+            pins,
             boundary: options.boundary.or(self.boundary),
             boundary_diameter: options.boundary_diameter.or(self.boundary_diameter),
             parts: options.parts.or(self.parts),
@@ -159,7 +167,8 @@ impl MeshDescription {
 
     /// The files that it names.
     pub fn files(&self) -> impl Iterator<Item = &Path> {
-        self.layers.iter().flat_map(LayerSpec::files).chain(self.region.as_deref())
+        let of_paths = self.paths.files().map(PathBuf::as_path);
+        self.layers.iter().flat_map(LayerSpec::files).chain(self.region.as_deref()).chain(of_paths)
     }
 }
 

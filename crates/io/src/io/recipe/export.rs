@@ -6,14 +6,14 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::super::atomic::{Draft, put_in_place};
-use super::super::layers::SavedLayer;
+use super::super::layers::{SavedLayer, saved_polygon};
 use super::super::project::{self, Project};
 use super::super::{Meter, asc, geojson, shapes, threats};
-use super::{SavedRecipe, to_text};
-use meshbrush_core::document::{PathCost, Settings};
+use super::{SavedKeepOut, SavedRecipe, to_text};
+use meshbrush_core::document::{KeepOut, Settings};
 use meshbrush_core::domain::Polygon;
 use meshbrush_core::layers::{
-    DistanceTo, Layer, LayerKind, PaintLayers, RasterReading, RasterSource, ShapeList, Shapes, Threats,
+    DistanceTo, Layer, LayerKind, Mask, PaintLayers, RasterReading, RasterSource, ShapeList, Shapes, Threats,
 };
 use meshbrush_core::raster::{Raster, RasterPyramid};
 use meshbrush_mesh::geometry::Rect;
@@ -29,7 +29,8 @@ const GEOJSON: &str = "geojson";
 pub struct RecipeFiles {
     /// The recipe is the last: it is put in place when the files are there.
     files: Vec<(PathBuf, Content)>,
-    left_out: Vec<&'static str>,
+    /// Whether the document has a background picture, which recipes have no keys for.
+    without_background: bool,
 }
 
 #[derive(Debug)]
@@ -78,17 +79,18 @@ impl RecipeFiles {
                 (Some(_), None) => {}
             }
         }
-        let recipe = SavedRecipe::of_settings(settings, region.as_deref().unwrap_or_default(), layers);
+        let keep_out = settings.paths.keep_out.iter().map(|region| plan.keep_out(region)).collect();
+        let region = region.as_deref().unwrap_or_default();
+        let recipe = SavedRecipe::of_settings(settings, region, layers, keep_out);
         plan.files.push((path.to_owned(), Content::Recipe(to_text(&recipe))));
-        Self { files: plan.files, left_out: left_out(settings) }
+        Self { files: plan.files, without_background: settings.background.is_some() }
     }
 
     /// What of the document is in no recipe, as a sentence; none where nothing is left out.
-    pub fn left_out(&self) -> Option<String> {
-        let (last, others) = self.left_out.split_last()?;
-        let list =
-            if others.is_empty() { (*last).into() } else { format!("{} and {last}", others.join(", ")) };
-        Some(format!("Not saved in the recipe: {list}. They do not change the mesh; a project keeps them."))
+    pub fn left_out(&self) -> Option<&'static str> {
+        self.without_background.then_some(
+            "Not saved in the recipe: the background picture. It does not change the mesh; a project keeps it.",
+        )
     }
 
     /// The files, the recipe last.
@@ -107,21 +109,6 @@ impl RecipeFiles {
         let drafts: Vec<Draft> = self.files.iter().map(draft).collect::<io::Result<_>>()?;
         put_in_place(drafts, meter)
     }
-}
-
-/// What recipes have no keys for.
-fn left_out(settings: &Settings) -> Vec<&'static str> {
-    let Settings { pins, paths, background, .. } = settings;
-    [
-        (!pins.is_empty(), "pins"),
-        (!paths.routes.is_empty(), "paths"),
-        (paths.cost != PathCost::default(), "the cost of paths"),
-        (!paths.keep_out.is_empty(), "keep-out regions"),
-        (background.is_some(), "the background picture"),
-    ]
-    .into_iter()
-    .filter_map(|(is_there, name)| is_there.then_some(name))
-    .collect()
 }
 
 impl Content {
@@ -201,15 +188,24 @@ impl Plan {
             }
             _ => {}
         }
-        if let Some(mask) = &layer.mask
-            && mask.polygons().iter().flatten().flatten().count() > MOST_IN_PLACE
-        {
-            let polygons = Content::Polygons(mask.polygons().to_vec());
-            let name = format!("{} mask", layer.name);
-            saved.mask = None;
-            saved.mask_file = Some(self.add(&name, GEOJSON, polygons));
+        if let Some(mask) = &layer.mask {
+            saved.mask_file = self.mask_file(mask, &format!("{} mask", layer.name));
+            saved.mask = saved.mask.filter(|_| saved.mask_file.is_none());
         }
         saved
+    }
+
+    /// A keep-out region as the recipe has it, with its polygons in place or in a file.
+    fn keep_out(&mut self, KeepOut { name, mask }: &KeepOut) -> SavedKeepOut {
+        let file = self.mask_file(mask, &format!("{name} keep-out"));
+        let polygons = file.is_none().then(|| mask.polygons().iter().map(saved_polygon).collect());
+        SavedKeepOut { name: Some(name.clone()), polygons, file }
+    }
+
+    /// The name of a file for the polygons of a mask, if they are too long for the recipe.
+    fn mask_file(&mut self, mask: &Mask, what: &str) -> Option<String> {
+        let is_long = mask.polygons().iter().flatten().flatten().count() > MOST_IN_PLACE;
+        is_long.then(|| self.add(what, GEOJSON, Content::Polygons(mask.polygons().to_vec())))
     }
 
     /// Layers that read the same raster name the same file.

@@ -115,6 +115,8 @@ impl MeshDescription {
             rule: self.rule(),
             max_triangles: self.max_triangles.unwrap_or(Settings::MAX_TRIANGLES),
             max_memory: self.max_memory.unwrap_or(Settings::MAX_MEMORY),
+            pins: Arc::new(self.pins.clone()),
+            paths: Arc::new(self.paths.load(loading.meter)?),
             ..Settings::default()
         };
         Ok(Described { settings, paint, lattice, notes })

@@ -8,6 +8,7 @@ mod export;
 mod load;
 mod of_settings;
 mod open;
+mod paths;
 mod saved;
 mod text;
 #[cfg(test)]
@@ -27,7 +28,11 @@ pub use description::MeshDescription;
 pub use export::RecipeFiles;
 pub use load::{Described, DescriptionError, Loading};
 pub use open::{OpenedRecipe, open};
-pub use saved::{SavedDomain, SavedLimits, SavedMesh, SavedOutput, SavedParts, SavedRecipe, SavedTreatment};
+pub use paths::{KeepOutSpec, PathsSpec};
+pub use saved::{
+    SavedDomain, SavedKeepOut, SavedLimits, SavedMesh, SavedOutput, SavedParts, SavedPaths, SavedPins,
+    SavedRecipe, SavedTreatment,
+};
 use text::RecipeText;
 pub use write::to_text;
 

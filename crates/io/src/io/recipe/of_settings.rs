@@ -1,5 +1,9 @@
+use glam::DVec2;
+
 use super::super::words::{SavedUnit, saved_marks};
-use super::saved::{SavedDomain, SavedLimits, SavedMesh, SavedRecipe, SavedTreatment};
+use super::saved::{
+    SavedDomain, SavedKeepOut, SavedLimits, SavedMesh, SavedPaths, SavedPins, SavedRecipe, SavedTreatment,
+};
 use crate::io::layers::SavedLayer;
 use meshbrush_core::document::Settings;
 use meshbrush_core::domain::{BoundaryTreatment, DomainShape};
@@ -10,8 +14,14 @@ impl SavedRecipe {
     /// The recipe that makes the mesh of a document, without outputs.
     ///
     /// `region_file` is the name of the file with the polygons of the domain, if it has some: the caller
-    /// writes it beside the recipe. `layers` are from the bottom of the stack to its top.
-    pub fn of_settings(settings: &Settings, region_file: &str, layers: Vec<SavedLayer>) -> Self {
+    /// writes it beside the recipe. `layers` are from the bottom of the stack to its top, and `keep_out` are the
+    /// regions that paths stay out of: the caller decides which of their polygons are in files.
+    pub fn of_settings(
+        settings: &Settings,
+        region_file: &str,
+        layers: Vec<SavedLayer>,
+        keep_out: Vec<SavedKeepOut>,
+    ) -> Self {
         let mesh = SavedMesh {
             spacing: Some(settings.spacing),
             rule: Some(settings.rule.into()),
@@ -26,7 +36,16 @@ impl SavedRecipe {
             shape: (settings.transfer.shape != 1.0).then_some(settings.transfer.shape),
             gradation: settings.gradation,
         };
-        Self { domain: domain(settings, region_file), mesh, limits, layer: layers, output: Vec::new() }
+        Self {
+            domain: domain(settings, region_file),
+            mesh,
+            limits,
+            layer: layers,
+            paths: SavedPaths::of(&settings.paths),
+            keep_out,
+            pins: SavedPins { at: settings.pins.iter().map(DVec2::to_array).collect() },
+            output: Vec::new(),
+        }
     }
 }
 

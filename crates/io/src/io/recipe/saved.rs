@@ -3,7 +3,7 @@
 use serde::de::{Deserializer, Error, Visitor};
 use serde::{Deserialize, Serialize, Serializer};
 
-use super::super::layers::SavedLayer;
+use super::super::layers::{SavedLayer, SavedPolygon};
 use super::super::words::{SavedName, SavedRule, SavedUnit};
 use meshbrush_mesh::mesh::KeptParts;
 
@@ -19,6 +19,12 @@ pub struct SavedRecipe {
     pub limits: SavedLimits,
     /// The size field, from the bottom layer to the top one.
     pub layer: Vec<SavedLayer>,
+    /// Between which places paths are sought, and what they cost.
+    pub paths: SavedPaths,
+    /// Regions that paths stay out of.
+    pub keep_out: Vec<SavedKeepOut>,
+    /// Points whose triangles and values the window follows.
+    pub pins: SavedPins,
     /// Files to write.
     pub output: Vec<SavedOutput>,
 }
@@ -78,6 +84,40 @@ pub struct SavedLimits {
     pub shape: Option<f64>,
     /// How fast h̄ may change with the distance.
     pub gradation: Option<f64>,
+}
+
+/// `[paths]`
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default, expecting = "a table")]
+pub struct SavedPaths {
+    /// x and y of each place of each path, in world units, from the start to the goal.
+    pub routes: Vec<Vec<[f64; 2]>>,
+    /// Cost per unit of length, without risk.
+    pub length_weight: Option<f64>,
+    /// Cost per unit of length where the risk is 1.
+    pub risk_weight: Option<f64>,
+    /// A formula of x, y and the risk in place of the weights.
+    pub cost: Option<String>,
+}
+
+/// `[[keep_out]]`
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default, expecting = "a table")]
+pub struct SavedKeepOut {
+    /// What a person calls it.
+    pub name: Option<String>,
+    /// What it covers, in world units.
+    pub polygons: Option<Vec<SavedPolygon>>,
+    /// A file with the polygons, in their place.
+    pub file: Option<String>,
+}
+
+/// `[pins]`
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default, expecting = "a table")]
+pub struct SavedPins {
+    /// x and y of each, in world units.
+    pub at: Vec<[f64; 2]>,
 }
 
 /// `[[output]]`

@@ -2,6 +2,8 @@ use std::path::{Path, PathBuf};
 
 use super::*;
 use crate::io::Place;
+use meshbrush_core::document::PathCost;
+use meshbrush_core::path::Weights;
 
 /// A recipe with every table and every kind of layer.
 const FULL: &str = r#"
@@ -65,6 +67,21 @@ kind = "paint"
 quantity = "risk"
 file = "harbour.meshbrush"
 
+[paths]
+routes = [[[23, 36], [24.5, 38], [26, 39]], [[22, 35], [28, 41]]]
+length_weight = 2
+risk_weight = 7.5
+
+[[keep_out]]
+name = "Minefield"
+polygons = [[[[24, 37], [25, 37], [25, 38]]]]
+
+[[keep_out]]
+file = "zones/closed.geojson"
+
+[pins]
+at = [[23, 37], [24.25, 36.5]]
+
 [[output]]
 file = "sea.vtu"
 quantities = ["depth = 20 - x"]
@@ -107,6 +124,13 @@ fn a_recipe_with_everything_is_read() {
     assert_eq!(names, ["Open sea", "Raster", "Threats", "Distance", "Band", "Paint"]);
     assert_eq!(recipe.mesh.marks.as_ref().unwrap().names[0].1, "harbour");
     let outputs: Vec<_> = recipe.outputs.iter().map(|output| output.path.as_path()).collect();
+    let paths = &recipe.mesh.paths;
+    assert_eq!(paths.routes[0][1], glam::dvec2(24.5, 38.0));
+    assert_eq!((paths.routes.len(), recipe.mesh.pins.len()), (2, 2));
+    assert_eq!(paths.cost, PathCost::Weighted(Weights { length: 2.0, risk: 7.5 }));
+    let regions: Vec<&str> = paths.keep_out.iter().map(|region| region.name.as_str()).collect();
+    assert_eq!(regions, ["Minefield", "closed.geojson"]);
+    assert!(recipe.mesh.files().any(|file| file == Path::new("zones/closed.geojson")));
     assert_eq!(outputs, [Path::new("a/sea.vtu"), Path::new("a/sea.png")], "beside the recipe");
     assert!(parsed("").unwrap().mesh.layers.is_empty());
 }
@@ -187,6 +211,45 @@ fn values_of_another_type_are_named_with_line_and_column() {
             [3, 18],
             "this must be a list of 2 numbers, not 1 values.",
         ),
+    ] {
+        let (place, message) = error(text);
+        assert!(message.starts_with(expected), "{text:?} gave {message}");
+        assert_eq!(place, expected_place, "{text:?} gave {message}");
+    }
+}
+
+#[test]
+fn paths_keep_out_regions_and_pins_that_cannot_be_used_are_named_with_line_and_column() {
+    for (text, expected_place, expected) in [
+        ("[paths]\nroutes = [[[0, 0], [1, 1]], [[2, 2]]]", [2, 29], "a path needs 2 points at least"),
+        ("[paths]\nroutes = [[[0, 0], [inf, 1]]]", [2, 11], "both coordinates"),
+        (
+            "[paths]\nroute = [[[0, 0], [1, 1]]]",
+            [2, 1],
+            "there is no key `route` here; did you mean `routes`?",
+        ),
+        ("[paths]\nrisk_weight = -1", [2, 15], "The weights 1 for length and -1 for risk make no cost"),
+        ("[paths]\nlength_weight = nan", [2, 17], "The weights NaN for length and 10 for risk"),
+        (
+            "[paths]\ncost = \"1 + rsk\"",
+            [2, 8],
+            "There is no `rsk`; a cost is a formula of `x`, `y` and `risk`",
+        ),
+        (
+            "[paths]\ncost = \"1\"\nrisk_weight = 2",
+            [3, 1],
+            "what paths cost is given by `cost` or by weights",
+        ),
+        ("[[keep_out]]\nname = \"A\"", [1, 1], "a keep-out region needs `polygons` or `file`."),
+        ("[[keep_out]]\npolygons = []", [2, 12], "a keep-out region needs a polygon at least"),
+        ("[[keep_out]]\npolygons = [[[[0, 0], [1, 0]]]]", [2, 13], "a ring needs 3 points at least"),
+        ("[[keep_out]]\nfile = \"gone\"", [2, 1], "gone cannot be found."),
+        (
+            "[[keep_out]]\nfile = \"a\"\npolygons = [[[[0, 0], [1, 0], [1, 1]]]]",
+            [2, 1],
+            "a keep-out region has `polygons` or `file`, not both.",
+        ),
+        ("[pins]\nat = [[0, 0], [0, nan]]", [2, 15], "both coordinates"),
     ] {
         let (place, message) = error(text);
         assert!(message.starts_with(expected), "{text:?} gave {message}");

@@ -54,7 +54,7 @@ const ORDER: [&str; 35] = [
 
 /// The text of a recipe.
 pub fn to_text(recipe: &SavedRecipe) -> String {
-    let SavedRecipe { domain, mesh, limits, layer, output } = recipe;
+    let SavedRecipe { domain, mesh, limits, layer, paths, keep_out, pins, output } = recipe;
     let mut text = HEADER.to_owned();
     write_table(&mut text, "[domain]", domain);
     write_table(&mut text, "[mesh]", mesh);
@@ -67,6 +67,9 @@ pub fn to_text(recipe: &SavedRecipe) -> String {
         let heading = if index == 0 { "[[layer]]" } else { "\n[[layer]]" };
         write_entries(&mut text, heading, layer);
     }
+    write_table(&mut text, "[paths]", paths);
+    keep_out.iter().for_each(|region| write_table(&mut text, "[[keep_out]]", region));
+    write_table(&mut text, "[pins]", pins);
     output.iter().for_each(|output| write_table(&mut text, "[[output]]", output));
     text
 }
