@@ -136,18 +136,25 @@ pub struct FormulaCost {
     pub risk: RiskField,
 }
 
+// The risk is not looked up for a formula without it.
 impl CostDensity for FormulaCost {
     fn at(&self, point: DVec2) -> f64 {
-        self.formula.eval(point.x, point.y, self.risk.at(point))
+        let risk = if self.formula.uses_risk() { self.risk.at(point) } else { 0.0 };
+        self.formula.eval(point.x, point.y, risk)
     }
 
     fn range(&self, rectangle: &Rect) -> CostRange {
-        self.formula.bounds(rectangle, self.risk.range(rectangle)).into()
+        let uses_risk = self.formula.uses_risk();
+        let risk = if uses_risk { self.risk.range(rectangle) } else { Bounds::one(0.0) };
+        self.formula.bounds(rectangle, risk).into()
     }
 
     fn derivatives(&self, rectangle: &Rect) -> Option<[CostRange; 2]> {
-        let risk = (self.risk.range(rectangle), self.risk.derivatives(rectangle));
-        let slopes = self.formula.derivatives(rectangle, risk.0, risk.1)?;
+        let (risk, risk_slopes) = match self.formula.uses_risk() {
+            true => (self.risk.range(rectangle), self.risk.derivatives(rectangle)),
+            false => (Bounds::one(0.0), None),
+        };
+        let slopes = self.formula.derivatives(rectangle, risk, risk_slopes)?;
         Some(slopes.map(CostRange::from))
     }
 

@@ -2,7 +2,7 @@ use std::fmt;
 use std::str::FromStr;
 use std::sync::Arc;
 
-use super::{Op, ParseError, Program, derivatives, gradient, interval, parser};
+use super::{ParseError, Program, derivatives, gradient, interval, parser};
 use crate::field::Bounds;
 use crate::geometry::Rect;
 
@@ -33,6 +33,11 @@ impl CostFormula {
         Ok(Self { source: source.into(), program: Arc::new(program) })
     }
 
+    /// Whether the value can depend on the risk.
+    pub fn uses_risk(&self) -> bool {
+        self.program.loads_risk()
+    }
+
     /// The value at the point (x, y), in world units, with the risk there. The caller must check it.
     pub fn eval(&self, x: f64, y: f64, risk: f64) -> f64 {
         self.program.run_with_risk(x, y, risk)
@@ -52,10 +57,9 @@ impl CostFormula {
         risk: Bounds,
         risk_slopes: Option<[Bounds; 2]>,
     ) -> Option<[Bounds; 2]> {
-        let needs_risk = self.program.code().iter().any(|op| matches!(op, Op::Risk));
         let slopes = match risk_slopes {
             Some(slopes) => slopes,
-            None if needs_risk && !risk.is_one() => return None,
+            None if self.uses_risk() && !risk.is_one() => return None,
             None => [gradient::ZERO; 2],
         };
         derivatives::derivatives(&self.program, rect, (risk, slopes))

@@ -1,7 +1,7 @@
 //! Bounds of a formula's derivatives over a rectangle: automatic differentiation with intervals.
 
 use super::functions::OfThree;
-use super::gradient::{Gradient, ZERO, times};
+use super::gradient::{Along, Gradient, Slopes, ZERO, are_known, times};
 use super::interval;
 use super::machine::{self, Values};
 use super::program::{Op, Program};
@@ -10,13 +10,13 @@ use crate::geometry::Rect;
 
 /// Values over a rectangle, and their gradient.
 #[derive(Clone, Copy)]
-pub(super) struct Varying {
+pub(super) struct Varying<G: Slopes> {
     pub value: Bounds,
     /// `None` where the values may jump, or a derivative is not known.
-    pub gradient: Option<Gradient>,
+    pub gradient: Option<G>,
     /// The gradient of a function whose square the value is, if one is known. Then the square root has no
     /// pole at 0: √(x² + y²) is a distance.
-    pub of_root: Option<Gradient>,
+    of_root: G::Root,
 }
 
 pub(super) const ONE: Bounds = Bounds::new(1.0, 1.0);
@@ -30,32 +30,41 @@ pub(super) fn derivatives(
     rect: &Rect,
     risk: (Bounds, [Bounds; 2]),
 ) -> Option<[Bounds; 2]> {
-    let gradient = gradient(program, rect, risk)?;
-    gradient.is_known().then_some(gradient.along)
+    let along = match program.takes_roots() {
+        true => gradient(program, rect, risk, Gradient::of)?.along,
+        false => gradient(program, rect, risk, |along| along)?,
+    };
+    are_known(&along).then_some(along)
 }
 
 /// Bounds of the derivatives along x and y, with any risk and no slope of it, and the largest slope in any
 /// direction; `None` where one of them is not known.
 pub(super) fn slopes(program: &Program, rect: &Rect) -> Option<([Bounds; 2], f64)> {
-    let gradient = gradient(program, rect, (Bounds::ANYTHING, [ZERO; 2]))?;
-    gradient.is_known().then_some((gradient.along, gradient.length))
+    let Gradient { along, length } = gradient(program, rect, (Bounds::ANYTHING, [ZERO; 2]), Gradient::of)?;
+    are_known(&along).then_some((along, length))
 }
 
-fn gradient(program: &Program, rect: &Rect, (risk, risk_slopes): (Bounds, [Bounds; 2])) -> Option<Gradient> {
+/// The gradient of a program, as far as it may be told from derivatives along the axes by `of`.
+fn gradient<G: Slopes>(
+    program: &Program,
+    rect: &Rect,
+    (risk, risk_slopes): (Bounds, Along),
+    of: fn(Along) -> G,
+) -> Option<G> {
     let coordinate = |axis: usize, slopes| {
         let value = Bounds::new(rect.min[axis], rect.max[axis]);
-        Varying::new(value, Some(Gradient::of(slopes)))
+        Varying::new(value, Some(of(slopes)))
     };
-    let risk = Varying::new(risk, Some(Gradient::of(risk_slopes)));
+    let risk = Varying::new(risk, Some(of(risk_slopes)));
     let values = [coordinate(0, [ONE, ZERO]), coordinate(1, [ZERO, ONE]), risk];
     machine::run(program, values).gradient
 }
 
-impl Values for Varying {
+impl<G: Slopes> Values for Varying<G> {
     /// Without derivatives, unless the bounds are a number: other bounds may come from a jump.
     fn of_bounds(value: Bounds) -> Self {
-        let gradient = value.is_one().then_some(Gradient::NONE);
-        Self { value, gradient, of_root: gradient.filter(|_| value.least >= 0.0) }
+        let gradient = value.is_one().then_some(G::NONE);
+        Self { value, gradient, of_root: G::keep(gradient.filter(|_| value.least >= 0.0)) }
     }
 
     fn bounds(&self) -> Bounds {
@@ -71,17 +80,17 @@ impl Values for Varying {
     fn two(op: Op, a: Self, b: Self) -> Self {
         let value = interval::binary(op, a.value, b.value);
         match op {
-            Op::Two(function) => match function.derivative {
+            Op::Two(function) => match G::of_two(function) {
                 Some(derivative) => derivative(a, b, value),
                 None => Self::of_bounds(value),
             },
-            _ => Self { value, gradient: of_two(op, a, b, value), of_root: root_of_two(op, a, b) },
+            _ => Self::with_root(value, of_two(op, &a, &b, value), root_of_two(op, &a, &b)),
         }
     }
 
     fn three(function: &OfThree, a: Self, b: Self, c: Self) -> Self {
         let value = (function.bounds)(a.value, b.value, c.value);
-        Self::new(value, (function.derivative)(a, b, c))
+        Self::new(value, G::of_three(function, [a, b, c]))
     }
 
     fn either(self, other: Self) -> Self {
@@ -89,34 +98,43 @@ impl Values for Varying {
     }
 }
 
-impl Varying {
+impl<G: Slopes> Varying<G> {
     /// Values that are no squares as far as is known.
-    pub fn new(value: Bounds, gradient: Option<Gradient>) -> Self {
-        Self { value, gradient, of_root: None }
+    pub fn new(value: Bounds, gradient: Option<G>) -> Self {
+        Self::with_root(value, gradient, None)
+    }
+
+    /// Values that are the square of a function with the gradient `of_root`, if one is known.
+    pub fn with_root(value: Bounds, gradient: Option<G>, of_root: Option<G>) -> Self {
+        Self { value, gradient, of_root: G::keep(of_root) }
+    }
+
+    fn of_root(&self) -> Option<G> {
+        G::kept(self.of_root)
     }
 
     /// The gradient times a factor.
-    pub fn gradient_times(&self, factor: Bounds) -> Option<Gradient> {
+    pub fn gradient_times(&self, factor: Bounds) -> Option<G> {
         Some(self.gradient?.times(factor))
     }
 
     /// The gradient of the square root, from what its derivative gives.
-    pub fn gradient_of_root(&self, by_derivative: Option<Gradient>) -> Option<Gradient> {
+    pub fn gradient_of_root(&self, by_derivative: Option<G>) -> Option<G> {
         // The root that is known may have the other sign.
-        let of_size = |root: Gradient| Gradient::of_hypot(&root, &Gradient::NONE);
-        match (by_derivative, self.of_root.map(of_size)) {
+        let of_size = |root: G| G::of_hypot(&root, &G::NONE);
+        match (by_derivative, self.of_root().map(of_size)) {
             (Some(gradient), Some(root)) => Some(gradient.or(root)),
             (gradient, root) => gradient.or(root),
         }
     }
 
     pub fn is_constant(&self) -> bool {
-        self.value.is_one() && self.gradient == Some(Gradient::NONE)
+        self.value.is_one() && self.gradient == Some(G::NONE)
     }
 }
 
 /// The sum of gradients, where both are known.
-fn sum(a: Option<Gradient>, b: Option<Gradient>) -> Option<Gradient> {
+fn sum<G: Slopes>(a: Option<G>, b: Option<G>) -> Option<G> {
     Some(a?.plus(&b?))
 }
 
@@ -133,7 +151,7 @@ fn factor(op: Op, a: Bounds, result: Bounds) -> Option<Bounds> {
     })
 }
 
-fn of_two(op: Op, a: Varying, b: Varying, value: Bounds) -> Option<Gradient> {
+fn of_two<G: Slopes>(op: Op, a: &Varying<G>, b: &Varying<G>, value: Bounds) -> Option<G> {
     match op {
         Op::Add => sum(a.gradient, b.gradient),
         Op::Subtract => sum(a.gradient, b.gradient_times(Bounds::one(-1.0))),
@@ -157,16 +175,16 @@ fn of_two(op: Op, a: Varying, b: Varying, value: Bounds) -> Option<Gradient> {
 }
 
 /// The gradient of a root of a sum of squares, or of a multiple of one.
-fn root_of_two(op: Op, a: Varying, b: Varying) -> Option<Gradient> {
-    let multiple = |root: Gradient, factor: Varying, size: fn(f64) -> f64| {
+fn root_of_two<G: Slopes>(op: Op, a: &Varying<G>, b: &Varying<G>) -> Option<G> {
+    let multiple = |root: G, factor: &Varying<G>, size: fn(f64) -> f64| {
         let is_positive = factor.is_constant() && factor.value.least > 0.0;
         is_positive.then(|| root.times(Bounds::one(size(factor.value.least))))
     };
     match op {
-        Op::Add => Some(Gradient::of_hypot(&a.of_root?, &b.of_root?)),
-        Op::Multiply if a.is_constant() => multiple(b.of_root?, a, f64::sqrt),
-        Op::Multiply => multiple(a.of_root?, b, f64::sqrt),
-        Op::Divide => multiple(a.of_root?, b, |divisor| (1.0 / divisor).sqrt()),
+        Op::Add => Some(G::of_hypot(&a.of_root()?, &b.of_root()?)),
+        Op::Multiply if a.is_constant() => multiple(b.of_root()?, a, f64::sqrt),
+        Op::Multiply => multiple(a.of_root()?, b, f64::sqrt),
+        Op::Divide => multiple(a.of_root()?, b, |divisor| (1.0 / divisor).sqrt()),
         _ => None,
     }
 }

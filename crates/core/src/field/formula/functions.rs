@@ -3,7 +3,7 @@
 use std::f64::consts;
 
 use super::derivatives::Varying;
-use super::gradient::Gradient;
+use super::gradient::{Along, Gradient};
 use super::program::{Op, max, min};
 use super::{function_bounds as bounds, models, slopes};
 use crate::field::{Bounds, Quadratic};
@@ -58,7 +58,26 @@ pub(super) struct OfOne {
 }
 
 /// What is known of a function of two values, from what is known of the values and from bounds of the result.
-type Derivative = fn(Varying, Varying, Bounds) -> Varying;
+pub(super) type OfTwoVarying<G> = fn(Varying<G>, Varying<G>, Bounds) -> Varying<G>;
+
+/// The gradient of a function of three values, from what is known of the values.
+type OfThreeVarying<G> = fn(Varying<G>, Varying<G>, Varying<G>) -> Option<G>;
+
+/// A derivative for each of the two kinds of gradients.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct ForGradients<A, B> {
+    pub along: A,
+    pub with_length: B,
+}
+
+type OfTwoDerivative = ForGradients<OfTwoVarying<Along>, OfTwoVarying<Gradient>>;
+type OfThreeDerivative = ForGradients<OfThreeVarying<Along>, OfThreeVarying<Gradient>>;
+
+macro_rules! derivative {
+    ($function:path) => {
+        ForGradients { along: $function, with_length: $function }
+    };
+}
 
 /// A function of two values.
 #[derive(Clone, Copy, Debug)]
@@ -66,7 +85,9 @@ pub(super) struct OfTwo {
     pub value: fn(f64, f64) -> f64,
     pub bounds: fn(Bounds, Bounds) -> Bounds,
     /// The gradient with the values, if it is known.
-    pub derivative: Option<Derivative>,
+    pub derivative: Option<OfTwoDerivative>,
+    /// Whether it is `pow`, and so with the exponent 1/2 a square root.
+    pub is_power: bool,
     pub model: Option<fn(&Quadratic, &Quadratic) -> Quadratic>,
 }
 
@@ -76,7 +97,7 @@ pub(super) struct OfThree {
     pub value: fn(f64, f64, f64) -> f64,
     pub bounds: fn(Bounds, Bounds, Bounds) -> Bounds,
     /// The gradient, if it is known.
-    pub derivative: fn(Varying, Varying, Varying) -> Option<Gradient>,
+    pub derivative: OfThreeDerivative,
     pub model: Option<fn(&Quadratic, &Quadratic, &Quadratic) -> Quadratic>,
 }
 
@@ -85,7 +106,7 @@ const fn of_one(value: fn(f64) -> f64, bounds: fn(Bounds) -> Bounds) -> OfOne {
 }
 
 const fn of_two(value: fn(f64, f64) -> f64, bounds: fn(Bounds, Bounds) -> Bounds) -> OfTwo {
-    OfTwo { value, bounds, derivative: None, model: None }
+    OfTwo { value, bounds, derivative: None, is_power: false, model: None }
 }
 
 impl OfOne {
@@ -95,7 +116,11 @@ impl OfOne {
 }
 
 impl OfTwo {
-    const fn smooth(self, derivative: Derivative, model: fn(&Quadratic, &Quadratic) -> Quadratic) -> Self {
+    const fn smooth(
+        self,
+        derivative: OfTwoDerivative,
+        model: fn(&Quadratic, &Quadratic) -> Quadratic,
+    ) -> Self {
         Self { derivative: Some(derivative), model: Some(model), ..self }
     }
 
@@ -129,15 +154,15 @@ pub(super) static FUNCTIONS: &[Function] = &[
     one("sign(v)", &const { of_one(sign, bounds::sign) }, "-1, 0 or 1"),
     function("min(a, b, ...)", Form::Join(Op::Min), "the smallest of two values or more"),
     function("max(a, b, ...)", Form::Join(Op::Max), "the largest of two values or more"),
-    three("clamp(v, lo, hi)", &OfThree { value: clamp, bounds: bounds::clamp, derivative: slopes::clamp, model: Some(models::clamp) }, "v, kept between lo and hi"),
-    three("mix(a, b, t)", &OfThree { value: mix, bounds: bounds::mix, derivative: slopes::mix, model: Some(models::mix) }, "a at t = 0, b at t = 1, straight between and beyond"),
+    three("clamp(v, lo, hi)", &OfThree { value: clamp, bounds: bounds::clamp, derivative: derivative!(slopes::clamp), model: Some(models::clamp) }, "v, kept between lo and hi"),
+    three("mix(a, b, t)", &OfThree { value: mix, bounds: bounds::mix, derivative: derivative!(slopes::mix), model: Some(models::mix) }, "a at t = 0, b at t = 1, straight between and beyond"),
     two("step(edge, v)", &const { of_two(step, bounds::step) }, "0 where v is below the edge, else 1"),
-    three("smoothstep(lo, hi, v)", &OfThree { value: smoothstep, bounds: bounds::smoothstep, derivative: slopes::smoothstep, model: Some(models::smoothstep) }, "0 up to lo, 1 from hi, an S-curve between"),
-    two("gauss(d, s)", &const { of_two(gauss, bounds::gauss).smooth(slopes::gauss, models::gauss) }, "bell curve exp(-(d/s)^2/2): 1 at d = 0, 0.61 at d = s"),
-    two("hypot(a, b)", &const { of_two(libm::hypot, bounds::hypot).smooth(slopes::hypot, models::hypot) }, "sqrt(a^2 + b^2): the distance, from differences in x and y"),
+    three("smoothstep(lo, hi, v)", &OfThree { value: smoothstep, bounds: bounds::smoothstep, derivative: derivative!(slopes::smoothstep), model: Some(models::smoothstep) }, "0 up to lo, 1 from hi, an S-curve between"),
+    two("gauss(d, s)", &const { of_two(gauss, bounds::gauss).smooth(derivative!(slopes::gauss), models::gauss) }, "bell curve exp(-(d/s)^2/2): 1 at d = 0, 0.61 at d = s"),
+    two("hypot(a, b)", &const { of_two(libm::hypot, bounds::hypot).smooth(derivative!(slopes::hypot), models::hypot) }, "sqrt(a^2 + b^2): the distance, from differences in x and y"),
     function("sqrt(v)", Form::Fixed(1, Op::Sqrt), "square root"),
     one("cbrt(v)", &const { of_one(libm::cbrt, bounds::cbrt) }, "cube root"),
-    two("pow(a, b)", &const { of_two(power, bounds::power).smooth(slopes::power, models::power) }, "a to the power b, as a^b"),
+    two("pow(a, b)", &const { OfTwo { is_power: true, ..of_two(power, bounds::power) }.smooth(derivative!(slopes::power), models::power) }, "a to the power b, as a^b"),
     one("exp(v)", &const { of_one(libm::exp, bounds::exp).smooth(slopes::exp, models::exp) }, "e to the power v"),
     one("ln(v)", &const { of_one(libm::log, bounds::ln).smooth(slopes::ln, models::ln) }, "logarithm to base e"),
     one("log10(v)", &const { of_one(libm::log10, bounds::log10).smooth(slopes::log10, models::log10) }, "logarithm to base 10"),

@@ -1,5 +1,7 @@
 //! What is known of a gradient over a rectangle.
 
+use super::derivatives::Varying;
+use super::functions::{OfThree, OfTwo, OfTwoVarying};
 use crate::field::Bounds;
 
 pub(super) const ZERO: Bounds = Bounds::new(0.0, 0.0);
@@ -7,71 +9,145 @@ pub(super) const ZERO: Bounds = Bounds::new(0.0, 0.0);
 /// What rounding changes in a few operations, as a share of a bound.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
+/// Bounds of a gradient over a rectangle.
+pub(super) trait Slopes: Copy + PartialEq {
+    /// The gradient of a function whose square a value is, where such gradients are followed.
+    type Root: Copy;
+
+    /// That of a constant.
+    const NONE: Self;
+
+    /// A sum.
+    fn plus(&self, other: &Self) -> Self;
+
+    /// A product with numbers that are not larger than the bounds.
+    fn times(&self, factor: Bounds) -> Self;
+
+    /// What holds for both.
+    fn union(&self, other: &Self) -> Self;
+
+    /// The gradient of √(a² + b²) from those of a and b, whatever their values.
+    fn of_hypot(a: &Self, b: &Self) -> Self;
+
+    /// The closer one of two that both hold.
+    fn or(self, other: Self) -> Self;
+
+    /// Keeps the gradient of a root with a value.
+    fn keep(root: Option<Self>) -> Self::Root;
+
+    /// The gradient that was kept.
+    fn kept(root: Self::Root) -> Option<Self>;
+
+    /// The derivative of a function of two values, if it is known.
+    fn of_two(function: &OfTwo) -> Option<OfTwoVarying<Self>>;
+
+    /// The gradient of a function of three values, if it is known.
+    fn of_three(function: &OfThree, values: [Varying<Self>; 3]) -> Option<Self>;
+}
+
+/// Bounds of the derivatives along x and y. Roots are not followed: half as much to copy at every step.
+pub(super) type Along = [Bounds; 2];
+
 /// Bounds of the derivatives along x and y, and of the length of the gradient.
 ///
 /// The bounds along both axes alone make the length too large by up to √2: the gradient of the distance from
 /// a point has the length 1, and its components are from −1 to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Gradient {
-    pub along: [Bounds; 2],
+    pub along: Along,
     /// No gradient is longer; infinite where no bound is known.
     pub length: f64,
 }
 
-impl Gradient {
-    /// That of a constant.
-    pub const NONE: Self = Self { along: [ZERO; 2], length: 0.0 };
+/// Whether the bounds along both axes are numbers.
+pub(super) fn are_known(along: &Along) -> bool {
+    along.iter().all(|slope| slope.valid && !slope.has_infinity())
+}
 
+impl Slopes for Along {
+    type Root = ();
+
+    const NONE: Self = [ZERO; 2];
+
+    fn plus(&self, other: &Self) -> Self {
+        [self[0].plus(other[0]), self[1].plus(other[1])]
+    }
+
+    fn times(&self, factor: Bounds) -> Self {
+        self.map(|slope| times(slope, factor))
+    }
+
+    fn union(&self, other: &Self) -> Self {
+        [self[0].union(other[0]), self[1].union(other[1])]
+    }
+
+    fn of_hypot(a: &Self, b: &Self) -> Self {
+        [0, 1].map(|axis: usize| {
+            let [p, q] = [a, b].map(|along| size(along[axis]));
+            let most = rounded_up(libm::hypot(p, q));
+            if most.is_finite() { Bounds::new(-most, most) } else { Bounds::ANYTHING }
+        })
+    }
+
+    fn or(self, other: Self) -> Self {
+        if are_known(&self) { self } else { other }
+    }
+
+    fn keep(_: Option<Self>) -> Self::Root {}
+
+    fn kept((): Self::Root) -> Option<Self> {
+        None
+    }
+
+    fn of_two(function: &OfTwo) -> Option<OfTwoVarying<Self>> {
+        Some(function.derivative?.along)
+    }
+
+    fn of_three(function: &OfThree, [a, b, c]: [Varying<Self>; 3]) -> Option<Self> {
+        (function.derivative.along)(a, b, c)
+    }
+}
+
+impl Gradient {
     /// From the bounds along the axes alone.
-    pub fn of(along: [Bounds; 2]) -> Self {
+    pub fn of(along: Along) -> Self {
         Self::new(along, f64::INFINITY)
     }
 
     /// With a length that is known beside the bounds along the axes; the smaller one counts. NaN tells
     /// nothing.
-    fn new(along: [Bounds; 2], length: f64) -> Self {
+    fn new(along: Along, length: f64) -> Self {
         let [x, y] = along.map(size);
         let by_axes = rounded_up(libm::hypot(x, y));
         let length = if length < by_axes { length } else { by_axes };
         Self { along, length: if length.is_nan() { f64::INFINITY } else { length } }
     }
+}
 
-    /// Whether the bounds along both axes are numbers.
-    pub fn is_known(&self) -> bool {
-        self.along.iter().all(|slope| slope.valid && !slope.has_infinity())
+impl Slopes for Gradient {
+    type Root = Option<Self>;
+
+    const NONE: Self = Self { along: Along::NONE, length: 0.0 };
+
+    fn plus(&self, other: &Self) -> Self {
+        Self::new(self.along.plus(&other.along), rounded_up(self.length + other.length))
     }
 
-    /// A sum.
-    pub fn plus(&self, other: &Self) -> Self {
-        let along = [0, 1].map(|axis: usize| self.along[axis].plus(other.along[axis]));
-        Self::new(along, rounded_up(self.length + other.length))
-    }
-
-    /// A product with numbers that are not larger than the bounds.
-    pub fn times(&self, factor: Bounds) -> Self {
+    fn times(&self, factor: Bounds) -> Self {
         if self.length == 0.0 {
             return Self::NONE;
         }
-        let along = self.along.map(|slope| times(slope, factor));
-        Self::new(along, rounded_up(self.length * size(factor)))
+        Self::new(self.along.times(factor), rounded_up(self.length * size(factor)))
     }
 
-    /// What holds for both.
-    pub fn union(&self, other: &Self) -> Self {
-        let along = [0, 1].map(|axis: usize| self.along[axis].union(other.along[axis]));
-        Self::new(along, self.length.max(other.length))
+    fn union(&self, other: &Self) -> Self {
+        Self::new(self.along.union(&other.along), self.length.max(other.length))
     }
 
-    /// The gradient of √(a² + b²) from those of a and b, whatever their values.
-    ///
     /// It is (a ∇a + b ∇b) / √(a² + b²), so no longer than the largest singular value of the matrix with
     /// the rows ∇a and ∇b.
-    pub fn of_hypot(a: &Self, b: &Self) -> Self {
-        let along = [0, 1].map(|axis: usize| {
-            let [p, q] = [a, b].map(|gradient| size(gradient.along[axis]));
-            let most = rounded_up(libm::hypot(p, q));
-            if most.is_finite() { Bounds::new(-most, most) } else { Bounds::ANYTHING }
-        });
+    fn of_hypot(a: &Self, b: &Self) -> Self {
+        let along = Along::of_hypot(&a.along, &b.along);
         let longer = a.length.max(b.length);
         if longer == 0.0 || !longer.is_finite() {
             return Self::new(along, longer);
@@ -86,10 +162,24 @@ impl Gradient {
         Self::new(along, rounded_up(longer * square.sqrt()))
     }
 
-    /// The shorter one of two that both hold.
-    pub fn or(self, other: Self) -> Self {
-        let along = if self.is_known() { self.along } else { other.along };
-        Self { along, length: self.length.min(other.length) }
+    fn or(self, other: Self) -> Self {
+        Self { along: self.along.or(other.along), length: self.length.min(other.length) }
+    }
+
+    fn keep(root: Option<Self>) -> Self::Root {
+        root
+    }
+
+    fn kept(root: Self::Root) -> Option<Self> {
+        root
+    }
+
+    fn of_two(function: &OfTwo) -> Option<OfTwoVarying<Self>> {
+        Some(function.derivative?.with_length)
+    }
+
+    fn of_three(function: &OfThree, [a, b, c]: [Varying<Self>; 3]) -> Option<Self> {
+        (function.derivative.with_length)(a, b, c)
     }
 }
 

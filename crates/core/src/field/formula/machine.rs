@@ -29,23 +29,27 @@ pub(super) trait Values: Copy {
 /// 0 or 1.
 const TRUTH: Bounds = Bounds::new(0.0, 1.0);
 
+/// Slots of the stack for short formulas: what is known of a value can take many words, and clearing a larger
+/// stack would take longer than the formula.
+const TINY_STACK: usize = 4;
+
 /// What is known of the values of a program, from what is known of x, y and the risk.
 pub(super) fn run<V: Values>(program: &Program, values: [V; 3]) -> V {
-    if program.slots() <= SMALL_STACK {
-        run_on::<V, SMALL_STACK>(program.code(), values)
-    } else {
-        run_on::<V, LARGE_STACK>(program.code(), values)
+    match program.slots() {
+        ..=TINY_STACK => run_on::<V, TINY_STACK>(program.code(), values),
+        ..=SMALL_STACK => run_on::<V, SMALL_STACK>(program.code(), values),
+        _ => run_on::<V, LARGE_STACK>(program.code(), values),
     }
 }
 
 fn run_on<V: Values, const SLOTS: usize>(code: &[Op], [x, y, risk]: [V; 3]) -> V {
     let unknown = V::of_bounds(Bounds::ANYTHING);
-    Machine { stack: [unknown; SLOTS], top: 0, x, y, risk }.run(code, unknown)
+    Machine { stack: &mut [unknown; SLOTS], top: 0, x, y, risk }.run(code, unknown)
 }
 
 /// The stack machine of [`super::program`].
-struct Machine<V, const SLOTS: usize> {
-    stack: [V; SLOTS],
+struct Machine<'a, V> {
+    stack: &'a mut [V],
     /// The number of values on the stack.
     top: usize,
     x: V,
@@ -53,7 +57,7 @@ struct Machine<V, const SLOTS: usize> {
     risk: V,
 }
 
-impl<V: Values, const SLOTS: usize> Machine<V, SLOTS> {
+impl<V: Values> Machine<'_, V> {
     fn push(&mut self, value: V) {
         self.stack[self.top] = value;
         self.top += 1;

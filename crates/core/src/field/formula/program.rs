@@ -114,13 +114,17 @@ const _: () = assert!(2 * super::MAX_NESTING < LARGE_STACK);
 pub(super) struct Program {
     code: Box<[Op]>,
     slots: usize,
+    takes_roots: bool,
+    loads_risk: bool,
 }
 
 impl Program {
     /// `slots` is the largest number of loads in flight; at most [`LARGE_STACK`].
     pub(super) fn new(code: Vec<Op>, slots: usize) -> Self {
         debug_assert!(slots <= LARGE_STACK);
-        Self { code: code.into(), slots }
+        let takes_roots = takes_roots(&code);
+        let loads_risk = code.iter().any(|op| matches!(op, Op::Risk));
+        Self { code: code.into(), slots, takes_roots, loads_risk }
     }
 
     pub(super) fn run(&self, x: f64, y: f64) -> f64 {
@@ -146,6 +150,16 @@ impl Program {
         size_of_val(&*self.code)
     }
 
+    /// Whether the value can depend on the risk.
+    pub(super) fn loads_risk(&self) -> bool {
+        self.loads_risk
+    }
+
+    /// Whether the program takes a square root, or may raise something to the power 1/2.
+    pub(super) fn takes_roots(&self) -> bool {
+        self.takes_roots
+    }
+
     pub(super) fn constant(&self) -> Option<f64> {
         match *self.code {
             [Op::Number(value)] => Some(value),
@@ -157,6 +171,18 @@ impl Program {
     pub(super) fn len(&self) -> usize {
         self.code.len()
     }
+}
+
+fn takes_roots(code: &[Op]) -> bool {
+    let mut before = None;
+    code.iter().any(|&op| {
+        let exponent = before.replace(op);
+        match op {
+            Op::Sqrt => true,
+            Op::Two(function) if function.is_power => !matches!(exponent, Some(Op::Number(n)) if n != 0.5),
+            _ => false,
+        }
+    })
 }
 
 /// Runs code that needs `slots` slots of the stack and leaves one value in the accumulator. `values` are x, y

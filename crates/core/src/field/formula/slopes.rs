@@ -4,7 +4,7 @@ use std::f64::consts::{LN_2, LN_10};
 
 use super::derivatives::{ONE, Varying};
 use super::function_bounds as bounds;
-use super::gradient::{Gradient, times};
+use super::gradient::{Slopes, times};
 use super::machine::Values;
 use super::program::Op;
 use crate::field::Bounds;
@@ -55,23 +55,22 @@ pub(super) fn tanh(_: Bounds, result: Bounds) -> Bounds {
 }
 
 /// With a constant exponent: (aⁿ)′ = n aⁿ⁻¹ a′.
-pub(super) fn power(a: Varying, n: Varying, value: Bounds) -> Varying {
+pub(super) fn power<G: Slopes>(a: Varying<G>, n: Varying<G>, value: Bounds) -> Varying<G> {
     if !n.is_constant() {
         return Varying::of_bounds(value);
     }
     let less = bounds::power(a.value, Bounds::one(n.value.least - 1.0));
     let by_derivative = a.gradient_times(times(n.value, less));
     let gradient = if n.value.least == 0.5 { a.gradient_of_root(by_derivative) } else { by_derivative };
-    let of_root = a.gradient.filter(|_| n.value.least == 2.0);
-    Varying { value, gradient, of_root }
+    Varying::with_root(value, gradient, a.gradient.filter(|_| n.value.least == 2.0))
 }
 
 /// √(a² + b²)′ = (a a′ + b b′) / √(a² + b²), with factors from −1 to 1.
-pub(super) fn hypot(a: Varying, b: Varying, value: Bounds) -> Varying {
-    let gradient = |a: Varying, b: Varying| {
+pub(super) fn hypot<G: Slopes>(a: Varying<G>, b: Varying<G>, value: Bounds) -> Varying<G> {
+    let gradient = |a: Varying<G>, b: Varying<G>| {
         let factor = |of: Bounds| of.over(value).intersection(Bounds::new(-1.0, 1.0));
         let by_factors = a.gradient_times(factor(a.value))?.plus(&b.gradient_times(factor(b.value))?);
-        Some(by_factors.or(Gradient::of_hypot(&a.gradient?, &b.gradient?)))
+        Some(by_factors.or(G::of_hypot(&a.gradient?, &b.gradient?)))
     };
     Varying::new(value, gradient(a, b))
 }
@@ -80,7 +79,7 @@ pub(super) fn hypot(a: Varying, b: Varying, value: Bounds) -> Varying {
 const STEEPEST_OF_BELL: f64 = 0.606_530_659_712_634;
 
 /// With a constant s: exp(−(d/s)²/2)′ = −d / s² · exp(−(d/s)²/2) · d′.
-pub(super) fn gauss(d: Varying, s: Varying, value: Bounds) -> Varying {
+pub(super) fn gauss<G: Slopes>(d: Varying<G>, s: Varying<G>, value: Bounds) -> Varying<G> {
     if !s.is_constant() {
         return Varying::of_bounds(value);
     }
@@ -90,18 +89,18 @@ pub(super) fn gauss(d: Varying, s: Varying, value: Bounds) -> Varying {
     Varying::new(value, d.gradient_times(factor))
 }
 
-pub(super) fn clamp(v: Varying, lo: Varying, hi: Varying) -> Option<Gradient> {
+pub(super) fn clamp<G: Slopes>(v: Varying<G>, lo: Varying<G>, hi: Varying<G>) -> Option<G> {
     Varying::two(Op::Min, Varying::two(Op::Max, v, lo), hi).gradient
 }
 
-pub(super) fn mix(a: Varying, b: Varying, t: Varying) -> Option<Gradient> {
+pub(super) fn mix<G: Slopes>(a: Varying<G>, b: Varying<G>, t: Varying<G>) -> Option<G> {
     let rest = Varying::two(Op::Subtract, Varying::of_bounds(ONE), t);
     let [first, second] = [(a, rest), (b, t)].map(|(v, share)| Varying::two(Op::Multiply, v, share));
     Some(first.gradient?.plus(&second.gradient?))
 }
 
 /// With constant limits: 6 t (1 − t) / (hi − lo) for the share t of the way.
-pub(super) fn smoothstep(lo: Varying, hi: Varying, v: Varying) -> Option<Gradient> {
+pub(super) fn smoothstep<G: Slopes>(lo: Varying<G>, hi: Varying<G>, v: Varying<G>) -> Option<G> {
     let span = hi.value.minus(lo.value);
     if !lo.is_constant() || !hi.is_constant() || span.has_zero() {
         return None;
