@@ -35,10 +35,13 @@ const TINY_STACK: usize = 4;
 
 /// What is known of the values of a program, from what is known of x, y and the risk.
 pub(super) fn run<V: Values>(program: &Program, values: [V; 3]) -> V {
-    match program.slots() {
-        ..=TINY_STACK => run_on::<V, TINY_STACK>(program.code(), values),
-        ..=SMALL_STACK => run_on::<V, SMALL_STACK>(program.code(), values),
-        _ => run_on::<V, LARGE_STACK>(program.code(), values),
+    let (slots, code) = (program.slots(), program.code());
+    if slots <= TINY_STACK {
+        run_on::<V, TINY_STACK>(code, values)
+    } else if slots <= SMALL_STACK {
+        run_on::<V, SMALL_STACK>(code, values)
+    } else {
+        run_on::<V, LARGE_STACK>(code, values)
     }
 }
 
