@@ -65,12 +65,12 @@ impl SizeField {
 
     /// The field of some layers alone.
     ///
-    /// Let nothing have changed since a triangle met its target, but that these layers ask for smaller
-    /// diameters in places. Then the triangle exceeds its target exactly where it exceeds that of these layers
+    /// Let nothing have changed since a triangle met its target, except that these layers ask for smaller
+    /// diameters in places. Then the triangle exceeds its target exactly if it exceeds that of these layers
     /// alone: h̄ is the minimum of what they ask for and of the rest, which the triangle meets.
     ///
-    /// `None` where that is not so: a floor or a replacement changes what one of them asks for, or one of them
-    /// is not visible.
+    /// `None` where that is not so: a floor or a replacement changes what one of them asks for, or one of
+    /// them is not visible.
     pub fn of_layers_alone(&self, ids: &[LayerId]) -> Option<Self> {
         let is_one = |layer: &CompiledLayer| ids.contains(&layer.id);
         let first = self.layers.iter().position(is_one)?;

@@ -63,8 +63,8 @@ pub struct MeshDescription {
 }
 
 impl MeshDescription {
-    /// The description with the values of `options` in place of its own. Domain, layers, paths and pins are its
-    /// own: no option goes with them.
+    /// The description with the values of `options` in place of its own. Domain, layers, paths and pins are
+    /// its own: no option goes with them.
     pub fn overridden_by(self, options: &Self) -> Self {
         let Self { bounds, inside, region, unit, marks, layers, paths, pins, .. } = self;
         Self {

@@ -14,8 +14,8 @@ impl SavedRecipe {
     /// The recipe that makes the mesh of a document, without outputs.
     ///
     /// `region_file` is the name of the file with the polygons of the domain, if it has some: the caller
-    /// writes it beside the recipe. `layers` are from the bottom of the stack to its top, and `keep_out` are the
-    /// regions that paths stay out of: the caller decides which of their polygons are in files.
+    /// writes it beside the recipe. `layers` are from the bottom of the stack to its top, and `keep_out` are
+    /// the regions that paths stay out of: the caller decides which of their polygons are in files.
     pub fn of_settings(
         settings: &Settings,
         region_file: &str,
