@@ -5,6 +5,7 @@ use glam::DVec2;
 use super::engine::asked::Share;
 use super::engine::cells::{Cells, Cut};
 use super::engine::counting::Counting;
+use super::engine::gradation::Accuracy;
 use super::engine::reading::Diameters;
 use super::engine::{CompiledLayer, KnownSquares, gradation};
 use super::{Combine, LayerId, PaintLayers, SizeField};
@@ -41,18 +42,21 @@ impl SizeField {
         let before = self.ungraded_at(paint, point).0;
         match self.spec().gradation {
             None => before,
-            Some(slope) => self.graded(&mut KnownSquares::few(), paint, point, slope, before).0,
+            Some(slope) => {
+                let how = (slope, Accuracy::Close);
+                self.graded(&mut KnownSquares::few(), paint, point, how, before).0
+            }
         }
     }
 
-    /// h̄ at a point with gradation, and the place that it is carried from, both in world units. `before`
-    /// is a value that h̄ is known not to exceed.
+    /// h̄ at a point with gradation, and the place that it is carried from, both in world units. `how` is the
+    /// largest slope and the accuracy; `before` is a value that h̄ is known not to exceed.
     pub(super) fn graded(
         &self,
         known: &mut KnownSquares,
         paint: &PaintLayers,
         point: DVec2,
-        slope: f64,
+        how: (f64, Accuracy),
         before: f64,
     ) -> (f64, DVec2) {
         let mut start = (before, point);
@@ -61,7 +65,7 @@ impl SizeField {
                 start = (value, from);
             }
         }
-        gradation::least(self, paint, known, point, slope, start)
+        gradation::least(self, paint, known, point, how, start)
     }
 
     /// h̄ at a node, in world units, for the vertex rule.
@@ -92,6 +96,16 @@ impl SizeField {
 
     /// What decides h̄ at a point in world units.
     pub fn decision_at(&self, paint: &PaintLayers, point: DVec2) -> Decision {
+        self.decision(paint, point, Accuracy::Close)
+    }
+
+    /// As [`Self::decision_at`], to be shown under a pointer: with gradation the diameter may be above h̄ by
+    /// 10⁻³ of it where a search for it would take longer than a moment.
+    pub fn quick_decision_at(&self, paint: &PaintLayers, point: DVec2) -> Decision {
+        self.decision(paint, point, Accuracy::Quick)
+    }
+
+    fn decision(&self, paint: &PaintLayers, point: DVec2, accuracy: Accuracy) -> Decision {
         let asked = self.compiled().iter().map(|layer| {
             let diameter = layer.diameter_at(paint, point);
             (layer.id, is_asked(diameter).then_some(diameter))
@@ -99,7 +113,8 @@ impl SizeField {
         let asked = asked.collect();
         let (before, layer) = self.ungraded_at(paint, point);
         let known = &mut KnownSquares::few();
-        let graded = self.spec().gradation.map(|slope| self.graded(known, paint, point, slope, before));
+        let graded =
+            self.spec().gradation.map(|slope| self.graded(known, paint, point, (slope, accuracy), before));
         match graded {
             Some((target, from)) if target < before => {
                 let layer = self.ungraded_at(paint, from).1.or(layer);

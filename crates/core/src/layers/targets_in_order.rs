@@ -2,6 +2,7 @@ use glam::DVec2;
 use rayon::prelude::*;
 
 use super::engine::KnownSquares;
+use super::engine::gradation::Accuracy;
 use super::{PaintLayers, SizeField};
 use crate::field::RefinementRule;
 use crate::mesh::Extract;
@@ -43,7 +44,7 @@ impl<'a> TargetsInOrder<'a> {
         let Some(slope) = self.field.spec().gradation else { return before };
         let bound =
             self.last.map_or(f64::INFINITY, |(last, target)| (target + slope * point.distance(last)) * SLACK);
-        self.field.graded(&mut self.known, self.paint, point, slope, before.min(bound)).0
+        self.field.graded(&mut self.known, self.paint, point, (slope, Accuracy::Close), before.min(bound)).0
     }
 }
 

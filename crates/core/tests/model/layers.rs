@@ -314,6 +314,8 @@ fn h_at_a_point_is_that_of_the_definition() {
             );
             let decision = field.decision_at(&case.paint, point);
             assert_eq!(decision.target, found);
+            let quick = field.quick_decision_at(&case.paint, point).target;
+            assert!((0.0..=1e-3 * found).contains(&(quick - found)), "seed {seed}: {quick} for {found}");
             assert_eq!(decision.asked.len(), case.visible.len());
             for ((id, asked), layer) in decision.asked.iter().zip(&case.visible) {
                 let expected = (layer.diameter)(point);

@@ -40,8 +40,33 @@ const FEW: usize = 200;
 /// A value that is read is above the least one by at most this share of it.
 const TOLERANCE: f64 = 1e-6;
 
+/// The number of rectangles after which [`QUICK_TOLERANCE`] is enough for a value under the pointer.
+const QUICK: usize = 400;
+
+/// A value that is read quickly is above the least one by at most this share of it.
+const QUICK_TOLERANCE: f64 = 1e-3;
+
 /// A value that is read is the least that was found in so many rectangles.
 const MOST_READ: usize = 1 << 13;
+
+/// How near a value that is read is to the least one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Accuracy {
+    /// For files: above it by at most [`TOLERANCE`].
+    Close,
+    /// Under the pointer: the same, but [`QUICK_TOLERANCE`] where that would take long.
+    Quick,
+}
+
+impl Accuracy {
+    fn tolerance(self, searched: usize) -> f64 {
+        match self {
+            _ if searched < FEW => TIGHT,
+            Self::Quick if searched >= QUICK => QUICK_TOLERANCE,
+            Self::Close | Self::Quick => TOLERANCE,
+        }
+    }
+}
 
 /// A search over a field from a place, with the slope g.
 pub struct Search<'a, P> {
@@ -242,14 +267,12 @@ pub fn any_below(
 
 /// The least h + g d over the lattice, at distance d from a point in world units, and the place from which it
 /// comes; `start` is a value that is known, and its place.
-///
-/// The value is above the exact one by at most [`TOLERANCE`] of it.
 pub fn least(
     field: &SizeField,
     paint: &PaintLayers,
     known: &mut KnownSquares,
     point: DVec2,
-    slope: f64,
+    (slope, accuracy): (f64, Accuracy),
     start: (f64, DVec2),
 ) -> (f64, DVec2) {
     let h_min = field.spec().transfer.h_min;
@@ -267,9 +290,8 @@ pub fn least(
         }
     }
     for number in 0..MOST_READ {
-        let tolerance = if number < FEW { TIGHT } else { TOLERANCE };
         let Some((bound, part)) = parts.pop() else { break };
-        if bound >= best.0 * (1.0 - tolerance) {
+        if bound >= best.0 * (1.0 - accuracy.tolerance(number)) {
             break;
         }
         let is_one = part.least == part.greatest;
