@@ -11,15 +11,21 @@ use crate::field::{Bounds, Quadratic};
 impl Threats {
     /// A model of the combined risk.
     pub(super) fn model(&self, place: &Place) -> Quadratic {
-        let mut survival = Survival::default();
+        let (mut survival, mut is_felt) = (Survival::default(), false);
         let certain = self.visit_meeting(&place.rect(), |threat| {
             let squared = Squared::new(threat, place);
             let Some(risk) = threat.series(&squared) else { return ControlFlow::Continue(()) };
+            is_felt = true;
             survival.meet(&squared, &risk);
             if survival.is_lost() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         });
         let one = Quadratic::constant(1.0);
-        if certain.is_break() { one } else { one.minus(&survival.model()) }
+        match certain {
+            // Exactly: a risk of rounding errors would ask for more than none does.
+            ControlFlow::Continue(()) if !is_felt => Quadratic::constant(0.0),
+            ControlFlow::Continue(()) => one.minus(&survival.model()),
+            ControlFlow::Break(()) => one,
+        }
     }
 }
 

@@ -279,3 +279,39 @@ fn the_diameter_for_a_risk_is_that_of_the_formula() {
         assert!((found / expected - 1.0).abs() < 1e-12, "{found} for {expected}");
     }
 }
+
+/// Any risk at all asks for more than a length of h_max.
+#[test]
+fn many_threats_that_lie_apart_ask_where_they_are_and_nowhere_else() {
+    let mut random = Rng::with_seed(9);
+    let lattice = Lattice::covering(Rect::UNIT, 0.1, 1_000_000).unwrap();
+    let transfer = Transfer { h_min: 1e-6, h_max: 0.1, shape: 1.0 };
+    for range in [1e-2, 1e-4, 1e-6] {
+        let threat = |random: &mut Rng| Threat {
+            at: dvec2(random.f64(), random.f64()),
+            range,
+            peak: 0.2 + 0.8 * random.f64(),
+            law: ThreatLaw::ALL[random.usize(..3)].0,
+        };
+        let threats: Vec<Threat> = (0..60).map(|_| threat(&mut random)).collect();
+        let layers = Layer::stack([LayerKind::Threats(Threats::new(threats.clone()).unwrap())]);
+        let spec = SizeFieldSpec { layers, transfer, unasked: 0.1, outline: None, gradation: None };
+        let field = SizeField::new(spec, &lattice);
+        let mut asked = 0;
+        for n in 0..200 {
+            let near = threats[n % threats.len()].at;
+            let corners = triangle_at(&lattice, near, random.u32(22..27));
+            let world = corners.map(|corner| lattice.world_from_lattice(corner));
+            let distance =
+                threats.iter().map(|t| distance_from(t.at, world) / range).fold(f64::INFINITY, f64::min);
+            // At the rim, the risk is too small to tell.
+            if (0.9..1.1).contains(&distance) {
+                continue;
+            }
+            let asks = field.asks_for_more(PaintLayers::blank(), corners, 1);
+            assert_eq!(asks, distance < 1.0, "{corners:?} at {distance} ranges");
+            asked += usize::from(asks);
+        }
+        assert!((20..180).contains(&asked), "{asked} of range {range}");
+    }
+}

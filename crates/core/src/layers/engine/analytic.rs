@@ -248,9 +248,10 @@ impl Analytic {
 
     /// Bounds of the numbers at the centres of some cells.
     fn bounds(&self, cells: &Cells, lattice: &Lattice) -> Bounds {
-        // A model of threats already has the bounds of each that varies much.
+        // A model of threats already has the bounds of each that varies much, but near the rims of the
+        // threats it does not say where no threat is.
         let own = |model: Bounds| match self.function {
-            Function::Threats(_) if model.valid => model,
+            Function::Threats(_) if model.valid && model.least > 0.0 => model,
             _ => self.function.bounds(&cells.centers(lattice)),
         };
         match self.models {
