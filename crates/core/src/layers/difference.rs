@@ -24,7 +24,7 @@ use crate::mesh::TargetChange::{self, Any, Coarser, Finer};
 
 /// One step from a specification of a size field to another.
 #[derive(Clone, Debug, PartialEq)]
-pub struct SpecChange {
+pub(crate) struct SpecChange {
     /// Where h̄ before gradation can differ.
     pub area: Extent,
     /// In which direction.
@@ -36,7 +36,7 @@ pub struct SpecChange {
 
 /// What both specifications of an edit have in common, and how their outlines differ.
 #[derive(Clone, Copy, Debug)]
-pub struct Circumstances<'a> {
+pub(crate) struct Circumstances<'a> {
     /// The painted pixels.
     pub paint: &'a PaintLayers,
     /// The diameter of a coarse triangle in world units: nothing coarser than this matters to a mesh.
@@ -48,7 +48,7 @@ pub struct Circumstances<'a> {
 
 impl SizeFieldSpec {
     /// The steps from an earlier specification to this one; none where the mesh is the same.
-    pub fn difference(&self, old: &Self, circumstances: &Circumstances) -> Vec<SpecChange> {
+    pub(crate) fn difference(&self, old: &Self, circumstances: &Circumstances) -> Vec<SpecChange> {
         let new = self;
         let Self { layers, transfer, unasked, outline, gradation } = new;
         let now = limits(transfer, *unasked, circumstances.longest);

@@ -1,4 +1,6 @@
-use bytemuck::{Pod, Zeroable};
+use std::error::Error;
+use std::fmt;
+
 use glam::DVec2;
 
 use super::Rect;
@@ -9,7 +11,8 @@ pub const LATTICE_BITS: u32 = 30;
 
 /// A point of the integer lattice: exact to compare, to hash and to halve.
 #[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Pod, Zeroable)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[cfg_attr(feature = "bytemuck", derive(bytemuck::Pod, bytemuck::Zeroable))]
 pub struct LatticePoint {
     /// Steps to the right of the lower left corner of the grid.
     pub x: u32,
@@ -58,45 +61,25 @@ const SHORTEST_SIDE: f64 = 1e-120;
 const LONGEST_SIDE: f64 = 1e150;
 
 /// Why no coarse grid could be made.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum GridError {
     /// A corner is NaN or infinite, or a side is not positive.
-    #[error(
-        "The domain {}, {} to {}, {} is not a rectangle: every corner must be a finite number and \
-         the second corner must lie right of and above the first.",
-        Number(bounds.min.x), Number(bounds.min.y), Number(bounds.max.x), Number(bounds.max.y)
-    )]
     NotARectangle {
         /// The rectangle as given.
         bounds: Rect,
     },
     /// A side is so long or so short that squares of lengths are no numbers.
-    #[error(
-        "A domain of {} × {} cannot be meshed: its width and its height must lie between {SHORTEST_SIDE:e} and \
-         {LONGEST_SIDE:e}. Check the unit of the coordinates.",
-        Number(size.x), Number(size.y)
-    )]
     Size {
         /// Width and height of the domain.
         size: DVec2,
     },
     /// The spacing is zero, negative, NaN or infinite.
-    #[error(
-        "A coarse spacing of {} makes no grid: it must be a positive, finite length. \
-         A twentieth of the domain's width is a good start.",
-        Number(*spacing)
-    )]
     Spacing {
         /// The spacing as given.
         spacing: f64,
     },
     /// More coarse triangles than the budget allows.
-    #[error(
-        "A coarse spacing of {} would start with about {triangles:.3e} triangles, and the \
-         limit is {}. Choose a larger spacing.",
-        Number(*spacing), Grouped(*limit)
-    )]
     TooManyCells {
         /// The spacing as given.
         spacing: f64,
@@ -106,11 +89,6 @@ pub enum GridError {
         limit: usize,
     },
     /// The domain is so narrow that cells as wide as it is make too many along the other side.
-    #[error(
-        "A domain of {} × {} is too narrow: cells nearly as long as wide would make about {triangles:.3e} triangles to start \
-         with, and the limit is {}. Choose a wider domain.",
-        Number(size.x), Number(size.y), Grouped(*limit)
-    )]
     TooNarrow {
         /// Width and height of the domain.
         size: DVec2,
@@ -120,11 +98,6 @@ pub enum GridError {
         limit: usize,
     },
     /// The domain is so far from the origin, or so large, that f64 cannot tell its nodes apart.
-    #[error(
-        "The coarse spacing {} is too small for coordinates near {reach:e}: neighbouring nodes \
-         would have the same coordinates. Move the domain nearer to the origin or choose a larger spacing.",
-        Number(*spacing)
-    )]
     TooFarFromOrigin {
         /// The spacing as given.
         spacing: f64,
@@ -132,6 +105,58 @@ pub enum GridError {
         reach: f64,
     },
 }
+
+impl fmt::Display for GridError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NotARectangle { bounds } => write!(
+                f,
+                "The domain {}, {} to {}, {} is not a rectangle: every corner must be a finite number and \
+                 the second corner must lie right of and above the first.",
+                Number(bounds.min.x),
+                Number(bounds.min.y),
+                Number(bounds.max.x),
+                Number(bounds.max.y)
+            ),
+            Self::Size { size } => write!(
+                f,
+                "A domain of {} × {} cannot be meshed: its width and its height must lie between \
+                 {SHORTEST_SIDE:e} and {LONGEST_SIDE:e}. Check the unit of the coordinates.",
+                Number(size.x),
+                Number(size.y)
+            ),
+            Self::Spacing { spacing } => write!(
+                f,
+                "A coarse spacing of {} makes no grid: it must be a positive, finite length. \
+                 A twentieth of the domain's width is a good start.",
+                Number(*spacing)
+            ),
+            Self::TooManyCells { spacing, triangles, limit } => write!(
+                f,
+                "A coarse spacing of {} would start with about {triangles:.3e} triangles, and the \
+                 limit is {}. Choose a larger spacing.",
+                Number(*spacing),
+                Grouped(*limit)
+            ),
+            Self::TooNarrow { size, triangles, limit } => write!(
+                f,
+                "A domain of {} × {} is too narrow: cells nearly as long as wide would make about \
+                 {triangles:.3e} triangles to start with, and the limit is {}. Choose a wider domain.",
+                Number(size.x),
+                Number(size.y),
+                Grouped(*limit)
+            ),
+            Self::TooFarFromOrigin { spacing, reach } => write!(
+                f,
+                "The coarse spacing {} is too small for coordinates near {reach:e}: neighbouring nodes \
+                 would have the same coordinates. Move the domain nearer to the origin or choose a larger spacing.",
+                Number(*spacing)
+            ),
+        }
+    }
+}
+
+impl Error for GridError {}
 
 impl Lattice {
     /// Lays a grid of cells no wider than `spacing` (δ̄) over `bounds`, both in world units.

@@ -1,12 +1,10 @@
-//! What messages for a person are made of: counts, lengths and their unit, sizes in bytes, excerpts of
-//! files, a line with carets under a part of it.
+//! What messages for a person are made of: counts, lengths and their unit, sizes in bytes, excerpts of files.
 
 mod bytes;
 mod digits;
 mod excerpt;
 mod grouped;
 mod number;
-mod pointer;
 mod unit;
 
 pub use bytes::Bytes;
@@ -14,5 +12,4 @@ pub use digits::{digits, fixed, percent_above, rounded, significant, with_unit};
 pub use excerpt::{abridged, excerpt};
 pub use grouped::{Grouped, group_digits};
 pub use number::Number;
-pub use pointer::{draw_pointer, printable};
 pub use unit::LengthUnit;

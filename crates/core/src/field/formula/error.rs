@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use crate::text::{draw_pointer, printable};
+use super::pointer::{draw_pointer, printable};
 
 /// A mistake in a formula.
 ///

@@ -43,6 +43,7 @@ mod machine;
 mod model_tests;
 mod models;
 mod parser;
+mod pointer;
 mod program;
 mod slopes;
 #[cfg(test)]
@@ -56,6 +57,7 @@ pub use cost::CostFormula;
 pub use error::ParseError;
 pub use functions::functions;
 pub use parser::{MAX_LENGTH, MAX_NESTING};
+pub use pointer::draw_pointer;
 use program::{Op, Program};
 
 use crate::field::{Bounds, Quadratic};

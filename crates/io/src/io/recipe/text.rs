@@ -11,7 +11,8 @@ use super::super::layers::{KeyFault, Mark, Step};
 use super::super::{Flaw, Place, ReadError};
 use super::saved::SavedRecipe;
 use super::wording::{Context, sentence};
-use meshbrush_mesh::text::{draw_pointer, excerpt};
+use meshbrush_core::field::formula::draw_pointer;
+use meshbrush_mesh::text::excerpt;
 
 /// The text of a recipe.
 #[derive(Clone, Debug)]

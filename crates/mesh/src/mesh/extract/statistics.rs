@@ -1,21 +1,21 @@
 use glam::DVec2;
-use serde::Serialize;
 
 use super::Extract;
 use crate::mesh::kernel::{NodeId, Triangle};
 
 /// The figures of a mesh by which people judge it. Lengths and areas are in world units, angles in degrees.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct MeshStatistics {
     /// Length of the shortest edge.
     pub shortest_edge: f64,
     /// Middle of the shortest edge.
-    #[serde(skip)]
+    #[cfg_attr(feature = "serde", serde(skip))]
     pub shortest_edge_at: DVec2,
     /// Length of the longest edge.
     pub longest_edge: f64,
     /// Middle of the longest edge.
-    #[serde(skip)]
+    #[cfg_attr(feature = "serde", serde(skip))]
     pub longest_edge_at: DVec2,
     /// Area of the smallest triangle.
     pub smallest_area: f64,
@@ -28,7 +28,7 @@ pub struct MeshStatistics {
     /// Gradation: the largest ratio of the diameters of two triangles that share an edge, at least 1.
     pub size_ratio: f64,
     /// Middle of the edge between these two triangles.
-    #[serde(skip)]
+    #[cfg_attr(feature = "serde", serde(skip))]
     pub size_ratio_at: DVec2,
 }
 

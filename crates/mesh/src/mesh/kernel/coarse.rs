@@ -1,5 +1,8 @@
 //! The coarse triangulation T₀: Algorithms 4 to 7, and 16 to 18 for domains other than a full grid.
 
+use std::error::Error;
+use std::fmt;
+
 use glam::DVec2;
 
 use super::{Kind, KindCounts, Limits, Mesh, Neighbour, NodeId, Orientation, Triangle, TriangleId};
@@ -7,22 +10,45 @@ use crate::geometry::{GridError, Lattice, LatticePoint};
 use crate::text::Number;
 
 /// Why no coarse triangulation could be made.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum CoarseError {
     /// The grid itself is impossible or too fine.
-    #[error(transparent)]
-    Grid(#[from] GridError),
+    Grid(GridError),
     /// No coarse triangle has all three nodes in the domain.
-    #[error(
-        "No coarse triangle lies in the domain: with a coarse spacing of {} not one triangle has all three \
-         corners inside. Choose a smaller spacing.",
-        Number(*spacing)
-    )]
     EmptyDomain {
         /// The side of a coarse cell, in world units.
         spacing: f64,
     },
+}
+
+impl fmt::Display for CoarseError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Grid(error) => error.fmt(f),
+            Self::EmptyDomain { spacing } => write!(
+                f,
+                "No coarse triangle lies in the domain: with a coarse spacing of {} not one triangle has all three \
+                 corners inside. Choose a smaller spacing.",
+                Number(*spacing)
+            ),
+        }
+    }
+}
+
+impl Error for CoarseError {
+    fn source(&self) -> Option<&(dyn Error + 'static)> {
+        match self {
+            Self::Grid(error) => error.source(),
+            Self::EmptyDomain { .. } => None,
+        }
+    }
+}
+
+impl From<GridError> for CoarseError {
+    fn from(error: GridError) -> Self {
+        Self::Grid(error)
+    }
 }
 
 /// Which entry of the triangle array descends from which coarse triangle (ℳ_t of Algorithm 17).

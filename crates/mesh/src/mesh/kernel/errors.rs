@@ -1,5 +1,8 @@
 //! Why refinement and updates stop.
 
+use std::error::Error;
+use std::fmt;
+
 use glam::DVec2;
 
 use super::{MemoryLimit, bisection_edge_length};
@@ -7,11 +10,7 @@ use crate::geometry::{Lattice, LatticePoint};
 use crate::text::{Bytes, Grouped, Number};
 
 /// A rule met a target diameter that no mesh can satisfy, or that is no number.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[error(
-    "The target diameter is {} at x = {}, y = {}: it must be a positive number everywhere in the domain.",
-    Number(*value), Number(at.x), Number(at.y)
-)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct InvalidTarget {
     /// Where, in world coordinates.
     pub at: DVec2,
@@ -19,26 +18,31 @@ pub struct InvalidTarget {
     pub value: f64,
 }
 
+impl fmt::Display for InvalidTarget {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "The target diameter is {} at x = {}, y = {}: it must be a positive number everywhere in the domain.",
+            Number(self.value),
+            Number(self.at.x),
+            Number(self.at.y)
+        )
+    }
+}
+
+impl Error for InvalidTarget {}
+
 /// Why refinement stopped before every triangle was satisfied. The mesh conforms nevertheless.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum RefineError {
     /// The rule met a bad target.
-    #[error(transparent)]
-    InvalidTarget(#[from] InvalidTarget),
+    InvalidTarget(InvalidTarget),
     /// The next call would pass the triangle budget.
-    #[error(
-        "The mesh needs more than {} triangles, which is the limit.",
-        Grouped(*limit)
-    )]
     TooManyTriangles {
         /// [`Limits::max_triangles`](crate::mesh::Limits::max_triangles).
         limit: usize,
     },
     /// The next call would pass the memory budget.
-    #[error(
-        "The mesh needs more than {} triangles, and {} of memory, which is the limit, has room for no more.",
-        Grouped(*limit), Bytes(memory.bytes)
-    )]
     TooMuchMemory {
         /// The triangles that there is room for.
         limit: usize,
@@ -46,21 +50,11 @@ pub enum RefineError {
         memory: MemoryLimit,
     },
     /// The system has no more memory.
-    #[error(
-        "Memory ran out: the mesh needs an array of {}, which the system does not have. Close other programs, or make the \
-         mesh coarser.",
-        Bytes(*bytes)
-    )]
     OutOfMemory {
         /// The size of the array.
         bytes: usize,
     },
     /// The target is smaller than the lattice can resolve.
-    #[error(
-        "The target diameter near x = {}, y = {} is too small: below {smallest:.3e} (level {level}) nodes would leave the \
-         lattice.",
-        Number(at.x), Number(at.y)
-    )]
     TooFine {
         /// A vertex of the triangle that could not be bisected, in world coordinates.
         at: DVec2,
@@ -69,6 +63,51 @@ pub enum RefineError {
         /// Its level.
         level: u32,
     },
+}
+
+impl fmt::Display for RefineError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::InvalidTarget(error) => error.fmt(f),
+            Self::TooManyTriangles { limit } => {
+                write!(f, "The mesh needs more than {} triangles, which is the limit.", Grouped(*limit))
+            }
+            Self::TooMuchMemory { limit, memory } => write!(
+                f,
+                "The mesh needs more than {} triangles, and {} of memory, which is the limit, has room for no more.",
+                Grouped(*limit),
+                Bytes(memory.bytes)
+            ),
+            Self::OutOfMemory { bytes } => write!(
+                f,
+                "Memory ran out: the mesh needs an array of {}, which the system does not have. Close other programs, \
+                 or make the mesh coarser.",
+                Bytes(*bytes)
+            ),
+            Self::TooFine { at, smallest, level } => write!(
+                f,
+                "The target diameter near x = {}, y = {} is too small: below {smallest:.3e} (level {level}) nodes would \
+                 leave the lattice.",
+                Number(at.x),
+                Number(at.y)
+            ),
+        }
+    }
+}
+
+impl Error for RefineError {
+    fn source(&self) -> Option<&(dyn Error + 'static)> {
+        match self {
+            Self::InvalidTarget(error) => error.source(),
+            _ => None,
+        }
+    }
+}
+
+impl From<InvalidTarget> for RefineError {
+    fn from(error: InvalidTarget) -> Self {
+        Self::InvalidTarget(error)
+    }
 }
 
 impl RefineError {

@@ -1,5 +1,3 @@
-use bytemuck::{Pod, Zeroable};
-
 use super::MOST_TRIANGLES;
 
 /// A node by its place in [`Mesh::nodes`](crate::mesh::Mesh::nodes), from zero.
@@ -7,7 +5,8 @@ use super::MOST_TRIANGLES;
 /// Refinement keeps all ids. Coarsening fills gaps with the last node, never with a coarse one: those keep
 /// their ids.
 #[repr(transparent)]
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Pod, Zeroable)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[cfg_attr(feature = "bytemuck", derive(bytemuck::Pod, bytemuck::Zeroable))]
 pub struct NodeId(pub(in crate::mesh) u32);
 
 impl NodeId {
@@ -35,7 +34,8 @@ impl NodeId {
 /// triangle's descendants. Coarsening fills gaps with the last entry: beyond the coarse triangles an id says
 /// nothing about the triangle that an update leaves there.
 #[repr(transparent)]
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Pod, Zeroable)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[cfg_attr(feature = "bytemuck", derive(bytemuck::Pod, bytemuck::Zeroable))]
 pub struct TriangleId(pub(in crate::mesh) u32);
 
 impl TriangleId {
@@ -58,7 +58,8 @@ impl TriangleId {
 
 /// What lies across an edge: a triangle, or the boundary of the domain (β of the report).
 #[repr(transparent)]
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Pod, Zeroable)]
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "bytemuck", derive(bytemuck::Pod, bytemuck::Zeroable))]
 pub struct Neighbour(u32);
 
 impl Neighbour {

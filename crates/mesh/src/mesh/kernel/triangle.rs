@@ -1,5 +1,3 @@
-use bytemuck::{Pod, Zeroable};
-
 use super::{Neighbour, NodeId};
 
 /// One entry 𝒯\[i\] ∈ ℤ⁸ of the report: 32 plain bytes, uploaded to the GPU as they are.
@@ -13,7 +11,8 @@ use super::{Neighbour, NodeId};
 /// of the vertices: at level 1, the four triangles around a node fit both ways. The lattice decides, at every
 /// level; the rule and its proof stand at the head of `coarsen.rs`.
 #[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Pod, Zeroable)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "bytemuck", derive(bytemuck::Pod, bytemuck::Zeroable))]
 pub struct Triangle {
     /// References to the three vertices, V(t).
     pub vertices: [NodeId; 3],
@@ -29,7 +28,8 @@ pub struct Triangle {
 ///
 /// Children are of their parent's class until they are classified themselves.
 #[repr(transparent)]
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Pod, Zeroable)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[cfg_attr(feature = "bytemuck", derive(bytemuck::Pod, bytemuck::Zeroable))]
 pub(in crate::mesh) struct Kind(u32);
 
 impl Kind {

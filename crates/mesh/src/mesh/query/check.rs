@@ -1,6 +1,8 @@
 //! The invariants of a mesh as executable checks. They are slow: for tests and debugging.
 
 use std::collections::{BTreeMap, HashMap};
+use std::error::Error;
+use std::fmt;
 
 use crate::geometry::LatticePoint;
 use crate::mesh::kernel::{
@@ -8,20 +10,16 @@ use crate::mesh::kernel::{
 };
 
 /// A broken invariant of [`Mesh`], in the order of the list there.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Violation {
     /// A reference points beyond its array; nothing else of the triangle is checked.
-    #[error("triangle {0:?} refers to a node or triangle that does not exist")]
     DanglingReference(TriangleId),
     /// Invariant 1.
-    #[error("triangle {0:?} does not have the right-angled isosceles shape and size of its level (Eq. 1)")]
     WrongShape(TriangleId),
     /// Invariant 2.
-    #[error("the vertices of triangle {0:?} do not run the way that it says")]
     WrongOrientation(TriangleId),
     /// Invariant 3: the triangle across the edge does not answer with the same edge.
-    #[error("edge {edge} of triangle {triangle:?} is not shared with the neighbour it names")]
     AsymmetricNeighbour {
         /// The triangle.
         triangle: TriangleId,
@@ -30,10 +28,8 @@ pub enum Violation {
     },
     /// Invariant 4: two triangles have the edge, and one says that it is on the boundary; or more than two
     /// have it.
-    #[error("the edge from node {0:?} to {1:?} is shared, but not by neighbours")]
     UnmatchedEdge(NodeId, NodeId),
     /// Invariant 4: a node in the middle of a boundary edge.
-    #[error("node {node:?} hangs in the middle of an edge of triangle {triangle:?}")]
     HangingNode {
         /// The triangle with the edge.
         triangle: TriangleId,
@@ -41,10 +37,8 @@ pub enum Violation {
         node: NodeId,
     },
     /// Invariant 5.
-    #[error("neighbours {0:?} and {1:?} differ by more than one level")]
     LevelJump(TriangleId, TriangleId),
     /// Invariant 6.
-    #[error("the triangles cover {covered} half lattice squares, and the kept coarse triangles {expected}")]
     AreaNotConserved {
         /// Twice the area covered, in lattice squares.
         covered: u128,
@@ -52,19 +46,14 @@ pub enum Violation {
         expected: u128,
     },
     /// Invariant 7: no triangle uses the node.
-    #[error("no triangle uses node {0:?}")]
     OrphanNode(NodeId),
     /// Invariant 7: two nodes at the same place.
-    #[error("nodes {0:?} and {1:?} are at the same place")]
     CoincidentNodes(NodeId, NodeId),
     /// Invariant 8.
-    #[error("entry {0:?} does not lie in the coarse triangle of the same index")]
     LostBucket(TriangleId),
     /// Invariant 9: the triangle noted for the node does not have it.
-    #[error("the triangle noted for node {0:?} does not have that node")]
     LostNode(NodeId),
     /// Invariant 9.
-    #[error("{noted} triangles are noted for level {level} (outside: {outside}), and there are {counted}")]
     Miscounted {
         /// The level.
         level: u32,
@@ -76,6 +65,51 @@ pub enum Violation {
         counted: usize,
     },
 }
+
+impl fmt::Display for Violation {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::DanglingReference(id) => {
+                write!(f, "triangle {id:?} refers to a node or triangle that does not exist")
+            }
+            Self::WrongShape(id) => write!(
+                f,
+                "triangle {id:?} does not have the right-angled isosceles shape and size of its level (Eq. 1)"
+            ),
+            Self::WrongOrientation(id) => {
+                write!(f, "the vertices of triangle {id:?} do not run the way that it says")
+            }
+            Self::AsymmetricNeighbour { triangle, edge } => {
+                write!(f, "edge {edge} of triangle {triangle:?} is not shared with the neighbour it names")
+            }
+            Self::UnmatchedEdge(a, b) => {
+                write!(f, "the edge from node {a:?} to {b:?} is shared, but not by neighbours")
+            }
+            Self::HangingNode { triangle, node } => {
+                write!(f, "node {node:?} hangs in the middle of an edge of triangle {triangle:?}")
+            }
+            Self::LevelJump(a, b) => write!(f, "neighbours {a:?} and {b:?} differ by more than one level"),
+            Self::AreaNotConserved { covered, expected } => write!(
+                f,
+                "the triangles cover {covered} half lattice squares, and the kept coarse triangles {expected}"
+            ),
+            Self::OrphanNode(node) => write!(f, "no triangle uses node {node:?}"),
+            Self::CoincidentNodes(a, b) => write!(f, "nodes {a:?} and {b:?} are at the same place"),
+            Self::LostBucket(id) => {
+                write!(f, "entry {id:?} does not lie in the coarse triangle of the same index")
+            }
+            Self::LostNode(node) => {
+                write!(f, "the triangle noted for node {node:?} does not have that node")
+            }
+            Self::Miscounted { level, outside, noted, counted } => write!(
+                f,
+                "{noted} triangles are noted for level {level} (outside: {outside}), and there are {counted}"
+            ),
+        }
+    }
+}
+
+impl Error for Violation {}
 
 impl Mesh {
     /// Every broken invariant; empty for every mesh that this library makes.

@@ -61,7 +61,7 @@ fn window(source: &str, span: &Range<usize>) -> Range<usize> {
 
 /// What to show for a character of a text that may hold anything: line breaks and tabs as a space, invisible
 /// controls as `�`.
-pub fn printable(c: char) -> char {
+pub(super) fn printable(c: char) -> char {
     match c {
         '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{206f}' => '\u{fffd}',
         '\u{feff}' => '\u{fffd}',
