@@ -24,13 +24,13 @@ use meshbrush_cli::cli;
 // Build a mesh.
 #[doc(inline)]
 pub use meshbrush_core::build::{
-    BuildError, BuildStage, BuiltMesh, MeshBuilder, MeshSpec, RefinementCriterion,
+    BuildError, BuildStage, BuiltMesh, MeshBuilder, MeshSpec, Parts, RefinementCriterion,
 };
 #[doc(inline)]
 pub use meshbrush_core::domain::{
     BoundaryKind, BoundaryMarks, BoundaryPiece, BoundaryPieces, BoundaryTreatment, CutShape, Domain,
     DomainOnLattice, DomainShape, MOST_CORNERS, MeshBoundary, NamedPolygon, PieceFigures, PieceRun, Polygon,
-    Region, RegionError, Ring,
+    Region, RegionError, RegionOnLattice, Ring,
 };
 #[doc(inline)]
 pub use meshbrush_core::field::formula::ParseError;
@@ -39,36 +39,44 @@ pub use meshbrush_core::field::{
     Bounds, CostFormula, Formula, RefinementRule, RiskToDiameter, Transfer, TransferError, VertexRule,
 };
 #[doc(inline)]
-pub use meshbrush_core::raster::{PixelRect, Raster, RasterPyramid, TiledRaster};
+pub use meshbrush_core::raster::{
+    PixelGrid, PixelRect, Raster, RasterPyramid, SquareValues, Tile, TilePlace, TiledRaster, ValueRange,
+    ValueRanges,
+};
 #[doc(inline)]
 pub use meshbrush_mesh::geometry::{GridError, Lattice, LatticePoint, LatticeRect, Rect};
 #[doc(inline)]
 pub use meshbrush_mesh::mesh::{
-    Changes, CoarseError, Element, Fingerprint, Forecast, InvalidTarget, Limits, MOST_TRIANGLES, MemoryLimit,
-    Mesh, Progress, RefineError, Refiner, TargetChange, Updater, Violation, bisection_edge_length,
+    BlockRefiner, ChangedArea, Changes, CoarseError, Element, Falloff, Fingerprint, Forecast, InvalidTarget,
+    LevelsWithin, Limits, MOST_TRIANGLES, MemoryLimit, Mesh, Progress, RefineError, Refiner, RuleAnswers,
+    SharedRule, TargetChange, Updater, Violation, bisection_edge_length,
 };
 
 // Paint.
 #[doc(inline)]
 pub use meshbrush_core::document::{
-    Background, Document, Example, Follower, KeepOut, MeshChange, PathCost, PathPlan, Picture, Setting,
-    Settings, SettingsError, Stage,
+    Background, Document, Edit, EditError, Edits, Example, Follower, History, KeepOut, MeshChange,
+    NoPaintLayer, OutlineError, PathCost, PathPlan, Picture, RecordedEdit, RecordedStroke, Recording,
+    Repainted, Setting, SettingKind, Settings, SettingsError, Stage,
 };
 #[doc(inline)]
 pub use meshbrush_core::layers::{
-    Combine, Decision, InvalidLayer, Layer, LayerId, LayerKind, LeastTarget, Mask, PaintLayers, Quantity,
-    RasterReading, RasterSource, RiskField, SizeField, SizeFieldSpec,
+    Combine, Coverage, CurveError, Decision, DistanceTo, InvalidLayer, Layer, LayerId, LayerKind,
+    LeastTarget, Mask, PaintChange, PaintLayers, Quantity, RasterReading, RasterSource, RiskField,
+    SettledSquares, ShapeList, Shapes, ShapesError, SizeField, SizeFieldSpec, Threat, ThreatError, ThreatLaw,
+    Threats, ValueCurve,
 };
 #[doc(inline)]
-pub use meshbrush_core::paint::{Brush, Medium};
+pub use meshbrush_core::paint::{Brush, DiameterChange, Medium, Mirror, Patch, PathPoint, Repaint, Stroke};
 #[doc(inline)]
 pub use meshbrush_mesh::text::LengthUnit;
 
 // Find paths.
 #[doc(inline)]
 pub use meshbrush_core::path::{
-    Certificate, CertificateEnd, CertificateTask, CostDensity, CostRange, FormulaCost, PathError, Placement,
-    PlacementTest, Waypoint, WeightedCost, Weights,
+    Certificate, CertificateEnd, CertificateTask, Corridor, CostDensity, CostRange, Effort, FormulaCost,
+    Passage, PathCertificate, PathError, PathMesh, PathRequest, PathSample, Placement, PlacementTest,
+    Planner, Solution, TriangleCosts, Waypoint, WeightedCost, Weights,
 };
 
 // Query a mesh.
@@ -85,7 +93,8 @@ pub use meshbrush_mesh::mesh::{
 pub use meshbrush_core::outline::{DerivedMesh, DerivedViolation, OutlineFit};
 #[doc(inline)]
 pub use meshbrush_io::io::{
-    Cancelled, MeshData, MeshFormat, MeshSource, Meter, NodeValues, Provenance, ReadError,
+    Cancelled, Counted, Flaw, MeshData, MeshFormat, MeshSource, Meter, NodeValues, Place as PlaceInFile,
+    Provenance, ReadError,
 };
 #[doc(inline)]
 pub use meshbrush_mesh::mesh::{

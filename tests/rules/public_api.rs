@@ -1,12 +1,15 @@
 //! The public interface is what `docs/public-api.txt` records: every name at the root of the crate with its
 //! signature, its public fields, variants, methods and traits.
 //!
+//! Every type in such a signature has a name there too.
+//!
 //! `UPDATE_PUBLIC_API=1 cargo test --test rules` rewrites the file. A change in it is a change for
 //! users.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::LazyLock;
 
 use crate::source::SOURCES;
 use quote::ToTokens;
@@ -27,14 +30,31 @@ struct Module {
     items: Vec<Item>,
 }
 
+/// Every export with the lines that describe it, and all public types of the packages.
+struct Interface {
+    exports: Vec<(Export, Vec<String>)>,
+    types: BTreeSet<String>,
+}
+
+/// Read once, for all tests.
+static INTERFACE: LazyLock<Interface> = LazyLock::new(|| {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let modules: Vec<Module> = SOURCES.iter().flat_map(|folder| modules(&root.join(folder))).collect();
+    let described = |export: Export| {
+        let lines = description(&export, &modules);
+        (export, lines)
+    };
+    Interface {
+        exports: exports(&root.join("src/lib.rs")).into_iter().map(described).collect(),
+        types: modules.iter().flat_map(|module| &module.items).filter_map(public_type).collect(),
+    }
+});
+
 #[test]
 fn the_public_interface_is_the_recorded_one() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let modules: Vec<Module> = SOURCES.iter().flat_map(|folder| modules(&root.join(folder))).collect();
-    let mut entries = BTreeMap::new();
-    for export in exports(&root.join("src/lib.rs")) {
-        entries.insert(export.name.clone(), description(&export, &modules));
-    }
+    let entries: BTreeMap<&str, &[String]> =
+        INTERFACE.exports.iter().map(|(export, lines)| (export.name.as_str(), lines.as_slice())).collect();
     let text: String = entries.into_values().map(|lines| lines.join("\n") + "\n\n").collect();
     if std::env::var_os("UPDATE_PUBLIC_API").is_some() {
         fs::write(root.join(RECORD), &text).unwrap();
@@ -48,6 +68,50 @@ fn the_public_interface_is_the_recorded_one() {
     );
 }
 
+/// A function that takes or returns a type without a name can be called, but its values cannot be stored.
+#[test]
+fn everything_in_a_public_signature_has_a_public_name() {
+    let Interface { exports, types } = &*INTERFACE;
+    // An export can have another name at the root than where it is defined.
+    let both = |(export, _): &'static (Export, _)| [Some(&export.name), export.path.last()];
+    let named: BTreeSet<&str> = exports.iter().flat_map(both).flatten().map(String::as_str).collect();
+    let mut unnamed = Vec::new();
+    for (export, line) in
+        exports.iter().flat_map(|(export, lines)| lines.iter().map(move |line| (export, line)))
+    {
+        let missing = words_of_types(line).filter(|word| types.contains(*word) && !named.contains(word));
+        unnamed.extend(missing.map(|word| format!("{word}: {}: {}", export.name, line.trim())));
+    }
+    assert!(types.len() > 100, "{} types were found", types.len());
+    assert!(unnamed.is_empty(), "no public name for\n{}", unnamed.join("\n"));
+}
+
+/// The name of a public type or trait.
+fn public_type(item: &Item) -> Option<String> {
+    let (ident, visibility) = match item {
+        Item::Struct(item) => (&item.ident, &item.vis),
+        Item::Enum(item) => (&item.ident, &item.vis),
+        Item::Type(item) => (&item.ident, &item.vis),
+        Item::Trait(item) => (&item.ident, &item.vis),
+        _ => return None,
+    };
+    is_public(visibility).then(|| ident.to_string())
+}
+
+/// The words of a line that can be names of types: those in capitals outside of attributes and texts, without
+/// the variant of an enum that the line may begin with.
+fn words_of_types(line: &str) -> impl Iterator<Item = &str> {
+    let member = line.strip_prefix("    ");
+    let is_variant = |rest: &str| rest.starts_with(|c: char| c.is_ascii_uppercase());
+    let text = match member {
+        Some(rest) if is_variant(rest) => rest.split_once(['(', '{']).map_or("", |(_, fields)| fields),
+        Some(rest) => rest,
+        None => line.rsplit_once("] ").map_or(line, |(_, item)| item),
+    };
+    text.split(|c: char| !(c.is_alphanumeric() || c == '_'))
+        .filter(|word| word.starts_with(|c: char| c.is_ascii_uppercase()))
+}
+
 fn modules(src: &Path) -> Vec<Module> {
     let mut found = Vec::new();
     let mut folders: Vec<(PathBuf, Vec<String>)> = vec![(src.to_owned(), Vec::new())];
@@ -56,7 +120,9 @@ fn modules(src: &Path) -> Vec<Module> {
             let path = entry.unwrap().path();
             let stem = path.file_stem().unwrap().to_str().unwrap().to_owned();
             let inner = [module.clone(), vec![stem.clone()]].concat();
-            if path.is_dir() {
+            if path.is_dir() && stem == "app" {
+                // The window is not public.
+            } else if path.is_dir() {
                 folders.push((path, inner));
             } else if path.extension().is_some_and(|ending| ending == "rs") && stem != "main" {
                 let own = if matches!(stem.as_str(), "mod" | "lib") { module.clone() } else { inner };
