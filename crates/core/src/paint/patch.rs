@@ -25,7 +25,7 @@ pub struct Repaint {
 
 impl Repaint {
     /// Both changes as one.
-    pub fn union(&self, other: &Self) -> Self {
+    pub(super) fn union(&self, other: &Self) -> Self {
         let change = if self.change == other.change { self.change } else { TargetChange::Any };
         Self { area: self.area.union(&other.area), before: self.before.union(other.before), change }
     }
