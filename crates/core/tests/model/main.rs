@@ -19,6 +19,7 @@ mod golden;
 mod layers;
 mod many_directions;
 mod mirrored;
+mod open_boundary;
 mod operations;
 mod outline;
 mod path;

@@ -14,7 +14,8 @@
 //! ```
 //!
 //! - A *stretch* is a maximal part of a ring along one side of the frame (open), or along none (coast). A
-//!   coast is mainland on an outer ring, and an island on the ring of a hole.
+//!   coast is mainland on an outer ring, and an island on the ring of a hole. Where the frame is only the
+//!   bounding rectangle of the outline and does not cut it, all is coast.
 //! - A *piece* is a stretch, or a part of one between places where it is split ([`BoundaryMarks`]).
 //!
 //! [`MeshBoundary`] then finds the piece of each edge of a mesh.

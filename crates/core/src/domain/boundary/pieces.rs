@@ -6,7 +6,7 @@ use glam::DVec2;
 
 use super::super::segments::Segments;
 use super::super::{Domain, DomainShape, Ring, corners};
-use super::stretches::{FrameSide, Stretch, length, stretches};
+use super::stretches::{FrameSide, Stretch, is_cut, length, stretches};
 use super::{BoundaryKind, BoundaryMarks};
 use crate::geometry::{Rect, nearest_on_segment};
 use crate::mesh::{Extract, NodeId};
@@ -73,8 +73,11 @@ impl BoundaryPieces {
     pub fn of_domain(domain: &Domain, marks: &BoundaryMarks) -> Option<Self> {
         let frame = &domain.bounds;
         match &domain.shape {
-            DomainShape::Whole => Some(Self::new([&corners(frame)].into_iter(), frame, 0.0, marks)),
-            DomainShape::Region(region) => Some(Self::new(region.rings(), frame, 0.0, marks)),
+            DomainShape::Whole => Some(Self::new(&[&corners(frame)], frame, true, 0.0, marks)),
+            DomainShape::Region(region) => {
+                let rings: Vec<&Ring> = region.rings().collect();
+                Some(Self::new(&rings, frame, is_cut(&rings, frame), 0.0, marks))
+            }
             DomainShape::Formula(_) => None,
         }
     }
@@ -86,7 +89,8 @@ impl BoundaryPieces {
             |nodes: &Vec<usize>| nodes.iter().map(|&node| extract.world(NodeId::from_index(node))).collect();
         let rings: Vec<Ring> = extract.boundary_loops().iter().map(ring).collect();
         let lattice = extract.lattice();
-        Self::new(rings.iter(), &lattice.bounds(), 0.5 * lattice.spacing(), marks)
+        let rings: Vec<&Ring> = rings.iter().collect();
+        Self::new(&rings, &lattice.bounds(), true, 0.5 * lattice.spacing(), marks)
     }
 
     /// The pieces of a domain, or of the mesh if the domain alone does not say.
@@ -94,14 +98,9 @@ impl BoundaryPieces {
         Self::of_domain(domain, marks).unwrap_or_else(|| Self::of_mesh(extract, marks))
     }
 
-    fn new<'a>(
-        rings: impl Iterator<Item = &'a Ring>,
-        frame: &Rect,
-        least_tolerance: f64,
-        marks: &BoundaryMarks,
-    ) -> Self {
+    fn new(rings: &[&Ring], frame: &Rect, is_cut: bool, least_tolerance: f64, marks: &BoundaryMarks) -> Self {
         let tolerance = least_tolerance.max(TOLERANCE * frame.size().max_element());
-        let stretches = stretches(rings, frame);
+        let stretches = stretches(rings.iter().copied(), is_cut.then_some(frame));
         let mut pieces = split(&stretches, &marks.splits, tolerance);
         let index = Index::new(pieces.iter().map(|piece| &*piece.points));
         if let Some(index) = &index {

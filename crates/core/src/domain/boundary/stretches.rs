@@ -11,8 +11,7 @@ use crate::geometry::Rect;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[non_exhaustive]
 pub enum BoundaryKind {
-    /// Along the frame, the rectangle of the coarse grid: the domain ends there, and what it is part of goes
-    /// on.
+    /// Along the frame, the rectangle of the coarse grid, which cuts the domain off from what it is part of.
     Open,
     /// Of an outer ring.
     Mainland,
@@ -110,32 +109,26 @@ pub(super) fn compare(a: DVec2, b: DVec2) -> Ordering {
     a.y.total_cmp(&b.y).then(a.x.total_cmp(&b.x))
 }
 
-/// The stretches of rings that have the domain on their left, in their order. Names do not depend on the
-/// order of the rings or on where a ring begins.
-pub(super) fn stretches<'a>(rings: impl Iterator<Item = &'a Ring>, frame: &Rect) -> Vec<Stretch> {
+/// The stretches of rings that have the domain on their left, in their order: along the sides of a frame that
+/// cuts the rings, and elsewhere. Names do not depend on the order of the rings or on where a ring begins.
+pub(super) fn stretches<'a>(rings: impl Iterator<Item = &'a Ring>, cutting: Option<&Rect>) -> Vec<Stretch> {
     let mut found = Vec::new();
     for ring in rings.filter(|ring| ring.len() > 2) {
-        push_stretches(ring, frame, &mut found);
+        push_stretches(ring, cutting, &mut found);
     }
     found.sort_by(Stretch::order);
     number(&mut found);
     found
 }
 
-fn push_stretches(ring: &Ring, frame: &Rect, found: &mut Vec<Stretch>) {
+fn push_stretches(ring: &Ring, cutting: Option<&Rect>, found: &mut Vec<Stretch>) {
     let count = ring.len();
     let area = signed_area(ring);
-    let side = |n: usize| FrameSide::of([ring[n % count], ring[(n + 1) % count]], frame);
-    let starts: Vec<usize> = (0..count).filter(|&n| side(n) != side(n + count - 1)).collect();
-    let lowest = || (0..count).min_by(|&a, &b| compare(ring[a], ring[b])).expect("a ring has points");
-    let ranges: Vec<(usize, usize)> = match starts.first() {
-        None => vec![(lowest(), lowest() + count)],
-        Some(first) => {
-            let ends = starts.iter().skip(1).copied().chain([first + count]);
-            starts.iter().copied().zip(ends).collect()
-        }
+    let side = |n: usize| {
+        let edge = [ring[n % count], ring[(n + 1) % count]];
+        cutting.and_then(|frame| FrameSide::of(edge, frame))
     };
-    for (start, end) in ranges {
+    for (start, end) in alike(ring, side) {
         let points: Vec<DVec2> = (start..=end).map(|n| ring[n % count]).collect();
         let (side, length) = (side(start), length(&points));
         let (kind, measure) = match side {
@@ -148,6 +141,53 @@ fn push_stretches(ring: &Ring, frame: &Rect, found: &mut Vec<Stretch>) {
         };
         found.push(Stretch { kind, side, points, name: String::new(), measure });
     }
+}
+
+/// The ranges of edges that are alike, from the number of the first edge to that after the last. A range can
+/// continue from the last edge of the ring to the first. Where all are alike, the range begins at the lowest
+/// point.
+fn alike<T: PartialEq>(ring: &Ring, of_edge: impl Fn(usize) -> T) -> Vec<(usize, usize)> {
+    let count = ring.len();
+    let starts: Vec<usize> = (0..count).filter(|&n| of_edge(n) != of_edge(n + count - 1)).collect();
+    let Some(first) = starts.first() else {
+        let lowest = (0..count).min_by(|&a, &b| compare(ring[a], ring[b])).expect("a ring has points");
+        return vec![(lowest, lowest + count)];
+    };
+    let ends = starts.iter().skip(1).copied().chain([first + count]);
+    starts.iter().copied().zip(ends).collect()
+}
+
+/// Whether a frame cuts an outline off, so that edges along it are open.
+///
+/// Any outline touches its own bounding rectangle, by chance also along an edge. Then it is cut only if a
+/// corner of the rectangle lies on it between two sides, or a straight part along the rectangle is longer
+/// than all others. Another frame was chosen, and cuts whatever reaches it.
+pub(super) fn is_cut(rings: &[&Ring], frame: &Rect) -> bool {
+    let points = rings.iter().flat_map(|ring| ring.iter());
+    let bounds = points.map(|&p| Rect::new(p, p)).reduce(|a, b| a.union(&b));
+    if bounds != Some(*frame) {
+        return true;
+    }
+    let (mut longest_along, mut longest_elsewhere) = (0.0_f64, 0.0_f64);
+    for ring in rings {
+        let count = ring.len();
+        let edge = |n: usize| [ring[n % count], ring[(n + 1) % count]];
+        let side = |n: usize| FrameSide::of(edge(n), frame);
+        if (0..count).any(|n| matches!((side(n), side(n + 1)), (Some(a), Some(b)) if a != b)) {
+            return true;
+        }
+        for (start, end) in alike(ring, |n| straight(n % count, edge(n))) {
+            let run = (start..end).map(|n| length(&edge(n))).sum();
+            let longest = if side(start).is_some() { &mut longest_along } else { &mut longest_elsewhere };
+            *longest = longest.max(run);
+        }
+    }
+    longest_along > longest_elsewhere
+}
+
+/// The line parallel to an axis that an edge lies on, by axis and coordinate, or else the number of the edge.
+fn straight(number: usize, [a, b]: [DVec2; 2]) -> Result<(usize, f64), usize> {
+    (0..2).find(|&axis| a[axis] == b[axis]).map(|axis| (axis, a[axis])).ok_or(number)
 }
 
 /// Names stretches by kind and number. Islands always have a number, others from the second on.
