@@ -3,7 +3,7 @@
 use std::collections::{BTreeSet, HashMap, VecDeque};
 use std::sync::Arc;
 
-use super::Settings;
+use super::{PathCost, Settings};
 use crate::layers::{DistanceTo, Layer, LayerId, LayerKind, Mask, RasterReading, RasterSource, Shapes};
 use crate::paint::Patch;
 
@@ -67,7 +67,17 @@ pub(super) fn shared_data(settings: &Settings) -> impl Iterator<Item = SharedDat
         .map(|background| (Arc::as_ptr(&background.picture).addr(), background.picture.rgba.len()));
     let kept_out = settings.paths.keep_out.iter().map(|kept_out| kept_out.mask.shared_data());
     let domain = settings.domain.formula().map(|formula| (formula.address(), formula.bytes()));
-    layers.chain(domain).chain(outline).chain([marks, pins, paths]).chain(kept_out).chain(background)
+    let cost = match &settings.paths.cost {
+        PathCost::Formula(formula) => Some((formula.address(), formula.bytes())),
+        PathCost::Weighted(_) => None,
+    };
+    layers
+        .chain(domain)
+        .chain(cost)
+        .chain(outline)
+        .chain([marks, pins, paths])
+        .chain(kept_out)
+        .chain(background)
 }
 
 /// What a layer shares: its mask, its data, and the curve through which its data are read.
@@ -243,9 +253,9 @@ mod tests {
     use glam::dvec2;
 
     use super::*;
-    use crate::document::{Document, Setting};
+    use crate::document::{Document, PathPlan, Setting};
     use crate::domain::{Domain, DomainShape, Region, corners};
-    use crate::field::Formula;
+    use crate::field::{CostFormula, Formula};
     use crate::geometry::Rect;
     use crate::layers::{Quantity, ShapeList, Threat, ThreatLaw, Threats};
     use crate::raster::{Raster, RasterPyramid};
@@ -350,6 +360,22 @@ mod tests {
         let recorded = document.recording().unwrap().bytes();
         assert!(recorded > bytes(&document), "the recording keeps the layer too: {recorded}");
         bytes(&document)
+    }
+
+    #[test]
+    fn the_cost_of_paths_counts() {
+        let mut document = Document::new(Settings::default(), None).unwrap();
+        let mut set = |terms: usize| {
+            let formula = CostFormula::parse(&format!("1{}", " + risk*x".repeat(terms))).unwrap();
+            let plan = PathPlan { cost: PathCost::Formula(formula), ..PathPlan::default() };
+            document.set(Setting::Paths(Arc::new(plan))).unwrap();
+            document.end_gesture();
+            assert_eq!(bytes(&document), counted(&document));
+            bytes(&document)
+        };
+        let before = set(400);
+        let kept = set(1) - before;
+        assert!(kept > 400 * " + risk*x".len(), "the text and the program of the first formula: {kept}");
     }
 
     #[test]

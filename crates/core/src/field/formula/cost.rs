@@ -33,6 +33,16 @@ impl CostFormula {
         Ok(Self { source: source.into(), program: Arc::new(program) })
     }
 
+    /// Where the compiled formula lies in memory: equal for clones, which share it.
+    pub fn address(&self) -> usize {
+        Arc::as_ptr(&self.program).addr()
+    }
+
+    /// Memory that clones share, in bytes.
+    pub fn bytes(&self) -> usize {
+        self.source.len() + self.program.bytes()
+    }
+
     /// Whether the value can depend on the risk.
     pub fn uses_risk(&self) -> bool {
         self.program.loads_risk()
