@@ -305,3 +305,43 @@ fn the_recipe_of_a_document_gives_its_mesh() {
         }
     }
 }
+
+/// A recipe may hold names of any length; what the program says of it stays short.
+#[test]
+fn no_sentence_repeats_a_long_name_of_a_layer() {
+    let folder = Folder::new("long-names");
+    let name = "n".repeat(1_000_000);
+    let layer = |rest: &str| {
+        format!(
+            "[domain]\ninside = \"x < 0.5\"\n[mesh]\nspacing = 0.25\n[[layer]]\nname = \"{name}\"\n{rest}"
+        )
+    };
+    let formula = "kind = \"formula\"\nquantity = \"diameter\"\nformula =";
+    for (command, text, status, said) in [
+        (
+            "mesh",
+            layer(&format!("{formula} \"0.1\"\nmask = [[[[2, 2], [3, 2], [3, 3]]]]")),
+            0,
+            "…” does not meet",
+        ),
+        (
+            "mesh",
+            layer("kind = \"distance\"\nto = \"outline\"\nat_zero = 1\nslope = 1"),
+            1,
+            "…”: there is no",
+        ),
+        (
+            "mesh",
+            layer(&format!("{formula} \"0.1\"\nmask = [[[[0, 0], [1, 0], [2, 0]]]]")),
+            1,
+            "…”: its mask",
+        ),
+        ("mesh", layer(&format!("rule = 1\n{formula} \"1\"")), 1, "no key `rule`"),
+        ("why 0.1,0.1", layer(&format!("{formula} \"0.1\"")), 0, "…” asks for 0.1"),
+    ] {
+        folder.file("long.toml", text);
+        let Ran { status: found, out, err } = folder.run(format!("{command} long.toml"));
+        assert!(out.len() + err.len() < 1500, "{command}: {} bytes", out.len() + err.len());
+        assert!(found == status && format!("{out}{err}").contains(said), "{said}: {found}, {out}{err}");
+    }
+}

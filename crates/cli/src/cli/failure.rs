@@ -87,7 +87,7 @@ impl From<DescriptionError> for Failure {
             DescriptionError::Read(error) => error.into(),
             DescriptionError::Layer(error) => error.into(),
             DescriptionError::Coarse(error) => error.into(),
-            DescriptionError::Unsuited(sentence) => Self::Work(sentence),
+            DescriptionError::Unsuited(_) => Self::Work(error.to_string()),
         }
     }
 }

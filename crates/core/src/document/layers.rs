@@ -6,6 +6,7 @@ use super::{Document, Edit, Settings, SettingsError};
 use crate::layers::{Layer, LayerId, PaintLayers, Quantity};
 use crate::paint::Medium;
 use crate::raster::{PixelGrid, TiledRaster};
+use crate::text::short_name;
 
 /// Pixels of depth 0 along the longer side of the domain. Strokes choose their depth by their radius.
 const COARSEST_PIXELS: f64 = 1024.0;
@@ -17,7 +18,7 @@ pub enum NoPaintLayer {
     #[error("No layer for painted {}: add a paint layer to paint on.", noun(*.0))]
     Missing(Option<Quantity>),
     /// The layer is locked.
-    #[error("The layer “{name}” is locked: unlock it to paint on it, or select another layer.")]
+    #[error("The layer “{}” is locked: unlock it to paint on it, or select another layer.", short_name(name))]
     Locked {
         /// The layer.
         id: LayerId,
@@ -25,7 +26,7 @@ pub enum NoPaintLayer {
         name: String,
     },
     /// The layer is hidden.
-    #[error("The layer “{name}” is hidden: show it to paint on it, or select another layer.")]
+    #[error("The layer “{}” is hidden: show it to paint on it, or select another layer.", short_name(name))]
     Hidden {
         /// The layer.
         id: LayerId,

@@ -11,7 +11,7 @@ use crate::geometry::{GridError, Lattice, Rect};
 use crate::layers::{Layer, LayerKind, Quantity, Shapes, SizeFieldSpec};
 use crate::mesh::{Cleaning, KeptParts, Limits, MemoryLimit};
 use crate::path::PathError;
-use crate::text::{Bytes, Grouped, LengthUnit, Number};
+use crate::text::{Bytes, Grouped, LengthUnit, Number, short_name};
 
 /// Everything about a document that is not paint.
 #[derive(Clone, Debug, PartialEq)]
@@ -92,7 +92,8 @@ pub enum SettingsError {
     Constant(f64),
     /// A paint layer has pixels of the other quantity.
     #[error(
-        "The pixels of the layer “{layer}” are {is}, and cannot be read as {read_as}. Add another paint layer."
+        "The pixels of the layer “{}” are {is}, and cannot be read as {read_as}. Add another paint layer.",
+        short_name(layer)
     )]
     PaintedOther {
         /// The name of the layer.

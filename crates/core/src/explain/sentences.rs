@@ -6,7 +6,7 @@ use super::{Demand, Explanation};
 use crate::geometry::LatticePoint;
 use crate::layers::{Layer, LeastTarget};
 use crate::mesh::{Cause, Mesh, TreeTriangle, bisection_edge_length};
-use crate::text::{LengthUnit, significant};
+use crate::text::{LengthUnit, short_name, significant};
 
 /// What sentences need to name things.
 pub struct Words<'a> {
@@ -69,7 +69,7 @@ impl Words<'_> {
         let LeastTarget { target, at, from, layer } = *least;
         let layer = layer.and_then(|id| self.layers.iter().find(|layer| layer.id == id));
         let asks = match layer {
-            Some(layer) => format!("the layer “{}” asks for", layer.name),
+            Some(layer) => format!("the layer “{}” asks for", short_name(&layer.name)),
             None => "no layer asks for anything, so that the upper limit counts:".into(),
         };
         let target = self.with_unit(target);

@@ -7,12 +7,12 @@ use super::engine::cells::Cells;
 use super::{Layer, SizeField};
 use crate::geometry::Lattice;
 use crate::mesh::Progress;
-use crate::text::Number;
+use crate::text::{Number, short_name};
 
 /// A layer with a value that no mesh can meet.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error(
-    "The layer “{layer}” gives {} at x = {}, y = {}: {rule}.", Number(*value), Number(at.x), Number(at.y)
+    "The layer “{}” gives {} at x = {}, y = {}: {rule}.", short_name(layer), Number(*value), Number(at.x), Number(at.y)
 )]
 pub struct InvalidLayer {
     /// The name of the layer.

@@ -1,5 +1,7 @@
 //! What a message quotes of a file, shortened: a word of a file may be as long as the file.
 
+use std::borrow::Cow;
+
 /// Most characters between two quotation marks of a message.
 const LONGEST_QUOTE: usize = 60;
 /// Most characters of a line of a message, apart from what follows its last long quotation.
@@ -12,6 +14,15 @@ pub fn excerpt(most: usize, text: &str) -> String {
     let end = text.char_indices().nth(most).map_or(text.len(), |(end, _)| end);
     let more = if end < text.len() { "…" } else { "" };
     format!("{}{more}", text[..end].escape_debug())
+}
+
+/// At most 60 characters of a name that a file may have given, as they are, with an ellipsis where more
+/// follow.
+pub fn short_name(name: &str) -> Cow<'_, str> {
+    match name.char_indices().nth(LONGEST_QUOTE) {
+        Some((end, _)) => format!("{}…", &name[..end]).into(),
+        None => name.into(),
+    }
 }
 
 /// A message whose parts between quotation marks may come from a file, with at most 60 characters of each,
@@ -96,5 +107,6 @@ mod tests {
         assert_eq!(abridged("an odd \" or ` or “"), "an odd \" or ` or “");
         assert_eq!(excerpt(3, "ab\nc"), "ab\\n…");
         assert_eq!(excerpt(3, "äöü"), "äöü");
+        assert_eq!((&*short_name("O'Brien “ä”"), &*short_name(&long)), ("O'Brien “ä”", &*short));
     }
 }

@@ -9,7 +9,7 @@ mod unit;
 
 pub use bytes::Bytes;
 pub use digits::{digits, fixed, percent_above, rounded, significant, with_unit};
-pub use excerpt::{abridged, excerpt};
+pub use excerpt::{abridged, excerpt, short_name};
 pub use grouped::{Grouped, group_digits};
 pub use number::Number;
 pub use unit::LengthUnit;

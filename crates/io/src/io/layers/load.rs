@@ -11,10 +11,11 @@ use meshbrush_core::layers::{
     Threats, ValueCurve,
 };
 use meshbrush_core::raster::RasterPyramid;
+use meshbrush_mesh::text::abridged;
 
 /// A sentence that says why the data of a layer cannot be used, with the name of the layer.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{0}")]
+#[error("{}", abridged(_0))]
 pub struct TextError(pub String);
 
 /// Where the data are that layers name: files, or the parts of a project.

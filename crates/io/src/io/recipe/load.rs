@@ -16,7 +16,7 @@ use meshbrush_core::field::Transfer;
 use meshbrush_core::layers::{Layer, LayerId, LayerKind, PaintLayers, RasterSource, Shapes};
 use meshbrush_mesh::geometry::{Lattice, Rect};
 use meshbrush_mesh::mesh::{Cleaning, CoarseError, Limits, bisection_edge_length};
-use meshbrush_mesh::text::LengthUnit;
+use meshbrush_mesh::text::{LengthUnit, abridged};
 
 /// Coarse cells along the longer side of the domain unless the spacing is given (N_e of the report's
 /// example).
@@ -38,7 +38,7 @@ pub enum DescriptionError {
     #[error(transparent)]
     Coarse(#[from] CoarseError),
     /// The parts do not suit each other; the sentence says which.
-    #[error("{0}")]
+    #[error("{}", abridged(_0))]
     Unsuited(String),
 }
 
@@ -98,7 +98,7 @@ impl MeshDescription {
             files.add_paint(spec, id, &mut paint)?;
         }
         check_outline(&layers, &domain)?;
-        let notes = note.into_iter().chain(self.notes(&layers, bounds)).collect();
+        let notes = note.into_iter().chain(self.notes(&layers, bounds)).map(|note| abridged(&note)).collect();
         let treatment = self.boundary.unwrap_or(SavedTreatment::Outline);
         let usual = BoundaryTreatment::usual_diameter(spacing);
         let settings = Settings {
