@@ -6,7 +6,7 @@ use meshbrush_core::domain::{BoundaryTreatment, Domain, DomainShape};
 use meshbrush_core::field::{Formula, RefinementRule};
 use meshbrush_core::layers::{Layer, LayerKind};
 use meshbrush_mesh::geometry::Rect;
-use meshbrush_mesh::mesh::{Cleaning, KeptParts};
+use meshbrush_mesh::mesh::{Cleaning, KeptParts, bisection_edge_length};
 
 use super::{Choices, Scale};
 
@@ -15,9 +15,9 @@ pub fn setting(choices: &mut impl Choices, scale: Scale) -> Setting {
     match choices.below(16) {
         0 if choices.below(2) == 0 => Setting::SmallestDiameter(scale.smallest * (1.0 + choices.share())),
         0 | 1 => Setting::SmallestDiameter(diameter),
-        2 => Setting::LargestDiameter(8.0 * diameter),
+        2 => Setting::LargestDiameter(largest_diameter(choices, diameter)),
         3 => Setting::TransferShape(0.5 + 2.0 * choices.share()),
-        4 | 5 => Setting::Spacing([0.3, 0.25, 0.2, 0.15][choices.below(4)]),
+        4 | 5 => Setting::Spacing(SPACINGS[choices.below(SPACINGS.len())]),
         6 | 7 => Setting::RefinementRule(if choices.below(4) == 0 {
             RefinementRule::Vertex
         } else {
@@ -34,6 +34,17 @@ pub fn setting(choices: &mut impl Choices, scale: Scale) -> Setting {
         }
         14 => Setting::Boundary(BoundaryTreatment::OnOutline { diameter: 2.0 * diameter }),
         _ => impossible(choices),
+    }
+}
+
+const SPACINGS: [f64; 4] = [0.3, 0.25, 0.2, 0.15];
+
+/// A few times a diameter, or the diameter of a level, as in a new document: triangles of that level then ask
+/// wherever a layer asks for anything at all.
+fn largest_diameter(choices: &mut impl Choices, diameter: f64) -> f64 {
+    match choices.below(4) {
+        level @ 0..2 => bisection_edge_length(SPACINGS[choices.below(SPACINGS.len())], level as u32),
+        _ => 8.0 * diameter,
     }
 }
 
