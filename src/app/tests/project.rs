@@ -176,6 +176,22 @@ fn a_journal_that_cannot_be_read_is_named() {
 }
 
 #[test]
+fn a_journal_that_cannot_be_written_is_told() {
+    // Where the folder should be, there is a file: as on a disk that takes no journal.
+    let taken = folder("taken").join("file");
+    fs::write(&taken, "").unwrap();
+    let mut window = window();
+    window.state_mut().keep_journal_in(taken.join("journals"));
+    send(&mut window, Command::New);
+    paint(&mut window, 0.9);
+    let told = |window: &Window| window.state().session().notices().shown().map(|shown| shown.text.clone());
+    wait(&mut window, "the message", |window| told(window).is_some());
+    let text = told(&window).unwrap();
+    assert!(text.starts_with("Unsaved work is no longer kept in case of a crash: "), "{text}");
+    assert!(text.ends_with("Save the project from time to time."), "{text}");
+}
+
+#[test]
 fn the_journal_keeps_edits_while_the_painted_layer_is_hidden() {
     let (live, copied) = (folder("hidden"), folder("hidden-copy"));
     let mut window = window();
