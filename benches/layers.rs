@@ -20,7 +20,7 @@ use std::time::{Duration, Instant};
 
 use glam::{DVec2, dvec2};
 use meshbrush_benches::window::{BRUSH, FRAME_BUDGET, SLICE, wave};
-use meshbrush_core::document::{Document, Follower, Setting, Settings, Stage};
+use meshbrush_core::document::{Document, Follower, Readings, Setting, Settings, Stage};
 use meshbrush_core::layers::{
     Combine, DistanceTo, Layer, LayerId, LayerKind, Mask, Quantity, RasterReading, RasterSource, ShapeList,
     Shapes, Threat, ThreatLaw, Threats, ValueCurve,
@@ -206,12 +206,12 @@ impl Bench {
 impl Bench {
     /// Reads h̄ at random points.
     fn hover(&self) {
-        let mut random = fastrand::Rng::with_seed(4);
+        let (mut random, mut readings) = (fastrand::Rng::with_seed(4), Readings::default());
         let mut times: Vec<Duration> = (0..HOVERS)
             .map(|_| {
                 let point = dvec2(random.f64(), random.f64());
                 let began = Instant::now();
-                black_box(self.follower.field().quick_decision_at(self.document.paint(), point));
+                black_box(readings.decision_at(&self.document, &self.follower, point));
                 began.elapsed()
             })
             .collect();

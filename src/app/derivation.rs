@@ -27,6 +27,15 @@ use meshbrush_mesh::mesh::{
 /// Most triangles of a mesh that is derived while a gesture goes on.
 const MOST_IN_GESTURE: usize = 50_000;
 
+/// What changed on the screen.
+#[derive(Clone, Debug, Default)]
+pub struct ShownChange {
+    /// What became of the follower's mesh.
+    pub mesh: Option<MeshChange>,
+    /// What became of the pieces that are drawn in place of some of its triangles.
+    pub pieces: Option<PiecesChange>,
+}
+
 /// What a derived mesh depends on.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Key {

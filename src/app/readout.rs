@@ -61,7 +61,7 @@ impl Readout {
     pub fn at(point: DVec2, session: &Session, quantity: Quantity) -> Self {
         let location = session.locate(point);
         let triangle = location.triangle().map(|id| triangle_with(id, point, session, quantity));
-        let decision = session.follower().field().quick_decision_at(session.document().paint(), point);
+        let decision = session.decision_at(point);
         Self { point, location, triangle, decision }
     }
 

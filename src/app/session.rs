@@ -1,5 +1,6 @@
 //! The document, the mesh that follows it, edits on their way to the document, and the queried point.
 
+use std::cell::RefCell;
 use std::time::{Duration, Instant};
 
 use glam::DVec2;
@@ -7,7 +8,7 @@ use glam::DVec2;
 use super::ages::AgeKeeper;
 use super::boundary::BoundaryFinder;
 use super::cuts::CutQueue;
-use super::derivation::{Derivation, Derived, PiecesChange};
+use super::derivation::{Derivation, Derived, ShownChange};
 use super::document_id::DocumentId;
 use super::jobs::Jobs;
 use super::notices::{self, Notices};
@@ -16,27 +17,21 @@ use super::slices::{SLICE, follow_document};
 use super::statistics::{Measured, Statistician};
 use super::threads::Threads;
 use meshbrush_core::build::BuildError;
-use meshbrush_core::document::{Document, Follower, MeshChange, Pricer, Setting, Stage};
+use meshbrush_core::document::{Document, Follower, MeshChange, Pricer, Readings, Setting, Stage};
 use meshbrush_core::domain::{BoundaryMarks, BoundaryPieces, CutShape};
 use meshbrush_core::explain::AgesNow;
+use meshbrush_core::layers::Decision;
 use meshbrush_core::paint::StrokePlan;
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::mesh::{Location, Mesh, MeshView, Progress, TriangleId};
-
-/// What changed on the screen.
-#[derive(Clone, Debug, Default)]
-pub struct ShownChange {
-    /// What became of the follower's mesh.
-    pub mesh: Option<MeshChange>,
-    /// What became of the pieces that are drawn in place of some of its triangles.
-    pub pieces: Option<PiecesChange>,
-}
 
 /// A document and its mesh in the window.
 pub struct Session {
     document: Document,
     document_id: DocumentId,
     follower: Follower,
+    /// What reading out points found out; it changes no answer.
+    readings: RefCell<Readings>,
     pricer: Pricer,
     cuts: CutQueue,
     queried: Option<DVec2>,
@@ -65,6 +60,7 @@ impl Session {
             document,
             document_id: DocumentId::default(),
             follower,
+            readings: RefCell::default(),
             pricer: Pricer::default(),
             cuts: CutQueue::default(),
             queried: None,
@@ -119,6 +115,11 @@ impl Session {
     pub fn locate(&self, point: DVec2) -> Location {
         let in_mesh = self.mesh().locate(point);
         self.derived().map_or(in_mesh, |derived| derived.locate(point, in_mesh))
+    }
+
+    /// What decides h̄ at a point in world units, as the mesh is shown.
+    pub fn decision_at(&self, point: DVec2) -> Decision {
+        self.readings.borrow_mut().decision_at(&self.document, &self.follower, point)
     }
 
     /// Whether ids of [`Self::view`] are the numbers in files.

@@ -7,7 +7,8 @@ use eframe::egui_wgpu::{self, CallbackResources, CallbackTrait, RenderState, Scr
 use eframe::wgpu;
 
 use crate::app::derivation::PiecesChange;
-use crate::app::session::{Session, ShownChange};
+use crate::app::derivation::ShownChange;
+use crate::app::session::Session;
 use crate::app::software_window::CanvasImage;
 use meshbrush_core::document::MeshChange;
 use meshbrush_mesh::mesh::Progress;

@@ -68,7 +68,7 @@ fn pointer_cells(state: &FrameState<'_>) -> [StatusCell; 4] {
     let Some(point) = state.pointer else { return cells([NONE; 4].map(String::from)) };
     let step = state.view.world_per_px();
     let (document, follower) = (state.session.document(), state.session.follower());
-    let decision = follower.field().quick_decision_at(document.paint(), point);
+    let decision = state.session.decision_at(point);
     let target = match follower.settings().rule {
         RefinementRule::Area => decision.target,
         RefinementRule::Vertex => value_at(point, document, follower, Quantity::TargetDiameter),

@@ -28,7 +28,7 @@ pub struct SettledSquares {
     /// At the place that a hash of the key says; another square there is forgotten.
     squares: Vec<Square>,
     /// For gradation.
-    known: KnownSquares,
+    pub(super) known: KnownSquares,
 }
 
 #[derive(Clone, Copy, Debug)]

@@ -8,7 +8,7 @@ use super::engine::counting::Counting;
 use super::engine::gradation::Accuracy;
 use super::engine::reading::Diameters;
 use super::engine::{CompiledLayer, KnownSquares, gradation};
-use super::{Combine, LayerId, PaintLayers, SizeField};
+use super::{Combine, LayerId, PaintLayers, SettledSquares, SizeField};
 use crate::field::{RefinementRule, Transfer};
 use crate::mesh::level_for_diameter;
 
@@ -96,23 +96,34 @@ impl SizeField {
 
     /// What decides h̄ at a point in world units.
     pub fn decision_at(&self, paint: &PaintLayers, point: DVec2) -> Decision {
-        self.decision(paint, point, Accuracy::Close)
+        self.decision(&mut KnownSquares::few(), paint, point, Accuracy::Close)
     }
 
     /// As [`Self::decision_at`], to be shown under a pointer: with gradation the diameter may be above h̄ by
-    /// 10⁻³ of it where a search for it would take longer than a moment.
-    pub fn quick_decision_at(&self, paint: &PaintLayers, point: DVec2) -> Decision {
-        self.decision(paint, point, Accuracy::Quick)
+    /// 10⁻³ of it where a search for it would take longer than a moment. `squares` must have been used for
+    /// this field and these pixels only.
+    pub fn quick_decision_at(
+        &self,
+        squares: &mut SettledSquares,
+        paint: &PaintLayers,
+        point: DVec2,
+    ) -> Decision {
+        self.decision(&mut squares.known, paint, point, Accuracy::Quick)
     }
 
-    fn decision(&self, paint: &PaintLayers, point: DVec2, accuracy: Accuracy) -> Decision {
+    fn decision(
+        &self,
+        known: &mut KnownSquares,
+        paint: &PaintLayers,
+        point: DVec2,
+        accuracy: Accuracy,
+    ) -> Decision {
         let asked = self.compiled().iter().map(|layer| {
             let diameter = layer.diameter_at(paint, point);
             (layer.id, is_asked(diameter).then_some(diameter))
         });
         let asked = asked.collect();
         let (before, layer) = self.ungraded_at(paint, point);
-        let known = &mut KnownSquares::few();
         let graded =
             self.spec().gradation.map(|slope| self.graded(known, paint, point, (slope, accuracy), before));
         match graded {

@@ -12,8 +12,8 @@ use meshbrush_core::build::{MeshBuilder, MeshSpec};
 use meshbrush_core::domain::{BoundaryTreatment, Domain};
 use meshbrush_core::field::{Formula, RefinementRule, Transfer};
 use meshbrush_core::layers::{
-    Combine, Layer, LayerId, LayerKind, PaintLayers, Quantity, RasterReading, RasterSource, SizeField,
-    SizeFieldSpec,
+    Combine, Layer, LayerId, LayerKind, PaintLayers, Quantity, RasterReading, RasterSource, SettledSquares,
+    SizeField, SizeFieldSpec,
 };
 use meshbrush_core::raster::{
     PixelGrid, Raster, RasterPyramid, TILE, Tile, TilePlace, TiledRaster, ValueRanges,
@@ -300,7 +300,7 @@ fn h_at_a_point_is_that_of_the_definition() {
     for seed in 0..150 {
         let case = Case::random(seed, 0.02);
         let (field, definition) = (case.field(), case.definition());
-        let mut random = Rng::with_seed(seed + 1000);
+        let (mut random, mut squares) = (Rng::with_seed(seed + 1000), SettledSquares::default());
         for _ in 0..20 {
             // Between two grains: on no line.
             let odd =
@@ -314,7 +314,7 @@ fn h_at_a_point_is_that_of_the_definition() {
             );
             let decision = field.decision_at(&case.paint, point);
             assert_eq!(decision.target, found);
-            let quick = field.quick_decision_at(&case.paint, point).target;
+            let quick = field.quick_decision_at(&mut squares, &case.paint, point).target;
             assert!((0.0..=1e-3 * found).contains(&(quick - found)), "seed {seed}: {quick} for {found}");
             assert_eq!(decision.asked.len(), case.visible.len());
             for ((id, asked), layer) in decision.asked.iter().zip(&case.visible) {
