@@ -7,7 +7,7 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::background::{Aim, Background, Outcome, cancelled, exported, name_of};
-use super::command::{Command, Opened, OutlineChange};
+use super::command::{Command, DomainCommand, EditCommand, FileCommand, Opened, OutlineChange, ShellCommand};
 use super::session::Session;
 use super::view::View;
 use super::widgets::format;
@@ -69,7 +69,10 @@ pub fn load_background(session: &Session, background: &mut Background, path: &Pa
                 let (name, picture) = (name_of(&file), Arc::new(picture));
                 let opacity = document::Background::USUAL_OPACITY;
                 let shown = document::Background { name, picture, bounds, opacity };
-                Outcome::PartRead(vec![Command::Set(Setting::Background(Some(shown))), Command::EndGesture])
+                Outcome::PartRead(vec![
+                    Command::Edit(EditCommand::Set(Setting::Background(Some(shown)))),
+                    Command::Edit(EditCommand::EndGesture),
+                ])
             }
             Err(error) => Outcome::not_read(error),
         }
@@ -94,8 +97,8 @@ pub fn open_recipe(background: &mut Background, path: &Path) {
     background.start(Aim::Read, path, move |meter| match recipe::open(&file, meter) {
         Ok(OpenedRecipe { document, notes }) => {
             let opened = Opened { document: Arc::new(document), home: None };
-            let notes = (!notes.is_empty()).then(|| Command::Tell(notes.join(" ")));
-            let commands = [Command::Show(opened)].into_iter().chain(notes).collect();
+            let notes = (!notes.is_empty()).then(|| Command::Shell(ShellCommand::Tell(notes.join(" "))));
+            let commands = [Command::File(FileCommand::Show(opened))].into_iter().chain(notes).collect();
             Outcome::Read { path: file, commands }
         }
         Err(error) => Outcome::not_read(error),
@@ -113,7 +116,10 @@ pub fn load_outline(session: &Session, background: &mut Background, path: &Path)
         match settings.with_outline(&polygons) {
             Ok(setting) => {
                 let change = OutlineChange { name: name_of(&file), before: settings.domain, setting };
-                Outcome::Read { path: file, commands: vec![Command::SetOutline(Box::new(change))] }
+                Outcome::Read {
+                    path: file,
+                    commands: vec![Command::Domain(DomainCommand::SetOutline(Box::new(change)))],
+                }
             }
             Err(error) => Outcome::NotRead(format!("{}: {error}", file.display())),
         }

@@ -18,7 +18,7 @@ use glam::DVec2;
 
 use super::App;
 use super::catalog::catalog;
-use super::command::Command;
+use super::command::{Command, FileCommand};
 use super::dialogs::FileFacts;
 use super::explore::Explore;
 use super::journal::JournalKeeper;
@@ -130,7 +130,8 @@ impl App {
             return;
         }
         let dropped = ctx.input(|input| input.raw.dropped_files.clone());
-        self.commands.extend(dropped.iter().map(|file| Command::Open(file.path().to_owned())));
+        self.commands
+            .extend(dropped.iter().map(|file| Command::File(FileCommand::Open(file.path().to_owned()))));
         let events = ctx.input(|input| input.events.clone());
         let mut used_keys = Vec::new();
         for (index, event) in events.iter().enumerate() {

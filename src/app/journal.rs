@@ -8,7 +8,7 @@ use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
 use eframe::egui::Context;
 
-use super::command::Command;
+use super::command::{Command, FileCommand};
 use super::jobs::{Job, Jobs, Kind, Output, Taken};
 use super::project::ProjectFile;
 use super::session::Session;
@@ -120,7 +120,7 @@ impl JournalKeeper {
     pub fn answer(&mut self, answer: Answer) -> Option<Command> {
         if answer == Answer::Confirmed {
             // It stays offered: the user may still decide to keep the current document.
-            return self.offered.as_ref().map(|_| Command::Restore);
+            return self.offered.as_ref().map(|_| Command::File(FileCommand::Restore));
         }
         let left = self.offered.take()?;
         if answer == Answer::Alternative {
@@ -289,7 +289,13 @@ pub fn question(ctx: &Context, keeper: &JournalKeeper, project: &ProjectFile, co
     let ago = ago(now().saturating_sub(left.time));
     let body = format!("“{name}” was not saved when Meshbrush ended unexpectedly, {ago}.");
     let dialog = ConfirmDialog::new("Restore unsaved work?", &body, "Restore");
-    commands.extend(dialog.alternative("Discard").cancel("Later").show(ctx).map(Command::AnswerRecovery));
+    commands.extend(
+        dialog
+            .alternative("Discard")
+            .cancel("Later")
+            .show(ctx)
+            .map(|answer| Command::File(FileCommand::AnswerRecovery(answer))),
+    );
 }
 
 /// A time in the past, in words.

@@ -3,7 +3,7 @@
 use eframe::egui::{Context, Event, Key, KeyboardShortcut, Modifiers, RawInput};
 
 use super::catalog::CatalogItem;
-use super::command::Command;
+use super::command::{Command, ViewCommand};
 
 /// The command that a pressed key stands for. While the user is `typing`, keys that edit text stay with the
 /// text field.
@@ -44,7 +44,7 @@ pub fn catch_tab(ctx: &Context, raw_input: &mut RawInput) -> Vec<Command> {
     raw_input.events.retain(|event| match event {
         Event::Key { key: Key::Tab, pressed, modifiers, .. } if modifiers.is_none() => {
             if *pressed {
-                commands.push(Command::TogglePanels);
+                commands.push(Command::View(ViewCommand::TogglePanels));
             }
             false
         }

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::background::{Aim, Background, Outcome, exported, name_of};
-use super::command::{Command, LayerCommand};
+use super::command::{Command, EditCommand, LayerCommand};
 use super::session::Session;
 use super::tools::ThreatsTool;
 use super::widgets::format;
@@ -23,7 +23,10 @@ pub fn load_image(session: &Session, background: &mut Background, path: &Path) {
     background.start(Aim::Read, path, move |meter| match risk_of(&file, bounds, meter) {
         Ok(raster) => {
             let kind = raster_layer(&file, raster, RasterReading::Risk);
-            let commands = vec![Command::Layer(LayerCommand::Add(Box::new(kind))), Command::EndGesture];
+            let commands = vec![
+                Command::Layer(LayerCommand::Add(Box::new(kind))),
+                Command::Edit(EditCommand::EndGesture),
+            ];
             Outcome::Read { path: file, commands }
         }
         Err(problem) => Outcome::NotRead(problem),
@@ -82,9 +85,10 @@ fn load_layer(
 ) {
     let file = path.to_owned();
     background.start(Aim::Read, path, move |meter| match kind_of(&file, meter) {
-        Ok(kind) => {
-            Outcome::PartRead(vec![Command::Layer(LayerCommand::Add(Box::new(kind))), Command::EndGesture])
-        }
+        Ok(kind) => Outcome::PartRead(vec![
+            Command::Layer(LayerCommand::Add(Box::new(kind))),
+            Command::Edit(EditCommand::EndGesture),
+        ]),
         Err(problem) => Outcome::NotRead(problem),
     });
 }
@@ -127,7 +131,11 @@ pub fn load_threats(session: &Session, background: &mut Background, path: &Path)
         match Threats::new(list) {
             Ok(threats) => {
                 let change = LayerCommand::SetKind(layer, Box::new(LayerKind::Threats(threats)));
-                Outcome::PartRead(vec![Command::EndGesture, Command::Layer(change), Command::EndGesture])
+                Outcome::PartRead(vec![
+                    Command::Edit(EditCommand::EndGesture),
+                    Command::Layer(change),
+                    Command::Edit(EditCommand::EndGesture),
+                ])
             }
             Err((_, error)) => Outcome::NotRead(format!("{}: {error}", file.display())),
         }

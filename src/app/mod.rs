@@ -18,6 +18,8 @@ mod derivation;
 mod dialogs;
 mod document_id;
 mod execute;
+mod explore;
+mod features;
 mod files;
 mod frame;
 mod frame_log;
@@ -38,7 +40,7 @@ mod pins;
 mod plots;
 mod project;
 mod prover;
-mod explore;
+
 pub mod readout;
 mod replacing;
 mod report;
@@ -67,7 +69,7 @@ use eframe::egui_wgpu;
 
 use background::Background;
 use canvas::{Canvas, CanvasGpu};
-use command::Command;
+use command::{Command, FileCommand};
 use dialogs::Dialogs;
 use explore::Explore;
 use frame_log::FrameLog;
@@ -159,7 +161,7 @@ impl App {
     ) -> Result<Self, String> {
         let mut app = Self::with_document(ctx, render_state, files::new_document())?;
         app.starts_with_file = true;
-        app.send(Command::Open(file));
+        app.send(Command::File(FileCommand::Open(file)));
         Ok(app)
     }
 

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use eframe::egui::{Context, ViewportCommand};
 
 use super::background::Background;
-use super::command::Command;
+use super::command::{Command, DomainCommand, FileCommand, LayerCommand};
 use super::home::{self, Claims, Expected, Home};
 use super::replacing::{Loss, Replacing};
 use super::report::FigureCommand;
@@ -214,11 +214,12 @@ impl ProjectFile {
         if !ctx.input(|input| input.viewport().close_requested()) {
             let closes = self.closing && !writes;
             self.closing &= !closes;
-            return closes.then_some(Command::Quit);
+            return closes.then_some(Command::File(FileCommand::Quit));
         }
         if !self.may_leave(session) || writes {
             ctx.send_viewport_cmd(ViewportCommand::CancelClose);
-            if let Some(quit) = self.ask_before_leaving(Command::Quit, session, background) {
+            if let Some(quit) = self.ask_before_leaving(Command::File(FileCommand::Quit), session, background)
+            {
                 announce_closing(&quit, session, background);
                 self.closing = true;
             }
@@ -239,7 +240,7 @@ impl ProjectFile {
         match answer {
             Answer::Confirmed => {
                 self.after_saving = Some(command);
-                Some(Command::Save)
+                Some(Command::File(FileCommand::Save))
             }
             Answer::Alternative => {
                 session.document_mut().end_stroke();
@@ -260,16 +261,16 @@ impl ProjectFile {
     pub fn save_as(&mut self, path: PathBuf) -> Option<Command> {
         let path = with_ending(path);
         if io::exists(&path) && self.path() != Some(&path) {
-            self.ask(vec![path.clone()], Loss::Contents, Command::SaveTo(path));
+            self.ask(vec![path.clone()], Loss::Contents, Command::File(FileCommand::SaveTo(path)));
             return None;
         }
-        Some(Command::SaveTo(path))
+        Some(Command::File(FileCommand::SaveTo(path)))
     }
 
     /// The command that exports to a path that was typed. Asks before it replaces other files.
     pub fn export_as(&mut self, path: PathBuf) -> Option<Command> {
         let files = ExportFormat::of(&path).map_or(Vec::new(), |format| format.files(&path));
-        self.ask_to_replace(files, Command::Export(path))
+        self.ask_to_replace(files, Command::File(FileCommand::Export(path)))
     }
 
     /// The command that writes files. Asks before it replaces any.
@@ -296,15 +297,18 @@ impl ProjectFile {
     pub fn export_test_as(&mut self, path: PathBuf) -> Option<Command> {
         let path = if path.extension().is_none() { path.with_extension(recording::ENDING) } else { path };
         if !io::exists(&path) || io::obstacle(&path).is_some() {
-            return Some(Command::ExportTest(path));
+            return Some(Command::File(FileCommand::ExportTest(path)));
         }
-        self.ask(vec![path.clone()], Loss::Contents, Command::ExportTest(path));
+        self.ask(vec![path.clone()], Loss::Contents, Command::File(FileCommand::ExportTest(path)));
         None
     }
 
     /// The command that writes a recipe to a path that was typed. Asks before it replaces other files.
     pub fn save_recipe_as(&mut self, path: PathBuf, recipe: &RecipeFiles) -> Option<Command> {
-        self.ask_to_replace(recipe.paths().map(Path::to_owned).collect(), Command::SaveRecipe(path))
+        self.ask_to_replace(
+            recipe.paths().map(Path::to_owned).collect(),
+            Command::File(FileCommand::SaveRecipe(path)),
+        )
     }
 
     fn ask(&mut self, files: Vec<PathBuf>, loss: Loss, command: Command) {
@@ -314,14 +318,18 @@ impl ProjectFile {
     /// Asks whether to replace the document's own file, which somebody else changed.
     pub fn ask_about_other_version(&mut self, path: PathBuf) {
         self.save_again = None;
-        self.ask(vec![path.clone()], Loss::OtherVersion, Command::SaveOver(path));
+        self.ask(vec![path.clone()], Loss::OtherVersion, Command::File(FileCommand::SaveOver(path)));
     }
 
     /// Saves the document, unless somebody else saved to the same file, or may do so: then the user is asked.
     pub fn save_to(&mut self, path: PathBuf, session: &mut Session, background: &mut Background) {
         let path = with_ending(path);
         if self.claims.is_open_elsewhere(&path) {
-            return self.ask(vec![path.clone()], Loss::OtherWindow, Command::SaveOver(path));
+            return self.ask(
+                vec![path.clone()],
+                Loss::OtherWindow,
+                Command::File(FileCommand::SaveOver(path)),
+            );
         }
         let own = self.home.as_ref().filter(|home| home.path == path);
         let expected = own.map_or(Expected::Anything, |home| Expected::Contents(home.stamp));
@@ -370,18 +378,18 @@ impl ProjectFile {
 fn leaves(command: &Command) -> bool {
     matches!(
         command,
-        Command::New
-            | Command::OpenExample(_)
+        Command::File(FileCommand::New)
+            | Command::File(FileCommand::OpenExample(_))
             | Command::Figure(FigureCommand::Open(_))
-            | Command::Show(_)
-            | Command::Restore
-            | Command::Quit
+            | Command::File(FileCommand::Show(_))
+            | Command::File(FileCommand::Restore)
+            | Command::File(FileCommand::Quit)
     )
 }
 
 /// Says that the window stays open until the files are written.
 fn announce_closing(command: &Command, session: &mut Session, background: &Background) {
-    if *command == Command::Quit {
+    if *command == Command::File(FileCommand::Quit) {
         let names = background.being_written().collect::<Vec<_>>().join(", ");
         session.tell(format!("Meshbrush closes as soon as this is written: {names}."));
     }
@@ -394,10 +402,10 @@ fn announce_closing(command: &Command, session: &mut Session, background: &Backg
 pub fn open_command(path: PathBuf) -> Result<Command, String> {
     let ending = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
     match ending.as_str() {
-        ENDING => Ok(Command::OpenProject(path)),
-        "png" | "asc" => Ok(Command::OpenImage(path)),
-        "geojson" | "json" => Ok(Command::OpenDomain(path)),
-        recipe::ENDING => Ok(Command::OpenRecipe(path)),
+        ENDING => Ok(Command::File(FileCommand::OpenProject(path))),
+        "png" | "asc" => Ok(Command::Layer(LayerCommand::OpenImage(path))),
+        "geojson" | "json" => Ok(Command::Domain(DomainCommand::Open(path))),
+        recipe::ENDING => Ok(Command::File(FileCommand::OpenRecipe(path))),
         _ => Err(format!(
             "{} cannot be opened: a project ends in .{ENDING}, a recipe in .{}, a domain of polygons in .geojson, a greyscale picture of risk in .png, a grid of risk in .asc.",
             path.display(),

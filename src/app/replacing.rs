@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use eframe::egui::Context;
 
-use super::command::Command;
+use super::command::{Command, FileCommand};
 use super::files::listed;
 use super::frame::FrameState;
 use super::widgets::ConfirmDialog;
@@ -36,12 +36,17 @@ pub fn questions(ctx: &Context, state: &FrameState<'_>, asks_for_file: bool, com
     if project.leaving.is_some() && project.replacing.is_none() && !asks_for_file {
         let question = format!("Save changes to “{}”?", project.document_name(state.session));
         let dialog = ConfirmDialog::new(&question, "Unsaved changes will be lost.", "Save");
-        commands.extend(dialog.alternative("Do not save").show(ctx).map(Command::AnswerLeaving));
+        commands.extend(
+            dialog
+                .alternative("Do not save")
+                .show(ctx)
+                .map(|answer| Command::File(FileCommand::AnswerLeaving(answer))),
+        );
     }
     if let Some(replacing) = &project.replacing {
         let (question, body) = replacing.question();
         let dialog = ConfirmDialog::new(&question, &body, "Replace").danger();
-        commands.extend(dialog.show(ctx).map(Command::AnswerReplacing));
+        commands.extend(dialog.show(ctx).map(|answer| Command::File(FileCommand::AnswerReplacing(answer))));
     }
 }
 

@@ -3,7 +3,7 @@
 use eframe::egui::{Context, Theme, ThemePreference};
 use glam::DVec2;
 
-use super::command::Command;
+use super::command::ViewCommand;
 use super::readout::Quantity;
 use super::widgets::format;
 use meshbrush_core::document::Settings;
@@ -184,30 +184,32 @@ impl View {
     }
 
     /// Runs a command about the view.
-    pub fn execute(&mut self, command: Command, ctx: &Context) {
+    pub fn execute(&mut self, command: ViewCommand, ctx: &Context) {
         match command {
-            Command::Fit => self.fit(),
-            Command::LookAt(point) => self.move_camera(|camera| camera.centered_on(point)),
-            Command::ShowArea(area) => {
+            ViewCommand::Fit => self.fit(),
+            ViewCommand::LookAt(point) => self.move_camera(|camera| camera.centered_on(point)),
+            ViewCommand::ShowArea(area) => {
                 self.move_camera(|camera| Camera::fit(camera.lattice(), area, camera.size_px(), 0.0));
             }
-            Command::Zoom(factor) => self.move_camera(|camera| camera.zoomed(factor, camera.half_size_px())),
-            Command::ZoomAt(factor, px) => self.move_camera(|camera| camera.zoomed(factor, px)),
-            Command::Pan(delta_px) => self.move_camera(|camera| camera.panned(delta_px)),
-            Command::ToggleEdges => self.edges = !self.edges,
-            Command::ToggleAid(aid) => self.aids.toggle(aid),
-            Command::SetOverlay(overlay) => self.overlay = overlay,
-            Command::Colormap(map) => self.colormap = map,
-            Command::ShowLevel(level) => self.lone_level = level,
-            Command::ToggleLevel(level) => self.hidden_levels ^= bit_of(level),
-            Command::IsolateLevel(level) if self.hidden_levels == !bit_of(level) => self.hidden_levels = 0,
-            Command::IsolateLevel(level) => self.hidden_levels = !bit_of(level),
-            Command::ShowAllLevels => self.hidden_levels = 0,
-            Command::HighlightNeighbour(id) => self.hovered_neighbour = id,
-            Command::Inspect(quantity) => self.quantity = quantity,
-            Command::Theme(theme) => self.set_theme(theme, ctx),
-            Command::TogglePanels => self.toggle_panels(),
-            other => unreachable!("{other:?} is not about the view"),
+            ViewCommand::Zoom(factor) => {
+                self.move_camera(|camera| camera.zoomed(factor, camera.half_size_px()))
+            }
+            ViewCommand::ZoomAt(factor, px) => self.move_camera(|camera| camera.zoomed(factor, px)),
+            ViewCommand::Pan(delta_px) => self.move_camera(|camera| camera.panned(delta_px)),
+            ViewCommand::ToggleEdges => self.edges = !self.edges,
+            ViewCommand::ToggleAid(aid) => self.aids.toggle(aid),
+            ViewCommand::SetOverlay(overlay) => self.overlay = overlay,
+            ViewCommand::Colormap(map) => self.colormap = map,
+            ViewCommand::ShowLevel(level) => self.lone_level = level,
+            ViewCommand::ToggleLevel(level) => self.hidden_levels ^= bit_of(level),
+            ViewCommand::IsolateLevel(level) if self.hidden_levels == !bit_of(level) => {
+                self.hidden_levels = 0
+            }
+            ViewCommand::IsolateLevel(level) => self.hidden_levels = !bit_of(level),
+            ViewCommand::ShowAllLevels => self.hidden_levels = 0,
+            ViewCommand::HighlightNeighbour(id) => self.hovered_neighbour = id,
+            ViewCommand::Theme(theme) => self.set_theme(theme, ctx),
+            ViewCommand::TogglePanels => self.toggle_panels(),
         }
     }
 

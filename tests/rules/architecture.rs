@@ -284,7 +284,7 @@ const NAMES_A_TOOL: [(&str, &str); 11] = [
     ("src/app/catalog/tool.rs", "the modes of the tools for domain and boundary are commands"),
     ("src/app/execute/domain.rs", "commands of the tools for domain and boundary select them"),
     ("src/app/execute/layers.rs", "a layer of threats is edited with the tool for threats"),
-    ("src/app/execute/mod.rs", "some commands belong to one tool"),
+    ("src/app/execute/query.rs", "a query counts as a use of the query tool"),
     ("src/app/panels/brush.rs", "brush and eraser share a section"),
     ("src/app/execute/report.rs", "Figure 6 of the report is a query"),
     ("src/app/execute/threats.rs", "counts uses of the tool for threats"),
@@ -312,6 +312,13 @@ fn a_tool_is_one_file_and_one_entry_of_the_table() {
     }
     assert_none(found, "keys, menus, panels and canvas read the table of tools:");
     assert_needed(&listed, &met, "NAMES_A_TOOL");
+}
+
+#[test]
+fn every_command_has_an_arm() {
+    let window = files().into_iter().filter(|file| file.path.starts_with("src/app/"));
+    let window = window.filter(|file| !file.path.starts_with("src/app/tests/"));
+    assert_none(with_word(window, "unreachable"), "the compiler knows what the window does with a value:");
 }
 
 #[test]

@@ -6,7 +6,7 @@ use eframe::egui::{Align2, Id, Rect, Response, Ui, UiBuilder, pos2, vec2};
 
 use super::{Canvas, coordinates, legend, menu, picture_corners, way_back};
 use crate::app::background::Row;
-use crate::app::command::Command;
+use crate::app::command::{Command, EditCommand, FileCommand, ShellCommand};
 use crate::app::frame::FrameState;
 use crate::app::session::Session;
 use crate::app::widgets::{Banner, BannerAnswer, bytes_row, format, hint_pill, paint_floating, progress_row};
@@ -65,13 +65,13 @@ impl Canvas {
         let mut rows = 0;
         if let Some((what, done)) = work_on_mesh(session).filter(|_| self.mesh_work.is_long()) {
             if progress_row(&mut card(ui, place(rows)), what, &done) {
-                commands.push(Command::CancelUpdate);
+                commands.push(Command::Edit(EditCommand::CancelUpdate));
             }
             rows += 1;
         }
         for Row { id, what, meter, .. } in files {
             if bytes_row(&mut card(ui, place(rows)), what, meter.done(), meter.total()) {
-                commands.push(Command::CancelWork(*id));
+                commands.push(Command::File(FileCommand::CancelWork(*id)));
             }
             rows += 1;
         }
@@ -102,15 +102,17 @@ fn draw_notice(ui: &mut Ui, inner: Rect, session: &Session, commands: &mut Vec<C
     };
     let answer = banner.show(&mut child);
     if !notice.failed && !stands && has_faded(&child, notice.number) {
-        commands.push(Command::DismissNotice);
+        commands.push(Command::Shell(ShellCommand::DismissNotice));
     }
     match answer {
         BannerAnswer::Open => {}
         BannerAnswer::Acted => match offer {
-            Some(offer) => commands.extend([Command::DismissNotice, offer.command.clone()]),
-            None => commands.push(Command::Undo),
+            Some(offer) => {
+                commands.extend([Command::Shell(ShellCommand::DismissNotice), offer.command.clone()])
+            }
+            None => commands.push(Command::Edit(EditCommand::Undo)),
         },
-        BannerAnswer::Dismissed => commands.push(Command::DismissNotice),
+        BannerAnswer::Dismissed => commands.push(Command::Shell(ShellCommand::DismissNotice)),
     }
     Some(child.min_rect())
 }

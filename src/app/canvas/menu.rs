@@ -4,7 +4,7 @@ use eframe::egui::{Context, Id, Popup, PopupKind, Pos2, Ui};
 use glam::DVec2;
 
 use crate::app::catalog::{CatalogItem, Menu};
-use crate::app::command::{BrushCommand, Command};
+use crate::app::command::{BrushCommand, Command, InspectCommand, ShellCommand, ViewCommand};
 use crate::app::frame::FrameState;
 use crate::app::panels::menu_item;
 
@@ -38,14 +38,15 @@ fn items(state: &FrameState<'_>, world: DVec2) -> Vec<CatalogItem> {
     let of_tool = (state.tools.tool.menu)(state, world);
     let is_first = of_tool.is_empty();
     let mut items: Vec<_> = of_tool.into_iter().map(|(title, command)| item(title, command)).collect();
-    let query = item("Query here", Command::Query(world));
+    let query = item("Query here", Command::Inspect(InspectCommand::Query(world)));
     items.extend([
         if is_first { query } else { query.group() },
         item("Pick the value for the brush", Command::Brush(BrushCommand::Pick(world))),
-        item("Copy the coordinates", Command::Copy(state.view.typed_point(world))).group(),
-        item("Go to… from here", Command::AskPlaceNear(world)),
-        item("Centre here", Command::LookAt(world)),
-        item("Fit domain", Command::Fit),
+        item("Copy the coordinates", Command::Shell(ShellCommand::Copy(state.view.typed_point(world))))
+            .group(),
+        item("Go to… from here", Command::Inspect(InspectCommand::AskPlaceNear(world))),
+        item("Centre here", Command::View(ViewCommand::LookAt(world))),
+        item("Fit domain", Command::View(ViewCommand::Fit)),
     ]);
     items
 }

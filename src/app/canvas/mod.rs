@@ -30,7 +30,7 @@ pub use gpu::{CanvasGpu, canvas_image};
 use overlay::OverlayColors;
 
 use super::busy::Busy;
-use super::command::{BrushCommand, Command};
+use super::command::{BrushCommand, Command, ShellCommand, ViewCommand};
 use super::contours::ContourFinder;
 use super::frame::FrameState;
 use super::jobs::Jobs;
@@ -282,7 +282,7 @@ fn zoom(ctx: &Context, pointer: &mut Pointer<'_>, commands: &mut Vec<Command>) {
     {
         let px = pointer.px(at);
         pointer.camera = pointer.camera.zoomed(factor, px);
-        commands.push(Command::ZoomAt(factor, px));
+        commands.push(Command::View(ViewCommand::ZoomAt(factor, px)));
     }
 }
 
@@ -333,7 +333,7 @@ impl Canvas {
         match gpu.sync(session, change, overlay.as_ref(), &camera, &style) {
             Ok(Progress::Done) => {}
             Ok(Progress::More) => ui.ctx().request_repaint(),
-            Err(error) => commands.push(Command::Report(error.to_string())),
+            Err(error) => commands.push(Command::Shell(ShellCommand::Report(error.to_string()))),
         }
         if !style.is_opaque() {
             ui.painter().rect_filled(rect, 0.0, tokens(ui).canvas);

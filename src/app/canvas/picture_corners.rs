@@ -4,7 +4,7 @@ use eframe::egui::{Color32, CursorIcon, Pos2, Rect, Role, Sense, Stroke, StrokeK
 use glam::DVec2;
 
 use super::marks::point_from_px;
-use crate::app::command::Command;
+use crate::app::command::{Command, EditCommand};
 use crate::app::frame::FrameState;
 use meshbrush_core::document::{Background, Setting};
 use meshbrush_mesh::geometry::Rect as WorldRect;
@@ -62,7 +62,7 @@ fn drag(ui: &Ui, place: Rect, name: &str, commands: &mut Vec<Command>) -> Option
         StrokeKind::Outside,
     );
     if response.drag_stopped() {
-        commands.push(Command::EndGesture);
+        commands.push(Command::Edit(EditCommand::EndGesture));
     }
     response.interact_pointer_pos().filter(|_| response.dragged())
 }
@@ -71,6 +71,9 @@ fn drag(ui: &Ui, place: Rect, name: &str, commands: &mut Vec<Command>) -> Option
 fn move_corner(background: &Background, opposite: DVec2, to: DVec2, commands: &mut Vec<Command>) {
     let bounds = WorldRect::spanning(opposite, to);
     if bounds.is_proper() && bounds != background.bounds {
-        commands.push(Command::Set(Setting::Background(Some(Background { bounds, ..background.clone() }))));
+        commands.push(Command::Edit(EditCommand::Set(Setting::Background(Some(Background {
+            bounds,
+            ..background.clone()
+        })))));
     }
 }

@@ -3,7 +3,7 @@
 use eframe::egui::{CursorIcon, Rect, Role, Sense, Shape, Stroke, Ui, Vec2, WidgetInfo, vec2};
 use glam::{DVec2, dvec2};
 
-use crate::app::command::Command;
+use crate::app::command::{Command, ViewCommand};
 use crate::app::frame::FrameState;
 use crate::app::session::Session;
 use crate::app::theme::{font, tokens};
@@ -37,7 +37,7 @@ pub fn show(
     let color = if response.hovered() { tokens(ui).accent } else { tokens(ui).value };
     paint_arrow(ui, place, direction, color);
     if response.on_hover_cursor(CursorIcon::PointingHand).on_hover_text(name).clicked() {
-        commands.push(Command::Fit);
+        commands.push(Command::View(ViewCommand::Fit));
     }
     Some(place)
 }

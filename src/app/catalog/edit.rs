@@ -3,7 +3,7 @@
 use eframe::egui::{Key, Modifiers};
 
 use super::{CatalogItem, Menu};
-use crate::app::command::{Command, DomainCommand};
+use crate::app::command::{Command, DomainCommand, EditCommand, InspectCommand, ShellCommand};
 use crate::app::frame::FrameState;
 
 /// History and paint.
@@ -23,21 +23,25 @@ pub fn edit(state: &FrameState<'_>) -> Vec<CatalogItem> {
     let undo = if in_polygon {
         CatalogItem::new(Edit, "Undo corner of the polygon", remove())
     } else {
-        CatalogItem::new(Edit, undo, Command::Undo).enabled(can_undo)
+        CatalogItem::new(Edit, undo, Command::Edit(EditCommand::Undo)).enabled(can_undo)
     };
     let mut items = vec![
         undo.ctrl(Key::Z),
-        CatalogItem::new(Edit, redo, Command::Redo)
+        CatalogItem::new(Edit, redo, Command::Edit(EditCommand::Redo))
             .keys(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z)
             .enabled(can_redo && !in_polygon),
-        CatalogItem::new(Edit, "Clear paint", Command::ClearPaint)
+        CatalogItem::new(Edit, "Clear paint", Command::Edit(EditCommand::ClearPaint))
             .keys(Modifiers::COMMAND, Key::Backspace)
             .group(),
-        CatalogItem::new(Edit, "Copy the values of the triangle", Command::CopyReadout)
-            .ctrl(Key::C)
-            .enabled(state.session.queried_triangle().is_some())
-            .group(),
-        CatalogItem::new(Edit, "Cancel or deselect", Command::Escape).key(Key::Escape),
+        CatalogItem::new(
+            Edit,
+            "Copy the values of the triangle",
+            Command::Inspect(InspectCommand::CopyReadout),
+        )
+        .ctrl(Key::C)
+        .enabled(state.session.queried_triangle().is_some())
+        .group(),
+        CatalogItem::new(Edit, "Cancel or deselect", Command::Shell(ShellCommand::Escape)).key(Key::Escape),
     ];
     if in_polygon {
         items.push(CatalogItem::new(Edit, "Remove the last corner", remove()).key(Key::Backspace));

@@ -3,15 +3,16 @@
 use eframe::egui::{Key, Modifiers};
 
 use super::{CatalogItem, Menu};
-use crate::app::command::Command;
+use crate::app::command::{Command, FileCommand, ShellCommand};
 use crate::app::help::HelpTopic;
 use crate::app::report::FigureCommand;
 use meshbrush_core::document::{Example, ReportFigure};
 
 /// Documents that come with the program, and those of the figures of the report.
 pub fn examples() -> Vec<CatalogItem> {
-    let item =
-        |example: Example| CatalogItem::new(Menu::Examples, example.name(), Command::OpenExample(example));
+    let item = |example: Example| {
+        CatalogItem::new(Menu::Examples, example.name(), Command::File(FileCommand::OpenExample(example)))
+    };
     let figure = |(number, figure): (usize, ReportFigure)| {
         let open = Command::Figure(FigureCommand::Open(figure));
         let item = CatalogItem::new(Menu::Examples, format!("The report, {}", figure.name()), open);
@@ -23,12 +24,14 @@ pub fn examples() -> Vec<CatalogItem> {
 
 /// The manual, keys and gestures, and what the program is.
 pub fn help() -> Vec<CatalogItem> {
-    let topic = |title: &str, topic| CatalogItem::new(Menu::Help, title, Command::ShowHelp(topic));
+    let topic = |title: &str, topic| {
+        CatalogItem::new(Menu::Help, title, Command::Shell(ShellCommand::ShowHelp(topic)))
+    };
     vec![
         topic("Manual", HelpTopic::MANUAL).key(Key::F1),
         topic("How it works", HelpTopic::HOW_IT_WORKS),
         topic("Glossary", HelpTopic::GLOSSARY),
         topic("Keyboard and mouse", HelpTopic::Keys).keys(Modifiers::SHIFT, Key::F1).group(),
-        CatalogItem::new(Menu::Help, "About Meshbrush", Command::About).group(),
+        CatalogItem::new(Menu::Help, "About Meshbrush", Command::Shell(ShellCommand::About)).group(),
     ]
 }

@@ -3,7 +3,7 @@
 use eframe::egui::Key;
 
 use super::{CatalogItem, Menu};
-use crate::app::command::Command;
+use crate::app::command::{Command, FileCommand};
 use crate::app::dialogs::FileRequest;
 use crate::app::frame::FrameState;
 use crate::app::plots::{PlotKind, PlotsCommand};
@@ -23,7 +23,11 @@ pub fn plots(state: &FrameState<'_>) -> Vec<CatalogItem> {
         item("Measure the time per triangle", PlotsCommand::Measure)
     };
     let is_known = plots.is_known();
-    let export = CatalogItem::new(Menu::View, "Export plot…", Command::Ask(FileRequest::ExportPlot));
+    let export = CatalogItem::new(
+        Menu::View,
+        "Export plot…",
+        Command::File(FileCommand::Ask(FileRequest::ExportPlot)),
+    );
     let copy = item("Copy the numbers of the plot", PlotsCommand::Copy);
     let mut items = vec![show];
     items.extend(PlotKind::ALL.map(of_kind));

@@ -4,7 +4,8 @@ use eframe::egui::{Key, Modifiers};
 
 use super::{CatalogItem, GESTURES, GestureHelp, Menu};
 use crate::app::command::{
-    BoundaryCommand, BrushCommand, Command, DomainCommand, ExploreCommand, PinsCommand, ThreatsCommand,
+    BoundaryCommand, BrushCommand, Command, DomainCommand, ExploreCommand, FileCommand, InspectCommand,
+    PinsCommand, ShellCommand, ThreatsCommand,
 };
 use crate::app::dialogs::FileRequest;
 use crate::app::explore::TreeStep;
@@ -50,7 +51,8 @@ pub fn tool(state: &FrameState<'_>) -> Vec<CatalogItem> {
     };
     let mut items: Vec<CatalogItem> = (TOOLS.iter())
         .map(|tool| {
-            let item = CatalogItem::new(InTool, tool.name, Command::Use(tool)).key(tool.key);
+            let item =
+                CatalogItem::new(InTool, tool.name, Command::Shell(ShellCommand::Use(tool))).key(tool.key);
             item.checked(tools.tool == *tool)
         })
         .collect();
@@ -84,7 +86,7 @@ pub fn tool(state: &FrameState<'_>) -> Vec<CatalogItem> {
 
 /// An entry that names a gesture. Chosen, it says how the gesture is made.
 fn gesture_item(gesture: &GestureHelp) -> CatalogItem {
-    let command = Command::Tell(gesture.advice.to_owned());
+    let command = Command::Shell(ShellCommand::Tell(gesture.advice.to_owned()));
     CatalogItem::new(Menu::Tool, gesture.title, command).gesture(gesture.keys)
 }
 
@@ -94,7 +96,9 @@ fn neighbours(state: &FrameState<'_>) -> impl Iterator<Item = CatalogItem> + use
     let has_keys = state.tools.tool == &QUERY;
     let is_queried = state.session.queried_triangle().is_some();
     titles.into_iter().enumerate().map(move |(place, title)| {
-        let item = CatalogItem::new(Menu::Tool, title, Command::QueryNeighbour(place)).enabled(is_queried);
+        let item =
+            CatalogItem::new(Menu::Tool, title, Command::Inspect(InspectCommand::QueryNeighbour(place)))
+                .enabled(is_queried);
         let item = if has_keys { item.key(DIGITS[place]) } else { item };
         if place == 0 { item.group() } else { item }
     })
@@ -107,7 +111,9 @@ fn trail(state: &FrameState<'_>) -> impl Iterator<Item = CatalogItem> + use<> {
     let is_queried = state.session.queried_triangle().is_some();
     names.into_iter().enumerate().map(move |(place, name)| {
         let title = format!("Follow the {name} neighbour and keep the trail");
-        let item = CatalogItem::new(Menu::Tool, title, Command::FollowNeighbour(place)).enabled(is_queried);
+        let item =
+            CatalogItem::new(Menu::Tool, title, Command::Inspect(InspectCommand::FollowNeighbour(place)))
+                .enabled(is_queried);
         if has_keys { item.keys(Modifiers::SHIFT, DIGITS[place]) } else { item }
     })
 }
@@ -127,7 +133,7 @@ fn tree_steps(state: &FrameState<'_>) -> impl Iterator<Item = CatalogItem> + use
     let has_keys = state.tools.tool.explains;
     let leads = steps.map(|(_, step, ..)| state.explore.target(step, state.session.mesh()).is_some());
     steps.into_iter().zip(leads).enumerate().map(move |(place, ((title, step, modifiers, key), leads))| {
-        let command = Command::Explore(ExploreCommand::Step(step));
+        let command = Command::Inspect(InspectCommand::Explore(ExploreCommand::Step(step)));
         let item = CatalogItem::new(Menu::Tool, title, command).enabled(leads);
         let item = if has_keys { item.keys(modifiers, key) } else { item };
         if place == 0 { item.group() } else { item }
@@ -149,7 +155,8 @@ fn pins(state: &FrameState<'_>) -> Vec<CatalogItem> {
         delete.enabled(state.tools.pins.selected_of(pins).is_some()),
         item("Delete all pins", Command::Pins(PinsCommand::DeleteAll)).enabled(has_pins),
         item("Copy the table of pins", Command::Pins(PinsCommand::Copy)).enabled(has_pins),
-        item("Export the table of pins…", Command::Ask(FileRequest::ExportPins)).enabled(has_pins),
+        item("Export the table of pins…", Command::File(FileCommand::Ask(FileRequest::ExportPins)))
+            .enabled(has_pins),
     ]
 }
 
@@ -214,7 +221,11 @@ fn path_tool(state: &FrameState<'_>) -> Vec<CatalogItem> {
         item("Delete all paths", PathCommand::DeleteAll).enabled(has_paths),
         cost("Weigh length and risk of paths", CostKind::Weights).group(),
         cost("Cost of paths by a formula", CostKind::Formula),
-        CatalogItem::new(Menu::Tool, "Add keep-out region…", Command::Ask(FileRequest::OpenKeepOut)),
+        CatalogItem::new(
+            Menu::Tool,
+            "Add keep-out region…",
+            Command::File(FileCommand::Ask(FileRequest::OpenKeepOut)),
+        ),
         item("Keep paths out of the layer's mask", PathCommand::KeepOut(KeepOutCommand::AddMask))
             .enabled(KeepOutCommand::mask_to_add(state.session).is_some()),
         item("Remove all keep-out regions", PathCommand::KeepOut(KeepOutCommand::RemoveAll))

@@ -3,7 +3,7 @@
 use eframe::egui::{Key, Modifiers, ThemePreference};
 
 use super::{CatalogItem, Menu};
-use crate::app::command::Command;
+use crate::app::command::{Command, InspectCommand, ShellCommand, ViewCommand};
 use crate::app::frame::FrameState;
 use crate::app::view::{CanvasAid, FieldOverlay};
 use meshbrush_render::colormap::Colormap;
@@ -12,22 +12,21 @@ use meshbrush_render::colormap::Colormap;
 pub fn view(state: &FrameState<'_>) -> Vec<CatalogItem> {
     use Menu::View;
     let view = state.view;
+    let item = |title: &str, command| CatalogItem::new(View, title, Command::View(command));
     let overlay = |title: &str, overlay| {
         // The key of the overlay that is shown hides it.
         let shown = view.overlay == overlay;
         let next = if shown { FieldOverlay::None } else { overlay };
-        CatalogItem::new(View, title, Command::SetOverlay(next)).checked(shown)
+        item(title, ViewCommand::SetOverlay(next)).checked(shown)
     };
-    let aid = |title: &str, aid| CatalogItem::new(View, title, Command::ToggleAid(aid));
-    let theme = |title: &str, theme| {
-        CatalogItem::new(View, title, Command::Theme(theme)).checked(view.theme == theme)
-    };
+    let aid = |title: &str, aid| item(title, ViewCommand::ToggleAid(aid));
+    let theme = |title: &str, theme| item(title, ViewCommand::Theme(theme)).checked(view.theme == theme);
     let mut items = vec![
-        CatalogItem::new(View, "Fit domain", Command::Fit).key(Key::Home),
-        CatalogItem::new(View, "Zoom in", Command::Zoom(1.5)).key(Key::Plus),
-        CatalogItem::new(View, "Zoom out", Command::Zoom(1.0 / 1.5)).key(Key::Minus),
-        CatalogItem::new(View, "Go to…", Command::AskPlace).ctrl(Key::G),
-        CatalogItem::new(View, "Edges", Command::ToggleEdges).key(Key::G).checked(view.edges).group(),
+        item("Fit domain", ViewCommand::Fit).key(Key::Home),
+        item("Zoom in", ViewCommand::Zoom(1.5)).key(Key::Plus),
+        item("Zoom out", ViewCommand::Zoom(1.0 / 1.5)).key(Key::Minus),
+        CatalogItem::new(View, "Go to…", Command::Inspect(InspectCommand::AskPlace)).ctrl(Key::G),
+        item("Edges", ViewCommand::ToggleEdges).key(Key::G).checked(view.edges).group(),
         aid("Coordinates along the canvas", CanvasAid::Coordinates).checked(view.aids.coordinates),
         aid("Scale bar", CanvasAid::ScaleBar).checked(view.aids.scale_bar),
         aid("Contour lines of h̄", CanvasAid::Contours).checked(view.aids.contours),
@@ -42,25 +41,25 @@ pub fn view(state: &FrameState<'_>) -> Vec<CatalogItem> {
         overlay("Overlay age of triangles", FieldOverlay::Age),
     ];
     let queried = state.session.queried_triangle().map(|id| state.session.view().triangle(id).level());
-    let of_triangle = |title: &str, command: fn(u32) -> Command| {
-        CatalogItem::new(View, title, command(queried.unwrap_or(0))).enabled(queried.is_some())
+    let of_triangle = |title: &str, command: fn(u32) -> ViewCommand| {
+        item(title, command(queried.unwrap_or(0))).enabled(queried.is_some())
     };
     items.extend([
-        of_triangle("Hide or show the level of the triangle", Command::ToggleLevel).group(),
-        of_triangle("Show only the level of the triangle", Command::IsolateLevel),
-        CatalogItem::new(View, "Show all levels", Command::ShowAllLevels).enabled(view.hidden_levels != 0),
+        of_triangle("Hide or show the level of the triangle", ViewCommand::ToggleLevel).group(),
+        of_triangle("Show only the level of the triangle", ViewCommand::IsolateLevel),
+        item("Show all levels", ViewCommand::ShowAllLevels).enabled(view.hidden_levels != 0),
     ]);
     for (i, map) in Colormap::ALL.into_iter().enumerate() {
-        let title = format!("{} colours", map.name());
-        let item = CatalogItem::new(View, title, Command::Colormap(map)).checked(view.colormap == map);
+        let item = item(&format!("{} colours", map.name()), ViewCommand::Colormap(map))
+            .checked(view.colormap == map);
         items.push(if i == 0 { item.group() } else { item });
     }
     items.extend([
         theme("Dark theme", ThemePreference::Dark).group(),
         theme("Light theme", ThemePreference::Light),
         theme("Theme of the desktop", ThemePreference::System),
-        CatalogItem::new(View, "Panels", Command::TogglePanels).key(Key::Tab).checked(view.panels).group(),
-        CatalogItem::new(View, "Find a command…", Command::Palette).ctrl(Key::P),
+        item("Panels", ViewCommand::TogglePanels).key(Key::Tab).checked(view.panels).group(),
+        CatalogItem::new(View, "Find a command…", Command::Shell(ShellCommand::Palette)).ctrl(Key::P),
     ]);
     items
 }

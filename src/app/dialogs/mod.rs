@@ -12,7 +12,7 @@ use eframe::egui::Context;
 
 use super::REPORT;
 use super::catalog::{CatalogItem, catalog};
-use super::command::Command;
+use super::command::{Command, FileCommand, ShellCommand};
 use super::document_id::DocumentId;
 use super::frame::FrameState;
 use super::jobs::Jobs;
@@ -170,8 +170,8 @@ impl Dialogs {
         let Some(file) = self.file.as_mut().filter(|file| file.is_shown()) else { return };
         match file.show(ctx, facts) {
             FileAnswer::Open => {}
-            FileAnswer::Closed => commands.push(Command::CloseDialog),
-            FileAnswer::CancelWork(id) => commands.push(Command::CancelWork(id)),
+            FileAnswer::Closed => commands.push(Command::Shell(ShellCommand::CloseDialog)),
+            FileAnswer::CancelWork(id) => commands.push(Command::File(FileCommand::CancelWork(id))),
             FileAnswer::Chosen(path) => {
                 self.folders.note(file.request(), path.parent());
                 commands.push(file.request().command(path));
@@ -187,9 +187,9 @@ fn palette(ctx: &Context, catalog: &[CatalogItem], commands: &mut Vec<Command>) 
         .collect();
     match widgets::command_palette(ctx, &items) {
         PaletteAnswer::Open => {}
-        PaletteAnswer::Closed => commands.push(Command::CloseDialog),
+        PaletteAnswer::Closed => commands.push(Command::Shell(ShellCommand::CloseDialog)),
         PaletteAnswer::Chosen(index) => {
-            commands.extend([Command::CloseDialog, catalog[index].command.clone()]);
+            commands.extend([Command::Shell(ShellCommand::CloseDialog), catalog[index].command.clone()]);
         }
     }
 }
@@ -210,6 +210,6 @@ fn about(ctx: &Context, commands: &mut Vec<Command>) {
         ui.add(ActionButton::new("Close")).clicked()
     });
     if shown.inner || shown.should_close() {
-        commands.push(Command::CloseDialog);
+        commands.push(Command::Shell(ShellCommand::CloseDialog));
     }
 }

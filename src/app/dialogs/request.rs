@@ -3,10 +3,13 @@
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
-use crate::app::command::{Command, PinsCommand};
+use crate::app::command::{
+    Command, DomainCommand, FileCommand, LayerCommand, PictureCommand, PinsCommand, ThreatsCommand,
+};
 use crate::app::keep_out::KeepOutCommand;
 use crate::app::paths::PathCommand;
 use crate::app::plots::PlotsCommand;
+use crate::app::stepping::StepCommand;
 use meshbrush_io::io::project::ENDING;
 use meshbrush_io::io::{plot, recipe, recording};
 use meshbrush_render::render::export::ExportFormat;
@@ -226,28 +229,28 @@ impl FileRequest {
     /// What to do with a path that was typed.
     pub fn command(self, path: PathBuf) -> Command {
         match self {
-            Self::Open => Command::Open(path),
-            Self::Save => Command::SaveAs(path),
-            Self::SaveRecipe => Command::SaveRecipeAs(path),
-            Self::ExportTest => Command::ExportTestAs(path),
-            Self::OpenImage => Command::OpenImage(path),
-            Self::OpenDiameters => Command::OpenDiameters(path),
-            Self::OpenBackground => Command::OpenBackground(path),
-            Self::OpenDomain => Command::OpenDomain(path),
-            Self::AddOutline => Command::AddOutline(path),
-            Self::OpenBand => Command::OpenBand(path),
-            Self::OpenValues => Command::OpenValues(path),
-            Self::OpenShapes => Command::OpenShapes(path),
-            Self::ReplaceShapes => Command::ReplaceShapes(path),
-            Self::OpenMask => Command::OpenMask(path),
+            Self::Open => Command::File(FileCommand::Open(path)),
+            Self::Save => Command::File(FileCommand::SaveAs(path)),
+            Self::SaveRecipe => Command::File(FileCommand::SaveRecipeAs(path)),
+            Self::ExportTest => Command::File(FileCommand::ExportTestAs(path)),
+            Self::OpenImage => Command::Layer(LayerCommand::OpenImage(path)),
+            Self::OpenDiameters => Command::Layer(LayerCommand::OpenDiameters(path)),
+            Self::OpenBackground => Command::Picture(PictureCommand::Open(path)),
+            Self::OpenDomain => Command::Domain(DomainCommand::Open(path)),
+            Self::AddOutline => Command::Domain(DomainCommand::AddOutline(path)),
+            Self::OpenBand => Command::Layer(LayerCommand::OpenBand(path)),
+            Self::OpenValues => Command::Layer(LayerCommand::OpenValues(path)),
+            Self::OpenShapes => Command::Layer(LayerCommand::OpenShapes(path)),
+            Self::ReplaceShapes => Command::Layer(LayerCommand::ReplaceShapes(path)),
+            Self::OpenMask => Command::Layer(LayerCommand::OpenMask(path)),
             Self::OpenKeepOut => Command::Path(PathCommand::KeepOut(KeepOutCommand::Open(path))),
-            Self::OpenThreats => Command::OpenThreats(path),
-            Self::SaveThreats => Command::SaveThreatsAs(path),
+            Self::OpenThreats => Command::Threats(ThreatsCommand::Open(path)),
+            Self::SaveThreats => Command::Threats(ThreatsCommand::SaveAs(path)),
             Self::ExportPins => Command::Pins(PinsCommand::ExportAs(path)),
             Self::ExportPlot => Command::Plots(PlotsCommand::ExportAs(path)),
             Self::ExportPath => Command::Path(PathCommand::ExportAs(path)),
-            Self::Export => Command::ExportAs(path),
-            Self::ExportSteps => Command::ExportStepsAs(path),
+            Self::Export => Command::File(FileCommand::ExportAs(path)),
+            Self::ExportSteps => Command::Steps(StepCommand::ExportAs(path)),
         }
     }
 
@@ -257,13 +260,13 @@ impl FileRequest {
         // It has not asked about the files beside it.
         let alone = ExportFormat::of(&path).is_ok_and(|format| format.files(&path).len() == 1);
         match self {
-            Self::Save => Command::SaveTo(path),
-            Self::SaveThreats => Command::SaveThreats(path),
+            Self::Save => Command::File(FileCommand::SaveTo(path)),
+            Self::SaveThreats => Command::Threats(ThreatsCommand::Save(path)),
             Self::ExportPins => Command::Pins(PinsCommand::Export(path)),
             Self::ExportPlot => Command::Plots(PlotsCommand::Export(path)),
             Self::ExportPath if path.extension().is_some() => Command::Path(PathCommand::Export(path)),
-            Self::ExportTest => Command::ExportTest(path),
-            Self::Export if alone => Command::Export(path),
+            Self::ExportTest => Command::File(FileCommand::ExportTest(path)),
+            Self::Export if alone => Command::File(FileCommand::Export(path)),
             _ => self.command(path),
         }
     }

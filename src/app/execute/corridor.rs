@@ -1,7 +1,7 @@
 //! Commands about corridors: layers along the paths as they were when they were taken.
 
 use crate::app::App;
-use crate::app::command::{Command, LayerCommand};
+use crate::app::command::{Command, EditCommand, LayerCommand};
 use crate::app::paths::NO_PATH;
 use meshbrush_core::document::Settings;
 use meshbrush_core::layers::{DistanceTo, LayerId, LayerKind, ShapeList, Shapes};
@@ -14,7 +14,7 @@ impl App {
         let extent = settings.domain.bounds.size().max_element();
         let kind = LayerKind::corridor(lines, extent, &settings.transfer, Settings::USUAL_GRADATION);
         self.send(Command::Layer(LayerCommand::Add(Box::new(kind))));
-        self.send(Command::EndGesture);
+        self.send(Command::Edit(EditCommand::EndGesture));
     }
 
     /// Moves a corridor to the paths as they are. Its numbers stay.

@@ -3,7 +3,8 @@
 use glam::DVec2;
 
 use crate::app::App;
-use crate::app::command::{BoundaryCommand, DomainCommand};
+use crate::app::command::{BoundaryCommand, DomainCommand, OutlineChange};
+use crate::app::files;
 use crate::app::tools::{BOUNDARY, BoundaryToolMode, DOMAIN};
 use meshbrush_core::domain::{BoundaryPieces, CutShape};
 
@@ -27,6 +28,11 @@ impl App {
                 self.tools.domain.mode = mode;
             }
             DomainCommand::Adds(adds) => tool.adds = adds,
+            DomainCommand::Open(path) => files::load_domain(&mut self.background, &path),
+            DomainCommand::AddOutline(path) => {
+                files::load_outline(&self.session, &mut self.background, &path);
+            }
+            DomainCommand::SetOutline(change) => self.set_outline(*change),
             DomainCommand::Bounds(bounds) => {
                 self.session.set_bounds(bounds);
                 self.tools.note_use(&DOMAIN);
@@ -66,6 +72,25 @@ impl App {
             Some(pieces.list()[piece].middle())
         });
         self.tools.boundary.selected = piece;
+    }
+
+    fn set_outline(&mut self, change: OutlineChange) {
+        let OutlineChange { name, before, setting } = change;
+        let settings = self.session.document().settings();
+        if settings.domain != before || self.session.is_cutting() {
+            let problem = "was not added, as the domain was edited in the meantime. Add it again.";
+            return self.session.report(format!("{name} {problem}"));
+        }
+        self.session.end_gesture();
+        self.session.set(setting);
+        self.session.end_gesture();
+        let settings = self.session.document().settings();
+        if settings.domain != before {
+            let grows = settings.domain.bounds != before.bounds;
+            let frame = if grows { " The frame grew to hold it." } else { "" };
+            self.session.tell(format!("The outline {name} was added to the domain.{frame}"));
+            self.view.camera = self.view.camera.filter(|_| !grows);
+        }
     }
 
     fn reshape(&mut self, cut_shape: CutShape, adds: bool) {

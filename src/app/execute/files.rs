@@ -1,4 +1,4 @@
-//! Commands about files, windows and dialogs, and what finished work on files does.
+//! Commands about documents and their files, and what finished work on files does.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -7,111 +7,63 @@ use eframe::egui::{Context, ViewportCommand};
 
 use crate::app::App;
 use crate::app::background::{Aim, Finished, Outcome, WorkId, name_of};
-use crate::app::command::{Command, Opened, OutlineChange};
-use crate::app::dialogs::{Dialog, FileRequest};
+use crate::app::command::{Command, FileCommand, Opened};
+use crate::app::dialogs::FileRequest;
 use crate::app::home::{self, Home};
 use crate::app::journal::JournalKeeper;
-use crate::app::{files, journal, layer_files, project};
+use crate::app::{files, journal, project};
 use meshbrush_core::document::Document;
 
 impl App {
-    /// Runs commands about files, windows and dialogs, and returns others.
-    pub(super) fn execute_on_files(&mut self, command: Command, ctx: &Context) -> Option<Command> {
-        let command = self.execute_on_layer_files(command)?;
-        let command = self.execute_on_own_files(command)?;
+    pub(super) fn execute_on_files(&mut self, command: FileCommand, ctx: &Context) {
         match command {
-            Command::New => self.open(files::new_document()),
-            Command::OpenExample(example) => self.open(files::example(example)),
-            Command::AddOutline(path) => files::load_outline(&self.session, &mut self.background, &path),
-            Command::SetOutline(change) => self.set_outline(*change),
-            Command::Show(opened) => self.show_opened(opened),
-            Command::Open(path) => match project::open_command(path) {
+            FileCommand::New => self.open(files::new_document()),
+            FileCommand::OpenExample(example) => self.open(files::example(example)),
+            FileCommand::Ask(request) => self.ask_for_file(request),
+            FileCommand::Open(path) => match project::open_command(path) {
                 Ok(command) => self.send(command),
                 Err(problem) => self.fail(problem),
             },
-            Command::OpenProject(path) => home::open(&mut self.background, &path),
-            Command::OpenBackground(path) => {
-                files::load_background(&self.session, &mut self.background, &path);
+            FileCommand::OpenProject(path) => home::open(&mut self.background, &path),
+            FileCommand::OpenRecipe(path) => files::open_recipe(&mut self.background, &path),
+            FileCommand::Show(opened) => self.show_opened(opened),
+            FileCommand::Save => match self.project.path() {
+                Some(path) => self.send(Command::File(FileCommand::SaveTo(path.to_owned()))),
+                None => self.ask_for_file(FileRequest::Save),
+            },
+            FileCommand::SaveAs(path) => self.commands.extend(self.project.save_as(path)),
+            FileCommand::SaveTo(path) => {
+                self.project.save_to(path, &mut self.session, &mut self.background);
             }
-            Command::OpenDomain(path) => files::load_domain(&mut self.background, &path),
-            Command::OpenRecipe(path) => files::open_recipe(&mut self.background, &path),
-            Command::SaveThreatsAs(path) => {
-                self.commands.extend(self.project.save_table_as(path, Command::SaveThreats));
+            FileCommand::SaveOver(path) => {
+                self.project.save_over(path, &mut self.session, &mut self.background);
             }
-            Command::ExportAs(path) => self.commands.extend(self.project.export_as(path)),
-            Command::Export(path) => {
+            FileCommand::SaveRecipeAs(path) => self.save_recipe_as(path),
+            FileCommand::SaveRecipe(path) => files::save_recipe(&self.session, &mut self.background, &path),
+            FileCommand::ExportTestAs(path) => self.commands.extend(self.project.export_test_as(path)),
+            FileCommand::ExportTest(path) => {
+                let started = files::export_test(&mut self.session, &mut self.background, &path);
+                self.fail_on(started);
+            }
+            FileCommand::ExportAs(path) => self.commands.extend(self.project.export_as(path)),
+            FileCommand::Export(path) => {
                 let started = files::export(&self.session, &self.view, &mut self.background, &path);
-                if let Err(problem) = started {
-                    self.fail(problem);
-                }
+                self.fail_on(started);
             }
-            Command::ExportStepsAs(path) => self.export_steps_as(path),
-            Command::ExportSteps(path) => self.export_steps(&path),
-            Command::CancelWork(id) => self.cancel_work(id),
-            Command::AnswerLeaving(answer) => {
+            FileCommand::CancelWork(id) => self.cancel_work(id),
+            FileCommand::Restore => self.restore(),
+            FileCommand::Quit => ctx.send_viewport_cmd(ViewportCommand::Close),
+            FileCommand::AnswerLeaving(answer) => {
                 self.commands.extend(self.project.answer_leaving(answer, &mut self.session));
             }
-            Command::AnswerReplacing(answer) => match self.project.answer_replacing(answer) {
+            FileCommand::AnswerReplacing(answer) => match self.project.answer_replacing(answer) {
                 Some(command) => self.send(command),
                 None => self.dialogs.resume(),
             },
-            Command::AnswerRecovery(answer) => {
+            FileCommand::AnswerRecovery(answer) => {
                 self.commands.extend(self.journal.as_mut().and_then(|keeper| keeper.answer(answer)));
             }
-            Command::Restore => self.restore(),
-            Command::Ask(request) => self.ask_for_file(request),
-            Command::Palette => self.dialogs.open(Dialog::Palette),
-            Command::About => self.dialogs.open(Dialog::About),
-            Command::CloseDialog => self.dialogs.close(),
-            Command::Quit => ctx.send_viewport_cmd(ViewportCommand::Close),
-            other => return Some(other),
         }
-        None
-    }
-
-    /// Runs commands about the files of layers, and returns others.
-    fn execute_on_layer_files(&mut self, command: Command) -> Option<Command> {
-        let (session, background) = (&self.session, &mut self.background);
-        match command {
-            Command::OpenImage(path) => layer_files::load_image(session, background, &path),
-            Command::OpenDiameters(path) => layer_files::load_diameters(session, background, &path),
-            Command::OpenBand(path) => layer_files::load_band(session, background, &path),
-            Command::OpenValues(path) => layer_files::load_values(session, background, &path),
-            Command::OpenShapes(path) => layer_files::load_shapes(session, background, &path),
-            Command::ReplaceShapes(path) => layer_files::replace_shapes(session, background, &path),
-            Command::OpenMask(path) => layer_files::load_mask(session, background, &path),
-            Command::OpenThreats(path) => layer_files::load_threats(session, background, &path),
-            Command::SaveThreats(path) => layer_files::save_threats(session, background, &path),
-            other => return Some(other),
-        }
-        None
-    }
-
-    /// Runs commands that write the document, and returns others.
-    fn execute_on_own_files(&mut self, command: Command) -> Option<Command> {
-        match command {
-            Command::Save => match self.project.path() {
-                Some(path) => self.send(Command::SaveTo(path.to_owned())),
-                None => self.send(Command::Ask(FileRequest::Save)),
-            },
-            Command::SaveAs(path) => self.commands.extend(self.project.save_as(path)),
-            Command::SaveTo(path) => {
-                self.project.save_to(path, &mut self.session, &mut self.background);
-            }
-            Command::SaveOver(path) => {
-                self.project.save_over(path, &mut self.session, &mut self.background);
-            }
-            Command::SaveRecipeAs(path) => self.save_recipe_as(path),
-            Command::SaveRecipe(path) => files::save_recipe(&self.session, &mut self.background, &path),
-            Command::ExportTestAs(path) => self.commands.extend(self.project.export_test_as(path)),
-            Command::ExportTest(path) => {
-                if let Err(problem) = files::export_test(&mut self.session, &mut self.background, &path) {
-                    self.fail(problem);
-                }
-            }
-            other => return Some(other),
-        }
-        None
     }
 
     fn save_recipe_as(&mut self, path: PathBuf) {
@@ -126,6 +78,12 @@ impl App {
         self.dialogs.ask(request, (self.session.document_id(), &name), beside, &self.jobs);
     }
 
+    pub(super) fn fail_on(&mut self, started: Result<(), String>) {
+        if let Err(problem) = started {
+            self.fail(problem);
+        }
+    }
+
     /// Says that a file was not read or written: in the dialog that asked for it, or else on the canvas.
     pub(super) fn fail(&mut self, problem: String) {
         self.starts_with_file = false;
@@ -137,25 +95,6 @@ impl App {
     pub(super) fn open(&mut self, document: Document) {
         self.show_document(document);
         self.project.open(None, self.session.document().version(), true);
-    }
-
-    fn set_outline(&mut self, change: OutlineChange) {
-        let OutlineChange { name, before, setting } = change;
-        let settings = self.session.document().settings();
-        if settings.domain != before || self.session.is_cutting() {
-            let problem = "was not added, as the domain was edited in the meantime. Add it again.";
-            return self.session.report(format!("{name} {problem}"));
-        }
-        self.session.end_gesture();
-        self.session.set(setting);
-        self.session.end_gesture();
-        let settings = self.session.document().settings();
-        if settings.domain != before {
-            let grows = settings.domain.bounds != before.bounds;
-            let frame = if grows { " The frame grew to hold it." } else { "" };
-            self.session.tell(format!("The outline {name} was added to the domain.{frame}"));
-            self.view.camera = self.view.camera.filter(|_| !grows);
-        }
     }
 
     fn show_opened(&mut self, opened: Opened) {
@@ -235,7 +174,9 @@ impl App {
 
     fn finish(&mut self, outcome: Outcome) {
         match outcome {
-            Outcome::Opened { path, opened } => self.finish_reading(path, vec![Command::Show(opened)]),
+            Outcome::Opened { path, opened } => {
+                self.finish_reading(path, vec![Command::File(FileCommand::Show(opened))])
+            }
             Outcome::Read { path, commands } => self.finish_reading(path, commands),
             Outcome::PartRead(commands) => {
                 self.dialogs.succeed(true);

@@ -3,8 +3,9 @@
 use eframe::egui::Context;
 
 use crate::app::App;
-use crate::app::command::{Command, LayerCommand};
+use crate::app::command::{Command, FileCommand, LayerCommand};
 use crate::app::dialogs::FileRequest;
+use crate::app::layer_files;
 use crate::app::notices::Offer;
 use crate::app::panels::ask_layer_name;
 use crate::app::tools::{PaintKind, THREATS};
@@ -13,7 +14,15 @@ use meshbrush_core::layers::{DistanceTo, Layer, LayerId, LayerKind, Quantity};
 
 impl App {
     pub(super) fn execute_on_layers(&mut self, command: LayerCommand, ctx: &Context) {
+        let (session, background) = (&self.session, &mut self.background);
         match command {
+            LayerCommand::OpenImage(path) => layer_files::load_image(session, background, &path),
+            LayerCommand::OpenDiameters(path) => layer_files::load_diameters(session, background, &path),
+            LayerCommand::OpenBand(path) => layer_files::load_band(session, background, &path),
+            LayerCommand::OpenValues(path) => layer_files::load_values(session, background, &path),
+            LayerCommand::OpenShapes(path) => layer_files::load_shapes(session, background, &path),
+            LayerCommand::ReplaceShapes(path) => layer_files::replace_shapes(session, background, &path),
+            LayerCommand::OpenMask(path) => layer_files::load_mask(session, background, &path),
             LayerCommand::Select(id) => self.select_layer(id),
             LayerCommand::Add(kind) => self.add_layer(*kind),
             LayerCommand::AddBand => self.add_band(),
@@ -113,7 +122,7 @@ impl App {
         let Settings { layers, transfer, .. } = document.settings();
         let all = document.active_layer().into_iter().chain(layers.iter().rev());
         let Some(source) = all.map(|layer| &layer.kind).find_map(LayerKind::raster_source) else {
-            return self.send(Command::Ask(FileRequest::OpenBand));
+            return self.send(Command::File(FileCommand::Ask(FileRequest::OpenBand)));
         };
         match LayerKind::band_of(source.clone(), transfer) {
             Some(band) => self.add_layer(band),

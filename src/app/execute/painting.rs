@@ -11,6 +11,10 @@ impl App {
     pub(super) fn execute_on_brush(&mut self, command: BrushCommand) {
         let tools = &mut self.tools;
         match command {
+            BrushCommand::BeginStroke(point) => self.begin_stroke(point),
+            BrushCommand::DrawTo(point) => self.draw_to(point),
+            BrushCommand::EndStroke => self.session.document_mut().finish_stroke(),
+            BrushCommand::LineTo(point) => self.line_to(point),
             BrushCommand::Kind(kind) => {
                 tools.kind = kind;
                 tools.select_brush();
@@ -47,7 +51,7 @@ impl App {
         }
     }
 
-    pub(super) fn begin_stroke(&mut self, point: DVec2) {
+    fn begin_stroke(&mut self, point: DVec2) {
         let Some(brush) = self.tools.brush() else { return };
         let mirror = self.tools.mirror(self.session.document().settings().domain.bounds);
         self.session.notices_mut().dismiss_news();
@@ -64,12 +68,12 @@ impl App {
         self.tools.note_use(self.tools.tool);
     }
 
-    pub(super) fn draw_to(&mut self, point: DVec2) {
+    fn draw_to(&mut self, point: DVec2) {
         self.session.document_mut().extend_stroke(self.tools.path_point(point));
         self.tools.last_painted = Some(point);
     }
 
-    pub(super) fn line_to(&mut self, point: DVec2) {
+    fn line_to(&mut self, point: DVec2) {
         self.begin_stroke(self.tools.last_painted.unwrap_or(point));
         self.draw_to(point);
         self.session.document_mut().finish_stroke();

@@ -19,6 +19,8 @@ impl App {
         let Some(stepping) = &mut self.stepping else { return };
         match command {
             StepCommand::Begin => {}
+            StepCommand::ExportAs(path) => return self.export_steps_as(path),
+            StepCommand::Export(path) => return self.export_steps(&path),
             StepCommand::Leave => self.stepping = None,
             StepCommand::GoTo(position) => stepping.go_to(position),
             StepCommand::Move(steps) => stepping.go_by(steps),
@@ -32,16 +34,18 @@ impl App {
     }
 
     /// Writes the chosen steps, and asks before other files are replaced.
-    pub(super) fn export_steps_as(&mut self, path: PathBuf) {
+    fn export_steps_as(&mut self, path: PathBuf) {
         let Some(stepping) = &self.stepping else { return };
         match stepping.files(&path) {
-            Ok(files) => self.commands.extend(self.project.ask_to_replace(files, Command::ExportSteps(path))),
+            Ok(files) => self
+                .commands
+                .extend(self.project.ask_to_replace(files, Command::Steps(StepCommand::Export(path)))),
             Err(problem) => self.fail(problem),
         }
     }
 
     /// Writes the chosen steps.
-    pub(super) fn export_steps(&mut self, path: &Path) {
+    fn export_steps(&mut self, path: &Path) {
         let Some(stepping) = &self.stepping else { return };
         if let Err(problem) = stepping.export(path, &self.session, &self.view, &mut self.background) {
             self.fail(problem);

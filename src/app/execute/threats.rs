@@ -4,6 +4,7 @@ use glam::DVec2;
 
 use crate::app::App;
 use crate::app::command::{Command, LayerCommand, ThreatsCommand};
+use crate::app::layer_files;
 use crate::app::notices::Offer;
 use crate::app::tools::{THREATS, ThreatGrip, ThreatsTool, grip_at};
 use meshbrush_core::layers::{Layer, LayerId, LayerKind, Threat, ThreatLaw, Threats};
@@ -24,6 +25,16 @@ impl App {
             }
             ThreatsCommand::Select(number) => self.select_threat(number),
             ThreatsCommand::Delete => self.delete_threat(),
+            ThreatsCommand::Open(path) => {
+                layer_files::load_threats(&self.session, &mut self.background, &path);
+            }
+            ThreatsCommand::SaveAs(path) => {
+                let save = |path| Command::Threats(ThreatsCommand::Save(path));
+                self.commands.extend(self.project.save_table_as(path, save));
+            }
+            ThreatsCommand::Save(path) => {
+                layer_files::save_threats(&self.session, &mut self.background, &path);
+            }
         }
     }
 

@@ -11,7 +11,7 @@ pub use keys::page as keys_page;
 use eframe::egui::{self, Context, Frame, Margin, ScrollArea, Ui, vec2};
 
 use super::catalog::CatalogItem;
-use super::command::Command;
+use super::command::{Command, ShellCommand};
 use super::theme::tokens_of;
 
 /// What the help window shows.
@@ -58,7 +58,7 @@ pub fn show(ctx: &Context, topic: HelpTopic, catalog: &[CatalogItem], commands: 
         .collapsible(false)
         .show(ctx, |ui| contents(ui, topic, catalog, commands));
     if !open {
-        commands.push(Command::CloseHelp);
+        commands.push(Command::Shell(ShellCommand::CloseHelp));
     }
 }
 
@@ -69,7 +69,7 @@ fn contents(ui: &mut Ui, topic: HelpTopic, catalog: &[CatalogItem], commands: &m
             let pages = manual::PAGES.iter().map(|page| HelpTopic::Page(page.file));
             for other in std::iter::once(HelpTopic::Keys).chain(pages) {
                 if ui.selectable_label(other == topic, other.title()).clicked() {
-                    commands.push(Command::ShowHelp(other));
+                    commands.push(Command::Shell(ShellCommand::ShowHelp(other)));
                 }
             }
         },

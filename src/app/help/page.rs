@@ -11,7 +11,7 @@ use egui::text::{LayoutJob, TextFormat};
 use super::HelpTopic;
 use super::manual::{Page, page_of, picture};
 use super::markdown::{Block, Span, blocks, plain};
-use crate::app::command::Command;
+use crate::app::command::{Command, ShellCommand};
 use crate::app::theme::{font, metrics, tokens};
 
 /// Space between cells of a table.
@@ -78,7 +78,7 @@ fn text(ui: &mut Ui, spans: &[Span], commands: &mut Vec<Command>) {
             match part[0].link.as_deref().and_then(page_of) {
                 Some(page) => {
                     if ui.link(plain(part)).clicked() {
-                        commands.push(Command::ShowHelp(HelpTopic::Page(page.file)));
+                        commands.push(Command::Shell(ShellCommand::ShowHelp(HelpTopic::Page(page.file))));
                     }
                 }
                 None => drop(ui.label(job(ui, part))),

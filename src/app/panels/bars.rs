@@ -4,7 +4,7 @@ use eframe::egui::accesskit::Toggled;
 use eframe::egui::{self, Align, Align2, Button, Layout, MenuBar, Rect, RichText, ScrollArea, Ui, vec2};
 
 use crate::app::catalog::{CatalogItem, Menu, catalog};
-use crate::app::command::Command;
+use crate::app::command::{Command, EditCommand, ShellCommand, ViewCommand};
 use crate::app::frame::FrameState;
 use crate::app::theme::{font, metrics, tokens};
 use crate::app::tools::TOOLS;
@@ -70,22 +70,22 @@ pub fn tool_strip(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Comman
     for tool in TOOLS {
         let button = ToolButton::new(tool.icon, tool.name).key(tool.key.symbol_or_name());
         if button.selected(state.tools.tool == tool).show(ui).clicked() {
-            commands.push(Command::Use(tool));
+            commands.push(Command::Shell(ShellCommand::Use(tool)));
         }
     }
     ui.with_layout(Layout::bottom_up(Align::Center), |ui| {
         ui.spacing_mut().item_spacing.y = 6.0;
         if ToolButton::new(Icon::FIT, "Fit domain").key("Home").show(ui).clicked() {
-            commands.push(Command::Fit);
+            commands.push(Command::View(ViewCommand::Fit));
         }
         let history = state.session.document().history();
         let redo = ToolButton::new(Icon::REDO, "Redo").key("Ctrl+Shift+Z");
         let undo = ToolButton::new(Icon::UNDO, "Undo").key("Ctrl+Z");
         if ui.add_enabled_ui(history.redo_title().is_some(), |ui| redo.show(ui)).inner.clicked() {
-            commands.push(Command::Redo);
+            commands.push(Command::Edit(EditCommand::Redo));
         }
         if ui.add_enabled_ui(state.session.can_undo(), |ui| undo.show(ui)).inner.clicked() {
-            commands.push(Command::Undo);
+            commands.push(Command::Edit(EditCommand::Undo));
         }
     });
 }

@@ -5,7 +5,7 @@ use eframe::egui::{Id, Ui};
 use super::brush::radius_row;
 use super::formula::FormulaRow;
 use super::{Panel, end_gesture_when_released, remark, set_once};
-use crate::app::command::{Command, DomainCommand};
+use crate::app::command::{Command, DomainCommand, EditCommand, FileCommand};
 use crate::app::dialogs::FileRequest;
 use crate::app::frame::FrameState;
 use crate::app::tools::{DOMAIN as DOMAIN_TOOL, DomainToolMode};
@@ -127,7 +127,9 @@ fn diameter_row(ui: &mut Ui, state: &FrameState<'_>, mut diameter: f64, commands
     let row = row.typed_range(f64::MIN_POSITIVE..=extent).default(usual);
     let response = row.unit(state.unit().symbol()).help(help).show(ui);
     if response.changed() {
-        commands.push(Command::Set(Setting::Boundary(settings.boundary.with_diameter(diameter))));
+        commands.push(Command::Edit(EditCommand::Set(Setting::Boundary(
+            settings.boundary.with_diameter(diameter),
+        ))));
     }
     end_gesture_when_released(&response, commands);
 }
@@ -152,7 +154,7 @@ fn cleaning_rows(ui: &mut Ui, cleaning: Cleaning, boundary: BoundaryTreatment, c
         let response = row.help("Parts with at least this share of the area stay.").show(ui);
         if response.changed() {
             let parts = KeptParts::Share(share);
-            commands.push(Command::Set(Setting::Cleaning(Cleaning { parts, ..cleaning })));
+            commands.push(Command::Edit(EditCommand::Set(Setting::Cleaning(Cleaning { parts, ..cleaning }))));
         }
         end_gesture_when_released(&response, commands);
     }
@@ -216,10 +218,10 @@ fn buttons(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     ui.add_space(4.0);
     ui.horizontal(|ui| {
         if ui.add(ActionButton::new("Open domain…")).clicked() {
-            commands.push(Command::Ask(FileRequest::OpenDomain));
+            commands.push(Command::File(FileCommand::Ask(FileRequest::OpenDomain)));
         }
         if ui.add(ActionButton::new("Add outline…")).clicked() {
-            commands.push(Command::Ask(FileRequest::AddOutline));
+            commands.push(Command::File(FileCommand::Ask(FileRequest::AddOutline)));
         }
     });
     let domain = &state.session.document().settings().domain;

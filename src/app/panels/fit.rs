@@ -4,7 +4,7 @@ use eframe::egui::Ui;
 use glam::DVec2;
 
 use super::Panel;
-use crate::app::command::Command;
+use crate::app::command::{Command, ViewCommand};
 use crate::app::derivation::Derived;
 use crate::app::frame::FrameState;
 use crate::app::widgets::{Section, ValueRow, format, value_row};
@@ -141,7 +141,10 @@ fn go_to(row: &eframe::egui::Response, place: DVec2, state: &FrameState<'_>, com
     let settings = state.session.follower().settings();
     let diameter = settings.boundary.diameter().unwrap_or(settings.spacing);
     if row.clicked() {
-        commands.push(Command::ShowArea(Rect::around(place, 0.5 * AREA_IN_DIAMETERS * diameter)));
+        commands.push(Command::View(ViewCommand::ShowArea(Rect::around(
+            place,
+            0.5 * AREA_IN_DIAMETERS * diameter,
+        ))));
     }
 }
 

@@ -3,7 +3,7 @@
 use eframe::egui::Ui;
 
 use super::Panel;
-use crate::app::command::{Command, PinsCommand};
+use crate::app::command::{Command, InspectCommand, PinsCommand, ShellCommand, ViewCommand};
 use crate::app::frame::FrameState;
 use crate::app::inspection::{Inspection, LayerAnswer, NEIGHBOURS, Row};
 use crate::app::readout::{Quantity, Readout, TriangleReadout};
@@ -37,7 +37,7 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     });
     let hovered = section.flatten();
     if hovered != state.view.hovered_neighbour {
-        commands.push(Command::HighlightNeighbour(hovered));
+        commands.push(Command::View(ViewCommand::HighlightNeighbour(hovered)));
     }
 }
 
@@ -57,7 +57,7 @@ fn triangle_rows(
     let mut quantity = state.view.quantity;
     let choices = [(Quantity::TargetDiameter, "h̄"), (Quantity::Risk, "Risk")];
     if segmented(ui, "Quantity", &mut quantity, &choices).changed() {
-        commands.push(Command::Inspect(quantity));
+        commands.push(Command::Inspect(InspectCommand::Interpolate(quantity)));
     }
     copied_rows(ui, &inspection.quantity_rows(), commands);
     ui.add_space(4.0);
@@ -73,7 +73,7 @@ fn walk_rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let Some(readout) = state.readout else { return };
     if state.walks.is_due(state.session) {
         // It is measured only while it is shown.
-        commands.push(Command::MeasureWalks);
+        commands.push(Command::Inspect(InspectCommand::MeasureWalks));
     }
     let mesh = state.session.mesh();
     let steps = mesh.walk_path(readout.point).len().saturating_sub(1);
@@ -83,7 +83,7 @@ fn walk_rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     value_row(ui, "Walk", &format!("{steps} (mean {mean}, bound {bound})"));
     let mut shown = state.view.aids.walk;
     if toggle_row(ui, "Show the walk", &mut shown).changed() {
-        commands.push(Command::ToggleAid(CanvasAid::Walk));
+        commands.push(Command::View(ViewCommand::ToggleAid(CanvasAid::Walk)));
     }
 }
 
@@ -94,7 +94,7 @@ fn layer_rows(ui: &mut Ui, inspection: &Inspection<'_>, commands: &mut Vec<Comma
         ui.push_id(number, |ui| {
             let value = ValueRow::new(&row.label, &row.shown).stands_out(*decides).copies(&row.exact);
             if value.help(LAYER_HELP).show(ui).clicked() {
-                commands.push(Command::Copy(row.exact.clone()));
+                commands.push(Command::Shell(ShellCommand::Copy(row.exact.clone())));
             }
         });
     }
@@ -107,7 +107,7 @@ fn copied_rows(ui: &mut Ui, rows: &[Row], commands: &mut Vec<Command>) {
     for row in rows {
         let help = if row.label.starts_with('v') { VERTEX_HELP } else { "" };
         if ValueRow::new(&row.label, &row.shown).help(help).copies(&row.exact).show(ui).clicked() {
-            commands.push(Command::Copy(row.exact.clone()));
+            commands.push(Command::Shell(ShellCommand::Copy(row.exact.clone())));
         }
     }
 }
@@ -131,8 +131,8 @@ fn neighbour_chips(
             let response = chip.enabled(id.is_some()).show(ui);
             if response.clicked() {
                 let follows = ui.input(|input| input.modifiers.shift);
-                let follow = Some(Command::FollowNeighbour(i)).filter(|_| follows);
-                commands.extend(follow.or(id.map(Command::QueryTriangle)));
+                let follow = Some(Command::Inspect(InspectCommand::FollowNeighbour(i))).filter(|_| follows);
+                commands.extend(follow.or(id.map(|id| Command::Inspect(InspectCommand::QueryTriangle(id)))));
             }
             hovered = id.filter(|_| response.hovered()).or(hovered);
         }

@@ -3,7 +3,7 @@
 use eframe::egui::{Color32, Ui};
 
 use super::Panel;
-use crate::app::command::Command;
+use crate::app::command::{Command, ViewCommand};
 use crate::app::frame::FrameState;
 use crate::app::view::deepest_level;
 use crate::app::widgets::{ActionButton, LevelLegend, LevelRow, Section, format};
@@ -36,16 +36,16 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
         let legend = LevelLegend::new(&rows).unit(state.unit()).lit(lit).hidden(hidden);
         let answer = legend.max_height(height).show(ui);
         if hidden != 0 && ui.add(ActionButton::new("Show all levels")).clicked() {
-            commands.push(Command::ShowAllLevels);
+            commands.push(Command::View(ViewCommand::ShowAllLevels));
         }
         answer
     });
     let answer = section.unwrap_or_default();
     if answer.hovered != state.view.lone_level {
-        commands.push(Command::ShowLevel(answer.hovered));
+        commands.push(Command::View(ViewCommand::ShowLevel(answer.hovered)));
     }
-    commands.extend(answer.toggled.map(Command::ToggleLevel));
-    commands.extend(answer.isolated.map(Command::IsolateLevel));
+    commands.extend(answer.toggled.map(|level| Command::View(ViewCommand::ToggleLevel(level))));
+    commands.extend(answer.isolated.map(|level| Command::View(ViewCommand::IsolateLevel(level))));
 }
 
 fn row(state: &FrameState<'_>, level: usize, counts: &[usize], colors: &LevelColors) -> LevelRow {

@@ -6,7 +6,7 @@ use std::ops::RangeInclusive;
 use eframe::egui::Ui;
 
 use super::{Panel, end_gesture_when_released, remark, set_once};
-use crate::app::command::Command;
+use crate::app::command::{Command, EditCommand, ShellCommand};
 use crate::app::frame::FrameState;
 use crate::app::threads::Threads;
 use crate::app::widgets::{NumberRow, Section, SliderRow, format, segmented, value_row};
@@ -48,7 +48,7 @@ fn spacing_rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>
     let row = row.typed_range(f64::MIN_POSITIVE..=extent).default(Settings::default().spacing * extent);
     let response = row.unit(state.unit().symbol()).show(ui);
     if response.changed() {
-        commands.push(Command::Set(Setting::Spacing(spacing)));
+        commands.push(Command::Edit(EditCommand::Set(Setting::Spacing(spacing))));
     }
     end_gesture_when_released(&response, commands);
     let [columns, rows] = state.session.mesh().lattice().cells();
@@ -105,6 +105,8 @@ fn threads_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>)
                 same. The picture is drawn on threads of its own.";
     let row = NumberRow::new("Threads", &mut count).aligned_with(TRIANGLE_BUDGET);
     if row.integer().range(1.0..=most).default(most).help(help).show(ui).changed() {
-        commands.extend(NonZeroUsize::new(count as usize).map(Command::LimitThreads));
+        commands.extend(
+            NonZeroUsize::new(count as usize).map(|count| Command::Shell(ShellCommand::LimitThreads(count))),
+        );
     }
 }

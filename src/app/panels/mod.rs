@@ -37,7 +37,7 @@ pub use path::{OTHER_PATHS, PATH};
 pub use pins::PINS;
 pub use why::WHY;
 
-use super::command::Command;
+use super::command::{Command, EditCommand};
 use super::frame::FrameState;
 use super::theme::{font, metrics, tokens};
 use super::tools::Tool;
@@ -172,13 +172,13 @@ where
 /// Sends the end of a gesture when a control was released.
 fn end_gesture_when_released(response: &Response, commands: &mut Vec<Command>) {
     if widgets::edit_done(response) {
-        commands.push(Command::EndGesture);
+        commands.push(Command::Edit(EditCommand::EndGesture));
     }
 }
 
 /// Sends a setting as a gesture of its own.
 fn set_once(setting: Setting, commands: &mut Vec<Command>) {
-    commands.extend([Command::Set(setting), Command::EndGesture]);
+    commands.extend([Command::Edit(EditCommand::Set(setting)), Command::Edit(EditCommand::EndGesture)]);
 }
 
 /// A remark in small print.

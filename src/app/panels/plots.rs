@@ -3,7 +3,7 @@
 use eframe::egui::Ui;
 
 use super::{Panel, button_rows, remark};
-use crate::app::command::Command;
+use crate::app::command::{Command, FileCommand};
 use crate::app::dialogs::FileRequest;
 use crate::app::frame::FrameState;
 use crate::app::plots::{PlotKind, Plots, PlotsCommand};
@@ -55,7 +55,7 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
         });
         let is_known = known.is_some();
         let copy = Command::Plots(PlotsCommand::Copy);
-        let export = Command::Ask(FileRequest::ExportPlot);
+        let export = Command::File(FileCommand::Ask(FileRequest::ExportPlot));
         button_rows(
             ui,
             [vec![("Export plot…", is_known, export), ("Copy numbers", is_known, copy)]],

@@ -4,7 +4,7 @@ use eframe::egui::Ui;
 use glam::DVec2;
 
 use super::Panel;
-use crate::app::command::Command;
+use crate::app::command::{Command, ShellCommand, StatisticsCommand, ViewCommand};
 use crate::app::frame::FrameState;
 use crate::app::statistics::Measured;
 use crate::app::widgets::{Section, ValueRow, format, value_row};
@@ -22,7 +22,7 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
         let is_current = figures.is_some_and(|(_, is_current)| is_current);
         if state.session.is_measuring_due() {
             // They are computed only while the section is open.
-            commands.push(Command::Measure);
+            commands.push(Command::Statistics(StatisticsCommand::Measure));
         }
         let Some((measured, _)) = figures else {
             value_row(ui, "Mesh", "being measured");
@@ -123,7 +123,7 @@ fn target_row(ui: &mut Ui, measured: &Measured, state: &FrameState<'_>, commands
 
 fn fingerprint_row(ui: &mut Ui, measured: &Measured, commands: &mut Vec<Command>) {
     if ValueRow::new("Fingerprint", &measured.fingerprint).link().show(ui).clicked() {
-        commands.push(Command::Copy(measured.fingerprint.clone()));
+        commands.push(Command::Shell(ShellCommand::Copy(measured.fingerprint.clone())));
     }
 }
 
@@ -138,7 +138,7 @@ struct PlaceRow<'a> {
 impl PlaceRow<'_> {
     fn show(self, ui: &mut Ui, commands: &mut Vec<Command>) {
         if ValueRow::new(self.label, self.value).help(self.help).link().show(ui).clicked() {
-            commands.push(Command::LookAt(self.place));
+            commands.push(Command::View(ViewCommand::LookAt(self.place)));
         }
     }
 }

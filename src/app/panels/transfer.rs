@@ -5,7 +5,7 @@ use std::ops::RangeInclusive;
 use eframe::egui::Ui;
 
 use super::{Panel, end_gesture_when_released};
-use crate::app::command::Command;
+use crate::app::command::{Command, EditCommand};
 use crate::app::frame::FrameState;
 use crate::app::readout::{Quantity, value_at};
 use crate::app::widgets::{CurveValues, Section, TransferCurve};
@@ -36,13 +36,13 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
         let editor = editor.unit(settings.unit).defaults(defaults);
         let response = editor.mark(risk.filter(|risk| risk.is_finite())).show(ui);
         if shown.h_max != h_max {
-            commands.push(Command::Set(Setting::LargestDiameter(shown.h_max)));
+            commands.push(Command::Edit(EditCommand::Set(Setting::LargestDiameter(shown.h_max))));
         }
         if shown.h_min != h_min {
-            commands.push(Command::Set(Setting::SmallestDiameter(shown.h_min)));
+            commands.push(Command::Edit(EditCommand::Set(Setting::SmallestDiameter(shown.h_min))));
         }
         if shown.shape != shape {
-            commands.push(Command::Set(Setting::TransferShape(shown.shape)));
+            commands.push(Command::Edit(EditCommand::Set(Setting::TransferShape(shown.shape))));
         }
         end_gesture_when_released(&response, commands);
     });

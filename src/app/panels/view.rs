@@ -3,7 +3,7 @@
 use eframe::egui::{ThemePreference, Ui};
 
 use super::Panel;
-use crate::app::command::Command;
+use crate::app::command::{Command, ViewCommand};
 use crate::app::frame::FrameState;
 use crate::app::view::{CanvasAid, FieldOverlay};
 use crate::app::widgets::{Section, dropdown_row, segmented, toggle_row};
@@ -17,7 +17,7 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     Section::new("View").closed().show(ui, |ui| {
         let mut edges = view.edges;
         if toggle_row(ui, "Edges", &mut edges).changed() {
-            commands.push(Command::ToggleEdges);
+            commands.push(Command::View(ViewCommand::ToggleEdges));
         }
         for (name, aid, mut shown) in [
             ("Coordinates", CanvasAid::Coordinates, view.aids.coordinates),
@@ -25,12 +25,12 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
             ("Contours of h̄", CanvasAid::Contours, view.aids.contours),
         ] {
             if toggle_row(ui, name, &mut shown).changed() {
-                commands.push(Command::ToggleAid(aid));
+                commands.push(Command::View(ViewCommand::ToggleAid(aid)));
             }
         }
         let mut map = view.colormap;
         if dropdown_row(ui, "Colours", &mut map, &Colormap::ALL.map(|map| (map, map.name()))).changed() {
-            commands.push(Command::Colormap(map));
+            commands.push(Command::View(ViewCommand::Colormap(map)));
         }
         let mut overlay = view.overlay;
         let overlays = [
@@ -43,7 +43,7 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
             (FieldOverlay::Age, "Age"),
         ];
         if dropdown_row(ui, "Overlay", &mut overlay, &overlays).changed() {
-            commands.push(Command::SetOverlay(overlay));
+            commands.push(Command::View(ViewCommand::SetOverlay(overlay)));
         }
         let mut theme = view.theme;
         let themes = [
@@ -52,7 +52,7 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
             (ThemePreference::System, "Desktop"),
         ];
         if segmented(ui, "Theme", &mut theme, &themes).changed() {
-            commands.push(Command::Theme(theme));
+            commands.push(Command::View(ViewCommand::Theme(theme)));
         }
     });
 }

@@ -4,7 +4,7 @@ use eframe::egui::{RichText, Ui};
 use glam::DVec2;
 
 use super::{Panel, button_rows, remark};
-use crate::app::command::{Command, ExploreCommand};
+use crate::app::command::{Command, ExploreCommand, InspectCommand, ViewCommand};
 use crate::app::explore::TreeStep;
 use crate::app::frame::FrameState;
 use crate::app::theme::{font, tokens};
@@ -30,7 +30,7 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
         chain_chips(ui, state, commands);
         let mut drawn = state.view.aids.cause;
         if toggle_row(ui, "Show on the canvas", &mut drawn).changed() {
-            commands.push(Command::ToggleAid(CanvasAid::Cause));
+            commands.push(Command::View(ViewCommand::ToggleAid(CanvasAid::Cause)));
         }
         ui.add_space(6.0);
         path_chips(ui, state, commands);
@@ -94,7 +94,7 @@ fn path_chips(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) 
 }
 
 fn step(step: TreeStep, commands: &mut Vec<Command>) {
-    commands.push(Command::Explore(ExploreCommand::Step(step)));
+    commands.push(Command::Inspect(InspectCommand::Explore(ExploreCommand::Step(step))));
 }
 
 fn step_buttons(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
@@ -106,7 +106,7 @@ fn step_buttons(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>
     ];
     let button = |(name, leads)| {
         let enabled = state.explore.target(leads, mesh).is_some();
-        (name, enabled, Command::Explore(ExploreCommand::Step(leads)))
+        (name, enabled, Command::Inspect(InspectCommand::Explore(ExploreCommand::Step(leads))))
     };
     button_rows(ui, rows.map(|row| row.map(button)), commands);
     ui.add_space(4.0);
@@ -136,7 +136,7 @@ fn node_rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let mut corner = before;
     let choices = [(None, "No node"), (Some(0), "Apex"), (Some(1), "End 1"), (Some(2), "End 2")];
     if segmented(ui, "Node of the triangle", &mut corner, &choices).changed() {
-        commands.push(Command::Explore(ExploreCommand::ShowCorner(corner)));
+        commands.push(Command::Inspect(InspectCommand::Explore(ExploreCommand::ShowCorner(corner))));
     }
     let mesh = state.session.mesh();
     let Some(node) = state.explore.node(mesh) else { return };

@@ -23,9 +23,8 @@ pub enum PathCommand {
         /// Whether a place that is added lies between start and goal.
         is_between: bool,
     },
-    /// Moves the place that was taken hold of. Further moves join this gesture until [`Command::EndGesture`].
-    ///
-    /// [`Command::EndGesture`]: crate::app::command::Command::EndGesture
+    /// Moves the place that was taken hold of. Further moves join this gesture until
+    /// [`EditCommand::EndGesture`](crate::app::command::EditCommand::EndGesture).
     DragTo(DVec2),
     /// Begins a path.
     StartAt(DVec2),

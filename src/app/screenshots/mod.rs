@@ -11,7 +11,10 @@ use glam::{DVec2, dvec2};
 
 use super::SMALLEST_SIZE;
 use super::WINDOW_SIZE;
-use super::command::{BoundaryCommand, BrushCommand, Command, DomainCommand, LayerCommand, PinsCommand};
+use super::command::{
+    BoundaryCommand, BrushCommand, Command, DomainCommand, EditCommand, FileCommand, InspectCommand,
+    LayerCommand, PinsCommand, ShellCommand, ViewCommand,
+};
 use super::paths::{AlternativesCommand, FrontCommand, PathCommand};
 use super::plots::{PlotKind, PlotsCommand};
 use super::report::FigureCommand;
@@ -94,25 +97,25 @@ fn write_picture(folder: &Path, name: &str, picture: &Image) -> Result<PathBuf, 
 
 /// The first example, about to be painted on, with a queried triangle.
 fn window(window: &mut OffscreenWindow) {
-    window.send(Command::Query(dvec2(0.651, 0.464)));
+    window.send(Command::Inspect(InspectCommand::Query(dvec2(0.651, 0.464))));
     point_at(window, dvec2(0.56, 0.66));
 }
 
 /// A triangle at the end of the route, and its neighbours.
 fn query(window: &mut OffscreenWindow) {
     let place = dvec2(0.6472, 0.1368);
-    window.send(Command::Use(&QUERY));
+    window.send(Command::Shell(ShellCommand::Use(&QUERY)));
     look_at(window, place, 7.0);
-    window.send(Command::Query(place));
+    window.send(Command::Inspect(InspectCommand::Query(place)));
     point_at(window, place + dvec2(0.012, 0.028));
 }
 
 /// A triangle that compatibility asked for, with the chain of triangles that led to it.
 fn why(window: &mut OffscreenWindow) {
     let place = dvec2(0.7431, 0.0208);
-    window.send(Command::Use(&QUERY));
+    window.send(Command::Shell(ShellCommand::Use(&QUERY)));
     look_at(window, place + dvec2(0.0, 0.03), 5.0);
-    window.send(Command::Query(place));
+    window.send(Command::Inspect(InspectCommand::Query(place)));
     point_at(window, place - dvec2(0.0, 0.05));
 }
 
@@ -123,7 +126,7 @@ fn plots(window: &mut OffscreenWindow) {
 
 /// Pins with the table of their values.
 fn pins(window: &mut OffscreenWindow) {
-    window.send(Command::Use(&QUERY));
+    window.send(Command::Shell(ShellCommand::Use(&QUERY)));
     for pin in [dvec2(0.651, 0.464), dvec2(0.27, 0.51), dvec2(0.715, 0.735), dvec2(0.9, 0.9)] {
         window.send(Command::Pins(PinsCommand::Add(pin)));
     }
@@ -131,8 +134,8 @@ fn pins(window: &mut OffscreenWindow) {
 
 /// A step of the refinement, with a triangle that waits on the stack.
 fn steps(window: &mut OffscreenWindow) {
-    window.send(Command::Set(Setting::SmallestDiameter(0.06)));
-    window.send(Command::Set(Setting::Spacing(0.25)));
+    window.send(Command::Edit(EditCommand::Set(Setting::SmallestDiameter(0.06))));
+    window.send(Command::Edit(EditCommand::Set(Setting::Spacing(0.25))));
     window.send(Command::Steps(StepCommand::Begin));
     window.send(Command::Steps(StepCommand::GoTo(120)));
 }
@@ -150,22 +153,22 @@ fn walk(window: &mut OffscreenWindow) {
 
 /// Figure 1 of the report.
 fn diamond(window: &mut OffscreenWindow) {
-    window.send(Command::OpenExample(Example::Diamond));
-    window.send(Command::Use(&QUERY));
-    window.send(Command::Query(dvec2(6.3, 2.3)));
+    window.send(Command::File(FileCommand::OpenExample(Example::Diamond)));
+    window.send(Command::Shell(ShellCommand::Use(&QUERY)));
+    window.send(Command::Inspect(InspectCommand::Query(dvec2(6.3, 2.3))));
 }
 
 /// Slope as risk, close enough to see triangles.
 fn terrain(window: &mut OffscreenWindow) {
-    window.send(Command::OpenExample(Example::Terrain));
-    window.send(Command::Use(&QUERY));
+    window.send(Command::File(FileCommand::OpenExample(Example::Terrain)));
+    window.send(Command::Shell(ShellCommand::Use(&QUERY)));
     look_at(window, dvec2(20.2, 19.8), 5.0);
-    window.send(Command::Query(dvec2(22.1, 19.2)));
+    window.send(Command::Inspect(InspectCommand::Query(dvec2(22.1, 19.2))));
 }
 
 /// A sea with its mesh fitted to the coast, about to be cut.
 fn aegean(window: &mut OffscreenWindow) {
-    window.send(Command::OpenExample(Example::Aegean));
+    window.send(Command::File(FileCommand::OpenExample(Example::Aegean)));
     window.send(Command::Domain(DomainCommand::Mode(DomainToolMode::Brush)));
     window.send(Command::Brush(BrushCommand::Radius(0.2)));
     point_at(window, dvec2(25.25, 38.1));
@@ -173,21 +176,21 @@ fn aegean(window: &mut OffscreenWindow) {
 
 /// Every kind of layer. The overlay has the colours of the layers that decide h̄; the threats are selected.
 fn layers(window: &mut OffscreenWindow) {
-    window.send(Command::OpenExample(Example::Layers));
-    window.send(Command::SetOverlay(FieldOverlay::Layer));
+    window.send(Command::File(FileCommand::OpenExample(Example::Layers)));
+    window.send(Command::View(ViewCommand::SetOverlay(FieldOverlay::Layer)));
     let is_threats = |layer: &&Layer| matches!(layer.kind, LayerKind::Threats(_));
     if let Some(threats) = window.layers().iter().find(is_threats).map(|layer| layer.id) {
         window.send(Command::Layer(LayerCommand::Select(threats)));
     }
-    window.send(Command::Use(&QUERY));
+    window.send(Command::Shell(ShellCommand::Use(&QUERY)));
     point_at(window, dvec2(15.9, 17.2));
 }
 
 /// A path of least cost between threats, with its proved interval and the risk along it.
 fn path(window: &mut OffscreenWindow) {
-    window.send(Command::OpenExample(Example::Path));
-    window.send(Command::Use(&PATH));
-    window.send(Command::SetOverlay(FieldOverlay::Risk));
+    window.send(Command::File(FileCommand::OpenExample(Example::Path)));
+    window.send(Command::Shell(ShellCommand::Use(&PATH)));
+    window.send(Command::View(ViewCommand::SetOverlay(FieldOverlay::Risk)));
 }
 
 /// What other paths there are: the corridor around the best, alternatives, and the front of length against
@@ -206,7 +209,7 @@ fn front(window: &mut OffscreenWindow) {
 
 /// The pieces of a coast, one of them selected.
 fn boundary(window: &mut OffscreenWindow) {
-    window.send(Command::OpenExample(Example::Aegean));
+    window.send(Command::File(FileCommand::OpenExample(Example::Aegean)));
     window.send(Command::Boundary(BoundaryCommand::Mode(BoundaryToolMode::Select)));
     window.send(Command::Boundary(BoundaryCommand::Click(dvec2(24.9, 35.35), 0.3)));
     point_at(window, dvec2(26.0, 38.3));
@@ -214,8 +217,8 @@ fn boundary(window: &mut OffscreenWindow) {
 
 /// The first example in the light theme.
 fn light(window: &mut OffscreenWindow) {
-    window.send(Command::Theme(ThemePreference::Light));
-    window.send(Command::Query(dvec2(0.715, 0.61)));
+    window.send(Command::View(ViewCommand::Theme(ThemePreference::Light)));
+    window.send(Command::Inspect(InspectCommand::Query(dvec2(0.715, 0.61))));
     point_at(window, dvec2(0.43, 0.73));
 }
 
@@ -223,18 +226,18 @@ fn light(window: &mut OffscreenWindow) {
 fn deep(window: &mut OffscreenWindow) {
     let place = dvec2(0.3127, 0.6183);
     let formula = Formula::parse("max(1e-8, 0.3*hypot(x - 0.3127, y - 0.6183))").expect("a valid formula");
-    window.send(Command::New);
-    window.send(Command::Set(Setting::RefinementRule(RefinementRule::Vertex)));
-    window.send(Command::Set(Setting::SmallestDiameter(1e-8)));
-    window.send(Command::Set(Setting::Layers(Layer::usual(LayerKind::target(formula)))));
-    window.send(Command::Use(&QUERY));
+    window.send(Command::File(FileCommand::New));
+    window.send(Command::Edit(EditCommand::Set(Setting::RefinementRule(RefinementRule::Vertex))));
+    window.send(Command::Edit(EditCommand::Set(Setting::SmallestDiameter(1e-8))));
+    window.send(Command::Edit(EditCommand::Set(Setting::Layers(Layer::usual(LayerKind::target(formula))))));
+    window.send(Command::Shell(ShellCommand::Use(&QUERY)));
     look_at(window, place, 2e5);
-    window.send(Command::Query(place + dvec2(1.1e-6, 0.7e-6)));
+    window.send(Command::Inspect(InspectCommand::Query(place + dvec2(1.1e-6, 0.7e-6))));
 }
 
 /// A command by a few of its letters.
 fn palette(window: &mut OffscreenWindow) {
-    window.send(Command::Palette);
+    window.send(Command::Shell(ShellCommand::Palette));
     window.event(Event::Text("over".into()));
 }
 
@@ -251,8 +254,8 @@ fn point_at(window: &mut OffscreenWindow, world: DVec2) {
 
 /// Puts a point of the world in the middle, as a middle drag does, and zooms.
 fn look_at(window: &mut OffscreenWindow, world: DVec2, factor: f64) {
-    window.send(Command::LookAt(world));
-    window.send(Command::Zoom(factor));
+    window.send(Command::View(ViewCommand::LookAt(world)));
+    window.send(Command::View(ViewCommand::Zoom(factor)));
 }
 
 /// Where a point of the world is on the screen.

@@ -6,7 +6,9 @@ use eframe::egui::{Event, Modifiers, PointerButton, Vec2, vec2};
 use glam::{DVec2, dvec2};
 
 use super::{OffscreenWindow, look_at, make_folder, on_screen, point_at, write_picture};
-use crate::app::command::{BrushCommand, Command, DomainCommand};
+use crate::app::command::{
+    BrushCommand, Command, DomainCommand, FileCommand, InspectCommand, ShellCommand, ViewCommand,
+};
 use crate::app::dialogs::FileRequest;
 use crate::app::files::AEGEAN_SEA;
 use crate::app::tools::{BrushMode, DomainToolMode, ERASER, QUERY};
@@ -25,7 +27,7 @@ const STEPS: [Step; 8] = [
     ("4-pick", pick),
     ("5-query", query),
     ("6-cut", cut),
-    ("7-save", |window| window.send(Command::Ask(FileRequest::Save))),
+    ("7-save", |window| window.send(Command::File(FileCommand::Ask(FileRequest::Save)))),
     ("8-export", export),
 ];
 
@@ -56,7 +58,7 @@ fn paint(window: &mut OffscreenWindow) {
 }
 
 fn erase(window: &mut OffscreenWindow) {
-    window.send(Command::Use(&ERASER));
+    window.send(Command::Shell(ShellCommand::Use(&ERASER)));
     drag(window, &[dvec2(25.0, 38.3), dvec2(25.2, 38.1)]);
 }
 
@@ -70,13 +72,13 @@ fn pick(window: &mut OffscreenWindow) {
 
 fn query(window: &mut OffscreenWindow) {
     let place = dvec2(25.15, 37.75);
-    window.send(Command::Use(&QUERY));
+    window.send(Command::Shell(ShellCommand::Use(&QUERY)));
     look_at(window, place, 8.0);
-    window.send(Command::Query(place));
+    window.send(Command::Inspect(InspectCommand::Query(place)));
 }
 
 fn cut(window: &mut OffscreenWindow) {
-    window.send(Command::Fit);
+    window.send(Command::View(ViewCommand::Fit));
     window.send(Command::Domain(DomainCommand::Mode(DomainToolMode::Polygon)));
     for corner in [dvec2(23.4, 40.2), dvec2(24.6, 40.5), dvec2(24.4, 39.6)] {
         window.send(Command::Domain(DomainCommand::AddCorner(corner)));
@@ -85,9 +87,9 @@ fn cut(window: &mut OffscreenWindow) {
 }
 
 fn export(window: &mut OffscreenWindow) {
-    window.send(Command::CloseDialog);
+    window.send(Command::Shell(ShellCommand::CloseDialog));
     window.send(Command::Domain(DomainCommand::ClosePolygon));
-    window.send(Command::Ask(FileRequest::Export));
+    window.send(Command::File(FileCommand::Ask(FileRequest::Export)));
 }
 
 fn drag(window: &mut OffscreenWindow, points: &[DVec2]) {

@@ -7,6 +7,7 @@
 mod export;
 mod picture;
 
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -50,6 +51,10 @@ pub enum StepCommand {
     Speed(f64),
     /// Sets the first and the last step to be exported.
     ExportRange(usize, usize),
+    /// Writes the chosen steps, and asks before other files are replaced.
+    ExportAs(PathBuf),
+    /// Writes the chosen steps, each to a file with its number.
+    Export(PathBuf),
 }
 
 /// The mode.

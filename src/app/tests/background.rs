@@ -14,7 +14,7 @@ use eframe::egui::{ViewportCommand, ViewportEvent, ViewportId};
 use egui_kittest::kittest::Queryable as _;
 
 use super::{Window, document, paint, send, window};
-use crate::app::command::Command;
+use crate::app::command::{Command, DomainCommand, FileCommand};
 use meshbrush_io::io::project;
 
 const QUESTION: &str = "Save changes to “Radar threats”?";
@@ -108,7 +108,7 @@ fn names(folder: &Path) -> Vec<String> {
 fn a_read_shows_how_far_it_is_and_cancelled_it_changes_nothing() {
     let file = pipe(folder("read").join("coast.geojson"));
     let mut window = window();
-    send(&mut window, Command::OpenDomain(file.clone()));
+    send(&mut window, Command::Domain(DomainCommand::Open(file.clone())));
     let mut coast = writer(&file);
     write!(coast, "{{\"type\": \"Polygon\", \"coordinates\": [[[0, 0], [1, 0]").unwrap();
     assert!(!has_bar(&window, "Reading coast.geojson"), "not for a moment");
@@ -146,7 +146,7 @@ fn a_read_shows_how_far_it_is_and_cancelled_it_changes_nothing() {
 fn a_read_that_is_left_alone_is_opened() {
     let file = pipe(folder("whole").join("coast.geojson"));
     let mut window = window();
-    send(&mut window, Command::OpenDomain(file.clone()));
+    send(&mut window, Command::Domain(DomainCommand::Open(file.clone())));
     let mut coast = writer(&file);
     wait(&mut window, "the bar", |window| has_bar(window, "Reading coast.geojson"));
     write!(coast, "{{\"type\": \"Polygon\", \"coordinates\": [[[0, 0], [1, 0], [0, 1], [0, 0]]]}}").unwrap();
@@ -160,7 +160,7 @@ fn edits_are_asked_about_once_the_file_is_read() {
     let file = pipe(folder("asked").join("coast.geojson"));
     let mut window = window();
     paint(&mut window, 0.9);
-    send(&mut window, Command::OpenDomain(file.clone()));
+    send(&mut window, Command::Domain(DomainCommand::Open(file.clone())));
     let mut coast = writer(&file);
     wait(&mut window, "the bar", |window| has_bar(window, "Reading coast.geojson"));
     assert!(!shows(&window, QUESTION), "it is not clear yet that the file can be opened");
@@ -181,7 +181,7 @@ fn a_cancelled_export_leaves_the_former_files() {
     let last = pipe(folder.join("mesh.edge"));
     let before = names(&folder);
     let mut window = window();
-    send(&mut window, Command::Export(folder.join("mesh.node")));
+    send(&mut window, Command::File(FileCommand::Export(folder.join("mesh.node"))));
     wait(&mut window, "the bar", |window| has_bar(window, "Writing mesh.node"));
     // This waits until the last of the four files is being written.
     let mut last = File::open(&last).unwrap();
@@ -205,9 +205,9 @@ fn a_window_that_is_closed_while_the_document_is_saved_closes_when_it_is() {
         let mut window = window();
         paint(&mut window, 0.9);
         let painted = document(&window).paint().clone();
-        send(&mut window, Command::SaveTo(file.clone()));
+        send(&mut window, Command::File(FileCommand::SaveTo(file.clone())));
         if by_key {
-            send(&mut window, Command::Quit);
+            send(&mut window, Command::File(FileCommand::Quit));
         } else {
             assert!(close(&mut window), "the file is not written yet");
             window.run();
@@ -228,7 +228,7 @@ fn edits_made_while_the_document_is_saved_are_asked_about_before_the_window_clos
     let file = pipe(folder("edited").join("a.meshbrush"));
     let mut window = window();
     paint(&mut window, 0.9);
-    send(&mut window, Command::SaveTo(file.clone()));
+    send(&mut window, Command::File(FileCommand::SaveTo(file.clone())));
     assert!(close(&mut window));
     window.run();
     paint(&mut window, 0.8);
@@ -242,7 +242,7 @@ fn a_cancelled_save_leaves_the_document_unsaved_and_the_window_open() {
     let file = pipe(folder("cancelled").join("a.meshbrush"));
     let mut window = window();
     paint(&mut window, 0.9);
-    send(&mut window, Command::SaveTo(file.clone()));
+    send(&mut window, Command::File(FileCommand::SaveTo(file.clone())));
     assert!(close(&mut window));
     window.run();
     cancel(&mut window, "Saving a.meshbrush");
@@ -261,10 +261,10 @@ fn what_is_saved_again_after_cancelling_is_saved() {
     let (slow, file) = (pipe(folder.join("slow.meshbrush")), folder.join("a.meshbrush"));
     let mut window = window();
     paint(&mut window, 0.9);
-    send(&mut window, Command::SaveTo(slow.clone()));
+    send(&mut window, Command::File(FileCommand::SaveTo(slow.clone())));
     wait(&mut window, "the bar", |window| has_bar(window, "Saving slow.meshbrush"));
     cancel(&mut window, "Saving slow.meshbrush");
-    send(&mut window, Command::SaveTo(file.clone()));
+    send(&mut window, Command::File(FileCommand::SaveTo(file.clone())));
     let reader = std::thread::spawn(move || read_all(&slow));
     wait(&mut window, "saving", |window| shows(window, "a"));
     assert!(project::read(&file).is_ok());
@@ -275,14 +275,14 @@ fn what_is_saved_again_after_cancelling_is_saved() {
 fn what_is_saved_while_the_document_is_saved_is_saved_next_and_then_it_is_left() {
     let file = folder("next").join("a.meshbrush");
     let mut window = window();
-    send(&mut window, Command::SaveTo(file.clone()));
+    send(&mut window, Command::File(FileCommand::SaveTo(file.clone())));
     wait(&mut window, "saving", |window| shows(window, "a"));
     fs::remove_file(&file).unwrap();
     let file = pipe(file);
     paint(&mut window, 0.9);
-    send(&mut window, Command::Save);
+    send(&mut window, Command::File(FileCommand::Save));
     paint(&mut window, 0.8);
-    send(&mut window, Command::New);
+    send(&mut window, Command::File(FileCommand::New));
     // What is being saved lacks the last stroke.
     window.get_by_label("Save").click();
     window.run();
@@ -299,7 +299,7 @@ fn a_window_that_is_closed_during_an_export_waits_for_it_or_until_it_is_cancelle
     for cancelled in [false, true] {
         let file = pipe(folder(&format!("closing-{cancelled}")).join("mesh.csv"));
         let mut window = window();
-        send(&mut window, Command::Export(file.clone()));
+        send(&mut window, Command::File(FileCommand::Export(file.clone())));
         assert!(close(&mut window), "the file is not written yet");
         window.run();
         assert!(has_bar(&window, "Writing mesh.csv") && message(&window).contains("mesh.csv"));
@@ -320,7 +320,7 @@ fn a_window_that_is_closed_during_an_export_waits_for_it_or_until_it_is_cancelle
 fn an_export_that_fails_keeps_the_window_open_to_say_so() {
     let file = pipe(folder("failing").join("mesh.csv"));
     let mut window = window();
-    send(&mut window, Command::Export(file.clone()));
+    send(&mut window, Command::File(FileCommand::Export(file.clone())));
     assert!(close(&mut window));
     window.run();
     // Somebody reads a little of it and goes away.

@@ -13,7 +13,7 @@ use super::{
     press_at, release, send, set, settings, type_into, value_of, wait_for_notice, wait_until, window_of,
 };
 use crate::app::canvas::picture_corners::NAMES;
-use crate::app::command::Command;
+use crate::app::command::{Command, PictureCommand};
 use meshbrush_core::document::{Background, Document, Setting};
 use meshbrush_io::io::{self, project};
 use meshbrush_mesh::geometry::Rect;
@@ -32,7 +32,7 @@ fn background(window: &Window) -> Option<&Background> {
 
 fn with_background(folder: PathBuf) -> Window {
     let mut window = window_of(TALL);
-    send(&mut window, Command::OpenBackground(picture(folder)));
+    send(&mut window, Command::Picture(PictureCommand::Open(picture(folder))));
     wait_until(&mut window, |window| background(window).is_some());
     window
 }
@@ -88,7 +88,7 @@ fn a_picture_that_cannot_be_shown_is_refused_with_a_sentence() {
     let file = picture(folder.clone());
     fs::write(folder.join("map.wld"), "0.25\n0.1\n0\n-0.25\n0\n0\n").unwrap();
     let mut window = window_of(TALL);
-    send(&mut window, Command::OpenBackground(file));
+    send(&mut window, Command::Picture(PictureCommand::Open(file)));
     let problem = wait_for_notice(&mut window);
     assert!(problem.contains("map.wld") && problem.contains("north up"), "{problem}");
     assert_eq!(background(&window), None);

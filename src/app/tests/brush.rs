@@ -9,7 +9,7 @@ use super::{
     FREE, PAINTED_DIAMETER, PAINTED_RISK, Window, click, entries, hover, key, move_to, on_screen,
     open_section, painted, press, price_tag, release, send, stroke, triangles, window, with_base,
 };
-use crate::app::command::{BrushCommand, Command};
+use crate::app::command::{BrushCommand, Command, EditCommand};
 use crate::app::tools::{BRUSH, BrushMode, PaintKind, PenEffect};
 use meshbrush_core::layers::LayerKind;
 
@@ -115,8 +115,8 @@ fn the_tag_says_why_a_dab_changes_nothing() {
     brush(&mut window, BrushCommand::Diameter(0.02));
     assert_eq!(hover(&mut window, in_band).unwrap(), "no change: “Painted risk” decides here");
     let base = with_base(&window, LayerKind::constant(0.01));
-    send(&mut window, Command::Set(base));
-    send(&mut window, Command::EndGesture);
+    send(&mut window, Command::Edit(EditCommand::Set(base)));
+    send(&mut window, Command::Edit(EditCommand::EndGesture));
     assert_eq!(hover(&mut window, FREE).unwrap(), "no change: “Base” decides here");
 }
 
@@ -136,7 +136,7 @@ fn shift_shows_the_price_of_the_line_before_it_is_painted() {
 #[test]
 fn a_mirrored_stroke_is_one_gesture_and_its_price_is_that_of_all_images() {
     let mut window = window();
-    send(&mut window, Command::ClearPaint);
+    send(&mut window, Command::Edit(EditCommand::ClearPaint));
     open_section(&mut window, "Stroke");
     for (name, menu) in [("Mirror x", "Mirror y"), ("Mirror y", "Mirror x")] {
         window.get_by_role_and_label(Role::CheckBox, name).click();
@@ -157,7 +157,7 @@ fn a_mirrored_stroke_is_one_gesture_and_its_price_is_that_of_all_images() {
 #[test]
 fn smoothing_ignores_a_trembling_hand_and_ends_where_the_pointer_does() {
     let mut window = window();
-    send(&mut window, Command::ClearPaint);
+    send(&mut window, Command::Edit(EditCommand::ClearPaint));
     brush(&mut window, BrushCommand::Radius(0.01));
     brush(&mut window, BrushCommand::Smoothing(0.5));
     let start = dvec2(0.2, 0.5);
@@ -175,7 +175,7 @@ fn smoothing_ignores_a_trembling_hand_and_ends_where_the_pointer_does() {
 #[test]
 fn the_pressure_of_a_pen_changes_the_radius_or_the_strength() {
     let mut window = window();
-    send(&mut window, Command::ClearPaint);
+    send(&mut window, Command::Edit(EditCommand::ClearPaint));
     let changes = "What the pressure of the pen changes";
     assert!(window.query_by_role_and_label(Role::RadioGroup, changes).is_none(), "no pen yet");
     open_section(&mut window, "Stroke");

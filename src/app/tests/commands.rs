@@ -11,7 +11,7 @@ use super::{
     TALL, canvas, entries, fingerprint, key, move_to, open_section, paint, send, value_of, wait_until,
     window, window_of,
 };
-use crate::app::command::Command;
+use crate::app::command::{Command, EditCommand, FileCommand, ShellCommand, ViewCommand};
 use crate::app::panels::PANELS;
 use crate::app::tools::TOOLS;
 use crate::app::view::FieldOverlay;
@@ -27,7 +27,7 @@ fn commands_run_where_the_canvas_has_no_room() {
     window.set_size(vec2(1440.0, 30.0));
     window.run();
     assert!(canvas(&window).height() < 1.0, "{}", canvas(&window));
-    send(&mut window, Command::Undo);
+    send(&mut window, Command::Edit(EditCommand::Undo));
     assert_eq!((fingerprint(&window), entries(&window)), (before, 0));
     key(&mut window, Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
     assert_eq!(entries(&window), 1, "keys too");
@@ -42,8 +42,8 @@ fn a_hidden_window_runs_commands_and_takes_its_last_input_once() {
     window.step();
     let ctx = window.ctx.clone();
     // eframe calls only `logic` then, with the input of the last frame.
-    window.state_mut().send(Command::Use(TOOLS[0]));
-    window.state_mut().send(Command::Undo);
+    window.state_mut().send(Command::Shell(ShellCommand::Use(TOOLS[0])));
+    window.state_mut().send(Command::Edit(EditCommand::Undo));
     for _ in 0..50 {
         window.state_mut().advance(&ctx);
     }
@@ -56,7 +56,7 @@ fn a_command_shows_an_overlay_and_its_key_hides_it_again() {
     let mut window = window_of(TALL);
     let overlay = |window: &super::Window| window.state().view().overlay;
     for _ in 0..2 {
-        send(&mut window, Command::SetOverlay(FieldOverlay::Risk));
+        send(&mut window, Command::View(ViewCommand::SetOverlay(FieldOverlay::Risk)));
         assert_eq!(overlay(&window), FieldOverlay::Risk, "sent twice, it stays");
     }
     key(&mut window, Modifiers::NONE, Key::O);
@@ -76,7 +76,7 @@ fn a_command_shows_an_overlay_and_its_key_hides_it_again() {
 #[test]
 fn the_status_bar_says_outside_between_the_polygons_and_their_bounds() {
     let mut window = window();
-    send(&mut window, Command::OpenExample(Example::Aegean));
+    send(&mut window, Command::File(FileCommand::OpenExample(Example::Aegean)));
     let bounds = window.state().session().document().settings().domain.bounds;
     let mesh = window.state().session().mesh();
     let grid = (1..40).flat_map(|i| (1..40).map(move |j| dvec2(f64::from(i), f64::from(j)) / 40.0));
@@ -92,7 +92,7 @@ fn the_status_bar_says_outside_between_the_polygons_and_their_bounds() {
 #[test]
 fn parts_and_holes_are_counted_for_every_boundary_treatment() {
     let mut window = window_of(TALL);
-    send(&mut window, Command::OpenExample(Example::Aegean));
+    send(&mut window, Command::File(FileCommand::OpenExample(Example::Aegean)));
     key(&mut window, Modifiers::NONE, Key::D);
     open_section(&mut window, "Fit to outline");
     for treatment in ["As in report", "Fitted", "On outline"] {
@@ -112,7 +112,7 @@ fn every_tool_has_its_own_name_and_key_a_hint_and_sections_that_exist() {
     assert_eq!((names.len(), keys.len()), (TOOLS.len(), TOOLS.len()));
     let mut window = window();
     for tool in TOOLS {
-        send(&mut window, Command::Use(tool));
+        send(&mut window, Command::Shell(ShellCommand::Use(tool)));
         assert!(!window.state().tools().hint().is_empty(), "{tool:?}");
         for panel in tool.panels {
             assert!(PANELS.iter().any(|known| known.name == panel.name), "{tool:?}: {}", panel.name);

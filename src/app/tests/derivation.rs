@@ -7,7 +7,7 @@ use fastrand::Rng;
 use glam::{DVec2, dvec2};
 
 use super::{Window, key, send, show, wait_until, window};
-use crate::app::command::{Command, DomainCommand};
+use crate::app::command::{BrushCommand, Command, DomainCommand, EditCommand};
 use meshbrush_core::document::{Document, Follower, Settings};
 use meshbrush_core::domain::{CutShape, Domain};
 use meshbrush_core::outline::DerivedMesh;
@@ -71,18 +71,20 @@ fn what_is_drawn_is_derived_from_scratch_whenever_the_mesh_is_up_to_date() {
             0 => {
                 let cut_shape = CutShape::Stroke { path: vec![a], radius: 0.05 + 0.1 * random.f64() };
                 send(&mut window, Command::Domain(DomainCommand::Reshape(cut_shape, random.bool())));
-                send(&mut window, Command::EndGesture);
+                send(&mut window, Command::Edit(EditCommand::EndGesture));
             }
             1 => key(&mut window, Modifiers::COMMAND, Key::Z),
             _ => {
-                window.state_mut().send(Command::BeginStroke(a));
+                window.state_mut().send(Command::Brush(BrushCommand::BeginStroke(a)));
                 for step in 0..=4 {
-                    window.state_mut().send(Command::DrawTo(a.lerp(b, f64::from(step) / 4.0)));
+                    window
+                        .state_mut()
+                        .send(Command::Brush(BrushCommand::DrawTo(a.lerp(b, f64::from(step) / 4.0))));
                     window.step();
                     let pieces = window.state().session().derivation().pieces();
                     some_retired += usize::from(pieces.triangles().iter().any(|piece| piece.is_outside()));
                 }
-                window.state_mut().send(Command::EndStroke);
+                window.state_mut().send(Command::Brush(BrushCommand::EndStroke));
             }
         }
         if random.bool() {

@@ -10,7 +10,7 @@ use super::{
     release, scratch, send, set, settings, show, stroke, value_of, wait_for_notice, wait_until, window,
     window_of,
 };
-use crate::app::command::{Command, DomainCommand};
+use crate::app::command::{Command, DomainCommand, EditCommand, FileCommand};
 use meshbrush_core::document::{Example, Setting, Settings};
 use meshbrush_core::domain::{CutShape, Domain};
 use meshbrush_mesh::mesh::Location;
@@ -111,7 +111,7 @@ fn a_long_coast_is_cut_while_the_window_goes_on() {
     assert!(window.state().is_cutting(), "a frame does not wait for it");
     begin_to_cut(&mut window, &[a, b]);
     begin_to_cut(&mut window, &[b, c]);
-    send(&mut window, Command::EndGesture);
+    send(&mut window, Command::Edit(EditCommand::EndGesture));
     assert!(!window.state().is_cutting());
     let swept = 0.4 * 0.1 + std::f64::consts::PI * 0.05 * 0.05;
     assert!((whole - area(&window) - swept).abs() < 0.002, "{}", whole - area(&window));
@@ -127,7 +127,9 @@ fn a_cut_under_way_is_given_up_by_undo_by_escape_and_by_another_domain() {
     let give_up: [fn(&mut Window); 3] = [
         |window| key(window, Modifiers::COMMAND, Key::Z),
         |window| key(window, Modifiers::NONE, Key::Escape),
-        |window| window.state_mut().execute(Command::CancelUpdate, &egui::Context::default()),
+        |window| {
+            window.state_mut().execute(Command::Edit(EditCommand::CancelUpdate), &egui::Context::default())
+        },
     ];
     for give_up in give_up {
         begin_to_cut(&mut window, &[DVec2::ZERO]);
@@ -143,8 +145,8 @@ fn a_cut_under_way_is_given_up_by_undo_by_escape_and_by_another_domain() {
     window.run();
     assert!(window.state().session().document().is_in_gesture());
     begin_to_cut(&mut window, &[DVec2::ZERO, dvec2(0.1, 0.0)]);
-    window.state_mut().execute(Command::EndGesture, &egui::Context::default());
-    window.state_mut().execute(Command::CancelUpdate, &egui::Context::default());
+    window.state_mut().execute(Command::Edit(EditCommand::EndGesture), &egui::Context::default());
+    window.state_mut().execute(Command::Edit(EditCommand::CancelUpdate), &egui::Context::default());
     assert!(!window.state().session().document().is_in_gesture(), "the journal would wait for its end");
     assert_eq!(entries(&window), entries_before + 1);
     key(&mut window, Modifiers::COMMAND, Key::Z);
@@ -179,7 +181,7 @@ fn wait_for_quality(window: &mut Window) {
 #[test]
 fn the_outline_is_met_in_three_ways_and_the_panel_says_how_well() {
     let mut window = window_of(TALL);
-    send(&mut window, Command::OpenExample(Example::Aegean));
+    send(&mut window, Command::File(FileCommand::OpenExample(Example::Aegean)));
     key(&mut window, Modifiers::NONE, Key::D);
     open_section(&mut window, "Fit to outline");
     wait_for_quality(&mut window);
@@ -219,7 +221,7 @@ fn the_outline_is_met_in_three_ways_and_the_panel_says_how_well() {
 #[test]
 fn one_click_shows_the_place_where_the_fit_is_worst() {
     let mut window = window_of(TALL);
-    send(&mut window, Command::OpenExample(Example::Aegean));
+    send(&mut window, Command::File(FileCommand::OpenExample(Example::Aegean)));
     open_section(&mut window, "Fit to outline");
     wait_for_quality(&mut window);
     let quality = window.state().session().derived().unwrap().quality.clone().unwrap();
@@ -239,12 +241,12 @@ fn a_file_of_polygons_opens_as_a_document() {
     let rings = "[[[10, 0], [14, 0], [14, 2], [10, 2], [10, 0]], [[11, 0.5], [12, 0.5], [12, 1], [11, 1], [11, 0.5]]]";
     std::fs::write(&path, format!("{{\"type\": \"Polygon\", \"coordinates\": {rings}}}")).unwrap();
     let mut window = window();
-    send(&mut window, Command::OpenDomain(path.clone()));
+    send(&mut window, Command::Domain(DomainCommand::Open(path.clone())));
     wait_until(&mut window, |window| settings(window).name == "lake");
     assert_eq!(settings(&window).domain.bounds.max, dvec2(14.0, 2.0));
     assert!((area(&window) - 7.5).abs() < 0.01, "{}", area(&window));
     std::fs::write(&path, "{\"type\": \"Point\", \"coordinates\": [1, 2]}").unwrap();
-    send(&mut window, Command::OpenDomain(path));
+    send(&mut window, Command::Domain(DomainCommand::Open(path)));
     let text = wait_for_notice(&mut window);
     assert!(text.contains("lake.geojson: a domain needs a Polygon"), "{text}");
     assert_eq!(settings(&window).name, "lake");

@@ -12,7 +12,7 @@ use super::{
     Window, button_event, choose, document, key, notice, paint, send, value_of, wait_for_notice, wait_until,
     window, window_with,
 };
-use crate::app::command::Command;
+use crate::app::command::{Command, FileCommand, ShellCommand};
 use crate::app::widgets::format;
 use meshbrush_core::document::Example;
 use meshbrush_io::io::project;
@@ -194,7 +194,7 @@ fn an_export_proposes_a_name_and_says_what_it_writes() {
     assert!(!is_open(&window));
 
     // A name that is there is asked about over the dialog, which stays.
-    send(&mut window, Command::Escape);
+    send(&mut window, Command::Shell(ShellCommand::Escape));
     key(&mut window, Modifiers::COMMAND, Key::E);
     key(&mut window, Modifiers::COMMAND, Key::A);
     type_text(&mut window, "mesh.node");
@@ -211,7 +211,7 @@ fn the_sizes_of_exports_are_about_right() {
     let folder = folder("sizes");
     for example in [Example::Threats, Example::Aegean] {
         let mut window = window();
-        send(&mut window, Command::OpenExample(example));
+        send(&mut window, Command::File(FileCommand::OpenExample(example)));
         wait_until(&mut window, |window| {
             window.state().session().document().settings().domain.region().is_none()
                 || window.state().session().derived().is_some()
@@ -220,9 +220,9 @@ fn the_sizes_of_exports_are_about_right() {
         for format in ExportFormat::all() {
             let Some(about) = format.approximate_bytes(triangles) else { continue };
             let file = folder.join(format!("{example:?}.{}", format.ending()));
-            send(&mut window, Command::Export(file.clone()));
+            send(&mut window, Command::File(FileCommand::Export(file.clone())));
             wait_for_notice(&mut window);
-            send(&mut window, Command::Escape);
+            send(&mut window, Command::Shell(ShellCommand::Escape));
             let bytes: u64 = format.files(&file).iter().map(|file| fs::metadata(file).unwrap().len()).sum();
             let ratio = about as f64 / bytes as f64;
             assert!((0.6..1.5).contains(&ratio), "{format:?}: {about} instead of {bytes} bytes");
@@ -251,7 +251,7 @@ fn a_project_is_saved_under_the_name_of_the_document() {
 fn a_new_project_is_saved_beside_the_file_that_it_was_made_from() {
     let folder = folder("beside");
     let mut window = window();
-    send(&mut window, Command::Open(folder.join("coasts/north.geojson")));
+    send(&mut window, Command::File(FileCommand::Open(folder.join("coasts/north.geojson"))));
     wait_until(&mut window, |window| document(window).settings().name == "north");
     key(&mut window, Modifiers::COMMAND, Key::S);
     assert_eq!(text(&window), "north.meshbrush");

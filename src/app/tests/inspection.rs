@@ -9,7 +9,7 @@ use super::{
     FREE, TALL, Window, click, entries, key, notice, on_screen, open_section, press_at, release_at, selected,
     send, settings, window, window_of,
 };
-use crate::app::command::Command;
+use crate::app::command::{Command, InspectCommand, ShellCommand};
 use crate::app::tools::{BRUSH, QUERY};
 use meshbrush_mesh::mesh::TriangleId;
 
@@ -79,8 +79,8 @@ fn a_key_of_a_neighbour_beyond_the_boundary_says_that_there_is_none() {
     let mesh = window.state().session().mesh();
     let id = mesh.locate(dvec2(0.02, 0.99)).triangle().unwrap();
     let missing = mesh.neighbours(id).iter().position(|n| n.triangle().is_none()).unwrap();
-    send(&mut window, Command::Use(&QUERY));
-    send(&mut window, Command::QueryTriangle(id));
+    send(&mut window, Command::Shell(ShellCommand::Use(&QUERY)));
+    send(&mut window, Command::Inspect(InspectCommand::QueryTriangle(id)));
     key(&mut window, Modifiers::NONE, [Key::Num1, Key::Num2, Key::Num3][missing]);
     assert_eq!(selected(&window), Some(id));
     assert!(notice(&window).contains("on the boundary"), "{}", notice(&window));
@@ -89,8 +89,8 @@ fn a_key_of_a_neighbour_beyond_the_boundary_says_that_there_is_none() {
 #[test]
 fn a_click_on_a_value_copies_all_of_its_digits() {
     let mut window = window_of(TALL);
-    send(&mut window, Command::Use(&QUERY));
-    send(&mut window, Command::Query(dvec2(0.123456789, 0.7)));
+    send(&mut window, Command::Shell(ShellCommand::Use(&QUERY)));
+    send(&mut window, Command::Inspect(InspectCommand::Query(dvec2(0.123456789, 0.7))));
     window.get_by_role_and_label(Role::Definition, "Point").click();
     assert_eq!(copied_soon(&mut window), "0.123456789, 0.7");
     window.run();
@@ -102,8 +102,8 @@ fn a_click_on_a_value_copies_all_of_its_digits() {
 #[test]
 fn ctrl_c_copies_every_value_in_full() {
     let mut window = window_of(TALL);
-    send(&mut window, Command::Use(&QUERY));
-    send(&mut window, Command::Query(dvec2(0.123456789, 0.7)));
+    send(&mut window, Command::Shell(ShellCommand::Use(&QUERY)));
+    send(&mut window, Command::Inspect(InspectCommand::Query(dvec2(0.123456789, 0.7))));
     window.event(eframe::egui::Event::Copy);
     let text = copied_soon(&mut window);
     let id = selected(&window).unwrap();

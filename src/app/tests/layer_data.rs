@@ -14,7 +14,7 @@ use super::{
     TALL, Window, choose, entries, folder, key, level_at, notice, open_menu, send, settings, triangles,
     type_into, value_of, wait_for_notice, wait_until, window_of,
 };
-use crate::app::command::{Command, LayerCommand};
+use crate::app::command::{Command, FileCommand, LayerCommand};
 use meshbrush_core::document::Example;
 use meshbrush_core::layers::{DistanceTo, LayerId, LayerKind, RasterReading, RasterSource};
 
@@ -37,7 +37,7 @@ fn add_by_button(window: &mut Window, entry: &str) {
 /// A window with a raster of risk at the bottom, which is selected.
 fn window_with_terrain() -> Window {
     let mut window = window_of(TALL);
-    send(&mut window, Command::OpenExample(Example::Terrain));
+    send(&mut window, Command::File(FileCommand::OpenExample(Example::Terrain)));
     select(&mut window, "Base");
     window
 }
@@ -110,7 +110,7 @@ fn without_a_raster_a_band_is_made_of_a_file() {
         "ncols 1\nnrows 1\nxllcorner 0\nyllcorner 0\ncellsize 1\n\
                                                NODATA_value -1\n-1\n",
     );
-    send(&mut window, Command::OpenBand(empty));
+    send(&mut window, Command::Layer(LayerCommand::OpenBand(empty)));
     assert!(wait_for_notice(&mut window).contains("no pixel of the grid has a value"), "{}", notice(&window));
     assert_eq!(entries(&window), 1);
 }
@@ -170,7 +170,7 @@ fn a_grid_of_diameters_goes_through_a_curve_and_back() {
     let diameters = DEPTHS.replace("-30 0\n60", "0.5 1\n2");
     let file = written("diameters", "diameters.asc", &diameters);
     let mut window = window_of(TALL);
-    send(&mut window, Command::OpenDiameters(file));
+    send(&mut window, Command::Layer(LayerCommand::OpenDiameters(file)));
     wait_until(&mut window, |window| active(window).name == "diameters.asc");
     choose_in(&mut window, "What the values mean", "Curve");
     let transfer = settings(&window).transfer;
@@ -207,7 +207,7 @@ fn distances_are_measured_to_shapes_of_a_file() {
     key(&mut window, Modifiers::COMMAND, Key::Z);
     assert!(is_to(&window, "site.geojson"));
     fs::write(&site, "{").unwrap();
-    send(&mut window, Command::ReplaceShapes(site));
+    send(&mut window, Command::Layer(LayerCommand::ReplaceShapes(site)));
     assert!(wait_for_notice(&mut window).contains("site.geojson"), "{}", notice(&window));
     assert!(is_to(&window, "site.geojson"));
 }

@@ -11,7 +11,7 @@ use super::{
     press_at, release_at, send, settings, stroke, triangles, type_into, value_of, wait_until, window,
     window_of, window_with,
 };
-use crate::app::command::{BrushCommand, Command, LayerCommand};
+use crate::app::command::{BrushCommand, Command, EditCommand, FileCommand, InspectCommand, LayerCommand};
 use crate::app::tools::PaintKind;
 use crate::app::view::FieldOverlay;
 use meshbrush_core::document::Setting;
@@ -150,7 +150,7 @@ fn a_mask_from_a_file_limits_a_layer_until_it_is_removed() {
     click_button(&mut window, "Remove mask");
     assert_eq!((active(&window).mask.is_none(), triangles(&window), entries(&window)), (true, before, 2));
     std::fs::write(&file, "{\"type\": \"Polygon\"").unwrap();
-    send(&mut window, Command::OpenMask(file));
+    send(&mut window, Command::Layer(LayerCommand::OpenMask(file)));
     wait_until(&mut window, |window| notice(window).contains("right.geojson"));
     assert!(active(&window).mask.is_none());
 }
@@ -282,7 +282,7 @@ fn a_locked_layer_keeps_its_parameters_its_paint_and_its_place_in_the_stack() {
     click_button(&mut window, "Delete layer");
     click_button(&mut window, "Clear this layer");
     key(&mut window, Modifiers::SHIFT, Key::Delete);
-    send(&mut window, Command::ClearPaint);
+    send(&mut window, Command::Edit(EditCommand::ClearPaint));
     assert_eq!((settings(&window), triangles(&window)), (&before, painted));
     click_on(&mut window, Role::CheckBox, "Painted risk locked");
     choose(&mut window, "Layer", "Clear the selected layer");
@@ -344,7 +344,7 @@ fn another_selected_formula_layer_shows_its_own_formula() {
 #[test]
 fn a_raster_layer_shows_its_file_its_pixels_and_how_it_is_read() {
     let mut window = window_of(TALL);
-    send(&mut window, Command::OpenExample(meshbrush_core::document::Example::Terrain));
+    send(&mut window, Command::File(FileCommand::OpenExample(meshbrush_core::document::Example::Terrain)));
     select(&mut window, "Base");
     assert!(value_of(&window, Role::Definition, "Pixels").contains('×'));
     assert!(!value_of(&window, Role::Definition, "File").is_empty());
@@ -419,16 +419,16 @@ fn status_bar_and_inspector_name_the_layer_that_decides() {
     assert_eq!(value_of(&window, Role::Definition, "by"), "Painted risk");
     move_to(&mut window, FREE);
     assert_eq!(value_of(&window, Role::Definition, "by"), "Base");
-    send(&mut window, Command::Query(PAINTED));
+    send(&mut window, Command::Inspect(InspectCommand::Query(PAINTED)));
     assert_eq!(value_of(&window, Role::Definition, "Decided by"), "Painted risk");
     let asked = |window: &Window, layer: &str| value_of(window, Role::Definition, layer);
     assert_eq!(asked(&window, "Painted diameter"), "nothing");
     assert_eq!(asked(&window, "Base"), "0.2");
     let risk: f64 = asked(&window, "Painted risk").parse().unwrap();
     assert!(risk < 0.1, "{risk}");
-    send(&mut window, Command::Query(dvec2(0.95, 0.95)));
+    send(&mut window, Command::Inspect(InspectCommand::Query(dvec2(0.95, 0.95))));
     assert!(window.query_by_label("Through gradation from").is_none());
-    send(&mut window, Command::Set(Setting::Gradation(Some(0.5))));
+    send(&mut window, Command::Edit(EditCommand::Set(Setting::Gradation(Some(0.5)))));
     assert_eq!(value_of(&window, Role::Definition, "Decided by"), "Painted risk");
     assert!(window.query_by_label("Through gradation from").is_some());
     assert_eq!(asked(&window, "Painted risk"), "nothing", "it asks for nothing at the point itself");

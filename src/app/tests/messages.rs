@@ -11,7 +11,7 @@ use super::{
     RESTING_PLACE, Window, folder, notice, paint, scratch, send, set, wait_for_notice, wait_until, window,
 };
 use crate::app::App;
-use crate::app::command::Command;
+use crate::app::command::{Command, EditCommand, FileCommand};
 use meshbrush_core::document::Setting;
 
 /// Lets the window show frames for some seconds of its own time.
@@ -26,7 +26,7 @@ fn pause_before_next_frame(window: &Window) -> Duration {
 }
 
 fn export(window: &mut Window, name: &str) {
-    send(window, Command::Export(scratch(name)));
+    send(window, Command::File(FileCommand::Export(scratch(name))));
     assert!(wait_for_notice(window).contains("written"));
 }
 
@@ -74,7 +74,7 @@ fn a_failed_edit_is_forgotten_with_the_next_edit() {
     assert_eq!(notice(&window), "");
     set(&mut window, Setting::Spacing(-1.0));
     assert!(!notice(&window).is_empty());
-    send(&mut window, Command::Undo);
+    send(&mut window, Command::Edit(EditCommand::Undo));
     assert_eq!(notice(&window), "");
 }
 
@@ -85,12 +85,12 @@ fn a_file_that_cannot_be_opened_is_forgotten_once_another_one_is() {
     let triangle = r#"{"type": "Polygon", "coordinates": [[[0, 0], [1, 0], [0, 1], [0, 0]]]}"#;
     std::fs::write(&good, triangle).unwrap();
     let mut window = window();
-    send(&mut window, Command::Open(folder.join("missing.geojson")));
+    send(&mut window, Command::File(FileCommand::Open(folder.join("missing.geojson"))));
     assert!(wait_for_notice(&mut window).contains("missing.geojson"));
     paint(&mut window, 0.9);
     assert!(!notice(&window).is_empty(), "an edit does not change what failed");
-    send(&mut window, Command::Undo);
-    send(&mut window, Command::Open(good));
+    send(&mut window, Command::Edit(EditCommand::Undo));
+    send(&mut window, Command::File(FileCommand::Open(good)));
     wait_until(&mut window, |window| notice(window).is_empty());
     wait_until(&mut window, |window| super::document(window).settings().name == "sea");
 }

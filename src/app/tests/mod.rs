@@ -63,7 +63,7 @@ use glam::{DVec2, dvec2};
 
 use crate::app::App;
 use crate::app::canvas::CANVAS_NAME;
-use crate::app::command::{Command, LayerCommand, Opened};
+use crate::app::command::{BrushCommand, Command, EditCommand, FileCommand, LayerCommand, Opened};
 use crate::app::explore::Explore;
 use crate::app::paths::PathFinder;
 use crate::app::plots::Plots;
@@ -143,12 +143,12 @@ fn send(window: &mut Window, command: Command) {
 /// The command that shows a new document, as one that was read.
 fn show(settings: Settings) -> Command {
     let document = Document::new(settings, None).expect("valid settings");
-    Command::Show(Opened { document: Arc::new(document), home: None })
+    Command::File(FileCommand::Show(Opened { document: Arc::new(document), home: None }))
 }
 
 fn set(window: &mut Window, setting: Setting) {
-    window.state_mut().send(Command::Set(setting));
-    send(window, Command::EndGesture);
+    window.state_mut().send(Command::Edit(EditCommand::Set(setting)));
+    send(window, Command::Edit(EditCommand::EndGesture));
 }
 
 fn canvas(window: &Window) -> Rect {
@@ -366,9 +366,9 @@ fn folder(of: &str, name: &str) -> PathBuf {
 
 /// A short vertical stroke at an x of the unit square.
 fn paint(window: &mut Window, x: f64) {
-    send(window, Command::BeginStroke(dvec2(x, 0.5)));
-    send(window, Command::DrawTo(dvec2(x, 0.6)));
-    send(window, Command::EndStroke);
+    send(window, Command::Brush(BrushCommand::BeginStroke(dvec2(x, 0.5))));
+    send(window, Command::Brush(BrushCommand::DrawTo(dvec2(x, 0.6))));
+    send(window, Command::Brush(BrushCommand::EndStroke));
 }
 
 fn document(window: &Window) -> &Document {

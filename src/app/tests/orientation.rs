@@ -8,7 +8,7 @@ use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use glam::dvec2;
 
 use super::{TALL, Window, choose, key, send, set, settings, triangles, type_into, wheel, window, window_of};
-use crate::app::command::Command;
+use crate::app::command::{BrushCommand, Command, FileCommand, ViewCommand};
 use crate::app::view::CanvasAid;
 use meshbrush_core::document::{Example, Setting};
 use meshbrush_core::domain::Domain;
@@ -28,14 +28,14 @@ fn ask_for_place(window: &mut Window, text: &str) {
 #[test]
 fn the_scale_bar_has_a_round_length_with_the_unit() {
     let mut window = window();
-    send(&mut window, Command::OpenExample(Example::Aegean));
+    send(&mut window, Command::File(FileCommand::OpenExample(Example::Aegean)));
     let degrees = scale(&window).unwrap();
     assert!(degrees.contains("° ≈ ") && degrees.ends_with(" km"), "{degrees}");
-    send(&mut window, Command::OpenExample(Example::Threats));
+    send(&mut window, Command::File(FileCommand::OpenExample(Example::Threats)));
     assert_eq!(scale(&window).as_deref(), Some("0.1"));
     set(&mut window, Setting::LengthUnit(LengthUnit::Kilometre));
     assert_eq!(scale(&window).as_deref(), Some("0.1 km"));
-    send(&mut window, Command::Zoom(4.0));
+    send(&mut window, Command::View(ViewCommand::Zoom(4.0)));
     assert_eq!(scale(&window).as_deref(), Some("0.02 km"));
     choose(&mut window, "View", "Scale bar");
     assert_eq!(scale(&window), None);
@@ -47,7 +47,7 @@ fn coordinates_along_the_canvas_are_switched_off_in_the_menu() {
     assert!(window.state().view().aids.coordinates);
     choose(&mut window, "View", "Coordinates along the canvas");
     assert!(!window.state().view().aids.coordinates);
-    send(&mut window, Command::ToggleAid(CanvasAid::Coordinates));
+    send(&mut window, Command::View(ViewCommand::ToggleAid(CanvasAid::Coordinates)));
     assert!(window.state().view().aids.coordinates);
 }
 
@@ -91,8 +91,8 @@ fn an_arrow_leads_back_to_the_mesh_when_none_of_it_is_in_view() {
     set(&mut window, Setting::Domain(frame));
     let back = |window: &Window| window.query_by_role_and_label(Role::Button, "Back to the mesh").is_some();
     assert!(!back(&window));
-    send(&mut window, Command::LookAt(dvec2(0.5, 0.5)));
-    send(&mut window, Command::Zoom(6.0));
+    send(&mut window, Command::View(ViewCommand::LookAt(dvec2(0.5, 0.5))));
+    send(&mut window, Command::View(ViewCommand::Zoom(6.0)));
     assert!(back(&window));
     window.get_by_role_and_label(Role::Button, "Back to the mesh").click();
     window.run();
@@ -162,16 +162,16 @@ fn an_overlay_and_contour_lines_have_a_legend() {
 #[test]
 fn every_level_along_an_outline_has_a_colour_of_its_own() {
     let mut window = window_of(TALL);
-    send(&mut window, Command::OpenExample(Example::Aegean));
+    send(&mut window, Command::File(FileCommand::OpenExample(Example::Aegean)));
     // The outline asks for finer triangles than any paint can.
     set(&mut window, Setting::SmallestDiameter(0.2));
     let deepest = window.state().session().level_counts().len() - 1;
     let colors = window.state().view().level_colors(settings(&window));
     let own: HashSet<_> = (0..=deepest).map(|level| colors.of(level as u8)).collect();
     assert_eq!(own.len(), deepest + 1);
-    send(&mut window, Command::BeginStroke(dvec2(25.0, 38.0)));
-    send(&mut window, Command::DrawTo(dvec2(25.5, 38.0)));
-    send(&mut window, Command::EndStroke);
+    send(&mut window, Command::Brush(BrushCommand::BeginStroke(dvec2(25.0, 38.0))));
+    send(&mut window, Command::Brush(BrushCommand::DrawTo(dvec2(25.5, 38.0))));
+    send(&mut window, Command::Brush(BrushCommand::EndStroke));
     assert_eq!(window.state().view().level_colors(settings(&window)), colors, "paint changes no colour");
     for level in 0..=deepest {
         let name = format!("Level {level}: ");

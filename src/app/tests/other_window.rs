@@ -7,7 +7,7 @@ use eframe::egui::accesskit::Role;
 use egui_kittest::kittest::Queryable as _;
 
 use super::{Window, document, notice, paint, send, wait_until, window};
-use crate::app::command::Command;
+use crate::app::command::{Command, FileCommand};
 use meshbrush_core::document::{Example, Settings};
 use meshbrush_io::io::project::{self, Project};
 
@@ -25,12 +25,12 @@ fn asks(window: &Window, file: &Path) -> bool {
 }
 
 fn open(window: &mut Window, file: &Path) {
-    send(window, Command::Open(file.to_owned()));
+    send(window, Command::File(FileCommand::Open(file.to_owned())));
     wait_until(window, |window| window.state().project.path() == Some(file));
 }
 
 fn save(window: &mut Window, file: &Path) {
-    send(window, Command::Save);
+    send(window, Command::File(FileCommand::Save));
     wait_until(window, |window| {
         asks(window, file) || !window.state().project.is_edited(window.state().session())
     });
@@ -68,7 +68,7 @@ fn a_project_that_somebody_changed_is_not_replaced_without_a_question() {
     assert_eq!(*project::read(&file).unwrap().settings(), others);
     assert!(window.query_by_label("a — edited").is_some());
     // Saved before the document closes: the question comes first, and what was to be done waits for it.
-    send(&mut window, Command::OpenExample(Example::Diamond));
+    send(&mut window, Command::File(FileCommand::OpenExample(Example::Diamond)));
     press(&mut window, "Save");
     wait_until(&mut window, |window| asks(window, &file));
     assert!(*document(&window).paint() == last);
@@ -115,7 +115,7 @@ fn two_windows_with_one_project_know_of_each_other() {
     assert!(asks(first, &file), "the other window changed it");
     press(first, "Cancel");
     // When one has another document, the other one is alone.
-    send(first, Command::New);
+    send(first, Command::File(FileCommand::New));
     press(first, "Do not save");
     paint(second, 0.4);
     save(second, &file);

@@ -10,7 +10,7 @@ use super::{
     FREE, PAINTED_RISK, RESTING_PLACE, Window, canvas, key, on_screen, scratch, send, set, settings, stroke,
 };
 use crate::app::App;
-use crate::app::command::{Command, LayerCommand};
+use crate::app::command::{Command, LayerCommand, ViewCommand};
 use crate::app::view::FieldOverlay;
 use meshbrush_core::document::{self, Setting};
 use meshbrush_core::layers::{DistanceTo, LayerId, LayerKind, Mask, ShapeList, Shapes};
@@ -112,7 +112,7 @@ fn an_overlay_and_the_light_theme_are_seen_on_the_canvas() {
     window.run();
     let at = on_screen(&window, dvec2(0.72, 0.74));
     let plain = picture(&mut window);
-    send(&mut window, Command::SetOverlay(FieldOverlay::Risk));
+    send(&mut window, Command::View(ViewCommand::SetOverlay(FieldOverlay::Risk)));
     // Its colours are computed on another thread.
     let is_warm = (0..200).any(|_| {
         std::thread::sleep(std::time::Duration::from_millis(50));
@@ -121,9 +121,9 @@ fn an_overlay_and_the_light_theme_are_seen_on_the_canvas() {
         r > g
     });
     assert!(is_warm, "risk is warm");
-    send(&mut window, Command::SetOverlay(FieldOverlay::None));
+    send(&mut window, Command::View(ViewCommand::SetOverlay(FieldOverlay::None)));
     assert_eq!(pixel(&picture(&mut window), at), pixel(&plain, at));
-    send(&mut window, Command::Theme(ThemePreference::Light));
+    send(&mut window, Command::View(ViewCommand::Theme(ThemePreference::Light)));
     let light = picture(&mut window);
     let corner = canvas(&window).left_top() + vec2(3.0, 3.0);
     assert!(pixel(&plain, corner)[0] < 40 && pixel(&light, corner)[0] > 180);

@@ -11,7 +11,7 @@ use super::{
     FREE, TALL, Window, click, entries, folder, key, move_to, press, release, send, settings, stroke,
     value_of, wait_for_notice, wait_until, window_of,
 };
-use crate::app::command::{Command, PinsCommand};
+use crate::app::command::{Command, EditCommand, PinsCommand, ShellCommand};
 use crate::app::tools::QUERY;
 use meshbrush_io::io::Meter;
 use meshbrush_io::io::located::write_of_document;
@@ -29,7 +29,7 @@ fn is_near(a: DVec2, b: DVec2) -> bool {
 /// A window with the query tool and two pins.
 fn window_with_pins() -> Window {
     let mut window = window_of(TALL);
-    send(&mut window, Command::Use(&QUERY));
+    send(&mut window, Command::Shell(ShellCommand::Use(&QUERY)));
     for point in [AT, FREE] {
         click(&mut window, point, Modifiers::NONE);
         key(&mut window, Modifiers::SHIFT, Key::P);
@@ -93,9 +93,9 @@ fn the_table_follows_every_edit() {
         }
     };
     check(&window);
-    send(&mut window, Command::Use(&crate::app::tools::BRUSH));
+    send(&mut window, Command::Shell(ShellCommand::Use(&crate::app::tools::BRUSH)));
     stroke(&mut window, FREE, FREE + dvec2(0.0, 0.05));
-    send(&mut window, Command::Use(&QUERY));
+    send(&mut window, Command::Shell(ShellCommand::Use(&QUERY)));
     assert_ne!(row(&window, 2), before, "paint refines around the second pin");
     check(&window);
     key(&mut window, Modifiers::COMMAND, Key::Z);
@@ -133,9 +133,9 @@ fn a_pin_is_dragged_as_one_gesture_and_deleted_by_key() {
 #[test]
 fn the_table_is_copied_and_exported_as_the_command_line_prints_it() {
     let mut window = window_with_pins();
-    send(&mut window, Command::Use(&crate::app::tools::BRUSH));
+    send(&mut window, Command::Shell(ShellCommand::Use(&crate::app::tools::BRUSH)));
     stroke(&mut window, AT, AT + dvec2(0.1, 0.05));
-    send(&mut window, Command::Use(&QUERY));
+    send(&mut window, Command::Shell(ShellCommand::Use(&QUERY)));
     let expected = expected_table(&window);
     assert_eq!(expected.lines().count(), 3);
     send(&mut window, Command::Pins(PinsCommand::Copy));
@@ -155,7 +155,7 @@ fn the_table_is_copied_and_exported_as_the_command_line_prints_it() {
     assert_eq!(copied, expected);
     let file = folder("pins", "export").join("pins.csv");
     wait_until(&mut window, |window| super::notice(window).starts_with("Copied: the table of 2 pins"));
-    send(&mut window, Command::DismissNotice);
+    send(&mut window, Command::Shell(ShellCommand::DismissNotice));
     send(&mut window, Command::Pins(PinsCommand::ExportAs(file.clone())));
     let notice = wait_for_notice(&mut window);
     assert!(notice.starts_with("2 pins written to"), "{notice}");
@@ -166,9 +166,12 @@ fn the_table_is_copied_and_exported_as_the_command_line_prints_it() {
 fn many_pins_are_read_over_several_frames_and_an_idle_window_reads_none() {
     let mut window = window_of(vec2(1440.0, 900.0));
     let many = (0..5000).map(|i| dvec2(f64::from(i) / 5000.0, 0.5)).collect();
-    send(&mut window, Command::Set(meshbrush_core::document::Setting::Pins(std::sync::Arc::new(many))));
-    send(&mut window, Command::EndGesture);
-    send(&mut window, Command::Use(&QUERY));
+    send(
+        &mut window,
+        Command::Edit(EditCommand::Set(meshbrush_core::document::Setting::Pins(std::sync::Arc::new(many)))),
+    );
+    send(&mut window, Command::Edit(EditCommand::EndGesture));
+    send(&mut window, Command::Shell(ShellCommand::Use(&QUERY)));
     window.run();
     let is_current = |window: &Window| {
         let app = window.state();

@@ -10,7 +10,7 @@ use super::{
     FREE, TALL, Window, canvas, choose, folder, key, open_menu, open_section, send, settings, stroke,
     triangles, wait_for_notice, wait_until, window_of,
 };
-use crate::app::command::Command;
+use crate::app::command::{Command, ShellCommand};
 use crate::app::plots::{PlotKind, PlotsCommand};
 use crate::app::widgets::format;
 use meshbrush_core::build::RefinementCriterion;
@@ -129,7 +129,7 @@ fn plots_are_exported_as_drawing_and_table() {
         let path = folder.join(name);
         send(&mut window, Command::Plots(PlotsCommand::ExportAs(path.clone())));
         assert!(wait_for_notice(&mut window).starts_with("The plot was written to "));
-        send(&mut window, Command::DismissNotice);
+        send(&mut window, Command::Shell(ShellCommand::DismissNotice));
         path
     };
     let table = fs::read_to_string(written("cost.csv")).unwrap();

@@ -8,7 +8,7 @@ use super::{
     Window, area, click, entries, key, move_to, notice, on_screen, open_menu, press, press_at, release,
     release_at, send, wait_until, window,
 };
-use crate::app::command::{Command, DomainCommand};
+use crate::app::command::{Command, DomainCommand, FileCommand};
 use crate::app::tools::DomainToolMode;
 
 const CORNERS: [DVec2; 4] = [dvec2(0.2, 0.2), dvec2(0.4, 0.2), dvec2(0.4, 0.4), dvec2(0.2, 0.4)];
@@ -16,7 +16,7 @@ const CORNERS: [DVec2; 4] = [dvec2(0.2, 0.2), dvec2(0.4, 0.2), dvec2(0.4, 0.4), 
 /// A new document and an open polygon with these corners.
 fn with_corners(corners: &[DVec2]) -> Window {
     let mut window = window();
-    send(&mut window, Command::New);
+    send(&mut window, Command::File(FileCommand::New));
     send(&mut window, Command::Domain(DomainCommand::Mode(DomainToolMode::Polygon)));
     for &corner in corners {
         click(&mut window, corner, Modifiers::NONE);

@@ -11,7 +11,7 @@ use egui_kittest::kittest::Queryable as _;
 use glam::dvec2;
 
 use super::{Window, document, paint, send, show, window};
-use crate::app::command::{Command, LayerCommand};
+use crate::app::command::{BrushCommand, Command, EditCommand, FileCommand, LayerCommand, ShellCommand};
 use meshbrush_core::document::{Example, Setting, Settings, Stage};
 use meshbrush_io::io::journal::{self, Journal, Left};
 use meshbrush_io::io::project::{self, Project};
@@ -72,15 +72,15 @@ fn what_is_saved_by_key_is_opened_with_the_same_mesh() {
     let (before, bytes) = (fingerprint(&window), fs::read(&saved).unwrap());
     paint(&mut window, 0.8);
     assert!(shows(&window, "threats — edited") && fingerprint(&window) != before);
-    send(&mut window, Command::Undo);
+    send(&mut window, Command::Edit(EditCommand::Undo));
     assert!(shows(&window, "threats"), "undone to what is saved");
-    send(&mut window, Command::Redo);
+    send(&mut window, Command::Edit(EditCommand::Redo));
     key(&mut window, Modifiers::COMMAND, Key::S);
     wait(&mut window, "saving again", |window| shows(window, "threats"));
     assert!(fs::read(&saved).unwrap() != bytes);
 
     fs::write(&saved, &bytes).unwrap();
-    send(&mut window, Command::Open(saved.clone()));
+    send(&mut window, Command::File(FileCommand::Open(saved.clone())));
     wait(&mut window, "opening", |window| document(window).history().is_empty());
     assert_eq!(fingerprint(&window), before);
     assert!(shows(&window, "threats"));
@@ -90,8 +90,8 @@ fn what_is_saved_by_key_is_opened_with_the_same_mesh() {
 fn edits_after_the_start_of_saving_stay_unsaved() {
     let file = folder("during").join("a.meshbrush");
     let mut window = window();
-    send(&mut window, Command::BeginStroke(dvec2(0.9, 0.5)));
-    send(&mut window, Command::SaveTo(file.clone()));
+    send(&mut window, Command::Brush(BrushCommand::BeginStroke(dvec2(0.9, 0.5))));
+    send(&mut window, Command::File(FileCommand::SaveTo(file.clone())));
     let saved = document(&window).paint().clone();
     paint(&mut window, 0.8);
     wait(&mut window, "saving", |window| shows(window, "a — edited"));
@@ -104,12 +104,17 @@ fn unsaved_edits_are_asked_about() {
     let file = folder("asked").join("b.meshbrush");
     let question = "Save changes to “Radar threats”?";
     let shown = show(Settings { spacing: 0.3, ..Settings::default() });
-    let leaves = [Command::New, Command::OpenExample(Example::Diamond), shown, Command::Quit];
+    let leaves = [
+        Command::File(FileCommand::New),
+        Command::File(FileCommand::OpenExample(Example::Diamond)),
+        shown,
+        Command::File(FileCommand::Quit),
+    ];
     for leave in leaves {
         let mut window = window();
         send(&mut window, leave.clone());
         assert!(!shows(&window, question), "nothing is unsaved");
-        send(&mut window, Command::OpenExample(Example::Threats));
+        send(&mut window, Command::File(FileCommand::OpenExample(Example::Threats)));
         paint(&mut window, 0.9);
         let before = document(&window).version();
         send(&mut window, leave.clone());
@@ -119,15 +124,15 @@ fn unsaved_edits_are_asked_about() {
         send(&mut window, leave.clone());
         press(&mut window, "Do not save");
         assert!(!shows(&window, question));
-        assert_eq!(document(&window).version() == before, leave == Command::Quit);
+        assert_eq!(document(&window).version() == before, leave == Command::File(FileCommand::Quit));
     }
     // Saved first, and then left.
     let mut window = window();
-    send(&mut window, Command::SaveTo(file.clone()));
+    send(&mut window, Command::File(FileCommand::SaveTo(file.clone())));
     wait(&mut window, "saving", |window| shows(window, "b"));
     paint(&mut window, 0.9);
     let painted = document(&window).paint().clone();
-    send(&mut window, Command::New);
+    send(&mut window, Command::File(FileCommand::New));
     press(&mut window, "Save");
     wait(&mut window, "saving and leaving", |window| document(window).paint().is_blank());
     assert!(*project::read(&file).unwrap().paint() == painted);
@@ -182,7 +187,7 @@ fn a_journal_that_cannot_be_written_is_told() {
     fs::write(&taken, "").unwrap();
     let mut window = window();
     window.state_mut().keep_journal_in(taken.join("journals"));
-    send(&mut window, Command::New);
+    send(&mut window, Command::File(FileCommand::New));
     paint(&mut window, 0.9);
     let told = |window: &Window| window.state().session().notices().shown().map(|shown| shown.text.clone());
     wait(&mut window, "the message", |window| told(window).is_some());
@@ -196,7 +201,7 @@ fn the_journal_keeps_edits_while_the_painted_layer_is_hidden() {
     let (live, copied) = (folder("hidden"), folder("hidden-copy"));
     let mut window = window();
     window.state_mut().keep_journal_in(live.clone());
-    send(&mut window, Command::New);
+    send(&mut window, Command::File(FileCommand::New));
     paint(&mut window, 0.9);
     let painted = document(&window).active_layer().unwrap().id;
     send(&mut window, Command::Layer(LayerCommand::Show(painted, false)));
@@ -223,10 +228,10 @@ fn a_file_that_is_there_is_not_replaced_without_a_question() {
     let file = folder("replace").join("c.meshbrush");
     fs::write(&file, "somebody's").unwrap();
     let mut window = window();
-    send(&mut window, Command::SaveAs(file.clone()));
+    send(&mut window, Command::File(FileCommand::SaveAs(file.clone())));
     press(&mut window, "Cancel");
     assert_eq!(fs::read(&file).unwrap(), b"somebody's");
-    send(&mut window, Command::SaveAs(file.clone()));
+    send(&mut window, Command::File(FileCommand::SaveAs(file.clone())));
     press(&mut window, "Replace");
     wait(&mut window, "saving", |window| shows(window, "c"));
     assert!(project::read(&file).is_ok());
@@ -239,10 +244,10 @@ fn a_document_is_saved_as_a_recipe_and_files_beside_it_are_asked_about() {
     let beside = folder.join("c-paint.meshbrush");
     fs::write(&beside, "somebody's").unwrap();
     let mut window = window();
-    send(&mut window, Command::SaveRecipeAs(folder.join("c")));
+    send(&mut window, Command::File(FileCommand::SaveRecipeAs(folder.join("c"))));
     press(&mut window, "Cancel");
     assert!(fs::read(&beside).unwrap() == b"somebody's" && !file.exists());
-    send(&mut window, Command::SaveRecipeAs(file.clone()));
+    send(&mut window, Command::File(FileCommand::SaveRecipeAs(file.clone())));
     press(&mut window, "Replace");
     wait(&mut window, "saving", |_| file.exists());
     let recipe = recipe::read(&file).unwrap();
@@ -254,23 +259,23 @@ fn a_session_is_exported_as_a_test_that_replays() {
     let file = folder("test").join("threats.jsonl");
     let mut window = window();
     paint(&mut window, 0.9);
-    send(&mut window, Command::Set(Setting::SmallestDiameter(0.004)));
-    send(&mut window, Command::EndGesture);
-    send(&mut window, Command::Undo);
-    send(&mut window, Command::Set(Setting::Spacing(1e-9)));
-    send(&mut window, Command::ExportTestAs(file.with_extension("")));
+    send(&mut window, Command::Edit(EditCommand::Set(Setting::SmallestDiameter(0.004))));
+    send(&mut window, Command::Edit(EditCommand::EndGesture));
+    send(&mut window, Command::Edit(EditCommand::Undo));
+    send(&mut window, Command::Edit(EditCommand::Set(Setting::Spacing(1e-9))));
+    send(&mut window, Command::File(FileCommand::ExportTestAs(file.with_extension(""))));
     wait(&mut window, "exporting", |_| file.exists());
     let replayed = recording::read(&file).unwrap().replay(&Meter::default()).unwrap();
     assert_eq!((replayed.edits, replayed.difference), (3, None), "what was refused is no edit");
     assert_eq!(replayed.triangles, window.state().session().mesh().triangle_count());
     // A document that is opened has a recording of its own.
     let before = fs::read(&file).unwrap();
-    send(&mut window, Command::ExportTestAs(file.clone()));
+    send(&mut window, Command::File(FileCommand::ExportTestAs(file.clone())));
     press(&mut window, "Cancel");
     assert_eq!(fs::read(&file).unwrap(), before);
-    send(&mut window, Command::OpenExample(Example::Diamond));
+    send(&mut window, Command::File(FileCommand::OpenExample(Example::Diamond)));
     press(&mut window, "Do not save");
-    send(&mut window, Command::ExportTest(file.clone()));
+    send(&mut window, Command::File(FileCommand::ExportTest(file.clone())));
     wait(&mut window, "exporting", |_| fs::read(&file).unwrap() != before);
     let replayed = recording::read(&file).unwrap().replay(&Meter::default()).unwrap();
     assert_eq!((replayed.edits, replayed.triangles), (0, 9560));
@@ -296,7 +301,7 @@ fn what_cannot_be_opened_or_saved_is_told_and_changes_nothing() {
     for (name, bytes, word) in bad {
         let file = folder.join(name);
         fs::write(&file, bytes).unwrap();
-        send(&mut window, Command::Open(file));
+        send(&mut window, Command::File(FileCommand::Open(file)));
         let message =
             |window: &Window| window.state().session().notices().shown().map(|notice| notice.text.clone());
         wait(&mut window, name, |window| message(window).is_some_and(|text| text.contains(name)));
@@ -305,20 +310,20 @@ fn what_cannot_be_opened_or_saved_is_told_and_changes_nothing() {
     }
     assert_eq!(document(&window).version(), version);
     paint(&mut window, 0.9);
-    send(&mut window, Command::SaveTo(folder.join("no-such-folder").join("d.meshbrush")));
+    send(&mut window, Command::File(FileCommand::SaveTo(folder.join("no-such-folder").join("d.meshbrush"))));
     let failed =
         |window: &Window| window.state().session().notices().shown().is_some_and(|notice| notice.failed);
     wait(&mut window, "the failure", failed);
     assert!(shows(&window, EDITED), "it is not saved");
     // A file that cannot be opened raises no question about edits.
-    send(&mut window, Command::Escape);
-    send(&mut window, Command::Open(folder.join("cut.meshbrush")));
+    send(&mut window, Command::Shell(ShellCommand::Escape));
+    send(&mut window, Command::File(FileCommand::Open(folder.join("cut.meshbrush"))));
     let message = |window: &Window| {
         window.state().session().notices().shown().is_some_and(|n| n.text.contains("cut off"))
     };
     wait(&mut window, "the failure", message);
     assert!(!shows(&window, "Save changes to “Radar threats”?") && shows(&window, EDITED));
-    send(&mut window, Command::Quit);
+    send(&mut window, Command::File(FileCommand::Quit));
     assert!(shows(&window, "Save changes to “Radar threats”?"));
 }
 

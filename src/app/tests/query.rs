@@ -9,7 +9,7 @@ use super::{
     FREE, RESTING_PLACE, TALL, button_event, click, entries, key, on_screen, selected, send, value_of,
     window, window_of,
 };
-use crate::app::command::Command;
+use crate::app::command::{Command, FileCommand, InspectCommand, ShellCommand};
 use crate::app::tools::QUERY;
 use meshbrush_core::document::Example;
 use meshbrush_core::outline::DerivedMesh;
@@ -31,7 +31,7 @@ fn a_click_shows_the_triangle_and_each_chip_goes_to_its_neighbour() {
     assert_eq!(entries(&window), 0, "a question is no edit");
 
     for (i, name) in ["Bisection neighbour", "Second neighbour", "Third neighbour"].iter().enumerate() {
-        send(&mut window, Command::QueryTriangle(start));
+        send(&mut window, Command::Inspect(InspectCommand::QueryTriangle(start)));
         let there = window.state().session().mesh().neighbours(start)[i].triangle().unwrap();
         window.get_by_role_and_label(Role::Button, name).click();
         window.run();
@@ -71,9 +71,9 @@ fn a_key_and_a_click_in_one_slow_frame_are_a_query() {
 #[test]
 fn the_inspector_counts_as_files_do() {
     let mut window = window_of(TALL);
-    send(&mut window, Command::OpenExample(Example::Aegean));
-    send(&mut window, Command::Use(&QUERY));
-    send(&mut window, Command::Query(dvec2(25.25, 38.1)));
+    send(&mut window, Command::File(FileCommand::OpenExample(Example::Aegean)));
+    send(&mut window, Command::Shell(ShellCommand::Use(&QUERY)));
+    send(&mut window, Command::Inspect(InspectCommand::Query(dvec2(25.25, 38.1))));
     window.run();
     // What files get, derived here again.
     let follower = window.state().session().follower();
@@ -115,7 +115,7 @@ fn a_chip_at_the_edge_of_the_domain_goes_nowhere() {
     let mesh = window.state().session().mesh();
     let id = mesh.locate(dvec2(0.02, 0.99)).triangle().unwrap();
     let missing = mesh.neighbours(id).iter().position(|n| n.triangle().is_none()).unwrap();
-    send(&mut window, Command::QueryTriangle(id));
+    send(&mut window, Command::Inspect(InspectCommand::QueryTriangle(id)));
     let name = ["Bisection neighbour", "Second neighbour", "Third neighbour"][missing];
     let chip = window.get_by_role_and_label(Role::Button, name);
 

@@ -6,7 +6,7 @@ use glam::dvec2;
 use super::pictures::{Picture, picture, window_drawn_by};
 use super::{FREE, Window, click, key, move_to, send, stroke};
 use crate::app::App;
-use crate::app::command::Command;
+use crate::app::command::{Command, ViewCommand};
 use crate::app::software_window::SoftwareWindow;
 use crate::app::view::FieldOverlay;
 
@@ -34,8 +34,8 @@ const ACTIONS: [fn(&mut Window); 8] = [
     |window| key(window, Modifiers::COMMAND, Key::Z),
     |window| key(window, Modifiers::NONE, Key::Q),
     |window| click(window, FREE, Modifiers::NONE),
-    |window| send(window, Command::SetOverlay(FieldOverlay::Risk)),
-    |window| send(window, Command::SetOverlay(FieldOverlay::None)),
+    |window| send(window, Command::View(ViewCommand::SetOverlay(FieldOverlay::Risk))),
+    |window| send(window, Command::View(ViewCommand::SetOverlay(FieldOverlay::None))),
 ];
 
 /// The share of pixels that differ, and the first of them.

@@ -10,7 +10,7 @@ use super::{
     FREE, TALL, Window, fingerprint, notice, open_section, press, release, send, set, stroke, triangles,
     value_of, wait_until, window_of,
 };
-use crate::app::command::Command;
+use crate::app::command::{Command, FileCommand};
 use meshbrush_core::document::{Example, Setting};
 use meshbrush_mesh::mesh::Mesh;
 
@@ -110,7 +110,7 @@ fn a_click_copies_the_fingerprint() {
 #[test]
 fn parts_and_moved_nodes_are_counted() {
     let mut window = window_of(TALL);
-    send(&mut window, Command::OpenExample(Example::Aegean));
+    send(&mut window, Command::File(FileCommand::OpenExample(Example::Aegean)));
     wait_until(&mut window, |window| window.state().session().derived().is_some());
     open_statistics(&mut window);
     let session = window.state().session();

@@ -10,7 +10,7 @@ use super::{
     CTRL_SHIFT, FREE, Window, click, entries, fingerprint, key, notice, on_screen, send, set, triangles,
     wait_until, window,
 };
-use crate::app::command::Command;
+use crate::app::command::{Command, FileCommand};
 use crate::app::stepping::{MOST_FILES, MOST_TRIANGLES, StepCommand};
 use meshbrush_core::document::Setting;
 use meshbrush_mesh::mesh::{StepAction, StepPlayer, fingerprint_of};
@@ -196,7 +196,7 @@ fn chosen_steps_are_written_as_numbered_drawings() {
     assert_eq!(names, ["lesson-0003.svg", "lesson-0004.svg", "lesson-0005.svg", "lesson-0006.svg"]);
     let drawing = std::fs::read_to_string(folder.join(&names[1])).unwrap();
     assert!(drawing.contains(&format!("Step 4 of {}", player(&window).len())));
-    send(&mut window, Command::ExportStepsAs(path.clone()));
+    send(&mut window, Command::Steps(StepCommand::ExportAs(path.clone())));
     assert!(window.query_by_label("Replace 4 files?").is_some());
     press_button(&mut window, "Replace");
     // The message of the first export is still shown.
@@ -204,7 +204,7 @@ fn chosen_steps_are_written_as_numbered_drawings() {
     assert!(notice(&window).contains("4 steps written"));
     send(&mut window, Command::Steps(StepCommand::ExportRange(0, 100_000)));
     if player(&window).len() > MOST_FILES {
-        send(&mut window, Command::ExportStepsAs(path));
+        send(&mut window, Command::Steps(StepCommand::ExportAs(path)));
         assert!(notice(&window).contains("at most 500"), "{}", notice(&window));
     }
 }
@@ -220,12 +220,12 @@ fn a_cancelled_export_of_steps_removes_what_it_wrote_and_says_what_it_replaced()
     coarse(&mut window);
     begin(&mut window);
     send(&mut window, Command::Steps(StepCommand::ExportRange(3, 5)));
-    send(&mut window, Command::ExportSteps(folder.join("lesson.svg")));
+    send(&mut window, Command::Steps(StepCommand::Export(folder.join("lesson.svg"))));
     let replaced = || std::fs::read_to_string(&second).unwrap().starts_with("<svg");
     wait_until(&mut window, |_| replaced());
     // The last drawing waits for somebody who reads it.
     let work = window.state().background.rows(true)[0].id;
-    send(&mut window, Command::CancelWork(work));
+    send(&mut window, Command::File(FileCommand::CancelWork(work)));
     std::fs::read(&last).unwrap();
     wait_until(&mut window, |window| notice(window).contains("lesson-0004.svg"));
     assert!(notice(&window).contains("was replaced before that"), "{}", notice(&window));

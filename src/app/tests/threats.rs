@@ -11,7 +11,7 @@ use super::{
     FREE, TALL, Window, click, document, entries, fingerprint, folder, key, level_at, move_to, notice, press,
     release, send, stroke, triangles, type_into, value_of, wait_for_notice, wait_until, window_of,
 };
-use crate::app::command::{Command, LayerCommand};
+use crate::app::command::{Command, LayerCommand, ThreatsCommand};
 use crate::app::tools::{BRUSH, QUERY, THREATS};
 use meshbrush_core::layers::{LayerId, LayerKind, Threat, ThreatLaw};
 
@@ -167,7 +167,7 @@ fn tables_are_saved_and_opened() {
     wait_until(&mut window, |window| threats(window) == saved);
     assert_eq!(entries(&window), before + 1);
     fs::write(&file, "x,y,range,peak\n1,2,0,1\n").unwrap();
-    send(&mut window, Command::OpenThreats(file));
+    send(&mut window, Command::Threats(ThreatsCommand::Open(file)));
     assert!(wait_for_notice(&mut window).contains("line 2: range is 0"), "{}", notice(&window));
     assert_eq!(threats(&window), saved);
 }

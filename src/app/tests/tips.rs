@@ -8,7 +8,7 @@ use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use glam::DVec2;
 
 use super::{FREE, TALL, Window, canvas, choose, entries, key, open_section, send, wait_until, window_of};
-use crate::app::command::{Command, LayerCommand, ThreatsCommand};
+use crate::app::command::{Command, EditCommand, InspectCommand, LayerCommand, ShellCommand, ThreatsCommand};
 use crate::app::stepping::StepCommand;
 use crate::app::tools::TOOLS;
 use meshbrush_core::document::{Setting, Settings};
@@ -49,7 +49,7 @@ pub(super) fn unexplained(window: &Window) -> Vec<String> {
 #[test]
 fn every_control_of_the_panels_has_a_sentence() {
     let mut window = window_of(vec2(TALL.x, 3000.0));
-    send(&mut window, Command::Query(FREE));
+    send(&mut window, Command::Inspect(InspectCommand::Query(FREE)));
     for section in ["Stroke", "Mesh", "Statistics", "Domain", "View"] {
         open_section(&mut window, section);
     }
@@ -75,20 +75,20 @@ fn every_control_of_the_panels_has_a_sentence() {
     send(&mut window, Command::Threats(ThreatsCommand::Place(FREE)));
     assert!(window.query_by_label("Selected threat").is_some());
     assert_eq!(unexplained(&window), [""; 0]);
-    send(&mut window, Command::Set(Setting::Gradation(Some(5.0))));
+    send(&mut window, Command::Edit(EditCommand::Set(Setting::Gradation(Some(5.0)))));
     for tool in TOOLS {
-        send(&mut window, Command::Use(tool));
+        send(&mut window, Command::Shell(ShellCommand::Use(tool)));
         assert_eq!(unexplained(&window), [""; 0], "{}", tool.name);
     }
     // An edited document would be asked about before another one opens.
     for _ in 0..entries(&window) {
-        send(&mut window, Command::Undo);
+        send(&mut window, Command::Edit(EditCommand::Undo));
     }
     choose(&mut window, "Examples", "Aegean Sea");
     open_section(&mut window, "Fit to outline");
     wait_until(&mut window, |window| window.query_by_label("Misclassified").is_some());
     for tool in TOOLS {
-        send(&mut window, Command::Use(tool));
+        send(&mut window, Command::Shell(ShellCommand::Use(tool)));
         assert_eq!(unexplained(&window), [""; 0], "{} in a domain of polygons", tool.name);
     }
 }
@@ -96,8 +96,8 @@ fn every_control_of_the_panels_has_a_sentence() {
 #[test]
 fn every_control_of_the_steps_has_a_sentence() {
     let mut window = window_of(TALL);
-    send(&mut window, Command::Set(Setting::SmallestDiameter(0.06)));
-    send(&mut window, Command::Set(Setting::Spacing(0.25)));
+    send(&mut window, Command::Edit(EditCommand::Set(Setting::SmallestDiameter(0.06))));
+    send(&mut window, Command::Edit(EditCommand::Set(Setting::Spacing(0.25))));
     send(&mut window, Command::Steps(StepCommand::Begin));
     wait_until(&mut window, |window| window.query_by_label("Changed rows").is_some());
     open_section(&mut window, "Export");

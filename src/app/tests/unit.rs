@@ -10,7 +10,7 @@ use super::{
     FREE, TALL, Window, entries, fingerprint, folder, key, move_to, open_section, send, set, settings,
     triangles, type_into, value_of, wait_until, window_of,
 };
-use crate::app::command::Command;
+use crate::app::command::{Command, DomainCommand, FileCommand, InspectCommand};
 use meshbrush_core::document::{Example, Setting};
 use meshbrush_mesh::text::LengthUnit;
 
@@ -40,7 +40,7 @@ fn the_unit_is_chosen_in_the_domain_panel_and_undone() {
 #[test]
 fn every_length_carries_the_unit() {
     let mut window = in_metres();
-    send(&mut window, Command::Query(FREE));
+    send(&mut window, Command::Inspect(InspectCommand::Query(FREE)));
     open_section(&mut window, "Mesh");
     super::select_base(&mut window);
     move_to(&mut window, FREE);
@@ -74,14 +74,14 @@ fn examples_and_domains_from_files_have_their_unit() {
         (Example::Terrain, LengthUnit::Kilometre),
         (Example::Aegean, LengthUnit::Degree),
     ] {
-        send(&mut window, Command::OpenExample(example));
+        send(&mut window, Command::File(FileCommand::OpenExample(example)));
         assert_eq!(settings(&window).unit, unit, "{}", example.name());
     }
     let file = folder("unit", "domain").join("utm.geojson");
     let crs = r#""crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:EPSG::32635"}}"#;
     let ring = "[[[0,0],[4000,0],[0,4000],[0,0]]]";
     fs::write(&file, format!(r#"{{"type":"Polygon",{crs},"coordinates":{ring}}}"#)).unwrap();
-    send(&mut window, Command::OpenDomain(file));
+    send(&mut window, Command::Domain(DomainCommand::Open(file)));
     wait_until(&mut window, |window| settings(window).name == "utm");
     assert_eq!(settings(&window).unit, LengthUnit::Metre);
     assert!(triangles(&window) > 100);

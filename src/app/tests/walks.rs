@@ -9,13 +9,13 @@ use super::{
     RESTING_PLACE, TALL, Window, button_event, choose, click, key, selected, send, value_of, wait_until,
     window_of,
 };
-use crate::app::command::Command;
+use crate::app::command::{Command, ShellCommand};
 use crate::app::tools::QUERY;
 
 #[test]
 fn the_inspector_says_how_long_the_walk_is_and_a_toggle_hides_it() {
     let mut window = window_of(TALL);
-    send(&mut window, Command::Use(&QUERY));
+    send(&mut window, Command::Shell(ShellCommand::Use(&QUERY)));
     let point = dvec2(0.71, 0.735);
     click(&mut window, point, Modifiers::NONE);
     let walk = |window: &Window| value_of(window, Role::Definition, "Walk");
@@ -37,7 +37,7 @@ fn the_inspector_says_how_long_the_walk_is_and_a_toggle_hides_it() {
 #[test]
 fn with_shift_the_trail_of_neighbours_stays_until_the_next_query() {
     let mut window = window_of(TALL);
-    send(&mut window, Command::Use(&QUERY));
+    send(&mut window, Command::Shell(ShellCommand::Use(&QUERY)));
     click(&mut window, dvec2(0.5, 0.45), Modifiers::NONE);
     let start = selected(&window).unwrap();
     let trail = |window: &Window| window.state().tools().trail.len();

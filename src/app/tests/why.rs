@@ -6,7 +6,7 @@ use egui_kittest::kittest::Queryable as _;
 use glam::{DVec2, dvec2};
 
 use super::{TALL, Window, click, key, send, stroke, window_of};
-use crate::app::command::Command;
+use crate::app::command::{Command, EditCommand};
 use crate::app::tools::QUERY;
 use meshbrush_core::explain::Explanation;
 use meshbrush_mesh::mesh::{Cause, TriangleId};
@@ -153,7 +153,7 @@ fn the_age_of_a_triangle_counts_the_edits_since_it_came() {
     stroke(&mut window, second, second + dvec2(0.05, 0.0));
     window.run_steps(5);
     assert_eq!([first, second, other].map(|at| age(&window, at)), [Some(1), Some(0), None]);
-    send(&mut window, Command::Undo);
+    send(&mut window, Command::Edit(EditCommand::Undo));
     window.run_steps(5);
     assert_eq!(age(&window, first), Some(2), "an undo is an edit");
 }

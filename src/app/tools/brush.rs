@@ -93,7 +93,10 @@ fn diameter_change(mode: BrushMode) -> DiameterChange {
 
 /// The menu of the tools that paint.
 pub fn line_to_here(state: &FrameState<'_>, point: DVec2) -> Vec<(&'static str, Command)> {
-    let line = state.tools.last_painted.map(|_| ("Straight line to here", Command::LineTo(point)));
+    let line = state
+        .tools
+        .last_painted
+        .map(|_| ("Straight line to here", Command::Brush(BrushCommand::LineTo(point))));
     line.into_iter().collect()
 }
 
@@ -112,7 +115,7 @@ pub fn press_to_paint(
     if press.modifiers.shift {
         return Some(Box::new(Sizing { from: press.at, radius: pointer.tools.radius, dragged: false }));
     }
-    commands.push(Command::BeginStroke(point));
+    commands.push(Command::Brush(BrushCommand::BeginStroke(point)));
     let slack = LONGEST_STRING * pointer.tools.smoothing as f32;
     Some(Box::new(Painting { brush: press.at, pointer: press.at, slack }))
 }
@@ -135,15 +138,15 @@ impl Gesture for Painting {
         let (pull, distance) = (at - self.brush, at.distance(self.brush));
         if distance > self.slack {
             self.brush = at - pull * (self.slack / distance);
-            commands.push(Command::DrawTo(pointer.world(self.brush)));
+            commands.push(Command::Brush(BrushCommand::DrawTo(pointer.world(self.brush))));
         }
     }
 
     fn released(&self, at: Pos2, pointer: &Pointer<'_>, commands: &mut Vec<Command>) {
         if at != self.brush {
-            commands.push(Command::DrawTo(pointer.world(at)));
+            commands.push(Command::Brush(BrushCommand::DrawTo(pointer.world(at))));
         }
-        commands.push(Command::EndStroke);
+        commands.push(Command::Brush(BrushCommand::EndStroke));
     }
 
     fn ring_center(&self) -> Option<Pos2> {
@@ -157,7 +160,7 @@ impl Gesture for Painting {
     }
 
     fn interrupted(&self, commands: &mut Vec<Command>) {
-        commands.push(Command::EndStroke);
+        commands.push(Command::Brush(BrushCommand::EndStroke));
     }
 }
 
@@ -184,7 +187,7 @@ impl Gesture for Sizing {
 
     fn released(&self, at: Pos2, pointer: &Pointer<'_>, commands: &mut Vec<Command>) {
         if !self.dragged {
-            commands.push(Command::LineTo(pointer.world(at)));
+            commands.push(Command::Brush(BrushCommand::LineTo(pointer.world(at))));
         }
     }
 

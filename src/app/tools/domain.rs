@@ -5,7 +5,7 @@ use glam::DVec2;
 
 use super::{CLICK_SLACK, Gesture, OverMesh, Pointer, Press, ToolSpec, Tools};
 use crate::app::canvas::marks;
-use crate::app::command::{Command, DomainCommand};
+use crate::app::command::{Command, DomainCommand, EditCommand};
 use crate::app::frame::FrameState;
 use crate::app::panels;
 use crate::app::widgets::Hint::{self, Key as HintKey, Text};
@@ -199,7 +199,10 @@ impl Gesture for Framing {
             return commands.push(Command::Domain(DomainCommand::Bounds(rect)));
         };
         let ring = CutShape::Ring(corners(&rect));
-        commands.extend([Command::Domain(DomainCommand::Reshape(ring, adds)), Command::EndGesture]);
+        commands.extend([
+            Command::Domain(DomainCommand::Reshape(ring, adds)),
+            Command::Edit(EditCommand::EndGesture),
+        ]);
     }
 
     fn ends_on_escape(&self) -> bool {

@@ -6,7 +6,7 @@ use eframe::egui::{CursorIcon, Modifiers, Painter, PointerButton, Pos2, Rect};
 use glam::{DVec2, dvec2};
 
 use super::Tools;
-use crate::app::command::Command;
+use crate::app::command::{Command, EditCommand};
 use meshbrush_render::scene::Camera;
 
 /// A press of the primary button on the canvas.
@@ -41,7 +41,7 @@ pub trait Gesture: Debug + Send {
     /// The window lost the pointer. What was done so far stays.
     fn interrupted(&self, commands: &mut Vec<Command>) {
         if self.changes_settings() {
-            commands.push(Command::EndGesture);
+            commands.push(Command::Edit(EditCommand::EndGesture));
         }
     }
 

@@ -3,7 +3,7 @@
 use eframe::egui::{CursorIcon, Key, PointerButton, Pos2};
 
 use super::{Gesture, Pointer, ToolSpec, Tools};
-use crate::app::command::Command;
+use crate::app::command::{Command, ViewCommand};
 use crate::app::widgets::Hint::{self, Key as HintKey, Text};
 use crate::app::widgets::Icon;
 
@@ -42,7 +42,7 @@ impl Gesture for Panning {
     }
 
     fn moved(&mut self, at: Pos2, pointer: &Pointer<'_>, commands: &mut Vec<Command>) {
-        commands.push(Command::Pan(pointer.px(at) - pointer.px(self.last)));
+        commands.push(Command::View(ViewCommand::Pan(pointer.px(at) - pointer.px(self.last))));
         self.last = at;
     }
 

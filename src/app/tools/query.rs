@@ -4,7 +4,7 @@ use eframe::egui::Key;
 use glam::DVec2;
 
 use super::{SettingsDrag, ToolSpec};
-use crate::app::command::{Command, PinsCommand};
+use crate::app::command::{Command, InspectCommand, PinsCommand};
 use crate::app::panels;
 use crate::app::widgets::Hint::{self, Key as HintKey, Text};
 use crate::app::widgets::Icon;
@@ -22,7 +22,8 @@ pub static QUERY: ToolSpec = ToolSpec {
         let selected = state.tools.pins.selected_of(pins);
         let pin = Some(("Pin here", Command::Pins(PinsCommand::Add(point))));
         let delete = selected.map(|_| ("Delete the selected pin", Command::Pins(PinsCommand::Delete)));
-        let copy = triangle.map(|_| ("Copy the values of the triangle", Command::CopyReadout));
+        let copy = triangle
+            .map(|_| ("Copy the values of the triangle", Command::Inspect(InspectCommand::CopyReadout)));
         [pin, delete, copy].into_iter().flatten().collect()
     },
     press: |press, pointer, commands| {

@@ -13,7 +13,7 @@ pub use selected::combine_name;
 use super::bars::menu_item;
 use super::{Panel, end_gesture_when_released};
 use crate::app::catalog::{CatalogItem, Menu};
-use crate::app::command::{Command, LayerCommand};
+use crate::app::command::{Command, EditCommand, LayerCommand};
 use crate::app::frame::FrameState;
 use crate::app::widgets::{Icon, Section, SliderRow, ToolButton, toggle_row};
 use meshbrush_core::document::{Setting, Settings};
@@ -88,7 +88,7 @@ fn gradation_rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Comman
                 triangles grow with the distance from fine places.";
     let response = row.help(help).show(ui);
     if response.changed() {
-        commands.push(Command::Set(Setting::Gradation(Some(slope))));
+        commands.push(Command::Edit(EditCommand::Set(Setting::Gradation(Some(slope)))));
     }
     end_gesture_when_released(&response, commands);
 }

@@ -4,7 +4,7 @@ use std::ops::RangeInclusive;
 
 use eframe::egui::Ui;
 
-use crate::app::command::Command;
+use crate::app::command::{Command, EditCommand};
 use crate::app::frame::FrameState;
 use crate::app::panels::end_gesture_when_released;
 use crate::app::panels::formula::FormulaRow;
@@ -34,7 +34,7 @@ pub(super) fn rows(ui: &mut Ui, state: &FrameState<'_>, cost: &PathCost, command
             let row = FormulaRow { label: "Cost per length", hint: "1 + 10*risk", help };
             if let Some(Some(formula)) = row.show(ui, state, Some(formula)) {
                 let cost = PathCommand::Cost(PathCost::Formula(formula));
-                commands.extend([Command::Path(cost), Command::EndGesture]);
+                commands.extend([Command::Path(cost), Command::Edit(EditCommand::EndGesture)]);
             }
         }
     }

@@ -2,7 +2,7 @@
 
 use eframe::egui::Ui;
 
-use crate::app::command::Command;
+use crate::app::command::{Command, FileCommand};
 use crate::app::dialogs::FileRequest;
 use crate::app::frame::FrameState;
 use crate::app::panels::button_rows;
@@ -19,5 +19,9 @@ pub fn rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     if row.unit(state.unit().symbol()).help(help).show(ui).changed() {
         commands.push(Command::Path(PathCommand::ExportTolerance(tolerance)));
     }
-    button_rows(ui, [[("Export path…", true, Command::Ask(FileRequest::ExportPath))]], commands);
+    button_rows(
+        ui,
+        [[("Export path…", true, Command::File(FileCommand::Ask(FileRequest::ExportPath)))]],
+        commands,
+    );
 }

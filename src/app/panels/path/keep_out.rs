@@ -2,7 +2,7 @@
 
 use eframe::egui::Ui;
 
-use crate::app::command::Command;
+use crate::app::command::{Command, FileCommand};
 use crate::app::dialogs::FileRequest;
 use crate::app::frame::FrameState;
 use crate::app::keep_out::KeepOutCommand;
@@ -34,7 +34,7 @@ pub fn rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     }
     let can_take_mask = KeepOutCommand::mask_to_add(state.session).is_some();
     let rows = [
-        [("Add keep-out region…", true, Command::Ask(FileRequest::OpenKeepOut))],
+        [("Add keep-out region…", true, Command::File(FileCommand::Ask(FileRequest::OpenKeepOut)))],
         [("Use the layer's mask", can_take_mask, command(KeepOutCommand::AddMask))],
     ];
     button_rows(ui, rows, commands);

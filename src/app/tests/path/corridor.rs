@@ -7,7 +7,7 @@ use glam::{DVec2, dvec2};
 use super::super::layers::{active, click_button};
 use super::super::{choose, entries, move_to, notice, press, release, send, settings, triangles};
 use super::{GOAL, Window, shown, wait_for_paths, window_with_path};
-use crate::app::command::{Command, LayerCommand};
+use crate::app::command::{Command, EditCommand, LayerCommand};
 use crate::app::paths::PathCommand;
 use meshbrush_core::layers::{DistanceTo, LayerKind};
 
@@ -50,10 +50,10 @@ fn a_corridor_refines_along_the_path_stays_there_and_takes_it_again() {
     click_button(&mut window, "Take the current path again");
     wait_for_paths(&mut window);
     assert_eq!(corridor(&window).0.last(), Some(&settings(&window).paths.routes[0][1]));
-    send(&mut window, Command::Undo);
+    send(&mut window, Command::Edit(EditCommand::Undo));
     assert_eq!(corridor(&window).0, path);
-    send(&mut window, Command::Undo);
-    send(&mut window, Command::Undo);
+    send(&mut window, Command::Edit(EditCommand::Undo));
+    send(&mut window, Command::Edit(EditCommand::Undo));
     assert_eq!(triangles(&window), before);
 }
 

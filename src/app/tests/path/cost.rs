@@ -7,7 +7,7 @@ use glam::dvec2;
 
 use super::super::{click, entries, key, send, settings, tips, type_into, wait_until};
 use super::{Window, is_complete, shown, wait_for_paths, window_with_path};
-use crate::app::command::Command;
+use crate::app::command::{Command, EditCommand};
 use meshbrush_core::document::PathCost;
 use meshbrush_core::path::{Solution, Weights};
 
@@ -35,9 +35,9 @@ fn a_formula_takes_the_place_of_the_weights_and_is_undone() {
     assert_eq!(formula(&window), "1 + 200*risk");
     wait_for_paths(&mut window);
     assert!(solution(&window).risk < before.risk && solution(&window).length > before.length);
-    send(&mut window, Command::Undo);
+    send(&mut window, Command::Edit(EditCommand::Undo));
     assert_eq!(formula(&window), "1 + 10*risk");
-    send(&mut window, Command::Undo);
+    send(&mut window, Command::Edit(EditCommand::Undo));
     assert_eq!(settings(&window).paths.cost, PathCost::default());
     wait_for_paths(&mut window);
     assert_eq!(solution(&window).points, before.points);

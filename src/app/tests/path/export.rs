@@ -16,7 +16,7 @@ use super::super::{
     wait_for_notice, wait_until, window_of,
 };
 use super::{GOAL, shown, wait_for_paths, window_with_path};
-use crate::app::command::Command;
+use crate::app::command::{Command, EditCommand, FileCommand, ShellCommand};
 use crate::app::paths::PathCommand;
 use meshbrush_core::document::PathCost;
 use meshbrush_core::path::{Solution, Weights};
@@ -30,7 +30,7 @@ fn exported(window: &mut Window, file: &Path) -> Vec<u8> {
     send(window, Command::Path(PathCommand::ExportAs(file.to_owned())));
     let notice = wait_for_notice(window);
     assert!(notice.starts_with("The path was written to "), "{notice}");
-    send(window, Command::DismissNotice);
+    send(window, Command::Shell(ShellCommand::DismissNotice));
     fs::read(file).unwrap()
 }
 
@@ -42,7 +42,7 @@ fn refused(window: &mut Window, file: &Path) -> String {
     send(window, Command::Path(PathCommand::Export(file.to_owned())));
     let sentence = wait_for_notice(window);
     assert!(!file.exists(), "{sentence}");
-    send(window, Command::DismissNotice);
+    send(window, Command::Shell(ShellCommand::DismissNotice));
     sentence
 }
 
@@ -71,9 +71,9 @@ fn each_format_is_written() {
 fn the_table_is_that_of_the_command_line() {
     let (mut window, folder) = (window_with_path(), folder("app-path-export", "table"));
     let [project, here, there] = ["a.meshbrush", "here.csv", "there.csv"].map(|name| folder.join(name));
-    send(&mut window, Command::SaveTo(project.clone()));
+    send(&mut window, Command::File(FileCommand::SaveTo(project.clone())));
     assert!(wait_for_notice(&mut window).starts_with("Saved to "));
-    send(&mut window, Command::DismissNotice);
+    send(&mut window, Command::Shell(ShellCommand::DismissNotice));
     send(&mut window, Command::Path(PathCommand::ExportTolerance(0.01)));
     let places = settings(&window).paths.routes[0].clone();
     let [from, to] = [places[0], places[1]].map(|place| format!("{},{}", place.x, place.y));
@@ -116,7 +116,7 @@ fn an_outdated_path_is_not_exported() {
     let cost = PathCost::Weighted(Weights { length: 1.0, risk: 3.0 });
     // Both in one frame.
     window.state_mut().send(Command::Path(PathCommand::Cost(cost)));
-    window.state_mut().send(Command::EndGesture);
+    window.state_mut().send(Command::Edit(EditCommand::EndGesture));
     let sentence = refused(&mut window, &file);
     assert_eq!(sentence, "The path is being found for the last edit. Export it again when that is done.");
     wait_for_paths(&mut window);

@@ -14,7 +14,7 @@ use super::super::{
     TALL, Window, choose, entries, notice, send, settings, show, type_into, wait_until, window_of,
 };
 use super::{GOAL, START, shown, wait_for_paths, window_with_path};
-use crate::app::command::{Command, LayerCommand};
+use crate::app::command::{Command, EditCommand, LayerCommand};
 use crate::app::keep_out::KeepOutCommand;
 use crate::app::paths::PathCommand;
 use meshbrush_core::document::{KeepOut, PathCost, PathPlan, Settings};
@@ -64,7 +64,7 @@ fn a_region_from_a_file_is_avoided_undone_and_removed() {
     // The shortest path.
     let cost = PathCost::Weighted(Weights { length: 1.0, risk: 0.0 });
     send(&mut window, Command::Path(PathCommand::Cost(cost)));
-    send(&mut window, Command::EndGesture);
+    send(&mut window, Command::Edit(EditCommand::EndGesture));
     wait_for_paths(&mut window);
     let before = shown(&window)[0].found.as_ref().unwrap().solution.cost;
     assert!(enters_wall(&window));
@@ -79,10 +79,10 @@ fn a_region_from_a_file_is_avoided_undone_and_removed() {
     assert_eq!(unexplained(&window), [""; 0]);
     let around = shown(&window)[0].found.as_ref().unwrap().solution.clone();
     assert!(!enters_wall(&window) && around.lower > before, "{} {before}", around.lower);
-    send(&mut window, Command::Undo);
+    send(&mut window, Command::Edit(EditCommand::Undo));
     wait_for_paths(&mut window);
     assert_is_straight_again(&window, before);
-    send(&mut window, Command::Redo);
+    send(&mut window, Command::Edit(EditCommand::Redo));
     wait_for_paths(&mut window);
     assert!(!enters_wall(&window));
     click_button(&mut window, "Remove keep-out region");

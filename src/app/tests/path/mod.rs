@@ -16,7 +16,7 @@ use glam::{DVec2, dvec2};
 use super::{
     TALL, Window, click, key, move_to, press, release, send, set, settings, stroke, wait_until, window_of,
 };
-use crate::app::command::Command;
+use crate::app::command::{Command, EditCommand, FileCommand};
 use crate::app::paths::{PathCommand, ShownPath};
 use crate::app::tools::PATH;
 use meshbrush_core::document::{Example, Setting};
@@ -89,7 +89,7 @@ fn a_dragged_goal_and_painted_risk_move_the_path() {
     release(&mut window, dvec2(0.6, 0.5));
     wait_for_paths(&mut window);
     assert!(cost(&window) < before, "a nearer goal");
-    send(&mut window, Command::Undo);
+    send(&mut window, Command::Edit(EditCommand::Undo));
     wait_for_paths(&mut window);
     assert_eq!(cost(&window), before, "the drag was one gesture");
     key(&mut window, Modifiers::NONE, Key::B);
@@ -151,7 +151,7 @@ fn an_idle_window_with_a_certified_path_does_no_work() {
 fn the_example_opens_with_its_path() {
     let mut window = window_of(TALL);
     send(&mut window, Command::Path(PathCommand::Width(1.0)));
-    send(&mut window, Command::OpenExample(Example::Path));
+    send(&mut window, Command::File(FileCommand::OpenExample(Example::Path)));
     wait_for_paths(&mut window);
     let solution = &shown(&window)[0].found.as_ref().unwrap().solution;
     assert!((146.0..147.5).contains(&solution.cost) && solution.highest_risk < 0.1, "{}", solution.cost);

@@ -9,7 +9,7 @@ use glam::DVec2;
 
 use super::super::{RESTING_PLACE, key, press_at, release_at, send, settings, tips};
 use super::{Window, shown, wait_for_paths, window_with_path};
-use crate::app::command::Command;
+use crate::app::command::{Command, EditCommand};
 use crate::app::paths::{AlternativesCommand, FrontCommand, PathCommand, PathFinder};
 use meshbrush_core::document::PathCost;
 
@@ -94,7 +94,7 @@ fn an_alternative_is_pointed_at_and_taken() {
     wait_for_paths(&mut window);
     let taken = shown(&window)[0].found.clone().unwrap().solution;
     assert!(taken.cost <= alternatives[0].cost * (1.0 + 1e-3), "{} {}", taken.cost, alternatives[0].cost);
-    send(&mut window, Command::Undo);
+    send(&mut window, Command::Edit(EditCommand::Undo));
     assert_eq!(settings(&window).paths.routes[0], places);
 }
 
@@ -123,7 +123,7 @@ fn a_path_of_the_front_is_pointed_at_and_taken() {
     assert_eq!(paths(&window).front.points(), front, "the front does not depend on the weights");
     let solution = shown(&window)[0].found.clone().unwrap().solution;
     assert!((solution.length / front[pointed].solution.length - 1.0).abs() < 1e-3);
-    send(&mut window, Command::Undo);
+    send(&mut window, Command::Edit(EditCommand::Undo));
     assert_eq!(settings(&window).paths.cost, PathCost::default());
     wait_for_paths(&mut window);
     let length = shown(&window)[0].found.as_ref().unwrap().solution.length;

@@ -4,7 +4,7 @@ use eframe::egui::Ui;
 
 use super::raster::source_rows;
 use super::{Addition, KindPanel, set_kind_once};
-use crate::app::command::{Command, LayerCommand};
+use crate::app::command::{Command, FileCommand, LayerCommand};
 use crate::app::dialogs::FileRequest;
 use crate::app::frame::FrameState;
 use crate::app::widgets::{Icon, NumberRow};
@@ -16,7 +16,10 @@ pub const BAND: KindPanel = KindPanel {
     icon: Icon::BAND,
     additions: &[
         Addition { title: "band of a raster…", command: |_| Command::Layer(LayerCommand::AddBand) },
-        Addition { title: "band of a file…", command: |_| Command::Ask(FileRequest::OpenBand) },
+        Addition {
+            title: "band of a file…",
+            command: |_| Command::File(FileCommand::Ask(FileRequest::OpenBand)),
+        },
     ],
     parameters,
 };

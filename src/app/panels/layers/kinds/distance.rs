@@ -3,7 +3,7 @@
 use eframe::egui::Ui;
 
 use super::{Addition, KindPanel, add, set_kind_once};
-use crate::app::command::{Command, LayerCommand};
+use crate::app::command::{Command, FileCommand, LayerCommand};
 use crate::app::dialogs::FileRequest;
 use crate::app::frame::FrameState;
 use crate::app::widgets::{ActionButton, Icon, NumberRow, ValueRow, toggle_row};
@@ -19,7 +19,10 @@ pub const DISTANCE: KindPanel = KindPanel {
     icon: Icon::DISTANCE,
     additions: &[
         Addition { title: "distance to the outline", command: add_distance_to_outline },
-        Addition { title: "distance to shapes…", command: |_| Command::Ask(FileRequest::OpenShapes) },
+        Addition {
+            title: "distance to shapes…",
+            command: |_| Command::File(FileCommand::Ask(FileRequest::OpenShapes)),
+        },
     ],
     parameters,
 };
@@ -69,7 +72,7 @@ pub fn range_rows(ui: &mut Ui, state: &FrameState<'_>, range: &mut f64) -> bool 
 fn target_buttons(ui: &mut Ui, layer: &Layer, to: &DistanceTo, commands: &mut Vec<Command>) {
     ui.horizontal(|ui| {
         if ui.add(ActionButton::new("Open shapes…")).clicked() {
-            commands.push(Command::Ask(FileRequest::ReplaceShapes));
+            commands.push(Command::File(FileCommand::Ask(FileRequest::ReplaceShapes)));
         }
         let is_shapes = *to != DistanceTo::Outline;
         let outline = ActionButton::new("Use outline");

@@ -11,7 +11,7 @@ mod threats;
 
 use eframe::egui::Ui;
 
-use crate::app::command::{Command, LayerCommand};
+use crate::app::command::{Command, EditCommand, LayerCommand};
 use crate::app::frame::FrameState;
 use crate::app::widgets::Icon;
 use meshbrush_core::layers::{Layer, LayerKind, Quantity};
@@ -65,7 +65,7 @@ fn set_kind(layer: &Layer, kind: LayerKind, commands: &mut Vec<Command>) {
 /// Changes what a layer asks for, as a gesture of its own.
 fn set_kind_once(layer: &Layer, kind: LayerKind, commands: &mut Vec<Command>) {
     set_kind(layer, kind, commands);
-    commands.push(Command::EndGesture);
+    commands.push(Command::Edit(EditCommand::EndGesture));
 }
 
 /// The name of a quantity.

@@ -6,7 +6,7 @@ use eframe::egui::Ui;
 
 use super::curve::curve_rows;
 use super::{Addition, KindPanel, set_kind_once};
-use crate::app::command::Command;
+use crate::app::command::{Command, FileCommand, ShellCommand};
 use crate::app::dialogs::FileRequest;
 use crate::app::frame::FrameState;
 use crate::app::widgets::{Icon, ValueRow, format, segmented};
@@ -19,14 +19,17 @@ pub const RASTER: KindPanel = KindPanel {
     is_of: |kind| matches!(kind, LayerKind::Raster { .. }),
     icon: Icon::RASTER,
     additions: &[
-        Addition { title: "picture or grid, as risk…", command: |_| Command::Ask(FileRequest::OpenImage) },
+        Addition {
+            title: "picture or grid, as risk…",
+            command: |_| Command::File(FileCommand::Ask(FileRequest::OpenImage)),
+        },
         Addition {
             title: "grid, as target diameter…",
-            command: |_| Command::Ask(FileRequest::OpenDiameters),
+            command: |_| Command::File(FileCommand::Ask(FileRequest::OpenDiameters)),
         },
         Addition {
             title: "picture or grid, through a curve…",
-            command: |_| Command::Ask(FileRequest::OpenValues),
+            command: |_| Command::File(FileCommand::Ask(FileRequest::OpenValues)),
         },
     ],
     parameters,
@@ -62,7 +65,7 @@ fn parameters(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut
     if segmented(ui, "What the values mean", &mut meaning, &Meaning::CHOICES).changed() {
         match read_as(meaning, source, reading, &state.session.document().settings().transfer) {
             Ok(reading) => set(reading),
-            Err(problem) => commands.push(Command::Report(problem)),
+            Err(problem) => commands.push(Command::Shell(ShellCommand::Report(problem))),
         }
     } else if let RasterReading::Curve(curve) = reading
         && let Some(curve) = curve_rows(ui, curve, state.unit())

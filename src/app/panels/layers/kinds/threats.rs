@@ -3,7 +3,7 @@
 use eframe::egui::Ui;
 
 use super::{Addition, KindPanel, add, set_kind_once};
-use crate::app::command::{Command, ThreatsCommand};
+use crate::app::command::{Command, FileCommand, ShellCommand, ThreatsCommand};
 use crate::app::dialogs::FileRequest;
 use crate::app::frame::FrameState;
 use crate::app::panels::button_rows;
@@ -71,7 +71,7 @@ fn set_threat(layer: &Layer, threats: &Threats, number: usize, threat: Threat, c
     let mut threats = threats.clone();
     match threats.set(number, threat) {
         Ok(()) => set_kind_once(layer, LayerKind::Threats(threats), commands),
-        Err(error) => commands.push(Command::Report(error.to_string())),
+        Err(error) => commands.push(Command::Shell(ShellCommand::Report(error.to_string()))),
     }
 }
 
@@ -90,8 +90,8 @@ fn buttons(
             ("Delete threat", is_selected, Command::Threats(ThreatsCommand::Delete)),
         ],
         [
-            ("Open table…", true, Command::Ask(FileRequest::OpenThreats)),
-            ("Save table…", has_threats, Command::Ask(FileRequest::SaveThreats)),
+            ("Open table…", true, Command::File(FileCommand::Ask(FileRequest::OpenThreats))),
+            ("Save table…", has_threats, Command::File(FileCommand::Ask(FileRequest::SaveThreats))),
         ],
     ];
     button_rows(ui, rows, commands);

@@ -1,0 +1,35 @@
+//! Commands about the window around the document.
+
+use std::num::NonZeroUsize;
+
+use crate::app::help::HelpTopic;
+use crate::app::tools::Tool;
+
+/// One thing to do with tools, dialogs, help and messages.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ShellCommand {
+    /// Selects a tool.
+    Use(Tool),
+    /// Cancels the current stroke, cut or polygon, or else clears the query and the message.
+    Escape,
+    /// Opens the list of all commands.
+    Palette,
+    /// Shows what the program is.
+    About,
+    /// Closes the open dialog.
+    CloseDialog,
+    /// Shows a topic of the help.
+    ShowHelp(HelpTopic),
+    /// Closes the help.
+    CloseHelp,
+    /// Limits the threads on which the window computes.
+    LimitThreads(NonZeroUsize),
+    /// Shows a failure.
+    Report(String),
+    /// Shows news.
+    Tell(String),
+    /// Dismisses the message.
+    DismissNotice,
+    /// Copies a text to the clipboard.
+    Copy(String),
+}

@@ -1,0 +1,48 @@
+//! Commands about what is shown, and how.
+
+use eframe::egui::ThemePreference;
+use glam::DVec2;
+
+use crate::app::view::{CanvasAid, FieldOverlay};
+use meshbrush_mesh::geometry::Rect;
+use meshbrush_mesh::mesh::TriangleId;
+use meshbrush_render::colormap::Colormap;
+
+/// One thing to do with the view.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ViewCommand {
+    /// Shows the whole domain.
+    Fit,
+    /// Puts a point in the middle of the canvas.
+    LookAt(DVec2),
+    /// Shows an area, in world units, as large as it fits.
+    ShowArea(Rect),
+    /// Zooms about the middle of the canvas by a factor.
+    Zoom(f64),
+    /// Zooms by a factor about a place on the canvas, in pixels.
+    ZoomAt(f64, DVec2),
+    /// Moves the view, in pixels.
+    Pan(DVec2),
+    /// Shows or hides edges.
+    ToggleEdges,
+    /// Shows or hides an aid to orientation on the canvas.
+    ToggleAid(CanvasAid),
+    /// Chooses what is drawn over the mesh.
+    SetOverlay(FieldOverlay),
+    /// Chooses the colours of the levels.
+    Colormap(Colormap),
+    /// Shows one level alone, or all, while the pointer is on the legend.
+    ShowLevel(Option<u32>),
+    /// Hides or shows a level on the canvas.
+    ToggleLevel(u32),
+    /// Shows one level alone on the canvas; all if it is alone already.
+    IsolateLevel(u32),
+    /// Shows all levels on the canvas.
+    ShowAllLevels,
+    /// Highlights a neighbour of the queried triangle, or none.
+    HighlightNeighbour(Option<TriangleId>),
+    /// Dark, light, or as the desktop has it.
+    Theme(ThemePreference),
+    /// Shows or hides the panels.
+    TogglePanels,
+}

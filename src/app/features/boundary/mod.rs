@@ -1,0 +1,5 @@
+//! The pieces of the boundary.
+
+mod command;
+
+pub use command::BoundaryCommand;

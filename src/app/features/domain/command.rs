@@ -1,0 +1,49 @@
+//! Commands about the domain.
+
+use std::path::PathBuf;
+
+use glam::DVec2;
+
+use crate::app::tools::DomainToolMode;
+use meshbrush_core::document::Setting;
+use meshbrush_core::domain::{CutShape, Domain};
+use meshbrush_mesh::geometry::Rect;
+
+/// One thing to do with the domain.
+#[derive(Clone, Debug, PartialEq)]
+pub enum DomainCommand {
+    /// Adds a shape to the domain (`true`) or removes it. Further shapes join this gesture until
+    /// [`Command::EndGesture`].
+    Reshape(CutShape, bool),
+    /// Sets the next corner of the polygon to cut with.
+    AddCorner(DVec2),
+    /// Moves one of its corners.
+    MoveCorner(usize, DVec2),
+    /// Removes its last corner.
+    RemoveCorner,
+    /// Closes that polygon and cuts. It needs three corners.
+    ClosePolygon,
+    /// Selects the tool and what it cuts with.
+    Mode(DomainToolMode),
+    /// Sets whether it adds or removes.
+    Adds(bool),
+    /// Gives the domain other bounds.
+    Bounds(Rect),
+    /// Reads polygons, and opens a new document with them as its domain.
+    Open(PathBuf),
+    /// Reads polygons, and adds them to the domain of the document.
+    AddOutline(PathBuf),
+    /// Adds an outline that was read.
+    SetOutline(Box<OutlineChange>),
+}
+
+/// An outline that was read for a domain.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OutlineChange {
+    /// Name of the file.
+    pub name: String,
+    /// The domain that it was added to.
+    pub before: Domain,
+    /// The change of the document.
+    pub setting: Setting,
+}

@@ -1,0 +1,5 @@
+//! The domain.
+
+mod command;
+
+pub use command::{DomainCommand, OutlineChange};

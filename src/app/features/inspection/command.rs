@@ -1,0 +1,45 @@
+//! Commands about the queried point and its triangle.
+
+use glam::DVec2;
+
+use crate::app::explore::TreeStep;
+use crate::app::readout::Quantity;
+use meshbrush_mesh::mesh::TriangleId;
+
+/// One thing to do with the queried point.
+#[derive(Clone, Debug, PartialEq)]
+pub enum InspectCommand {
+    /// Queries a point.
+    Query(DVec2),
+    /// Queries a triangle.
+    QueryTriangle(TriangleId),
+    /// Queries a neighbour of the queried triangle, by its place from 0; 0 is the bisection neighbour.
+    QueryNeighbour(usize),
+    /// As [`Self::QueryNeighbour`], and keeps the triangles on the way in sight.
+    FollowNeighbour(usize),
+    /// Looks at other triangles and nodes of the bisection tree than the queried one.
+    Explore(ExploreCommand),
+    /// Measures how many steps point location takes.
+    MeasureWalks,
+    /// Copies everything that the inspector shows of the queried triangle.
+    CopyReadout,
+    /// Opens the question for a place to go to.
+    AskPlace,
+    /// Opens it with a point typed in.
+    AskPlaceNear(DVec2),
+    /// Puts a point in the middle of the canvas, and queries it.
+    GoTo(DVec2),
+    /// Puts a triangle in the middle of the canvas, large enough to be seen, and queries it.
+    GoToTriangle(TriangleId),
+    /// Chooses what the inspector interpolates.
+    Interpolate(Quantity),
+}
+
+/// What is looked at of the bisection tree around the queried triangle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ExploreCommand {
+    /// Goes to another triangle of the tree.
+    Step(TreeStep),
+    /// Shows the node at a corner of the shown triangle, 0 being the apex, or none.
+    ShowCorner(Option<usize>),
+}

@@ -1,0 +1,5 @@
+//! The layers of the size field.
+
+mod command;
+
+pub use command::LayerCommand;

@@ -1,0 +1,5 @@
+//! Strokes and the brush.
+
+mod command;
+
+pub use command::BrushCommand;

@@ -1,0 +1,5 @@
+//! The picture behind the mesh.
+
+mod command;
+
+pub use command::PictureCommand;

@@ -1,0 +1,8 @@
+//! Commands about the figures of the mesh.
+
+/// One thing to do with the figures of the mesh.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum StatisticsCommand {
+    /// Computes the figures of the mesh.
+    Measure,
+}

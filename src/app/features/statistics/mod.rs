@@ -1,0 +1,5 @@
+//! The figures of the mesh.
+
+mod command;
+
+pub use command::StatisticsCommand;

@@ -1,0 +1,5 @@
+//! The threats of the selected layer.
+
+mod command;
+
+pub use command::ThreatsCommand;
