@@ -20,6 +20,7 @@ mod document_id;
 mod execute;
 mod explore;
 mod features;
+mod file_kinds;
 mod files;
 mod frame;
 mod frame_log;

@@ -5,6 +5,8 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use super::background::{Aim, Background, exported};
+use super::command::Command;
+use super::dialogs::{FileAct, FileKind};
 use super::jobs::{Job, Jobs, Kind, Output, Slot, Taken};
 use super::session::Session;
 use super::statistics::MeasuredMesh;
@@ -12,7 +14,19 @@ use meshbrush_core::build::RefinementCriterion;
 use meshbrush_core::document::{Experiment, ExperimentMesh};
 use meshbrush_core::explain::{LevelFigures, bisections_plot, diameters_plot, triangles_plot};
 use meshbrush_core::plot::Plot;
-use meshbrush_io::io;
+use meshbrush_io::io::{self, plot};
+
+/// The plot.
+pub static EXPORT_PLOT: FileKind = FileKind {
+    title: "Export plot",
+    act: FileAct::Export,
+    endings: || plot::ENDINGS.to_vec(),
+    contents: "Drawings and tables",
+    folder: "exports",
+    suffix: " plot",
+    command: |path| Command::Plots(PlotsCommand::ExportAs(path)),
+    command_after_browsing: |path| Command::Plots(PlotsCommand::Export(path)),
+};
 
 /// What can be plotted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 use eframe::egui::{Context, ViewportCommand};
 
 use super::background::Background;
-use super::command::{Command, DomainCommand, FileCommand, LayerCommand};
+use super::command::{Command, FileCommand};
+use super::file_kinds::OPENED_BY_ENDING;
 use super::home::{self, Claims, Expected, Home};
 use super::replacing::{Loss, Replacing};
 use super::report::FigureCommand;
@@ -400,13 +401,10 @@ fn announce_closing(command: &Command, session: &mut Session, background: &Backg
 /// # Errors
 /// A sentence, when files with that ending cannot be opened.
 pub fn open_command(path: PathBuf) -> Result<Command, String> {
-    let ending = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
-    match ending.as_str() {
-        ENDING => Ok(Command::File(FileCommand::OpenProject(path))),
-        "png" | "asc" => Ok(Command::Layer(LayerCommand::OpenImage(path))),
-        "geojson" | "json" => Ok(Command::Domain(DomainCommand::Open(path))),
-        recipe::ENDING => Ok(Command::File(FileCommand::OpenRecipe(path))),
-        _ => Err(format!(
+    let name = path.file_name().unwrap_or_default();
+    match OPENED_BY_ENDING.iter().find(|kind| kind.takes(name)) {
+        Some(kind) => Ok((kind.command)(path)),
+        None => Err(format!(
             "{} cannot be opened: a project ends in .{ENDING}, a recipe in .{}, a domain of polygons in .geojson, a greyscale picture of risk in .png, a grid of risk in .asc.",
             path.display(),
             recipe::ENDING

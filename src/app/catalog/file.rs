@@ -4,8 +4,12 @@ use eframe::egui::{Key, Modifiers};
 
 use super::{CatalogItem, Menu};
 use crate::app::command::{Command, FileCommand};
-use crate::app::dialogs::FileRequest;
+use crate::app::features::domain::{ADD_OUTLINE, OPEN_DOMAIN};
+use crate::app::features::layers::{OPEN_DIAMETERS, OPEN_RISK};
+use crate::app::features::picture::OPEN_PICTURE;
+use crate::app::file_kinds::{EXPORT_MESH, EXPORT_TEST, OPEN_ANY, SAVE_PROJECT, SAVE_RECIPE};
 use crate::app::frame::FrameState;
+use crate::app::paths::EXPORT_PATH;
 
 /// Documents and files.
 pub fn file(state: &FrameState<'_>) -> Vec<CatalogItem> {
@@ -13,39 +17,29 @@ pub fn file(state: &FrameState<'_>) -> Vec<CatalogItem> {
     let has_paths = !state.session.document().settings().paths.routes.is_empty();
     let mut items = vec![
         CatalogItem::new(File, "New", Command::File(FileCommand::New)).ctrl(Key::N),
-        CatalogItem::new(File, "Open…", Command::File(FileCommand::Ask(FileRequest::Open))).ctrl(Key::O),
+        CatalogItem::new(File, "Open…", Command::File(FileCommand::Ask(&OPEN_ANY))).ctrl(Key::O),
         CatalogItem::new(File, "Save", Command::File(FileCommand::Save)).ctrl(Key::S),
-        CatalogItem::new(File, "Save as…", Command::File(FileCommand::Ask(FileRequest::Save)))
+        CatalogItem::new(File, "Save as…", Command::File(FileCommand::Ask(&SAVE_PROJECT)))
             .keys(Modifiers::COMMAND | Modifiers::SHIFT, Key::S),
-        CatalogItem::new(File, "Save as recipe…", Command::File(FileCommand::Ask(FileRequest::SaveRecipe))),
-        CatalogItem::new(
-            File,
-            "Open picture as risk…",
-            Command::File(FileCommand::Ask(FileRequest::OpenImage)),
-        )
-        .group(),
+        CatalogItem::new(File, "Save as recipe…", Command::File(FileCommand::Ask(&SAVE_RECIPE))),
+        CatalogItem::new(File, "Open picture as risk…", Command::File(FileCommand::Ask(&OPEN_RISK))).group(),
         CatalogItem::new(
             File,
             "Open grid as target diameter…",
-            Command::File(FileCommand::Ask(FileRequest::OpenDiameters)),
+            Command::File(FileCommand::Ask(&OPEN_DIAMETERS)),
         ),
-        CatalogItem::new(
-            File,
-            "Open background picture…",
-            Command::File(FileCommand::Ask(FileRequest::OpenBackground)),
-        ),
-        CatalogItem::new(File, "Open domain…", Command::File(FileCommand::Ask(FileRequest::OpenDomain)))
+        CatalogItem::new(File, "Open background picture…", Command::File(FileCommand::Ask(&OPEN_PICTURE))),
+        CatalogItem::new(File, "Open domain…", Command::File(FileCommand::Ask(&OPEN_DOMAIN)))
             .keys(Modifiers::COMMAND | Modifiers::SHIFT, Key::O),
         CatalogItem::new(
             File,
             "Add outline to this document…",
-            Command::File(FileCommand::Ask(FileRequest::AddOutline)),
+            Command::File(FileCommand::Ask(&ADD_OUTLINE)),
         ),
-        CatalogItem::new(File, "Export mesh…", Command::File(FileCommand::Ask(FileRequest::Export)))
-            .ctrl(Key::E),
-        CatalogItem::new(File, "Export path…", Command::File(FileCommand::Ask(FileRequest::ExportPath)))
+        CatalogItem::new(File, "Export mesh…", Command::File(FileCommand::Ask(&EXPORT_MESH))).ctrl(Key::E),
+        CatalogItem::new(File, "Export path…", Command::File(FileCommand::Ask(&EXPORT_PATH)))
             .enabled(has_paths),
-        CatalogItem::new(File, "Export as test…", Command::File(FileCommand::Ask(FileRequest::ExportTest))),
+        CatalogItem::new(File, "Export as test…", Command::File(FileCommand::Ask(&EXPORT_TEST))),
     ];
     for (i, path) in state.project.recent().iter().enumerate() {
         let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();

@@ -4,8 +4,8 @@ use eframe::egui::Key;
 
 use super::{CatalogItem, Menu};
 use crate::app::command::{Command, FileCommand};
-use crate::app::dialogs::FileRequest;
 use crate::app::frame::FrameState;
+use crate::app::plots::EXPORT_PLOT;
 use crate::app::plots::{PlotKind, PlotsCommand};
 
 /// The plots, and what to do with them.
@@ -23,11 +23,7 @@ pub fn plots(state: &FrameState<'_>) -> Vec<CatalogItem> {
         item("Measure the time per triangle", PlotsCommand::Measure)
     };
     let is_known = plots.is_known();
-    let export = CatalogItem::new(
-        Menu::View,
-        "Export plot…",
-        Command::File(FileCommand::Ask(FileRequest::ExportPlot)),
-    );
+    let export = CatalogItem::new(Menu::View, "Export plot…", Command::File(FileCommand::Ask(&EXPORT_PLOT)));
     let copy = item("Copy the numbers of the plot", PlotsCommand::Copy);
     let mut items = vec![show];
     items.extend(PlotKind::ALL.map(of_kind));

@@ -4,8 +4,8 @@ use eframe::egui::{Key, Modifiers};
 
 use super::{CatalogItem, Menu};
 use crate::app::command::{Command, FileCommand};
-use crate::app::dialogs::FileRequest;
 use crate::app::frame::FrameState;
+use crate::app::stepping::EXPORT_STEPS;
 use crate::app::stepping::StepCommand;
 
 /// How to begin; and once begun, how to move.
@@ -26,12 +26,8 @@ pub fn steps(state: &FrameState<'_>) -> Vec<CatalogItem> {
             .enabled(position < count),
         item("First step", StepCommand::GoTo(0)).keys(Modifiers::SHIFT, Key::ArrowLeft).enabled(position > 0),
         item(play, StepCommand::TogglePlay).key(Key::Space).enabled(count > 0),
-        CatalogItem::new(
-            Menu::View,
-            "Export steps as SVG…",
-            Command::File(FileCommand::Ask(FileRequest::ExportSteps)),
-        )
-        .keys(Modifiers::COMMAND | Modifiers::SHIFT, Key::E)
-        .enabled(count > 0),
+        CatalogItem::new(Menu::View, "Export steps as SVG…", Command::File(FileCommand::Ask(&EXPORT_STEPS)))
+            .keys(Modifiers::COMMAND | Modifiers::SHIFT, Key::E)
+            .enabled(count > 0),
     ]
 }

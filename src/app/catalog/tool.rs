@@ -7,10 +7,11 @@ use crate::app::command::{
     BoundaryCommand, BrushCommand, Command, DomainCommand, ExploreCommand, FileCommand, InspectCommand,
     PinsCommand, ShellCommand, ThreatsCommand,
 };
-use crate::app::dialogs::FileRequest;
 use crate::app::explore::TreeStep;
+use crate::app::features::pins::EXPORT_PINS;
 use crate::app::frame::FrameState;
 use crate::app::keep_out::KeepOutCommand;
+use crate::app::paths::OPEN_KEEP_OUT;
 use crate::app::paths::{AlternativesCommand, CostKind, FrontCommand, PathCommand};
 use crate::app::tools::{
     BOUNDARY, BoundaryToolMode, BrushMode, DOMAIN, DomainToolMode, ERASER, PATH, PaintKind, QUERY, THREATS,
@@ -155,8 +156,7 @@ fn pins(state: &FrameState<'_>) -> Vec<CatalogItem> {
         delete.enabled(state.tools.pins.selected_of(pins).is_some()),
         item("Delete all pins", Command::Pins(PinsCommand::DeleteAll)).enabled(has_pins),
         item("Copy the table of pins", Command::Pins(PinsCommand::Copy)).enabled(has_pins),
-        item("Export the table of pins…", Command::File(FileCommand::Ask(FileRequest::ExportPins)))
-            .enabled(has_pins),
+        item("Export the table of pins…", Command::File(FileCommand::Ask(&EXPORT_PINS))).enabled(has_pins),
     ]
 }
 
@@ -221,11 +221,7 @@ fn path_tool(state: &FrameState<'_>) -> Vec<CatalogItem> {
         item("Delete all paths", PathCommand::DeleteAll).enabled(has_paths),
         cost("Weigh length and risk of paths", CostKind::Weights).group(),
         cost("Cost of paths by a formula", CostKind::Formula),
-        CatalogItem::new(
-            Menu::Tool,
-            "Add keep-out region…",
-            Command::File(FileCommand::Ask(FileRequest::OpenKeepOut)),
-        ),
+        CatalogItem::new(Menu::Tool, "Add keep-out region…", Command::File(FileCommand::Ask(&OPEN_KEEP_OUT))),
         item("Keep paths out of the layer's mask", PathCommand::KeepOut(KeepOutCommand::AddMask))
             .enabled(KeepOutCommand::mask_to_add(state.session).is_some()),
         item("Remove all keep-out regions", PathCommand::KeepOut(KeepOutCommand::RemoveAll))

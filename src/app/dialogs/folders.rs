@@ -16,7 +16,7 @@ pub struct LastFolders(BTreeMap<String, PathBuf>);
 impl LastFolders {
     /// Where to look first: in the last folder for such files, else beside a known file, else at home.
     pub fn of(&self, request: FileRequest, file: Option<&Path>) -> PathBuf {
-        let last = self.0.get(request.folder_key()).map(PathBuf::as_path);
+        let last = self.0.get(request.folder).map(PathBuf::as_path);
         let beside = file.and_then(Path::parent);
         let known = last.into_iter().chain(beside).find(|folder| io::is_folder(folder));
         let elsewhere = || std::env::home_dir().or(std::env::current_dir().ok());
@@ -26,7 +26,7 @@ impl LastFolders {
     /// Notes the folder of an answer.
     pub fn note(&mut self, request: FileRequest, folder: Option<&Path>) {
         if let Some(folder) = folder {
-            self.0.insert(request.folder_key().to_owned(), folder.to_owned());
+            self.0.insert(request.folder.to_owned(), folder.to_owned());
         }
     }
 

@@ -21,7 +21,7 @@ pub use file::FileFacts;
 use file::{FileAnswer, FileDialog};
 use folders::LastFolders;
 pub use go_to::fill_in_place;
-pub use request::FileRequest;
+pub use request::{FileAct, FileKind, FileRequest};
 use system::{Answer, Question, SystemDialog};
 
 /// Chooses the file dialog: `window` for the one in the window, `system` for the desktop's own.
@@ -123,10 +123,10 @@ impl Dialogs {
         match answer {
             Answer::Chosen(path) => {
                 self.folders.note(request, path.parent());
-                if question.document != document && !request.opens_document() {
-                    return Err(request.title());
+                if question.document != document && request.act != FileAct::OpenDocument {
+                    return Err(request.title);
                 }
-                Ok(Some(request.command_after_browsing(path)))
+                Ok(Some((request.command_after_browsing)(path)))
             }
             Answer::Cancelled => Ok(None),
             Answer::NoDialog => {
@@ -174,7 +174,7 @@ impl Dialogs {
             FileAnswer::CancelWork(id) => commands.push(Command::File(FileCommand::CancelWork(id))),
             FileAnswer::Chosen(path) => {
                 self.folders.note(file.request(), path.parent());
-                commands.push(file.request().command(path));
+                commands.push((file.request().command)(path));
             }
         }
     }

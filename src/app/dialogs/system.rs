@@ -73,9 +73,9 @@ fn answer(question: &Question) -> Answer {
     let request = question.request;
     let began = Instant::now();
     let dialog = rfd::FileDialog::new()
-        .set_title(request.title())
+        .set_title(request.title)
         .set_directory(&question.folder)
-        .add_filter(request.kinds(), &request.endings());
+        .add_filter(request.contents, &(request.endings)());
     let path =
         if request.writes() { dialog.set_file_name(&question.name).save_file() } else { dialog.pick_file() };
     match path {

@@ -9,6 +9,7 @@ use crate::app::App;
 use crate::app::background::{Aim, Finished, Outcome, WorkId, name_of};
 use crate::app::command::{Command, FileCommand, Opened};
 use crate::app::dialogs::FileRequest;
+use crate::app::file_kinds::SAVE_PROJECT;
 use crate::app::home::{self, Home};
 use crate::app::journal::JournalKeeper;
 use crate::app::{files, journal, project};
@@ -29,7 +30,7 @@ impl App {
             FileCommand::Show(opened) => self.show_opened(opened),
             FileCommand::Save => match self.project.path() {
                 Some(path) => self.send(Command::File(FileCommand::SaveTo(path.to_owned()))),
-                None => self.ask_for_file(FileRequest::Save),
+                None => self.ask_for_file(&SAVE_PROJECT),
             },
             FileCommand::SaveAs(path) => self.commands.extend(self.project.save_as(path)),
             FileCommand::SaveTo(path) => {

@@ -4,7 +4,7 @@ use eframe::egui::Context;
 
 use crate::app::App;
 use crate::app::command::{Command, FileCommand, LayerCommand};
-use crate::app::dialogs::FileRequest;
+use crate::app::features::layers::OPEN_BAND;
 use crate::app::layer_files;
 use crate::app::notices::Offer;
 use crate::app::panels::ask_layer_name;
@@ -122,7 +122,7 @@ impl App {
         let Settings { layers, transfer, .. } = document.settings();
         let all = document.active_layer().into_iter().chain(layers.iter().rev());
         let Some(source) = all.map(|layer| &layer.kind).find_map(LayerKind::raster_source) else {
-            return self.send(Command::File(FileCommand::Ask(FileRequest::OpenBand)));
+            return self.send(Command::File(FileCommand::Ask(&OPEN_BAND)));
         };
         match LayerKind::band_of(source.clone(), transfer) {
             Some(band) => self.add_layer(band),

@@ -5,7 +5,7 @@ use glam::dvec2;
 
 use super::{Panel, end_gesture_when_released, remark, set_once};
 use crate::app::command::{Command, EditCommand, FileCommand, ViewCommand};
-use crate::app::dialogs::FileRequest;
+use crate::app::features::picture::OPEN_PICTURE;
 use crate::app::frame::FrameState;
 use crate::app::view::CanvasAid;
 use crate::app::widgets::{ActionButton, NumberRow, Section, SliderRow, toggle_row, value_row};
@@ -29,7 +29,7 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
                     "A map or photograph to trace. A world file beside it (.pgw, .wld) says where it lies.",
                 );
                 if ui.add(ActionButton::new("Open background…")).clicked() {
-                    commands.push(Command::File(FileCommand::Ask(FileRequest::OpenBackground)));
+                    commands.push(Command::File(FileCommand::Ask(&OPEN_PICTURE)));
                 }
             }
         }

@@ -6,7 +6,7 @@ use super::brush::radius_row;
 use super::formula::FormulaRow;
 use super::{Panel, end_gesture_when_released, remark, set_once};
 use crate::app::command::{Command, DomainCommand, EditCommand, FileCommand};
-use crate::app::dialogs::FileRequest;
+use crate::app::features::domain::{ADD_OUTLINE, OPEN_DOMAIN};
 use crate::app::frame::FrameState;
 use crate::app::tools::{DOMAIN as DOMAIN_TOOL, DomainToolMode};
 use crate::app::widgets::{
@@ -218,10 +218,10 @@ fn buttons(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     ui.add_space(4.0);
     ui.horizontal(|ui| {
         if ui.add(ActionButton::new("Open domain…")).clicked() {
-            commands.push(Command::File(FileCommand::Ask(FileRequest::OpenDomain)));
+            commands.push(Command::File(FileCommand::Ask(&OPEN_DOMAIN)));
         }
         if ui.add(ActionButton::new("Add outline…")).clicked() {
-            commands.push(Command::File(FileCommand::Ask(FileRequest::AddOutline)));
+            commands.push(Command::File(FileCommand::Ask(&ADD_OUTLINE)));
         }
     });
     let domain = &state.session.document().settings().domain;

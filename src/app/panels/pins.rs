@@ -4,7 +4,7 @@ use eframe::egui::{Align2, FontId, Pos2, Rect, Role, ScrollArea, Sense, Ui, Widg
 
 use super::{Panel, button_rows, remark};
 use crate::app::command::{Command, FileCommand, PinsCommand};
-use crate::app::dialogs::FileRequest;
+use crate::app::features::pins::EXPORT_PINS;
 use crate::app::frame::FrameState;
 use crate::app::pins::PinRow;
 use crate::app::theme::{font, tokens};
@@ -165,7 +165,7 @@ fn buttons(ui: &mut Ui, state: &FrameState<'_>, has_pins: bool, commands: &mut V
         ],
         vec![
             ("Copy table", has_pins, pin(PinsCommand::Copy)),
-            ("Export table…", has_pins, Command::File(FileCommand::Ask(FileRequest::ExportPins))),
+            ("Export table…", has_pins, Command::File(FileCommand::Ask(&EXPORT_PINS))),
         ],
         vec![("Delete all pins", has_pins, pin(PinsCommand::DeleteAll))],
     ];

@@ -4,8 +4,8 @@ use eframe::egui::Ui;
 
 use super::{Panel, button_rows, remark};
 use crate::app::command::{Command, FileCommand};
-use crate::app::dialogs::FileRequest;
 use crate::app::frame::FrameState;
+use crate::app::plots::EXPORT_PLOT;
 use crate::app::plots::{PlotKind, Plots, PlotsCommand};
 use crate::app::widgets::{ActionButton, NumberRow, Section, dropdown_row, plot_view, value_row};
 use meshbrush_core::document::Experiment;
@@ -55,7 +55,7 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
         });
         let is_known = known.is_some();
         let copy = Command::Plots(PlotsCommand::Copy);
-        let export = Command::File(FileCommand::Ask(FileRequest::ExportPlot));
+        let export = Command::File(FileCommand::Ask(&EXPORT_PLOT));
         button_rows(
             ui,
             [vec![("Export plot…", is_known, export), ("Copy numbers", is_known, copy)]],

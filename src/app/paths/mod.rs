@@ -14,6 +14,7 @@
 mod alternatives;
 mod command;
 mod corridor;
+mod files;
 mod front;
 mod work;
 
@@ -22,6 +23,7 @@ use std::sync::Arc;
 pub use alternatives::{AlternativesCommand, AlternativesFinder, MOST_ALTERNATIVES};
 pub use command::{CostKind, NO_PATH, PathCommand};
 pub use corridor::ShownCorridor;
+pub use files::{EXPORT_PATH, OPEN_KEEP_OUT};
 pub use front::{FRONT_PATHS, FrontCommand, FrontFinder};
 pub use work::{FoundPath, ShownPath};
 use work::{KnownPlanner, PlannedMesh, Work, WorkResult, find, find_corridor};

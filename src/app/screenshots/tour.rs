@@ -9,7 +9,7 @@ use super::{OffscreenWindow, look_at, make_folder, on_screen, point_at, write_pi
 use crate::app::command::{
     BrushCommand, Command, DomainCommand, FileCommand, InspectCommand, ShellCommand, ViewCommand,
 };
-use crate::app::dialogs::FileRequest;
+use crate::app::file_kinds::{EXPORT_MESH, SAVE_PROJECT};
 use crate::app::files::AEGEAN_SEA;
 use crate::app::tools::{BrushMode, DomainToolMode, ERASER, QUERY};
 use meshbrush_io::io;
@@ -27,7 +27,7 @@ const STEPS: [Step; 8] = [
     ("4-pick", pick),
     ("5-query", query),
     ("6-cut", cut),
-    ("7-save", |window| window.send(Command::File(FileCommand::Ask(FileRequest::Save)))),
+    ("7-save", |window| window.send(Command::File(FileCommand::Ask(&SAVE_PROJECT)))),
     ("8-export", export),
 ];
 
@@ -89,7 +89,7 @@ fn cut(window: &mut OffscreenWindow) {
 fn export(window: &mut OffscreenWindow) {
     window.send(Command::Shell(ShellCommand::CloseDialog));
     window.send(Command::Domain(DomainCommand::ClosePolygon));
-    window.send(Command::File(FileCommand::Ask(FileRequest::Export)));
+    window.send(Command::File(FileCommand::Ask(&EXPORT_MESH)));
 }
 
 fn drag(window: &mut OffscreenWindow, points: &[DVec2]) {

@@ -5,6 +5,7 @@
 //! shows the arrays at one step in place of the mesh. An edit of the document ends the mode.
 
 mod export;
+mod files;
 mod picture;
 
 use std::path::PathBuf;
@@ -15,6 +16,7 @@ use eframe::egui::Context;
 use glam::DVec2;
 
 pub use export::MOST_FILES;
+pub use files::EXPORT_STEPS;
 pub use picture::paint;
 
 use super::document_id::DocumentId;

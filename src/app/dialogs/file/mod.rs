@@ -10,6 +10,7 @@ use std::path::{Path, PathBuf};
 
 use super::FileRequest;
 use crate::app::busy::Busy;
+use crate::app::file_kinds::EXPORT_MESH;
 use crate::app::jobs::Jobs;
 use listing::{Contents, Listing};
 use meshbrush_io::io::{self, FolderEntry};
@@ -53,7 +54,7 @@ impl FileDialog {
             waits: None,
             selects_text: true,
         };
-        dialog.text = request.proposed_name(name, format);
+        dialog.text = request.proposed_name(name, dialog.ending());
         dialog
     }
 
@@ -86,10 +87,13 @@ impl FileDialog {
     /// The path that the text means.
     fn path(&self) -> PathBuf {
         let path = io::resolve(&self.text, &self.folder, self.home.as_deref());
-        match self.request {
-            FileRequest::Export if path.extension().is_none() => path.with_extension(self.format.ending()),
-            _ => path,
-        }
+        let asks_for_format = self.request == &EXPORT_MESH && path.extension().is_none();
+        if asks_for_format { path.with_extension(self.ending()) } else { path }
+    }
+
+    /// The ending of a file to write, without the dot.
+    fn ending(&self) -> &'static str {
+        if self.request == &EXPORT_MESH { self.format.ending() } else { (self.request.endings)()[0] }
     }
 
     /// The folder and the beginning of a name that a typed text asks for.

@@ -8,9 +8,9 @@ use eframe::egui::{
     self, Context, EventFilter, Key, Modifiers, Rect, Response, RichText, Ui, UiBuilder, vec2,
 };
 
-use super::super::FileRequest;
 use super::{Contents, FileDialog};
 use crate::app::background::{Row, WorkId};
+use crate::app::file_kinds::EXPORT_MESH;
 use crate::app::theme::{font, metrics, tokens};
 use crate::app::widgets::{
     ActionButton, ButtonKind, FileRow, Icon, TextError, TextRow, ToolButton, bytes_row, dialog, dialog_title,
@@ -75,7 +75,7 @@ impl FileDialog {
 
     fn contents(&mut self, ui: &mut Ui, facts: &FileFacts<'_>) -> FileAnswer {
         ui.set_width(WIDTH.min(ui.ctx().content_rect().width() - 64.0));
-        dialog_title(ui, self.request.title());
+        dialog_title(ui, self.request.title);
         ui.add_space(8.0);
         let rows = self.rows();
         let enabled = !self.is_waiting();
@@ -85,7 +85,7 @@ impl FileDialog {
             let clicked = self.list(ui, &rows);
             ui.add_space(8.0);
             let entered = self.text_row(ui, &rows);
-            if self.request == FileRequest::Export {
+            if self.request == &EXPORT_MESH {
                 self.format_rows(ui, facts.triangles);
             }
             clicked.or(entered)
@@ -158,7 +158,7 @@ impl FileDialog {
             Contents::Read(_) if self.request.writes() => "No files of this kind in this folder".into(),
             Contents::Read(_) => {
                 let endings: Vec<String> =
-                    self.request.endings().iter().map(|ending| format!(".{ending}")).collect();
+                    (self.request.endings)().iter().map(|ending| format!(".{ending}")).collect();
                 format!("No files of this kind in this folder: {}", endings.join(" "))
             }
         }

@@ -1,5 +1,7 @@
 //! Pins: points of the document whose triangles and values are followed.
 
 mod command;
+mod files;
 
 pub use command::PinsCommand;
+pub use files::EXPORT_PINS;

@@ -4,7 +4,7 @@ use eframe::egui::Ui;
 
 use super::kinds::kind_of;
 use crate::app::command::{Command, FileCommand, LayerCommand};
-use crate::app::dialogs::FileRequest;
+use crate::app::features::layers::OPEN_MASK;
 use crate::app::frame::FrameState;
 use crate::app::panels::remark;
 use crate::app::widgets::{ActionButton, Section, ValueRow, format, segmented, tips};
@@ -62,7 +62,7 @@ fn mask_rows(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut 
     ValueRow::new("Mask", &area).help(help).show(ui);
     ui.horizontal(|ui| {
         if ui.add(ActionButton::new("Mask from file…")).clicked() {
-            commands.push(Command::File(FileCommand::Ask(FileRequest::OpenMask)));
+            commands.push(Command::File(FileCommand::Ask(&OPEN_MASK)));
         }
         let remove = ActionButton::new("Remove mask");
         if ui.add_enabled_ui(layer.mask.is_some(), |ui| ui.add(remove)).inner.clicked() {

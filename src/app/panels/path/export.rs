@@ -3,9 +3,9 @@
 use eframe::egui::Ui;
 
 use crate::app::command::{Command, FileCommand};
-use crate::app::dialogs::FileRequest;
 use crate::app::frame::FrameState;
 use crate::app::panels::button_rows;
+use crate::app::paths::EXPORT_PATH;
 use crate::app::paths::PathCommand;
 use crate::app::widgets::NumberRow;
 
@@ -19,9 +19,5 @@ pub fn rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     if row.unit(state.unit().symbol()).help(help).show(ui).changed() {
         commands.push(Command::Path(PathCommand::ExportTolerance(tolerance)));
     }
-    button_rows(
-        ui,
-        [[("Export path…", true, Command::File(FileCommand::Ask(FileRequest::ExportPath)))]],
-        commands,
-    );
+    button_rows(ui, [[("Export path…", true, Command::File(FileCommand::Ask(&EXPORT_PATH)))]], commands);
 }

@@ -3,10 +3,10 @@
 use eframe::egui::Ui;
 
 use crate::app::command::{Command, FileCommand};
-use crate::app::dialogs::FileRequest;
 use crate::app::frame::FrameState;
 use crate::app::keep_out::KeepOutCommand;
 use crate::app::panels::button_rows;
+use crate::app::paths::OPEN_KEEP_OUT;
 use crate::app::paths::PathCommand;
 use crate::app::theme::metrics;
 use crate::app::widgets::{Icon, ToolButton, ValueRow, format};
@@ -34,7 +34,7 @@ pub fn rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     }
     let can_take_mask = KeepOutCommand::mask_to_add(state.session).is_some();
     let rows = [
-        [("Add keep-out region…", true, Command::File(FileCommand::Ask(FileRequest::OpenKeepOut)))],
+        [("Add keep-out region…", true, Command::File(FileCommand::Ask(&OPEN_KEEP_OUT)))],
         [("Use the layer's mask", can_take_mask, command(KeepOutCommand::AddMask))],
     ];
     button_rows(ui, rows, commands);

@@ -3,7 +3,7 @@
 use eframe::egui::Ui;
 
 use crate::app::command::{Command, FileCommand};
-use crate::app::dialogs::FileRequest;
+use crate::app::stepping::EXPORT_STEPS;
 use crate::app::stepping::{MOST_FILES, StepCommand, Stepping};
 use crate::app::widgets::{ActionButton, NumberRow, Section, tips};
 
@@ -27,7 +27,7 @@ pub fn section(ui: &mut Ui, stepping: &Stepping, count: usize, commands: &mut Ve
         let fits = (1..=MOST_FILES).contains(&files);
         let response = ui.add_enabled(fits, button);
         if tips::explain(ui, response, tips::sentence(NAME)).clicked() {
-            commands.push(Command::File(FileCommand::Ask(FileRequest::ExportSteps)));
+            commands.push(Command::File(FileCommand::Ask(&EXPORT_STEPS)));
         }
         let remark = match files {
             1 => "One drawing will be written.".into(),

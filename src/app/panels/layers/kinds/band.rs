@@ -5,7 +5,7 @@ use eframe::egui::Ui;
 use super::raster::source_rows;
 use super::{Addition, KindPanel, set_kind_once};
 use crate::app::command::{Command, FileCommand, LayerCommand};
-use crate::app::dialogs::FileRequest;
+use crate::app::features::layers::OPEN_BAND;
 use crate::app::frame::FrameState;
 use crate::app::widgets::{Icon, NumberRow};
 use meshbrush_core::layers::{Layer, LayerKind};
@@ -16,10 +16,7 @@ pub const BAND: KindPanel = KindPanel {
     icon: Icon::BAND,
     additions: &[
         Addition { title: "band of a raster…", command: |_| Command::Layer(LayerCommand::AddBand) },
-        Addition {
-            title: "band of a file…",
-            command: |_| Command::File(FileCommand::Ask(FileRequest::OpenBand)),
-        },
+        Addition { title: "band of a file…", command: |_| Command::File(FileCommand::Ask(&OPEN_BAND)) },
     ],
     parameters,
 };

@@ -4,7 +4,7 @@ use eframe::egui::Ui;
 
 use super::{Addition, KindPanel, add, set_kind_once};
 use crate::app::command::{Command, FileCommand, LayerCommand};
-use crate::app::dialogs::FileRequest;
+use crate::app::features::layers::{OPEN_SHAPES, REPLACE_SHAPES};
 use crate::app::frame::FrameState;
 use crate::app::widgets::{ActionButton, Icon, NumberRow, ValueRow, toggle_row};
 use meshbrush_core::document::Settings;
@@ -20,8 +20,7 @@ pub const DISTANCE: KindPanel = KindPanel {
     additions: &[
         Addition { title: "distance to the outline", command: add_distance_to_outline },
         Addition {
-            title: "distance to shapes…",
-            command: |_| Command::File(FileCommand::Ask(FileRequest::OpenShapes)),
+            title: "distance to shapes…", command: |_| Command::File(FileCommand::Ask(&OPEN_SHAPES))
         },
     ],
     parameters,
@@ -72,7 +71,7 @@ pub fn range_rows(ui: &mut Ui, state: &FrameState<'_>, range: &mut f64) -> bool 
 fn target_buttons(ui: &mut Ui, layer: &Layer, to: &DistanceTo, commands: &mut Vec<Command>) {
     ui.horizontal(|ui| {
         if ui.add(ActionButton::new("Open shapes…")).clicked() {
-            commands.push(Command::File(FileCommand::Ask(FileRequest::ReplaceShapes)));
+            commands.push(Command::File(FileCommand::Ask(&REPLACE_SHAPES)));
         }
         let is_shapes = *to != DistanceTo::Outline;
         let outline = ActionButton::new("Use outline");

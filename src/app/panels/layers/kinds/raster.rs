@@ -7,7 +7,7 @@ use eframe::egui::Ui;
 use super::curve::curve_rows;
 use super::{Addition, KindPanel, set_kind_once};
 use crate::app::command::{Command, FileCommand, ShellCommand};
-use crate::app::dialogs::FileRequest;
+use crate::app::features::layers::{OPEN_DIAMETERS, OPEN_RISK, OPEN_VALUES};
 use crate::app::frame::FrameState;
 use crate::app::widgets::{Icon, ValueRow, format, segmented};
 use meshbrush_core::field::Transfer;
@@ -21,15 +21,15 @@ pub const RASTER: KindPanel = KindPanel {
     additions: &[
         Addition {
             title: "picture or grid, as risk…",
-            command: |_| Command::File(FileCommand::Ask(FileRequest::OpenImage)),
+            command: |_| Command::File(FileCommand::Ask(&OPEN_RISK)),
         },
         Addition {
             title: "grid, as target diameter…",
-            command: |_| Command::File(FileCommand::Ask(FileRequest::OpenDiameters)),
+            command: |_| Command::File(FileCommand::Ask(&OPEN_DIAMETERS)),
         },
         Addition {
             title: "picture or grid, through a curve…",
-            command: |_| Command::File(FileCommand::Ask(FileRequest::OpenValues)),
+            command: |_| Command::File(FileCommand::Ask(&OPEN_VALUES)),
         },
     ],
     parameters,

@@ -4,7 +4,7 @@ use eframe::egui::Ui;
 
 use super::{Addition, KindPanel, add, set_kind_once};
 use crate::app::command::{Command, FileCommand, ShellCommand, ThreatsCommand};
-use crate::app::dialogs::FileRequest;
+use crate::app::features::threats::{OPEN_THREATS, SAVE_THREATS};
 use crate::app::frame::FrameState;
 use crate::app::panels::button_rows;
 use crate::app::widgets::{Icon, NumberRow, ValueRow, format, segmented};
@@ -90,8 +90,8 @@ fn buttons(
             ("Delete threat", is_selected, Command::Threats(ThreatsCommand::Delete)),
         ],
         [
-            ("Open table…", true, Command::File(FileCommand::Ask(FileRequest::OpenThreats))),
-            ("Save table…", has_threats, Command::File(FileCommand::Ask(FileRequest::SaveThreats))),
+            ("Open table…", true, Command::File(FileCommand::Ask(&OPEN_THREATS))),
+            ("Save table…", has_threats, Command::File(FileCommand::Ask(&SAVE_THREATS))),
         ],
     ];
     button_rows(ui, rows, commands);

@@ -1,0 +1,108 @@
+//! The kinds of files that whole documents and meshes are read from and written to.
+
+use std::path::Path;
+
+use super::command::{Command, FileCommand};
+use super::dialogs::{FileAct, FileKind};
+use super::features::domain::OPEN_DOMAIN;
+use super::features::layers::OPEN_RISK;
+use meshbrush_io::io::project::ENDING;
+use meshbrush_io::io::{recipe, recording};
+use meshbrush_render::render::export::ExportFormat;
+
+/// What opening a file means, by its ending: that of the first row that takes it.
+pub static OPENED_BY_ENDING: [&FileKind; 4] = [&OPEN_PROJECT, &OPEN_RECIPE, &OPEN_DOMAIN, &OPEN_RISK];
+
+/// Any file that can be opened.
+pub static OPEN_ANY: FileKind = FileKind {
+    title: "Open",
+    act: FileAct::OpenDocument,
+    endings: || OPENED_BY_ENDING.iter().flat_map(|kind| (kind.endings)()).collect(),
+    contents: "Projects, domains, pictures, grids",
+    folder: "projects",
+    suffix: "",
+    command: |path| Command::File(FileCommand::Open(path)),
+    command_after_browsing: |path| Command::File(FileCommand::Open(path)),
+};
+
+/// A project.
+pub static OPEN_PROJECT: FileKind = FileKind {
+    title: "Open project",
+    act: FileAct::OpenDocument,
+    endings: || vec![ENDING],
+    contents: "Projects",
+    folder: "projects",
+    suffix: "",
+    command: |path| Command::File(FileCommand::OpenProject(path)),
+    command_after_browsing: |path| Command::File(FileCommand::OpenProject(path)),
+};
+
+/// A recipe as a new document.
+pub static OPEN_RECIPE: FileKind = FileKind {
+    title: "Open recipe",
+    act: FileAct::OpenDocument,
+    endings: || vec![recipe::ENDING],
+    contents: "Recipes",
+    folder: "recipes",
+    suffix: "",
+    command: |path| Command::File(FileCommand::OpenRecipe(path)),
+    command_after_browsing: |path| Command::File(FileCommand::OpenRecipe(path)),
+};
+
+/// The document as a project.
+pub static SAVE_PROJECT: FileKind = FileKind {
+    title: "Save project",
+    act: FileAct::Save,
+    endings: || vec![ENDING],
+    contents: "Projects",
+    folder: "projects",
+    suffix: "",
+    command: |path| Command::File(FileCommand::SaveAs(path)),
+    command_after_browsing: |path| Command::File(FileCommand::SaveTo(path)),
+};
+
+/// The document as a recipe.
+pub static SAVE_RECIPE: FileKind = FileKind {
+    title: "Save as recipe",
+    act: FileAct::Save,
+    endings: || vec![recipe::ENDING],
+    contents: "Recipes",
+    folder: "recipes",
+    suffix: "",
+    command: |path| Command::File(FileCommand::SaveRecipeAs(path)),
+    command_after_browsing: |path| Command::File(FileCommand::SaveRecipeAs(path)),
+};
+
+/// What was done, as a test.
+pub static EXPORT_TEST: FileKind = FileKind {
+    title: "Export as test",
+    act: FileAct::Export,
+    endings: || vec![recording::ENDING],
+    contents: "Recorded sessions",
+    folder: "tests",
+    suffix: "",
+    command: |path| Command::File(FileCommand::ExportTestAs(path)),
+    command_after_browsing: |path| Command::File(FileCommand::ExportTest(path)),
+};
+
+/// The mesh.
+pub static EXPORT_MESH: FileKind = FileKind {
+    title: "Export mesh",
+    act: FileAct::Export,
+    endings: || ExportFormat::endings().collect(),
+    contents: "Meshes and pictures",
+    folder: "exports",
+    suffix: "",
+    command: |path| Command::File(FileCommand::ExportAs(path)),
+    command_after_browsing: |path| {
+        Command::File(match is_one_file(&path) {
+            true => FileCommand::Export(path),
+            // The desktop has not asked about the files beside it.
+            false => FileCommand::ExportAs(path),
+        })
+    },
+};
+
+fn is_one_file(path: &Path) -> bool {
+    ExportFormat::of(path).is_ok_and(|format| format.files(path).len() == 1)
+}

@@ -1,0 +1,34 @@
+//! Paths and the regions that they stay out of, as files.
+
+use super::PathCommand;
+use crate::app::command::Command;
+use crate::app::dialogs::{FileAct, FileKind};
+use crate::app::keep_out::KeepOutCommand;
+use meshbrush_render::render::path_export::PathFormat;
+
+/// Polygons as a region that paths stay out of.
+pub static OPEN_KEEP_OUT: FileKind = FileKind {
+    title: "Open polygons as keep-out region",
+    act: FileAct::Open,
+    endings: || vec!["geojson", "json"],
+    contents: "Polygons",
+    folder: "domains",
+    suffix: "",
+    command: |path| Command::Path(PathCommand::KeepOut(KeepOutCommand::Open(path))),
+    command_after_browsing: |path| Command::Path(PathCommand::KeepOut(KeepOutCommand::Open(path))),
+};
+
+/// A path.
+pub static EXPORT_PATH: FileKind = FileKind {
+    title: "Export path",
+    act: FileAct::Export,
+    endings: || PathFormat::ENDINGS.to_vec(),
+    contents: "Lines, tables and pictures",
+    folder: "exports",
+    suffix: " path",
+    command: |path| Command::Path(PathCommand::ExportAs(path)),
+    command_after_browsing: |path| {
+        let is_complete = path.extension().is_some();
+        Command::Path(if is_complete { PathCommand::Export(path) } else { PathCommand::ExportAs(path) })
+    },
+};

@@ -1,0 +1,17 @@
+//! Steps of the refinement as files.
+
+use super::StepCommand;
+use crate::app::command::Command;
+use crate::app::dialogs::{FileAct, FileKind};
+
+/// Steps of the refinement, each to a file.
+pub static EXPORT_STEPS: FileKind = FileKind {
+    title: "Export steps as SVG",
+    act: FileAct::Export,
+    endings: || vec!["svg"],
+    contents: "Drawings",
+    folder: "exports",
+    suffix: " step",
+    command: |path| Command::Steps(StepCommand::ExportAs(path)),
+    command_after_browsing: |path| Command::Steps(StepCommand::ExportAs(path)),
+};
