@@ -21,10 +21,10 @@ use super::catalog::catalog;
 use super::command::{Command, FileCommand};
 use super::dialogs::FileFacts;
 use super::explore::Explore;
+use super::features::pins::Pins;
 use super::journal::JournalKeeper;
 use super::layer_pictures::LayerPictures;
 use super::paths::PathFinder;
-use super::pins::PinReader;
 use super::plots::Plots;
 use super::project::ProjectFile;
 use super::readout::Readout;
@@ -73,7 +73,7 @@ pub struct FrameState<'a> {
     /// The paths of the document.
     pub paths: &'a PathFinder,
     /// The values of the pins.
-    pub pins: &'a PinReader,
+    pub pins: &'a Pins,
     /// The chosen plot, and what was measured for plots.
     pub plots: &'a Plots,
     /// The figure of the report that is shown.
@@ -294,7 +294,7 @@ impl App {
             layer_pictures: &self.layer_pictures,
             explore: &self.explore,
             paths: &self.paths,
-            pins: &self.pins,
+            pins: &self.features.pins,
             plots: &self.plots,
             report: self.report.and_then(|shown| shown.figure(&self.session)),
             walks: &self.walks,

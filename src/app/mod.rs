@@ -13,6 +13,7 @@ mod canvas;
 mod catalog;
 pub mod command;
 mod contours;
+mod ctx;
 mod cuts;
 mod derivation;
 mod dialogs;
@@ -37,7 +38,6 @@ mod notices;
 mod panels;
 mod path_export;
 mod paths;
-mod pins;
 mod plots;
 mod project;
 mod prover;
@@ -73,13 +73,13 @@ use canvas::{Canvas, CanvasGpu};
 use command::{Command, FileCommand};
 use dialogs::Dialogs;
 use explore::Explore;
+use features::Features;
 use frame_log::FrameLog;
 use help::HelpTopic;
 use jobs::Jobs;
 use journal::JournalKeeper;
 use layer_pictures::LayerPictures;
 use paths::PathFinder;
-use pins::PinReader;
 use plots::Plots;
 use project::ProjectFile;
 use report::ShownFigure;
@@ -120,7 +120,7 @@ pub struct App {
     stepping: Option<Stepping>,
     layer_pictures: LayerPictures,
     explore: Explore,
-    pins: PinReader,
+    features: Features,
     paths: PathFinder,
     plots: Plots,
     /// The figure of the report that is shown.
@@ -189,7 +189,7 @@ impl App {
             stepping: None,
             layer_pictures: LayerPictures::default(),
             explore: Explore::default(),
-            pins: PinReader::default(),
+            features: Features::default(),
             paths: PathFinder::default(),
             plots: Plots::default(),
             report: None,

@@ -315,9 +315,20 @@ fn a_tool_is_one_file_and_one_entry_of_the_table() {
 }
 
 #[test]
+fn features_see_a_context_and_not_each_other() {
+    let features = files().into_iter().filter(|file| file.path.starts_with("src/app/features/"));
+    let code: Vec<SourceFile> = features
+        .filter(|file| file.path.matches('/').count() == 4 && !file.path.ends_with("/tests.rs"))
+        .collect();
+    assert!(code.iter().any(|file| file.path.ends_with("/execute.rs")), "there are features");
+    assert_none(with_word(code.clone(), "App"), "a feature sees the window through `Ctx`:");
+    assert_none(with_word(code, "features"), "no feature imports another:");
+}
+
+#[test]
 fn every_command_has_an_arm() {
     let window = files().into_iter().filter(|file| file.path.starts_with("src/app/"));
-    let window = window.filter(|file| !file.path.starts_with("src/app/tests/"));
+    let window = window.filter(|file| !file.path.contains("/tests"));
     assert_none(with_word(window, "unreachable"), "the compiler knows what the window does with a value:");
 }
 

@@ -15,7 +15,6 @@ pub mod marks;
 mod overlay;
 mod paths;
 mod best_paths;
-mod pins;
 pub mod picture_corners;
 mod price;
 mod way_back;
@@ -32,6 +31,7 @@ use overlay::OverlayColors;
 use super::busy::Busy;
 use super::command::{BrushCommand, Command, ShellCommand, ViewCommand};
 use super::contours::ContourFinder;
+use super::features::pins::show_marks as show_pins;
 use super::frame::FrameState;
 use super::jobs::Jobs;
 use super::session::Session;
@@ -372,7 +372,7 @@ impl Canvas {
         keep_out::paint(state, &over);
         best_paths::paint(state, &over);
         (state.tools.tool.paint)(state, &over);
-        pins::show(ui, rect, state, &over);
+        show_pins(ui, rect, state, &over);
         if let Some(gesture) = &self.gesture {
             gesture.paint(&painter);
         }

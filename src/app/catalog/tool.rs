@@ -5,10 +5,10 @@ use eframe::egui::{Key, Modifiers};
 use super::{CatalogItem, GESTURES, GestureHelp, Menu};
 use crate::app::command::{
     BoundaryCommand, BrushCommand, Command, DomainCommand, ExploreCommand, FileCommand, InspectCommand,
-    PinsCommand, ShellCommand, ThreatsCommand,
+    ShellCommand, ThreatsCommand,
 };
 use crate::app::explore::TreeStep;
-use crate::app::features::pins::EXPORT_PINS;
+use crate::app::features::pins;
 use crate::app::frame::FrameState;
 use crate::app::keep_out::KeepOutCommand;
 use crate::app::paths::OPEN_KEEP_OUT;
@@ -79,7 +79,7 @@ pub fn tool(state: &FrameState<'_>) -> Vec<CatalogItem> {
     items.extend(path_tool(state));
     items.extend(neighbours(state));
     items.extend(trail(state));
-    items.extend(pins(state));
+    items.extend(pins::entries(state));
     items.extend(amounts(tools));
     items.extend(tree_steps(state));
     items
@@ -139,25 +139,6 @@ fn tree_steps(state: &FrameState<'_>) -> impl Iterator<Item = CatalogItem> + use
         let item = if has_keys { item.keys(modifiers, key) } else { item };
         if place == 0 { item.group() } else { item }
     })
-}
-
-/// The key deletes a pin only while the query tool is selected.
-fn pins(state: &FrameState<'_>) -> Vec<CatalogItem> {
-    let item = |title: &str, command| CatalogItem::new(Menu::Tool, title, command);
-    let pins = &state.session.document().settings().pins;
-    let has_pins = !pins.is_empty();
-    let delete = item("Delete the selected pin", Command::Pins(PinsCommand::Delete));
-    let delete = if state.tools.tool == &QUERY { delete.key(Key::Delete) } else { delete };
-    vec![
-        item("Pin the queried point", Command::Pins(PinsCommand::Pin))
-            .keys(Modifiers::SHIFT, Key::P)
-            .enabled(state.session.queried().is_some())
-            .group(),
-        delete.enabled(state.tools.pins.selected_of(pins).is_some()),
-        item("Delete all pins", Command::Pins(PinsCommand::DeleteAll)).enabled(has_pins),
-        item("Copy the table of pins", Command::Pins(PinsCommand::Copy)).enabled(has_pins),
-        item("Export the table of pins…", Command::File(FileCommand::Ask(&EXPORT_PINS))).enabled(has_pins),
-    ]
 }
 
 /// What the digits set: the strength, or the risk in the mode *Set*. A diameter is no share, so there they do

@@ -122,6 +122,7 @@ impl App {
         let settings = self.session.document().settings();
         let extent = settings.domain.bounds.size().max_element();
         self.tools.fit_to(extent, settings.transfer.h_min);
+        self.features.forget_document();
         self.view.fit();
         self.view.hidden_levels = 0;
     }

@@ -11,7 +11,6 @@ mod layers;
 mod painting;
 mod steps;
 mod paths;
-mod pins;
 mod plots;
 mod query;
 mod report;
@@ -21,6 +20,7 @@ use eframe::egui::Context;
 
 use super::App;
 use super::command::{Command, EditCommand, PictureCommand, ShellCommand, StatisticsCommand};
+use super::ctx::Feature as _;
 use super::dialogs::Dialog;
 use super::tools::Tool;
 
@@ -43,7 +43,10 @@ impl App {
                 super::files::load_background(&self.session, &mut self.background, &path);
             }
             Command::Path(command) => self.execute_on_paths(command),
-            Command::Pins(command) => self.execute_on_pins(command, ctx),
+            Command::Pins(command) => {
+                let (features, mut ctx) = self.features(ctx);
+                features.pins.execute(command, &mut ctx);
+            }
             Command::Inspect(command) => self.execute_on_query(command, ctx),
             Command::Statistics(StatisticsCommand::Measure) => self.session.measure(&self.jobs),
             Command::Plots(command) => self.execute_on_plots(command, ctx),

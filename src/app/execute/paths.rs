@@ -9,7 +9,7 @@ use crate::app::App;
 use crate::app::command::Command;
 use crate::app::path_export;
 use crate::app::paths::{AlternativesCommand, CostKind, FrontCommand, FrontFinder, PathCommand};
-use crate::app::pins::nearest_within;
+use crate::app::tools::nearest_within;
 use meshbrush_core::document::{PathCost, PathPlan, Setting};
 use meshbrush_core::field::CostFormula;
 use meshbrush_core::path::Weights;

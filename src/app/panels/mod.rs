@@ -15,7 +15,6 @@ mod layers;
 mod levels;
 mod mesh;
 mod path;
-mod pins;
 mod plots;
 mod report;
 mod statistics;
@@ -34,10 +33,10 @@ pub use domain::DOMAIN;
 pub use inspector::INSPECTOR;
 pub use layers::{LAYER_KINDS, ask_name as ask_layer_name, combine_name};
 pub use path::{OTHER_PATHS, PATH};
-pub use pins::PINS;
 pub use why::WHY;
 
 use super::command::{Command, EditCommand};
+use super::features::pins::PINS;
 use super::frame::FrameState;
 use super::theme::{font, metrics, tokens};
 use super::tools::Tool;
@@ -153,7 +152,7 @@ fn sections(tool: Tool) -> impl Iterator<Item = &'static Panel> {
 }
 
 /// Rows of buttons: name, whether it is enabled, and the command that it sends.
-fn button_rows<Row, C>(ui: &mut Ui, rows: impl IntoIterator<Item = Row>, commands: &mut Vec<C>)
+pub fn button_rows<Row, C>(ui: &mut Ui, rows: impl IntoIterator<Item = Row>, commands: &mut Vec<C>)
 where
     Row: IntoIterator<Item = (&'static str, bool, C)>,
 {
@@ -182,7 +181,7 @@ fn set_once(setting: Setting, commands: &mut Vec<Command>) {
 }
 
 /// A remark in small print.
-fn remark(ui: &mut Ui, text: &str) {
+pub fn remark(ui: &mut Ui, text: &str) {
     ui.label(RichText::new(text).font(font::caption()).color(tokens(ui).faint));
     ui.add_space(4.0);
 }

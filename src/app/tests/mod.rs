@@ -30,7 +30,6 @@ mod outline;
 mod painting;
 mod path;
 mod pictures;
-mod pins;
 mod plots;
 mod polygon;
 mod project;
@@ -76,58 +75,58 @@ use meshbrush_core::document::{Document, Setting, Settings};
 use meshbrush_core::layers::{LayerId, LayerKind, RasterReading};
 use meshbrush_mesh::mesh::{Fingerprint, TriangleId};
 
-type Window = Harness<'static, App>;
+pub type Window = Harness<'static, App>;
 
 /// Where tests write files.
-const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/target/tmp");
+pub const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/target/tmp");
 /// Room for every section of the side panel at once, so that nothing must be scrolled to.
-const TALL: Vec2 = vec2(1440.0, 2000.0);
+pub const TALL: Vec2 = vec2(1440.0, 2000.0);
 
 /// Off the canvas, over nothing.
-const RESTING_PLACE: Pos2 = pos2(600.0, 10.0);
+pub const RESTING_PLACE: Pos2 = pos2(600.0, 10.0);
 
 /// In the first example: free of paint, and far from it.
-const FREE: DVec2 = dvec2(0.9, 0.5);
+pub const FREE: DVec2 = dvec2(0.9, 0.5);
 
-const CTRL_SHIFT: Modifiers = Modifiers { shift: true, ..Modifiers::COMMAND };
+pub const CTRL_SHIFT: Modifiers = Modifiers { shift: true, ..Modifiers::COMMAND };
 
 /// The layers of paint in a new document.
-const PAINTED_DIAMETER: LayerId = LayerId(1);
-const PAINTED_RISK: LayerId = LayerId(2);
+pub const PAINTED_DIAMETER: LayerId = LayerId(1);
+pub const PAINTED_RISK: LayerId = LayerId(2);
 
 /// What is painted on a layer at a point.
-fn painted(window: &Window, layer: LayerId, point: DVec2) -> f32 {
+pub fn painted(window: &Window, layer: LayerId, point: DVec2) -> f32 {
     let paint = window.state().session().document().paint();
     paint.get(layer).expect("a layer that was painted on").sample(point)
 }
 
 /// Selects the layer at the bottom.
-fn select_base(window: &mut Window) {
+pub fn select_base(window: &mut Window) {
     send(window, Command::Layer(LayerCommand::Select(LayerId(0))));
 }
 
 /// The layers of the document, with another one at the bottom.
-fn with_base(window: &Window, kind: LayerKind) -> Setting {
+pub fn with_base(window: &Window, kind: LayerKind) -> Setting {
     let mut layers = settings(window).layers.clone();
     layers[0].kind = kind;
     Setting::Layers(layers)
 }
 
 /// Whether a layer reads a raster.
-fn has_raster(window: &Window, wanted: &RasterReading) -> bool {
+pub fn has_raster(window: &Window, wanted: &RasterReading) -> bool {
     let mut layers = settings(window).layers.iter();
     layers.any(|layer| matches!(&layer.kind, LayerKind::Raster { reading, .. } if reading == wanted))
 }
 
-fn window() -> Window {
+pub fn window() -> Window {
     window_of(vec2(1440.0, 900.0))
 }
 
-fn window_of(size: Vec2) -> Window {
+pub fn window_of(size: Vec2) -> Window {
     window_with(Harness::builder().with_size(size))
 }
 
-fn window_with(builder: HarnessBuilder<App>) -> Window {
+pub fn window_with(builder: HarnessBuilder<App>) -> Window {
     let mut window = builder
         .with_max_steps(4000)
         .build_eframe(|cc| App::new(&cc.egui_ctx, cc.wgpu_render_state.as_ref()).unwrap());
@@ -135,77 +134,77 @@ fn window_with(builder: HarnessBuilder<App>) -> Window {
     window
 }
 
-fn send(window: &mut Window, command: Command) {
+pub fn send(window: &mut Window, command: Command) {
     window.state_mut().send(command);
     window.run();
 }
 
 /// The command that shows a new document, as one that was read.
-fn show(settings: Settings) -> Command {
+pub fn show(settings: Settings) -> Command {
     let document = Document::new(settings, None).expect("valid settings");
     Command::File(FileCommand::Show(Opened { document: Arc::new(document), home: None }))
 }
 
-fn set(window: &mut Window, setting: Setting) {
+pub fn set(window: &mut Window, setting: Setting) {
     window.state_mut().send(Command::Edit(EditCommand::Set(setting)));
     send(window, Command::Edit(EditCommand::EndGesture));
 }
 
-fn canvas(window: &Window) -> Rect {
+pub fn canvas(window: &Window) -> Rect {
     window.get_by_role_and_label(Role::Image, CANVAS_NAME).rect()
 }
 
 /// Where a point of the world is on the screen.
-fn on_screen(window: &Window, world: DVec2) -> Pos2 {
+pub fn on_screen(window: &Window, world: DVec2) -> Pos2 {
     let px = window.state().view().camera.unwrap().screen_from_world(world);
     canvas(window).min + vec2(px.x as f32, px.y as f32)
 }
 
 /// What point of the world is at a place on the screen.
-fn in_world(window: &Window, at: Pos2) -> DVec2 {
+pub fn in_world(window: &Window, at: Pos2) -> DVec2 {
     let px = at - canvas(window).min;
     window.state().view().camera.unwrap().world_from_screen(dvec2(px.x.into(), px.y.into()))
 }
 
-fn button_event(pos: Pos2, button: PointerButton, pressed: bool, modifiers: Modifiers) -> Event {
+pub fn button_event(pos: Pos2, button: PointerButton, pressed: bool, modifiers: Modifiers) -> Event {
     Event::PointerButton { pos, button, pressed, modifiers }
 }
 
-fn press(window: &mut Window, world: DVec2, modifiers: Modifiers) {
+pub fn press(window: &mut Window, world: DVec2, modifiers: Modifiers) {
     let pos = on_screen(window, world);
     press_at(window, pos, PointerButton::Primary, modifiers);
 }
 
-fn press_at(window: &mut Window, pos: Pos2, button: PointerButton, modifiers: Modifiers) {
+pub fn press_at(window: &mut Window, pos: Pos2, button: PointerButton, modifiers: Modifiers) {
     window.event(Event::ModifiersChanged(modifiers));
     window.event(Event::PointerMoved(pos));
     window.event(button_event(pos, button, true, modifiers));
     window.run();
 }
 
-fn move_to(window: &mut Window, world: DVec2) {
+pub fn move_to(window: &mut Window, world: DVec2) {
     let pos = on_screen(window, world);
     window.event(Event::PointerMoved(pos));
     window.run();
 }
 
-fn release(window: &mut Window, world: DVec2) {
+pub fn release(window: &mut Window, world: DVec2) {
     let pos = on_screen(window, world);
     release_at(window, pos, PointerButton::Primary);
 }
 
-fn release_at(window: &mut Window, pos: Pos2, button: PointerButton) {
+pub fn release_at(window: &mut Window, pos: Pos2, button: PointerButton) {
     window.event(button_event(pos, button, false, Modifiers::NONE));
     window.event(Event::ModifiersChanged(Modifiers::NONE));
     window.run();
 }
 
-fn click(window: &mut Window, world: DVec2, modifiers: Modifiers) {
+pub fn click(window: &mut Window, world: DVec2, modifiers: Modifiers) {
     press(window, world, modifiers);
     release(window, world);
 }
 
-fn stroke(window: &mut Window, from: DVec2, to: DVec2) {
+pub fn stroke(window: &mut Window, from: DVec2, to: DVec2) {
     press(window, from, Modifiers::NONE);
     for i in 1..=5 {
         move_to(window, from.lerp(to, f64::from(i) / 5.0));
@@ -213,13 +212,13 @@ fn stroke(window: &mut Window, from: DVec2, to: DVec2) {
     release(window, to);
 }
 
-fn key(window: &mut Window, modifiers: Modifiers, key: Key) {
+pub fn key(window: &mut Window, modifiers: Modifiers, key: Key) {
     window.key_press_modifiers(modifiers, key);
     window.run();
 }
 
 /// A press of Tab as the window passes it on: before egui moves the focus by it.
-fn press_tab(window: &mut Window) {
+pub fn press_tab(window: &mut Window) {
     let tab = Event::Key {
         key: Key::Tab,
         physical_key: None,
@@ -236,38 +235,38 @@ fn press_tab(window: &mut Window) {
     window.run();
 }
 
-fn triangles(window: &Window) -> usize {
+pub fn triangles(window: &Window) -> usize {
     window.state().session().mesh().raw_triangle_count()
 }
 
-fn fingerprint(window: &Window) -> Fingerprint {
+pub fn fingerprint(window: &Window) -> Fingerprint {
     window.state().session().mesh().fingerprint()
 }
 
-fn settings(window: &Window) -> &Settings {
+pub fn settings(window: &Window) -> &Settings {
     window.state().session().document().settings()
 }
 
-fn entries(window: &Window) -> usize {
+pub fn entries(window: &Window) -> usize {
     window.state().session().document().history().len()
 }
 
-fn notice(window: &Window) -> String {
+pub fn notice(window: &Window) -> String {
     window.state().session().notices().shown().map_or(String::new(), |notice| notice.text.clone())
 }
 
 /// The level of the triangle round a point.
-fn level_at(window: &Window, world: DVec2) -> u32 {
+pub fn level_at(window: &Window, world: DVec2) -> u32 {
     let mesh = window.state().session().mesh();
     mesh.triangle(mesh.locate(world).triangle().expect("a point of the domain")).level()
 }
 
-fn selected(window: &Window) -> Option<TriangleId> {
+pub fn selected(window: &Window) -> Option<TriangleId> {
     let readout = window.state().session().readout(window.state().view().quantity)?;
     readout.location.triangle()
 }
 
-fn open_section(window: &mut Window, title: &str) {
+pub fn open_section(window: &mut Window, title: &str) {
     let named = window.get_all_by_role_and_label(Role::Button, title);
     let header = named.max_by(|a, b| a.rect().left().total_cmp(&b.rect().left())).unwrap();
     if header.accesskit_node().data().is_expanded() != Some(true) {
@@ -276,7 +275,7 @@ fn open_section(window: &mut Window, title: &str) {
     }
 }
 
-fn type_into(window: &mut Window, name: &str, text: &str) {
+pub fn type_into(window: &mut Window, name: &str, text: &str) {
     window.get_by_role_and_label(Role::TextInput, name).focus();
     window.run();
     key(window, Modifiers::COMMAND, Key::A);
@@ -285,24 +284,24 @@ fn type_into(window: &mut Window, name: &str, text: &str) {
     key(window, Modifiers::NONE, Key::Enter);
 }
 
-fn choose(window: &mut Window, menu: &str, entry: &str) {
+pub fn choose(window: &mut Window, menu: &str, entry: &str) {
     open_menu(window, menu);
     window.get_by_role_and_label(Role::Button, entry).click();
     window.run();
 }
 
 /// Opens a menu of the bar; sections of the panel may have the same name.
-fn open_menu(window: &mut Window, menu: &str) {
+pub fn open_menu(window: &mut Window, menu: &str) {
     let named = window.get_all_by_role_and_label(Role::Button, menu);
     named.min_by(|a, b| a.rect().top().total_cmp(&b.rect().top())).unwrap().click();
     window.run();
 }
 
-fn value_of(window: &Window, role: Role, name: &str) -> String {
+pub fn value_of(window: &Window, role: Role, name: &str) -> String {
     window.get_by_role_and_label(role, name).value().unwrap_or_default()
 }
 
-fn wheel(window: &mut Window, at: Pos2, delta: f32) {
+pub fn wheel(window: &mut Window, at: Pos2, delta: f32) {
     window.event(Event::PointerMoved(at));
     window.event(Event::MouseWheel {
         unit: egui::MouseWheelUnit::Point,
@@ -315,16 +314,16 @@ fn wheel(window: &mut Window, at: Pos2, delta: f32) {
 }
 
 /// Area of the mesh.
-fn area(window: &Window) -> f64 {
+pub fn area(window: &Window) -> f64 {
     window.state().session().mesh().area()
 }
 
-fn scratch(name: &str) -> PathBuf {
+pub fn scratch(name: &str) -> PathBuf {
     PathBuf::from(FOLDER).join(name)
 }
 
 /// Runs frames until work off the thread has been heard of.
-fn wait_until(window: &mut Window, done: impl Fn(&Window) -> bool) {
+pub fn wait_until(window: &mut Window, done: impl Fn(&Window) -> bool) {
     let patience = Instant::now() + Duration::from_secs(60);
     window.run();
     while !done(window) {
@@ -334,7 +333,7 @@ fn wait_until(window: &mut Window, done: impl Fn(&Window) -> bool) {
     }
 }
 
-fn wait_for_notice(window: &mut Window) -> String {
+pub fn wait_for_notice(window: &mut Window) -> String {
     let patience = Instant::now() + Duration::from_secs(60);
     while notice(window).is_empty() {
         assert!(Instant::now() < patience, "no message was shown");
@@ -345,19 +344,19 @@ fn wait_for_notice(window: &mut Window) -> String {
 }
 
 /// The tag beside the brush ring.
-fn price_tag(window: &Window) -> Option<String> {
+pub fn price_tag(window: &Window) -> Option<String> {
     let mut tags = window.query_all_by_role(Role::Label).filter_map(|node| node.accesskit_node().value());
     tags.find(|label| {
         ["+", "−", "over", "frees", "no change", "counting"].iter().any(|start| label.starts_with(start))
     })
 }
 
-fn hover(window: &mut Window, world: DVec2) -> Option<String> {
+pub fn hover(window: &mut Window, world: DVec2) -> Option<String> {
     move_to(window, world);
     price_tag(window)
 }
 /// An empty folder of its own for each test `name` of the file `of`.
-fn folder(of: &str, name: &str) -> PathBuf {
+pub fn folder(of: &str, name: &str) -> PathBuf {
     let folder = scratch(of).join(name);
     let _ = fs::remove_dir_all(&folder); // absent at the first run
     fs::create_dir_all(&folder).unwrap();
@@ -365,47 +364,47 @@ fn folder(of: &str, name: &str) -> PathBuf {
 }
 
 /// A short vertical stroke at an x of the unit square.
-fn paint(window: &mut Window, x: f64) {
+pub fn paint(window: &mut Window, x: f64) {
     send(window, Command::Brush(BrushCommand::BeginStroke(dvec2(x, 0.5))));
     send(window, Command::Brush(BrushCommand::DrawTo(dvec2(x, 0.6))));
     send(window, Command::Brush(BrushCommand::EndStroke));
 }
 
-fn document(window: &Window) -> &Document {
+pub fn document(window: &Window) -> &Document {
     window.state().session().document()
 }
 
 /// What only tests look at.
 impl App {
-    fn session(&self) -> &Session {
+    pub fn session(&self) -> &Session {
         &self.session
     }
 
-    fn explore(&self) -> &Explore {
+    pub fn explore(&self) -> &Explore {
         &self.explore
     }
 
-    fn tools(&self) -> &Tools {
+    pub fn tools(&self) -> &Tools {
         &self.tools
     }
 
-    fn view(&self) -> &View {
+    pub fn view(&self) -> &View {
         &self.view
     }
 
-    fn paths(&self) -> &PathFinder {
+    pub fn paths(&self) -> &PathFinder {
         &self.paths
     }
 
-    fn plots(&self) -> &Plots {
+    pub fn plots(&self) -> &Plots {
         &self.plots
     }
 
-    fn stepping(&self) -> Option<&Stepping> {
+    pub fn stepping(&self) -> Option<&Stepping> {
         self.stepping.as_ref()
     }
 
-    fn is_cutting(&self) -> bool {
+    pub fn is_cutting(&self) -> bool {
         self.session.is_cutting()
     }
 }

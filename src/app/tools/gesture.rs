@@ -129,3 +129,9 @@ impl Pointer<'_> {
         if unit < 1.0 { (world * inverse).round() / inverse } else { (world / unit).round() * unit }
     }
 }
+
+/// The number of the least distance that is at most `reach`.
+pub fn nearest_within(distances: impl Iterator<Item = f64>, reach: f64) -> Option<usize> {
+    let near = distances.enumerate().filter(|&(_, distance)| distance <= reach);
+    near.min_by(|(_, a), (_, b)| a.total_cmp(b)).map(|(number, _)| number)
+}

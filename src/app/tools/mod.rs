@@ -24,11 +24,11 @@ pub use boundary::{BOUNDARY, BoundaryTool, BoundaryToolMode};
 pub use brush::{BRUSH, BrushMode, picks};
 pub use domain::{DOMAIN, DomainTool, DomainToolMode};
 pub use eraser::ERASER;
-pub use gesture::{CLICK_SLACK, Gesture, Pointer, Press, SettingsDrag};
+pub use gesture::{CLICK_SLACK, Gesture, Pointer, Press, SettingsDrag, nearest_within};
 pub use pan::{PAN, Panning};
 pub use path::{ALTERNATIVE_COLOR, PATH, PATH_COLOR, POINTED_COLOR, PathPlace, PathTool, paint_place};
 pub use pen::{Pen, PenEffect};
-pub use query::{PIN_REACH_POINTS, PinsTool, QUERY};
+pub use query::{PIN_REACH_POINTS, QUERY};
 pub use threats::{THREATS, ThreatGrip, ThreatsTool, grip_at};
 
 use super::command::Command;
@@ -177,8 +177,6 @@ pub struct Tools {
     pub boundary: BoundaryTool,
     /// The threats tool.
     pub threats: ThreatsTool,
-    /// The pins of the query tool.
-    pub pins: PinsTool,
     /// The path tool.
     pub path: PathTool,
     /// The middles of the triangles that were followed from neighbour to neighbour, in world units.
@@ -208,7 +206,6 @@ impl Tools {
             domain: DomainTool::default(),
             boundary: BoundaryTool::default(),
             threats: ThreatsTool::default(),
-            pins: PinsTool::default(),
             path: PathTool::default(),
             trail: Vec::new(),
             uses: [0; TOOLS.len()],
@@ -233,7 +230,6 @@ impl Tools {
         (self.radius, self.diameter) = (fitting.radius, fitting.diameter);
         self.boundary.selected = None;
         self.threats = ThreatsTool::default();
-        self.pins = PinsTool::default();
         self.path = PathTool::default();
         self.trail.clear();
     }

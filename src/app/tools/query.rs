@@ -1,17 +1,17 @@
 //! The query tool.
 
 use eframe::egui::Key;
-use glam::DVec2;
 
 use super::{SettingsDrag, ToolSpec};
 use crate::app::command::{Command, InspectCommand, PinsCommand};
+use crate::app::features::pins::PINS;
 use crate::app::panels;
 use crate::app::widgets::Hint::{self, Key as HintKey, Text};
 use crate::app::widgets::Icon;
 
 /// Queries a point: its triangle, neighbours and values. Moves pins.
 pub static QUERY: ToolSpec = ToolSpec {
-    panels: &[&panels::INSPECTOR, &panels::WHY, &panels::PINS],
+    panels: &[&panels::INSPECTOR, &panels::WHY, &PINS],
     hint: |_| HINT,
     highlights_hovered: true,
     explains: true,
@@ -19,7 +19,7 @@ pub static QUERY: ToolSpec = ToolSpec {
     menu: |state, point| {
         let triangle = state.readout.and_then(|readout| readout.triangle.as_ref());
         let pins = &state.session.document().settings().pins;
-        let selected = state.tools.pins.selected_of(pins);
+        let selected = state.pins.selected_of(pins);
         let pin = Some(("Pin here", Command::Pins(PinsCommand::Add(point))));
         let delete = selected.map(|_| ("Delete the selected pin", Command::Pins(PinsCommand::Delete)));
         let copy = triangle
@@ -37,22 +37,6 @@ pub static QUERY: ToolSpec = ToolSpec {
 
 /// How far from a pin the pointer still takes hold of it, in points.
 pub const PIN_REACH_POINTS: f64 = 9.0;
-
-/// What the query tool keeps of pins.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct PinsTool {
-    /// The number of the selected pin, from 0.
-    pub selected: Option<usize>,
-    /// The offset of the pin that is dragged from the pointer, in world units.
-    pub grip: Option<DVec2>,
-}
-
-impl PinsTool {
-    /// The selected pin. An undo can have removed it.
-    pub fn selected_of(&self, pins: &[DVec2]) -> Option<usize> {
-        self.selected.filter(|number| *number < pins.len())
-    }
-}
 
 const HINT: &[Hint] = &[
     Text("Click a triangle to inspect it"),

@@ -6,7 +6,7 @@ use glam::DVec2;
 use super::{OverMesh, SettingsDrag, ToolSpec};
 use crate::app::command::{Command, ThreatsCommand};
 use crate::app::frame::FrameState;
-use crate::app::pins::nearest_within;
+use crate::app::tools::nearest_within;
 use crate::app::widgets::Hint::{self, Key as HintKey, Text};
 use crate::app::widgets::Icon;
 use meshbrush_core::document::Document;

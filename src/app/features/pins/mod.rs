@@ -1,7 +1,36 @@
 //! Pins: points of the document whose triangles and values are followed.
 
 mod command;
+mod entries;
+mod execute;
 mod files;
+mod marks;
+mod panel;
+mod table;
+#[cfg(test)]
+mod tests;
 
 pub use command::PinsCommand;
-pub use files::EXPORT_PINS;
+pub use entries::entries;
+use glam::DVec2;
+pub use marks::show as show_marks;
+pub use panel::PINS;
+use table::PinReader;
+
+/// What the window keeps of pins; their places are in the document.
+#[derive(Default)]
+pub struct Pins {
+    /// Their values.
+    reader: PinReader,
+    /// The number of the selected pin, from 0.
+    selected: Option<usize>,
+    /// The offset of the pin that is dragged from the pointer, in world units.
+    grip: Option<DVec2>,
+}
+
+impl Pins {
+    /// The number of the selected pin. An undo can have removed it.
+    pub fn selected_of(&self, pins: &[DVec2]) -> Option<usize> {
+        self.selected.filter(|number| *number < pins.len())
+    }
+}

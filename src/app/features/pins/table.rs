@@ -1,4 +1,4 @@
-//! Pins: points of the document whose triangles and values are followed.
+//! The table of the pins: their triangles and values.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -6,11 +6,12 @@ use std::time::Instant;
 
 use glam::DVec2;
 
-use super::background::{Aim, Background, Outcome, exported};
-use super::command::{Command, PinsCommand};
-use super::readout::{Quantity, Readout, TriangleReadout};
-use super::session::Session;
-use super::widgets::format;
+use crate::app::background::{Aim, Background, Outcome, exported};
+use crate::app::command::{Command, PinsCommand};
+use crate::app::readout::{Quantity, Readout, TriangleReadout};
+use crate::app::session::Session;
+use crate::app::tools::nearest_within;
+use crate::app::widgets::format;
 use meshbrush_io::io::{self, Meter};
 
 /// What the values of all pins depend on.
@@ -90,12 +91,6 @@ impl PinReader {
 /// The pin nearest to a point, at most `reach` away. Lengths are in world units.
 pub fn nearest_pin(pins: &[DVec2], to: DVec2, reach: f64) -> Option<usize> {
     nearest_within(pins.iter().map(|pin| pin.distance(to)), reach)
-}
-
-/// The number of the least distance that is at most `reach`.
-pub fn nearest_within(distances: impl Iterator<Item = f64>, reach: f64) -> Option<usize> {
-    let near = distances.enumerate().filter(|&(_, distance)| distance <= reach);
-    near.min_by(|(_, a), (_, b)| a.total_cmp(b)).map(|(number, _)| number)
 }
 
 /// Makes the table of the pins, and then copies it.

@@ -7,11 +7,11 @@ use eframe::egui::{Key, Modifiers, OutputCommand, vec2};
 use egui_kittest::kittest::Queryable as _;
 use glam::{DVec2, dvec2};
 
-use super::{
-    FREE, TALL, Window, click, entries, folder, key, move_to, press, release, send, settings, stroke,
-    value_of, wait_for_notice, wait_until, window_of,
-};
 use crate::app::command::{Command, EditCommand, PinsCommand, ShellCommand};
+use crate::app::tests::{
+    FREE, TALL, Window, click, document, entries, folder, key, move_to, notice, press, release, send,
+    settings, stroke, value_of, wait_for_notice, wait_until, window_of,
+};
 use crate::app::tools::QUERY;
 use meshbrush_io::io::Meter;
 use meshbrush_io::io::located::write_of_document;
@@ -45,7 +45,7 @@ fn row(window: &Window, number: usize) -> Vec<String> {
 
 /// The table that the command line prints for the saved document.
 fn expected_table(window: &Window) -> String {
-    let (document, mut table) = (super::document(window), Vec::new());
+    let (document, mut table) = (document(window), Vec::new());
     let (settings, paint) = (document.settings(), document.paint());
     write_of_document(&mut table, settings, paint, &settings.pins, &Meter::default()).unwrap();
     String::from_utf8(table).unwrap()
@@ -154,7 +154,7 @@ fn the_table_is_copied_and_exported_as_the_command_line_prints_it() {
     }
     assert_eq!(copied, expected);
     let file = folder("pins", "export").join("pins.csv");
-    wait_until(&mut window, |window| super::notice(window).starts_with("Copied: the table of 2 pins"));
+    wait_until(&mut window, |window| notice(window).starts_with("Copied: the table of 2 pins"));
     send(&mut window, Command::Shell(ShellCommand::DismissNotice));
     send(&mut window, Command::Pins(PinsCommand::ExportAs(file.clone())));
     let notice = wait_for_notice(&mut window);
@@ -175,10 +175,10 @@ fn many_pins_are_read_over_several_frames_and_an_idle_window_reads_none() {
     window.run();
     let is_current = |window: &Window| {
         let app = window.state();
-        app.pins.is_current(app.session(), app.view().quantity)
+        app.features.pins.reader.is_current(app.session(), app.view().quantity)
     };
     assert!(is_current(&window));
-    assert_eq!(window.state().pins.rows().len(), 5000);
+    assert_eq!(window.state().features.pins.reader.rows().len(), 5000);
     // The harness runs until no frame is asked for any more.
     assert!(window.try_run_realtime().is_ok());
 }

@@ -2,11 +2,12 @@
 
 use eframe::egui::{Align2, FontId, Pos2, Rect, Role, ScrollArea, Sense, Ui, WidgetInfo, pos2, vec2};
 
-use super::{Panel, button_rows, remark};
-use crate::app::command::{Command, FileCommand, PinsCommand};
-use crate::app::features::pins::EXPORT_PINS;
+use super::PinsCommand;
+use super::files::EXPORT_PINS;
+use super::table::PinRow;
+use crate::app::command::{Command, FileCommand};
 use crate::app::frame::FrameState;
-use crate::app::pins::PinRow;
+use crate::app::panels::{Panel, button_rows, remark};
 use crate::app::theme::{font, tokens};
 use crate::app::widgets::{Section, format};
 
@@ -33,7 +34,7 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
         if count == 0 {
             remark(ui, "Pin a query (Shift+P) to follow its triangle and values through every edit.");
         } else {
-            if !state.pins.is_current(state.session, state.view.quantity) {
+            if !state.pins.reader.is_current(state.session, state.view.quantity) {
                 // They are read only while the table is shown.
                 commands.push(Command::Pins(PinsCommand::Read));
             }
@@ -46,7 +47,7 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
 /// The header and the rows in sight. It scrolls both ways.
 fn table(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let pins = &state.session.document().settings().pins;
-    let selected = state.tools.pins.selected_of(pins);
+    let selected = state.pins.selected_of(pins);
     let height = ROW * (pins.len().min(MOST_ROWS) + 1) as f32 + 12.0;
     ui.spacing_mut().item_spacing.y = 0.0;
     let area = ScrollArea::both().id_salt("table of pins").max_height(height).auto_shrink([false, true]);
@@ -94,7 +95,7 @@ fn cells(state: &FrameState<'_>, number: usize) -> [String; COLUMNS] {
     let decimals = format::decimals_for(step);
     let [x, y] = at.to_array().map(|value| format::fixed(value, decimals));
     let first = [(number + 1).to_string(), x, y];
-    let read = state.pins.rows().get(number).and_then(Option::as_ref).filter(|row| row.at == at);
+    let read = state.pins.reader.rows().get(number).and_then(Option::as_ref).filter(|row| row.at == at);
     let rest = match read {
         None => [(); COLUMNS - 3].map(|()| "…".to_owned()),
         Some(PinRow { triangle: None, .. }) => {
@@ -156,7 +157,7 @@ fn paint_row(
 fn buttons(ui: &mut Ui, state: &FrameState<'_>, has_pins: bool, commands: &mut Vec<Command>) {
     let is_queried = state.readout.is_some();
     let pins = &state.session.document().settings().pins;
-    let is_selected = state.tools.pins.selected_of(pins).is_some();
+    let is_selected = state.pins.selected_of(pins).is_some();
     let pin = Command::Pins;
     let rows = [
         vec![

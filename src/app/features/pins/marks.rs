@@ -3,13 +3,13 @@
 use eframe::egui::{Color32, Pos2, Rect, Role, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
 use glam::DVec2;
 
-use super::super::frame::FrameState;
-use super::super::readout::{Quantity, Readout, TriangleReadout};
-use super::super::theme::font;
-use super::super::tools::{OverMesh, PIN_REACH_POINTS};
-use super::super::widgets::{format, paint_floating};
-use super::marks::{NUMBER_DISC, paint_number};
-use crate::app::pins::nearest_pin;
+use super::table::nearest_pin;
+use crate::app::canvas::marks::{NUMBER_DISC, paint_number};
+use crate::app::frame::FrameState;
+use crate::app::readout::{Quantity, Readout, TriangleReadout};
+use crate::app::theme::font;
+use crate::app::tools::{OverMesh, PIN_REACH_POINTS};
+use crate::app::widgets::{format, paint_floating};
 use meshbrush_mesh::text::LengthUnit;
 
 /// The most pins that are drawn: more would hide the mesh.
@@ -24,7 +24,7 @@ pub fn show(ui: &mut Ui, canvas: Rect, state: &FrameState<'_>, over: &OverMesh<'
     if pins.is_empty() {
         return;
     }
-    let selected = state.tools.pins.selected_of(pins);
+    let selected = state.pins.selected_of(pins);
     let hovered = hovered(state, pins, over);
     let view = over.painter.clip_rect().expand(2.0 * NUMBER_OFFSET);
     let places = pins.iter().map(|&pin| (over.screen_from_world)(pin)).enumerate();
