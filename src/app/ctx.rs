@@ -7,6 +7,7 @@ use super::App;
 use super::background::Background;
 use super::command::Command;
 use super::features::Features;
+use super::jobs::Jobs;
 use super::project::ProjectFile;
 use super::session::Session;
 use super::tools::Tools;
@@ -22,7 +23,7 @@ pub trait Feature: Default {
     fn execute(&mut self, command: Self::Command, ctx: &mut Ctx<'_>);
 
     /// Forgets what belongs to the document: another one was opened.
-    fn forget_document(&mut self);
+    fn forget_document(&mut self) {}
 }
 
 /// What a feature may read and change while it runs a command, besides its own state.
@@ -35,6 +36,8 @@ pub struct Ctx<'a> {
     pub project: &'a mut ProjectFile,
     /// Work on files.
     pub background: &'a mut Background,
+    /// Work that takes longer than a frame.
+    pub jobs: &'a Jobs,
     /// Commands that are run after this one, in the same frame.
     pub commands: &'a mut Vec<Command>,
     /// The clipboard and the frame.
@@ -65,6 +68,7 @@ impl App {
             view: &mut self.view,
             project: &mut self.project,
             background: &mut self.background,
+            jobs: &self.jobs,
             commands: &mut self.commands,
             egui,
             reproducible: self.reproducible,

@@ -22,10 +22,10 @@ use super::command::{Command, FileCommand};
 use super::dialogs::FileFacts;
 use super::explore::Explore;
 use super::features::pins::Pins;
+use super::features::plots::Plots;
 use super::journal::JournalKeeper;
 use super::layer_pictures::LayerPictures;
 use super::paths::PathFinder;
-use super::plots::Plots;
 use super::project::ProjectFile;
 use super::readout::Readout;
 use super::session::Session;
@@ -194,7 +194,10 @@ impl App {
         let measures = self.session.take_figures(jobs) | self.walks.take(jobs);
         let route = self.tools.path.route_in(&self.session.document().settings().paths);
         self.paths.advance(&self.session, route, jobs);
-        let plots = self.take_plots();
+        let plots = self.features.plots.take(jobs).unwrap_or_else(|problem| {
+            self.session.report(problem);
+            false
+        });
         let bounds = self.session.document().settings().domain.bounds;
         let steps = self.advance_steps(ctx);
         let plan = self.canvas.planned_stroke(ctx, self.shown_tools(), bounds);
@@ -232,7 +235,7 @@ impl App {
         let mut commands = Vec::new();
         panels::show(ui, &self.state(readout.as_ref()), &mut commands);
         self.view.reveals_inspector = false;
-        self.plots.reveal(false);
+        self.features.plots.reveal(false);
         egui::CentralPanel::default()
             .frame(Frame::NONE)
             .show(ui, |ui| self.draw_canvas(ui, readout.as_ref(), &mut commands));
@@ -295,7 +298,7 @@ impl App {
             explore: &self.explore,
             paths: &self.paths,
             pins: &self.features.pins,
-            plots: &self.plots,
+            plots: &self.features.plots,
             report: self.report.and_then(|shown| shown.figure(&self.session)),
             walks: &self.walks,
             threads: &self.threads,

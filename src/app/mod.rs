@@ -38,7 +38,6 @@ mod notices;
 mod panels;
 mod path_export;
 mod paths;
-mod plots;
 mod project;
 mod prover;
 
@@ -80,7 +79,6 @@ use jobs::Jobs;
 use journal::JournalKeeper;
 use layer_pictures::LayerPictures;
 use paths::PathFinder;
-use plots::Plots;
 use project::ProjectFile;
 use report::ShownFigure;
 pub use screenshots::{write as write_screenshots, write_manual as write_manual_pictures, write_tour};
@@ -122,7 +120,6 @@ pub struct App {
     explore: Explore,
     features: Features,
     paths: PathFinder,
-    plots: Plots,
     /// The figure of the report that is shown.
     report: Option<ShownFigure>,
     walks: WalkMeter,
@@ -191,7 +188,6 @@ impl App {
             explore: Explore::default(),
             features: Features::default(),
             paths: PathFinder::default(),
-            plots: Plots::default(),
             report: None,
             walks: WalkMeter::default(),
             threads: Threads::default(),

@@ -5,7 +5,6 @@ mod file;
 mod gestures;
 mod help;
 mod layer;
-mod plots;
 mod steps;
 mod tool;
 mod view;
@@ -13,6 +12,7 @@ mod view;
 use eframe::egui::{Key, KeyboardShortcut, Modifiers};
 
 use super::command::Command;
+use super::features::plots;
 use super::frame::FrameState;
 pub use gestures::{GESTURES, GestureHelp};
 
@@ -24,7 +24,7 @@ pub fn catalog(state: &FrameState<'_>) -> Vec<CatalogItem> {
         tool::tool(state),
         layer::layer(state),
         view::view(state),
-        plots::plots(state),
+        plots::entries(state),
         steps::steps(state),
         help::examples(),
         help::help(),

@@ -11,7 +11,6 @@ mod layers;
 mod painting;
 mod steps;
 mod paths;
-mod plots;
 mod query;
 mod report;
 mod threats;
@@ -49,7 +48,10 @@ impl App {
             }
             Command::Inspect(command) => self.execute_on_query(command, ctx),
             Command::Statistics(StatisticsCommand::Measure) => self.session.measure(&self.jobs),
-            Command::Plots(command) => self.execute_on_plots(command, ctx),
+            Command::Plots(command) => {
+                let (features, mut ctx) = self.features(ctx);
+                features.plots.execute(command, &mut ctx);
+            }
             Command::Figure(command) => self.execute_on_report(command, ctx),
             Command::Steps(command) => self.execute_on_steps(command, ctx),
             Command::View(command) => self.view.execute(command, ctx),

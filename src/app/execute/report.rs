@@ -3,7 +3,7 @@
 use eframe::egui::Context;
 
 use crate::app::App;
-use crate::app::plots::PlotKind;
+use crate::app::features::plots::PlotKind;
 use crate::app::report::{FigureCommand, ShownFigure};
 use crate::app::stepping::Stepping;
 use crate::app::tools::QUERY;
@@ -36,11 +36,11 @@ impl App {
             self.ask(Some(point));
         }
         if figure.is_about_time() {
-            self.plots.choose(PlotKind::Figure5);
+            self.features.plots.choose(PlotKind::Figure5);
         }
         // Its entry says that the meshes are made; Figure 5 waits for its button.
         if figure == ReportFigure::Experiment {
-            self.plots.measure(&self.jobs);
+            self.features.plots.measure(&self.jobs);
         }
     }
 }

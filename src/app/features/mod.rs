@@ -1,7 +1,8 @@
 //! The features of the window, a folder each. A feature sees the rest of the window through a
 //! [`Ctx`](super::ctx::Ctx), and never another feature.
 //!
-//! *Pins* has everything in its folder. Of the others, commands and kinds of files are here so far.
+//! *Pins* and *Plots* have everything in their folders. Of the others, only commands and kinds of files are
+//! here.
 
 pub mod boundary;
 pub mod domain;
@@ -10,23 +11,28 @@ pub mod layers;
 pub mod painting;
 pub mod picture;
 pub mod pins;
+pub mod plots;
 pub mod statistics;
 pub mod threats;
 
 use super::ctx::Feature as _;
 use pins::Pins;
+use plots::Plots;
 
 /// The state of all features.
 #[derive(Default)]
 pub struct Features {
     /// Points whose triangles and values are followed.
     pub pins: Pins,
+    /// Plots of the mesh, and of the time that meshes take.
+    pub plots: Plots,
 }
 
 impl Features {
     /// Forgets what belongs to the document: another one was opened.
     pub fn forget_document(&mut self) {
-        let Self { pins } = self;
+        let Self { pins, plots } = self;
         pins.forget_document();
+        plots.forget_document();
     }
 }

@@ -15,7 +15,6 @@ mod layers;
 mod levels;
 mod mesh;
 mod path;
-mod plots;
 mod report;
 mod statistics;
 mod status;
@@ -37,6 +36,7 @@ pub use why::WHY;
 
 use super::command::{Command, EditCommand};
 use super::features::pins::PINS;
+use super::features::plots::PLOTS;
 use super::frame::FrameState;
 use super::theme::{font, metrics, tokens};
 use super::tools::Tool;
@@ -66,7 +66,7 @@ pub static PANELS: [&Panel; 17] = [
     &OTHER_PATHS,
     &mesh::MESH,
     &statistics::STATISTICS,
-    &plots::PLOTS,
+    &PLOTS,
     &DOMAIN,
     &BOUNDARY,
     &fit::FIT,

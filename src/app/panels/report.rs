@@ -2,10 +2,10 @@
 
 use eframe::egui::{Align, Grid, Layout, RichText, Ui};
 
-use super::{button_rows, plots, remark};
+use super::{button_rows, remark};
 use crate::app::command::Command;
+use crate::app::features::plots::{self, PlotKind};
 use crate::app::frame::FrameState;
-use crate::app::plots::PlotKind;
 use crate::app::report::{FigureCommand, as_text, comparisons};
 use crate::app::theme::{font, tokens};
 use crate::app::widgets::{ActionButton, plot_view, tips};

@@ -15,8 +15,8 @@ use super::command::{
     BoundaryCommand, BrushCommand, Command, DomainCommand, EditCommand, FileCommand, InspectCommand,
     LayerCommand, PinsCommand, ShellCommand, ViewCommand,
 };
+use super::features::plots::{PlotKind, PlotsCommand};
 use super::paths::{AlternativesCommand, FrontCommand, PathCommand};
-use super::plots::{PlotKind, PlotsCommand};
 use super::report::FigureCommand;
 use super::stepping::StepCommand;
 use super::tools::{BoundaryToolMode, DomainToolMode, PATH, PaintKind, QUERY};

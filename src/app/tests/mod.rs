@@ -30,7 +30,6 @@ mod outline;
 mod painting;
 mod path;
 mod pictures;
-mod plots;
 mod polygon;
 mod project;
 mod query;
@@ -43,7 +42,7 @@ mod steps;
 mod threads;
 mod threats;
 mod unit;
-mod tips;
+pub mod tips;
 mod view;
 mod walks;
 mod why;
@@ -64,8 +63,8 @@ use crate::app::App;
 use crate::app::canvas::CANVAS_NAME;
 use crate::app::command::{BrushCommand, Command, EditCommand, FileCommand, LayerCommand, Opened};
 use crate::app::explore::Explore;
+use crate::app::features::plots::Plots;
 use crate::app::paths::PathFinder;
-use crate::app::plots::Plots;
 use crate::app::session::Session;
 use crate::app::stepping::Stepping;
 use crate::app::tools::Tools;
@@ -397,7 +396,7 @@ impl App {
     }
 
     pub fn plots(&self) -> &Plots {
-        &self.plots
+        &self.features.plots
     }
 
     pub fn stepping(&self) -> Option<&Stepping> {

@@ -9,7 +9,7 @@ use super::{
     window_of,
 };
 use crate::app::command::Command;
-use crate::app::plots::PlotsCommand;
+use crate::app::command::PlotsCommand;
 use crate::app::report::FigureCommand;
 use meshbrush_core::document::ReportFigure;
 use meshbrush_mesh::mesh::StepPlayer;

@@ -28,7 +28,7 @@ const CONTROLS: [Role; 7] = [
 ];
 
 /// Names of the controls and values in tool strip and side panel that have no sentence.
-pub(super) fn unexplained(window: &Window) -> Vec<String> {
+pub fn unexplained(window: &Window) -> Vec<String> {
     let canvas = canvas(window);
     let in_panels = |x: f32| x < canvas.left() || x > canvas.right();
     let controls = CONTROLS.into_iter().flat_map(|role| window.query_all_by_role(role));

@@ -6,12 +6,12 @@ use eframe::egui::accesskit::Role;
 use eframe::egui::{Key, Modifiers, OutputCommand};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
-use super::{
+use super::{PlotKind, PlotsCommand};
+use crate::app::command::{Command, ShellCommand};
+use crate::app::tests::{
     FREE, TALL, Window, canvas, choose, folder, key, open_menu, open_section, send, settings, stroke,
     triangles, wait_for_notice, wait_until, window_of,
 };
-use crate::app::command::{Command, ShellCommand};
-use crate::app::plots::{PlotKind, PlotsCommand};
 use crate::app::widgets::format;
 use meshbrush_core::build::RefinementCriterion;
 use meshbrush_core::explain::Bisections;
@@ -146,6 +146,6 @@ fn every_control_of_the_plots_has_a_sentence() {
     for (kind, _) in PlotKind::ALL {
         send(&mut window, Command::Plots(PlotsCommand::Show(kind)));
         window.run();
-        assert_eq!(super::tips::unexplained(&window), [""; 0], "{}", kind.name());
+        assert_eq!(crate::app::tests::tips::unexplained(&window), [""; 0], "{}", kind.name());
     }
 }

@@ -2,11 +2,11 @@
 
 use eframe::egui::Ui;
 
-use super::{Panel, button_rows, remark};
+use super::files::EXPORT_PLOT;
+use super::{PlotKind, Plots, PlotsCommand};
 use crate::app::command::{Command, FileCommand};
 use crate::app::frame::FrameState;
-use crate::app::plots::EXPORT_PLOT;
-use crate::app::plots::{PlotKind, Plots, PlotsCommand};
+use crate::app::panels::{Panel, button_rows, remark};
 use crate::app::widgets::{ActionButton, NumberRow, Section, dropdown_row, plot_view, value_row};
 use meshbrush_core::document::Experiment;
 
@@ -14,7 +14,7 @@ use meshbrush_core::document::Experiment;
 pub static PLOTS: Panel = Panel { name: "plots", only_with_tool: false, show };
 
 /// Height of a plot, in points.
-pub(super) const HEIGHT: f32 = 210.0;
+pub const HEIGHT: f32 = 210.0;
 /// Height of legend and note, in points.
 const ROOM_AROUND: f32 = 56.0;
 const HOW_TO_MEASURE: &str = "Measure makes the meshes of Section 5.4 of the report on this machine. The deepest has \
@@ -65,7 +65,7 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
 }
 
 /// How the experiment is measured, and the button that begins it; or its progress.
-pub(super) fn measuring(ui: &mut Ui, plots: &Plots, commands: &mut Vec<Command>) {
+pub fn measuring(ui: &mut Ui, plots: &Plots, commands: &mut Vec<Command>) {
     if plots.is_measuring() {
         let level = plots.experiment().meshes.len() + 1;
         value_row(ui, "Measuring", &format!("level {level} of {}", plots.last_level));

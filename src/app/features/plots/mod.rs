@@ -1,32 +1,30 @@
 //! Plots of the mesh, and of the time that meshes take on this machine.
 
-use std::path::{Path, PathBuf};
+mod command;
+mod entries;
+mod execute;
+mod files;
+mod panel;
+#[cfg(test)]
+mod tests;
+
+use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
 
-use super::background::{Aim, Background, exported};
-use super::command::Command;
-use super::dialogs::{FileAct, FileKind};
-use super::jobs::{Job, Jobs, Kind, Output, Slot, Taken};
-use super::session::Session;
-use super::statistics::MeasuredMesh;
+pub use command::PlotsCommand;
+pub use entries::entries;
+pub use panel::{HEIGHT, PLOTS, measuring};
+
+use crate::app::background::{Aim, Background, exported};
+use crate::app::jobs::{Job, Jobs, Kind, Output, Slot, Taken};
+use crate::app::session::Session;
+use crate::app::statistics::MeasuredMesh;
 use meshbrush_core::build::RefinementCriterion;
 use meshbrush_core::document::{Experiment, ExperimentMesh};
 use meshbrush_core::explain::{LevelFigures, bisections_plot, diameters_plot, triangles_plot};
 use meshbrush_core::plot::Plot;
-use meshbrush_io::io::{self, plot};
-
-/// The plot.
-pub static EXPORT_PLOT: FileKind = FileKind {
-    title: "Export plot",
-    act: FileAct::Export,
-    endings: || plot::ENDINGS.to_vec(),
-    contents: "Drawings and tables",
-    folder: "exports",
-    suffix: " plot",
-    command: |path| Command::Plots(PlotsCommand::ExportAs(path)),
-    command_after_browsing: |path| Command::Plots(PlotsCommand::Export(path)),
-};
+use meshbrush_io::io;
 
 /// What can be plotted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -62,34 +60,6 @@ impl PlotKind {
     pub fn is_of_experiment(self) -> bool {
         matches!(self, Self::Time | Self::Figure5)
     }
-}
-
-/// One thing to do with plots.
-#[derive(Clone, Debug, PartialEq)]
-pub enum PlotsCommand {
-    /// Chooses a plot, and opens the panel.
-    Show(PlotKind),
-    /// Chooses a plot.
-    Choose(PlotKind),
-    /// Computes the figures of the levels.
-    Compute,
-    /// Sets how the experiment is measured.
-    SetUp {
-        /// The deepest level.
-        last_level: u32,
-        /// How often each mesh is made.
-        runs: u32,
-    },
-    /// Measures the experiment.
-    Measure,
-    /// Ends the measuring.
-    CancelMeasuring,
-    /// Copies the numbers of the plot.
-    Copy,
-    /// Writes the plot, and asks before another file is replaced.
-    ExportAs(PathBuf),
-    /// Writes the plot.
-    Export(PathBuf),
 }
 
 /// What the figures of the levels depend on.

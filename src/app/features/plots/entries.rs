@@ -2,14 +2,14 @@
 
 use eframe::egui::Key;
 
-use super::{CatalogItem, Menu};
+use super::files::EXPORT_PLOT;
+use super::{PlotKind, PlotsCommand};
+use crate::app::catalog::{CatalogItem, Menu};
 use crate::app::command::{Command, FileCommand};
 use crate::app::frame::FrameState;
-use crate::app::plots::EXPORT_PLOT;
-use crate::app::plots::{PlotKind, PlotsCommand};
 
 /// The plots, and what to do with them.
-pub fn plots(state: &FrameState<'_>) -> Vec<CatalogItem> {
+pub fn entries(state: &FrameState<'_>) -> Vec<CatalogItem> {
     let item = |title: &str, command| CatalogItem::new(Menu::View, title, Command::Plots(command));
     let plots = state.plots;
     let show = item("Show the plots", PlotsCommand::Show(plots.kind())).key(Key::F9).group();

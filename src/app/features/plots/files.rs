@@ -1,0 +1,18 @@
+//! The plot as a file.
+
+use super::PlotsCommand;
+use crate::app::command::Command;
+use crate::app::dialogs::{FileAct, FileKind};
+use meshbrush_io::io::plot;
+
+/// The plot.
+pub static EXPORT_PLOT: FileKind = FileKind {
+    title: "Export plot",
+    act: FileAct::Export,
+    endings: || plot::ENDINGS.to_vec(),
+    contents: "Drawings and tables",
+    folder: "exports",
+    suffix: " plot",
+    command: |path| Command::Plots(PlotsCommand::ExportAs(path)),
+    command_after_browsing: |path| Command::Plots(PlotsCommand::Export(path)),
+};
