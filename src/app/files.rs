@@ -7,11 +7,11 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::background::{Aim, Background, Outcome, cancelled, exported, name_of};
-use super::command::{Command, DomainCommand, EditCommand, FileCommand, Opened, OutlineChange, ShellCommand};
+use super::command::{Command, DomainCommand, FileCommand, Opened, OutlineChange, ShellCommand};
 use super::session::Session;
 use super::view::View;
 use super::widgets::format;
-use meshbrush_core::document::{self, Document, Example, Recording, Setting, Settings};
+use meshbrush_core::document::{Document, Example, Recording, Settings};
 use meshbrush_core::domain::{BoundaryMarks, MeshBoundary, NamedPolygon};
 use meshbrush_core::outline::DerivedMesh;
 use meshbrush_core::raster::Raster;
@@ -52,31 +52,6 @@ pub fn new_document() -> Document {
 /// A document that comes with the program.
 pub fn example(example: Example) -> Document {
     example.document(terrain_slope, aegean_sea)
-}
-
-/// Reads a picture to be shown behind the mesh. A world file beside it says where it lies; without one it
-/// covers the bounds of the domain.
-pub fn load_background(session: &Session, background: &mut Background, path: &Path) {
-    let bounds = session.document().settings().domain.bounds;
-    let file = path.to_owned();
-    background.start(Aim::Read, path, move |meter| {
-        let read = io::png::read_picture(&file, meter).and_then(|picture| {
-            let placed = io::world_file::bounds_beside(&file, picture.size)?;
-            Ok((picture, placed.unwrap_or(bounds)))
-        });
-        match read {
-            Ok((picture, bounds)) => {
-                let (name, picture) = (name_of(&file), Arc::new(picture));
-                let opacity = document::Background::USUAL_OPACITY;
-                let shown = document::Background { name, picture, bounds, opacity };
-                Outcome::PartRead(vec![
-                    Command::Edit(EditCommand::Set(Setting::Background(Some(shown)))),
-                    Command::Edit(EditCommand::EndGesture),
-                ])
-            }
-            Err(error) => Outcome::not_read(error),
-        }
-    });
 }
 
 /// Reads polygons, and opens a document with them as its domain.

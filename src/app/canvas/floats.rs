@@ -4,9 +4,10 @@ use std::time::Duration;
 
 use eframe::egui::{Align2, Id, Rect, Response, Ui, UiBuilder, pos2, vec2};
 
-use super::{Canvas, coordinates, legend, menu, picture_corners, way_back};
+use super::{Canvas, coordinates, legend, menu, way_back};
 use crate::app::background::Row;
 use crate::app::command::{Command, EditCommand, FileCommand, ShellCommand};
+use crate::app::features::picture::show_corners;
 use crate::app::frame::FrameState;
 use crate::app::session::Session;
 use crate::app::widgets::{Banner, BannerAnswer, bytes_row, format, hint_pill, paint_floating, progress_row};
@@ -42,7 +43,7 @@ impl Canvas {
                 coordinates::show_scale_bar(ui, inner, &camera, state.unit());
             }
             legend::show(ui, inner, state);
-            places.extend(picture_corners::show(ui, response.rect, state, &camera, commands));
+            places.extend(show_corners(ui, response.rect, state, &camera, commands));
             places.extend(way_back::show(ui, inner, state, &camera, commands));
         }
         menu::show(ui, state, commands);

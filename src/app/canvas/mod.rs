@@ -1,6 +1,5 @@
 //! The canvas: the mesh, what is drawn over it, and gestures of the pointer on it.
 
-mod background;
 mod cause_marks;
 mod contours;
 mod coordinates;
@@ -15,7 +14,6 @@ pub mod marks;
 mod overlay;
 mod paths;
 mod best_paths;
-pub mod picture_corners;
 mod price;
 mod way_back;
 
@@ -24,13 +22,13 @@ use eframe::egui::{
 };
 use glam::DVec2;
 
-use background::BackgroundTexture;
 pub use gpu::{CanvasGpu, canvas_image};
 use overlay::OverlayColors;
 
 use super::busy::Busy;
 use super::command::{BrushCommand, Command, ShellCommand, ViewCommand};
 use super::contours::ContourFinder;
+use super::features::picture::BackgroundTexture;
 use super::features::pins::show_marks as show_pins;
 use super::frame::FrameState;
 use super::jobs::Jobs;

@@ -18,7 +18,7 @@ mod threats;
 use eframe::egui::Context;
 
 use super::App;
-use super::command::{Command, EditCommand, PictureCommand, ShellCommand, StatisticsCommand};
+use super::command::{Command, EditCommand, ShellCommand, StatisticsCommand};
 use super::ctx::Feature as _;
 use super::dialogs::Dialog;
 use super::tools::Tool;
@@ -38,8 +38,9 @@ impl App {
             Command::Threats(command) => self.execute_on_threats(command),
             Command::Domain(command) => self.execute_on_domain(command),
             Command::Boundary(command) => self.execute_on_boundary(command),
-            Command::Picture(PictureCommand::Open(path)) => {
-                super::files::load_background(&self.session, &mut self.background, &path);
+            Command::Picture(command) => {
+                let (features, mut ctx) = self.features(ctx);
+                features.picture.execute(command, &mut ctx);
             }
             Command::Path(command) => self.execute_on_paths(command),
             Command::Pins(command) => {

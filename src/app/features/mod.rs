@@ -1,8 +1,8 @@
 //! The features of the window, a folder each. A feature sees the rest of the window through a
 //! [`Ctx`](super::ctx::Ctx), and never another feature.
 //!
-//! *Pins* and *Plots* have everything in their folders. Of the others, only commands and kinds of files are
-//! here.
+//! The picture, pins and plots have everything in their folders. Of the others, only commands and kinds of
+//! files are here.
 
 pub mod boundary;
 pub mod domain;
@@ -16,12 +16,15 @@ pub mod statistics;
 pub mod threats;
 
 use super::ctx::Feature as _;
+use picture::BackgroundPicture;
 use pins::Pins;
 use plots::Plots;
 
 /// The state of all features.
 #[derive(Default)]
 pub struct Features {
+    /// The picture behind the mesh.
+    pub picture: BackgroundPicture,
     /// Points whose triangles and values are followed.
     pub pins: Pins,
     /// Plots of the mesh, and of the time that meshes take.
@@ -31,7 +34,8 @@ pub struct Features {
 impl Features {
     /// Forgets what belongs to the document: another one was opened.
     pub fn forget_document(&mut self) {
-        let Self { pins, plots } = self;
+        let Self { picture, pins, plots } = self;
+        picture.forget_document();
         pins.forget_document();
         plots.forget_document();
     }

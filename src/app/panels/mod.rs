@@ -3,7 +3,6 @@
 //!
 //! What is being typed or set up in a control, and is no setting yet, is in egui's memory.
 
-mod background;
 mod bars;
 mod boundary;
 mod brush;
@@ -35,6 +34,7 @@ pub use path::{OTHER_PATHS, PATH};
 pub use why::WHY;
 
 use super::command::{Command, EditCommand};
+use super::features::picture::BACKGROUND;
 use super::features::pins::PINS;
 use super::features::plots::PLOTS;
 use super::frame::FrameState;
@@ -70,7 +70,7 @@ pub static PANELS: [&Panel; 17] = [
     &DOMAIN,
     &BOUNDARY,
     &fit::FIT,
-    &background::BACKGROUND,
+    &BACKGROUND,
     &view::VIEW,
 ];
 
@@ -169,14 +169,14 @@ where
 }
 
 /// Sends the end of a gesture when a control was released.
-fn end_gesture_when_released(response: &Response, commands: &mut Vec<Command>) {
+pub fn end_gesture_when_released(response: &Response, commands: &mut Vec<Command>) {
     if widgets::edit_done(response) {
         commands.push(Command::Edit(EditCommand::EndGesture));
     }
 }
 
 /// Sends a setting as a gesture of its own.
-fn set_once(setting: Setting, commands: &mut Vec<Command>) {
+pub fn set_once(setting: Setting, commands: &mut Vec<Command>) {
     commands.extend([Command::Edit(EditCommand::Set(setting)), Command::Edit(EditCommand::EndGesture)]);
 }
 

@@ -3,7 +3,6 @@
 
 #[cfg(unix)]
 mod background;
-mod background_picture;
 mod boundary;
 mod brush;
 mod budget;

@@ -3,10 +3,10 @@
 use eframe::egui::Ui;
 use glam::dvec2;
 
-use super::{Panel, end_gesture_when_released, remark, set_once};
+use super::OPEN_PICTURE;
 use crate::app::command::{Command, EditCommand, FileCommand, ViewCommand};
-use crate::app::features::picture::OPEN_PICTURE;
 use crate::app::frame::FrameState;
+use crate::app::panels::{Panel, end_gesture_when_released, remark, set_once};
 use crate::app::view::CanvasAid;
 use crate::app::widgets::{ActionButton, NumberRow, Section, SliderRow, toggle_row, value_row};
 use meshbrush_core::document::{Background, Setting};

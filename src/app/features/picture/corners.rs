@@ -3,7 +3,7 @@
 use eframe::egui::{Color32, CursorIcon, Pos2, Rect, Role, Sense, Stroke, StrokeKind, Ui, WidgetInfo, vec2};
 use glam::DVec2;
 
-use super::marks::point_from_px;
+use crate::app::canvas::marks::point_from_px;
 use crate::app::command::{Command, EditCommand};
 use crate::app::frame::FrameState;
 use meshbrush_core::document::{Background, Setting};

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use eframe::egui::{Color32, ColorImage, Context, Painter, Rect, TextureHandle, TextureOptions, pos2};
 
-use super::marks::point_from_px;
+use crate::app::canvas::marks::point_from_px;
 use meshbrush_core::document::{Background, Picture};
 use meshbrush_render::scene::Camera;
 

@@ -8,12 +8,12 @@ use eframe::egui::{Key, Modifiers, PointerButton};
 use egui_kittest::kittest::Queryable as _;
 use glam::dvec2;
 
-use super::{
+use super::corners::NAMES;
+use crate::app::command::{Command, PictureCommand};
+use crate::app::tests::{
     TALL, Window, choose, document, entries, fingerprint, folder, key, move_to, notice, open_section,
     press_at, release, send, set, settings, type_into, value_of, wait_for_notice, wait_until, window_of,
 };
-use crate::app::canvas::picture_corners::NAMES;
-use crate::app::command::{Command, PictureCommand};
 use meshbrush_core::document::{Background, Document, Setting};
 use meshbrush_io::io::{self, project};
 use meshbrush_mesh::geometry::Rect;
