@@ -306,9 +306,9 @@ fn the_recipe_of_a_document_gives_its_mesh() {
     }
 }
 
-/// A recipe may hold names of any length; what the program says of it stays short.
+/// A recipe may hold names of layers and files of any length; what the program says of them stays short.
 #[test]
-fn no_sentence_repeats_a_long_name_of_a_layer() {
+fn no_sentence_repeats_a_long_name() {
     let folder = Folder::new("long-names");
     let name = "n".repeat(1_000_000);
     let layer = |rest: &str| {
@@ -337,6 +337,12 @@ fn no_sentence_repeats_a_long_name_of_a_layer() {
             "…”: its mask",
         ),
         ("mesh", layer(&format!("rule = 1\n{formula} \"1\"")), 1, "no key `rule`"),
+        (
+            "mesh",
+            format!("[mesh]\nspacing = 0.25\n[[output]]\nfile = \"{name}.msh\""),
+            1,
+            "cannot be written",
+        ),
         ("why 0.1,0.1", layer(&format!("{formula} \"0.1\"")), 0, "…” asks for 0.1"),
     ] {
         folder.file("long.toml", text);

@@ -8,6 +8,7 @@ use meshbrush_io::io::ReadError;
 use meshbrush_io::io::layers::LayerError;
 use meshbrush_io::io::recipe::DescriptionError;
 use meshbrush_mesh::mesh::{CoarseError, InvalidTarget, RefineError};
+use meshbrush_mesh::text::abridged;
 
 /// Why a command did not do its work. Each prints as one sentence; a formula's mistake adds the lines that
 /// point at it.
@@ -32,7 +33,7 @@ pub enum Failure {
     #[error(transparent)]
     Path(#[from] PathError),
     /// A file could not be written.
-    #[error("{} cannot be written: {problem}.", file.display())]
+    #[error("{} cannot be written: {problem}.", abridged(&file.display().to_string()))]
     Write {
         /// The file as it was named.
         file: PathBuf,
