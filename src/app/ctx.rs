@@ -32,6 +32,8 @@ pub struct Ctx<'a> {
     pub session: &'a mut Session,
     /// What is shown, and how.
     pub view: &'a mut View,
+    /// The selected tool, and settings of tools.
+    pub tools: &'a mut Tools,
     /// The document's file.
     pub project: &'a mut ProjectFile,
     /// Work on files.
@@ -44,7 +46,6 @@ pub struct Ctx<'a> {
     pub egui: &'a Context,
     /// Whether to leave out what differs from run to run.
     pub reproducible: bool,
-    tools: &'a mut Tools,
 }
 
 impl Ctx<'_> {

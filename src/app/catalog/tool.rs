@@ -4,18 +4,17 @@ use eframe::egui::{Key, Modifiers};
 
 use super::{CatalogItem, GESTURES, GestureHelp, Menu};
 use crate::app::command::{
-    BoundaryCommand, BrushCommand, Command, DomainCommand, ExploreCommand, FileCommand, InspectCommand,
-    ShellCommand, ThreatsCommand,
+    BrushCommand, Command, DomainCommand, ExploreCommand, FileCommand, InspectCommand, ShellCommand,
+    ThreatsCommand,
 };
 use crate::app::explore::TreeStep;
-use crate::app::features::pins;
+use crate::app::features::{boundary, pins};
 use crate::app::frame::FrameState;
 use crate::app::keep_out::KeepOutCommand;
 use crate::app::paths::OPEN_KEEP_OUT;
 use crate::app::paths::{AlternativesCommand, CostKind, FrontCommand, PathCommand};
 use crate::app::tools::{
-    BOUNDARY, BoundaryToolMode, BrushMode, DOMAIN, DomainToolMode, ERASER, PATH, PaintKind, QUERY, THREATS,
-    TOOLS, Tools,
+    BrushMode, DOMAIN, DomainToolMode, ERASER, PATH, PaintKind, QUERY, THREATS, TOOLS, Tools,
 };
 
 const DIGITS: [Key; 10] = [
@@ -176,7 +175,7 @@ fn domain_tool(state: &FrameState<'_>) -> Vec<CatalogItem> {
         mode("Draw the frame of the domain", DomainToolMode::Frame),
         item("Add to the domain", DomainCommand::Adds(!adds)).key(Key::X).checked(adds),
     ];
-    items.extend(boundary_tool(state));
+    items.extend(boundary::entries(state));
     if !tools.domain.corners.is_empty() {
         items.push(item("Close the polygon", DomainCommand::ClosePolygon).key(Key::Enter));
     }
@@ -225,21 +224,4 @@ fn threats_tool(state: &FrameState<'_>) -> Option<CatalogItem> {
     let delete = Command::Threats(ThreatsCommand::Delete);
     let item = CatalogItem::new(Menu::Tool, "Delete the selected threat", delete).key(Key::Delete).group();
     (state.tools.tool == &THREATS).then(|| item.enabled(is_selected))
-}
-
-fn boundary_tool(state: &FrameState<'_>) -> Vec<CatalogItem> {
-    let tools = state.tools;
-    let item = |title: &str, command| CatalogItem::new(Menu::Tool, title, Command::Boundary(command));
-    let current = |mode| tools.tool == &BOUNDARY && tools.boundary.mode == mode;
-    let (select, split) = (BoundaryToolMode::Select, BoundaryToolMode::Split);
-    let mut items = vec![
-        item("Select pieces of the boundary", BoundaryCommand::Mode(select)).checked(current(select)).group(),
-        item("Split the boundary", BoundaryCommand::Mode(split)).checked(current(split)),
-    ];
-    if tools.tool == &BOUNDARY {
-        let other = if tools.boundary.mode == split { select } else { split };
-        items.push(item("Select or split", BoundaryCommand::Mode(other)).key(Key::S));
-        items.push(item("Join the piece with the next", BoundaryCommand::Join));
-    }
-    items
 }

@@ -1,12 +1,10 @@
-//! Commands about the domain and its boundary.
-
-use glam::DVec2;
+//! Commands about the domain.
 
 use crate::app::App;
-use crate::app::command::{BoundaryCommand, DomainCommand, OutlineChange};
+use crate::app::command::{DomainCommand, OutlineChange};
 use crate::app::files;
-use crate::app::tools::{BOUNDARY, BoundaryToolMode, DOMAIN};
-use meshbrush_core::domain::{BoundaryPieces, CutShape};
+use crate::app::tools::DOMAIN;
+use meshbrush_core::domain::CutShape;
 
 impl App {
     pub(super) fn execute_on_domain(&mut self, command: DomainCommand) {
@@ -38,40 +36,6 @@ impl App {
                 self.tools.note_use(&DOMAIN);
             }
         }
-    }
-
-    pub(super) fn execute_on_boundary(&mut self, command: BoundaryCommand) {
-        match command {
-            BoundaryCommand::Click(point, reach) => self.click_boundary(point, reach),
-            BoundaryCommand::Select(point) => {
-                self.tools.boundary.selected = Some(point);
-                self.view.reveal(point);
-            }
-            BoundaryCommand::Mode(mode) => {
-                self.tools.select(&BOUNDARY);
-                self.tools.boundary.mode = mode;
-            }
-            BoundaryCommand::Join => {
-                let selected = |pieces: &BoundaryPieces| self.tools.boundary.selected_of(pieces);
-                let marks =
-                    self.session.changed_marks(|pieces, marks| pieces.joined(marks, selected(pieces)?));
-                self.session.set_marks(marks);
-            }
-        }
-    }
-
-    /// Selects or splits what is at a point, at most `reach` away.
-    fn click_boundary(&mut self, point: DVec2, reach: f64) {
-        self.tools.note_use(&BOUNDARY);
-        if self.tools.boundary.mode == BoundaryToolMode::Split {
-            let marks = self.session.changed_marks(|pieces, marks| pieces.split(marks, point, reach));
-            return self.session.set_marks(marks);
-        }
-        let piece = self.session.boundary_pieces().and_then(|pieces| {
-            let (piece, _) = pieces.nearest(point, reach)?;
-            Some(pieces.list()[piece].middle())
-        });
-        self.tools.boundary.selected = piece;
     }
 
     fn set_outline(&mut self, change: OutlineChange) {

@@ -37,7 +37,10 @@ impl App {
             Command::Layer(command) => self.execute_on_layers(command, ctx),
             Command::Threats(command) => self.execute_on_threats(command),
             Command::Domain(command) => self.execute_on_domain(command),
-            Command::Boundary(command) => self.execute_on_boundary(command),
+            Command::Boundary(command) => {
+                let (features, mut ctx) = self.features(ctx);
+                features.boundary.execute(command, &mut ctx);
+            }
             Command::Picture(command) => {
                 let (features, mut ctx) = self.features(ctx);
                 features.picture.execute(command, &mut ctx);

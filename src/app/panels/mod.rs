@@ -4,7 +4,6 @@
 //! What is being typed or set up in a control, and is no setting yet, is in egui's memory.
 
 mod bars;
-mod boundary;
 mod brush;
 mod domain;
 mod fit;
@@ -25,7 +24,6 @@ mod why;
 use eframe::egui::{self, Frame, Id, Margin, Response, RichText, ScrollArea, Ui};
 
 pub use bars::menu_item;
-pub use boundary::BOUNDARY;
 pub use brush::BRUSH;
 pub use domain::DOMAIN;
 pub use inspector::INSPECTOR;
@@ -34,6 +32,7 @@ pub use path::{OTHER_PATHS, PATH};
 pub use why::WHY;
 
 use super::command::{Command, EditCommand};
+use super::features::boundary::PIECES;
 use super::features::picture::BACKGROUND;
 use super::features::pins::PINS;
 use super::features::plots::PLOTS;
@@ -68,7 +67,7 @@ pub static PANELS: [&Panel; 17] = [
     &statistics::STATISTICS,
     &PLOTS,
     &DOMAIN,
-    &BOUNDARY,
+    &PIECES,
     &fit::FIT,
     &BACKGROUND,
     &view::VIEW,

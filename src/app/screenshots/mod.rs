@@ -15,11 +15,12 @@ use super::command::{
     BoundaryCommand, BrushCommand, Command, DomainCommand, EditCommand, FileCommand, InspectCommand,
     LayerCommand, PinsCommand, ShellCommand, ViewCommand,
 };
+use super::features::boundary::BoundaryToolMode;
 use super::features::plots::{PlotKind, PlotsCommand};
 use super::paths::{AlternativesCommand, FrontCommand, PathCommand};
 use super::report::FigureCommand;
 use super::stepping::StepCommand;
-use super::tools::{BoundaryToolMode, DomainToolMode, PATH, PaintKind, QUERY};
+use super::tools::{DomainToolMode, PATH, PaintKind, QUERY};
 use super::view::FieldOverlay;
 pub use manual::write as write_manual;
 use meshbrush_core::document::{Example, ReportFigure, Setting};

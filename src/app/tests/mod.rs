@@ -3,7 +3,6 @@
 
 #[cfg(unix)]
 mod background;
-mod boundary;
 mod brush;
 mod budget;
 mod commands;

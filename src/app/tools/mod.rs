@@ -4,7 +4,6 @@
 //! the tool strip, the side panel and the canvas read the table, so that a new tool is one file and one
 //! entry.
 
-mod boundary;
 mod brush;
 mod domain;
 mod eraser;
@@ -20,7 +19,6 @@ use std::fmt;
 use eframe::egui::{CursorIcon, Key, Painter, Pos2};
 use glam::DVec2;
 
-pub use boundary::{BOUNDARY, BoundaryTool, BoundaryToolMode};
 pub use brush::{BRUSH, BrushMode, picks};
 pub use domain::{DOMAIN, DomainTool, DomainToolMode};
 pub use eraser::ERASER;
@@ -32,6 +30,7 @@ pub use query::{PIN_REACH_POINTS, QUERY};
 pub use threats::{THREATS, ThreatGrip, ThreatsTool, grip_at};
 
 use super::command::Command;
+use super::features::boundary::{BOUNDARY, BoundaryTool};
 use super::frame::FrameState;
 use super::panels::Panel;
 use super::widgets::{Hint, Icon};

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use crate::app::tools::BoundaryToolMode;
+use super::BoundaryToolMode;
 
 /// What the boundary tool does.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,5 +1,18 @@
 //! The pieces of the boundary.
 
 mod command;
+mod entries;
+mod execute;
+mod panel;
+#[cfg(test)]
+mod tests;
+mod tool;
 
 pub use command::BoundaryCommand;
+pub use entries::entries;
+pub use panel::PIECES;
+pub use tool::{BOUNDARY, BoundaryTool, BoundaryToolMode};
+
+/// The names of pieces are in the document, and the selected piece is in [`BoundaryTool`].
+#[derive(Default)]
+pub struct Boundary;

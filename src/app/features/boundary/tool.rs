@@ -3,12 +3,12 @@
 use eframe::egui::{Align2, Color32, CursorIcon, Key, Painter, Pos2, Rect, vec2};
 use glam::DVec2;
 
-use super::{OverMesh, ToolSpec};
+use super::{BoundaryCommand, PIECES};
 use crate::app::canvas::marks;
-use crate::app::command::{BoundaryCommand, Command};
+use crate::app::command::Command;
 use crate::app::frame::FrameState;
-use crate::app::panels;
 use crate::app::theme::font;
+use crate::app::tools::{OverMesh, ToolSpec};
 use crate::app::widgets::Hint::{self, Key as HintKey, Text};
 use crate::app::widgets::Icon;
 use meshbrush_core::domain::{BoundaryPiece, BoundaryPieces};
@@ -16,7 +16,7 @@ use meshbrush_core::domain::{BoundaryPiece, BoundaryPieces};
 /// Names and splits pieces of the boundary.
 pub static BOUNDARY: ToolSpec = ToolSpec {
     cursor: CursorIcon::PointingHand,
-    panels: &[&panels::BOUNDARY],
+    panels: &[&PIECES],
     hint: |_| HINT,
     finds_boundary: true,
     paint,

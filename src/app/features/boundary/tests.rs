@@ -5,7 +5,7 @@ use eframe::egui::{Key, Modifiers, Vec2, vec2};
 use egui_kittest::kittest::Queryable as _;
 use glam::dvec2;
 
-use super::{
+use crate::app::tests::{
     Window, click, entries, fingerprint, key, send, settings, show, type_into, wait_until, window_of,
 };
 use meshbrush_core::document::Settings;

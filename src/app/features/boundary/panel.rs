@@ -2,17 +2,17 @@
 
 use eframe::egui::{Id, Ui};
 
-use super::{Panel, remark, set_once};
-use crate::app::command::{BoundaryCommand, Command};
+use super::{BoundaryCommand, BoundaryToolMode};
+use crate::app::command::Command;
 use crate::app::frame::FrameState;
-use crate::app::tools::BoundaryToolMode;
+use crate::app::panels::{Panel, remark, set_once};
 use crate::app::widgets::{ActionButton, Section, TextRow, ValueRow, format, segmented, value_row};
 use meshbrush_core::document::Setting;
 use meshbrush_core::domain::BoundaryPieces;
 use meshbrush_mesh::text::LengthUnit;
 
 /// The pieces, while the boundary tool is selected.
-pub static BOUNDARY: Panel = Panel { name: "boundary", only_with_tool: true, show };
+pub static PIECES: Panel = Panel { name: "boundary", only_with_tool: true, show };
 
 /// Most pieces in the list; the others are on the canvas.
 const MOST_ROWS: usize = 200;

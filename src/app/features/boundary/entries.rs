@@ -1,0 +1,25 @@
+//! The boundary in menus and in the palette.
+
+use eframe::egui::Key;
+
+use super::{BOUNDARY, BoundaryCommand, BoundaryToolMode};
+use crate::app::catalog::{CatalogItem, Menu};
+use crate::app::command::Command;
+use crate::app::frame::FrameState;
+
+pub fn entries(state: &FrameState<'_>) -> Vec<CatalogItem> {
+    let tools = state.tools;
+    let item = |title: &str, command| CatalogItem::new(Menu::Tool, title, Command::Boundary(command));
+    let current = |mode| tools.tool == &BOUNDARY && tools.boundary.mode == mode;
+    let (select, split) = (BoundaryToolMode::Select, BoundaryToolMode::Split);
+    let mut items = vec![
+        item("Select pieces of the boundary", BoundaryCommand::Mode(select)).checked(current(select)).group(),
+        item("Split the boundary", BoundaryCommand::Mode(split)).checked(current(split)),
+    ];
+    if tools.tool == &BOUNDARY {
+        let other = if tools.boundary.mode == split { select } else { split };
+        items.push(item("Select or split", BoundaryCommand::Mode(other)).key(Key::S));
+        items.push(item("Join the piece with the next", BoundaryCommand::Join));
+    }
+    items
+}

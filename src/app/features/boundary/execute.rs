@@ -1,0 +1,45 @@
+//! What the commands about the boundary do.
+
+use glam::DVec2;
+
+use super::{BOUNDARY, Boundary, BoundaryCommand, BoundaryToolMode};
+use crate::app::ctx::{Ctx, Feature};
+use meshbrush_core::domain::BoundaryPieces;
+
+impl Feature for Boundary {
+    type Command = BoundaryCommand;
+
+    fn execute(&mut self, command: BoundaryCommand, ctx: &mut Ctx<'_>) {
+        match command {
+            BoundaryCommand::Click(point, reach) => click(point, reach, ctx),
+            BoundaryCommand::Select(point) => {
+                ctx.tools.boundary.selected = Some(point);
+                ctx.view.reveal(point);
+            }
+            BoundaryCommand::Mode(mode) => {
+                ctx.tools.select(&BOUNDARY);
+                ctx.tools.boundary.mode = mode;
+            }
+            BoundaryCommand::Join => {
+                let selected = |pieces: &BoundaryPieces| ctx.tools.boundary.selected_of(pieces);
+                let marks =
+                    ctx.session.changed_marks(|pieces, marks| pieces.joined(marks, selected(pieces)?));
+                ctx.session.set_marks(marks);
+            }
+        }
+    }
+}
+
+/// Selects or splits what is at a point, at most `reach` away.
+fn click(point: DVec2, reach: f64, ctx: &mut Ctx<'_>) {
+    ctx.tools.note_use(&BOUNDARY);
+    if ctx.tools.boundary.mode == BoundaryToolMode::Split {
+        let marks = ctx.session.changed_marks(|pieces, marks| pieces.split(marks, point, reach));
+        return ctx.session.set_marks(marks);
+    }
+    let piece = ctx.session.boundary_pieces().and_then(|pieces| {
+        let (piece, _) = pieces.nearest(point, reach)?;
+        Some(pieces.list()[piece].middle())
+    });
+    ctx.tools.boundary.selected = piece;
+}
