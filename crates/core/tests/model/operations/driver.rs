@@ -3,8 +3,10 @@
 use std::collections::HashSet;
 use std::ops::Range;
 
+use glam::dvec2;
 use meshbrush_core::build::BuildError;
-use meshbrush_core::document::{Document, Follower, MeshChange, Settings, Stage};
+use meshbrush_core::document::{Document, Follower, MeshChange, Readings, Settings, Stage};
+use meshbrush_core::layers::SettledSquares;
 use meshbrush_core::outline::DerivedMesh;
 use meshbrush_mesh::geometry::LatticePoint;
 use meshbrush_mesh::mesh::{Mesh, NodeId, Progress, Triangle, TriangleId};
@@ -15,6 +17,8 @@ use super::Operation;
 pub struct Driver {
     pub document: Document,
     pub follower: Follower,
+    /// Kept from edit to edit, as under the pointer.
+    readings: Readings,
     nodes: Vec<LatticePoint>,
     triangles: Vec<Triangle>,
     /// The document's revision when work was last given up: until the next the mesh may lag behind.
@@ -30,7 +34,17 @@ impl Driver {
         let mut document = Document::new(settings, None).unwrap();
         let follower = Follower::new(&mut document).unwrap();
         let (nodes, triangles) = (Vec::new(), Vec::new());
-        Self { document, follower, nodes, triangles, given_up: None, changes_within: 0, compared: 0 }
+        let readings = Readings::default();
+        Self {
+            document,
+            follower,
+            readings,
+            nodes,
+            triangles,
+            given_up: None,
+            changes_within: 0,
+            compared: 0,
+        }
     }
 
     pub fn apply(&mut self, operation: Operation) {
@@ -41,6 +55,17 @@ impl Driver {
         match operation {
             Operation::Reopen => self.reopen(),
             operation => operation.apply(&mut self.document),
+        }
+        self.check_readings();
+    }
+
+    /// What earlier readings found out changes no later one.
+    fn check_readings(&mut self) {
+        let Self { document, follower, readings, .. } = self;
+        for at in [dvec2(0.31, 0.62), dvec2(0.77, 0.24)] {
+            let alone =
+                follower.field().quick_decision_at(&mut SettledSquares::default(), document.paint(), at);
+            assert_eq!(readings.decision_at(document, follower, at), alone);
         }
     }
 
