@@ -56,8 +56,7 @@ impl Ctx<'_> {
 
     /// Queries a point or none. The trail to the former one ends.
     pub fn ask(&mut self, point: Option<DVec2>) {
-        self.tools.trail.clear();
-        self.session.query(point);
+        self.tools.query(point, self.session);
     }
 }
 

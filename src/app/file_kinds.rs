@@ -20,9 +20,7 @@ pub static OPEN_ANY: FileKind = FileKind {
     endings: || OPENED_BY_ENDING.iter().flat_map(|kind| (kind.endings)()).collect(),
     contents: "Projects, domains, pictures, grids",
     folder: "projects",
-    suffix: "",
-    command: |path| Command::File(FileCommand::Open(path)),
-    command_after_browsing: |path| Command::File(FileCommand::Open(path)),
+    ..FileKind::new(|path| Command::File(FileCommand::Open(path)))
 };
 
 /// A project.
@@ -32,9 +30,7 @@ pub static OPEN_PROJECT: FileKind = FileKind {
     endings: || vec![ENDING],
     contents: "Projects",
     folder: "projects",
-    suffix: "",
-    command: |path| Command::File(FileCommand::OpenProject(path)),
-    command_after_browsing: |path| Command::File(FileCommand::OpenProject(path)),
+    ..FileKind::new(|path| Command::File(FileCommand::OpenProject(path)))
 };
 
 /// A recipe as a new document.
@@ -44,9 +40,7 @@ pub static OPEN_RECIPE: FileKind = FileKind {
     endings: || vec![recipe::ENDING],
     contents: "Recipes",
     folder: "recipes",
-    suffix: "",
-    command: |path| Command::File(FileCommand::OpenRecipe(path)),
-    command_after_browsing: |path| Command::File(FileCommand::OpenRecipe(path)),
+    ..FileKind::new(|path| Command::File(FileCommand::OpenRecipe(path)))
 };
 
 /// The document as a project.
@@ -56,9 +50,8 @@ pub static SAVE_PROJECT: FileKind = FileKind {
     endings: || vec![ENDING],
     contents: "Projects",
     folder: "projects",
-    suffix: "",
-    command: |path| Command::File(FileCommand::SaveAs(path)),
     command_after_browsing: |path| Command::File(FileCommand::SaveTo(path)),
+    ..FileKind::new(|path| Command::File(FileCommand::SaveAs(path)))
 };
 
 /// The document as a recipe.
@@ -68,9 +61,7 @@ pub static SAVE_RECIPE: FileKind = FileKind {
     endings: || vec![recipe::ENDING],
     contents: "Recipes",
     folder: "recipes",
-    suffix: "",
-    command: |path| Command::File(FileCommand::SaveRecipeAs(path)),
-    command_after_browsing: |path| Command::File(FileCommand::SaveRecipeAs(path)),
+    ..FileKind::new(|path| Command::File(FileCommand::SaveRecipeAs(path)))
 };
 
 /// What was done, as a test.
@@ -80,9 +71,8 @@ pub static EXPORT_TEST: FileKind = FileKind {
     endings: || vec![recording::ENDING],
     contents: "Recorded sessions",
     folder: "tests",
-    suffix: "",
-    command: |path| Command::File(FileCommand::ExportTestAs(path)),
     command_after_browsing: |path| Command::File(FileCommand::ExportTest(path)),
+    ..FileKind::new(|path| Command::File(FileCommand::ExportTestAs(path)))
 };
 
 /// The mesh.
@@ -92,8 +82,6 @@ pub static EXPORT_MESH: FileKind = FileKind {
     endings: || ExportFormat::endings().collect(),
     contents: "Meshes and pictures",
     folder: "exports",
-    suffix: "",
-    command: |path| Command::File(FileCommand::ExportAs(path)),
     command_after_browsing: |path| {
         Command::File(match is_one_file(&path) {
             true => FileCommand::Export(path),
@@ -101,6 +89,7 @@ pub static EXPORT_MESH: FileKind = FileKind {
             false => FileCommand::ExportAs(path),
         })
     },
+    ..FileKind::new(|path| Command::File(FileCommand::ExportAs(path)))
 };
 
 fn is_one_file(path: &Path) -> bool {

@@ -46,6 +46,20 @@ pub enum FileAct {
 }
 
 impl FileKind {
+    /// A kind that is read for the document, without the rest of its row.
+    pub const fn new(command: fn(PathBuf) -> Command) -> Self {
+        Self {
+            title: "",
+            act: FileAct::Open,
+            endings: Vec::new,
+            contents: "",
+            folder: "",
+            suffix: "",
+            command,
+            command_after_browsing: command,
+        }
+    }
+
     /// The word on the button.
     pub fn verb(&self) -> &'static str {
         match self.act {

@@ -19,8 +19,9 @@ use eframe::egui::Context;
 
 use super::App;
 use super::command::{Command, EditCommand, ShellCommand, StatisticsCommand};
-use super::ctx::Feature as _;
+use super::ctx::Feature;
 use super::dialogs::Dialog;
+use super::features::Features;
 use super::tools::Tool;
 
 impl App {
@@ -37,30 +38,24 @@ impl App {
             Command::Layer(command) => self.execute_on_layers(command, ctx),
             Command::Threats(command) => self.execute_on_threats(command),
             Command::Domain(command) => self.execute_on_domain(command),
-            Command::Boundary(command) => {
-                let (features, mut ctx) = self.features(ctx);
-                features.boundary.execute(command, &mut ctx);
-            }
-            Command::Picture(command) => {
-                let (features, mut ctx) = self.features(ctx);
-                features.picture.execute(command, &mut ctx);
-            }
+            Command::Boundary(command) => self.run(|features| &mut features.boundary, command, ctx),
+            Command::Picture(command) => self.run(|features| &mut features.picture, command, ctx),
             Command::Path(command) => self.execute_on_paths(command),
-            Command::Pins(command) => {
-                let (features, mut ctx) = self.features(ctx);
-                features.pins.execute(command, &mut ctx);
-            }
+            Command::Pins(command) => self.run(|features| &mut features.pins, command, ctx),
             Command::Inspect(command) => self.execute_on_query(command, ctx),
             Command::Statistics(StatisticsCommand::Measure) => self.session.measure(&self.jobs),
-            Command::Plots(command) => {
-                let (features, mut ctx) = self.features(ctx);
-                features.plots.execute(command, &mut ctx);
-            }
+            Command::Plots(command) => self.run(|features| &mut features.plots, command, ctx),
             Command::Figure(command) => self.execute_on_report(command, ctx),
             Command::Steps(command) => self.execute_on_steps(command, ctx),
             Command::View(command) => self.view.execute(command, ctx),
             Command::Shell(command) => self.execute_on_shell(command, ctx),
         }
+    }
+
+    /// Runs a command of a feature.
+    fn run<F: Feature>(&mut self, feature: fn(&mut Features) -> &mut F, command: F::Command, ctx: &Context) {
+        let (features, mut ctx) = self.features(ctx);
+        feature(features).execute(command, &mut ctx);
     }
 
     fn execute_on_document(&mut self, command: EditCommand) {

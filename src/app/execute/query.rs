@@ -87,8 +87,7 @@ impl App {
 
     /// Queries a point or none. The trail to the former one ends.
     pub(super) fn ask(&mut self, point: Option<DVec2>) {
-        self.tools.trail.clear();
-        self.session.query(point);
+        self.tools.query(point, &mut self.session);
     }
 
     fn middle_of(&self, id: TriangleId) -> DVec2 {

@@ -9,13 +9,10 @@ use meshbrush_render::render::path_export::PathFormat;
 /// Polygons as a region that paths stay out of.
 pub static OPEN_KEEP_OUT: FileKind = FileKind {
     title: "Open polygons as keep-out region",
-    act: FileAct::Open,
     endings: || vec!["geojson", "json"],
     contents: "Polygons",
     folder: "domains",
-    suffix: "",
-    command: |path| Command::Path(PathCommand::KeepOut(KeepOutCommand::Open(path))),
-    command_after_browsing: |path| Command::Path(PathCommand::KeepOut(KeepOutCommand::Open(path))),
+    ..FileKind::new(|path| Command::Path(PathCommand::KeepOut(KeepOutCommand::Open(path))))
 };
 
 /// A path.
@@ -26,9 +23,9 @@ pub static EXPORT_PATH: FileKind = FileKind {
     contents: "Lines, tables and pictures",
     folder: "exports",
     suffix: " path",
-    command: |path| Command::Path(PathCommand::ExportAs(path)),
     command_after_browsing: |path| {
         let is_complete = path.extension().is_some();
         Command::Path(if is_complete { PathCommand::Export(path) } else { PathCommand::ExportAs(path) })
     },
+    ..FileKind::new(|path| Command::Path(PathCommand::ExportAs(path)))
 };

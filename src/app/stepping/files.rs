@@ -12,6 +12,5 @@ pub static EXPORT_STEPS: FileKind = FileKind {
     contents: "Drawings",
     folder: "exports",
     suffix: " step",
-    command: |path| Command::Steps(StepCommand::ExportAs(path)),
-    command_after_browsing: |path| Command::Steps(StepCommand::ExportAs(path)),
+    ..FileKind::new(|path| Command::Steps(StepCommand::ExportAs(path)))
 };

@@ -33,6 +33,7 @@ use super::command::Command;
 use super::features::boundary::{BOUNDARY, BoundaryTool};
 use super::frame::FrameState;
 use super::panels::Panel;
+use super::session::Session;
 use super::widgets::{Hint, Icon};
 use meshbrush_core::paint::{Brush, Mirror, PathPoint};
 use meshbrush_mesh::geometry::Rect;
@@ -221,6 +222,12 @@ impl Tools {
     /// Selects the brush.
     pub fn select_brush(&mut self) {
         self.select(&BRUSH);
+    }
+
+    /// Queries a point or none. The trail to the former one ends.
+    pub fn query(&mut self, point: Option<DVec2>, session: &mut Session) {
+        self.trail.clear();
+        session.query(point);
     }
 
     /// Fits radius and diameter to another domain.

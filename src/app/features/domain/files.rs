@@ -10,9 +10,7 @@ pub static OPEN_DOMAIN: FileKind = FileKind {
     endings: || vec!["geojson", "json"],
     contents: "Polygons",
     folder: "domains",
-    suffix: "",
-    command: |path| Command::Domain(DomainCommand::Open(path)),
-    command_after_browsing: |path| Command::Domain(DomainCommand::Open(path)),
+    ..FileKind::new(|path| Command::Domain(DomainCommand::Open(path)))
 };
 
 /// Polygons that are added to the domain of the document.
@@ -22,7 +20,5 @@ pub static ADD_OUTLINE: FileKind = FileKind {
     endings: || vec!["geojson", "json"],
     contents: "Polygons",
     folder: "domains",
-    suffix: "",
-    command: |path| Command::Domain(DomainCommand::AddOutline(path)),
-    command_after_browsing: |path| Command::Domain(DomainCommand::AddOutline(path)),
+    ..FileKind::new(|path| Command::Domain(DomainCommand::AddOutline(path)))
 };

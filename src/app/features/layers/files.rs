@@ -1,88 +1,67 @@
 //! The kinds of files that layers are read from.
 
 use crate::app::command::{Command, LayerCommand};
-use crate::app::dialogs::{FileAct, FileKind};
+use crate::app::dialogs::FileKind;
 
 /// A picture or a grid as risk.
 pub static OPEN_RISK: FileKind = FileKind {
     title: "Open picture as risk",
-    act: FileAct::Open,
     endings: || vec!["png", "asc"],
     contents: "Pictures and grids",
     folder: "pictures",
-    suffix: "",
-    command: |path| Command::Layer(LayerCommand::OpenImage(path)),
-    command_after_browsing: |path| Command::Layer(LayerCommand::OpenImage(path)),
+    ..FileKind::new(|path| Command::Layer(LayerCommand::OpenImage(path)))
 };
 
 /// A grid as target diameters.
 pub static OPEN_DIAMETERS: FileKind = FileKind {
     title: "Open grid as target diameter",
-    act: FileAct::Open,
     endings: || vec!["asc"],
     contents: "Grids",
     folder: "pictures",
-    suffix: "",
-    command: |path| Command::Layer(LayerCommand::OpenDiameters(path)),
-    command_after_browsing: |path| Command::Layer(LayerCommand::OpenDiameters(path)),
+    ..FileKind::new(|path| Command::Layer(LayerCommand::OpenDiameters(path)))
 };
 
 /// A picture or a grid, for a band of its values.
 pub static OPEN_BAND: FileKind = FileKind {
     title: "Open picture or grid as band",
-    act: FileAct::Open,
     endings: || vec!["png", "asc"],
     contents: "Pictures and grids",
     folder: "pictures",
-    suffix: "",
-    command: |path| Command::Layer(LayerCommand::OpenBand(path)),
-    command_after_browsing: |path| Command::Layer(LayerCommand::OpenBand(path)),
+    ..FileKind::new(|path| Command::Layer(LayerCommand::OpenBand(path)))
 };
 
 /// A picture or a grid through a curve of its values.
 pub static OPEN_VALUES: FileKind = FileKind {
     title: "Open picture or grid through a curve",
-    act: FileAct::Open,
     endings: || vec!["png", "asc"],
     contents: "Pictures and grids",
     folder: "pictures",
-    suffix: "",
-    command: |path| Command::Layer(LayerCommand::OpenValues(path)),
-    command_after_browsing: |path| Command::Layer(LayerCommand::OpenValues(path)),
+    ..FileKind::new(|path| Command::Layer(LayerCommand::OpenValues(path)))
 };
 
 /// Points, lines and polygons as a layer of distances.
 pub static OPEN_SHAPES: FileKind = FileKind {
     title: "Open shapes to measure the distance to",
-    act: FileAct::Open,
     endings: || vec!["geojson", "json"],
     contents: "Points, lines and polygons",
     folder: "shapes",
-    suffix: "",
-    command: |path| Command::Layer(LayerCommand::OpenShapes(path)),
-    command_after_browsing: |path| Command::Layer(LayerCommand::OpenShapes(path)),
+    ..FileKind::new(|path| Command::Layer(LayerCommand::OpenShapes(path)))
 };
 
 /// Points, lines and polygons in place of those of a layer.
 pub static REPLACE_SHAPES: FileKind = FileKind {
     title: "Open other shapes for this layer",
-    act: FileAct::Open,
     endings: || vec!["geojson", "json"],
     contents: "Points, lines and polygons",
     folder: "shapes",
-    suffix: "",
-    command: |path| Command::Layer(LayerCommand::ReplaceShapes(path)),
-    command_after_browsing: |path| Command::Layer(LayerCommand::ReplaceShapes(path)),
+    ..FileKind::new(|path| Command::Layer(LayerCommand::ReplaceShapes(path)))
 };
 
 /// Polygons as the mask of a layer.
 pub static OPEN_MASK: FileKind = FileKind {
     title: "Open polygons as mask",
-    act: FileAct::Open,
     endings: || vec!["geojson", "json"],
     contents: "Polygons",
     folder: "domains",
-    suffix: "",
-    command: |path| Command::Layer(LayerCommand::OpenMask(path)),
-    command_after_browsing: |path| Command::Layer(LayerCommand::OpenMask(path)),
+    ..FileKind::new(|path| Command::Layer(LayerCommand::OpenMask(path)))
 };

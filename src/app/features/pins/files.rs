@@ -11,6 +11,6 @@ pub static EXPORT_PINS: FileKind = FileKind {
     contents: "Tables",
     folder: "exports",
     suffix: " pins",
-    command: |path| Command::Pins(PinsCommand::ExportAs(path)),
     command_after_browsing: |path| Command::Pins(PinsCommand::Export(path)),
+    ..FileKind::new(|path| Command::Pins(PinsCommand::ExportAs(path)))
 };

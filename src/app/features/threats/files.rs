@@ -6,13 +6,10 @@ use crate::app::dialogs::{FileAct, FileKind};
 /// A table in place of the threats of a layer.
 pub static OPEN_THREATS: FileKind = FileKind {
     title: "Open table of threats",
-    act: FileAct::Open,
     endings: || vec!["csv"],
     contents: "Tables of threats",
     folder: "threats",
-    suffix: "",
-    command: |path| Command::Threats(ThreatsCommand::Open(path)),
-    command_after_browsing: |path| Command::Threats(ThreatsCommand::Open(path)),
+    ..FileKind::new(|path| Command::Threats(ThreatsCommand::Open(path)))
 };
 
 /// The threats of a layer as a table.
@@ -23,6 +20,6 @@ pub static SAVE_THREATS: FileKind = FileKind {
     contents: "Tables of threats",
     folder: "threats",
     suffix: " threats",
-    command: |path| Command::Threats(ThreatsCommand::SaveAs(path)),
     command_after_browsing: |path| Command::Threats(ThreatsCommand::Save(path)),
+    ..FileKind::new(|path| Command::Threats(ThreatsCommand::SaveAs(path)))
 };
